@@ -1,0 +1,145 @@
+//! Fixed-step methods: semi-implicit Euler and the classical Runge-Kutta method of order 4.
+//!
+//! Events inside a step are located by taking the step again with a shorter length, so an event's state has the accuracy
+//! of the method.
+
+use crate::arc::{Arc, Method, Motion, Start};
+use crate::equation::Equation;
+use crate::ground::Piece;
+use crate::scalar::{Real, Scalar};
+
+/// Semi-implicit (symplectic) Euler: θ̇ first, then θ with the new θ̇. Order 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SemiImplicitEuler<S> {
+    /// Step, s; above 0.
+    pub step: S,
+}
+
+/// The classical Runge-Kutta method. Order 4.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RungeKutta4<S> {
+    /// Step, s; above 0.
+    pub step: S,
+}
+
+/// One step of the classical Runge-Kutta method of length `h` for θ̈ = f(θ, θ̇, ü), where `ground` holds ü_g/g at the
+/// start, the middle and the end, and `first` is f at the start. Written over [`Scalar`], so that SIMD lanes take it too.
+#[inline(always)]
+pub fn runge_kutta_4<S: Scalar, E: Equation<S>>(
+    equation: &E,
+    side: S,
+    (rotation, velocity): (S, S),
+    first: S,
+    ground: [S; 3],
+    h: S,
+) -> (S, S) {
+    let half = S::of(0.5) * h;
+    let sixth = h * S::of(1.0 / 6.0);
+    let f = |theta: S, omega: S, push: S| equation.acceleration(side, theta, omega, push);
+    let omega_2 = velocity + half * first;
+    let a_2 = f(rotation + half * velocity, omega_2, ground[1]);
+    let omega_3 = velocity + half * a_2;
+    let a_3 = f(rotation + half * omega_2, omega_3, ground[1]);
+    let omega_4 = velocity + h * a_3;
+    let a_4 = f(rotation + h * omega_3, omega_4, ground[2]);
+    let two = S::of(2.0);
+    (rotation + sixth * (velocity + two * (omega_2 + omega_3) + omega_4), velocity + sixth * (first + two * (a_2 + a_3) + a_4))
+}
+
+/// How a fixed-step method gets from the start of a step to a time within it.
+pub trait Advance<S: Real> {
+    /// θ and θ̇ a time `h` after `start`, where θ̈ is `first`.
+    fn advance<E: Equation<S>, P: Piece<S>>(start: &Start<'_, S, E, P>, first: S, h: S) -> (S, S);
+
+    /// The step, s.
+    fn step(&self) -> S;
+}
+
+impl<S: Real> Advance<S> for SemiImplicitEuler<S> {
+    #[inline(always)]
+    fn advance<E: Equation<S>, P: Piece<S>>(start: &Start<'_, S, E, P>, first: S, h: S) -> (S, S) {
+        let velocity = start.velocity + h * first;
+        (start.rotation + h * velocity, velocity)
+    }
+
+    #[inline(always)]
+    fn step(&self) -> S {
+        self.step
+    }
+}
+
+impl<S: Real> Advance<S> for RungeKutta4<S> {
+    #[inline(always)]
+    fn advance<E: Equation<S>, P: Piece<S>>(start: &Start<'_, S, E, P>, first: S, h: S) -> (S, S) {
+        let ground = [S::ZERO, start.piece.acceleration(start.time + S::HALF * h), start.piece.acceleration(start.time + h)];
+        runge_kutta_4(start.equation, start.side.unit(), (start.rotation, start.velocity), first, ground, h)
+    }
+
+    #[inline(always)]
+    fn step(&self) -> S {
+        self.step
+    }
+}
+
+/// The arc of a fixed-step method: the step, taken again for every time asked.
+#[derive(Debug)]
+pub struct FixedArc<'a, S, E, P, A> {
+    start: Start<'a, S, E, P>,
+    first: S,
+    method: core::marker::PhantomData<A>,
+}
+
+impl<S: Real, E: Equation<S>, P: Piece<S>, A: Advance<S>> Arc<S> for FixedArc<'_, S, E, P, A> {
+    #[inline(always)]
+    fn length(&self) -> S {
+        self.start.length
+    }
+
+    #[inline]
+    fn at(&self, time: S) -> Motion<S> {
+        if time == S::ZERO {
+            return Motion { rotation: self.start.rotation, velocity: self.start.velocity, acceleration: self.first };
+        }
+        let (rotation, velocity) = A::advance(&self.start, self.first, time);
+        let push = self.start.piece.acceleration(self.start.time + time);
+        Motion {
+            rotation,
+            velocity,
+            acceleration: self.start.equation.acceleration(self.start.side.unit(), rotation, velocity, push),
+        }
+    }
+
+    #[inline]
+    fn switching(&self, time: S) -> S {
+        let motion = self.at(time);
+        let push = self.start.piece.acceleration(self.start.time + time);
+        self.start.equation.switching(self.start.side.unit(), motion.rotation, motion.velocity, push)
+    }
+}
+
+macro_rules! fixed_step_method {
+    ($method:ident) => {
+        impl<S: Real> Method<S> for $method<S> {
+            type Arc<'a, E: Equation<S> + 'a, P: Piece<S> + 'a> = FixedArc<'a, S, E, P, $method<S>>;
+
+            #[inline(always)]
+            fn arc<'a, E: Equation<S>, P: Piece<S>>(&'a self, start: Start<'a, S, E, P>) -> Self::Arc<'a, E, P> {
+                let first = if start.acceleration_is_zero {
+                    S::ZERO
+                } else {
+                    let push = start.piece.acceleration(start.time);
+                    start.equation.acceleration(start.side.unit(), start.rotation, start.velocity, push)
+                };
+                FixedArc { start, first, method: core::marker::PhantomData }
+            }
+
+            #[inline(always)]
+            fn step(&self) -> Option<S> {
+                Some(self.step)
+            }
+        }
+    };
+}
+
+fixed_step_method!(SemiImplicitEuler);
+fixed_step_method!(RungeKutta4);

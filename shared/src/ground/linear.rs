@@ -1,0 +1,65 @@
+//! A straight line: between two samples of a record, a rectangular pulse, or quiet ground seen by a controller's tick.
+
+use super::Piece;
+use crate::scalar::Real;
+
+/// ü_g/g = start + slope τ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linear<S> {
+    /// At τ = 0, in g.
+    pub start: S,
+    /// g/s.
+    pub slope: S,
+}
+
+impl<S: Real> Linear<S> {
+    /// From one sample to the next over `duration` (s, above 0).
+    #[inline(always)]
+    pub fn between(first: S, second: S, duration: S) -> Linear<S> {
+        Linear { start: first, slope: (second - first) / duration }
+    }
+
+    /// Constant.
+    #[inline(always)]
+    pub fn constant(level: S) -> Linear<S> {
+        Linear { start: level, slope: S::ZERO }
+    }
+}
+
+impl<S: Real> Piece<S> for Linear<S> {
+    #[inline(always)]
+    fn acceleration(&self, time: S) -> S {
+        self.start + self.slope * time
+    }
+
+    #[inline(always)]
+    fn slope(&self, _time: S) -> S {
+        self.slope
+    }
+
+    #[inline(always)]
+    fn curvature_bound(&self) -> S {
+        S::ZERO
+    }
+
+    #[inline(always)]
+    fn series(&self, time: S, coefficients: &mut [S]) {
+        coefficients.fill(S::ZERO);
+        if let [first, second, ..] = coefficients {
+            *first = self.acceleration(time);
+            *second = self.slope;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_straight() {
+        let line = Linear::between(0.3, -0.1, 0.02);
+        crate::ground::check::consistency(&line, &[0.0, 0.01]);
+        assert!((Piece::<f64>::acceleration(&line, 0.02) + 0.1).abs() < 1e-15);
+    }
+}

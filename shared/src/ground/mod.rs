@@ -1,0 +1,122 @@
+//! Ground acceleration, piece by smooth piece.
+//!
+//! A ground motion is a row of pieces, each smooth in its own local time from 0, with every kink and jump at a boundary
+//! between two. Accelerations are in g. Steppers see one piece at a time, so no step ever crosses a kink.
+
+pub mod harmonic;
+pub mod linear;
+pub mod ricker;
+
+pub use harmonic::Harmonics;
+pub use linear::Linear;
+pub use ricker::Ricker;
+
+use crate::scalar::Real;
+
+/// A smooth stretch of ground acceleration ü_g/g over local time τ ≥ 0 (s).
+pub trait Piece<S: Real> {
+    /// The ground stands still over the whole piece, so that a free motion may be summed to its end.
+    const QUIET: bool = false;
+
+    /// ü_g/g at τ.
+    fn acceleration(&self, time: S) -> S;
+
+    /// d(ü_g/g)/dτ at τ, 1/s.
+    fn slope(&self, time: S) -> S;
+
+    /// Upper bound of |d²(ü_g/g)/dτ²| over the piece, 1/s²; 0 for straight lines.
+    fn curvature_bound(&self) -> S;
+
+    /// Taylor coefficients of ü_g/g about τ, as many as `coefficients` holds.
+    fn series(&self, time: S, coefficients: &mut [S]);
+}
+
+/// Ground that does not move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quiet;
+
+impl<S: Real> Piece<S> for Quiet {
+    const QUIET: bool = true;
+
+    #[inline(always)]
+    fn acceleration(&self, _time: S) -> S {
+        S::ZERO
+    }
+
+    #[inline(always)]
+    fn slope(&self, _time: S) -> S {
+        S::ZERO
+    }
+
+    #[inline(always)]
+    fn curvature_bound(&self) -> S {
+        S::ZERO
+    }
+
+    #[inline(always)]
+    fn series(&self, _time: S, coefficients: &mut [S]) {
+        coefficients.fill(S::ZERO);
+    }
+}
+
+/// Two motions at once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sum<A, B>(pub A, pub B);
+
+impl<S: Real, A: Piece<S>, B: Piece<S>> Piece<S> for Sum<A, B> {
+    #[inline(always)]
+    fn acceleration(&self, time: S) -> S {
+        self.0.acceleration(time) + self.1.acceleration(time)
+    }
+
+    #[inline(always)]
+    fn slope(&self, time: S) -> S {
+        self.0.slope(time) + self.1.slope(time)
+    }
+
+    #[inline(always)]
+    fn curvature_bound(&self) -> S {
+        self.0.curvature_bound() + self.1.curvature_bound()
+    }
+
+    #[inline]
+    fn series(&self, time: S, coefficients: &mut [S]) {
+        self.0.series(time, coefficients);
+        let mut others = [S::ZERO; crate::tape::MAXIMUM_ORDER];
+        let length = coefficients.len().min(others.len());
+        self.1.series(time, &mut others[..length]);
+        for (sum, &other) in coefficients.iter_mut().zip(&others) {
+            *sum = *sum + other;
+        }
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod check {
+    use super::*;
+
+    /// A piece's slope and series must be those of its acceleration.
+    pub fn consistency(piece: &impl Piece<f64>, times: &[f64]) {
+        for &time in times {
+            let step = 1e-5;
+            let slope = (piece.acceleration(time + step) - piece.acceleration(time - step)) / (2.0 * step);
+            assert!((slope - piece.slope(time)).abs() < 1e-6 * (1.0 + slope.abs()), "slope at {time}");
+            let second = (piece.slope(time + step) - piece.slope(time - step)) / (2.0 * step);
+            assert!(second.abs() <= piece.curvature_bound() * (1.0 + 1e-6) + 1e-6, "curvature at {time}");
+            let mut coefficients = [0.0; 24];
+            piece.series(time, &mut coefficients);
+            for offset in [-0.02, 0.013, 0.05] {
+                let sum = coefficients.iter().rev().fold(0.0, |sum, c| sum * offset + c);
+                let exact = piece.acceleration(time + offset);
+                assert!((sum - exact).abs() < 1e-13 * (1.0 + exact.abs()), "series at {time} + {offset}: {sum} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_sum_is_the_sum() {
+        let sum = Sum(Harmonics::sine(1.5, 4.0), Linear { start: 0.2, slope: -0.3 });
+        consistency(&sum, &[0.1, 0.9]);
+        assert!((Piece::<f64>::acceleration(&sum, 0.3) - (1.5 * crate::math::sin(1.2) + 0.2 - 0.09)).abs() < 1e-15);
+    }
+}

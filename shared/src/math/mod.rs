@@ -1,0 +1,28 @@
+//! Every transcendental function of the project, in one place.
+//!
+//! - f64: libm, pinned and without architecture-specific paths, so that a host gives the same bits as any other.
+//! - f32: [`sine32`], an own polynomial in single precision. libm's `sinf` computes in double, which on a Cortex-M4F
+//!   (single-precision FPU) takes some 1,200 instructions.
+//! - lanes: [`wide_sine`], a branch-free f64 polynomial that fills SIMD registers.
+//!
+//! `clippy.toml` forbids the methods of `std`: which implementation they use depends on the platform and on cargo's
+//! feature unification.
+
+pub mod sine32;
+pub mod wide_sine;
+
+pub use libm::{
+    acos, acosh, asin, atan, atan2, atanh, cos, cosh, exp, expf as exp32, hypot, log as ln, log10, pow, sin, sincos as sin_cos,
+    sinh, sqrt as square_root, sqrtf as square_root32, tan, tanh,
+};
+
+/// 1/k for k = 1 to 63; entry 0 is 0.
+pub const RECIPROCALS: [f64; 64] = {
+    let mut table = [0.0; 64];
+    let mut k = 1;
+    while k < 64 {
+        table[k] = 1.0 / k as f64;
+        k += 1;
+    }
+    table
+};

@@ -1,0 +1,527 @@
+//! A rocking block from event to event.
+//!
+//! Between events the motion is one smooth arc. Within an arc the zeros of θ̈ are found first; between them θ̇ is monotone,
+//! so its zeros show as changes of sign; between those θ is monotone, so its zeros do. No crossing is missed however
+//! close two of them lie, and the signs themselves are part of the state: an event just handled has already changed its
+//! sign, so it cannot be found a second time.
+
+use core::marker::PhantomData;
+
+use crate::arc::{Arc, Method, Start};
+use crate::clutch::Clutch;
+use crate::decay::Swings;
+use crate::equation::Equation;
+use crate::ground::Piece;
+use crate::locate::locate;
+use crate::observer::{Event, Observer, Stretch};
+use crate::polynomial::first_zero_of;
+use crate::scalar::{Real, Sign};
+
+/// What the block does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Phase {
+    /// Stands on both toes.
+    #[default]
+    Rest,
+    /// Turns about one toe.
+    Rocking,
+    /// Cannot return.
+    Overturned,
+}
+
+/// The state of a rocking block.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct State<S> {
+    /// θ, rad.
+    pub rotation: S,
+    /// θ̇, rad/s.
+    pub velocity: S,
+    /// Rest, rocking or overturned.
+    pub phase: Phase,
+    /// Sign of θ, or at θ = 0 the side that it moves to.
+    pub side: Sign,
+    /// Sign of θ̇, or at θ̇ = 0 the one it is about to take.
+    pub direction: Sign,
+    /// Sign of θ̈, or at θ̈ = 0 the one it is about to take.
+    pub push: Sign,
+    /// Sign of the acceleration of the inerter's terminals; with the paper's kinematics that of θ̈.
+    pub drive: Sign,
+    /// θ̈ is zero here, by an event just handled.
+    pub push_is_zero: bool,
+    /// Impacts so far that came in with more than [`System::counted_speed`].
+    pub impacts: u32,
+}
+
+/// A block with its device, resolved into exactly the equations that it needs: `R` with the inerter released, `E` with
+/// it engaged, and the rule `C` that chooses.
+#[derive(Clone, Copy, Debug)]
+pub struct System<S, R, E, C> {
+    /// Equation of motion with the inerter released.
+    pub released: R,
+    /// Equation of motion with the inerter engaged.
+    pub engaged: E,
+    /// Velocity after an impact over that before, 0 to 1.
+    pub restitution: S,
+    /// Ground acceleration (in g) above which the block uplifts.
+    pub uplift: S,
+    /// α, rad: the size of a rotation that matters.
+    pub slenderness: S,
+    /// θ̇ (rad/s) below which an impact may end in rest.
+    pub rest_speed: S,
+    /// θ̇ (rad/s) below which an impact does not count; infinitely many follow in finite time.
+    pub counted_speed: S,
+    /// The clutch.
+    pub clutch: PhantomData<C>,
+}
+
+/// Why a piece was not finished.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stopped {
+    /// More events than [`Limits::events`] in one piece.
+    TooManyEvents,
+    /// A state that is not finite.
+    NotFinite,
+}
+
+impl core::fmt::Display for Stopped {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        formatter.write_str(match self {
+            Stopped::TooManyEvents => "more events in one stretch of ground motion than the limit allows",
+            Stopped::NotFinite => "the motion is no longer finite",
+        })
+    }
+}
+
+impl core::error::Error for Stopped {}
+
+/// Bounds of one call of [`System::advance`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits<S> {
+    /// |θ| (rad) at which an outward motion counts as overturned
+    /// ([`crate::block::Geometry::point_of_no_return`], or π/2).
+    pub overturned: S,
+    /// Arcs that one call may take.
+    pub events: u32,
+}
+
+/// What ended an arc's scan.
+enum End {
+    /// The arc was followed to its end.
+    Reached,
+    /// A clutch switched, or the block turned about and its clutch with it.
+    Switched,
+    /// θ = 0.
+    Impact,
+    /// |θ| passed the limit.
+    Overturned,
+}
+
+impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
+    /// Whether the inerter is engaged in `state`.
+    #[inline(always)]
+    pub fn is_engaged(&self, state: &State<S>) -> bool {
+        state.phase == Phase::Rocking && C::engaged(state.direction, state.drive)
+    }
+
+    /// A block released at θ (rad, not 0) with θ̇ (rad/s) while the ground accelerates by `ground` (in g).
+    pub fn released_at(&self, rotation: S, velocity: S, ground: S) -> State<S> {
+        let side = Sign::of(rotation, Sign::of(velocity, Sign::Positive));
+        let mut state = State {
+            rotation,
+            velocity,
+            phase: Phase::Rocking,
+            side,
+            direction: Sign::of(velocity, side.opposite()),
+            ..State::default()
+        };
+        self.read_push(&mut state, ground);
+        if velocity == S::ZERO {
+            state.direction = state.push;
+        }
+        state
+    }
+
+    /// Follows the block over `piece` from its local time 0 to `duration` (s), telling `observer` of every stretch and
+    /// event.
+    ///
+    /// # Errors
+    /// [`Stopped`], with the state as it was then.
+    pub fn advance<M: Method<S>, P: Piece<S>, O: Observer<S>>(
+        &self,
+        method: &M,
+        state: &mut State<S>,
+        piece: &P,
+        duration: S,
+        limits: &Limits<S>,
+        observer: &mut O,
+    ) -> Result<(), Stopped> {
+        let mut time = S::ZERO;
+        let mut tick = 0_u32;
+        let mut events = 0_u32;
+        let mut swings = None;
+        state.push_is_zero = false;
+        while time < duration && state.phase != Phase::Overturned {
+            if state.phase == Phase::Rest {
+                match self.uplift_time(piece, time, duration) {
+                    Some((at, crossing)) => {
+                        time = at;
+                        self.uplift(state, piece.acceleration(at), crossing);
+                        observer.event(Event::Uplift, time, state);
+                    }
+                    None => return Ok(()),
+                }
+            }
+            let outward = state.side == state.direction && state.side.times(state.rotation) >= limits.overturned;
+            if outward {
+                state.phase = Phase::Overturned;
+                observer.event(Event::Overturned, time, state);
+                return Ok(());
+            }
+            let stop = match method.step() {
+                Some(step) => {
+                    while S::count(tick) * step <= time {
+                        tick += 1;
+                    }
+                    (S::count(tick) * step).smaller(duration)
+                }
+                None => duration,
+            };
+            let end = if self.is_engaged(state) {
+                self.follow(method, &self.engaged, true, state, piece, &mut time, stop, limits, observer)
+            } else {
+                self.follow(method, &self.released, false, state, piece, &mut time, stop, limits, observer)
+            };
+            match end {
+                End::Reached => {}
+                End::Switched => observer.event(Event::Switch, time, state),
+                End::Impact => {
+                    time = self.impact(state, piece, time, duration, observer);
+                    if P::QUIET && !O::EVERY_SWING && R::SWITCHES_WITH_ACCELERATION && E::SWITCHES_WITH_ACCELERATION {
+                        time = self.sum_up(state, &mut swings, time, duration, observer);
+                    }
+                }
+                End::Overturned => {
+                    state.phase = Phase::Overturned;
+                    observer.event(Event::Overturned, time, state);
+                }
+            }
+            events += 1;
+            if !(state.rotation.is_finite() && state.velocity.is_finite()) {
+                return Err(Stopped::NotFinite);
+            }
+            if events >= limits.events {
+                return Err(Stopped::TooManyEvents);
+            }
+        }
+        Ok(())
+    }
+
+    /// One arc, up to its first event that changes the equation.
+    #[expect(clippy::too_many_arguments, reason = "one call site, and each is a different thing")]
+    #[inline]
+    fn follow<M: Method<S>, Q: Equation<S>, P: Piece<S>, O: Observer<S>>(
+        &self,
+        method: &M,
+        equation: &Q,
+        engaged: bool,
+        state: &mut State<S>,
+        piece: &P,
+        time: &mut S,
+        stop: S,
+        limits: &Limits<S>,
+        observer: &mut O,
+    ) -> End {
+        let arc = method.arc(Start {
+            equation,
+            piece,
+            side: state.side,
+            rotation: state.rotation,
+            velocity: state.velocity,
+            time: *time,
+            length: stop - *time,
+            acceleration_is_zero: state.push_is_zero,
+            scale: self.slenderness,
+        });
+        let length = arc.length();
+        let separate_drive = C::FOLLOWS_SIGNS && !Q::SWITCHES_WITH_ACCELERATION;
+        if *time == S::ZERO && self.jumped(state, &arc, separate_drive) {
+            return End::Switched;
+        }
+        let mut from = S::ZERO;
+        let mut first = arc.at(S::ZERO);
+        let mut push_is_zero = state.push_is_zero;
+        loop {
+            let push_zero = arc.acceleration_zero(from, length, state.push, push_is_zero);
+            let drive_zero = if separate_drive {
+                arc.switching_zero(from, push_zero.unwrap_or(length), state.drive, push_is_zero)
+            } else {
+                None
+            };
+            let until = drive_zero.or(push_zero).unwrap_or(length);
+            let end = arc.at(until);
+            let mut stretch = Stretch {
+                start: *time,
+                from,
+                to: until,
+                first,
+                last: end,
+                engaged,
+                side: state.side,
+                direction: state.direction,
+            };
+            // θ̇ is monotone up to here, so a zero of it shows.
+            let turns = state.direction.times(end.velocity) < S::ZERO;
+            let (turn, at_turn) = if turns {
+                let turn = locate(from, until, state.direction, S::HALF * (from + until), |t| {
+                    let motion = arc.at(t);
+                    (motion.velocity, motion.acceleration)
+                });
+                (turn, arc.at(turn))
+            } else {
+                (until, end)
+            };
+            // θ is monotone up to the turn.
+            if state.side.times(at_turn.rotation) < S::ZERO {
+                let hit = locate(from, turn, state.side, S::HALF * (from + turn), |t| {
+                    let motion = arc.at(t);
+                    (motion.rotation, motion.velocity)
+                });
+                (stretch.to, stretch.last) = (hit, arc.at(hit));
+                observer.stretch(&arc, &stretch);
+                state.rotation = S::ZERO;
+                state.velocity = stretch.last.velocity;
+                state.push_is_zero = false;
+                *time = *time + hit;
+                return End::Impact;
+            }
+            if state.side == state.direction && state.side.times(at_turn.rotation) > limits.overturned {
+                let limit = state.side.times(limits.overturned);
+                let over = locate(from, turn, state.side.opposite(), S::HALF * (from + turn), |t| {
+                    let motion = arc.at(t);
+                    (motion.rotation - limit, motion.velocity)
+                });
+                (stretch.to, stretch.last) = (over, arc.at(over));
+                observer.stretch(&arc, &stretch);
+                state.rotation = limit;
+                state.velocity = stretch.last.velocity;
+                *time = *time + over;
+                return End::Overturned;
+            }
+            if turns {
+                (stretch.to, stretch.last) = (turn, at_turn);
+                observer.stretch(&arc, &stretch);
+                state.direction = state.push;
+                observer.event(Event::Turn, *time + turn, &State { rotation: at_turn.rotation, velocity: S::ZERO, ..*state });
+                if C::FOLLOWS_SIGNS {
+                    state.rotation = at_turn.rotation;
+                    state.velocity = S::ZERO;
+                    state.push_is_zero = false;
+                    *time = *time + turn;
+                    return End::Switched;
+                }
+                (from, first) = (turn, at_turn);
+                push_is_zero = false;
+                continue;
+            }
+            observer.stretch(&arc, &stretch);
+            let at_push_zero = drive_zero.is_none() && push_zero.is_some();
+            if at_push_zero {
+                state.push = state.push.opposite();
+            }
+            if drive_zero.is_some() || (at_push_zero && !separate_drive) {
+                state.drive = state.drive.opposite();
+            }
+            let switches = if separate_drive { drive_zero.is_some() } else { at_push_zero };
+            if C::FOLLOWS_SIGNS && switches {
+                state.rotation = end.rotation;
+                state.velocity = end.velocity;
+                state.push_is_zero = at_push_zero;
+                if separate_drive {
+                    // The other equation's θ̈ may have another sign here.
+                    self.read_push_only(state, piece.acceleration(*time + until));
+                }
+                *time = *time + until;
+                return End::Switched;
+            }
+            if at_push_zero && until < length {
+                (from, first) = (until, end);
+                push_is_zero = true;
+                continue;
+            }
+            state.rotation = end.rotation;
+            state.velocity = end.velocity;
+            state.push_is_zero = at_push_zero;
+            *time = if length == stop - *time { stop } else { *time + length };
+            return End::Reached;
+        }
+    }
+
+    /// At the start of a piece the ground may have jumped, and the signs with it. True when the clutch follows, so that
+    /// another equation is in force.
+    #[inline]
+    fn jumped<A: Arc<S>>(&self, state: &mut State<S>, arc: &A, separate_drive: bool) -> bool {
+        let start = arc.at(S::ZERO);
+        let before = C::engaged(state.direction, state.drive);
+        state.push = Sign::of(start.acceleration, state.push);
+        state.drive = if separate_drive { Sign::of(arc.switching(S::ZERO), state.drive) } else { state.push };
+        if start.velocity == S::ZERO {
+            state.direction = state.push;
+        }
+        C::FOLLOWS_SIGNS && before != C::engaged(state.direction, state.drive)
+    }
+
+    /// First instant in [`from`, `to`) at which the ground pushes harder than the weight holds, and whether it gets
+    /// there by crossing the threshold (so that the bracket is zero) or by a jump.
+    fn uplift_time<P: Piece<S>>(&self, piece: &P, from: S, to: S) -> Option<(S, bool)> {
+        if piece.acceleration(from).abs() > self.uplift {
+            return Some((from, false));
+        }
+        let end = piece.acceleration(to);
+        let crossing = |sign: Sign, to: S, end: S| {
+            first_zero_of(
+                |t| (sign.times(piece.acceleration(t)) - self.uplift, sign.times(piece.slope(t))),
+                piece.curvature_bound(),
+                (from, to, sign.times(end) - self.uplift),
+                Sign::Negative,
+                false,
+            )
+        };
+        let positive = crossing(Sign::Positive, to, end);
+        let (to, end) = positive.map_or((to, end), |t| (t, piece.acceleration(t)));
+        let negative = crossing(Sign::Negative, to, end);
+        negative.or(positive).map(|t| (t, true))
+    }
+
+    /// Sets the block in motion, to the side opposite to the push.
+    fn uplift(&self, state: &mut State<S>, ground: S, crossing: bool) {
+        let side = Sign::of(ground, Sign::Positive).opposite();
+        *state = State {
+            phase: Phase::Rocking,
+            side,
+            direction: side,
+            push: side,
+            drive: side,
+            push_is_zero: crossing,
+            impacts: state.impacts,
+            ..State::default()
+        };
+    }
+
+    /// Signs of θ̈ and of the terminals' acceleration from the equations.
+    fn read_push(&self, state: &mut State<S>, ground: S) {
+        let inward = state.side.opposite();
+        state.drive = Sign::of(self.engaged.switching(state.side.unit(), state.rotation, state.velocity, ground), inward);
+        self.read_push_only(state, ground);
+        state.push_is_zero = false;
+    }
+
+    fn read_push_only(&self, state: &mut State<S>, ground: S) {
+        let side = state.side.unit();
+        let acceleration = if C::engaged(state.direction, state.drive) {
+            self.engaged.acceleration(side, state.rotation, state.velocity, ground)
+        } else {
+            self.released.acceleration(side, state.rotation, state.velocity, ground)
+        };
+        state.push = Sign::of(acceleration, state.side.opposite());
+    }
+
+    /// θ = 0: the velocity is multiplied by η and the other toe takes over, or the block comes to rest. Returns the
+    /// time, which rest moves on to the end of the impacts that it stands for.
+    fn impact<P: Piece<S>, O: Observer<S>>(&self, state: &mut State<S>, piece: &P, time: S, duration: S, observer: &mut O) -> S {
+        let incoming = state.velocity.abs();
+        if incoming >= self.counted_speed {
+            state.impacts += 1;
+        }
+        state.velocity = self.restitution * state.velocity;
+        state.side = state.direction;
+        let ground = piece.acceleration(time);
+        self.read_push(state, ground);
+        observer.event(Event::Impact, time, state);
+        if state.velocity.abs() <= self.rest_speed && ground.abs() < self.uplift {
+            let tail = self.accumulation(state.side, state.velocity.abs(), ground);
+            let ends = time + tail.duration;
+            let hopeless = state.velocity.abs() <= self.rest_speed * S::EPSILON;
+            let holds = ends <= duration && piece.acceleration(ends).abs() < self.uplift;
+            if holds || hopeless {
+                let impacts = state.impacts + tail.impacts;
+                *state = State { impacts, side: state.side, direction: state.direction, ..State::default() };
+                let ends = ends.smaller(duration);
+                observer.event(Event::Rest, ends, state);
+                return ends;
+            }
+        }
+        time
+    }
+
+    /// After an impact on quiet ground: the rest of the motion in closed form, if it ends before `duration`.
+    fn sum_up<O: Observer<S>>(
+        &self,
+        state: &mut State<S>,
+        swings: &mut Option<Swings<S>>,
+        time: S,
+        duration: S,
+        observer: &mut O,
+    ) -> S {
+        if state.phase != Phase::Rocking {
+            return time;
+        }
+        let swings = swings.get_or_insert_with(|| Swings::of(&self.released, &self.engaged, !C::FOLLOWS_SIGNS));
+        match swings.decay(state.velocity.abs(), self.restitution, self.counted_speed) {
+            Some(decay) if time + decay.duration <= duration => {
+                let impacts = state.impacts.saturating_add(decay.impacts);
+                *state = State { impacts, side: state.side, direction: state.direction, ..State::default() };
+                observer.decay(&decay);
+                observer.event(Event::Rest, time + decay.duration, state);
+                time + decay.duration
+            }
+            _ => time,
+        }
+    }
+
+    /// The infinitely many impacts that follow a weak one, in closed form: on each side the block decelerates at a
+    /// constant rate a₁ and falls back at a₂ (θ is too small to change them), so a swing that starts at θ̇ = v lasts
+    /// v/a₁ + v/√(a₁a₂) and the next one starts at v η √(a₂/a₁).
+    fn accumulation(&self, side: Sign, speed: S, ground: S) -> Tail<S> {
+        let swing = |side: Sign| {
+            let rate = |engaged: bool| {
+                let s = side.unit();
+                let a = if engaged {
+                    self.engaged.acceleration(s, S::ZERO, S::ZERO, ground)
+                } else {
+                    self.released.acceleration(s, S::ZERO, S::ZERO, ground)
+                };
+                a.abs().larger(S::EPSILON * S::EPSILON)
+            };
+            let rising = rate(C::engaged(side, side.opposite()));
+            let falling = rate(C::engaged(side, side));
+            let fall = (falling / rising).square_root();
+            (S::ONE / rising + fall / falling, fall)
+        };
+        let (here, fall_here) = swing(side);
+        let (there, fall_there) = swing(side.opposite());
+        let ratio_here = self.restitution * fall_here;
+        let ratio_there = self.restitution * fall_there;
+        let both = ratio_here * ratio_there;
+        if both >= S::ONE - S::EPSILON * S::of(64.0) {
+            return Tail { duration: S::of(1e30), impacts: 0 };
+        }
+        let duration = speed * (here + ratio_here * there) / (S::ONE - both);
+        let mut impacts = 0;
+        let mut incoming = speed * fall_here;
+        let mut first = true;
+        while incoming >= self.counted_speed && impacts < 100_000 {
+            impacts += 1;
+            incoming = incoming * self.restitution * if first { fall_there } else { fall_here };
+            first = !first;
+        }
+        Tail { duration, impacts }
+    }
+}
+
+/// What remains of a dying motion.
+struct Tail<S> {
+    /// s.
+    duration: S,
+    /// Impacts that still count.
+    impacts: u32,
+}

@@ -1,0 +1,192 @@
+//! The Taylor method: the solution's own power series over each step, and with it events to the last bits.
+//!
+//! The equation of motion, evaluated over the nodes of a [`Tape`], gives θ̈ = Σ a_k t^k one coefficient at a time, and θ's own
+//! follow from it: v_{k+1} = a_k/(k+1), θ_{k+2} = v_{k+1}/(k+2).
+
+use core::cell::Cell;
+
+use crate::arc::{Arc, Method, Motion, Start};
+use crate::equation::Equation;
+use crate::ground::Piece;
+use crate::math::RECIPROCALS;
+use crate::polynomial;
+use crate::scalar::{Real, Sign};
+use crate::tape::{MAXIMUM_ORDER, Tape};
+
+/// A Taylor method with `N` coefficients for each quantity (8 to 32), and the tape it works on. One per thread: it is
+/// scratch space, not state.
+pub struct Taylor<S, const N: usize> {
+    tape: Tape<S, N>,
+    tolerance: S,
+    step: Option<S>,
+}
+
+impl<S: Real, const N: usize> core::fmt::Debug for Taylor<S, N> {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        formatter
+            .debug_struct("Taylor")
+            .field("order", &(N - 1))
+            .field("tolerance", &self.tolerance)
+            .field("step", &self.step)
+            .finish()
+    }
+}
+
+impl<S: Real, const N: usize> Taylor<S, N> {
+    /// Steps of its own choice: as long as the series' last terms stay below `tolerance` times the rotation that
+    /// matters (α, or |θ| where larger). 1e-17 is tight in f64; from 1e-20 to 1e-2.
+    pub fn adaptive(tolerance: S) -> Self {
+        const { assert!(N >= 8 && N <= MAXIMUM_ORDER) };
+        Taylor { tape: Tape::default(), tolerance, step: None }
+    }
+
+    /// Fixed steps of `step` s (above 0), order N − 1.
+    pub fn fixed(step: S) -> Self {
+        Taylor { step: Some(step), ..Taylor::adaptive(S::ZERO) }
+    }
+}
+
+/// The series of one step.
+#[derive(Clone, Copy, Debug)]
+pub struct TaylorArc<S, const N: usize> {
+    length: S,
+    /// Coefficients in use, of θ.
+    terms: usize,
+    rotation: [S; N],
+    velocity: [S; N],
+    acceleration: [S; N],
+    /// Of the switching function, where it is not the acceleration.
+    switching: [S; N],
+    /// Bound of d²θ̈/dt² over the arc.
+    curvature: S,
+}
+
+impl<S: Real, const N: usize> Method<S> for Taylor<S, N> {
+    type Arc<'a, E: Equation<S> + 'a, P: Piece<S> + 'a> = TaylorArc<S, N>;
+
+    #[inline]
+    fn arc<'a, E: Equation<S>, P: Piece<S>>(&'a self, start: Start<'a, S, E, P>) -> TaylorArc<S, N> {
+        // θ, θ̇ and the ground are the first three nodes.
+        const GIVEN: usize = 3;
+        let tape = &self.tape;
+        let next = Cell::new(GIVEN);
+        let side = start.side.unit();
+        let mut arc = TaylorArc {
+            length: start.length,
+            terms: N,
+            rotation: [S::ZERO; N],
+            velocity: [S::ZERO; N],
+            acceleration: [S::ZERO; N],
+            switching: [S::ZERO; N],
+            curvature: S::ZERO,
+        };
+        let mut ground = [S::ZERO; N];
+        start.piece.series(start.time, &mut ground);
+        arc.rotation[0] = start.rotation;
+        arc.rotation[1] = start.velocity;
+        arc.velocity[0] = start.velocity;
+        tape.set(0, 0, start.rotation);
+        tape.set(0, 1, start.velocity);
+        tape.set(1, 0, start.velocity);
+
+        let tolerance = self.tolerance * start.scale.larger(start.rotation.abs());
+        let mut power = start.length * start.length;
+        let mut previous_small = false;
+        for k in 0..N - 2 {
+            tape.set(2, k, ground[k]);
+            next.set(GIVEN);
+            let given = |slot| tape.given(&next, k, slot);
+            let (theta, omega, push) = (given(0), given(1), given(2));
+            let node = start.equation.acceleration(side, theta, omega, push);
+            let mut a = node.last();
+            if k == 0 && start.acceleration_is_zero {
+                a = S::ZERO;
+                node.set_last(a);
+            }
+            if !E::SWITCHES_WITH_ACCELERATION {
+                arc.switching[k] = start.equation.switching(side, theta, omega, push).last();
+            }
+            let v = a * S::of(RECIPROCALS[(k + 1) & 63]);
+            let c = v * S::of(RECIPROCALS[(k + 2) & 63]);
+            arc.acceleration[k] = a;
+            arc.velocity[k + 1] = v;
+            arc.rotation[k + 2] = c;
+            tape.set(1, k + 1, v);
+            tape.set(0, k + 2, c);
+
+            let small = (c * power).abs() <= tolerance;
+            if small && previous_small && k >= 4 {
+                arc.terms = k + 3;
+                break;
+            }
+            previous_small = small;
+            power = power * start.length;
+        }
+        if self.step.is_none() && arc.terms == N {
+            arc.length = self.reach(&arc, tolerance, start.length);
+        }
+        arc.curvature = polynomial::curvature_bound(&arc.acceleration[..arc.terms.min(N) - 2], arc.length);
+        arc
+    }
+
+    #[inline(always)]
+    fn step(&self) -> Option<S> {
+        self.step
+    }
+}
+
+impl<S: Real, const N: usize> Taylor<S, N> {
+    /// How far the last two terms of θ stay below the tolerance (Jorba and Zou's two-term rule), at most `length`.
+    fn reach(&self, arc: &TaylorArc<S, N>, tolerance: S, length: S) -> S {
+        let mut reach = length;
+        for (order, coefficient) in [(N - 2, arc.rotation[N - 2]), (N - 1, arc.rotation[N - 1])] {
+            if coefficient != S::ZERO {
+                let exponent = S::of(RECIPROCALS[order & 63]);
+                let ratio = (tolerance / coefficient.abs()).larger(S::EPSILON * S::EPSILON * S::EPSILON);
+                reach = reach.smaller(ratio.rough_power(exponent) * S::of(0.95));
+            }
+        }
+        reach
+    }
+}
+
+impl<S: Real, const N: usize> Arc<S> for TaylorArc<S, N> {
+    #[inline(always)]
+    fn length(&self) -> S {
+        self.length
+    }
+
+    #[inline]
+    fn at(&self, time: S) -> Motion<S> {
+        if time == S::ZERO {
+            return Motion { rotation: self.rotation[0], velocity: self.velocity[0], acceleration: self.acceleration[0] };
+        }
+        let n = self.terms.min(N);
+        Motion {
+            rotation: polynomial::value(&self.rotation[..n], time),
+            velocity: polynomial::value(&self.velocity[..n - 1], time),
+            acceleration: polynomial::value(&self.acceleration[..n - 2], time),
+        }
+    }
+
+    #[inline]
+    fn switching(&self, time: S) -> S {
+        polynomial::value(&self.switching[..self.terms.min(N) - 2], time)
+    }
+
+    #[inline]
+    fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        polynomial::first_zero(&self.acceleration[..self.terms.min(N) - 2], self.curvature, from, to, sign, from_zero)
+    }
+
+    #[inline]
+    fn switching_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        let coefficients = &self.switching[..self.terms.min(N) - 2];
+        polynomial::first_zero(coefficients, polynomial::curvature_bound(coefficients, to), from, to, sign, from_zero)
+    }
+
+    #[inline]
+    fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
+        polynomial::largest_magnitude(&self.acceleration[..self.terms.min(N) - 2], self.curvature, from, to, floor)
+    }
+}

@@ -1,0 +1,170 @@
+//! One case of a batch: a dimensionless block under one cycle of a pulse.
+
+use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::clutch::Clutch;
+use sprag_shared::equation::Equation;
+use sprag_shared::error::ParameterError;
+use sprag_shared::ground::{Harmonics, Quiet};
+use sprag_shared::lever::Mount;
+use sprag_shared::observer::Peaks;
+use sprag_shared::rocking::{Limits, Phase, State, Stopped, System};
+use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure, WithSystem};
+use sprag_shared::taylor::Taylor;
+
+use crate::outcome::Outcome;
+
+/// Coefficients of the series that bulk work uses: the fastest at tight accuracy (`cargo bench`).
+pub const TERMS: usize = 20;
+
+/// Tolerance of the series' last terms that stands for "to rounding".
+pub const TIGHT: f64 = 1e-15;
+
+/// A one-cycle pulse.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PulseShape {
+    /// A sin ωt.
+    Sine,
+    /// A cos ωt.
+    Cosine,
+}
+
+/// The columns of DESIGN section 5, resolved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Case {
+    /// Full or slender.
+    pub geometry: Geometry,
+    /// α, rad.
+    pub slenderness: f64,
+    /// The device, at the centre of mass.
+    pub device: DeviceKind,
+    /// σ.
+    pub mass_ratio: f64,
+    /// η.
+    pub restitution: f64,
+    /// Shape of the pulse.
+    pub pulse: PulseShape,
+    /// ω_g/p.
+    pub frequency_ratio: f64,
+    /// a_g/(g tan α), or a_g/(gα) for the slender model.
+    pub amplitude_ratio: f64,
+    /// How long the motion is followed after the pulse, in 1/p.
+    pub free_time: f64,
+    /// θ̇/(pα) below which an impact may end in rest.
+    pub rest_speed: f64,
+}
+
+/// What became of a case; times in 1/p from the pulse's start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CaseResult {
+    /// Outcome.
+    pub outcome: Outcome,
+    /// max |θ|/α.
+    pub peak_rotation: f64,
+    /// max |θ̈|/(p²α).
+    pub peak_acceleration: f64,
+    /// Impacts that came in with more than 1e-6 pα.
+    pub impacts: u32,
+    /// First impact, if any.
+    pub first_impact_time: Option<f64>,
+    /// Rest, the proof of overturning, or the end of the free time.
+    pub end_time: f64,
+}
+
+/// Why a case has no result.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum CaseError {
+    /// A parameter outside its range.
+    #[error("{0}")]
+    Parameter(#[from] ParameterError),
+    /// The motion could not be followed to its end.
+    #[error("{0}")]
+    Stopped(#[from] Stopped),
+}
+
+impl Default for Case {
+    fn default() -> Case {
+        Case {
+            geometry: Geometry::Full,
+            slenderness: 20.0_f64.to_radians(),
+            device: DeviceKind::None,
+            mass_ratio: 0.5,
+            restitution: 0.85,
+            pulse: PulseShape::Sine,
+            frequency_ratio: 2.0,
+            amplitude_ratio: 2.0,
+            free_time: 60.0,
+            rest_speed: REST_SPEED,
+        }
+    }
+}
+
+impl Case {
+    /// The block and its device, in units of 1/p.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for a slenderness outside its range.
+    pub fn structure(&self) -> Result<Structure, ParameterError> {
+        Ok(Structure {
+            block: Block::of_unit_frequency(self.slenderness, RECTANGLE_INERTIA_RATIO)?,
+            geometry: self.geometry,
+            device: Device {
+                kind: self.device,
+                mass_ratio: self.mass_ratio,
+                mount: Mount::CentreOfMass,
+                kinematics: KinematicsKind::Paper,
+            },
+            restitution: Restitution::Constant(self.restitution),
+            rest_speed: self.rest_speed,
+        })
+    }
+
+    /// Runs the case by the Taylor method.
+    ///
+    /// # Errors
+    /// [`CaseError`] for a parameter outside its range, or a motion that cannot be followed.
+    pub fn run(&self, method: &Taylor<f64, TERMS>) -> Result<CaseResult, CaseError> {
+        let structure = self.structure()?;
+        structure.resolve(Run { case: self, structure: &structure, method })?
+    }
+}
+
+struct Run<'a> {
+    case: &'a Case,
+    structure: &'a Structure,
+    method: &'a Taylor<f64, TERMS>,
+}
+
+impl WithSystem<f64> for Run<'_> {
+    type Output = Result<CaseResult, CaseError>;
+
+    fn with<R: Equation<f64>, E: Equation<f64>, C: Clutch>(self, system: System<f64, R, E, C>) -> Self::Output {
+        let case = self.case;
+        let amplitude = case.amplitude_ratio * system.uplift;
+        let pulse = match case.pulse {
+            PulseShape::Sine => Harmonics::sine(amplitude, case.frequency_ratio),
+            PulseShape::Cosine => Harmonics::cosine(amplitude, case.frequency_ratio),
+        };
+        let duration = core::f64::consts::TAU / case.frequency_ratio;
+        let mut state = State::default();
+        let mut peaks = Peaks::default();
+        let limits =
+            |bound| Limits { overturned: case.geometry.point_of_no_return(&self.structure.block, bound), events: 1_000_000 };
+        system.advance(self.method, &mut state, &pulse, duration, &limits(amplitude.abs()), &mut peaks)?;
+        peaks.origin = duration;
+        system.advance(self.method, &mut state, &Quiet, case.free_time, &limits(0.0), &mut peaks)?;
+        let outcome = match (state.phase, peaks.rocked, state.impacts) {
+            (Phase::Overturned, _, 0) => Outcome::OverturnedWithoutImpact,
+            (Phase::Overturned, _, _) => Outcome::OverturnedAfterImpact,
+            (_, false, _) => Outcome::NoRocking,
+            _ => Outcome::Safe,
+        };
+        Ok(CaseResult {
+            outcome,
+            peak_rotation: peaks.rotation / case.slenderness,
+            peak_acceleration: peaks.acceleration / case.slenderness,
+            impacts: state.impacts,
+            first_impact_time: peaks.first_impact,
+            end_time: peaks.ended.unwrap_or(if peaks.rocked { duration + case.free_time } else { duration }),
+        })
+    }
+}

@@ -1,0 +1,4 @@
+//! Many independent cases, one a row.
+
+pub mod case;
+pub mod table;

@@ -1,0 +1,198 @@
+//! The CSV files of `sprag batch`: cases in, results out.
+
+use std::io::{Read, Write};
+
+use serde::Deserialize;
+use sprag_shared::block::Geometry;
+use sprag_shared::structure::{DeviceKind, REST_SPEED};
+
+use super::case::{Case, CaseResult, PulseShape};
+
+/// The header of a case file.
+pub const CASE_COLUMNS: &str =
+    "id,geometry,slenderness_deg,device,mass_ratio,restitution,pulse,frequency_ratio,amplitude_ratio,free_time";
+
+/// The header of a result file.
+pub const RESULT_COLUMNS: &str = "id,outcome,peak_rotation,peak_acceleration,impacts,first_impact_time,end_time";
+
+/// A row that cannot be a case, or a file that cannot be a table of them.
+#[derive(Debug, thiserror::Error)]
+pub enum TableError {
+    /// A column is missing from the header.
+    #[error("column `{column}` is missing; the header must be {CASE_COLUMNS}")]
+    MissingColumn {
+        /// Its name.
+        column: &'static str,
+    },
+    /// A column nobody knows.
+    #[error("unknown column `{column}`; the header must be {CASE_COLUMNS}")]
+    UnknownColumn {
+        /// Its name.
+        column: String,
+    },
+    /// A value that is not of the column's kind or not in its range.
+    #[error("line {line}: {column} is `{value}`, but must be {range}")]
+    Value {
+        /// Line in the file, from 1.
+        line: u64,
+        /// Column.
+        column: &'static str,
+        /// As written.
+        value: String,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// Not a CSV file.
+    #[error("line {line}: {message}")]
+    Malformed {
+        /// Line in the file, from 1.
+        line: u64,
+        /// What is wrong.
+        message: String,
+    },
+    /// No row.
+    #[error("the file has no cases")]
+    Empty,
+}
+
+#[derive(Deserialize)]
+struct Row<'a> {
+    id: &'a str,
+    geometry: &'a str,
+    slenderness_deg: &'a str,
+    device: &'a str,
+    mass_ratio: &'a str,
+    restitution: &'a str,
+    pulse: &'a str,
+    frequency_ratio: &'a str,
+    amplitude_ratio: &'a str,
+    free_time: &'a str,
+}
+
+fn number(
+    line: u64,
+    column: &'static str,
+    value: &str,
+    allowed: impl Fn(f64) -> bool,
+    range: &'static str,
+) -> Result<f64, TableError> {
+    match value.trim().parse::<f64>() {
+        Ok(number) if number.is_finite() && allowed(number) => Ok(number),
+        _ => Err(TableError::Value { line, column, value: value.to_owned(), range }),
+    }
+}
+
+fn choice<T: Copy>(
+    line: u64,
+    column: &'static str,
+    value: &str,
+    names: &[(&str, T)],
+    range: &'static str,
+) -> Result<T, TableError> {
+    names.iter().find(|(name, _)| *name == value.trim()).map(|(_, choice)| *choice).ok_or_else(|| TableError::Value {
+        line,
+        column,
+        value: value.to_owned(),
+        range,
+    })
+}
+
+/// Reads cases with their ids, in order. Columns may stand in any order.
+///
+/// # Errors
+/// [`TableError`] names the line, the column, the value and what it may be.
+pub fn read_cases(source: impl Read) -> Result<Vec<(String, Case)>, TableError> {
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(source);
+    let malformed = |error: csv::Error| TableError::Malformed {
+        line: error.position().map_or(1, csv::Position::line),
+        message: match error.kind() {
+            csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
+                format!("{len} fields, but the header has {expected_len}")
+            }
+            csv::ErrorKind::Utf8 { .. } => "not UTF-8 text".to_owned(),
+            _ => error.to_string(),
+        },
+    };
+    let header = reader.headers().map_err(malformed)?.clone();
+    for column in CASE_COLUMNS.split(',') {
+        if !header.iter().any(|name| name == column) {
+            return Err(TableError::MissingColumn { column });
+        }
+    }
+    if let Some(column) = header.iter().find(|name| !CASE_COLUMNS.split(',').any(|known| known == *name)) {
+        return Err(TableError::UnknownColumn { column: column.to_owned() });
+    }
+    let mut cases = Vec::new();
+    let mut record = csv::StringRecord::new();
+    while reader.read_record(&mut record).map_err(malformed)? {
+        let line = record.position().map_or(0, csv::Position::line);
+        let row: Row<'_> = record.deserialize(Some(&header)).map_err(malformed)?;
+        cases.push((row.id.to_owned(), row.case(line)?));
+    }
+    if cases.is_empty() { Err(TableError::Empty) } else { Ok(cases) }
+}
+
+impl Row<'_> {
+    fn case(&self, line: u64) -> Result<Case, TableError> {
+        let device = [("none", DeviceKind::None), ("inerter", DeviceKind::Inerter), ("clutched-pair", DeviceKind::ClutchedPair)];
+        Ok(Case {
+            geometry: choice(
+                line,
+                "geometry",
+                self.geometry,
+                &[("full", Geometry::Full), ("slender", Geometry::Slender)],
+                "full or slender",
+            )?,
+            slenderness: number(
+                line,
+                "slenderness_deg",
+                self.slenderness_deg,
+                |a| a > 0.0 && a < 90.0,
+                "above 0 and below 90 degrees",
+            )?
+            .to_radians(),
+            device: choice(line, "device", self.device, &device, "none, inerter or clutched-pair")?,
+            mass_ratio: number(line, "mass_ratio", self.mass_ratio, |s| (0.0..=1e4).contains(&s), "from 0 to 10000")?,
+            restitution: number(line, "restitution", self.restitution, |e| (0.0..=1.0).contains(&e), "from 0 to 1")?,
+            pulse: choice(
+                line,
+                "pulse",
+                self.pulse,
+                &[("sine", PulseShape::Sine), ("cosine", PulseShape::Cosine)],
+                "sine or cosine",
+            )?,
+            frequency_ratio: number(
+                line,
+                "frequency_ratio",
+                self.frequency_ratio,
+                |w| (1e-3..=1e4).contains(&w),
+                "from 0.001 to 10000",
+            )?,
+            amplitude_ratio: number(line, "amplitude_ratio", self.amplitude_ratio, |a| a.abs() <= 1e6, "from -1e6 to 1e6")?,
+            free_time: number(line, "free_time", self.free_time, |t| (0.0..=1e6).contains(&t), "from 0 to 1e6")?,
+            rest_speed: REST_SPEED,
+        })
+    }
+}
+
+/// Writes one result as a row of [`RESULT_COLUMNS`]. Numbers read back to the same f64; the peaks of an overturned block
+/// and the impact of one that had none are empty.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_result(out: &mut impl Write, id: &str, result: &CaseResult) -> std::io::Result<()> {
+    let mut row = csv::Writer::from_writer(Vec::new());
+    let number = |value: f64| format!("{value:?}");
+    let peak = |value: f64| if result.outcome.overturned() { String::new() } else { number(value) };
+    row.write_record([
+        id,
+        result.outcome.name(),
+        &peak(result.peak_rotation),
+        &peak(result.peak_acceleration),
+        &result.impacts.to_string(),
+        &result.first_impact_time.map_or_else(String::new, number),
+        &number(result.end_time),
+    ])
+    .map_err(std::io::Error::other)?;
+    out.write_all(&row.into_inner().map_err(|error| error.into_error())?)
+}

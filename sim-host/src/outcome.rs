@@ -1,0 +1,40 @@
+//! How a simulation ends.
+
+use serde::Serialize;
+
+/// The four outcomes of the paper's section 4.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outcome {
+    /// The block never uplifts.
+    NoRocking,
+    /// It rocks and stays up (Region 3).
+    Safe,
+    /// It overturns before any impact (Region 1).
+    OverturnedWithoutImpact,
+    /// It overturns after one impact or more (Region 2).
+    OverturnedAfterImpact,
+}
+
+impl Outcome {
+    /// As tables and files print it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Outcome::NoRocking => "no-rocking",
+            Outcome::Safe => "safe",
+            Outcome::OverturnedWithoutImpact => "overturned-without-impact",
+            Outcome::OverturnedAfterImpact => "overturned-after-impact",
+        }
+    }
+
+    /// The block lies on the ground.
+    pub fn overturned(self) -> bool {
+        matches!(self, Outcome::OverturnedWithoutImpact | Outcome::OverturnedAfterImpact)
+    }
+}
+
+impl std::fmt::Display for Outcome {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.pad(self.name())
+    }
+}

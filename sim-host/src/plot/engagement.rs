@@ -1,0 +1,146 @@
+//! Shading of engaged intervals, impact marks, and the notes where blocks overturn.
+
+use super::device_trace::DeviceTrace;
+use super::layer::{Anchor, Text, text_width_px, units, write_rect};
+use super::palette::{FLYWHEEL_TINTS, hex};
+use super::panel::Panel;
+
+/// Impact marks a device may show before they are thinned out.
+const MOST_MARKS: usize = 60;
+
+/// Intervals a device may show before narrow ones are left out, and the least width from then on (px).
+const MOST_INTERVALS: usize = 500;
+const LEAST_WIDTH_PX: f64 = 1.0;
+
+/// Width of the coloured bar that names the owner of a lane (px).
+const LANE_BAR_PX: f64 = 3.0;
+
+const NOTE: &str = "overturns";
+const NOTE_FONT_PX: f64 = 10.5;
+
+/// Appends tints over the intervals in which a flywheel is engaged.
+///
+/// One clutched device shades the whole height. Several share it in lanes, top to bottom, each with a bar in the
+/// device's colour right of the frame.
+pub(super) fn write_shading(svg: &mut String, panel: &Panel, traces: &[DeviceTrace]) {
+    let clutched: Vec<&DeviceTrace> = traces.iter().filter(|trace| !trace.engagements.is_empty()).collect();
+    let lane_px = panel.height_px / clutched.len().max(1) as f64;
+    for (lane, trace) in clutched.iter().enumerate() {
+        let top = units(panel.top_px + lane as f64 * lane_px);
+        let height = units(panel.top_px + (lane + 1) as f64 * lane_px) - top;
+        let least = if trace.engagements.len() > MOST_INTERVALS { LEAST_WIDTH_PX } else { 0.0 };
+        // One path per tint is a third of the text that rectangles would be.
+        let mut paths = [String::new(), String::new()];
+        for &(from, to, flywheel) in &trace.engagements {
+            let left = units(panel.position_px((from, 0.0)).0);
+            let width = units(panel.position_px((to, 0.0)).0) - left;
+            if width > 0 && width >= units(least) {
+                paths[usize::from(flywheel != 1)].push_str(&format!("M{left} {top}h{width}v{height}h{}z", -width));
+            }
+        }
+        for (path, tint) in paths.iter().zip(FLYWHEEL_TINTS) {
+            if !path.is_empty() {
+                svg.push_str(&format!("<path d=\"{path}\" fill=\"{}\"/>\n", hex(tint)));
+            }
+        }
+        if clutched.len() > 1 {
+            let bar = (units(LANE_BAR_PX), height - units(2.0));
+            write_rect(svg, (units(panel.right_px() + 3.0), top + units(1.0)), bar, trace.look.colour);
+        }
+    }
+}
+
+/// Appends a triangle for each impact; its tip touches the line θ = 0.
+///
+/// Devices take turns above and below the line. Beyond 60 impacts only marks that keep a minimum distance stay.
+pub(super) fn write_impacts(svg: &mut String, panel: &Panel, traces: &[DeviceTrace]) {
+    let zero = units(panel.position_px((panel.x.start, 0.0)).1);
+    for (index, trace) in traces.iter().enumerate() {
+        let side = if index % 2 == 0 { 1 } else { -1 };
+        let mut path = String::new();
+        for x_px in thinned(panel, &trace.impacts) {
+            let x = units(x_px);
+            path.push_str(&format!("M{x} {zero}l{} {}h{}z", -units(2.2), side * units(5.0), units(4.4)));
+        }
+        if !path.is_empty() {
+            svg.push_str(&format!(
+                "<path d=\"{path}\" fill=\"{}\" stroke=\"#ffffff\" stroke-width=\"4\"/>\n",
+                hex(trace.look.colour),
+            ));
+        }
+    }
+}
+
+fn thinned(panel: &Panel, impacts: &[f64]) -> Vec<f64> {
+    let distance = if impacts.len() > MOST_MARKS { panel.width_px / MOST_MARKS as f64 } else { 0.0 };
+    let mut kept: Vec<f64> = Vec::new();
+    for &time in impacts.iter().filter(|&&time| time >= panel.x.start && time <= panel.x.end) {
+        let x = panel.position_px((time, 0.0)).0;
+        if kept.last().is_none_or(|last| x - last >= distance) {
+            kept.push(x);
+        }
+    }
+    kept
+}
+
+/// Appends a mark and the word "overturns" where a block's curve leaves the panel for good.
+///
+/// Words move away from the edge, row by row, until they overlap no earlier word.
+pub(super) fn write_overturns(svg: &mut String, panel: &Panel, traces: &[DeviceTrace]) {
+    let width = text_width_px(NOTE, NOTE_FONT_PX);
+    let mut taken: Vec<(f64, f64)> = Vec::new();
+    for trace in traces {
+        let Some(point) = trace.overturn else {
+            continue;
+        };
+        let (x, y) = panel.position_px(point);
+        let up = point.1 >= 0.0;
+        let outward = if up { -1 } else { 1 };
+        svg.push_str(&format!(
+            "<path d=\"M{} {}h{}l{} {}z\" fill=\"{}\"/>\n",
+            units(x - 3.5),
+            units(y) - outward * units(6.0),
+            units(7.0),
+            -units(3.5),
+            outward * units(6.0),
+            hex(trace.look.colour),
+        ));
+
+        // The curve comes from the left, so the free space is on the right unless the frame is near.
+        let left = if x + 6.0 + width <= panel.right_px() { x + 6.0 } else { x - 8.0 - width };
+        let row_px = NOTE_FONT_PX + 2.0;
+        let first = if up { y + NOTE_FONT_PX } else { y - 3.0 };
+        let rows = (panel.height_px / row_px) as usize;
+        let baseline = (0..rows)
+            .map(|row| first - f64::from(outward) * row as f64 * row_px)
+            .find(|baseline| {
+                taken.iter().all(|other| (other.0 - left).abs() > width || (other.1 - baseline).abs() > 0.95 * row_px)
+            })
+            .unwrap_or(first);
+        taken.push((left, baseline));
+        Text {
+            anchor: Anchor::Start,
+            colour: trace.look.colour,
+            attributes: " paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"30\"",
+            ..Text::new(NOTE, (left, baseline), NOTE_FONT_PX)
+        }
+        .write(svg, false);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn panel() -> Panel {
+        Panel { left_px: 0.0, top_px: 0.0, width_px: 600.0, height_px: 100.0, x: 0.0..10.0, y: -1.0..1.0, title: "", guides: &[] }
+    }
+
+    #[test]
+    fn many_impacts_are_thinned_and_few_are_not() {
+        let few: Vec<f64> = (0..60).map(|index| 5.0 + f64::from(index) * 1e-3).collect();
+        assert_eq!(thinned(&panel(), &few).len(), 60);
+        let many: Vec<f64> = (0..5000).map(|index| f64::from(index) * 2e-3).collect();
+        assert!((50..=61).contains(&thinned(&panel(), &many).len()));
+    }
+}

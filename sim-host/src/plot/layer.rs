@@ -1,0 +1,186 @@
+//! Pieces of SVG: what plotters draws on a fine grid, and the text and rectangles it cannot draw.
+
+use plotters::coord::Shift;
+use plotters::prelude::{DrawingArea, DrawingBackend, IntoDrawingArea, SVGBackend};
+use plotters::style::RGBColor;
+
+use super::PlotError;
+use super::palette::{INK, hex};
+
+/// Drawing units per pixel. plotters rounds coordinates to whole units, and a tenth of a pixel is smooth.
+pub(super) const UNIT: f64 = 10.0;
+
+/// Whole drawing units of a length in pixels.
+pub(super) fn units(px: f64) -> i32 {
+    (px * UNIT).round() as i32
+}
+
+/// The elements plotters writes for `draw` on a canvas of `size` units, without the document around them.
+pub(super) fn plotters_layer<F>(size: (u32, u32), draw: F) -> Result<String, PlotError>
+where
+    F: for<'a> FnOnce(&DrawingArea<SVGBackend<'a>, Shift>) -> Result<(), String>,
+{
+    let mut document = String::new();
+    {
+        let root = SVGBackend::with_string(&mut document, size).into_drawing_area();
+        draw(&root).map_err(PlotError::Drawing)?;
+        root.present().map_err(|error| PlotError::Drawing(error.to_string()))?;
+    }
+    let start = document.find('>').map_or(0, |end| end + 1);
+    let end = document.rfind("</svg>").unwrap_or(document.len());
+    Ok(document[start..end].trim_start().to_owned())
+}
+
+/// Turns a drawing error into its text.
+pub(super) fn text_of<DB: DrawingBackend>(error: plotters::drawing::DrawingAreaErrorKind<DB::ErrorType>) -> String {
+    error.to_string()
+}
+
+/// `text` as XML character data; characters that XML forbids become spaces.
+pub(super) fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '&' => escaped.push_str("&amp;"),
+            '"' => escaped.push_str("&quot;"),
+            '\u{fffe}' | '\u{ffff}' => escaped.push(' '),
+            control if control.is_control() => escaped.push(' '),
+            other => escaped.push(other),
+        }
+    }
+    escaped
+}
+
+/// Width of `text` in pixels at `font_px`: an estimate, since no font is at hand; common sans-serif fonts need less.
+pub(super) fn text_width_px(text: &str, font_px: f64) -> f64 {
+    text.chars().map(|c| if c < '\u{1100}' { 0.54 } else { 1.0 }).sum::<f64>() * font_px
+}
+
+// How the text after a subscript or a dot finds its place again.
+const UP_FROM_SUBSCRIPT: &str = " dy=\"-0.19em\"";
+const UP_AND_ON_FROM_SUBSCRIPT: &str = " dx=\"0.3em\" dy=\"-0.19em\"";
+const BACK_FROM_DOT: &str = " dx=\"0.14em\" dy=\"0.8em\"";
+
+/// A formula from plain markup: `*x*` italic, `_x` one subscript character, `'` a dot over the symbol before it.
+///
+/// The dot is a full stop moved back and up by fractions of the font size, because fonts place combining dots badly.
+pub(super) fn formula(markup: &str) -> String {
+    let mut svg = String::new();
+    let mut italic = false;
+    let mut return_shift = "";
+    let mut characters = markup.chars();
+    while let Some(character) = characters.next() {
+        match character {
+            '*' => {
+                svg.push_str(if italic { "</tspan>" } else { "<tspan font-style=\"italic\">" });
+                italic = !italic;
+            }
+            '_' => {
+                let subscript = characters.next().unwrap_or(' ');
+                svg.push_str(&format!("<tspan dy=\"0.25em\" font-size=\"75%\">{subscript}</tspan>"));
+                return_shift = UP_FROM_SUBSCRIPT;
+            }
+            '\'' => {
+                svg.push_str("<tspan dx=\"-0.45em\" dy=\"-0.8em\">.</tspan>");
+                return_shift = BACK_FROM_DOT;
+            }
+            // A space at the start of an element would be dropped, so it becomes a shift.
+            ' ' if return_shift == UP_FROM_SUBSCRIPT => return_shift = UP_AND_ON_FROM_SUBSCRIPT,
+            other if return_shift.is_empty() => svg.push_str(&escape(&other.to_string())),
+            other => {
+                svg.push_str(&format!("<tspan{return_shift}>{}</tspan>", escape(&other.to_string())));
+                return_shift = "";
+            }
+        }
+    }
+    svg
+}
+
+/// Where a text starts from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Anchor {
+    /// The position is the left end.
+    Start,
+    /// The position is the middle.
+    Middle,
+}
+
+/// A text element: ready-made SVG `content` at a baseline position in pixels.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Text<'a> {
+    /// Escaped text or the output of [`formula`].
+    pub content: &'a str,
+    /// Baseline position (px).
+    pub at: (f64, f64),
+    /// Font size (px).
+    pub size_px: f64,
+    /// What `at` refers to.
+    pub anchor: Anchor,
+    /// Colour.
+    pub colour: RGBColor,
+    /// Further attributes, with a leading space.
+    pub attributes: &'a str,
+}
+
+impl<'a> Text<'a> {
+    /// Text in ink colour that starts at `at`.
+    pub(super) fn new(content: &'a str, at: (f64, f64), size_px: f64) -> Self {
+        Self { content, at, size_px, anchor: Anchor::Start, colour: INK, attributes: "" }
+    }
+
+    /// Appends the element to `svg`; with `turned`, the text reads upwards.
+    pub(super) fn write(&self, svg: &mut String, turned: bool) {
+        let (x, y) = (units(self.at.0), units(self.at.1));
+        let anchor = match self.anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+        };
+        let turn = if turned { format!(" transform=\"rotate(-90 {x} {y})\"") } else { String::new() };
+        svg.push_str(&format!(
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{anchor}\" fill=\"{}\"{}{turn}>{}</text>\n",
+            units(self.size_px),
+            hex(self.colour),
+            self.attributes,
+            self.content,
+        ));
+    }
+}
+
+/// Appends a filled rectangle given in drawing units.
+pub(super) fn write_rect(svg: &mut String, corner: (i32, i32), size: (i32, i32), fill: RGBColor) {
+    svg.push_str(&format!(
+        "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
+        corner.0,
+        corner.1,
+        size.0,
+        size.1,
+        hex(fill),
+    ));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn escape_leaves_no_markup() {
+        assert_eq!(escape("a<b>&\"c\"\u{1}"), "a&lt;b&gt;&amp;&quot;c&quot; ");
+    }
+
+    #[test]
+    fn formulas_balance_their_tags() {
+        for markup in ["*a*_g (g)", "θ'/(*p*α)", "*F*/(*mg*)", "plain"] {
+            let svg = formula(markup);
+            assert_eq!(svg.matches("<tspan").count(), svg.matches("</tspan>").count(), "{svg}");
+        }
+        assert_eq!(formula("time (s)"), "time (s)");
+    }
+
+    #[test]
+    fn a_layer_has_no_document_tags() {
+        let layer = plotters_layer((100, 100), |_| Ok(())).unwrap();
+        assert!(!layer.contains("svg"));
+    }
+}

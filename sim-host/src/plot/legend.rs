@@ -1,0 +1,191 @@
+//! Title and legend above the panels.
+
+use plotters::style::RGBColor;
+
+use super::device_trace::DeviceTrace;
+use super::layer::{Text, escape, text_width_px, units, write_rect};
+use super::palette::{CURVE_PX, FLYWHEEL_TINTS, INK, hex};
+
+const TITLE_FONT_PX: f64 = 14.0;
+const FONT_PX: f64 = 11.0;
+const ROW_PX: f64 = 17.0;
+const SWATCH_PX: f64 = 30.0;
+const GAP_PX: f64 = 14.0;
+
+/// What stands left of a legend text.
+#[derive(Debug, Clone, Copy)]
+enum Swatch {
+    /// A piece of a device's curve.
+    Line(RGBColor, &'static str),
+    /// A tint.
+    Tint(RGBColor),
+    /// The triangle of an impact.
+    Triangle,
+    /// The bar beside a lane of tints.
+    LaneBar,
+}
+
+/// Appends title and legend from `top_px` down, over the width from `left_px`; returns the lower edge (px).
+pub(super) fn write_heading(
+    svg: &mut String,
+    title: &str,
+    traces: &[DeviceTrace],
+    (left_px, width_px): (f64, f64),
+    top_px: f64,
+) -> f64 {
+    let mut y = top_px;
+    for line in wrapped(title, width_px, TITLE_FONT_PX) {
+        y += TITLE_FONT_PX + 4.0;
+        let text = Text::new(&line, (left_px, y - 4.0), TITLE_FONT_PX);
+        Text { attributes: " font-weight=\"bold\"", ..text }.write(svg, false);
+    }
+    y += 4.0;
+
+    let devices: Vec<(Swatch, String)> =
+        traces.iter().map(|trace| (Swatch::Line(trace.look.colour, trace.look.dashes), trace.label.clone())).collect();
+    y = write_entries(svg, &devices, (left_px, width_px), y);
+    y = write_entries(svg, &keys(traces), (left_px, width_px), y);
+    y + 6.0
+}
+
+/// Entries for the marks that the figure actually shows.
+fn keys(traces: &[DeviceTrace]) -> Vec<(Swatch, String)> {
+    let mut keys = Vec::new();
+    for (index, name) in ["first flywheel engaged", "second flywheel engaged"].into_iter().enumerate() {
+        let shown = |trace: &DeviceTrace| trace.engagements.iter().any(|(_, _, flywheel)| usize::from(*flywheel != 1) == index);
+        if traces.iter().any(shown) {
+            keys.push((Swatch::Tint(FLYWHEEL_TINTS[index]), name.to_owned()));
+        }
+    }
+    if traces.iter().filter(|trace| !trace.engagements.is_empty()).count() > 1 {
+        keys.push((Swatch::LaneBar, "device of a shaded lane".to_owned()));
+    }
+    if traces.iter().any(|trace| !trace.impacts.is_empty()) {
+        keys.push((Swatch::Triangle, "impact".to_owned()));
+    }
+    keys
+}
+
+/// Appends entries in as many columns as fit; returns the lower edge (px).
+fn write_entries(svg: &mut String, entries: &[(Swatch, String)], (left_px, width_px): (f64, f64), top_px: f64) -> f64 {
+    let lefts = column_lefts(entries, width_px);
+    let columns = lefts.len();
+    for (index, (swatch, text)) in entries.iter().enumerate() {
+        let x = left_px + lefts[index % columns];
+        let middle = top_px + ((index / columns) as f64 + 0.5) * ROW_PX;
+        write_swatch(svg, *swatch, x, middle);
+        let content = shortened(text, width_px - SWATCH_PX - 6.0);
+        let baseline = (x + SWATCH_PX + 6.0, middle + 0.36 * FONT_PX);
+        Text::new(&content, baseline, FONT_PX).write(svg, false);
+    }
+    top_px + entries.len().div_ceil(columns) as f64 * ROW_PX
+}
+
+/// Left edges of the columns (px), at least one: the largest number of columns whose widest entries fit side by side.
+fn column_lefts(entries: &[(Swatch, String)], width_px: f64) -> Vec<f64> {
+    for columns in (2..=entries.len()).rev() {
+        let mut widths = vec![0.0_f64; columns];
+        for (index, (_, text)) in entries.iter().enumerate() {
+            let entry_px = SWATCH_PX + 6.0 + text_width_px(text, FONT_PX) + GAP_PX;
+            widths[index % columns] = widths[index % columns].max(entry_px);
+        }
+        if widths.iter().sum::<f64>() - GAP_PX <= width_px {
+            let mut left = 0.0;
+            return widths
+                .iter()
+                .map(|width| {
+                    left += width;
+                    left - width
+                })
+                .collect();
+        }
+    }
+    vec![0.0]
+}
+
+fn write_swatch(svg: &mut String, swatch: Swatch, x_px: f64, middle_px: f64) {
+    let (x, y, width) = (units(x_px), units(middle_px), units(SWATCH_PX));
+    match swatch {
+        Swatch::Line(colour, dashes) => svg.push_str(&format!(
+            "<path d=\"M{x} {y}h{width}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-dasharray=\"{dashes}\"/>\n",
+            hex(colour),
+            units(CURVE_PX),
+        )),
+        Swatch::Tint(colour) => {
+            write_rect(svg, (x, y - units(5.0)), (width, units(10.0)), colour);
+        }
+        Swatch::LaneBar => {
+            let corner = (x + width / 2, y - units(5.0));
+            write_rect(svg, corner, (units(3.0), units(10.0)), INK);
+        }
+        Swatch::Triangle => svg.push_str(&format!(
+            "<path d=\"M{} {}l{} {}h{}z\" fill=\"{}\"/>\n",
+            x + width / 2,
+            y - units(2.5),
+            -units(2.2),
+            units(5.0),
+            units(4.4),
+            hex(INK),
+        )),
+    }
+}
+
+/// `text` escaped; when it is wider than `width_px`, an ellipsis stands for the end of the device's name, so that the
+/// outcome in parentheses stays, or for the end of the text when the outcome alone is long.
+fn shortened(text: &str, width_px: f64) -> String {
+    if text_width_px(text, FONT_PX) <= width_px {
+        return escape(text);
+    }
+    let (name, outcome) = text.split_at(text.rfind(" (").unwrap_or(text.len()));
+    let outcome_px = text_width_px(outcome, FONT_PX);
+    let (mut kept, tail, room_px) = if outcome_px <= 0.5 * width_px {
+        (name.to_owned(), outcome, width_px - outcome_px)
+    } else {
+        (text.to_owned(), "", width_px)
+    };
+    while !kept.is_empty() && text_width_px(&kept, FONT_PX) + FONT_PX > room_px {
+        kept.pop();
+    }
+    format!("{}…{}", escape(kept.trim_end()), escape(tail))
+}
+
+/// Lines of `title`, broken at spaces; a single word may still be too wide.
+fn wrapped(title: &str, width_px: f64, font_px: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in title.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if text_width_px(line, font_px) + text_width_px(word, font_px) + font_px <= width_px => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines.iter().map(|line| escape(line)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entries_share_a_row_when_they_fit() {
+        let entries = |length: usize| vec![(Swatch::Triangle, "x".repeat(length)); 4];
+        assert_eq!(column_lefts(&entries(5), 668.0).len(), 4);
+        assert_eq!(column_lefts(&entries(40), 668.0).len(), 2);
+        assert_eq!(column_lefts(&entries(400), 668.0), vec![0.0]);
+        assert_eq!(column_lefts(&[], 668.0), vec![0.0]);
+    }
+
+    #[test]
+    fn long_texts_break_or_shorten() {
+        let title = "word ".repeat(60);
+        assert!(wrapped(&title, 600.0, 14.0).len() > 2);
+        assert!(wrapped("", 600.0, 14.0).is_empty());
+        let short = shortened(&"x".repeat(500), 300.0);
+        assert!(short.ends_with('…') && text_width_px(&short, FONT_PX) <= 300.0 + FONT_PX);
+        let outcome = shortened(&format!("{} (safe)", "x".repeat(500)), 300.0);
+        assert!(outcome.ends_with("x… (safe)"));
+        assert_eq!(shortened("a & b", 300.0), "a &amp; b");
+    }
+}

@@ -1,0 +1,64 @@
+//! Colours and dash patterns: Okabe and Ito's colours for colour-blind readers, dashes for grey print.
+
+use plotters::style::RGBColor;
+
+/// How one device's curves look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct DeviceLook {
+    /// Colour of curves and marks.
+    pub colour: RGBColor,
+    /// Dash lengths in tenths of a pixel, as SVG writes them; `none` for a solid curve.
+    pub dashes: &'static str,
+}
+
+/// Curve width in pixels.
+pub(super) const CURVE_PX: f64 = 1.3;
+
+/// Text and frames.
+pub(super) const INK: RGBColor = RGBColor(34, 34, 34);
+
+/// Reference lines.
+pub(super) const GUIDE: RGBColor = RGBColor(150, 150, 150);
+
+/// The ground motion.
+pub(super) const GROUND: RGBColor = RGBColor(90, 90, 90);
+
+/// Tints behind the curves while the first or second flywheel is engaged; their greys differ.
+pub(super) const FLYWHEEL_TINTS: [RGBColor; 2] = [RGBColor(205, 226, 243), RGBColor(253, 238, 208)];
+
+// The yellow of the palette is left out: it vanishes on white.
+const COLOURS: [RGBColor; 7] = [
+    RGBColor(0, 0, 0),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 114, 178),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(86, 180, 233),
+    RGBColor(230, 159, 0),
+];
+
+const DASHES: [&str; 5] = ["none", "60 25", "100 25 15 25", "18 18", "140 40"];
+
+/// The look of the device at `index`; colours repeat after seven devices, pairs of colour and dash after 35.
+pub(super) fn device_look(index: usize) -> DeviceLook {
+    DeviceLook { colour: COLOURS[index % COLOURS.len()], dashes: DASHES[index % DASHES.len()] }
+}
+
+/// `#rrggbb`.
+pub(super) fn hex(colour: RGBColor) -> String {
+    format!("#{:02x}{:02x}{:02x}", colour.0, colour.1, colour.2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thirty_five_looks_differ() {
+        for first in 0..35 {
+            for second in 0..first {
+                assert_ne!(device_look(first), device_look(second));
+            }
+        }
+    }
+}

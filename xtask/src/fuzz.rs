@@ -1,0 +1,103 @@
+//! Fuzzing with libFuzzer on the stable toolchain: the compiler's instrumentation is switched on by hand, with the
+//! flags that cargo-fuzz uses without a sanitizer, so that nothing but a C++ compiler needs installing.
+
+use crate::{
+    process::{cargo, executables, filtered, output},
+    stop::Stop,
+    tools,
+};
+use std::{
+    env, fs,
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+/// The compiler flags that make the program count its branches and show its comparisons to libFuzzer.
+const INSTRUMENTATION: [&str; 9] = [
+    "--cfg",
+    "fuzzing",
+    "-Cpasses=sancov-module",
+    "-Cllvm-args=-sanitizer-coverage-level=4",
+    "-Cllvm-args=-sanitizer-coverage-inline-8bit-counters",
+    "-Cllvm-args=-sanitizer-coverage-pc-table",
+    "-Cllvm-args=-sanitizer-coverage-trace-compares",
+    "-Cdebug-assertions",
+    "-Ccodegen-units=1",
+];
+
+/// Runs one fuzz target, or each in turn, for so many seconds; 0 only tries the seeds.
+///
+/// # Errors
+/// If there is no such target, the build fails, or an input makes a target panic, hang or eat the memory.
+pub fn run(root: &Path, only: Option<&str>, seconds: u32) -> Result<(), Stop> {
+    tools::need_cxx()?;
+    let fuzz = root.join("fuzz");
+    let mut targets = build(&fuzz)?;
+    if let Some(only) = only {
+        let names: Vec<_> = targets.iter().map(|(name, _)| name.clone()).collect();
+        targets.retain(|(name, _)| name == only);
+        if targets.is_empty() {
+            return Err(Stop::usage(format!("no fuzz target \"{only}\"; there are: {}", names.join(", "))));
+        }
+    }
+    for (name, program) in &targets {
+        println!("-- fuzzing {name} for {seconds} s");
+        fuzz_one(&fuzz, name, program, seconds)?;
+    }
+    Ok(())
+}
+
+/// Builds all targets and gives their names, in order, and programs.
+fn build(fuzz: &Path) -> Result<Vec<(String, PathBuf)>, Stop> {
+    let about = output(Command::new("rustc").current_dir(fuzz).arg("-vV"))?;
+    let host =
+        about.lines().find_map(|line| line.strip_prefix("host: ")).ok_or_else(|| Stop::failed("rustc does not tell its host"))?;
+    // Naming the target keeps the flags away from build scripts, which could not be linked with them.
+    let mut command = cargo(fuzz, &["build", "--release", "--target", host]);
+    command.env("CARGO_ENCODED_RUSTFLAGS", INSTRUMENTATION.join("\u{1f}"));
+    // Packages that both workspaces share must not be built by turns with other flags.
+    if let Some(own) = env::var_os("CARGO_TARGET_DIR") {
+        command.env("CARGO_TARGET_DIR", PathBuf::from(own).join("fuzz"));
+    }
+    let mut targets: Vec<_> = executables(&mut command)?
+        .into_iter()
+        .filter_map(|program| Some((program.file_stem()?.to_str()?.to_owned(), program)))
+        .collect();
+    targets.sort();
+    Ok(targets)
+}
+
+fn fuzz_one(fuzz: &Path, target: &str, program: &Path, seconds: u32) -> Result<(), Stop> {
+    let artifacts = fuzz.join("artifacts").join(target);
+    let corpus = fuzz.join("corpus").join(target);
+    for folder in [&artifacts, &corpus] {
+        fs::create_dir_all(folder).map_err(|error| Stop::failed(format!("{}: {error}", folder.display())))?;
+    }
+    let mut command = Command::new(program);
+    command.current_dir(fuzz).args(["-rss_limit_mb=1024", "-timeout=10", "-max_len=16384"]);
+    command.args(["-print_final_stats=1", &format!("-artifact_prefix=artifacts/{target}/")]);
+    // Short words that parsers look for, which random bytes would hardly ever spell.
+    let dictionary = format!("dictionaries/{target}.txt");
+    if fuzz.join(&dictionary).is_file() {
+        command.arg(format!("-dict={dictionary}"));
+    }
+    command.arg(if seconds == 0 { "-runs=0".to_owned() } else { format!("-max_total_time={seconds}") });
+    // What is found goes to the first folder; the second, committed, is only read.
+    command.arg(format!("corpus/{target}")).arg(format!("seeds/{target}"));
+    command.env("RUST_BACKTRACE", "1");
+    let found = |_| {
+        Stop::failed(format!(
+            "fuzzing {target} failed, see above; the input is in fuzz/artifacts/{target}, and in fuzz/seeds/{target} it would be tried for ever"
+        ))
+    };
+    filtered(&mut command, is_news).map_err(found)
+}
+
+/// Whether a line of libFuzzer is worth showing: not one for every new input, nor the words it learnt.
+fn is_news(line: &str) -> bool {
+    let new_function = line.starts_with("\tNEW_FUNC");
+    let new_input = line.starts_with('#') && ["\tNEW ", "\tREDUCE "].iter().any(|word| line.contains(word));
+    let learnt = line.starts_with('"') || line.starts_with("######");
+    let missing_sanitizer = line.starts_with("WARNING: Failed to find function");
+    !(new_input || new_function || learnt || missing_sanitizer)
+}

@@ -1,0 +1,88 @@
+//! Sprag's own tasks, run as `cargo xtask <task>`.
+
+mod firmware;
+mod fuzz;
+mod process;
+mod size;
+mod steps;
+mod stop;
+mod test;
+mod tools;
+
+use std::{path::PathBuf, process::ExitCode};
+use stop::Stop;
+
+const HELP: &str = "\
+Sprag's own tasks.
+
+Usage: cargo xtask <task> [options]
+
+Tasks:
+  test      every check, in order; stops at the first that fails
+  ci        the same
+  firmware  build the firmware for the board and hold its size against firmware/size.budget
+  fuzz [TARGET]
+            feed random input to one fuzz target, or to each of them in turn
+
+Options:
+  --seconds N  how long each fuzz target runs (default 30; 0 only tries the committed seeds)
+  -h, --help   this text
+
+Exit codes: 0 all well, 1 a check failed, 2 wrong usage or a tool is missing.";
+
+/// Seconds for each of two fuzz targets: a minute in all.
+const FUZZ_SECONDS: u32 = 30;
+
+fn main() -> ExitCode {
+    match run(std::env::args().skip(1)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(stop) => {
+            eprintln!("error: {stop}");
+            stop.exit_code()
+        }
+    }
+}
+
+fn run(mut args: impl Iterator<Item = String>) -> Result<(), Stop> {
+    let mut words = Vec::new();
+    let mut seconds = FUZZ_SECONDS;
+    while let Some(arg) = args.next() {
+        match arg.as_str() {
+            "-h" | "--help" => {
+                println!("{HELP}");
+                return Ok(());
+            }
+            "--seconds" => {
+                seconds = args
+                    .next()
+                    .and_then(|text| text.parse().ok())
+                    .ok_or_else(|| Stop::usage("--seconds needs a whole number"))?;
+            }
+            _ if arg.starts_with('-') => {
+                return Err(Stop::usage(format!("there is no option {arg}; see --help")));
+            }
+            _ => words.push(arg),
+        }
+    }
+    let root = workspace_root()?;
+    match words.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["test" | "ci"] => test::run(&root, seconds),
+        ["firmware"] => {
+            tools::need_board_target(&root)?;
+            firmware::build(&root).and_then(|elf| size::check(&root, &elf))
+        }
+        ["fuzz"] => fuzz::run(&root, None, seconds),
+        ["fuzz", target] => fuzz::run(&root, Some(target), seconds),
+        [] => Err(Stop::usage("no task given; see --help")),
+        [task, ..] => Err(Stop::usage(format!("no task \"{task}\" with these words; see --help"))),
+    }
+}
+
+/// The folder of the workspace, so that tasks work from any folder inside it.
+fn workspace_root() -> Result<PathBuf, Stop> {
+    let package = std::env::var_os("CARGO_MANIFEST_DIR").ok_or_else(|| Stop::usage("run this as `cargo xtask`"))?;
+    PathBuf::from(package)
+        .parent()
+        .map(PathBuf::from)
+        .ok_or_else(|| Stop::usage("run this as `cargo xtask` inside the workspace"))
+}

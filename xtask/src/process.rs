@@ -1,0 +1,98 @@
+//! Starting other programs.
+
+use crate::stop::Stop;
+use std::{
+    ffi::OsString,
+    io::{BufRead as _, BufReader},
+    path::{Path, PathBuf},
+    process::{Command, Stdio},
+};
+
+/// A command of the cargo that runs this task, at the root of the workspace.
+pub fn cargo(root: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| OsString::from("cargo")));
+    command.current_dir(root).args(args);
+    command
+}
+
+/// Runs a command to its end.
+///
+/// # Errors
+/// If it cannot be started or does not end well.
+pub fn run(command: &mut Command) -> Result<(), Stop> {
+    let shown = shown(command);
+    let status = command.stdin(Stdio::null()).status().map_err(|error| Stop::usage(format!("{shown}: {error}")))?;
+    if status.success() { Ok(()) } else { Err(Stop::failed(format!("`{shown}` failed ({status})"))) }
+}
+
+/// Runs a command to its end and shows only those lines of its standard error that are wanted.
+///
+/// # Errors
+/// If it cannot be started or does not end well.
+pub fn filtered(command: &mut Command, wanted: impl Fn(&str) -> bool) -> Result<(), Stop> {
+    let shown = shown(command);
+    let cannot = |error| Stop::usage(format!("{shown}: {error}"));
+    let mut child = command.stdin(Stdio::null()).stderr(Stdio::piped()).spawn().map_err(cannot)?;
+    if let Some(stderr) = child.stderr.take() {
+        // Not `lines`: a program under test may write bytes that are no text.
+        for line in BufReader::new(stderr).split(b'\n').map_while(Result::ok) {
+            let line = String::from_utf8_lossy(&line);
+            if wanted(&line) {
+                eprintln!("{line}");
+            }
+        }
+    }
+    let status = child.wait().map_err(cannot)?;
+    if status.success() { Ok(()) } else { Err(Stop::failed(format!("`{shown}` failed ({status})"))) }
+}
+
+/// Runs a command to its end and gives what it wrote to its standard output.
+///
+/// # Errors
+/// If it cannot be started or does not end well.
+pub fn output(command: &mut Command) -> Result<String, Stop> {
+    let shown = shown(command);
+    let output = command
+        .stdin(Stdio::null())
+        .stderr(Stdio::inherit())
+        .output()
+        .map_err(|error| Stop::usage(format!("{shown}: {error}")))?;
+    if !output.status.success() {
+        return Err(Stop::failed(format!("`{shown}` failed ({})", output.status)));
+    }
+    String::from_utf8(output.stdout).map_err(|_| Stop::failed(format!("`{shown}` wrote something that is no text")))
+}
+
+/// Runs a `cargo build` and gives the paths of the executables that it names; where they lie depends on settings of the
+/// user.
+///
+/// # Errors
+/// If the build fails.
+pub fn executables(build: &mut Command) -> Result<Vec<PathBuf>, Stop> {
+    let messages = output(build.arg("--message-format=json-render-diagnostics"))?;
+    Ok(messages
+        .lines()
+        .filter_map(|line| line.split_once(r#""executable":""#))
+        .filter_map(|(_, rest)| rest.split_once('"'))
+        .map(|(path, _)| PathBuf::from(path.replace(r"\\", r"\")))
+        .collect())
+}
+
+/// Whether a program is there and answers.
+pub fn answers(program: &str, args: &[&str]) -> bool {
+    Command::new(program)
+        .args(args)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status()
+        .is_ok_and(|status| status.success())
+}
+
+/// The command as one would type it, with the program's name only.
+fn shown(command: &Command) -> String {
+    let program = Path::new(command.get_program());
+    let mut words = vec![program.file_name().unwrap_or(program.as_os_str()).to_string_lossy().into_owned()];
+    words.extend(command.get_args().map(|arg| arg.to_string_lossy().into_owned()));
+    words.join(" ")
+}

@@ -1,0 +1,72 @@
+//! The tools that the checks need besides cargo: found, else installed where that is possible without asking, else named.
+
+use crate::{
+    process::{answers, output, run},
+    stop::Stop,
+};
+use std::{
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+/// Makes sure that the board's target is installed.
+///
+/// # Errors
+/// If it is not and cannot be.
+pub fn need_board_target(root: &Path) -> Result<(), Stop> {
+    let target = crate::firmware::TARGET;
+    // Asking the compiler works without rustup too.
+    let mut ask = Command::new("rustc");
+    let libraries = output(ask.current_dir(root).args(["--print", "target-libdir", "--target", target]))?;
+    if PathBuf::from(libraries.trim()).is_dir() {
+        return Ok(());
+    }
+    run(Command::new("rustup").current_dir(root).args(["target", "add", target]))
+        .map_err(|_| Stop::usage(format!("the target is missing: rustup target add {target}")))
+}
+
+/// Makes sure that the emulator is installed.
+///
+/// # Errors
+/// If it is not and cannot be.
+pub fn need_emulator() -> Result<(), Stop> {
+    need("qemu-system-arm", &["qemu-system-arm"])
+}
+
+/// Makes sure that there is a C++ compiler, which libFuzzer is built with.
+///
+/// # Errors
+/// If there is none and none can be installed.
+pub fn need_cxx() -> Result<(), Stop> {
+    let own = std::env::var("CXX").unwrap_or_default();
+    let candidates: &[&str] = if own.is_empty() { &["c++"] } else { &[&own] };
+    need("g++", candidates)
+}
+
+/// Looks for one of the programs, installs the package if none answers, and looks again.
+fn need(package: &str, programs: &[&str]) -> Result<(), Stop> {
+    let found = || programs.iter().any(|program| answers(program, &["--version"]));
+    if found() {
+        return Ok(());
+    }
+    if is_root() && answers("apt-get", &["--version"]) {
+        println!("installing {package}");
+        // A fresh container has no package lists; elsewhere fetching them again would be a waste.
+        let _ = apt_get(&["install", "--yes", "--no-install-recommends", package]).or_else(|_| {
+            apt_get(&["update"])?;
+            apt_get(&["install", "--yes", "--no-install-recommends", package])
+        });
+        if found() {
+            return Ok(());
+        }
+    }
+    Err(Stop::usage(format!("{} is missing: sudo apt-get install {package}", programs.join(" or "))))
+}
+
+fn apt_get(args: &[&str]) -> Result<(), Stop> {
+    run(Command::new("apt-get").env("DEBIAN_FRONTEND", "noninteractive").arg("--quiet").args(args))
+}
+
+fn is_root() -> bool {
+    output(Command::new("id").arg("-u")).is_ok_and(|id| id.trim() == "0")
+}
