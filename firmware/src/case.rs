@@ -1,57 +1,64 @@
 //! Running one case: words in, lines out.
 
 use core::fmt;
+use sprag_shared::{
+    case::{self, CaseError},
+    digest::Digest,
+};
 
 /// Why a case could not be run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CaseError {
-    /// The case holds no words.
-    Empty,
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RunError {
+    /// The words are no case, or it stopped.
+    Case(CaseError),
     /// A line could not be written.
     Output,
 }
 
-impl fmt::Display for CaseError {
+impl fmt::Display for RunError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Empty => "the case is empty",
-            Self::Output => "a line of the answer could not be written",
-        })
+        match self {
+            Self::Case(error) => error.fmt(f),
+            Self::Output => f.write_str("a line of the answer could not be written"),
+        }
     }
 }
 
-impl From<fmt::Error> for CaseError {
+impl From<CaseError> for RunError {
+    fn from(error: CaseError) -> Self {
+        Self::Case(error)
+    }
+}
+
+impl From<fmt::Error> for RunError {
     fn from(_: fmt::Error) -> Self {
         Self::Output
     }
 }
 
-/// Runs the case that `words` describe and writes its answer to `out`, line by line.
+/// Runs the case that `words` describe and writes its answer to `out`, one `name value` a line.
 ///
 /// `counter` counts instructions: the wrapping difference of two calls is what was executed between them (always 0 on
-/// the host, which has no such counter).
+/// the host, which has no such counter). They are those of the whole run: decoding, resolving, every step and event, the
+/// peaks and the digest, which alone takes a few hundred a step.
 ///
 /// # Errors
 /// If the words are no case, or `out` refuses a line.
-pub fn run_case(words: &[u32], counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> Result<(), CaseError> {
-    if words.is_empty() {
-        return Err(CaseError::Empty);
-    }
+pub fn run_case(words: &[u32], counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> Result<(), RunError> {
+    let mut digest = Digest::default();
     let before = counter();
-    let digest = digest(words);
+    let end = case::run(words, &mut digest)?;
     let instructions = counter().wrapping_sub(before);
-    writeln!(out, "words {}", words.len())?;
-    writeln!(out, "digest {digest:016x}")?;
+    writeln!(out, "outcome {}", end.ending.name())?;
+    writeln!(out, "impacts {}", end.state.impacts)?;
+    writeln!(out, "peak_rotation_rad {}", end.peaks.rotation)?;
+    writeln!(out, "stretches {}", digest.stretches())?;
+    writeln!(out, "events {}", digest.events())?;
+    writeln!(out, "digest {:016x}", digest.hash())?;
+    writeln!(out, "steps {}", end.steps)?;
     writeln!(out, "instructions {instructions}")?;
+    writeln!(out, "instructions_per_step {}", instructions.checked_div(end.steps).unwrap_or(0))?;
     Ok(())
-}
-
-/// FNV-1a, 64 bits, over the words' little-endian bytes.
-fn digest(words: &[u32]) -> u64 {
-    words
-        .iter()
-        .flat_map(|word| word.to_le_bytes())
-        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 #[cfg(test)]
@@ -59,13 +66,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_digest_is_fnv_1a() {
-        // A test vector of the hash's authors.
-        assert_eq!(digest(&[u32::from_le_bytes(*b"foob")]), 0xdd12_0e79_0c25_12af);
-    }
-
-    #[test]
     fn an_empty_case_is_an_error() {
-        assert_eq!(run_case(&[], &mut || 0, &mut String::new()), Err(CaseError::Empty));
+        let error = CaseError::Missing("the first word");
+        assert_eq!(run_case(&[], &mut || 0, &mut String::new()), Err(RunError::Case(error)));
     }
 }

@@ -1,6 +1,6 @@
 //! Why the program ends with something else than 0.
 
-use crate::{case::CaseError, case_file::LoadError, self_check::SelfCheckError};
+use crate::{case::RunError, case_file::LoadError, self_check::SelfCheckError};
 use core::fmt;
 
 /// Everything that can go wrong short of a panic.
@@ -10,8 +10,8 @@ pub enum Failure<'a> {
     CommandLine,
     /// The case file at this path cannot be read.
     Load(&'a str, LoadError),
-    /// The case file at this path holds no case.
-    Case(&'a str, CaseError),
+    /// The case file at this path holds no case, or one that cannot be run to its end.
+    Case(&'a str, RunError),
     /// The self check found something.
     SelfCheck(SelfCheckError),
 }

@@ -9,6 +9,7 @@ mod case;
 mod case_file;
 mod failure;
 mod instruction_counter;
+mod kernels;
 mod self_check;
 
 #[cfg_attr(target_os = "none", path = "board.rs")]

@@ -1,5 +1,7 @@
-//! What the program does without a case: it shows that its counter counts and that its arithmetic is IEEE 754's.
+//! What the program does without a case: it shows that its counter counts and that its arithmetic is IEEE 754's, and
+//! prints what the core's kernels cost.
 
+use crate::kernels;
 use core::{fmt, hint::black_box};
 
 /// What the self check found.
@@ -34,7 +36,7 @@ impl From<fmt::Error> for SelfCheckError {
 /// The bits of 1/1 + 1/2 + … + 1/1000, added from the left with every operation rounded to nearest in `f32`.
 const HARMONIC_SUM: u32 = 0x40ef_890a;
 
-/// Counts known work and adds up a known sum.
+/// Counts known work, adds up a known sum and reports the kernels.
 ///
 /// # Errors
 /// If a result is not the expected one, or `out` refuses a line.
@@ -50,6 +52,7 @@ pub fn run(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> Resu
         return Err(SelfCheckError::Sum(sum.to_bits()));
     }
     writeln!(out, "arithmetic ok")?;
+    kernels::report(counter, out)?;
     Ok(())
 }
 
@@ -72,6 +75,7 @@ mod tests {
     fn passes_on_the_host() {
         let mut lines = String::new();
         assert_eq!(super::run(&mut || 0, &mut lines), Ok(()));
-        assert_eq!(lines.lines().count(), 3);
+        assert!(lines.contains("counter ok") && lines.contains("arithmetic ok"));
+        assert_eq!(lines.matches("kernel ").count(), 13);
     }
 }

@@ -8,7 +8,9 @@
 //! - [`equation`]: the equations of motion.
 //! - [`arc`], [`fixed`], [`tape`], [`taylor`]: methods; [`decay`]: free motion summed to its end; [`polynomial`], [`locate`]: where a smooth motion crosses zero.
 //! - [`structure`]: from parameters to the equations that they need.
-//! - [`rocking`]: the block from event to event; [`observer`]: who watches.
+//! - [`rocking`]: the block from event to event; [`observer`]: who watches; [`digest`]: whether two runs are the same.
+//! - [`detected`]: the usual scheme, in which nothing is located, as the yardstick of accuracy and cost.
+//! - [`case`]: a scene in words, which a board and its host run to the same bits.
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -17,8 +19,11 @@ extern crate std;
 
 pub mod arc;
 pub mod block;
+pub mod case;
 pub mod clutch;
 pub mod decay;
+pub mod detected;
+pub mod digest;
 pub mod equation;
 pub mod error;
 pub mod fixed;

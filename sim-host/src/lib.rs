@@ -1,7 +1,20 @@
-//! The host side of Sprag.
+//! The host side of Sprag: scenes and records in, simulations through the shared core, tables and pictures out.
+//!
+//! - [`scene`], [`record`], [`ground_motion`], [`synthesis`]: what is simulated.
+//! - [`simulation`]: one scene, every device; [`batch`]: many dimensionless cases.
+//! - [`history`], [`outcome`], [`plot`], [`summary_table`], [`output`]: what comes out.
+//! - [`command`]: the subcommands of `sprag`.
+
 pub mod batch;
+pub mod command;
+pub mod ground_motion;
 pub mod history;
+pub mod interrupt;
 pub mod outcome;
+pub mod output;
 pub mod plot;
 pub mod record;
+pub mod scene;
+pub mod simulation;
 pub mod summary_table;
+pub mod synthesis;

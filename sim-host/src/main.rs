@@ -1,2 +1,37 @@
 //! The `sprag` command.
-fn main() {}
+
+use std::io::{stderr, stdout};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use sprag_sim_host::command::{batch, record, simulate, synthesize};
+use sprag_sim_host::interrupt::Interrupt;
+
+/// Rocking structures with inerters and clutches: simulate, and get the numbers to decide with.
+#[derive(Parser)]
+#[command(name = "sprag", version, propagate_version = true)]
+struct Line {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Simulate(simulate::SimulateArguments),
+    Batch(batch::BatchArguments),
+    Record(record::RecordArguments),
+    Synthesize(synthesize::SynthesizeArguments),
+}
+
+fn main() -> ExitCode {
+    let line = Line::parse();
+    let interrupt = Interrupt::installed();
+    let (mut out, mut err) = (stdout().lock(), stderr().lock());
+    let code = match &line.command {
+        Command::Simulate(arguments) => simulate::run(arguments, &mut out, &mut err, &interrupt),
+        Command::Batch(arguments) => batch::run(arguments, &mut err, &interrupt),
+        Command::Record(arguments) => record::run(arguments, &mut out, &mut err),
+        Command::Synthesize(arguments) => synthesize::run(arguments, &mut out, &mut err),
+    };
+    ExitCode::from(u8::try_from(code).unwrap_or(1))
+}

@@ -1,6 +1,9 @@
 //! How a simulation ends.
 
 use serde::Serialize;
+use sprag_shared::observer::Peaks;
+use sprag_shared::rocking::{Phase, State};
+use sprag_shared::scalar::Real;
 
 /// The four outcomes of the paper's section 4.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
@@ -17,6 +20,16 @@ pub enum Outcome {
 }
 
 impl Outcome {
+    /// The outcome of a motion that ended in `state` with `peaks`.
+    pub fn of<S: Real>(state: &State<S>, peaks: &Peaks<S>) -> Outcome {
+        match (state.phase, peaks.rocked, peaks.first_impact) {
+            (Phase::Overturned, _, None) => Outcome::OverturnedWithoutImpact,
+            (Phase::Overturned, _, Some(_)) => Outcome::OverturnedAfterImpact,
+            (_, false, _) => Outcome::NoRocking,
+            _ => Outcome::Safe,
+        }
+    }
+
     /// As tables and files print it.
     pub fn name(self) -> &'static str {
         match self {

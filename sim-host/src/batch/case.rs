@@ -7,7 +7,7 @@ use sprag_shared::error::ParameterError;
 use sprag_shared::ground::{Harmonics, Quiet};
 use sprag_shared::lever::Mount;
 use sprag_shared::observer::Peaks;
-use sprag_shared::rocking::{Limits, Phase, State, Stopped, System};
+use sprag_shared::rocking::{Limits, State, Stopped, System};
 use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure, WithSystem};
 use sprag_shared::taylor::Taylor;
 
@@ -152,12 +152,7 @@ impl WithSystem<f64> for Run<'_> {
         system.advance(self.method, &mut state, &pulse, duration, &limits(amplitude.abs()), &mut peaks)?;
         peaks.origin = duration;
         system.advance(self.method, &mut state, &Quiet, case.free_time, &limits(0.0), &mut peaks)?;
-        let outcome = match (state.phase, peaks.rocked, state.impacts) {
-            (Phase::Overturned, _, 0) => Outcome::OverturnedWithoutImpact,
-            (Phase::Overturned, _, _) => Outcome::OverturnedAfterImpact,
-            (_, false, _) => Outcome::NoRocking,
-            _ => Outcome::Safe,
-        };
+        let outcome = Outcome::of(&state, &peaks);
         Ok(CaseResult {
             outcome,
             peak_rotation: peaks.rotation / case.slenderness,

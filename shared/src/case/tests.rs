@@ -1,0 +1,148 @@
+use super::words::{MAGIC, VERSION};
+use super::*;
+use crate::block::{Block, Geometry};
+use crate::digest::Digest;
+use crate::ground::harmonic::MavroeidisPapageorgiou;
+use crate::lever::Mount;
+use crate::scalar::Real;
+use crate::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution};
+
+/// A slender block of p = 1/s under one cycle of sine, ω/p = 4, a_g/gα = 1.5 (Figure 5).
+fn figure05(kind: DeviceKind) -> Case<'static> {
+    let alpha = 0.125;
+    let pulse = Shape::Sine(Harmonics::sine(1.5 * alpha as f32, 4.0));
+    Case {
+        structure: Structure {
+            block: Block::new(8.0, alpha, 1.25).unwrap(),
+            geometry: Geometry::Slender,
+            device: Device { kind, mass_ratio: 0.5, ..Device::NONE },
+            restitution: Restitution::Constant(0.875),
+            rest_speed: f64::from(REST_SPEED as f32),
+        },
+        initially: Initially::Rest,
+        method: FixedMethod::RungeKutta4,
+        step: 1e-2,
+        ground: Ground::pieces(&[GroundPiece { shape: pulse, duration: core::f32::consts::FRAC_PI_2 }]).unwrap(),
+        free_time: 20.0,
+    }
+}
+
+fn words(case: &Case<'_>) -> ([u32; 256], usize) {
+    let mut words = [0; 256];
+    let count = case.encode(&mut words).unwrap();
+    (words, count)
+}
+
+#[test]
+fn a_case_comes_back_as_it_went() {
+    let record = [0, 0.25_f32.to_bits(), (-0.5_f32).to_bits()];
+    let wavelet = MavroeidisPapageorgiou { velocity_amplitude: 0.9, frequency: 0.5, oscillations: 2.0, phase: 0.0 }.harmonics();
+    let single = wavelet.terms.map(|t| crate::ground::harmonic::Harmonic {
+        amplitude: t.amplitude as f32,
+        frequency: t.frequency as f32,
+        phase: t.phase as f32,
+    });
+    let shapes = [
+        Shape::Quiet,
+        Shape::Linear(Linear { start: 0.1, slope: -2.0 }),
+        Shape::Sine(Harmonics::cosine(0.3, 6.0)),
+        Shape::ThreeSines(Harmonics { terms: single }),
+        Shape::Ricker(Ricker { amplitude: 0.4, rate: 3.0, centre: 1.5 }),
+    ];
+    let base = figure05(DeviceKind::ClutchedPair);
+    let mut cases = std::vec![base, Case { ground: Ground::Record { interval: 0.5, samples: &record }, ..base }];
+    cases.push(Case {
+        initially: Initially::Released { rotation: -0.0625, velocity: 0.5 },
+        method: FixedMethod::Taylor,
+        ground: Ground::pieces(&shapes.map(|shape| GroundPiece { shape, duration: 0.5 })).unwrap(),
+        ..base
+    });
+    for mount in [Mount::TyingPoint { height: 2.0, pulley_ratio: 1.5 }, Mount::BaseCorners { pulley_ratio: 3.0 }] {
+        let device = Device { mount, kinematics: KinematicsKind::Consistent, ..base.structure.device };
+        let structure =
+            Structure { device, geometry: Geometry::Full, restitution: Restitution::Geometric, ..base.structure };
+        cases.push(Case { structure, method: FixedMethod::SemiImplicitEuler, ..base });
+    }
+    for case in cases {
+        let (words, count) = words(&case);
+        assert_eq!(Case::decode(&words[..count]), Ok(case));
+        let end = run(&words[..count], &mut ()).unwrap();
+        assert!(end.steps > 50 && end.peaks.rotation > 0.0, "{end:?}");
+        let too_small = case.encode(&mut [0; 20]).unwrap_err();
+        assert_eq!(too_small, CaseError::Full);
+    }
+}
+
+#[test]
+fn bad_words_are_named() {
+    let (good, count) = words(&figure05(DeviceKind::Inerter));
+    let with = |index: usize, word: u32| {
+        let mut words = good;
+        words[index] = word;
+        run(&words[..count], &mut ()).unwrap_err()
+    };
+    assert_eq!(run(&[], &mut ()), Err(CaseError::Missing("the first word")));
+    assert_eq!(run(&good[..count - 1], &mut ()), Err(CaseError::Missing("a number of the shape")));
+    assert_eq!(run(&good[..count + 3], &mut ()), Err(CaseError::Trailing(3)));
+    assert_eq!(with(0, 7), CaseError::Magic(7));
+    assert_ne!(MAGIC, 7);
+    assert_eq!(with(1, VERSION + 1), CaseError::Version(VERSION + 1));
+    for (index, of) in [(5, "geometry"), (6, "device"), (8, "mount"), (11, "kinematics"), (12, "restitution"), (15, "start")] {
+        assert_eq!(with(index, 9), CaseError::Kind { of, word: 9 });
+    }
+    for (index, of) in [(18, "method"), (21, "ground"), (23, "shape")] {
+        assert_eq!(with(index, u32::MAX), CaseError::Kind { of, word: u32::MAX });
+    }
+    assert_eq!(with(22, 9), CaseError::TooManyPieces(9));
+    let parameter = |index: usize, number: f32| match with(index, number.to_bits()) {
+        CaseError::Parameter(error) => error.parameter,
+        other => panic!("{other}"),
+    };
+    assert_eq!(parameter(2, 0.0), "size");
+    assert_eq!(parameter(3, f32::NAN), "slenderness");
+    assert_eq!(parameter(4, 0.5), "inertia_ratio");
+    assert_eq!(parameter(7, -1.0), "mass_ratio");
+    assert_eq!(parameter(13, 1.5), "restitution");
+    assert_eq!(parameter(14, 0.0), "rest_speed");
+    assert_eq!(parameter(19, 0.0), "step");
+    assert_eq!(parameter(20, f32::INFINITY), "free_time");
+    assert_eq!(parameter(24, -1.0), "duration");
+    assert_eq!(parameter(26, f32::NAN), "number of a shape");
+    assert_eq!(with(19, 1e-7_f32.to_bits()), CaseError::TooManySteps);
+}
+
+/// The slender peaks of Figure 5 (VERIFICATION): here with η = 0.875, so close to them before the first impact only; what
+/// matters is that f32 and f64 agree.
+#[test]
+fn single_precision_is_close_to_double() {
+    struct InDouble;
+    impl WithSystem<f64> for InDouble {
+        type Output = (f64, u32);
+        fn with<R: Equation<f64>, E: Equation<f64>, C: Clutch>(self, system: System<f64, R, E, C>) -> (f64, u32) {
+            let (mut state, mut peaks) = (State::default(), Peaks::default());
+            let method = Taylor::<f64, 24>::adaptive(1e-17);
+            let limits = Limits { overturned: 1.0, events: 100_000 };
+            let pulse = Harmonics::sine(1.5 * 0.125, 4.0);
+            system.advance(&method, &mut state, &pulse, core::f64::consts::FRAC_PI_2, &limits, &mut peaks).unwrap();
+            system.advance(&method, &mut state, &Quiet, 20.0, &limits, &mut peaks).unwrap();
+            (peaks.rotation, state.impacts)
+        }
+    }
+    for kind in [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair] {
+        let case = figure05(kind);
+        let (exact, _) = case.structure.resolve(InDouble).unwrap();
+        for (method, step, tolerance) in [
+            (FixedMethod::RungeKutta4, 1e-2, 1e-5),
+            (FixedMethod::Taylor, 5e-2, 1e-5),
+            (FixedMethod::SemiImplicitEuler, 1e-3, 1e-2),
+        ] {
+            let mut digest = Digest::default();
+            let end = Case { method, step, ..case }.run(&mut digest).unwrap();
+            assert_eq!(end.ending, Ending::Safe);
+            assert_eq!(end.state.phase, Phase::Rest, "{kind:?} {method:?}");
+            let error = end.peaks.rotation.to_f64() / exact - 1.0;
+            assert!(error.abs() < tolerance, "{kind:?} {method:?}: {error}");
+            assert!(digest.stretches() >= end.steps && digest.events() > 10);
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! The scheme that most simulations use, and the paper's: fixed steps at whose ends the clutch is "re-evaluated according
+//! to Equation 10" and impacts are noticed. Nothing is located, so every event comes late by up to a step: an error of
+//! order one, whatever the method between events. [`crate::rocking`] is the exact counterpart.
+//!
+//! There is no branch in a step, only selection, so the same lines run in f32 on the target, in f64, and in SIMD lanes.
+//! That makes it the yardstick for what the equations cost.
+
+use crate::equation::{Equation, FullInerter, Kinematics, SlenderBlock};
+use crate::fixed::runge_kutta_4;
+use crate::ground::Piece;
+use crate::lever::Lever;
+use crate::scalar::{Real, Scalar};
+
+/// An equation of motion of which each lane can have its inerter engaged or released.
+pub trait Switched<S: Scalar>: Equation<S> {
+    /// `engaged` where the mask holds, `released` elsewhere. The two may differ in the inerter only.
+    fn switched(mask: S::Mask, engaged: &Self, released: &Self) -> Self;
+}
+
+impl<S: Scalar, L: Lever<S>, K: Kinematics> Switched<S> for FullInerter<S, L, K> {
+    #[inline(always)]
+    fn switched(mask: S::Mask, engaged: &Self, released: &Self) -> Self {
+        released.with_coupling(S::select(mask, engaged.coupling, released.coupling))
+    }
+}
+
+impl<S: Scalar> Switched<S> for SlenderBlock<S> {
+    #[inline(always)]
+    fn switched(mask: S::Mask, engaged: &Self, released: &Self) -> Self {
+        SlenderBlock {
+            frequency_squared: S::select(mask, engaged.frequency_squared, released.frequency_squared),
+            inertia: S::select(mask, engaged.inertia, released.inertia),
+            ..*released
+        }
+    }
+}
+
+/// θ, θ̇ and the toe.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DetectedState<S> {
+    /// θ, rad.
+    pub rotation: S,
+    /// θ̇, rad/s.
+    pub velocity: S,
+    /// s = ±1.
+    pub side: S,
+}
+
+impl<S: Scalar> DetectedState<S> {
+    /// A block that stands on both toes.
+    pub fn at_rest() -> DetectedState<S> {
+        DetectedState { rotation: S::of(0.0), velocity: S::of(0.0), side: S::of(1.0) }
+    }
+}
+
+/// A block with a clutched pair whose clutch and impacts are looked at once a step. With `released` equal to `engaged` it
+/// is the block with a single inerter, or with none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Detected<S, E> {
+    /// Equation of motion with the inerter released.
+    pub released: E,
+    /// Equation of motion with the inerter engaged.
+    pub engaged: E,
+    /// η, 0 to 1.
+    pub restitution: S,
+    /// Ground acceleration (in g) above which a block at rest uplifts.
+    pub uplift: S,
+}
+
+/// What [`Detected::follow`] saw.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sightings<S> {
+    /// Largest |θ| at a step's end, rad.
+    pub rotation: S,
+    /// Changes of toe.
+    pub impacts: u32,
+    /// |θ| passed the limit.
+    pub overturned: bool,
+}
+
+impl<S: Scalar, E: Switched<S>> Detected<S, E> {
+    /// One step of length `h` (s) with the classical Runge-Kutta method; `ground` is ü_g/g at its start, middle and end.
+    #[inline(always)]
+    pub fn runge_kutta_4(&self, state: DetectedState<S>, ground: [S; 3], h: S) -> DetectedState<S> {
+        let (side, h) = self.awake(&state, ground[0], h);
+        let equation = self.engagement(&state, side, ground[0]);
+        let first = equation.acceleration(side, state.rotation, state.velocity, ground[0]);
+        let (rotation, velocity) = runge_kutta_4(&equation, side, (state.rotation, state.velocity), first, ground, h);
+        self.impact(DetectedState { rotation, velocity, side })
+    }
+
+    /// One step of length `h` (s) with the semi-implicit Euler method; `ground` is ü_g/g at its start.
+    #[inline(always)]
+    pub fn semi_implicit_euler(&self, state: DetectedState<S>, ground: S, h: S) -> DetectedState<S> {
+        let (side, h) = self.awake(&state, ground, h);
+        let equation = self.engagement(&state, side, ground);
+        let velocity = state.velocity + h * equation.acceleration(side, state.rotation, state.velocity, ground);
+        self.impact(DetectedState { rotation: state.rotation + h * velocity, velocity, side })
+    }
+
+    /// A block at rest stays there while the push is below the threshold, which is a step of no length; above it the block
+    /// uplifts to the side opposite to the push.
+    #[inline(always)]
+    fn awake(&self, state: &DetectedState<S>, ground: S, h: S) -> (S, S) {
+        let (zero, one) = (S::of(0.0), S::of(1.0));
+        let motion = state.rotation.abs() + state.velocity.abs();
+        let moving = motion.exceeds(zero);
+        let opposite = S::select(ground.exceeds(zero), -one, one);
+        let uplifts = ground.abs().exceeds(self.uplift);
+        (S::select(moving, state.side, opposite), S::select(moving, h, S::select(uplifts, h, zero)))
+    }
+
+    /// Eq. 10 at the start of the step: engaged where acceleration and velocity of the terminals have one sign.
+    #[inline(always)]
+    fn engagement(&self, state: &DetectedState<S>, side: S, ground: S) -> E {
+        let drive = self.released.switching(side, state.rotation, state.velocity, ground);
+        E::switched((drive * state.velocity).exceeds(S::of(0.0)), &self.engaged, &self.released)
+    }
+
+    /// Where θ has changed its sign: θ̇⁺ = η θ̇⁻ and the other toe. θ stays where the step left it.
+    #[inline(always)]
+    fn impact(&self, end: DetectedState<S>) -> DetectedState<S> {
+        let hit = S::of(0.0).exceeds(end.rotation * end.side);
+        DetectedState {
+            rotation: end.rotation,
+            velocity: S::select(hit, end.velocity * self.restitution, end.velocity),
+            side: S::select(hit, -end.side, end.side),
+        }
+    }
+}
+
+impl<S: Real, E: Switched<S>> Detected<S, E> {
+    /// Follows `state` over `piece` from its local time 0 to `duration` (s) in Runge-Kutta steps of `h` (s, above 0; the
+    /// last one may be shorter), until |θ| passes `overturned` (rad). At most 2²⁴ steps.
+    pub fn follow<P: Piece<S>>(
+        &self,
+        state: &mut DetectedState<S>,
+        piece: &P,
+        duration: S,
+        h: S,
+        overturned: S,
+    ) -> Sightings<S> {
+        let mut seen = Sightings::<S>::default();
+        let mut time = S::ZERO;
+        let mut push = piece.acceleration(time);
+        for tick in 1..=1 << 24 {
+            if time >= duration || seen.overturned {
+                break;
+            }
+            let end = (S::count(tick) * h).smaller(duration);
+            let push_at_end = piece.acceleration(end);
+            let ground = [push, piece.acceleration(S::HALF * (time + end)), push_at_end];
+            let before = (state.side, *state != DetectedState::at_rest());
+            *state = self.runge_kutta_4(*state, ground, end - time);
+            seen.impacts += u32::from(before.1 && before.0 != state.side);
+            seen.rotation = seen.rotation.larger(state.rotation.abs());
+            seen.overturned = state.rotation.abs() > overturned;
+            (time, push) = (end, push_at_end);
+        }
+        seen
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ground::{Harmonics, Quiet};
+
+    extern crate std;
+    use std::println;
+
+    /// Figure 10: sine, ω/p = 6, a_g/gα = `amplitude`, σ = 0.5, η = 0.85; time in 1/p.
+    fn figure10<S: Real>(amplitude: f64) -> (Detected<S, SlenderBlock<S>>, Harmonics<S, 1>) {
+        let equation = |inertia: f64| SlenderBlock {
+            frequency_squared: S::of(1.0 / inertia),
+            slenderness: S::ONE,
+            inertia: S::of(inertia),
+            lever: S::ONE,
+        };
+        let block =
+            Detected { released: equation(1.0), engaged: equation(1.375), restitution: S::of(0.85), uplift: S::ONE };
+        (block, Harmonics::sine(S::of(amplitude), S::of(6.0)))
+    }
+
+    /// As [`Detected::follow`], but with the impacts located inside the step (and the uplift, by starting there): only the
+    /// clutch is looked at once a step.
+    fn follow_locating_impacts(amplitude: f64, h: f64) -> Sightings<f64> {
+        let (block, pulse) = figure10::<f64>(amplitude);
+        let mut seen = Sightings::<f64>::default();
+        let duration = core::f64::consts::TAU / 6.0;
+        let mut time = crate::math::asin(1.0 / amplitude) / 6.0;
+        let mut state = DetectedState { rotation: -0.0, velocity: -0.0, side: -1.0 };
+        state.velocity = -1e-15;
+        let push = |t: f64| if t < duration { pulse.acceleration(t) } else { 0.0 };
+        for tick in 1..=1 << 24 {
+            if time > 12.0 || seen.overturned || (time > duration && state.velocity.abs() < 1e-3 && state.rotation.abs() < 1e-3) {
+                break;
+            }
+            let mut end = tick as f64 * h;
+            if time < duration && end > duration {
+                end = duration
+            }
+            if end <= time { continue; }
+            while time < end {
+                let take = |length: f64| {
+                    let ground = [push(time), push(time + 0.5 * length), if time + length <= duration {pulse.acceleration(time + length)} else {0.0} ];
+                    let mut block = block;
+                    block.restitution = 1.0;
+                    block.runge_kutta_4(state, ground, length)
+                };
+                let whole = take(end - time);
+                if whole.side == state.side {
+                    state = whole;
+                    time = end;
+                } else {
+                    let (mut low, mut high) = (0.0, end - time);
+                    for _ in 0..60 {
+                        let middle = 0.5 * (low + high);
+                        if take(middle).side == state.side { low = middle } else { high = middle }
+                    }
+                    let at = take(high);
+                    time += high;
+                    state = DetectedState { rotation: 0.0, velocity: 0.85 * at.velocity, side: at.side };
+                    seen.impacts += 1;
+                }
+            }
+            seen.rotation = seen.rotation.larger(state.rotation.abs());
+            seen.overturned = state.rotation.abs() > 20.0;
+        }
+        seen
+    }
+
+    #[test]
+    fn explore() {
+        for amplitude in [7.7] {
+        for h in [1e-2, 5e-3, 2e-3, 1e-3, 7e-4, 5e-4,4e-4, 3e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5,5e-6,2e-6,1e-6] {
+            println!("located {h:e} {:?}", follow_locating_impacts(amplitude, h));
+            let (block, pulse) = figure10::<f64>(amplitude);
+            let mut s = DetectedState::at_rest();
+            let a = block.follow(&mut s, &pulse, core::f64::consts::TAU / 6.0, h, 20.0);
+            let b = block.follow(&mut s, &Quiet, 20.0, h, 20.0);
+            let (block, pulse) = figure10::<f32>(amplitude);
+            let mut s = DetectedState::at_rest();
+            let c = block.follow(&mut s, &pulse, core::f32::consts::TAU / 6.0, h as f32, 20.0);
+            let d = block.follow(&mut s, &Quiet, 20.0, h as f32, 20.0);
+            println!("{amplitude} {h:e} {} {} {} {} | f32 {} {}", a.rotation.max(b.rotation), a.impacts, b.impacts, b.overturned, c.rotation.max(d.rotation), d.overturned);
+        }
+        }
+    }
+}

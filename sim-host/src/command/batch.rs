@@ -1,0 +1,133 @@
+//! `sprag batch`: many independent cases, one a row.
+
+use std::io::{BufReader, IsTerminal, Write};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
+use sprag_shared::taylor::Taylor;
+
+use super::BAD_INPUT;
+use crate::batch::case::{CaseError, CaseResult, TERMS, TIGHT};
+use crate::batch::table::{CASE_COLUMNS, RESULT_COLUMNS, TableError, read_cases, write_result};
+use crate::interrupt::{self, Interrupt};
+use crate::output::{OutputError, Results};
+
+/// Run many independent cases: dimensionless blocks under one-cycle pulses.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = format!("Example:\n  sprag batch cases.csv --out results.csv\n\nA case file has the columns\n  {CASE_COLUMNS}\n\
+    and the result file\n  {RESULT_COLUMNS}\nwith times in 1/p from the pulse's start. Rows keep their order, whatever the number of threads."))]
+pub struct BatchArguments {
+    /// Case file.
+    #[arg(value_name = "CASES.csv")]
+    pub cases: PathBuf,
+    /// Result file.
+    #[arg(long, value_name = "RESULTS.csv")]
+    pub out: PathBuf,
+    /// Threads; all cores by default. The result does not depend on it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Size of the last terms of the series over the rotation that matters, 1e-20 to 0.01.
+    #[arg(long, value_name = "T", default_value_t = TIGHT, value_parser = tolerance)]
+    pub tolerance: f64,
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (1e-20..=1e-2).contains(&value) => Ok(value),
+        _ => Err("must be a number from 1e-20 to 0.01".to_owned()),
+    }
+}
+
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error("{}: {error}", path.display())]
+    Unreadable { path: PathBuf, error: std::io::Error },
+    #[error("{}: {error}", path.display())]
+    Table { path: PathBuf, error: TableError },
+    #[error("{}: case `{id}`: {error}", path.display())]
+    Case { path: PathBuf, id: String, error: CaseError },
+    #[error("{0}")]
+    Output(#[from] OutputError),
+    #[error("the threads cannot be started: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+    #[error("interrupted")]
+    Interrupted,
+}
+
+/// Cases that one task works on before it looks up.
+const CHUNK: usize = 256;
+
+/// Runs the command; errors go to `err`.
+pub fn run(arguments: &BatchArguments, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
+    match run_or_fail(arguments, interrupt) {
+        Ok(()) => 0,
+        Err(Failure::Interrupted) => {
+            let _ = writeln!(err, "sprag: interrupted; nothing was written");
+            interrupt::EXIT_CODE
+        }
+        Err(failure) => {
+            let _ = writeln!(err, "sprag: {failure}");
+            BAD_INPUT
+        }
+    }
+}
+
+fn run_or_fail(arguments: &BatchArguments, interrupt: &Interrupt) -> Result<(), Failure> {
+    let path = &arguments.cases;
+    let file = std::fs::File::open(path).map_err(|error| Failure::Unreadable { path: path.clone(), error })?;
+    let cases = read_cases(BufReader::new(file)).map_err(|error| Failure::Table { path: path.clone(), error })?;
+    // Where the results go is tried before the work, not after it.
+    let mut results = Results::default();
+    results.add(&arguments.out, |_| Ok(()))?;
+    drop(results);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
+    let progress = progress_bar(cases.len() as u64);
+    let done = AtomicU64::new(0);
+    let answers: Vec<Result<CaseResult, CaseError>> = pool.install(|| {
+        cases
+            .par_chunks(CHUNK)
+            .flat_map_iter(|chunk| {
+                let method = Taylor::<f64, TERMS>::adaptive(arguments.tolerance);
+                let stop = interrupt.is_set();
+                let answers: Vec<_> =
+                    if stop { Vec::new() } else { chunk.iter().map(|(_, case)| case.run(&method)).collect() };
+                progress.set_position(done.fetch_add(chunk.len() as u64, Ordering::Relaxed) + chunk.len() as u64);
+                answers
+            })
+            .collect()
+    });
+    progress.finish_and_clear();
+    if interrupt.is_set() {
+        return Err(Failure::Interrupted);
+    }
+    if let Some((id, error)) = cases.iter().zip(&answers).find_map(|((id, _), answer)| answer.as_ref().err().map(|e| (id, *e))) {
+        return Err(Failure::Case { path: path.clone(), id: id.clone(), error });
+    }
+    let mut results = Results::default();
+    results.add(&arguments.out, |out| {
+        writeln!(out, "{RESULT_COLUMNS}")?;
+        for ((id, _), answer) in cases.iter().zip(&answers) {
+            if let Ok(answer) = answer {
+                write_result(out, id, answer)?;
+            }
+        }
+        Ok(())
+    })?;
+    results.commit()?;
+    Ok(())
+}
+
+/// A bar on a terminal, nothing in a pipe.
+fn progress_bar(length: u64) -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(length);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} cases, {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}

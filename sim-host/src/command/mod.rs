@@ -1,0 +1,10 @@
+//! The subcommands of `sprag`. Each has its arguments and a `run` that returns the exit code: 0 well, 2 bad input or
+//! output, 130 interrupted.
+
+pub mod batch;
+pub mod record;
+pub mod simulate;
+pub mod synthesize;
+
+/// Exit code for bad input, and for output that cannot be written.
+pub const BAD_INPUT: i32 = 2;

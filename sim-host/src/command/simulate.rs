@@ -1,0 +1,149 @@
+//! `sprag simulate`: one scene, every device, a summary, a history and a picture.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde::Serialize;
+
+use super::BAD_INPUT;
+use crate::history::{History, write_csv};
+use crate::interrupt::{self, Interrupt};
+use crate::output::{OutputError, Results, make_folder};
+use crate::plot::{PlotError, TimeAxis, history_figure};
+use crate::scene::ground::GroundError;
+use crate::scene::schema::{SceneFile, TimeAxisName};
+use crate::scene::{Scene, SceneError};
+use crate::simulation::{DeviceRun, RunError, simulate};
+use crate::summary_table::{SummaryRow, summary_table};
+
+/// Simulate a scene: every device under the same ground motion.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag simulate scenes/near_fault.toml\n  \
+    sprag simulate scenes/record.toml --record RSN181_IMPVALL.H_H-E06230.AT2 --out out/imperial\n  \
+    sprag simulate scenes/figure10.toml --set accuracy.method=runge-kutta-4 --set accuracy.step_ratio=1e-3\n\n\
+    Writes summary.json, history.csv and history.svg.")]
+pub struct SimulateArguments {
+    /// Scene file.
+    #[arg(value_name = "SCENE.toml")]
+    pub scene: PathBuf,
+    /// Change one value of the scene, such as block.size_m=2 or device.1.mass_ratio=0.5.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Ground motion record, in the place of the scene's.
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    /// Folder for the results; out/<name of the scene> by default.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Show the picture.
+    #[arg(long)]
+    pub open: bool,
+}
+
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error("{0}")]
+    Scene(#[from] SceneError),
+    #[error("{0}")]
+    Ground(#[from] GroundError),
+    #[error("{0}")]
+    Run(#[from] RunError),
+    #[error("the picture cannot be drawn: {0}")]
+    Plot(#[from] PlotError),
+    #[error("{0}")]
+    Output(#[from] OutputError),
+}
+
+/// `summary.json`.
+#[derive(Serialize)]
+struct Summary<'a> {
+    command: &'static str,
+    version: &'static str,
+    scene: &'a SceneFile,
+    runs: &'a [DeviceRun],
+}
+
+/// Runs the command; a table goes to `out`, errors go to `err`.
+pub fn run(arguments: &SimulateArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
+    match run_or_fail(arguments, out, err, interrupt) {
+        Ok(()) => 0,
+        Err(Failure::Run(RunError::Interrupted)) => {
+            let _ = writeln!(err, "sprag: interrupted; nothing was written");
+            interrupt::EXIT_CODE
+        }
+        Err(failure) => {
+            let _ = writeln!(err, "sprag: {failure}");
+            BAD_INPUT
+        }
+    }
+}
+
+fn run_or_fail(
+    arguments: &SimulateArguments,
+    out: &mut impl Write,
+    err: &mut impl Write,
+    interrupt: &Interrupt,
+) -> Result<(), Failure> {
+    let mut scene = Scene::load(&arguments.scene, &arguments.set)?;
+    if let Some(record) = &arguments.record {
+        scene.use_record(record)?;
+    }
+    let ground = scene.ground_motion()?;
+    let folder = arguments.out.clone().unwrap_or_else(|| {
+        let name = arguments.scene.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_os_string());
+        Path::new("out").join(name)
+    });
+    // Where the results go is tried before the work, not after it.
+    make_folder(&folder)?;
+    let runs = simulate(&scene, &ground, interrupt)?;
+    let rows: Vec<SummaryRow> = runs.iter().map(row).collect();
+    let axis = match scene.file.output.time_axis {
+        TimeAxisName::Seconds => TimeAxis::Seconds,
+        TimeAxisName::FrequencyParameter => TimeAxis::TimesFrequencyParameter,
+    };
+    let histories: Vec<History> = runs.iter().map(|run| run.history.clone()).collect();
+    let figure = history_figure(&scene.file.title, &histories, axis)?;
+    let mut file = scene.file.clone();
+    if let Some(record) = &arguments.record {
+        // As the user wrote it, so that the summary does not depend on where it was made.
+        for table in &mut file.ground {
+            if table.motion == crate::scene::ground::Motion::Record {
+                table.file = Some(record.clone());
+                break;
+            }
+        }
+    }
+    let summary = Summary { command: "simulate", version: env!("CARGO_PKG_VERSION"), scene: &file, runs: &runs };
+    let picture = folder.join("history.svg");
+    let mut results = Results::default();
+    results.add(&folder.join("summary.json"), |file| {
+        serde_json::to_writer_pretty(&mut *file, &summary).map_err(std::io::Error::other)?;
+        file.write_all(b"\n")
+    })?;
+    results.add(&folder.join("history.csv"), |file| write_csv(&histories, file).map_err(std::io::Error::other))?;
+    results.add(&picture, |file| file.write_all(figure.as_bytes()))?;
+    if interrupt.is_set() {
+        return Err(RunError::Interrupted.into());
+    }
+    results.commit()?;
+    let _ = write!(out, "{}", summary_table(&rows));
+    let _ = writeln!(out, "results in {}", folder.display());
+    if arguments.open
+        && let Err(error) = open::that_detached(&picture)
+    {
+        let _ = writeln!(err, "sprag: the picture cannot be shown: {error}");
+    }
+    Ok(())
+}
+
+fn row(run: &DeviceRun) -> SummaryRow {
+    SummaryRow {
+        peak_rotation_ratio: run.peak_rotation,
+        peak_acceleration_ratio: run.peak_acceleration,
+        impacts: run.impacts as usize,
+        first_impact_s: run.first_impact_time_s,
+        peak_force_ratio: Some(run.peak_force_ratio).filter(|force| *force > 0.0),
+        ..SummaryRow::of(&run.history)
+    }
+}

@@ -1,0 +1,274 @@
+//! Plain text and CSV: values alone in any number of columns, or a time column with one or more components.
+
+use super::at2;
+use super::contents::{Contents, Format, Header, StatedStep, bad_field, header_units, reject_other_quantity};
+use super::error::RecordError;
+use super::number::{append_numbers, last_digit};
+use super::units::{StatedUnits, stated_in};
+use super::warning::Warning;
+use super::{Component, ReadOptions, resample, time_axis};
+
+/// Lines that are neither numbers nor comments may stand only this far before the data.
+const MAXIMUM_HEADER_LINES: usize = 100;
+/// A first column is a time column if at least this share of its steps is positive: nine in ten, so that a damaged
+/// time column is reported as one and not read as accelerations, of which half would be positive.
+const TIME_COLUMN_SHARE: f64 = 0.9;
+/// Rows needed to tell a time column from values that happen to grow, in tables of more than two columns.
+const TIME_COLUMN_ROWS: usize = 8;
+
+/// The rows of numbers of a text, and the lines before and between them.
+struct Rows<'a> {
+    values: Vec<f64>,
+    /// Line index from 0 and index of the first value of each row.
+    starts: Vec<(usize, usize)>,
+    /// Comments and leading text, with line index, without comment marks.
+    header: Vec<(usize, &'a str)>,
+}
+
+impl Rows<'_> {
+    fn row(&self, row: usize) -> &[f64] {
+        let end = self.starts.get(row + 1).map_or(self.values.len(), |next| next.1);
+        self.starts.get(row).and_then(|start| self.values.get(start.1..end)).unwrap_or(&[])
+    }
+}
+
+fn rows<'a>(name: &str, lines: &[&'a str]) -> Result<Rows<'a>, RecordError> {
+    let mut rows = Rows { values: Vec::new(), starts: Vec::new(), header: Vec::new() };
+    for (index, line) in lines.iter().enumerate() {
+        let plain = line.trim_start();
+        let uncommented = plain.trim_start_matches(['#', '%', '!', '*', '/', '|']);
+        if uncommented.len() < plain.len() {
+            rows.header.push((index, uncommented.trim()));
+            continue;
+        }
+        let start = rows.values.len();
+        match append_numbers(line, None, &mut rows.values) {
+            Ok(0) => {}
+            Ok(_) => rows.starts.push((index, start)),
+            Err(field) if rows.starts.is_empty() && !field.not_finite && index < MAXIMUM_HEADER_LINES => {
+                rows.header.push((index, line.trim()));
+            }
+            Err(field) => return Err(bad_field(name, index, field)),
+        }
+    }
+    Ok(rows)
+}
+
+/// Reads the lines of a text with columns.
+pub(super) fn read(name: &str, lines: &[&str], options: &ReadOptions) -> Result<Contents, RecordError> {
+    let mut rows = rows(name, lines)?;
+    let (samples, step) = stated_counts(&rows);
+    let stated_first_row = take_counts_row(&mut rows, lines);
+    let header = Header {
+        title: rows.header.iter().map(|(_, line)| *line).find(|line| !line.is_empty()).unwrap_or("").chars().take(200).collect(),
+        samples: stated_first_row.0.or(samples),
+        peak_m_s2: None,
+        time_step: stated_first_row.1.or(step),
+    };
+    let names = column_names(&rows);
+    let time_column = match &names {
+        Some(names) => names.iter().position(|name| is_time(name)).or_else(|| looks_like_time(&rows).then_some(0)),
+        None => looks_like_time(&rows).then_some(0),
+    };
+    match (time_column, names) {
+        (None, Some(names)) if names.len() > 1 => read_columns(name, lines, &rows, header, None, Some(names), options),
+        (None, names) => {
+            let mut contents = Contents::new(Format::Values);
+            contents.units = match names.as_deref().and_then(|names| names.first()).and_then(|column| stated_in(column)) {
+                Some(StatedUnits::Known(units)) => Some(units),
+                _ => header_units(name, &rows.header)?,
+            };
+            contents.header = header;
+            contents.values = rows.values;
+            Ok(contents)
+        }
+        (time, names) => read_columns(name, lines, &rows, header, time, names, options),
+    }
+}
+
+/// Number of samples and step in comments such as `# NPTS = 4000, DT = 0.005`.
+fn stated_counts(rows: &Rows<'_>) -> (Option<u64>, Option<StatedStep>) {
+    let mut found = (None, None);
+    for (_, line) in &rows.header {
+        let (samples, step) = at2::stated_counts(line);
+        found = (found.0.or(samples), found.1.or(step));
+    }
+    found
+}
+
+/// Removes a first row that is `samples` or `samples step`, recognised by the number of values that follow.
+fn take_counts_row(rows: &mut Rows<'_>, lines: &[&str]) -> (Option<u64>, Option<StatedStep>) {
+    let first = rows.row(0);
+    let after = rows.values.len() - first.len();
+    let (count, step) = match *first {
+        [count] => (count, None),
+        [count, step] if step > 0.0 && step < 1.0 => (count, Some(step)),
+        _ => return (None, None),
+    };
+    // Below this a small whole number may be a sample as well.
+    const FEWEST: usize = 10;
+    let same_width = rows.row(1).len() == first.len() && first.len() == 2;
+    if after < FEWEST || count != after as f64 || same_width {
+        return (None, None);
+    }
+    let text = lines.get(rows.starts[0].0).and_then(|line| line.split([' ', '\t', ',', ';']).rfind(|field| !field.is_empty()));
+    let step = step.map(|value_s| StatedStep { value_s, resolution_s: text.map_or(0.0, last_digit) });
+    let width = first.len();
+    rows.values.drain(..width);
+    rows.starts.remove(0);
+    rows.starts.iter_mut().for_each(|start| start.1 -= width);
+    (Some(after as u64), step)
+}
+
+/// Names in the last header line that has as many fields as the first row has columns.
+fn column_names<'a>(rows: &Rows<'a>) -> Option<Vec<&'a str>> {
+    let width = rows.row(0).len();
+    let first_row = rows.starts.first()?.0;
+    rows.header.iter().rev().filter(|(index, line)| *index < first_row && !line.is_empty()).find_map(|(_, line)| {
+        let parted = line.contains([',', ';', '\t']);
+        let names: Vec<&str> = if parted {
+            line.split([',', ';', '\t']).map(|field| field.trim().trim_matches('"')).collect()
+        } else {
+            line.split_whitespace().collect()
+        };
+        let named = names.iter().any(|name| is_time(name) || is_acceleration(name));
+        (names.len() == width && named).then_some(names)
+    })
+}
+
+fn first_word(name: &str) -> String {
+    name.trim().split(|c: char| !c.is_alphanumeric()).next().unwrap_or("").to_lowercase()
+}
+
+fn is_time(name: &str) -> bool {
+    matches!(first_word(name).as_str(), "time" | "times" | "t" | "sec" | "seconds")
+}
+
+fn is_acceleration(name: &str) -> bool {
+    let word = first_word(name);
+    word.starts_with("acc") || matches!(word.as_str(), "a" | "ag")
+}
+
+/// Seconds in one unit of a time column, by its name.
+fn seconds_per_unit(name: &str) -> f64 {
+    let milliseconds = name.split(|c: char| !c.is_alphanumeric()).any(|word| {
+        let word = word.to_lowercase();
+        word == "ms" || word == "msec" || word.starts_with("millis")
+    });
+    if milliseconds { 1e-3 } else { 1.0 }
+}
+
+fn looks_like_time(rows: &Rows<'_>) -> bool {
+    let count = rows.starts.len();
+    let width = rows.row(0).len();
+    if width < 2 || count < 2 || (width > 2 && count < TIME_COLUMN_ROWS) {
+        return false;
+    }
+    let first = |row: usize| rows.row(row).first().copied().unwrap_or(f64::NAN);
+    let positive = (1..count).filter(|row| first(*row) > first(row - 1)).count();
+    positive as f64 >= TIME_COLUMN_SHARE * (count - 1) as f64
+}
+
+/// Which of the value columns to take.
+fn choose(name: &str, columns: &[usize], labels: &[&str], component: Option<&Component>) -> Result<usize, RecordError> {
+    let available = || labels.iter().map(|label| label.chars().take(40).collect()).take(20).collect::<Vec<String>>().join(", ");
+    let accelerations: Vec<usize> = (0..columns.len()).filter(|index| is_acceleration(labels[*index])).collect();
+    let chosen = match (component, accelerations.as_slice(), columns) {
+        (Some(component), ..) if columns.len() > 1 => component.position_in(labels),
+        (_, _, [_]) => Some(0),
+        (_, [only], _) => Some(*only),
+        _ => None,
+    };
+    chosen.ok_or_else(|| RecordError::Component {
+        file: name.to_owned(),
+        asked: component.map_or("(none chosen)".to_owned(), |component| format!("`{component}`")),
+        available: available(),
+    })
+}
+
+fn read_columns(
+    name: &str,
+    lines: &[&str],
+    rows: &Rows<'_>,
+    header: Header,
+    time_column: Option<usize>,
+    names: Option<Vec<&str>>,
+    options: &ReadOptions,
+) -> Result<Contents, RecordError> {
+    let width = rows.row(0).len();
+    for (row, start) in rows.starts.iter().enumerate() {
+        let found = rows.row(row).len();
+        if found != width {
+            return Err(RecordError::RaggedRow { file: name.to_owned(), line: start.0 + 1, found, expected: width });
+        }
+    }
+    let columns: Vec<usize> = (0..width).filter(|column| Some(*column) != time_column).collect();
+    let numbered: Vec<String> = (1..=columns.len()).map(|number| number.to_string()).collect();
+    let labels: Vec<&str> = match &names {
+        Some(names) => columns.iter().map(|column| names[*column]).collect(),
+        None => numbered.iter().map(String::as_str).collect(),
+    };
+    let chosen = choose(name, &columns, &labels, options.component.as_ref())?;
+    let column = |column: usize| (0..rows.starts.len()).map(move |row| rows.row(row)[column]);
+
+    let mut contents = Contents::new(if time_column.is_some() { Format::Table } else { Format::Values });
+    contents.header = header;
+    contents.component = (columns.len() > 1).then(|| labels[chosen].to_owned());
+    if names.is_some() {
+        reject_other_quantity(name, rows.header.last().map_or(0, |header| header.0), labels[chosen])?;
+    }
+    contents.units = match stated_in(labels[chosen]) {
+        Some(StatedUnits::Known(units)) => Some(units),
+        _ => header_units(name, &rows.header)?,
+    };
+    contents.values = column(columns[chosen]).collect();
+    let Some(time_column) = time_column else { return Ok(contents) };
+
+    let scale = names.as_ref().map_or(1.0, |names| seconds_per_unit(names[time_column]));
+    let times: Vec<f64> = column(time_column).map(|time| time * scale).collect();
+    let resolution = rows.starts.iter().map(|start| field_resolution(lines[start.0], time_column)).fold(0.0, f64::max) * scale;
+    if times.len() < 2 {
+        return Ok(contents);
+    }
+    match time_axis::equal_steps(&times, resolution) {
+        Ok(equal) => {
+            contents.start_time_s = equal.start_s;
+            contents.header.time_step = Some(equal.step);
+        }
+        Err(unequal) => {
+            let line = |row: usize| rows.starts.get(row).map_or(0, |start| start.0 + 1);
+            let Some(step_s) = options.resample_to_s else {
+                return Err(RecordError::UnequalSteps {
+                    file: name.to_owned(),
+                    line: line(unequal.row),
+                    found: rounded(unequal.found_s),
+                    expected: rounded(unequal.mean_s),
+                });
+            };
+            if let Some(row) = (1..times.len()).find(|row| times[*row] <= times[row - 1]) {
+                let found = rounded(times[row] - times[row - 1]);
+                return Err(RecordError::TimeNotIncreasing { file: name.to_owned(), line: line(row), found });
+            }
+            contents.start_time_s = times[0];
+            contents.values = resample::linear(name, &times, &contents.values, step_s)?;
+            contents.header.time_step = Some(StatedStep { value_s: step_s, resolution_s: 0.0 });
+            contents.warnings.push(Warning::Resampled { from_s: rounded(unequal.mean_s), to_s: step_s });
+        }
+    }
+    Ok(contents)
+}
+
+/// Six significant digits, for messages.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+/// Value of the last printed digit of one field of a line.
+fn field_resolution(line: &str, column: usize) -> f64 {
+    let fields = line.split([' ', '\t', ',', ';']).filter(|field| !field.is_empty());
+    fields.into_iter().nth(column).map_or(0.0, |field| last_digit(field.trim_matches('"')))
+}
+
+#[cfg(test)]
+#[path = "table_tests.rs"]
+mod tests;

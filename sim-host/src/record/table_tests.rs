@@ -1,0 +1,157 @@
+//! Texts as people write them, good and bad.
+
+use crate::record::{Component, Format, ReadOptions, Record, RecordError, Units, Warning};
+
+fn read(text: &str, options: &ReadOptions) -> Result<Record, RecordError> {
+    Record::parse("t.txt", text.as_bytes(), options)
+}
+
+fn plain(text: &str) -> Result<Record, RecordError> {
+    read(text, &ReadOptions::default())
+}
+
+fn message(text: &str) -> String {
+    plain(text).unwrap_err().to_string()
+}
+
+#[test]
+fn tables_with_a_header_need_no_options() {
+    for text in [
+        "# time_s,acc_g\n0.00,0.1\n0.01,-0.2\n0.02,0.05\n",
+        "time_s,acc_g\n0.00,0.1\n0.01,-0.2\n0.02,0.05\n",
+        "\"Time (s)\",\"Acceleration (g)\"\r\n0.00,0.1\r\n0.01,-0.2\r\n0.02,0.05\r\n",
+        "% a station, units: g\n  0.00  0.1\n  0.01 -0.2\n  0.02 0.05\n",
+        "Time (ms);Acc (g)\n0;0.1\n10;-0.2\n20;0.05\n",
+        "time acc_g\n1.00\t0.1\n1.01\t-0.2\n# a comment between\n1.02\t0.05\n\n",
+    ] {
+        let record = plain(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        assert_eq!((record.format, record.time_step_s, record.units), (Format::Table, 0.01, Units::StandardGravity), "{text}");
+        for (found, expected) in record.acceleration_m_s2.iter().zip([0.980665, -1.96133, 0.4903325]) {
+            assert!((found - expected).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn values_alone_need_a_step_and_units() {
+    let step = ReadOptions { time_step_s: Some(0.02), ..ReadOptions::default() };
+    let both = ReadOptions { units: Some(Units::CentimetrePerSecondSquared), ..step.clone() };
+    let text = " 100.0  -200.0 50.\n  25. 0 -1\n 7\n";
+    let record = read(text, &both).unwrap();
+    assert_eq!((record.format, record.acceleration_m_s2.len()), (Format::Values, 7));
+    assert!((record.acceleration_m_s2[1] + 2.0).abs() < 1e-12);
+    assert_eq!(
+        read(text, &step).unwrap_err().to_string(),
+        "t.txt: no units in the file: say them with --units (g, m/s2, cm/s2 (gal), in/s2)"
+    );
+    assert_eq!(
+        read("1\n2\n3\n", &ReadOptions { units: Some(Units::StandardGravity), ..ReadOptions::default() })
+            .unwrap_err()
+            .to_string(),
+        "t.txt: no time step in the file: say it in seconds with --dt, for example --dt 0.005"
+    );
+    let commented = plain("# dt = 0.02 s, units: cm/s2\n1\n2\n3\n").unwrap();
+    assert_eq!((commented.time_step_s, commented.units), (0.02, Units::CentimetrePerSecondSquared));
+}
+
+#[test]
+fn a_first_row_of_counts_is_no_sample() {
+    let values: String = (0..12).map(|i| format!("0.0{i}\n")).collect();
+    let g = ReadOptions { units: Some(Units::StandardGravity), ..ReadOptions::default() };
+    let record = read(&format!("12 0.005\n{values}"), &g).unwrap();
+    assert_eq!((record.acceleration_m_s2.len(), record.time_step_s, record.header.samples), (12, 0.005, Some(12)));
+}
+
+#[test]
+fn components_of_a_table_are_chosen_by_name_or_number() {
+    let text: String = (0..10).map(|i| format!("0.{i} {} {}\n", i % 3, i % 2)).collect();
+    let options = |component: &str| ReadOptions {
+        units: Some(Units::MetrePerSecondSquared),
+        component: Some(Component::from(component)),
+        ..ReadOptions::default()
+    };
+    assert_eq!(read(&text, &options("2")).unwrap().acceleration_m_s2[..3], [0.0, 1.0, 0.0]);
+    assert!(matches!(plain(&text), Err(RecordError::Component { .. })));
+    let named = format!("t ns_m_s2 ew_m_s2\n{text}");
+    assert_eq!(read(&named, &options("ns")).unwrap().acceleration_m_s2[..3], [0.0, 1.0, 2.0]);
+    let quantities = "time_s,acc_g,vel_m_s\n0,0.1,5\n1,0.2,6\n";
+    assert_eq!(plain(quantities).unwrap().component.as_deref(), Some("acc_g"));
+}
+
+#[test]
+fn unequal_steps_are_an_error_and_resampled_only_on_request() {
+    let text = "# time_s,acc_g\n0.00,0.0\n0.01,0.1\n0.02,0.2\n0.04,0.4\n0.05,0.5\n";
+    assert_eq!(
+        message(text),
+        "t.txt: line 5: time advances by 0.02 s where the mean step is 0.0125 s; equal steps are needed, or ask for linear resampling with --resample"
+    );
+    let record = read(text, &ReadOptions { resample_to_s: Some(0.01), ..ReadOptions::default() }).unwrap();
+    assert_eq!(record.acceleration_m_s2.len(), 6);
+    assert!((record.acceleration_m_s2[3] - 0.3 * 9.80665).abs() < 1e-12);
+    assert!(record.warnings.iter().any(|warning| matches!(warning, Warning::Resampled { .. })));
+    let backwards = "# time_s,acc_g\n".to_owned()
+        + &(0..30).map(|i| format!("0.{:02},0.1\n", if i == 20 { 5 } else { i })).collect::<String>();
+    assert!(matches!(plain(&backwards), Err(RecordError::UnequalSteps { line: 22, .. })), "{}", message(&backwards));
+    let options = ReadOptions { resample_to_s: Some(0.01), ..ReadOptions::default() };
+    assert!(matches!(read(&backwards, &options), Err(RecordError::TimeNotIncreasing { line: 22, .. })));
+}
+
+#[test]
+fn damage_is_named_with_its_line() {
+    assert_eq!(message("# time_s,acc_g\n0,0\n0.01,abc\n"), "t.txt: line 3: `abc` where a number is due");
+    assert_eq!(
+        message("# time_s,acc_g\n0,0\n0.01,inf\n"),
+        "t.txt: line 3: `inf` is not finite; every sample must be a finite number"
+    );
+    assert_eq!(message("# time_s,acc_g\n0,0\n0.01,\n"), "t.txt: line 3: 1 column(s) where 2 are due");
+    assert_eq!(message("# time_s,acc_g\n0,,0\n"), "t.txt: 0 sample(s); a record needs at least 2");
+    assert_eq!(message(""), "t.txt: 0 sample(s); a record needs at least 2");
+    assert_eq!(message("# time_s,acc_g\n0,0.1\n"), "t.txt: 1 sample(s); a record needs at least 2");
+    assert_eq!(message("# units: furlong\n1\n2\n"), "t.txt: line 1: units `furlong`; allowed are g, m/s2, cm/s2 (gal), in/s2");
+    assert!(message("# time_s,acc_g\n0,1\n0.01,1e7\n").contains("sample 2 is 9.80665e7 m/s2"));
+}
+
+#[test]
+fn any_bytes_give_a_record_or_an_error() {
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::{Rng, SeedableRng};
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    let seeds: [&[u8]; 6] = [
+        b"PEER\nE\nACCELERATION IN UNITS OF G\nNPTS= 4, DT= .01 SEC\n.1 .2\n-.3-.5E-1\n",
+        b"# time_s,acc_g\n0.00,0.1\n0.01,-0.2\n0.02,0.05\n",
+        b"{\"dT\": 0.01, \"data_x\": [0.0, 0.2], \"data_y\": [0, 1e3]}",
+        b"12 0.01\n1\n2\n3\n4\n5\n6\n7\n8\n9\n10\n11\n12\n",
+        b"2 CORRECTED ACCELEROGRAM\n*\n*\n*\n*\n*\n*\n*\n*\n*\n*\n    -32768      1989\n",
+        b"t x y\n0 1 2\n1 2 3\n2 3 4\n3 4 5\n4 5 6\n5 6 7\n6 7 8\n7 8 9\n",
+    ];
+    let alphabet = b"0123456789.+-eEdD,; \t\n\r#/NPTSDT=gG{}[]\":\xff\x00\xc3";
+    let names = ["a.AT2", "a.json", "a.smc", "a.csv", ""];
+    for round in 0..20_000 {
+        let mut bytes = seeds[round % seeds.len()].to_vec();
+        for _ in 0..1 + random.next_u32() % 6 {
+            let at = random.next_u32() as usize % bytes.len().max(1);
+            let letter = alphabet[random.next_u32() as usize % alphabet.len()];
+            match random.next_u32() % 4 {
+                0 if !bytes.is_empty() => drop(bytes.remove(at)),
+                1 => bytes.insert(at.min(bytes.len()), letter),
+                2 => bytes.truncate(at.max(1)),
+                _ => {
+                    if let Some(byte) = bytes.get_mut(at) {
+                        *byte = letter;
+                    }
+                }
+            }
+        }
+        let options = ReadOptions {
+            units: (round % 2 == 0).then_some(Units::StandardGravity),
+            time_step_s: (round % 3 == 0).then_some(0.01),
+            component: (round % 5 == 0).then(|| Component::from("1")),
+            resample_to_s: (round % 7 == 0).then_some(0.005),
+        };
+        if let Ok(record) = Record::parse(names[round % names.len()], &bytes, &options) {
+            assert!(record.acceleration_m_s2.len() >= 2 && record.acceleration_m_s2.iter().all(|a| a.is_finite()));
+            let intensity = crate::record::Intensity::of(&record);
+            assert!(intensity.pgv_m_s.is_finite() && intensity.arias_m_s.is_finite() && intensity.d5_95_s >= 0.0);
+        }
+    }
+}

@@ -1,0 +1,264 @@
+//! `[[ground]]`: the motions whose sum shakes the block.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use sprag_shared::block::{Block, GRAVITY};
+use sprag_shared::ground::harmonic::MavroeidisPapageorgiou;
+use sprag_shared::ground::{Harmonics, Linear, Ricker};
+
+use super::error::SceneError;
+use super::schema::KeyOf;
+use super::{Scene, error};
+use crate::ground_motion::{Component, GroundMotion, Smooth};
+use crate::record::{Component as RecordComponent, ReadOptions, Record, RecordError, Units};
+
+/// One `[[ground]]` table.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GroundTable {
+    /// Which motion.
+    pub motion: Motion,
+    /// a_g/(g tan α), or a_g/(gα) for the slender model.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub amplitude_ratio: Option<f64>,
+    /// a_g, g.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub amplitude_g: Option<f64>,
+    /// a_g, m/s².
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub amplitude_m_s2: Option<f64>,
+    /// A of the Mavroeidis-Papageorgiou pulse, m/s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub velocity_amplitude_m_s: Option<f64>,
+    /// ω_g/p.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frequency_ratio: Option<f64>,
+    /// Hz.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frequency_hz: Option<f64>,
+    /// Length of a rectangular pulse, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub duration_s: Option<f64>,
+    /// The same in 1/p.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub duration_ratio: Option<f64>,
+    /// γ of the Mavroeidis-Papageorgiou pulse.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub oscillations: Option<f64>,
+    /// ν of the Mavroeidis-Papageorgiou pulse, degrees.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub phase_deg: Option<f64>,
+    /// Record file, relative to the scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<PathBuf>,
+    /// Units of a record that does not state its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub units: Option<String>,
+    /// Time step of a record that does not state its own, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time_step_s: Option<f64>,
+    /// Component of a record file with several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub component: Option<String>,
+    /// Factor on the whole motion.
+    #[serde(default = "one")]
+    pub scale: f64,
+    /// Start, s.
+    #[serde(default)]
+    pub start_s: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// The motions of DESIGN section 3.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Motion {
+    /// One cycle of a sine.
+    Sine,
+    /// One cycle of a cosine.
+    Cosine,
+    /// Half a cycle of a sine.
+    HalfSine,
+    /// Constant for a while.
+    Rectangular,
+    /// Symmetric Ricker wavelet.
+    Ricker,
+    /// Near-fault velocity pulse.
+    MavroeidisPapageorgiou,
+    /// A recorded motion.
+    Record,
+}
+
+/// Why a scene's ground motion cannot be had.
+#[derive(Debug, thiserror::Error)]
+pub enum GroundError {
+    /// The scene.
+    #[error("{0}")]
+    Scene(#[from] SceneError),
+    /// A record.
+    #[error("{0}")]
+    Record(#[from] RecordError),
+}
+
+/// x of the Ricker wavelet's first and last instant: e^{-x²} is 1e-16 there.
+const RICKER_REACH: f64 = 6.0;
+
+impl GroundTable {
+    /// # Errors
+    /// [`SceneError`] for a key that the motion does not have, one that it needs, or a value outside its range.
+    pub(super) fn check(&self, key: &KeyOf<'_>) -> Result<(), SceneError> {
+        let given = [
+            ("amplitude_ratio", self.amplitude_ratio.is_some()),
+            ("amplitude_g", self.amplitude_g.is_some()),
+            ("amplitude_m_s2", self.amplitude_m_s2.is_some()),
+            ("velocity_amplitude_m_s", self.velocity_amplitude_m_s.is_some()),
+            ("frequency_ratio", self.frequency_ratio.is_some()),
+            ("frequency_hz", self.frequency_hz.is_some()),
+            ("duration_s", self.duration_s.is_some()),
+            ("duration_ratio", self.duration_ratio.is_some()),
+            ("oscillations", self.oscillations.is_some()),
+            ("phase_deg", self.phase_deg.is_some()),
+            ("file", self.file.is_some()),
+            ("units", self.units.is_some()),
+            ("time_step_s", self.time_step_s.is_some()),
+            ("component", self.component.is_some()),
+        ];
+        const AMPLITUDE: [&str; 3] = ["amplitude_ratio", "amplitude_g", "amplitude_m_s2"];
+        const FREQUENCY: [&str; 2] = ["frequency_ratio", "frequency_hz"];
+        const DURATION: [&str; 2] = ["duration_s", "duration_ratio"];
+        let (one_of_each, optional): (&[&[&str]], &[&str]) = match self.motion {
+            Motion::Sine | Motion::Cosine | Motion::HalfSine | Motion::Ricker => (&[&AMPLITUDE, &FREQUENCY], &[]),
+            Motion::Rectangular => (&[&AMPLITUDE, &DURATION], &[]),
+            Motion::MavroeidisPapageorgiou => (&[&["velocity_amplitude_m_s"], &FREQUENCY, &["oscillations"]], &["phase_deg"]),
+            Motion::Record => (&[], &["file", "units", "time_step_s", "component"]),
+        };
+        for (name, is_given) in given {
+            if is_given && !optional.contains(&name) && !one_of_each.iter().any(|group| group.contains(&name)) {
+                return Err(key(name).conflict(&format!("a motion of kind {} has no such key", self.kind())));
+            }
+        }
+        for group in one_of_each {
+            let count = given.iter().filter(|(name, is_given)| *is_given && group.contains(name)).count();
+            if count == 0 {
+                return Err(key(group[0]).missing(&group.join(" or ")));
+            }
+            if count > 1 {
+                return Err(key(group[0]).conflict(&format!("give only one of {}", group.join(", "))));
+            }
+        }
+        let within = |name: &str, value: Option<f64>, low: f64, high: f64, range: &str| match value {
+            Some(value) => key(name).require(value, (low..=high).contains(&value), range).map(|_| ()),
+            None => Ok(()),
+        };
+        within("amplitude_ratio", self.amplitude_ratio, -1e6, 1e6, "from -1e6 to 1e6")?;
+        within("amplitude_g", self.amplitude_g, -1e3, 1e3, "from -1000 to 1000 g")?;
+        within("amplitude_m_s2", self.amplitude_m_s2, -1e4, 1e4, "from -10000 to 10000 m/s²")?;
+        within("velocity_amplitude_m_s", self.velocity_amplitude_m_s, -100.0, 100.0, "from -100 to 100 m/s")?;
+        within("frequency_ratio", self.frequency_ratio, 1e-3, 1e4, "from 0.001 to 10000")?;
+        within("frequency_hz", self.frequency_hz, 1e-3, 1e3, "from 0.001 to 1000 Hz")?;
+        within("duration_s", self.duration_s, 1e-6, 1e4, "from 1e-6 to 10000 s")?;
+        within("duration_ratio", self.duration_ratio, 1e-6, 1e4, "from 1e-6 to 10000")?;
+        within("oscillations", self.oscillations, 1.0 + 1e-9, 100.0, "above 1 and at most 100")?;
+        within("phase_deg", self.phase_deg, -360.0, 360.0, "from -360 to 360 degrees")?;
+        within("time_step_s", self.time_step_s, 1e-6, 10.0, "from 1e-6 to 10 s")?;
+        within("scale", Some(self.scale), -1e3, 1e3, "from -1000 to 1000")?;
+        within("start_s", Some(self.start_s), 0.0, 1e4, "from 0 to 10000 s")?;
+        if let Some(units) = &self.units
+            && units.parse::<Units>().is_err()
+        {
+            return Err(SceneError::Range {
+                origin: key("units").origin,
+                key: key("units").key,
+                value: format!("{units:?}"),
+                range: "g, m/s2, cm/s2 or in/s2".to_owned(),
+            });
+        }
+        Ok(())
+    }
+
+    fn kind(&self) -> String {
+        format!("{:?}", serde_json::to_value(self.motion).ok().and_then(|value| value.as_str().map(str::to_owned)).unwrap_or_default())
+    }
+
+    /// The motion's smooth pieces.
+    fn component(&self, block: &Block, uplift: f64, folder: &Path, key: &dyn Fn(&str) -> error::Key) -> Result<Component, GroundError> {
+        let p = block.frequency_parameter();
+        let amplitude = self.scale
+            * self.amplitude_ratio.map_or_else(
+                || self.amplitude_g.unwrap_or_else(|| self.amplitude_m_s2.unwrap_or_default() / GRAVITY),
+                |ratio| ratio * uplift,
+            );
+        let frequency =
+            self.frequency_ratio.map_or_else(|| self.frequency_hz.unwrap_or_default() * core::f64::consts::TAU, |ratio| ratio * p);
+        let one = |duration: f64, smooth: Smooth| Component::pulse(self.start_s, duration, smooth);
+        let cycle = core::f64::consts::TAU / frequency;
+        Ok(match self.motion {
+            Motion::Sine => one(cycle, Smooth::Single(Harmonics::sine(amplitude, frequency))),
+            Motion::HalfSine => one(cycle / 2.0, Smooth::Single(Harmonics::sine(amplitude, frequency))),
+            Motion::Cosine => one(cycle, Smooth::Single(Harmonics::cosine(amplitude, frequency))),
+            Motion::Rectangular => {
+                let duration = self.duration_s.unwrap_or_else(|| self.duration_ratio.unwrap_or_default() / p);
+                one(duration, Smooth::Linear(Linear::constant(amplitude)))
+            }
+            Motion::Ricker => {
+                let rate = frequency / 2.0;
+                let centre = RICKER_REACH / rate;
+                one(2.0 * centre, Smooth::Ricker(Ricker { amplitude, rate, centre }))
+            }
+            Motion::MavroeidisPapageorgiou => {
+                let wavelet = MavroeidisPapageorgiou {
+                    velocity_amplitude: self.scale * self.velocity_amplitude_m_s.unwrap_or_default(),
+                    frequency: frequency / core::f64::consts::TAU,
+                    oscillations: self.oscillations.unwrap_or_default(),
+                    phase: self.phase_deg.unwrap_or_default().to_radians(),
+                };
+                one(wavelet.duration(), Smooth::Triple(wavelet.harmonics()))
+            }
+            Motion::Record => {
+                let file = self.file.as_ref().ok_or_else(|| key("file").missing("a record file here, or --record FILE"))?;
+                let options = ReadOptions {
+                    units: self.units.as_ref().and_then(|units| units.parse().ok()),
+                    time_step_s: self.time_step_s,
+                    component: self.component.as_deref().map(RecordComponent::from),
+                    ..ReadOptions::default()
+                };
+                let record = Record::read(folder.join(file), &options)?;
+                Component::record(self.start_s, record.time_step_s, record.acceleration_m_s2.iter().map(|a| self.scale * a / GRAVITY))
+            }
+        })
+    }
+}
+
+impl Scene {
+    /// Reads the records and sums the motions.
+    ///
+    /// # Errors
+    /// [`GroundError`] names the file and what is wrong with it.
+    pub fn ground_motion(&self) -> Result<GroundMotion, GroundError> {
+        let mut components = Vec::new();
+        for (index, table) in self.file.ground.iter().enumerate() {
+            let key = |name: &str| error::Key { origin: self.origin.clone(), key: format!("ground.{index}.{name}") };
+            components.push(table.component(&self.block, self.uplift_threshold(), &self.folder, &key)?);
+        }
+        Ok(GroundMotion::sum(&components))
+    }
+
+    /// Puts `file` in the place of the scene's record.
+    ///
+    /// # Errors
+    /// [`SceneError::Missing`] when the scene has no `[[ground]]` table of motion "record".
+    pub fn use_record(&mut self, file: &Path) -> Result<(), SceneError> {
+        let origin = self.origin.clone();
+        let table = self.file.ground.iter_mut().find(|table| table.motion == Motion::Record);
+        let table = table.ok_or_else(|| {
+            error::Key { origin, key: "ground".to_owned() }.missing("--record needs a [[ground]] table with motion = \"record\"")
+        })?;
+        // The command line's paths are relative to where the user stands, not to the scene.
+        table.file = Some(std::path::absolute(file).unwrap_or_else(|_| file.to_owned()));
+        Ok(())
+    }
+}

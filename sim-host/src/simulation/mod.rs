@@ -1,0 +1,7 @@
+//! One scene, every device: histories and what they amount to.
+
+pub mod drive;
+pub mod recorder;
+pub mod run;
+
+pub use run::{DeviceRun, RunError, simulate};
