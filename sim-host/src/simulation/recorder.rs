@@ -30,7 +30,6 @@ pub struct Recorder<'a, S, E, C> {
     origin: f64,
     segment: Option<&'a Segment>,
     segments: &'a [Segment],
-    index: usize,
     broken: bool,
     pending: Option<Sample>,
     precision: core::marker::PhantomData<(S, C)>,
@@ -52,7 +51,6 @@ impl<'a, S: Real, E: Equation<S>, C: Clutch> Recorder<'a, S, E, C> {
             origin: 0.0,
             segment: None,
             segments,
-            index: 0,
             broken: true,
             pending: None,
             precision: core::marker::PhantomData,
@@ -74,12 +72,10 @@ impl<'a, S: Real, E: Equation<S>, C: Clutch> Recorder<'a, S, E, C> {
         self.segment.map_or(0.0, |segment| segment.shape.acceleration(time - segment.start) * GRAVITY)
     }
 
-    /// The ground at any time, for blocks at rest over several segments.
-    fn ground_anywhere(&mut self, time: f64) -> f64 {
-        while self.segments.get(self.index).is_some_and(|s| s.start + s.duration < time) {
-            self.index += 1;
-        }
-        self.segments.get(self.index).map_or(0.0, |s| s.shape.acceleration(time - s.start) * GRAVITY)
+    /// The ground at any time, for a block that stands over several segments.
+    fn ground_anywhere(&self, time: f64) -> f64 {
+        let index = self.segments.partition_point(|s| s.start + s.duration < time);
+        self.segments.get(index).map_or(0.0, |s| s.shape.acceleration(time - s.start) * GRAVITY)
     }
 
     fn sample(&mut self, time: f64, motion: &Motion<S>, stretch: &Stretch<S>) -> Sample {
@@ -109,7 +105,7 @@ impl<'a, S: Real, E: Equation<S>, C: Clutch> Recorder<'a, S, E, C> {
         }
     }
 
-    fn standing(&mut self, time: f64) -> Sample {
+    fn standing(&self, time: f64) -> Sample {
         let ground_m_s2 = self.ground_anywhere(time);
         let engaged = u8::from(C::INERTER && !C::FOLLOWS_SIGNS);
         Sample {
@@ -211,15 +207,10 @@ impl<S: Real, E: Equation<S>, C: Clutch> Observer<S> for Recorder<'_, S, E, C> {
 impl<'a, S: Real, E: Equation<S>, C: Clutch> GroundObserver<S> for Recorder<'a, S, E, C> {
     fn segment(&mut self, start: f64, segment: Option<&Segment>) {
         self.origin = start;
-        self.segment = match segment {
-            Some(_) => {
-                while self.index + 1 < self.segments.len() && self.segments[self.index].start < start {
-                    self.index += 1;
-                }
-                self.segments.get(self.index)
-            }
-            None => None,
-        };
+        self.segment = segment.and_then(|segment| {
+            let index = self.segments.partition_point(|s| s.start < segment.start);
+            self.segments.get(index)
+        });
         // The ground may jump here.
         if segment.is_none() {
             self.flush();
