@@ -113,6 +113,27 @@ fn convolve<S: Real>(a: &[Cell<S>], b: &[Cell<S>]) -> S {
     sum
 }
 
+/// [`convolve`] of one run with two others at once.
+#[inline(always)]
+fn convolve_both<S: Real>(a: &[Cell<S>], b: &[Cell<S>], c: &[Cell<S>]) -> (S, S) {
+    let (mut first, mut second) = ([S::ZERO; 2], [S::ZERO; 2]);
+    let (pairs, rest) = a.as_chunks::<2>();
+    let (rest_b, pairs_b) = b.as_rchunks::<2>();
+    let (rest_c, pairs_c) = c.as_rchunks::<2>();
+    for ((x, y), z) in pairs.iter().zip(pairs_b.iter().rev()).zip(pairs_c.iter().rev()) {
+        for lane in 0..2 {
+            first[lane] = first[lane] + x[lane].get() * y[1 - lane].get();
+            second[lane] = second[lane] + x[lane].get() * z[1 - lane].get();
+        }
+    }
+    let (mut first, mut second) = (first[0] + first[1], second[0] + second[1]);
+    for ((x, y), z) in rest.iter().zip(rest_b).zip(rest_c) {
+        first = first + x.get() * y.get();
+        second = second + x.get() * z.get();
+    }
+    (first, second)
+}
+
 macro_rules! termwise {
     ($operator:ident, $method:ident) => {
         impl<S: Real, const N: usize> $operator for Node<'_, S, N> {
@@ -202,8 +223,7 @@ impl<S: Real, const N: usize> Value<S> for Node<'_, S, N> {
             rate.tape[rate.slot][k].set(self.last() * S::count(k as u32));
             let reciprocal = S::of(RECIPROCALS[k & 63]);
             let rates = &rate.known()[1..];
-            let s = convolve(rates, &cosine.known()[..k]);
-            let c = convolve(rates, &sine.known()[..k]);
+            let (s, c) = convolve_both(rates, &cosine.known()[..k], &sine.known()[..k]);
             sine.tape[sine.slot][k].set(s * reciprocal);
             cosine.tape[cosine.slot][k].set(-(c * reciprocal));
         }

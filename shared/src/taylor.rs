@@ -91,7 +91,7 @@ impl<S: Real, const N: usize> Method<S> for Taylor<S, N> {
 
         let tolerance = self.tolerance * start.scale.larger(start.rotation.abs());
         let mut power = start.length * start.length;
-        let mut previous_small = false;
+        let mut previous = S::ONE;
         for k in 0..N - 2 {
             tape.set(2, k, ground[k]);
             next.set(GIVEN);
@@ -114,12 +114,13 @@ impl<S: Real, const N: usize> Method<S> for Taylor<S, N> {
             tape.set(1, k + 1, v);
             tape.set(0, k + 2, c);
 
-            let small = (c * power).abs() <= tolerance;
-            if small && previous_small && k >= 4 {
+            // Two small terms in a row (every other one may vanish by symmetry) leave nothing that matters behind them.
+            let term = (c * power).abs();
+            if k >= 3 && term <= tolerance && previous <= tolerance * S::of(50.0) {
                 arc.terms = k + 3;
                 break;
             }
-            previous_small = small;
+            previous = term;
             power = power * start.length;
         }
         if self.step.is_none() && arc.terms == N {

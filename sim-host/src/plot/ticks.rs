@@ -4,10 +4,21 @@ use std::ops::Range;
 
 /// Multiples of 1, 2 or 5 times a power of ten inside `range`, about `target` of them; never more than twice that.
 ///
-/// Ticks closer to an end than `margin` times the range are left out, so that labels of stacked panels stay apart.
+/// Ticks closer to an end than `margin` times the range are left out, so that labels of stacked panels stay apart. Where
+/// that leaves fewer than three, a finer step is taken.
 pub(super) fn round_ticks(range: &Range<f64>, target: usize, margin: f64) -> Vec<f64> {
+    let target = target.max(1);
+    let coarse = ticks_of(range, target, margin);
+    if coarse.len() >= 3 {
+        return coarse;
+    }
+    let fine = ticks_of(range, 2 * target, margin);
+    if fine.len() <= 2 * target { fine } else { coarse }
+}
+
+fn ticks_of(range: &Range<f64>, target: usize, margin: f64) -> Vec<f64> {
     let width = range.end - range.start;
-    let step = round_step(width / target.max(1) as f64);
+    let step = round_step(width / target as f64);
     let first = ((range.start + margin * width) / step - 1e-9).ceil();
     let last = ((range.end - margin * width) / step + 1e-9).floor();
     let mut ticks = Vec::new();

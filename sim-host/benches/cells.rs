@@ -1,0 +1,128 @@
+//! How fast the core is at tight accuracy: cells of an overturning map on one core, and an integrated record.
+//!
+//! `cargo bench --bench cells` prints cells a second for the 64 x 64 grid of each device and pulse (α = 20°, σ = 0.5,
+//! ω_g/p 0.2-8, a 1-10, free time 60/p), and the time of 40 s of ground motion at 5 ms for each device, as minima of
+//! several passes. The yardstick of the same run is the number of slender-block Runge-Kutta steps a second.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::clutch::Clutch;
+use sprag_shared::equation::{Equation, SlenderBlock};
+use sprag_shared::fixed::runge_kutta_4;
+use sprag_shared::lever::Mount;
+use sprag_shared::observer::Peaks;
+use sprag_shared::rocking::{State, System};
+use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure, WithSystem};
+use sprag_shared::taylor::Taylor;
+use sprag_sim_host::batch::case::{Case, PulseShape, TERMS, TIGHT};
+use sprag_sim_host::ground_motion::{Component, GroundMotion};
+use sprag_sim_host::simulation::drive::{Course, Overturning};
+use sprag_sim_host::synthesis::NearFaultMotion;
+
+const SIDE: u32 = 64;
+const PASSES: usize = 5;
+const DEVICES: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
+
+fn main() {
+    let steps = yardstick();
+    println!("yardstick: {:.1} million slender Runge-Kutta steps a second\n", steps / 1e6);
+    println!("{:8} {:14} {:>14} {:>22}", "geometry", "device", "cells/s", "yardstick steps/cell");
+    for geometry in [Geometry::Full, Geometry::Slender] {
+        let mut total = 0.0;
+        for device in DEVICES {
+            let seconds = fastest(|| grid(geometry, device));
+            total += seconds;
+            let rate = f64::from(2 * SIDE * SIDE) / seconds;
+            println!("{:8} {:14} {rate:14.0} {:22.0}", format!("{geometry:?}"), format!("{device:?}"), steps / rate);
+        }
+        let rate = f64::from(6 * SIDE * SIDE) / total;
+        println!("{:8} {:14} {rate:14.0} {:22.0}\n", format!("{geometry:?}"), "all", steps / rate);
+    }
+    println!("{:8} {:14} {:>14}", "geometry", "device", "ms for 40 s at 5 ms");
+    let motion = NearFaultMotion { duration_s: 40.0, ..NearFaultMotion::DEFAULT }.acceleration_m_s2().unwrap_or_default();
+    let ground = GroundMotion::sum(&[Component::record(0.0, 0.005, motion.iter().map(|a| a / 9.806_65))]);
+    for geometry in [Geometry::Full, Geometry::Slender] {
+        for device in DEVICES {
+            let seconds = fastest(|| record(&ground, geometry, device));
+            println!("{:8} {:14} {:14.3}", format!("{geometry:?}"), format!("{device:?}"), seconds * 1e3);
+        }
+    }
+}
+
+fn fastest(mut work: impl FnMut()) -> f64 {
+    (0..PASSES)
+        .map(|_| {
+            let start = Instant::now();
+            work();
+            start.elapsed().as_secs_f64()
+        })
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Steps a second of one dependent chain.
+fn yardstick() -> f64 {
+    const STEPS: u32 = 1_000_000;
+    let block = SlenderBlock { frequency_squared: 1.0, slenderness: 0.2, inertia: 1.0, lever: 1.0 };
+    let seconds = fastest(|| {
+        let mut state = (0.1, 0.0);
+        for _ in 0..STEPS {
+            let first = block.acceleration(1.0, state.0, state.1, 0.0);
+            state = runge_kutta_4(&block, 1.0, state, first, [0.0; 3], black_box(1e-9));
+        }
+        black_box(state);
+    });
+    f64::from(STEPS) / seconds
+}
+
+fn grid(geometry: Geometry, device: DeviceKind) {
+    let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
+    let along = |index: u32, low: f64, high: f64| low + (high - low) * f64::from(index) / f64::from(SIDE - 1);
+    for pulse in [PulseShape::Sine, PulseShape::Cosine] {
+        for row in 0..SIDE {
+            for column in 0..SIDE {
+                let case = Case {
+                    geometry,
+                    device,
+                    pulse,
+                    frequency_ratio: along(column, 0.2, 8.0),
+                    amplitude_ratio: along(row, 1.0, 10.0),
+                    ..Case::default()
+                };
+                let _ = black_box(case.run(&method));
+            }
+        }
+    }
+}
+
+struct Run<'a> {
+    structure: &'a Structure,
+    ground: &'a GroundMotion,
+}
+
+impl WithSystem<f64> for Run<'_> {
+    type Output = f64;
+
+    fn with<R: Equation<f64>, E: Equation<f64>, C: Clutch>(self, system: System<f64, R, E, C>) -> f64 {
+        let course = Course {
+            block: &self.structure.block,
+            geometry: self.structure.geometry,
+            ground: self.ground,
+            free_time: 10.0,
+            overturning: Overturning::Proven,
+        };
+        let (mut state, mut peaks) = (State::default(), Peaks::default());
+        let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
+        let _ = course.follow(&system, &method, &mut state, &mut peaks, || true);
+        peaks.rotation
+    }
+}
+
+/// A block that stays up, so that the whole record is integrated.
+fn record(ground: &GroundMotion, geometry: Geometry, kind: DeviceKind) {
+    let Ok(block) = Block::new(6.0, 0.2, RECTANGLE_INERTIA_RATIO) else { return };
+    let device = Device { kind, mass_ratio: 0.5, mount: Mount::CentreOfMass, kinematics: KinematicsKind::Paper };
+    let structure = Structure { block, geometry, device, restitution: Restitution::Constant(0.95), rest_speed: REST_SPEED };
+    let _ = black_box(structure.resolve(Run { structure: &structure, ground }));
+}
