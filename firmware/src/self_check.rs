@@ -57,6 +57,8 @@ pub fn run(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> Resu
 }
 
 /// Counts `N` instructions that do nothing.
+// Never inlined: the compiler does not know how long the assembly is, and would put constants out of its own reach.
+#[inline(never)]
 fn check_count<const N: u32>(counter: &mut impl FnMut() -> u32) -> Result<(), SelfCheckError> {
     let before = counter();
     #[cfg(target_os = "none")]

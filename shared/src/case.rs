@@ -316,8 +316,6 @@ impl<O: Observer<f32>> WithSystem<f32> for Runner<'_, '_, '_, O> {
 }
 
 impl<O: Observer<f32>> Runner<'_, '_, '_, O> {
-    // One function for each composition: together they are more than a branch of the target reaches.
-    #[inline(never)]
     fn run<R: Equation<f32>, E: Equation<f32>, C: Clutch, M: Method<f32>>(
         self,
         system: &System<f32, R, E, C>,

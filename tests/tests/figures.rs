@@ -93,7 +93,7 @@ fn stepwise_clutch_overturns(step: f64) -> bool {
 /// The reason why events are located: a clutch that is asked once a step is wrong about Figure 10.
 #[test]
 fn figure_10_is_lost_on_a_clutch_that_is_asked_once_a_step() {
-    for step in [1e-4,2e-4, 5e-4, 1e-3, 2e-3,4e-3,1e-2] { println!("{step} {}", stepwise_clutch_overturns(step)); } for step in [5e-4, 1e-3, 2e-3] {
+    for step in [1e-3, 2e-3, 4e-3, 1e-2] {
         assert!(stepwise_clutch_overturns(step), "a step of {step}");
     }
     assert!(!stepwise_clutch_overturns(1e-5));

@@ -45,6 +45,8 @@ fn tolerance(text: &str) -> Result<f64, String> {
 enum Failure {
     #[error("{}: {error}", path.display())]
     Unreadable { path: PathBuf, error: std::io::Error },
+    #[error("{}: too large; case files of at most 1 GiB are read", path.display())]
+    TooLarge { path: PathBuf },
     #[error("{}: {error}", path.display())]
     Table { path: PathBuf, error: TableError },
     #[error("{}: case `{id}`: {error}", path.display())]
@@ -56,6 +58,9 @@ enum Failure {
     #[error("interrupted")]
     Interrupted,
 }
+
+/// Largest case file that is read, bytes: some ten million cases.
+const LARGEST_FILE: u64 = 1 << 30;
 
 /// Cases that one task works on before it looks up.
 const CHUNK: usize = 256;
@@ -78,6 +83,9 @@ pub fn run(arguments: &BatchArguments, err: &mut impl Write, interrupt: &Interru
 fn run_or_fail(arguments: &BatchArguments, interrupt: &Interrupt) -> Result<(), Failure> {
     let path = &arguments.cases;
     let file = std::fs::File::open(path).map_err(|error| Failure::Unreadable { path: path.clone(), error })?;
+    if !file.metadata().is_ok_and(|data| data.len() <= LARGEST_FILE) {
+        return Err(Failure::TooLarge { path: path.clone() });
+    }
     let cases = read_cases(BufReader::new(file)).map_err(|error| Failure::Table { path: path.clone(), error })?;
     // Where the results go is tried before the work, not after it.
     let mut results = Results::default();

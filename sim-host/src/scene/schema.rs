@@ -304,6 +304,7 @@ pub enum MethodName {
     #[default]
     Taylor,
     /// Order 4, fixed steps.
+    #[serde(rename = "runge-kutta-4")]
     RungeKutta4,
     /// Order 1, fixed steps.
     SemiImplicitEuler,

@@ -1,0 +1,219 @@
+//! The `sprag` command as a user meets it: what it writes, what it says, and that bad input costs one clear line.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
+
+fn sprag(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_sprag")).args(arguments).output().expect("sprag starts")
+}
+
+/// Runs `sprag`, expects exit code 2 and one line that contains `words`, and that `out` holds no file.
+fn refused(arguments: &[&str], out: &Path, words: &[&str]) {
+    let output = sprag(arguments);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+    assert_eq!(message.trim_end().lines().count(), 1, "one line: {message}");
+    for word in words {
+        assert!(message.contains(word), "{arguments:?} must say `{word}`: {message}");
+    }
+    let left: Vec<PathBuf> = fs::read_dir(out).map(|files| files.map(|file| file.unwrap().path()).collect()).unwrap_or_default();
+    assert!(left.is_empty(), "half-written: {left:?}");
+}
+
+fn scene(name: &str) -> String {
+    format!("{SCENES}/{name}.toml")
+}
+
+#[test]
+fn simulate_writes_its_three_files_and_a_summary() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("near");
+    let output = sprag(&["simulate", &scene("near_fault"), "--out", out.to_str().unwrap()]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let table = String::from_utf8(output.stdout).unwrap();
+    for device in ["none", "inerter", "clutched pair"] {
+        assert!(table.contains(device), "{table}");
+    }
+    let mut files: Vec<_> = fs::read_dir(&out).unwrap().map(|file| file.unwrap().file_name()).collect();
+    files.sort();
+    assert_eq!(files, ["history.csv", "history.svg", "summary.json"]);
+    let summary: serde_json::Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+    assert_eq!(summary["command"], "simulate");
+    assert_eq!(summary["scene"]["block"]["restitution"], 0.85);
+    let runs = summary["runs"].as_array().unwrap();
+    assert_eq!(runs.len(), 3);
+    for run in runs {
+        for key in ["device", "outcome", "peak_rotation", "peak_acceleration", "impacts"] {
+            assert!(run.get(key).is_some(), "{key} in {run}");
+        }
+    }
+}
+
+#[test]
+fn the_same_scene_gives_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let outs = ["first", "second"].map(|name| folder.path().join(name));
+    for out in &outs {
+        assert!(sprag(&["simulate", &scene("near_fault"), "--out", out.to_str().unwrap()]).status.success());
+    }
+    for file in ["summary.json", "history.csv", "history.svg"] {
+        assert!(fs::read(outs[0].join(file)).unwrap() == fs::read(outs[1].join(file)).unwrap(), "{file}");
+    }
+}
+
+#[test]
+fn batch_results_do_not_depend_on_the_number_of_threads_and_keep_their_order() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases = folder.path().join("cases.csv");
+    let mut text =
+        "id,geometry,slenderness_deg,device,mass_ratio,restitution,pulse,frequency_ratio,amplitude_ratio,free_time\n".to_owned();
+    for index in 0..1000 {
+        let device = ["none", "inerter", "clutched-pair"][index % 3];
+        let geometry = ["full", "slender"][index % 2];
+        text += &format!("c{},{geometry},15,{device},0.5,0.85,sine,{},{},60\n", 999 - index, 1.0 + index as f64 * 0.005, 1.5 + (index % 7) as f64);
+    }
+    fs::write(&cases, text).unwrap();
+    let results = ["1", "2", "7"].map(|threads| {
+        let out = folder.path().join(format!("{threads}.csv"));
+        let output = sprag(&["batch", cases.to_str().unwrap(), "--out", out.to_str().unwrap(), "--threads", threads]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        fs::read_to_string(out).unwrap()
+    });
+    assert!(results[0] == results[1] && results[1] == results[2]);
+    let ids: Vec<&str> = results[0].lines().skip(1).map(|line| line.split(',').next().unwrap()).collect();
+    assert_eq!((ids.len(), ids[0], ids[999]), (1000, "c999", "c0"));
+}
+
+#[test]
+fn bad_scenes_cost_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let to = out.to_str().unwrap();
+    let figure = scene("figure05");
+    let set = |item: &str, words: &[&str]| refused(&["simulate", &figure, "--out", to, "--set", item], &out, words);
+    set("block.colour=red", &["colour"]);
+    set("block.slenderness_deg=90", &["slenderness_deg", "90"]);
+    set("block.restitution=1.5", &["restitution", "from 0 to 1"]);
+    set("block.mass_kg=-1", &["mass_kg", "above 0"]);
+    set("block.size_m=ten", &["size_m"]);
+    set("output.interval_s=1e-6", &["5 million"]);
+    refused(&["simulate", "nowhere.toml", "--out", to], &out, &["nowhere.toml"]);
+    refused(&["simulate", SCENES, "--out", to], &out, &["not a file"]);
+    let empty = folder.path().join("empty.toml");
+    fs::write(&empty, "").unwrap();
+    refused(&["simulate", empty.to_str().unwrap(), "--out", to], &out, &["block"]);
+    fs::write(&empty, [0xff, 0xfe, 0x00]).unwrap();
+    refused(&["simulate", empty.to_str().unwrap(), "--out", to], &out, &["UTF-8"]);
+    fs::File::create(&empty).unwrap().set_len(2 << 30).unwrap();
+    refused(&["simulate", empty.to_str().unwrap(), "--out", to], &out, &["too large"]);
+}
+
+#[test]
+fn bad_records_cost_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let to = out.to_str().unwrap();
+    let record = folder.path().join("record.csv");
+    let try_text = |text: &str, words: &[&str]| {
+        fs::write(&record, text).unwrap();
+        refused(&["simulate", &scene("record"), "--record", record.to_str().unwrap(), "--out", to], &out, words);
+    };
+    try_text("", &["record.csv"]);
+    try_text("# time_s,acc_g\n0.00,0.1\n0.01,NaN\n0.02,0.1\n", &["record.csv", "NaN"]);
+    try_text("# time_s,acc_g\n0.00,0.1\n", &["record.csv"]);
+    try_text("# time_s,acc_furlong\n0.00,0.1\n0.01,0.2\n", &["record.csv"]);
+    fs::File::create(&record).unwrap().set_len(2 << 30).unwrap();
+    refused(&["simulate", &scene("record"), "--record", record.to_str().unwrap(), "--out", to], &out, &["record.csv"]);
+    refused(&["simulate", &scene("record"), "--record", "nowhere.AT2", "--out", to], &out, &["nowhere.AT2"]);
+    refused(&["simulate", &scene("record"), "--out", to], &out, &["--record"]);
+    refused(&["simulate", &scene("figure05"), "--record", "x.AT2", "--out", to], &out, &["motion = \"record\""]);
+    refused(&["simulate", &scene("record"), "--set", "ground.0.units=furlong", "--out", to], &out, &["units", "m/s2"]);
+}
+
+#[test]
+fn bad_cases_cost_one_line_that_names_the_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    fs::create_dir(&out).unwrap();
+    let results = out.join("results.csv");
+    let cases = folder.path().join("cases.csv");
+    let header = "id,geometry,slenderness_deg,device,mass_ratio,restitution,pulse,frequency_ratio,amplitude_ratio,free_time\n";
+    let good = "0,full,15,none,0,0.85,sine,2,2,60\n";
+    let try_text = |text: &str, words: &[&str]| {
+        fs::write(&cases, text).unwrap();
+        refused(&["batch", cases.to_str().unwrap(), "--out", results.to_str().unwrap()], &out, words);
+    };
+    try_text("", &["column `id` is missing"]);
+    try_text(header, &["no cases"]);
+    try_text(&format!("{header}{good}1,full,95,none,0,0.85,sine,2,2,60\n"), &["line 3", "slenderness_deg", "95"]);
+    try_text(&format!("{header}1,round,15,none,0,0.85,sine,2,2,60\n"), &["geometry", "round", "full or slender"]);
+    try_text(&format!("{header}1,full,15,none,0,1.85,sine,2,2,60\n"), &["restitution", "from 0 to 1"]);
+    try_text(&format!("{header}1,full,15,none,0,0.85,sine,NaN,2,60\n"), &["frequency_ratio", "NaN"]);
+    try_text(&format!("{header}1,full,15,none\n"), &["line 2", "4 fields"]);
+    try_text(&format!("colour,{header}"), &["unknown column `colour`"]);
+    fs::File::create(&cases).unwrap().set_len(2 << 30).unwrap();
+    refused(&["batch", cases.to_str().unwrap(), "--out", results.to_str().unwrap()], &out, &["too large"]);
+}
+
+#[test]
+fn an_output_place_that_cannot_be_written_costs_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    fs::write(&file, "kept").unwrap();
+    let inside = file.join("out");
+    refused(&["simulate", &scene("figure05"), "--out", inside.to_str().unwrap()], &inside, &["cannot be written"]);
+    assert_eq!(fs::read_to_string(&file).unwrap(), "kept");
+    #[cfg(target_os = "linux")]
+    refused(&["simulate", &scene("figure05"), "--out", "/proc/sprag"], Path::new("/proc/sprag"), &["cannot be written"]);
+}
+
+/// A limit on the size of files stands for a full disk: the write fails half-way.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_leaves_nothing_behind() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let command = format!(
+        "trap '' XFSZ; ulimit -f 16; exec '{}' simulate '{}' --out '{}'",
+        env!("CARGO_BIN_EXE_sprag"),
+        scene("near_fault"),
+        out.display()
+    );
+    let output = Command::new("bash").args(["-c", &command]).output().unwrap();
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(message.contains("cannot be written") && message.trim_end().lines().count() == 1, "{message}");
+    assert_eq!(fs::read_dir(&out).unwrap().count(), 0);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn ctrl_c_ends_a_long_run_and_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_sprag"))
+        .args(["simulate", &scene("figure05"), "--out", out.to_str().unwrap()])
+        .args(["--set", "accuracy.method=runge-kutta-4", "--set", "accuracy.step_ratio=1e-7", "--set", "run.free_time_ratio=10000"])
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    // The folder is made once the scene has been read and just before the work starts.
+    while !out.is_dir() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_eq!(fs::read_dir(&out).unwrap().count(), 0);
+}
+
+#[test]
+fn every_subcommand_has_help_with_an_example() {
+    for command in ["simulate", "batch", "record", "synthesize"] {
+        let output = sprag(&[command, "--help"]);
+        let help = String::from_utf8(output.stdout).unwrap();
+        assert!(output.status.success() && help.contains("Example"), "{command}: {help}");
+    }
+}

@@ -1,0 +1,204 @@
+//! The same case gives the same bits on the host and on the emulated Cortex-M4F: outcome, every count, and the digest of
+//! all states on the way. And the target's step costs what it may.
+//!
+//! Needs `qemu-system-arm` and the firmware for the board, named by `SPRAG_FIRMWARE_ELF` (`cargo xtask test` does both).
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::case::{self, Case, Ending, FixedMethod, Ground, GroundPiece, Initially, Shape};
+use sprag_shared::digest::Digest;
+use sprag_shared::ground::Harmonics;
+use sprag_shared::structure::{Device, DeviceKind, Restitution, Structure};
+
+const DEVICES: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
+const METHODS: [FixedMethod; 3] = [FixedMethod::SemiImplicitEuler, FixedMethod::RungeKutta4, FixedMethod::Taylor];
+
+/// σ = 0.5, η = 0.85.
+fn structure(block: Block, geometry: Geometry, kind: DeviceKind) -> Structure {
+    let device = Device { kind, mass_ratio: 0.5, ..Device::NONE };
+    Structure { block, geometry, device, restitution: Restitution::Constant(0.85), rest_speed: 1e-6 }
+}
+
+/// A slender block of p = 1/s under one cycle of sine with ω/p and a_g/(gα).
+fn slender_sine(kind: DeviceKind, frequency_ratio: f32, amplitude_ratio: f32) -> Case<'static> {
+    let block = Block::of_unit_frequency(10.0_f64.to_radians(), RECTANGLE_INERTIA_RATIO).unwrap();
+    let sine = Harmonics::sine(amplitude_ratio * block.slenderness() as f32, frequency_ratio);
+    let pulse = GroundPiece { shape: Shape::Sine(sine), duration: std::f32::consts::TAU / frequency_ratio };
+    Case {
+        structure: structure(block, Geometry::Slender, kind),
+        initially: Initially::Rest,
+        method: FixedMethod::RungeKutta4,
+        step: 2e-3,
+        ground: Ground::pieces(&[pulse]).unwrap(),
+        free_time: 12.0,
+    }
+}
+
+fn figure05(kind: DeviceKind) -> Case<'static> {
+    slender_sine(kind, 4.0, 1.5)
+}
+
+fn figure10(kind: DeviceKind) -> Case<'static> {
+    slender_sine(kind, 6.0, 7.7)
+}
+
+/// R = 2 m, α = 10°, full, under `scenes/near_fault.csv`.
+fn near_fault(kind: DeviceKind, record: &Record) -> Case<'_> {
+    let block = Block::new(2.0, 10.0_f64.to_radians(), RECTANGLE_INERTIA_RATIO).unwrap();
+    Case {
+        structure: structure(block, Geometry::Full, kind),
+        initially: Initially::Rest,
+        method: FixedMethod::RungeKutta4,
+        step: record.interval,
+        ground: Ground::Record { interval: record.interval, samples: &record.samples },
+        free_time: 5.0,
+    }
+}
+
+/// A record as a case holds it.
+struct Record {
+    interval: f32,
+    samples: Vec<u32>,
+}
+
+impl Record {
+    /// Two columns, s and g.
+    fn read(path: &Path) -> Record {
+        let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let rows: Vec<(f64, f32)> = text
+            .lines()
+            .filter_map(|line| line.split_once(','))
+            .filter_map(|(time, acceleration)| Some((time.trim().parse().ok()?, acceleration.trim().parse().ok()?)))
+            .collect();
+        let interval = (rows[1].0 - rows[0].0) as f32;
+        Record { interval, samples: rows.iter().map(|&(_, acceleration)| acceleration.to_bits()).collect() }
+    }
+}
+
+fn workspace() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
+}
+
+/// The firmware, if everything that the emulation needs is there; otherwise says what is not.
+fn firmware() -> Option<PathBuf> {
+    let Some(elf) = std::env::var_os("SPRAG_FIRMWARE_ELF") else {
+        eprintln!("SKIPPED: SPRAG_FIRMWARE_ELF is not set; `cargo xtask test` builds the firmware and sets it");
+        return None;
+    };
+    if Command::new("qemu-system-arm").arg("--version").stdout(Stdio::null()).status().is_err() {
+        eprintln!("SKIPPED: qemu-system-arm is not installed");
+        return None;
+    }
+    Some(elf.into())
+}
+
+/// Runs the firmware in the emulator, in `folder` with a case file or none, and gives its lines.
+fn emulate(elf: &Path, folder: &Path, case: Option<&str>) -> String {
+    let semihosting = match case {
+        Some(case) => format!("enable=on,target=native,arg=sprag,arg={case}"),
+        None => "enable=on,target=native".to_owned(),
+    };
+    let mut command = Command::new("qemu-system-arm");
+    command.args(["-machine", "netduinoplus2", "-nographic", "-icount", "shift=0"]);
+    command.args(["-semihosting-config", &semihosting]).arg("-kernel").arg(elf);
+    let output = command.current_dir(folder).stdin(Stdio::null()).output().unwrap();
+    let (lines, errors) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{:?} {case:?}: {} {lines} {errors}", command, output.status);
+    lines.into_owned()
+}
+
+/// `name value` a line.
+fn values(lines: &str) -> BTreeMap<&str, &str> {
+    lines.lines().filter_map(|line| line.split_once(' ')).collect()
+}
+
+/// Runs the case here and there; gives how it ends and how many instructions it took there, in all and by step.
+fn compare(name: &str, case: &Case<'_>) -> Option<(Ending, u64, u64)> {
+    let mut words = vec![0; 16_384];
+    let count = case.encode(&mut words).unwrap();
+    words.truncate(count);
+    let mut digest = Digest::default();
+    let end = case::run(&words, &mut digest).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+    std::fs::write(folder.path().join("case.bin"), bytes).unwrap();
+    let lines = emulate(&firmware()?, folder.path(), Some("case.bin"));
+    let board = values(&lines);
+    let host = [
+        ("outcome", end.ending.name().to_owned()),
+        ("impacts", end.state.impacts.to_string()),
+        ("peak_rotation_rad", end.peaks.rotation.to_string()),
+        ("stretches", digest.stretches().to_string()),
+        ("events", digest.events().to_string()),
+        ("steps", end.steps.to_string()),
+        ("digest", format!("{:016x}", digest.hash())),
+    ];
+    for (key, value) in &host {
+        assert_eq!(board.get(key), Some(&value.as_str()), "{name}: {key} on the board and on the host; {lines}");
+    }
+    let number = |key: &str| board[key].parse::<u64>().unwrap();
+    let peak = end.peaks.rotation / case.structure.block.slenderness() as f32;
+    println!(
+        "{name}: {} peak {peak:.4} impacts {} stretches {} digest {:016x} instructions {} ({} a step)",
+        end.ending.name(),
+        end.state.impacts,
+        digest.stretches(),
+        digest.hash(),
+        number("instructions"),
+        number("instructions_per_step"),
+    );
+    Some((end.ending, number("instructions"), number("instructions_per_step")))
+}
+
+#[test]
+fn figure05_is_the_same_on_the_board() {
+    for kind in DEVICES {
+        for method in METHODS {
+            let case = Case { method, ..figure05(kind) };
+            let Some((ending, ..)) = compare(&format!("figure05 {kind:?} {method:?}"), &case) else { return };
+            assert_eq!(ending, Ending::Safe);
+        }
+    }
+}
+
+/// With the clutch's switches located the pair survives Figure 10 even in single precision.
+#[test]
+fn figure10_is_the_same_on_the_board() {
+    for kind in DEVICES {
+        let Some((ending, ..)) = compare(&format!("figure10 {kind:?}"), &figure10(kind)) else { return };
+        assert_eq!(ending, Ending::Safe);
+    }
+}
+
+#[test]
+fn the_near_fault_motion_is_the_same_on_the_board() {
+    let record = Record::read(&workspace().join("scenes/near_fault.csv"));
+    for method in METHODS {
+        let case = Case { method, ..near_fault(DeviceKind::ClutchedPair, &record) };
+        if compare(&format!("near_fault {method:?}"), &case).is_none() {
+            return;
+        }
+    }
+}
+
+/// One Runge-Kutta step of the full model with a clutched pair, Eq. 10 and impact included, takes at most 250
+/// instructions.
+#[test]
+fn a_step_is_cheap_enough() {
+    let Some(elf) = firmware() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let lines = emulate(&elf, folder.path(), None);
+    println!("{lines}");
+    let kernels: BTreeMap<&str, u32> = lines
+        .lines()
+        .filter_map(|line| line.strip_prefix("kernel ")?.split_once(' '))
+        .map(|(name, count)| (name, count.split(' ').next().unwrap().parse().unwrap()))
+        .collect();
+    assert_eq!(kernels["nothing"], 0, "the counter must not count itself");
+    let step = kernels["rk4-full-clutched-pair"];
+    assert!((100..=250).contains(&step), "{step} instructions");
+    assert!(20 * kernels["sine32-sin-cos"] < kernels["libm-sinf-and-cosf"]);
+}
