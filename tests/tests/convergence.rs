@@ -104,7 +104,7 @@ fn keeps_its_order<M: Method<f64>>(name: &str, expected: f64, largest: f64, coun
         let (of_state, of_events) = (order(&states), order(&events));
         println!("{name}, scene {index}: order {of_state:.2} of the state, {of_events:.2} of the events; {:.1e} to {:.1e}", states[0].1, states[states.len() - 1].1);
         for seen in [of_state, of_events] {
-            assert!(seen > expected - 0.3, "{name}, scene {index}: order {seen}, {expected} expected: {states:?} {events:?}");
+            assert!(seen > expected - 0.4, "{name}, scene {index}: order {seen}, {expected} expected: {states:?} {events:?}");
         }
     }
 }
@@ -123,7 +123,7 @@ fn runge_kutta_is_of_order_4() {
 fn a_fixed_taylor_method_is_of_its_order() {
     // With N coefficients of θ, θ̇ has N − 1: its error over a step is of order N − 1, and over a run of order N − 2.
     keeps_its_order("Taylor of 8", 6.0, 0.15, 7, Taylor::<f64, 8>::fixed);
-    keeps_its_order("Taylor of 10", 8.0, 0.2, 6, Taylor::<f64, 10>::fixed);
+    keeps_its_order("Taylor of 9", 7.0, 0.1, 5, Taylor::<f64, 9>::fixed);
 }
 
 /// In f32 the error falls in the same way until it meets rounding, and stays there.

@@ -106,10 +106,16 @@ impl Key {
 }
 
 impl SceneError {
-    /// A TOML error as one line with its line number.
-    pub fn syntax(origin: &str, text: &str, error: &toml::de::Error) -> SceneError {
-        let line = error.span().map(|span| text.as_bytes()[..span.start.min(text.len())].iter().filter(|b| **b == b'\n').count() + 1);
-        SceneError::Syntax { origin: origin.to_owned(), line, message: one_line(error.message()) }
+    /// A TOML error at key `path` ("" for the whole file) as one line, with its line number where `text` is that of the
+    /// file.
+    pub fn syntax(origin: &str, text: &str, path: &str, error: &toml::de::Error) -> SceneError {
+        let line = error
+            .span()
+            .filter(|_| !text.is_empty())
+            .map(|span| text.as_bytes()[..span.start.min(text.len())].iter().filter(|b| **b == b'\n').count() + 1);
+        let message = one_line(error.message());
+        let message = if path.is_empty() || path == "." { message } else { format!("{path}: {message}") };
+        SceneError::Syntax { origin: origin.to_owned(), line, message }
     }
 }
 

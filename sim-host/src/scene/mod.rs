@@ -75,17 +75,17 @@ impl Scene {
     /// As [`Scene::parse`], and for an override that names no key.
     pub fn parse_with(text: &str, origin: &str, overrides: &[String]) -> Result<Scene, SceneError> {
         let file: SceneFile = if overrides.is_empty() {
-            toml::from_str(text).map_err(|error| SceneError::syntax(origin, text, &error))?
+            let document = toml::Deserializer::parse(text).map_err(|error| SceneError::syntax(origin, text, "", &error))?;
+            serde_path_to_error::deserialize(document)
+                .map_err(|error| SceneError::syntax(origin, text, &error.path().to_string(), error.inner()))?
         } else {
-            let mut table: toml::Table = toml::from_str(text).map_err(|error| SceneError::syntax(origin, text, &error))?;
+            let mut table: toml::Table = toml::from_str(text).map_err(|error| SceneError::syntax(origin, text, "", &error))?;
             for item in overrides {
                 overrides::apply(&mut table, item, origin)?;
             }
-            table.try_into().map_err(|error: toml::de::Error| SceneError::Syntax {
-                origin: origin.to_owned(),
-                line: None,
-                message: error::one_line(error.message()),
-            })?
+            // The lines of the file are no longer those of the scene, so only the key is named.
+            serde_path_to_error::deserialize(toml::Value::Table(table))
+                .map_err(|error| SceneError::syntax(origin, "", &error.path().to_string(), error.inner()))?
         };
         Scene::check(file, origin)
     }
