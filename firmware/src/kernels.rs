@@ -76,8 +76,7 @@ fn detected_slender(block: &Detected<f32, SlenderBlock<f32>>, state: &mut Detect
 fn smooth<E: Equation<f32>>(equation: &E, state: &mut DetectedState<f32>, step: &Step) {
     let DetectedState { rotation, velocity, side } = *state;
     let first = equation.acceleration(side, rotation, velocity, step.ground[0]);
-    (state.rotation, state.velocity) =
-        runge_kutta_4(equation, side, (rotation, velocity), first, step.ground, step.length);
+    (state.rotation, state.velocity) = runge_kutta_4(equation, side, (rotation, velocity), first, step.ground, step.length);
 }
 
 #[inline(never)]

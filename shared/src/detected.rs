@@ -132,14 +132,7 @@ impl<S: Scalar, E: Switched<S>> Detected<S, E> {
 impl<S: Real, E: Switched<S>> Detected<S, E> {
     /// Follows `state` over `piece` from its local time 0 to `duration` (s) in Runge-Kutta steps of `h` (s, above 0; the
     /// last one may be shorter), until |θ| passes `overturned` (rad). At most 2²⁴ steps.
-    pub fn follow<P: Piece<S>>(
-        &self,
-        state: &mut DetectedState<S>,
-        piece: &P,
-        duration: S,
-        h: S,
-        overturned: S,
-    ) -> Sightings<S> {
+    pub fn follow<P: Piece<S>>(&self, state: &mut DetectedState<S>, piece: &P, duration: S, h: S, overturned: S) -> Sightings<S> {
         let mut seen = Sightings::<S>::default();
         let mut time = S::ZERO;
         let mut push = piece.acceleration(time);

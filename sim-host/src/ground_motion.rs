@@ -195,6 +195,59 @@ pub struct MixturePiece<S> {
     parts: Vec<(S, SmoothPiece<S>)>,
 }
 
+/// A segment's shape in the precision of a run.
+#[derive(Clone, Debug)]
+pub enum ShapePiece<S> {
+    /// A straight line.
+    Linear(Linear<S>),
+    /// Anything else.
+    Mixture(MixturePiece<S>),
+}
+
+impl<S: Real> ShapePiece<S> {
+    /// In precision `S`.
+    pub fn of(shape: &Shape) -> Self {
+        match shape {
+            Shape::Linear(line) => ShapePiece::Linear(line_of(line)),
+            Shape::Mixture(parts) => ShapePiece::Mixture(MixturePiece::of(parts)),
+        }
+    }
+}
+
+impl<S: Real> Piece<S> for ShapePiece<S> {
+    #[inline]
+    fn acceleration(&self, time: S) -> S {
+        match self {
+            ShapePiece::Linear(line) => line.acceleration(time),
+            ShapePiece::Mixture(mixture) => mixture.acceleration(time),
+        }
+    }
+
+    #[inline]
+    fn slope(&self, time: S) -> S {
+        match self {
+            ShapePiece::Linear(line) => line.slope(time),
+            ShapePiece::Mixture(mixture) => mixture.slope(time),
+        }
+    }
+
+    #[inline]
+    fn curvature_bound(&self) -> S {
+        match self {
+            ShapePiece::Linear(_) => S::ZERO,
+            ShapePiece::Mixture(mixture) => mixture.curvature_bound(),
+        }
+    }
+
+    #[inline]
+    fn series(&self, time: S, coefficients: &mut [S]) {
+        match self {
+            ShapePiece::Linear(line) => line.series(time, coefficients),
+            ShapePiece::Mixture(mixture) => mixture.series(time, coefficients),
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug)]
 enum SmoothPiece<S> {
     Linear(Linear<S>),
@@ -203,8 +256,7 @@ enum SmoothPiece<S> {
     Ricker(Ricker<S>),
 }
 
-/// A line in the precision of a run.
-pub fn line_of<S: Real>(line: &Linear<f64>) -> Linear<S> {
+fn line_of<S: Real>(line: &Linear<f64>) -> Linear<S> {
     Linear { start: S::of(line.start), slope: S::of(line.slope) }
 }
 

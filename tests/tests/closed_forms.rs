@@ -9,9 +9,7 @@ use sprag_shared::math::{acosh, asin, atan, cos, exp, ln, sin, square_root};
 use sprag_shared::observer::Event;
 use sprag_shared::rocking::Phase;
 use sprag_shared::structure::{DeviceKind, KinematicsKind, Restitution, Structure};
-use sprag_tests::{
-    Dice, FullLog, Segment, boundary, overturned_without_impact, relative, release, resized, shake, unit_block,
-};
+use sprag_tests::{Dice, FullLog, Segment, boundary, overturned_without_impact, relative, release, resized, shake, unit_block};
 
 /// How far a boundary from the simulator may lie from its closed form.
 const BOUNDARY: f64 = 1e-11;
@@ -164,10 +162,10 @@ fn any_ground_motion_before_a_first_impact() {
     for _ in 0..400 {
         let step = dice.between(0.03, 0.2);
         let bias = dice.between(0.0, 0.5);
-        let samples: Vec<f64> =
-            [0.0].into_iter().chain((0..40).map(|_| dice.between(-1.0, 1.0) + bias)).chain([0.0]).collect();
+        let samples: Vec<f64> = [0.0].into_iter().chain((0..40).map(|_| dice.between(-1.0, 1.0) + bias)).chain([0.0]).collect();
         let record = Record { samples, step };
-        let Some(scale) = (2..4000).map(|k| f64::from(k) * 0.01).find(|&scale| record.judge(scale).is_some_and(|j| j.integral > 1.0))
+        let Some(scale) =
+            (2..4000).map(|k| f64::from(k) * 0.01).find(|&scale| record.judge(scale).is_some_and(|j| j.integral > 1.0))
         else {
             continue;
         };
@@ -281,8 +279,7 @@ fn amplitudes_after_impacts() {
                 let mut log = FullLog::default();
                 release(&structure, first * alpha, 0.0, 40.0, &mut log);
                 // The pair falls with p_σ and rises with p, which counts like an η that is smaller by p_σ/p.
-                let per_impact =
-                    if device == DeviceKind::ClutchedPair { restitution / square_root(1.375) } else { restitution };
+                let per_impact = if device == DeviceKind::ClutchedPair { restitution / square_root(1.375) } else { restitution };
                 let turns = log.states(Event::Turn);
                 assert!(turns.len() >= 8);
                 for (n, state) in (1..).zip(&turns).take(20) {
@@ -302,10 +299,8 @@ fn amplitudes_after_impacts() {
 #[test]
 fn geometric_restitution_of_a_rectangle() {
     for degrees in [2.0, 10.0, 25.0, 45.0] {
-        let structure = Structure {
-            restitution: Restitution::Geometric,
-            ..unit_block(Geometry::Full, degrees, DeviceKind::None, 0.0, 0.0)
-        };
+        let structure =
+            Structure { restitution: Restitution::Geometric, ..unit_block(Geometry::Full, degrees, DeviceKind::None, 0.0, 0.0) };
         let sine = sin(f64::to_radians(degrees));
         let closed = 1.0 - 1.5 * sine * sine;
         if degrees == 10.0 {
@@ -333,9 +328,10 @@ fn drift(structure: &Structure, start: f64, integral: impl Fn(f64, f64, f64) -> 
     for stretch in &log.stretches {
         let k = if stretch.engaged { coupling } else { 0.0 };
         // A new arc of the phase plane starts with every impact and every clutch switch.
-        let breaks = log.events.iter().rfind(|logged| {
-            matches!(logged.event, Event::Impact | Event::Switch) && logged.time <= stretch.time + 1e-12
-        });
+        let breaks = log
+            .events
+            .iter()
+            .rfind(|logged| matches!(logged.event, Event::Impact | Event::Switch) && logged.time <= stretch.time + 1e-12);
         let arc = (breaks.map_or(0.0, |logged| logged.time), stretch.engaged);
         for motion in &stretch.motions {
             let q = alpha - stretch.side.times(motion.rotation);
@@ -467,11 +463,9 @@ fn uplift_threshold() {
 fn the_clutch_keeps_its_law() {
     let mut told = [0_usize; 2];
     for kinematics in [KinematicsKind::Paper, KinematicsKind::Consistent] {
-        for mount in [
-            Mount::CentreOfMass,
-            Mount::TyingPoint { height: 3.0, pulley_ratio: 2.0 },
-            Mount::BaseCorners { pulley_ratio: 3.0 },
-        ] {
+        for mount in
+            [Mount::CentreOfMass, Mount::TyingPoint { height: 3.0, pulley_ratio: 2.0 }, Mount::BaseCorners { pulley_ratio: 3.0 }]
+        {
             for (degrees, frequency, amplitude) in [(5.0, 4.0, 3.0), (20.0, 2.0, 1.6), (20.0, 5.0, 4.0), (35.0, 3.0, 2.0)] {
                 let alpha = f64::to_radians(degrees);
                 let mut structure = resized(unit_block(Geometry::Full, degrees, DeviceKind::ClutchedPair, 0.9, 0.85), 2.0);
@@ -492,8 +486,14 @@ fn the_clutch_keeps_its_law() {
                 let level = amplitude * sin(alpha) / cos(alpha);
                 let pulse = Segment::sine(level, frequency * p, core::f64::consts::TAU / (frequency * p));
                 let mut log = FullLog::sampling(6);
-                sprag_tests::follow(&structure, &sprag_tests::tight(), sprag_tests::Start::Rest, &[pulse, Segment::quiet(3.0 / p)], &mut log)
-                    .expect("a motion that can be followed");
+                sprag_tests::follow(
+                    &structure,
+                    &sprag_tests::tight(),
+                    sprag_tests::Start::Rest,
+                    &[pulse, Segment::quiet(3.0 / p)],
+                    &mut log,
+                )
+                .expect("a motion that can be followed");
                 for stretch in &log.stretches {
                     let side: f64 = stretch.side.unit();
                     // The ends of a stretch are where signs change.

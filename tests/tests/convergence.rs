@@ -26,15 +26,13 @@ struct Scene {
 impl Scene {
     fn segments<S: Real>(&self) -> [Segment<S>; 2] {
         let level = self.amplitude * self.structure.geometry.uplift_threshold(&self.structure.block);
-        [
-            Segment::sine(S::of(level), S::of(self.frequency), S::of(TAU / self.frequency)),
-            Segment::quiet(S::of(self.free)),
-        ]
+        [Segment::sine(S::of(level), S::of(self.frequency), S::of(TAU / self.frequency)), Segment::quiet(S::of(self.free))]
     }
 
     fn by<S: Real, M: Method<S>>(&self, method: &M) -> (State<S>, Log<S, true>) {
         let mut log = Log::default();
-        let state = follow(&self.structure, method, Start::Rest, &self.segments(), &mut log).expect("a motion that can be followed");
+        let state =
+            follow(&self.structure, method, Start::Rest, &self.segments(), &mut log).expect("a motion that can be followed");
         (state, log)
     }
 }
@@ -102,7 +100,11 @@ fn keeps_its_order<M: Method<f64>>(name: &str, expected: f64, largest: f64, coun
             step /= 1.5;
         }
         let (of_state, of_events) = (order(&states), order(&events));
-        println!("{name}, scene {index}: order {of_state:.2} of the state, {of_events:.2} of the events; {:.1e} to {:.1e}", states[0].1, states[states.len() - 1].1);
+        println!(
+            "{name}, scene {index}: order {of_state:.2} of the state, {of_events:.2} of the events; {:.1e} to {:.1e}",
+            states[0].1,
+            states[states.len() - 1].1
+        );
         for seen in [of_state, of_events] {
             assert!(seen > expected - 0.4, "{name}, scene {index}: order {seen}, {expected} expected: {states:?} {events:?}");
         }

@@ -103,9 +103,13 @@ fn the_tolerance_and_the_order_do_not_show() {
             same(&reference, &run(&case, tolerance), &case);
         }
         let (state, ended) = by::<20>(&case, 1e-16);
-        for (other, other_ended) in
-            [by::<10>(&case, 1e-15), by::<12>(&case, 1e-15), by::<16>(&case, 1e-15), by::<28>(&case, 1e-15), by::<32>(&case, 1e-15)]
-        {
+        for (other, other_ended) in [
+            by::<10>(&case, 1e-15),
+            by::<12>(&case, 1e-15),
+            by::<16>(&case, 1e-15),
+            by::<28>(&case, 1e-15),
+            by::<32>(&case, 1e-15),
+        ] {
             assert_eq!((other.phase, other.impacts), (state.phase, state.impacts), "{case:?}");
             assert_eq!(other_ended.is_some(), ended.is_some());
             if let (Some(a), Some(b)) = (other_ended, ended) {
@@ -150,7 +154,10 @@ fn the_closed_form_tail_agrees_with_every_swing() {
                         let swing = release(&structure, start * alpha, 0.0, 2000.0, &mut swung);
                         assert_eq!((summed.decays, swung.decays), (1, 0), "one of the two is summed");
                         assert_eq!((sum.phase, swing.phase), (Phase::Rest, Phase::Rest));
-                        assert_eq!(sum.impacts, swing.impacts, "{geometry:?} {device:?} {degrees}° η = {restitution} from {start}");
+                        assert_eq!(
+                            sum.impacts, swing.impacts,
+                            "{geometry:?} {device:?} {degrees}° η = {restitution} from {start}"
+                        );
                         let (a, b) = (summed.peaks.ended.expect("rest"), swung.peaks.ended.expect("rest"));
                         assert!(relative(a, b) < 1e-9, "{geometry:?} {device:?} {degrees}° η = {restitution}: {a} and {b}");
                         assert!(relative(summed.peaks.rotation, swung.peaks.rotation) < 1e-12);
@@ -224,7 +231,13 @@ fn accumulating_impacts_end_in_rest_at_their_closed_form() {
                         let segment = if constant {
                             Segment::constant(push * alpha, 300.0)
                         } else {
-                            Segment { ground: sprag_tests::Ground::Line(sprag_shared::ground::Linear { start: push * alpha, slope: 1e-13 * alpha }), duration: 300.0 }
+                            Segment {
+                                ground: sprag_tests::Ground::Line(sprag_shared::ground::Linear {
+                                    start: push * alpha,
+                                    slope: 1e-13 * alpha,
+                                }),
+                                duration: 300.0,
+                            }
                         };
                         let mut log = FullLog::sampling(3);
                         let state = follow(&structure, &tight(), Start::Released(0.0, speed * alpha), &[segment], &mut log)
@@ -232,7 +245,10 @@ fn accumulating_impacts_end_in_rest_at_their_closed_form() {
                         sane(&log);
                         assert_eq!(state.phase, Phase::Rest, "{device:?}, push {push}, η = {restitution}");
                         let ended = log.peaks.ended.expect("rest");
-                        assert!(relative(ended, exact) < 1e-9, "{device:?}, push {push}, η = {restitution}: {ended}, exact {exact}");
+                        assert!(
+                            relative(ended, exact) < 1e-9,
+                            "{device:?}, push {push}, η = {restitution}: {ended}, exact {exact}"
+                        );
                         assert_eq!(state.impacts, impacts, "{device:?}, push {push}, η = {restitution}");
                         assert_eq!((state.rotation, state.velocity), (0.0, 0.0));
                     }
@@ -456,7 +472,11 @@ fn uplift_at_the_threshold_and_just_above() {
                         }
                         for above in [1e-12, 1e-9, 1e-6] {
                             let result = run(&Case { amplitude_ratio: sign * (1.0 + above), ..case }, TIGHT);
-                            assert_eq!(result.outcome, Outcome::Safe, "{geometry:?} {device:?} {pulse:?} {frequency_ratio} +{above}");
+                            assert_eq!(
+                                result.outcome,
+                                Outcome::Safe,
+                                "{geometry:?} {device:?} {pulse:?} {frequency_ratio} +{above}"
+                            );
                             assert!(result.peak_rotation > 0.0 && result.peak_rotation < 0.01 * above.max(1e-9), "{result:?}");
                         }
                     }
@@ -548,7 +568,8 @@ fn events_at_one_instant() {
             // Outward with η √(1 − 0.36) … of the speed it fell with, against or with the push.
             let fell = 0.8 / slower;
             let rate = 1.0 - push;
-            let rises = if device == DeviceKind::Inerter || (device == DeviceKind::ClutchedPair && rate < 0.0) { slower } else { 1.0 };
+            let rises =
+                if device == DeviceKind::Inerter || (device == DeviceKind::ClutchedPair && rate < 0.0) { slower } else { 1.0 };
             let (t, v) = (0.15 / rises, 0.85 * fell * rises);
             let exact = rate * (1.0 - cosh(t)) + v * sinh(t);
             assert!(relative(-states[4].rotation / alpha, exact) < 1e-12, "{device:?} {push}: {:?} for {exact}", states[4]);

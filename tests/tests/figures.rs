@@ -12,7 +12,13 @@ use sprag_tests::{FullLog, Segment, shake, unit_block};
 
 /// Outcome and peak rotation |θ|/α under one cycle of a sine with ω/p = `frequency` and a_g over the uplift threshold =
 /// `amplitude`.
-fn sine_pulse(geometry: Geometry, degrees: f64, device: DeviceKind, frequency: f64, amplitude: f64) -> (State<f64>, f64, FullLog) {
+fn sine_pulse(
+    geometry: Geometry,
+    degrees: f64,
+    device: DeviceKind,
+    frequency: f64,
+    amplitude: f64,
+) -> (State<f64>, f64, FullLog) {
     let structure = unit_block(geometry, degrees, device, 0.5, 0.85);
     let level = amplitude * geometry.uplift_threshold(&structure.block);
     let (state, log) = shake(&structure, &[Segment::sine(level, frequency, TAU / frequency), Segment::quiet(60.0)]);

@@ -66,8 +66,13 @@ fn every_angle_keeps_to_the_error_bound() {
         let threads: Vec<_> = (0..runs).map(|run| scope.spawn(move || worst(bound(run), bound(run + 1)))).collect();
         threads.into_iter().map(|thread| thread.join().unwrap()).fold(Worst::default(), Worst::merge)
     });
-    println!("{end} angles and their negatives: sine {:.4e} near {:?}, cosine {:.4e} near {:?}",
-        worst.sine, f32::from_bits(worst.sine_at), worst.cosine, f32::from_bits(worst.cosine_at));
+    println!(
+        "{end} angles and their negatives: sine {:.4e} near {:?}, cosine {:.4e} near {:?}",
+        worst.sine,
+        f32::from_bits(worst.sine_at),
+        worst.cosine,
+        f32::from_bits(worst.cosine_at)
+    );
     let largest = worst.sine.max(worst.cosine);
     assert!(largest <= ERROR_BOUND, "{largest:e} above {ERROR_BOUND:e}");
     assert!(largest > 0.95 * ERROR_BOUND, "{largest:e}: the bound {ERROR_BOUND:e} could be tighter");

@@ -59,8 +59,7 @@ fn a_case_comes_back_as_it_went() {
     });
     for mount in [Mount::TyingPoint { height: 2.0, pulley_ratio: 1.5 }, Mount::BaseCorners { pulley_ratio: 3.0 }] {
         let device = Device { mount, kinematics: KinematicsKind::Consistent, ..base.structure.device };
-        let structure =
-            Structure { device, geometry: Geometry::Full, restitution: Restitution::Geometric, ..base.structure };
+        let structure = Structure { device, geometry: Geometry::Full, restitution: Restitution::Geometric, ..base.structure };
         cases.push(Case { structure, method: FixedMethod::SemiImplicitEuler, ..base });
     }
     for case in cases {
