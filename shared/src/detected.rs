@@ -5,7 +5,7 @@
 //! There is no branch in a step, only selection, so the same lines run in f32 on the target, in f64, and in SIMD lanes.
 //! That makes it the yardstick for what the equations cost.
 
-use crate::equation::{Equation, FullInerter, Kinematics, SlenderBlock};
+use crate::equation::{Equation, FullBlock, FullInerter, Kinematics, SlenderBlock};
 use crate::fixed::runge_kutta_4;
 use crate::ground::Piece;
 use crate::lever::Lever;
@@ -15,12 +15,32 @@ use crate::scalar::{Real, Scalar};
 pub trait Switched<S: Scalar>: Equation<S> {
     /// `engaged` where the mask holds, `released` elsewhere. The two may differ in the inerter only.
     fn switched(mask: S::Mask, engaged: &Self, released: &Self) -> Self;
+
+    /// The same block with its inerter released.
+    fn without_inerter(&self) -> Self;
+}
+
+impl<S: Scalar> Switched<S> for FullBlock<S> {
+    #[inline(always)]
+    fn switched(_mask: S::Mask, _engaged: &Self, released: &Self) -> Self {
+        *released
+    }
+
+    #[inline(always)]
+    fn without_inerter(&self) -> Self {
+        *self
+    }
 }
 
 impl<S: Scalar, L: Lever<S>, K: Kinematics> Switched<S> for FullInerter<S, L, K> {
     #[inline(always)]
     fn switched(mask: S::Mask, engaged: &Self, released: &Self) -> Self {
         released.with_coupling(S::select(mask, engaged.coupling, released.coupling))
+    }
+
+    #[inline(always)]
+    fn without_inerter(&self) -> Self {
+        self.with_coupling(S::of(0.0))
     }
 }
 
@@ -32,6 +52,11 @@ impl<S: Scalar> Switched<S> for SlenderBlock<S> {
             inertia: S::select(mask, engaged.inertia, released.inertia),
             ..*released
         }
+    }
+
+    #[inline(always)]
+    fn without_inerter(&self) -> Self {
+        SlenderBlock { frequency_squared: self.frequency_squared * self.inertia, inertia: S::of(1.0), ..*self }
     }
 }
 
@@ -110,9 +135,9 @@ impl<S: Scalar, E: Switched<S>> Detected<S, E> {
         (S::select(moving, state.side, opposite), S::select(moving, h, S::select(uplifts, h, zero)))
     }
 
-    /// Eq. 10 at the start of the step: engaged where acceleration and velocity of the terminals have one sign.
+    /// The equation in force by Eq. 10 at an instant: engaged where acceleration and velocity of the terminals have one sign.
     #[inline(always)]
-    fn engagement(&self, state: &DetectedState<S>, side: S, ground: S) -> E {
+    pub fn engagement(&self, state: &DetectedState<S>, side: S, ground: S) -> E {
         let drive = self.released.switching(side, state.rotation, state.velocity, ground);
         E::switched((drive * state.velocity).exceeds(S::of(0.0)), &self.engaged, &self.released)
     }

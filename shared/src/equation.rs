@@ -136,7 +136,7 @@ impl<S: Scalar, L: Lever<S>, K: Kinematics> Equation<S> for FullInerter<S, L, K>
         }
     }
 
-    /// Paper: −p² [bracket], the sign of θ̈. Consistent: ℓ (ℓ·(−p² [bracket]) + ℓ' θ̇²), the sign of the terminals'
+    /// Paper: −p² \[bracket\], the sign of θ̈. Consistent: ℓ (ℓ·(−p² \[bracket\]) + ℓ' θ̇²), the sign of the terminals'
     /// acceleration along their travel, from which κ has dropped out.
     #[inline(always)]
     fn switching<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V {

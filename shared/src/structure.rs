@@ -7,6 +7,7 @@ use core::marker::PhantomData;
 
 use crate::block::{Block, Geometry};
 use crate::clutch::{Clutch, ClutchedPair, NoInerter, SingleInerter};
+use crate::detected::Switched;
 use crate::equation::{Consistent, Equation, FullBlock, FullInerter, Kinematics, Paper, SlenderBlock};
 use crate::error::{ParameterError, require};
 use crate::lever::{CentreOfMass, Lever, Mount, TyingPoint};
@@ -91,7 +92,7 @@ pub trait WithSystem<S: Real> {
     type Output;
 
     /// Goes on with `system`.
-    fn with<R: Equation<S>, E: Equation<S>, C: Clutch>(self, system: System<S, R, E, C>) -> Self::Output;
+    fn with<R: Equation<S>, E: Switched<S>, C: Clutch>(self, system: System<S, R, E, C>) -> Self::Output;
 }
 
 impl Structure {

@@ -107,11 +107,10 @@ impl GroundMotion {
             }
             let lines: Option<Vec<Linear<f64>>> = mixture.iter().map(|part| part.1.line(part.0)).collect();
             let shape = match lines {
-                Some(lines) => Shape::Linear(
-                    lines
-                        .iter()
-                        .fold(Linear { start: 0.0, slope: 0.0 }, |sum, l| Linear { start: sum.start + l.start, slope: sum.slope + l.slope }),
-                ),
+                Some(lines) => Shape::Linear(lines.iter().fold(Linear { start: 0.0, slope: 0.0 }, |sum, l| Linear {
+                    start: sum.start + l.start,
+                    slope: sum.slope + l.slope,
+                })),
                 None => Shape::Mixture(mixture),
             };
             segments.push(Segment { start, duration: end - start, shape, bound: 0.0 });

@@ -32,10 +32,17 @@ impl Results {
     ///
     /// # Errors
     /// [`OutputError`] when the folder cannot be written, or the disk is full.
-    pub fn add(&mut self, path: &Path, fill: impl FnOnce(&mut BufWriter<&mut std::fs::File>) -> io::Result<()>) -> Result<(), OutputError> {
+    pub fn add(
+        &mut self,
+        path: &Path,
+        fill: impl FnOnce(&mut BufWriter<&mut std::fs::File>) -> io::Result<()>,
+    ) -> Result<(), OutputError> {
         let failed = |error: io::Error| OutputError::new(path, &error);
         if path.is_dir() {
-            return Err(OutputError { path: path.to_owned(), reason: "is a folder, but a file is to be written there".to_owned() });
+            return Err(OutputError {
+                path: path.to_owned(),
+                reason: "is a folder, but a file is to be written there".to_owned(),
+            });
         }
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let mut builder = tempfile::Builder::new();

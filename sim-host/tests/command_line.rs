@@ -73,7 +73,12 @@ fn batch_results_do_not_depend_on_the_number_of_threads_and_keep_their_order() {
     for index in 0..1000 {
         let device = ["none", "inerter", "clutched-pair"][index % 3];
         let geometry = ["full", "slender"][index % 2];
-        text += &format!("c{},{geometry},15,{device},0.5,0.85,sine,{},{},60\n", 999 - index, 1.0 + index as f64 * 0.005, 1.5 + (index % 7) as f64);
+        text += &format!(
+            "c{},{geometry},15,{device},0.5,0.85,sine,{},{},60\n",
+            999 - index,
+            1.0 + index as f64 * 0.005,
+            1.5 + (index % 7) as f64
+        );
     }
     fs::write(&cases, text).unwrap();
     let results = ["1", "2", "7"].map(|threads| {
@@ -196,7 +201,14 @@ fn ctrl_c_ends_a_long_run_and_leaves_nothing() {
     let out = folder.path().join("out");
     let mut child = Command::new(env!("CARGO_BIN_EXE_sprag"))
         .args(["simulate", &scene("figure05"), "--out", out.to_str().unwrap()])
-        .args(["--set", "accuracy.method=runge-kutta-4", "--set", "accuracy.step_ratio=1e-7", "--set", "run.free_time_ratio=10000"])
+        .args([
+            "--set",
+            "accuracy.method=runge-kutta-4",
+            "--set",
+            "accuracy.step_ratio=1e-7",
+            "--set",
+            "run.free_time_ratio=10000",
+        ])
         .stderr(std::process::Stdio::null())
         .spawn()
         .unwrap();

@@ -9,16 +9,9 @@
 //! of the half angle's sine. `tests/tests/sine_exhaustive.rs` bounds the whole error over every f32 in [−π, π].
 
 /// S(y), ascending.
-const SINE: [f32; 4] =
-    [-0.041_666_664, 0.000_520_827_66, -3.097_303e-6, 1.029_201_7e-8];
+const SINE: [f32; 4] = [-0.041_666_664, 0.000_520_827_66, -3.097_303e-6, 1.029_201_7e-8];
 /// C(y), ascending.
-const COSINE: [f32; 5] = [
-    -0.125,
-    0.002_604_166_3,
-    -2.170_101_8e-5,
-    9.677_57e-8,
-    -2.568_116_8e-10,
-];
+const COSINE: [f32; 5] = [-0.125, 0.002_604_166_3, -2.170_101_8e-5, 9.677_57e-8, -2.568_116_8e-10];
 
 /// sin x and cos x for |x| ≤ π. Absolute error below [`ERROR_BOUND`]; odd and even to the last bit
 /// (of ±0 the sine is +0).

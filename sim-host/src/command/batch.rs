@@ -100,8 +100,7 @@ fn run_or_fail(arguments: &BatchArguments, interrupt: &Interrupt) -> Result<(), 
             .flat_map_iter(|chunk| {
                 let method = Taylor::<f64, TERMS>::adaptive(arguments.tolerance);
                 let stop = interrupt.is_set();
-                let answers: Vec<_> =
-                    if stop { Vec::new() } else { chunk.iter().map(|(_, case)| case.run(&method)).collect() };
+                let answers: Vec<_> = if stop { Vec::new() } else { chunk.iter().map(|(_, case)| case.run(&method)).collect() };
                 progress.set_position(done.fetch_add(chunk.len() as u64, Ordering::Relaxed) + chunk.len() as u64);
                 answers
             })

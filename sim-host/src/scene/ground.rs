@@ -181,19 +181,29 @@ impl GroundTable {
     }
 
     fn kind(&self) -> String {
-        format!("{:?}", serde_json::to_value(self.motion).ok().and_then(|value| value.as_str().map(str::to_owned)).unwrap_or_default())
+        format!(
+            "{:?}",
+            serde_json::to_value(self.motion).ok().and_then(|value| value.as_str().map(str::to_owned)).unwrap_or_default()
+        )
     }
 
     /// The motion's smooth pieces.
-    fn component(&self, block: &Block, uplift: f64, folder: &Path, key: &dyn Fn(&str) -> error::Key) -> Result<Component, GroundError> {
+    fn component(
+        &self,
+        block: &Block,
+        uplift: f64,
+        folder: &Path,
+        key: &dyn Fn(&str) -> error::Key,
+    ) -> Result<Component, GroundError> {
         let p = block.frequency_parameter();
         let amplitude = self.scale
             * self.amplitude_ratio.map_or_else(
                 || self.amplitude_g.unwrap_or_else(|| self.amplitude_m_s2.unwrap_or_default() / GRAVITY),
                 |ratio| ratio * uplift,
             );
-        let frequency =
-            self.frequency_ratio.map_or_else(|| self.frequency_hz.unwrap_or_default() * core::f64::consts::TAU, |ratio| ratio * p);
+        let frequency = self
+            .frequency_ratio
+            .map_or_else(|| self.frequency_hz.unwrap_or_default() * core::f64::consts::TAU, |ratio| ratio * p);
         let one = |duration: f64, smooth: Smooth| Component::pulse(self.start_s, duration, smooth);
         let cycle = core::f64::consts::TAU / frequency;
         Ok(match self.motion {
@@ -227,7 +237,11 @@ impl GroundTable {
                     ..ReadOptions::default()
                 };
                 let record = Record::read(folder.join(file), &options)?;
-                Component::record(self.start_s, record.time_step_s, record.acceleration_m_s2.iter().map(|a| self.scale * a / GRAVITY))
+                Component::record(
+                    self.start_s,
+                    record.time_step_s,
+                    record.acceleration_m_s2.iter().map(|a| self.scale * a / GRAVITY),
+                )
             }
         })
     }

@@ -179,11 +179,7 @@ fn default_name(table: &DeviceTable, all: &[DeviceTable]) -> String {
     }
 }
 
-fn resolve_device(
-    table: &DeviceTable,
-    block_mass: Option<f64>,
-    key: &dyn Fn(&str) -> error::Key,
-) -> Result<Device, SceneError> {
+fn resolve_device(table: &DeviceTable, block_mass: Option<f64>, key: &dyn Fn(&str) -> error::Key) -> Result<Device, SceneError> {
     let kind = DeviceKind::from(table.kind);
     if kind == DeviceKind::None {
         let stray = [
@@ -235,7 +231,6 @@ fn resolve_device(
     let kinematics = table.kinematics.map_or(KinematicsKind::Paper, KinematicsKind::from);
     Ok(Device { kind, mass_ratio, mount, kinematics })
 }
-
 
 #[cfg(test)]
 mod tests;

@@ -10,7 +10,8 @@ use super::SceneError;
 /// # Errors
 /// [`SceneError::Conflict`] when `item` has no `=`, or its key leads through a value that is not a table or an array.
 pub fn apply(table: &mut Table, item: &str, origin: &str) -> Result<(), SceneError> {
-    let refuse = |key: &str, reason: String| SceneError::Conflict { origin: origin.to_owned(), key: format!("--set {key}"), reason };
+    let refuse =
+        |key: &str, reason: String| SceneError::Conflict { origin: origin.to_owned(), key: format!("--set {key}"), reason };
     let Some((path, text)) = item.split_once('=') else {
         return Err(refuse(item, "must be KEY=VALUE, such as block.size_m=2".to_owned()));
     };

@@ -117,7 +117,8 @@ impl BlockTable {
     pub fn block(&self, key: &KeyOf<'_>) -> Result<Block, SceneError> {
         let degrees = self.slenderness_deg;
         key("block.slenderness_deg").require(degrees, degrees > 0.0 && degrees < 90.0, "above 0 and below 90 degrees")?;
-        let ratio = key("block.inertia_ratio").require(self.inertia_ratio, (1.0..=4.0).contains(&self.inertia_ratio), "from 1 to 4")?;
+        let ratio =
+            key("block.inertia_ratio").require(self.inertia_ratio, (1.0..=4.0).contains(&self.inertia_ratio), "from 1 to 4")?;
         let size = match (self.size_m, self.frequency_parameter_1_s) {
             (Some(size), None) => key("block.size_m").require(size, (1e-3..=1e4).contains(&size), "from 0.001 to 10000 m")?,
             (None, Some(p)) => {

@@ -59,7 +59,8 @@ fn unknown_keys_and_wrong_kinds_are_refused() {
     for item in ["block.weight=3", "colour=red", "block.size_m=long", "device.0.kind=damper", "ground.0.motion=square"] {
         refused(&[item]);
     }
-    let message = Scene::parse(&SCENE.replace("size_m = 2.0", "size_m = 2.0\nsize_ft = 6"), "scene.toml").unwrap_err().to_string();
+    let message =
+        Scene::parse(&SCENE.replace("size_m = 2.0", "size_m = 2.0\nsize_ft = 6"), "scene.toml").unwrap_err().to_string();
     assert!(message.starts_with("scene.toml:5: block") && message.contains("unknown field `size_ft`"), "{message}");
 }
 

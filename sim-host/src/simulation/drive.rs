@@ -51,12 +51,16 @@ pub struct Course<'a> {
 }
 
 impl Course<'_> {
-    fn limits<S: Real>(&self, bound: f64) -> Limits<S> {
-        let angle = match (self.overturning, self.geometry) {
+    /// |θ| (rad) at which an outward motion counts as overturned while the ground stays within `bound` (in g).
+    pub fn angle<S: Real>(&self, bound: f64) -> S {
+        S::of(match (self.overturning, self.geometry) {
             (Overturning::Reached, Geometry::Full) => core::f64::consts::FRAC_PI_2,
             _ => self.geometry.point_of_no_return(self.block, bound),
-        };
-        Limits { overturned: S::of(angle), events: MOST_ARCS }
+        })
+    }
+
+    fn limits<S: Real>(&self, bound: f64) -> Limits<S> {
+        Limits { overturned: self.angle(bound), events: MOST_ARCS }
     }
 
     /// Follows `state` to the end; `goes_on` is asked before every segment.

@@ -3,5 +3,6 @@
 pub mod drive;
 pub mod recorder;
 pub mod run;
+pub mod step_end;
 
 pub use run::{DeviceRun, RunError, simulate};

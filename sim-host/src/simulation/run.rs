@@ -4,6 +4,7 @@ use serde::Serialize;
 use sprag_shared::arc::Method;
 use sprag_shared::block::GRAVITY;
 use sprag_shared::clutch::Clutch;
+use sprag_shared::detected::Switched;
 use sprag_shared::equation::Equation;
 use sprag_shared::error::ParameterError;
 use sprag_shared::fixed::{RungeKutta4, SemiImplicitEuler};
@@ -15,13 +16,14 @@ use sprag_shared::taylor::Taylor;
 
 use super::drive::{Course, Overturning};
 use super::recorder::Recorder;
+use super::step_end::{self, Steps, Trace};
 use crate::batch::case::TERMS;
 use crate::ground_motion::GroundMotion;
-use crate::history::History;
+use crate::history::{History, Sample};
 use crate::interrupt::Interrupt;
 use crate::outcome::Outcome;
 use crate::scene::Scene;
-use crate::scene::schema::{MethodName, Precision};
+use crate::scene::schema::{EventTreatment, MethodName, Precision};
 
 /// Samples of a history when the scene names no interval.
 const SAMPLES: f64 = 2000.0;
@@ -103,7 +105,13 @@ pub fn simulate(scene: &Scene, ground: &GroundMotion, interrupt: &Interrupt) -> 
     (0..scene.devices.len()).map(|index| run_device(scene, ground, index, interval, interrupt)).collect()
 }
 
-fn run_device(scene: &Scene, ground: &GroundMotion, index: usize, interval: f64, interrupt: &Interrupt) -> Result<DeviceRun, RunError> {
+fn run_device(
+    scene: &Scene,
+    ground: &GroundMotion,
+    index: usize,
+    interval: f64,
+    interrupt: &Interrupt,
+) -> Result<DeviceRun, RunError> {
     let device = scene.devices[index].0.clone();
     let accuracy = &scene.file.accuracy;
     let step = accuracy.step(scene.block.frequency_parameter());
@@ -150,6 +158,44 @@ impl RunOne<'_> {
     }
 }
 
+impl RunOne<'_> {
+    #[expect(clippy::too_many_arguments, reason = "the pieces of one result, from two kinds of run")]
+    fn result<S: Real>(
+        &self,
+        state: &State<S>,
+        peaks: &Peaks<S>,
+        end: f64,
+        clutch_switches: u32,
+        peak_force_ratio: f64,
+        samples: Vec<Sample>,
+        impacts_s: Vec<f64>,
+    ) -> DeviceRun {
+        let device = self.scene.devices[self.index].0.clone();
+        let (alpha, p) = (self.scene.block.slenderness(), self.scene.block.frequency_parameter());
+        let outcome = Outcome::of(state, peaks);
+        let safe = |value: S| (!outcome.overturned()).then_some(value.to_f64());
+        DeviceRun {
+            device: device.clone(),
+            outcome,
+            peak_rotation: safe(peaks.rotation).map(|peak| peak / alpha),
+            peak_acceleration: safe(peaks.acceleration).map(|peak| peak / (p * p * alpha)),
+            impacts: state.impacts,
+            first_impact_time_s: peaks.first_impact.map(Real::to_f64),
+            end_time_s: peaks.ended.map_or(end, Real::to_f64),
+            clutch_switches,
+            peak_force_ratio,
+            history: History {
+                device,
+                outcome: outcome.name().to_owned(),
+                slenderness_rad: alpha,
+                frequency_parameter_1_s: p,
+                samples,
+                impacts_s,
+            },
+        }
+    }
+}
+
 struct Resolved<'a, S, M> {
     run: &'a RunOne<'a>,
     method: &'a M,
@@ -159,9 +205,9 @@ struct Resolved<'a, S, M> {
 impl<S: Real, M: Method<S>> WithSystem<S> for Resolved<'_, S, M> {
     type Output = Result<DeviceRun, Failure>;
 
-    fn with<R: Equation<S>, E: Equation<S>, C: Clutch>(self, system: System<S, R, E, C>) -> Self::Output {
+    fn with<R: Equation<S>, E: Switched<S>, C: Clutch>(self, system: System<S, R, E, C>) -> Self::Output {
         let RunOne { scene, ground, index, interval, interrupt } = *self.run;
-        let (name, device) = &scene.devices[index];
+        let device = &scene.devices[index].1;
         let (alpha, p) = (scene.block.slenderness(), scene.block.frequency_parameter());
         let table = &scene.file.block;
         let mut state = State::default();
@@ -179,39 +225,29 @@ impl<S: Real, M: Method<S>> WithSystem<S> for Resolved<'_, S, M> {
             overturning: Overturning::Reached,
         };
         let force_scale = device.mass_ratio * scene.block.size() / GRAVITY;
+        let end = ground.duration() + scene.free_time_s();
+        let accuracy = &scene.file.accuracy;
+        if let (EventTreatment::StepEnd, Some(step)) = (accuracy.events, accuracy.step(p)) {
+            let steps = Steps { method: accuracy.method, step, interval, force_scale };
+            let trace = step_end::follow(&course, &system, &steps, (state.rotation, state.velocity), || !interrupt.is_set());
+            if interrupt.is_set() {
+                return Err(Failure::Interrupted);
+            }
+            let Trace { state, peaks, samples, impacts, switches, peak_force } = trace;
+            let peaks = Peaks { rocked: peaks.rocked || released, ..peaks };
+            return Ok(self.run.result(&state, &peaks, end, switches, peak_force, samples, impacts));
+        }
         let recorder = Recorder::<S, E, C>::new(&system.engaged, force_scale, interval, ground.segments());
         let mut observers = (recorder, Peaks { rocked: released, ..Peaks::default() });
-        course
-            .follow(&system, self.method, &mut state, &mut observers, || !interrupt.is_set())
-            .map_err(Failure::Stopped)?;
+        course.follow(&system, self.method, &mut state, &mut observers, || !interrupt.is_set()).map_err(Failure::Stopped)?;
         if interrupt.is_set() {
             return Err(Failure::Interrupted);
         }
         let (mut recorder, peaks) = observers;
-        let end = ground.duration() + scene.free_time_s();
         if state.phase != Phase::Overturned {
             recorder.finish(end, state.phase == Phase::Rest);
         }
-        let outcome = Outcome::of(&state, &peaks);
-        let safe = |value: S| (!outcome.overturned()).then_some(value.to_f64());
-        Ok(DeviceRun {
-            device: name.clone(),
-            outcome,
-            peak_rotation: safe(peaks.rotation).map(|peak| peak / alpha),
-            peak_acceleration: safe(peaks.acceleration).map(|peak| peak / (p * p * alpha)),
-            impacts: state.impacts,
-            first_impact_time_s: peaks.first_impact.map(Real::to_f64),
-            end_time_s: peaks.ended.map_or(end, Real::to_f64),
-            clutch_switches: recorder.switches,
-            peak_force_ratio: recorder.peak_force,
-            history: History {
-                device: name.clone(),
-                outcome: outcome.name().to_owned(),
-                slenderness_rad: alpha,
-                frequency_parameter_1_s: p,
-                samples: recorder.samples,
-                impacts_s: recorder.impacts,
-            },
-        })
+        let Recorder { samples, impacts, switches, peak_force, .. } = recorder;
+        Ok(self.run.result(&state, &peaks, end, switches, peak_force, samples, impacts))
     }
 }

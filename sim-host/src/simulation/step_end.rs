@@ -1,0 +1,128 @@
+//! Runs whose impacts and clutch are looked at once a step (`accuracy.events = "step-end"`): the scheme of the paper and of
+//! most programs, kept to show what it costs ([`sprag_shared::detected`]).
+
+use sprag_shared::block::GRAVITY;
+use sprag_shared::clutch::Clutch;
+use sprag_shared::detected::{Detected, DetectedState, Switched};
+use sprag_shared::ground::Piece;
+use sprag_shared::observer::Peaks;
+use sprag_shared::rocking::{Phase, State, System};
+use sprag_shared::scalar::Real;
+
+use super::drive::Course;
+use crate::ground_motion::ShapePiece;
+use crate::history::Sample;
+use crate::scene::schema::MethodName;
+
+/// Which step is taken, and how often it is sampled.
+#[derive(Clone, Copy, Debug)]
+pub struct Steps {
+    /// Runge-Kutta or semi-implicit Euler.
+    pub method: MethodName,
+    /// s.
+    pub step: f64,
+    /// Between samples, s.
+    pub interval: f64,
+    /// σR/g.
+    pub force_scale: f64,
+}
+
+/// What a run leaves.
+#[derive(Debug, Default)]
+pub struct Trace<S> {
+    /// Phase and impacts.
+    pub state: State<S>,
+    /// Largest values at step ends.
+    pub peaks: Peaks<S>,
+    /// Samples at step ends, about one an interval.
+    pub samples: Vec<Sample>,
+    /// Times of impacts, s.
+    pub impacts: Vec<f64>,
+    /// Clutch switches.
+    pub switches: u32,
+    /// Largest |F|/(mg) at step ends.
+    pub peak_force: f64,
+}
+
+/// Follows a block from rest, or from `start` (θ, θ̇), until the end of the course or `goes_on` says no.
+pub fn follow<S: Real, R, E: Switched<S>, C: Clutch>(
+    course: &Course<'_>,
+    system: &System<S, R, E, C>,
+    steps: &Steps,
+    start: (S, S),
+    mut goes_on: impl FnMut() -> bool,
+) -> Trace<S> {
+    let released = if C::FOLLOWS_SIGNS { system.engaged.without_inerter() } else { system.engaged };
+    let block = Detected { released, engaged: system.engaged, restitution: system.restitution, uplift: system.uplift };
+    let mut trace = Trace::default();
+    let mut state = DetectedState::at_rest();
+    (state.rotation, state.velocity) = start;
+    if start.0 < S::ZERO || (start.0 == S::ZERO && start.1 < S::ZERO) {
+        state.side = -S::ONE;
+    }
+    let (mut engaged, mut next) = (false, 0.0);
+    let quiet = (course.ground.duration(), course.free_time, None);
+    let segments = course.ground.segments().iter().map(|segment| (segment.start, segment.duration, Some(segment))).chain([quiet]);
+    for (origin, duration, segment) in segments {
+        let piece =
+            segment.map_or(ShapePiece::Linear(sprag_shared::ground::Linear::constant(S::ZERO)), |s| ShapePiece::of(&s.shape));
+        let overturned: S = course.angle(segment.map_or(0.0, |segment| segment.bound));
+        let h = S::of(steps.step);
+        let (mut time, mut tick) = (S::ZERO, 0);
+        let duration = S::of(duration);
+        while time < duration && goes_on() {
+            tick += 1;
+            let end = (S::count(tick) * h).smaller(duration);
+            let (push, push_at_end) = (piece.acceleration(time), piece.acceleration(end));
+            let (before, was_moving) = (state.side, state != DetectedState::at_rest());
+            state = match steps.method {
+                MethodName::SemiImplicitEuler => block.semi_implicit_euler(state, push, end - time),
+                _ => block.runge_kutta_4(state, [push, piece.acceleration(S::HALF * (time + end)), push_at_end], end - time),
+            };
+            time = end;
+            let at = origin + time.to_f64();
+            let moving = state != DetectedState::at_rest();
+            trace.peaks.rocked |= moving;
+            if was_moving && before != state.side {
+                trace.state.impacts += 1;
+                trace.impacts.push(at);
+                trace.peaks.first_impact = trace.peaks.first_impact.or(Some(S::of(at)));
+            }
+            let equation = block.engagement(&state, state.side, push_at_end);
+            let acceleration =
+                if moving { equation.acceleration(state.side, state.rotation, state.velocity, push_at_end) } else { S::ZERO };
+            trace.peaks.rotation = trace.peaks.rotation.larger(state.rotation.abs());
+            trace.peaks.acceleration = trace.peaks.acceleration.larger(acceleration.abs());
+            let works = C::INERTER && moving && (!C::FOLLOWS_SIGNS || equation.inertia(state.side, state.rotation) > S::ONE);
+            trace.switches += u32::from(C::FOLLOWS_SIGNS && works != engaged);
+            engaged = works;
+            let terminal = equation.terminal_acceleration(state.side, state.rotation, state.velocity, acceleration);
+            let force = if works { terminal.to_f64() * steps.force_scale } else { 0.0 };
+            trace.peak_force = trace.peak_force.max(force.abs());
+            let second = C::FOLLOWS_SIGNS && state.velocity < S::ZERO;
+            let falls = state.rotation.abs() >= overturned && state.rotation * state.velocity > S::ZERO;
+            if at >= next || falls {
+                next = (at / steps.interval).floor() * steps.interval + steps.interval;
+                trace.samples.push(Sample {
+                    time_s: at,
+                    ground_m_s2: push_at_end.to_f64() * GRAVITY,
+                    rotation_rad: state.rotation.to_f64(),
+                    velocity_rad_s: state.velocity.to_f64(),
+                    acceleration_rad_s2: acceleration.to_f64(),
+                    force_ratio: if second { [0.0, force] } else { [force, 0.0] },
+                    engaged: match (works, second) {
+                        (false, _) => 0,
+                        (true, false) => 1,
+                        (true, true) => 2,
+                    },
+                });
+            }
+            if falls {
+                trace.state.phase = Phase::Overturned;
+                trace.peaks.ended = Some(S::of(at));
+                return trace;
+            }
+        }
+    }
+    trace
+}
