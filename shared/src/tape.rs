@@ -98,6 +98,16 @@ impl<'t, S: Real, const N: usize> Node<'t, S, N> {
 /// Σ a_j b_{n−1−j} over two runs of the same length n: one coefficient of a product.
 #[inline(always)]
 fn convolve<S: Real>(a: &[Cell<S>], b: &[Cell<S>]) -> S {
+    // Short steps need only the first few orders, where a loop costs more than its work.
+    match (a, b) {
+        ([a0], [b0]) => return a0.get() * b0.get(),
+        ([a0, a1], [b0, b1]) => return a0.get() * b1.get() + a1.get() * b0.get(),
+        ([a0, a1, a2], [b0, b1, b2]) => return a0.get() * b2.get() + a1.get() * b1.get() + a2.get() * b0.get(),
+        ([a0, a1, a2, a3], [b0, b1, b2, b3]) => {
+            return (a0.get() * b3.get() + a1.get() * b2.get()) + (a2.get() * b1.get() + a3.get() * b0.get());
+        }
+        _ => {}
+    }
     let mut sums = [S::ZERO; 4];
     let (quads, rest) = a.as_chunks::<4>();
     let (rest_b, quads_b) = b.as_rchunks::<4>();
@@ -116,6 +126,9 @@ fn convolve<S: Real>(a: &[Cell<S>], b: &[Cell<S>]) -> S {
 /// [`convolve`] of one run with two others at once.
 #[inline(always)]
 fn convolve_both<S: Real>(a: &[Cell<S>], b: &[Cell<S>], c: &[Cell<S>]) -> (S, S) {
+    if a.len() <= 4 {
+        return (convolve(a, b), convolve(a, c));
+    }
     let (mut first, mut second) = ([S::ZERO; 2], [S::ZERO; 2]);
     let (pairs, rest) = a.as_chunks::<2>();
     let (rest_b, pairs_b) = b.as_rchunks::<2>();

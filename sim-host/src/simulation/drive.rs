@@ -83,12 +83,18 @@ impl Course<'_> {
         M: Method<S>,
         O: GroundObserver<S>,
     {
+        // The bound of a record falls rarely, and a limit costs an arctangent.
+        let (mut bound, mut limits) = (f64::NAN, self.limits(0.0));
         for segment in self.ground.segments() {
             if state.phase == Phase::Overturned || !goes_on() {
                 return Ok(());
             }
             observer.segment(segment.start, Some(segment));
-            let (limits, duration) = (self.limits(segment.bound), S::of(segment.duration));
+            if segment.bound != bound {
+                bound = segment.bound;
+                limits = self.limits(bound);
+            }
+            let duration = S::of(segment.duration);
             // One type for every shape: a branch a call costs less than a second copy of every stepper.
             system.advance(method, state, &ShapePiece::of(&segment.shape), duration, &limits, observer)?;
         }
