@@ -33,7 +33,7 @@ pub struct SimulateArguments {
     /// Ground motion record, in the place of the scene's.
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
-    /// Folder for the results; out/<name of the scene> by default.
+    /// Folder for the results; out/NAME of the scene by default.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Show the picture.
