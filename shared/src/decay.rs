@@ -14,7 +14,7 @@
 use core::cell::Cell;
 
 use crate::equation::Equation;
-use crate::math::RECIPROCALS;
+use crate::math::{self, RECIPROCALS};
 use crate::scalar::Real;
 use crate::tape::Tape;
 
@@ -27,17 +27,20 @@ const TOLERANCE: f64 = 1e-13;
 /// Swings that are summed one by one before giving up.
 const MOST_SWINGS: u32 = 20_000;
 
-/// A free motion summed to its end.
+/// A free motion summed to its end, or to the last impact within its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Decay<S> {
-    /// Time until rest, s.
+    /// Time summed, s.
     pub duration: S,
-    /// Impacts still to come that count.
+    /// Impacts in it that count.
     pub impacts: u32,
     /// Largest |θ| still to come, rad: that of the first swing.
     pub rotation: S,
     /// Largest |θ̈| still to come, rad/s².
     pub acceleration: S,
+    /// θ̇ after the last impact summed, rad/s, along the direction of the start (negative after an odd number of swings): 0 at
+    /// rest, not 0 when the time ran out first.
+    pub speed: S,
 }
 
 /// The series of a structure's free swings.
@@ -89,34 +92,73 @@ impl<S: Real> Swings<S> {
     }
 
     /// The motion that starts from θ = 0 with `speed` (rad/s), with impacts of restitution `eta` that count down to an
-    /// incoming `counted` speed. None if the first swing is too large for the series, or the motion does not die.
-    pub fn decay(&self, speed: S, eta: S, counted: S) -> Option<Decay<S>> {
+    /// incoming `counted` speed, over at most `time` (s). None if the first swing is too large for the series, or not even one
+    /// swing can be summed.
+    pub fn decay(&self, speed: S, eta: S, counted: S, time: S) -> Option<Decay<S>> {
         let energy = S::HALF * speed * speed;
-        if energy > self.enough[TERMS - 1] || eta > S::of(0.9999) || speed <= S::ZERO {
+        if energy > self.enough[TERMS - 1] || speed <= S::ZERO {
             return None;
         }
-        let (duration, impacts) =
-            if self.same { self.geometric(speed, energy, eta, counted) } else { self.mapped(speed, eta, counted)? };
+        let (duration, impacts, last) = if self.same {
+            self.geometric(speed, energy, eta, counted, time)?
+        } else {
+            let (duration, impacts) = self.mapped(speed, eta, counted)?;
+            (duration, impacts, S::ZERO)
+        };
+        if duration > time {
+            return None;
+        }
         let rotation = energy * self.reach.iter().rev().fold(S::ZERO, |sum, &c| sum * energy + c);
-        Some(Decay { duration, impacts, rotation, acceleration: self.acceleration })
+        Some(Decay { duration, impacts, rotation, acceleration: self.acceleration, speed: last })
     }
 
-    /// Σ_n 2 v_n Σ_j r_j B_j (v_n²/2)^j with v_n = v ηⁿ.
-    fn geometric(&self, speed: S, energy: S, eta: S, counted: S) -> (S, u32) {
+    /// Σ_n 2 v_n Σ_j r_j B_j (v_n²/2)^j with v_n = v ηⁿ: to the end, or as many whole swings as there is time for. Duration,
+    /// counted impacts and the speed after the last.
+    fn geometric(&self, speed: S, energy: S, eta: S, counted: S, time: S) -> Option<(S, u32, S)> {
+        let loss = S::ONE - eta;
         let mut duration = S::ZERO;
-        let (mut power, mut decline) = (speed + speed, eta);
+        let mut power = speed + speed;
+        // (1 − η^{2j+1})/(1 − η), which has no cancellation near η = 1, and η^{2j+1}.
+        let (mut sum, mut decline) = (S::ONE, eta);
         for &coefficient in &self.rising {
-            duration = duration + coefficient * power / (S::ONE - decline);
+            duration = duration + coefficient * power / (loss * sum);
             power = power * energy;
+            sum = sum + decline + decline * eta;
             decline = decline * eta * eta;
         }
-        let mut incoming = speed;
-        let mut impacts = 0;
-        while incoming >= counted {
-            impacts += 1;
-            incoming = incoming * eta;
+        if loss > S::ZERO && duration <= time {
+            return Some((duration, counted_impacts(speed, eta, counted), S::ZERO));
         }
-        (duration, impacts)
+        // Not over in time: bisect for the number of swings, in f64 because there may be very many.
+        let rate = math::log1p(-loss.to_f64());
+        let after = |swings: f64| {
+            let mut power = 2.0 * speed.to_f64();
+            let mut duration = 0.0;
+            for (j, coefficient) in self.rising.iter().enumerate() {
+                let m = (2 * j + 1) as f64;
+                let share = if rate == 0.0 { swings } else { math::expm1(m * swings * rate) / math::expm1(m * rate) };
+                duration += coefficient.to_f64() * power * share;
+                power *= energy.to_f64();
+            }
+            duration
+        };
+        let (mut low, mut high) = (0.0, 1.0);
+        while after(high) <= time.to_f64() && high < 1e15 {
+            high *= 2.0;
+        }
+        while high - low > 0.5 {
+            let middle = 0.5 * (low + high);
+            if after(middle) <= time.to_f64() { low = middle } else { high = middle }
+        }
+        // Below 2⁵² a float as an integer is its floor.
+        let swings = (low as u64) as f64;
+        if swings < 1.0 {
+            return None;
+        }
+        let most = swings.min(f64::from(u32::MAX)) as u32;
+        let last = speed * S::of(math::exp(swings * rate));
+        let last = if (low as u64).is_multiple_of(2) { last } else { -last };
+        Some((S::of(after(swings)), most.min(counted_impacts(speed, eta, counted)), last))
     }
 
     /// Swing by swing until impacts no longer count; what is left then has constant rates, and is geometric.
@@ -150,6 +192,19 @@ impl<S: Real> Swings<S> {
         }
         None
     }
+}
+
+/// Impacts of incoming speeds v, vη, vη², … that are not below `counted`.
+fn counted_impacts<S: Real>(speed: S, eta: S, counted: S) -> u32 {
+    if speed < counted {
+        return 0;
+    }
+    if eta <= S::ZERO {
+        return 1;
+    }
+    let rate = math::log1p(-(S::ONE - eta).to_f64());
+    let more = math::ln(speed.to_f64() / counted.to_f64()) / -rate;
+    if more < f64::from(u32::MAX - 1) { 1 + more as u32 } else { u32::MAX }
 }
 
 /// Coefficients of 1/|a| in the energy given up, and those of |a'|/|a| where wanted.
@@ -195,7 +250,7 @@ mod tests {
     #[test]
     fn the_slender_block_rocks_for_its_closed_form() {
         let swings = Swings::of(&slender(1.0), &slender(1.0), true);
-        let decay = swings.decay(0.04, 0.85, 1e-7).unwrap();
+        let decay = swings.decay(0.04, 0.85, 1e-7, 1e3).unwrap();
         let exact: f64 = (0..400).map(|n| 2.0 * atanh(0.4 * crate::math::pow(0.85, f64::from(n)))).sum();
         assert!((decay.duration / exact - 1.0).abs() < 1e-12, "{} {exact}", decay.duration);
         assert_eq!(decay.impacts, 80, "ln(1e-7/0.04)/ln 0.85 = 79.4");
@@ -209,7 +264,7 @@ mod tests {
     fn the_slender_pair_too() {
         let k = 0.375;
         let swings = Swings::of(&slender(1.0), &slender(1.0 / (1.0 + k)), false);
-        let decay = swings.decay(0.03, 0.85, 1e-7).unwrap();
+        let decay = swings.decay(0.03, 0.85, 1e-7, 1e3).unwrap();
         let (mut speed, mut exact) = (0.3_f64, 0.0);
         while speed > 1e-13 {
             exact += atanh(speed) * (1.0 + square_root(1.0 + k));
@@ -219,9 +274,21 @@ mod tests {
     }
 
     #[test]
-    fn too_large_or_undying_motions_are_left_to_the_method() {
+    fn too_large_motions_are_left_to_the_method() {
         let swings = Swings::of(&slender(1.0), &slender(1.0), true);
-        assert!(swings.decay(0.099, 0.85, 1e-7).is_none());
-        assert!(swings.decay(0.01, 1.0, 1e-7).is_none());
+        assert!(swings.decay(0.099, 0.85, 1e-7, 1e3).is_none());
+    }
+
+    /// Without loss the block rocks on with the period (4/p) atanh(v/(pα)); with little, almost so.
+    #[test]
+    fn undying_motions_are_summed_as_far_as_their_time_goes() {
+        let swings = Swings::of(&slender(1.0), &slender(1.0), true);
+        let swing: f64 = 2.0 * atanh(0.01);
+        let decay = swings.decay(0.001, 1.0, 1e-7, 60.0).unwrap();
+        assert_eq!(f64::from(decay.impacts), (60.0 / swing).floor());
+        assert!(60.0 - decay.duration < swing && decay.duration <= 60.0 && decay.speed.abs() == 0.001);
+        assert_eq!(decay.speed > 0.0, decay.impacts % 2 == 0);
+        let tiny = swings.decay(1e-10, 1.0 - 1e-13, 1e-7, 60.0).unwrap();
+        assert!(tiny.impacts == 0 && 60.0 - tiny.duration < 1e-7 && tiny.speed.abs() > 0.9e-10);
     }
 }

@@ -104,6 +104,9 @@ pub struct Limits<S> {
     pub events: u32,
 }
 
+/// Pairs of swings below the rest speed that are followed in one piece when their impacts do not end them.
+const MOST_IDLE_SWINGS: f64 = 1e3;
+
 /// What ended an arc's scan.
 enum End {
     /// The arc was followed to its end.
@@ -387,9 +390,13 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
             )
         };
         let positive = crossing(Sign::Positive, to, end);
-        let (to, end) = positive.map_or((to, end), |t| (t, piece.acceleration(t)));
         let negative = crossing(Sign::Negative, to, end);
-        negative.or(positive).map(|t| (t, true))
+        let first = match (positive, negative) {
+            (Some(a), Some(b)) => Some(a.smaller(b)),
+            (a, b) => a.or(b),
+        };
+        // What the clock cannot tell from the end of the piece is left to the next one.
+        first.filter(|&t| to - t > to * S::EPSILON * S::of(4.0)).map(|t| (t, true))
     }
 
     /// Sets the block in motion, to the side opposite to the push.
@@ -432,20 +439,31 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
         if incoming >= self.counted_speed {
             state.impacts += 1;
         }
+        // A turn and a hit in one ulp leave the direction of before the turn.
+        state.direction = Sign::of(state.velocity, state.direction);
         state.velocity = self.restitution * state.velocity;
         state.side = state.direction;
         let ground = piece.acceleration(time);
         self.read_push(state, ground);
         observer.event(Event::Impact, time, state);
-        if state.velocity.abs() <= self.rest_speed && ground.abs() < self.uplift {
+        // A push beyond the threshold ends impacts too weak for the clock to tell apart: the block uplifts to the other side.
+        let rate = self.released.acceleration(state.side.unit(), S::ZERO, S::ZERO, ground);
+        let unresolved = state.side.times(rate) < S::ZERO && time + state.velocity.abs() / rate.abs() == time;
+        if (state.velocity == S::ZERO || unresolved) && ground.abs() > self.uplift {
+            self.uplift(state, ground, false);
+            return time;
+        }
+        if state.velocity.abs() <= self.rest_speed && ground.abs() <= self.uplift {
             let tail = self.accumulation(state.side, state.velocity.abs(), ground);
             let ends = time + tail.duration;
-            let hopeless = state.velocity.abs() <= self.rest_speed * S::EPSILON;
             let holds = ends <= duration && piece.acceleration(ends).abs() < self.uplift;
-            if holds || hopeless {
+            // Impacts that hardly take anything would go on through the piece, thousands of them too weak to matter.
+            let lingers = (duration - time) > tail.swing * S::of(MOST_IDLE_SWINGS);
+            let hopeless = state.velocity.abs() <= self.rest_speed * S::EPSILON;
+            if holds || lingers || hopeless {
                 let impacts = state.impacts + tail.impacts;
                 *state = State { impacts, side: state.side, direction: state.direction, ..State::default() };
-                let ends = ends.smaller(duration);
+                let ends = if holds { ends } else { time };
                 observer.event(Event::Rest, ends, state);
                 return ends;
             }
@@ -453,7 +471,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
         time
     }
 
-    /// After an impact on quiet ground: the rest of the motion in closed form, if it ends before `duration`.
+    /// After an impact on quiet ground: the rest of the motion in closed form, or as many whole swings as `duration` has room for.
     fn sum_up<O: Observer<S>>(
         &self,
         state: &mut State<S>,
@@ -466,16 +484,23 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
             return time;
         }
         let swings = swings.get_or_insert_with(|| Swings::of(&self.released, &self.engaged, !C::FOLLOWS_SIGNS));
-        match swings.decay(state.velocity.abs(), self.restitution, self.counted_speed) {
-            Some(decay) if time + decay.duration <= duration => {
-                let impacts = state.impacts.saturating_add(decay.impacts);
-                *state = State { impacts, side: state.side, direction: state.direction, ..State::default() };
-                observer.decay(&decay);
-                observer.event(Event::Rest, time + decay.duration, state);
-                time + decay.duration
-            }
-            _ => time,
+        let Some(decay) = swings.decay(state.velocity.abs(), self.restitution, self.counted_speed, duration - time) else {
+            return time;
+        };
+        observer.decay(&decay);
+        let impacts = state.impacts.saturating_add(decay.impacts);
+        let ends = (time + decay.duration).smaller(duration);
+        if decay.speed != S::ZERO {
+            // Still rocking at the end of its time: the last, incomplete swing is left to the method.
+            let velocity = state.direction.times(decay.speed);
+            let turned = |sign: Sign| if decay.speed < S::ZERO { sign.opposite() } else { sign };
+            let (side, direction) = (turned(state.side), turned(state.direction));
+            *state = State { impacts, velocity, side, direction, push: turned(state.push), drive: turned(state.drive), ..*state };
+        } else {
+            *state = State { impacts, side: state.side, direction: state.direction, ..State::default() };
+            observer.event(Event::Rest, ends, state);
         }
+        ends
     }
 
     /// The infinitely many impacts that follow a weak one, in closed form: on each side the block decelerates at a
@@ -503,7 +528,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
         let ratio_there = self.restitution * fall_there;
         let both = ratio_here * ratio_there;
         if both >= S::ONE - S::EPSILON * S::of(64.0) {
-            return Tail { duration: S::of(1e30), impacts: 0 };
+            return Tail { duration: S::of(1e30), swing: speed * (here + there), impacts: 0 };
         }
         let duration = speed * (here + ratio_here * there) / (S::ONE - both);
         let mut impacts = 0;
@@ -514,7 +539,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
             incoming = incoming * self.restitution * if first { fall_there } else { fall_here };
             first = !first;
         }
-        Tail { duration, impacts }
+        Tail { duration, swing: speed * (here + there), impacts }
     }
 }
 
@@ -522,6 +547,8 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
 struct Tail<S> {
     /// s.
     duration: S,
+    /// Of the first two swings, s.
+    swing: S,
     /// Impacts that still count.
     impacts: u32,
 }

@@ -204,6 +204,9 @@ impl Common {
     ) -> W::Output {
         let engaged = FullInerter { block, coupling: S::of(coupling), lever, kinematics: PhantomData::<K> };
         match kind {
+            DeviceKind::ClutchedPair if K::CONSISTENT => {
+                next.with(self.system::<S, _, _, ClutchedPair>(engaged.with_coupling(S::of(0.0)), engaged))
+            }
             DeviceKind::ClutchedPair => next.with(self.system::<S, _, _, ClutchedPair>(block, engaged)),
             _ => next.with(self.system::<S, _, _, SingleInerter>(engaged, engaged)),
         }

@@ -14,7 +14,7 @@ use crate::value::Value;
 pub const MAXIMUM_ORDER: usize = 32;
 
 /// Nodes that an equation may use.
-const SLOTS: usize = 32;
+const SLOTS: usize = 48;
 
 /// Room for the series of one evaluation. Scratch space, not state: nothing is read before it is written.
 pub struct Tape<S, const N: usize> {

@@ -40,7 +40,7 @@ impl<S: Real, const N: usize> Taylor<S, N> {
         Taylor { tape: Tape::default(), tolerance, step: None }
     }
 
-    /// Fixed steps of `step` s (above 0), order N − 1.
+    /// Fixed steps of `step` s (above 0), order N − 2: θ̇ has one coefficient less than θ.
     pub fn fixed(step: S) -> Self {
         Taylor { step: Some(step), ..Taylor::adaptive(S::ZERO) }
     }
@@ -92,6 +92,7 @@ impl<S: Real, const N: usize> Method<S> for Taylor<S, N> {
         let tolerance = self.tolerance * start.scale.larger(start.rotation.abs());
         let mut power = start.length * start.length;
         let mut previous = S::ONE;
+        let mut push_power = S::ONE;
         for k in 0..N - 2 {
             tape.set(2, k, ground[k]);
             next.set(GIVEN);
@@ -114,13 +115,15 @@ impl<S: Real, const N: usize> Method<S> for Taylor<S, N> {
             tape.set(1, k + 1, v);
             tape.set(0, k + 2, c);
 
-            // Two small terms in a row (every other one may vanish by symmetry) leave nothing that matters behind them.
-            let term = (c * power).abs();
+            // Two small terms in a row (every other one may vanish by symmetry) leave nothing that matters behind them, unless
+            // the ground's own series goes on: at resonance it cancels against the block's for an order or two.
+            let term = (c * power).abs().larger((ground[k] * push_power).abs());
             if k >= 3 && term <= tolerance && previous <= tolerance * S::of(50.0) {
                 arc.terms = k + 3;
                 break;
             }
             previous = term;
+            push_power = push_power * start.length;
             power = power * start.length;
         }
         if self.step.is_none() && arc.terms == N {
