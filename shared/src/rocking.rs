@@ -5,16 +5,17 @@
 //! close two of them lie, and the signs themselves are part of the state: an event just handled has already changed its
 //! sign, so it cannot be found a second time.
 
+mod impact;
+mod uplift;
+
 use core::marker::PhantomData;
 
 use crate::arc::{Arc, Method, Start};
 use crate::clutch::Clutch;
-use crate::decay::Swings;
 use crate::equation::Equation;
 use crate::ground::Piece;
 use crate::locate::locate;
 use crate::observer::{Event, Observer, Stretch};
-use crate::polynomial::first_zero_of;
 use crate::scalar::{Real, Sign};
 
 /// What the block does.
@@ -103,9 +104,6 @@ pub struct Limits<S> {
     /// Arcs that one call may take.
     pub events: u32,
 }
-
-/// Pairs of swings below the rest speed that are followed in one piece when their impacts do not end them.
-const MOST_IDLE_SWINGS: f64 = 1e3;
 
 /// What ended an arc's scan.
 enum End {
@@ -373,47 +371,6 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
         C::FOLLOWS_SIGNS && before != C::engaged(state.direction, state.drive)
     }
 
-    /// First instant in [`from`, `to`) at which the ground pushes harder than the weight holds, and whether it gets
-    /// there by crossing the threshold (so that the bracket is zero) or by a jump.
-    fn uplift_time<P: Piece<S>>(&self, piece: &P, from: S, to: S) -> Option<(S, bool)> {
-        if piece.acceleration(from).abs() > self.uplift {
-            return Some((from, false));
-        }
-        let end = piece.acceleration(to);
-        let crossing = |sign: Sign, to: S, end: S| {
-            first_zero_of(
-                |t| (sign.times(piece.acceleration(t)) - self.uplift, sign.times(piece.slope(t))),
-                piece.curvature_bound(),
-                (from, to, sign.times(end) - self.uplift),
-                Sign::Negative,
-                false,
-            )
-        };
-        let positive = crossing(Sign::Positive, to, end);
-        let negative = crossing(Sign::Negative, to, end);
-        let first = match (positive, negative) {
-            (Some(a), Some(b)) => Some(a.smaller(b)),
-            (a, b) => a.or(b),
-        };
-        // What the clock cannot tell from the end of the piece is left to the next one.
-        first.filter(|&t| to - t > to * S::EPSILON * S::of(4.0)).map(|t| (t, true))
-    }
-
-    /// Sets the block in motion, to the side opposite to the push.
-    fn uplift(&self, state: &mut State<S>, ground: S, crossing: bool) {
-        let side = Sign::of(ground, Sign::Positive).opposite();
-        *state = State {
-            phase: Phase::Rocking,
-            side,
-            direction: side,
-            push: side,
-            drive: side,
-            push_is_zero: crossing,
-            impacts: state.impacts,
-            ..State::default()
-        };
-    }
-
     /// Signs of θ̈ and of the terminals' acceleration from the equations.
     fn read_push(&self, state: &mut State<S>, ground: S) {
         let inward = state.side.opposite();
@@ -431,124 +388,4 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
         };
         state.push = Sign::of(acceleration, state.side.opposite());
     }
-
-    /// θ = 0: the velocity is multiplied by η and the other toe takes over, or the block comes to rest. Returns the
-    /// time, which rest moves on to the end of the impacts that it stands for.
-    fn impact<P: Piece<S>, O: Observer<S>>(&self, state: &mut State<S>, piece: &P, time: S, duration: S, observer: &mut O) -> S {
-        let incoming = state.velocity.abs();
-        if incoming >= self.counted_speed {
-            state.impacts += 1;
-        }
-        // A turn and a hit in one ulp leave the direction of before the turn.
-        state.direction = Sign::of(state.velocity, state.direction);
-        state.velocity = self.restitution * state.velocity;
-        state.side = state.direction;
-        let ground = piece.acceleration(time);
-        self.read_push(state, ground);
-        observer.event(Event::Impact, time, state);
-        // A push beyond the threshold ends impacts too weak for the clock to tell apart: the block uplifts to the other side.
-        let rate = self.released.acceleration(state.side.unit(), S::ZERO, S::ZERO, ground);
-        let unresolved = state.side.times(rate) < S::ZERO && time + state.velocity.abs() / rate.abs() == time;
-        if (state.velocity == S::ZERO || unresolved) && ground.abs() > self.uplift {
-            self.uplift(state, ground, false);
-            return time;
-        }
-        if state.velocity.abs() <= self.rest_speed && ground.abs() <= self.uplift {
-            let tail = self.accumulation(state.side, state.velocity.abs(), ground);
-            let ends = time + tail.duration;
-            let holds = ends <= duration && piece.acceleration(ends).abs() < self.uplift;
-            // Impacts that hardly take anything would go on through the piece, thousands of them too weak to matter.
-            let lingers = (duration - time) > tail.swing * S::of(MOST_IDLE_SWINGS);
-            let hopeless = state.velocity.abs() <= self.rest_speed * S::EPSILON;
-            if holds || lingers || hopeless {
-                let impacts = state.impacts + tail.impacts;
-                *state = State { impacts, side: state.side, direction: state.direction, ..State::default() };
-                let ends = if holds { ends } else { time };
-                observer.event(Event::Rest, ends, state);
-                return ends;
-            }
-        }
-        time
-    }
-
-    /// After an impact on quiet ground: the rest of the motion in closed form, or as many whole swings as `duration` has room for.
-    fn sum_up<O: Observer<S>>(
-        &self,
-        state: &mut State<S>,
-        swings: &mut Option<Swings<S>>,
-        time: S,
-        duration: S,
-        observer: &mut O,
-    ) -> S {
-        if state.phase != Phase::Rocking {
-            return time;
-        }
-        let swings = swings.get_or_insert_with(|| Swings::of(&self.released, &self.engaged, !C::FOLLOWS_SIGNS));
-        let Some(decay) = swings.decay(state.velocity.abs(), self.restitution, self.counted_speed, duration - time) else {
-            return time;
-        };
-        observer.decay(&decay);
-        let impacts = state.impacts.saturating_add(decay.impacts);
-        let ends = (time + decay.duration).smaller(duration);
-        if decay.speed != S::ZERO {
-            // Still rocking at the end of its time: the last, incomplete swing is left to the method.
-            let velocity = state.direction.times(decay.speed);
-            let turned = |sign: Sign| if decay.speed < S::ZERO { sign.opposite() } else { sign };
-            let (side, direction) = (turned(state.side), turned(state.direction));
-            *state = State { impacts, velocity, side, direction, push: turned(state.push), drive: turned(state.drive), ..*state };
-        } else {
-            *state = State { impacts, side: state.side, direction: state.direction, ..State::default() };
-            observer.event(Event::Rest, ends, state);
-        }
-        ends
-    }
-
-    /// The infinitely many impacts that follow a weak one, in closed form: on each side the block decelerates at a
-    /// constant rate a₁ and falls back at a₂ (θ is too small to change them), so a swing that starts at θ̇ = v lasts
-    /// v/a₁ + v/√(a₁a₂) and the next one starts at v η √(a₂/a₁).
-    fn accumulation(&self, side: Sign, speed: S, ground: S) -> Tail<S> {
-        let swing = |side: Sign| {
-            let rate = |engaged: bool| {
-                let s = side.unit();
-                let a = if engaged {
-                    self.engaged.acceleration(s, S::ZERO, S::ZERO, ground)
-                } else {
-                    self.released.acceleration(s, S::ZERO, S::ZERO, ground)
-                };
-                a.abs().larger(S::EPSILON * S::EPSILON)
-            };
-            let rising = rate(C::engaged(side, side.opposite()));
-            let falling = rate(C::engaged(side, side));
-            let fall = (falling / rising).square_root();
-            (S::ONE / rising + fall / falling, fall)
-        };
-        let (here, fall_here) = swing(side);
-        let (there, fall_there) = swing(side.opposite());
-        let ratio_here = self.restitution * fall_here;
-        let ratio_there = self.restitution * fall_there;
-        let both = ratio_here * ratio_there;
-        if both >= S::ONE - S::EPSILON * S::of(64.0) {
-            return Tail { duration: S::of(1e30), swing: speed * (here + there), impacts: 0 };
-        }
-        let duration = speed * (here + ratio_here * there) / (S::ONE - both);
-        let mut impacts = 0;
-        let mut incoming = speed * fall_here;
-        let mut first = true;
-        while incoming >= self.counted_speed && impacts < 100_000 {
-            impacts += 1;
-            incoming = incoming * self.restitution * if first { fall_there } else { fall_here };
-            first = !first;
-        }
-        Tail { duration, swing: speed * (here + there), impacts }
-    }
-}
-
-/// What remains of a dying motion.
-struct Tail<S> {
-    /// s.
-    duration: S,
-    /// Of the first two swings, s.
-    swing: S,
-    /// Impacts that still count.
-    impacts: u32,
 }

@@ -354,3 +354,14 @@ impl Dice {
         low + (high - low) * self.roll()
     }
 }
+
+/// Asserts what holds for every motion: time runs forward, the block stays above its floor, and events are finite in number.
+pub fn sane<const EVERY: bool>(log: &Log<f64, EVERY>) {
+    assert!(log.events.is_sorted_by(|a, b| a.time <= b.time), "time runs forward");
+    for stretch in &log.stretches {
+        for motion in &stretch.motions {
+            assert!(stretch.side.times(motion.rotation) >= -1e-14, "through the floor: {motion:?} on {:?}", stretch.side);
+        }
+    }
+    assert!(log.events.len() < 20_000, "{} events", log.events.len());
+}
