@@ -16,14 +16,18 @@ pub const MAXIMUM_ORDER: usize = 32;
 /// Nodes that an equation may use.
 const SLOTS: usize = 48;
 
+/// The coefficients of one order, of every quantity. Neighbouring orders of one quantity are kept apart on purpose: side by
+/// side, compilers load two of them as one vector just after they were stored one by one, and the processor stalls.
+type Order<S> = [Cell<S>; SLOTS];
+
 /// Room for the series of one evaluation. Scratch space, not state: nothing is read before it is written.
 pub struct Tape<S, const N: usize> {
-    slots: [[Cell<S>; N]; SLOTS],
+    orders: [Order<S>; N],
 }
 
 impl<S: Real, const N: usize> Default for Tape<S, N> {
     fn default() -> Self {
-        Tape { slots: core::array::from_fn(|_| core::array::from_fn(|_| Cell::new(S::ZERO))) }
+        Tape { orders: core::array::from_fn(|_| core::array::from_fn(|_| Cell::new(S::ZERO))) }
     }
 }
 
@@ -31,20 +35,20 @@ impl<S: Real, const N: usize> Tape<S, N> {
     /// Sets coefficient `order` of the given quantity `slot`.
     #[inline(always)]
     pub fn set(&self, slot: usize, order: usize, coefficient: S) {
-        self.slots[slot][order].set(coefficient);
+        self.orders[order][slot].set(coefficient);
     }
 
     /// The given quantity `slot` at `order`; new nodes are counted in `next`, which the caller sets to the number of given
     /// quantities before each order.
     #[inline(always)]
     pub fn given<'t>(&'t self, next: &'t Cell<usize>, order: usize, slot: usize) -> Node<'t, S, N> {
-        Node { tape: &self.slots, next, order, slot }
+        Node { tape: &self.orders, next, order, slot }
     }
 }
 
 /// One quantity of the equation on the tape.
 pub struct Node<'t, S, const N: usize> {
-    tape: &'t [[Cell<S>; N]; SLOTS],
+    tape: &'t [Order<S>; N],
     next: &'t Cell<usize>,
     order: usize,
     slot: usize,
@@ -60,22 +64,22 @@ impl<S, const N: usize> Clone for Node<'_, S, N> {
 impl<S, const N: usize> Copy for Node<'_, S, N> {}
 
 impl<'t, S: Real, const N: usize> Node<'t, S, N> {
-    /// Coefficients 0..=order.
+    /// Coefficients `from` up to and without `to`; `to` at most order + 1.
     #[inline(always)]
-    fn known(&self) -> &'t [Cell<S>] {
-        &self.tape[self.slot][..=self.order]
+    fn run(&self, from: usize, to: usize) -> Run<'t, S> {
+        Run { orders: &self.tape[from..to], slot: self.slot }
     }
 
     /// The coefficient of this order.
     #[inline(always)]
     pub fn last(&self) -> S {
-        self.tape[self.slot][self.order].get()
+        self.tape[self.order][self.slot].get()
     }
 
     /// Replaces the coefficient of this order.
     #[inline(always)]
     pub fn set_last(&self, coefficient: S) {
-        self.tape[self.slot][self.order].set(coefficient);
+        self.tape[self.order][self.slot].set(coefficient);
     }
 
     /// The next free slot of the tape.
@@ -90,59 +94,61 @@ impl<'t, S: Real, const N: usize> Node<'t, S, N> {
     #[inline(always)]
     fn node(&self, coefficient: S) -> Self {
         let node = self.fresh();
-        node.tape[node.slot][node.order].set(coefficient);
+        node.tape[node.order][node.slot].set(coefficient);
         node
     }
 }
 
+/// Neighbouring coefficients of one quantity.
+struct Run<'t, S> {
+    orders: &'t [Order<S>],
+    slot: usize,
+}
+
+impl<S> Clone for Run<'_, S> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S> Copy for Run<'_, S> {}
+
 /// Σ a_j b_{n−1−j} over two runs of the same length n: one coefficient of a product.
 #[inline(always)]
-fn convolve<S: Real>(a: &[Cell<S>], b: &[Cell<S>]) -> S {
-    // Short steps need only the first few orders, where a loop costs more than its work.
-    match (a, b) {
-        ([a0], [b0]) => return a0.get() * b0.get(),
-        ([a0, a1], [b0, b1]) => return a0.get() * b1.get() + a1.get() * b0.get(),
-        ([a0, a1, a2], [b0, b1, b2]) => return a0.get() * b2.get() + a1.get() * b1.get() + a2.get() * b0.get(),
-        ([a0, a1, a2, a3], [b0, b1, b2, b3]) => {
-            return (a0.get() * b3.get() + a1.get() * b2.get()) + (a2.get() * b1.get() + a3.get() * b0.get());
-        }
-        _ => {}
-    }
+fn convolve<S: Real>(a: Run<'_, S>, b: Run<'_, S>) -> S {
     let mut sums = [S::ZERO; 4];
-    let (quads, rest) = a.as_chunks::<4>();
-    let (rest_b, quads_b) = b.as_rchunks::<4>();
+    let (quads, rest) = a.orders.as_chunks::<4>();
+    let (rest_b, quads_b) = b.orders.as_rchunks::<4>();
     for (x, y) in quads.iter().zip(quads_b.iter().rev()) {
         for lane in 0..4 {
-            sums[lane] = sums[lane] + x[lane].get() * y[3 - lane].get();
+            sums[lane] = sums[lane] + x[lane][a.slot].get() * y[3 - lane][b.slot].get();
         }
     }
     let mut sum = (sums[0] + sums[2]) + (sums[1] + sums[3]);
     for (x, y) in rest.iter().zip(rest_b.iter().rev()) {
-        sum = sum + x.get() * y.get();
+        sum = sum + x[a.slot].get() * y[b.slot].get();
     }
     sum
 }
 
 /// [`convolve`] of one run with two others at once.
 #[inline(always)]
-fn convolve_both<S: Real>(a: &[Cell<S>], b: &[Cell<S>], c: &[Cell<S>]) -> (S, S) {
-    if a.len() <= 4 {
-        return (convolve(a, b), convolve(a, c));
-    }
+fn convolve_both<S: Real>(a: Run<'_, S>, b: Run<'_, S>, c: Run<'_, S>) -> (S, S) {
     let (mut first, mut second) = ([S::ZERO; 2], [S::ZERO; 2]);
-    let (pairs, rest) = a.as_chunks::<2>();
-    let (rest_b, pairs_b) = b.as_rchunks::<2>();
-    let (rest_c, pairs_c) = c.as_rchunks::<2>();
+    let (pairs, rest) = a.orders.as_chunks::<2>();
+    let (rest_b, pairs_b) = b.orders.as_rchunks::<2>();
+    let (rest_c, pairs_c) = c.orders.as_rchunks::<2>();
     for ((x, y), z) in pairs.iter().zip(pairs_b.iter().rev()).zip(pairs_c.iter().rev()) {
         for lane in 0..2 {
-            first[lane] = first[lane] + x[lane].get() * y[1 - lane].get();
-            second[lane] = second[lane] + x[lane].get() * z[1 - lane].get();
+            first[lane] = first[lane] + x[lane][a.slot].get() * y[1 - lane][b.slot].get();
+            second[lane] = second[lane] + x[lane][a.slot].get() * z[1 - lane][c.slot].get();
         }
     }
     let (mut first, mut second) = (first[0] + first[1], second[0] + second[1]);
     for ((x, y), z) in rest.iter().zip(rest_b).zip(rest_c) {
-        first = first + x.get() * y.get();
-        second = second + x.get() * z.get();
+        first = first + x[a.slot].get() * y[b.slot].get();
+        second = second + x[a.slot].get() * z[c.slot].get();
     }
     (first, second)
 }
@@ -177,7 +183,7 @@ impl<S: Real, const N: usize> Mul for Node<'_, S, N> {
 
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        self.node(convolve(self.known(), other.known()))
+        self.node(convolve(self.run(0, self.order + 1), other.run(0, self.order + 1)))
     }
 }
 
@@ -191,12 +197,12 @@ impl<S: Real, const N: usize> Div for Node<'_, S, N> {
         let reciprocal = self.fresh();
         let k = self.order;
         if k == 0 {
-            reciprocal.tape[reciprocal.slot][0].set(S::ONE / other.last());
-            quotient.tape[quotient.slot][0].set(self.last() / other.last());
+            reciprocal.tape[0][reciprocal.slot].set(S::ONE / other.last());
+            quotient.tape[0][quotient.slot].set(self.last() / other.last());
         } else {
-            let done = convolve(&other.known()[1..], &quotient.known()[..k]);
-            let inverse = reciprocal.tape[reciprocal.slot][0].get();
-            quotient.tape[quotient.slot][k].set((self.last() - done) * inverse);
+            let done = convolve(other.run(1, k + 1), quotient.run(0, k));
+            let inverse = reciprocal.tape[0][reciprocal.slot].get();
+            quotient.tape[k][quotient.slot].set((self.last() - done) * inverse);
         }
         quotient
     }
@@ -216,11 +222,11 @@ impl<S: Real, const N: usize> Value<S> for Node<'_, S, N> {
     #[inline(always)]
     fn square(self) -> Self {
         let k = self.order;
-        let known = self.known();
         let pairs = k.div_ceil(2);
-        let twice = convolve(&known[..pairs], &known[k + 1 - pairs..]);
+        let twice = convolve(self.run(0, pairs), self.run(k + 1 - pairs, k + 1));
         let both = twice + twice;
-        self.node(if k.is_multiple_of(2) { both + known[k / 2].get() * known[k / 2].get() } else { both })
+        let middle = self.tape[k / 2][self.slot].get();
+        self.node(if k.is_multiple_of(2) { both + middle * middle } else { both })
     }
 
     /// s' = x' c, c' = −x' s: k s_k = Σ j x_j c_{k−j}, k c_k = −Σ j x_j s_{k−j}.
@@ -230,15 +236,14 @@ impl<S: Real, const N: usize> Value<S> for Node<'_, S, N> {
         let k = self.order;
         if k == 0 {
             let (s, c) = self.last().sin_cos();
-            sine.tape[sine.slot][0].set(s);
-            cosine.tape[cosine.slot][0].set(c);
+            sine.tape[0][sine.slot].set(s);
+            cosine.tape[0][cosine.slot].set(c);
         } else {
-            rate.tape[rate.slot][k].set(self.last() * S::count(k as u32));
+            rate.tape[k][rate.slot].set(self.last() * S::count(k as u32));
             let reciprocal = S::of(RECIPROCALS[k & 63]);
-            let rates = &rate.known()[1..];
-            let (s, c) = convolve_both(rates, &cosine.known()[..k], &sine.known()[..k]);
-            sine.tape[sine.slot][k].set(s * reciprocal);
-            cosine.tape[cosine.slot][k].set(-(c * reciprocal));
+            let (s, c) = convolve_both(rate.run(1, k + 1), cosine.run(0, k), sine.run(0, k));
+            sine.tape[k][sine.slot].set(s * reciprocal);
+            cosine.tape[k][cosine.slot].set(-(c * reciprocal));
         }
         (sine, cosine)
     }

@@ -25,6 +25,8 @@ const SIDE: u32 = 64;
 const PASSES: usize = 9;
 /// Last terms of the series on a record, over α.
 const RECORD_TOLERANCE: f64 = 1e-12;
+/// Coefficients of the series on a record, whose pieces are short.
+const RECORD_TERMS: usize = 9;
 const DEVICES: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
 
 fn main() {
@@ -119,7 +121,7 @@ impl WithSystem<f64> for Run<'_> {
             overturning: Overturning::Proven,
         };
         let (mut state, mut peaks) = (State::default(), Peaks::default());
-        let method = Taylor::<f64, 12>::adaptive(self.tolerance);
+        let method = Taylor::<f64, RECORD_TERMS>::adaptive(self.tolerance);
         let _ = course.follow(&system, &method, &mut state, &mut peaks, || true);
         peaks.rotation
     }
