@@ -39,17 +39,17 @@ impl Results {
     ) -> Result<(), OutputError> {
         let failed = |error: io::Error| OutputError::new(path, &error);
         if path.is_dir() {
-            return Err(OutputError {
-                path: path.to_owned(),
-                reason: "is a folder, but a file is to be written there".to_owned(),
-            });
+            return Err(OutputError { path: path.to_owned(), reason: "cannot be written: it is a folder".to_owned() });
         }
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let mut builder = tempfile::Builder::new();
         // Temporary files are private by default; this one becomes the user's, as far as the umask allows.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let mut file = builder.prefix(".sprag-").tempfile_in(folder).map_err(|error| OutputError::new(folder, &error))?;
+        let mut file = builder.prefix(".sprag-").tempfile_in(folder).map_err(|error| OutputError {
+            path: path.to_owned(),
+            reason: format!("cannot be written: its folder does not exist or may not be written ({})", error.kind()),
+        })?;
         let mut writer = BufWriter::new(file.as_file_mut());
         fill(&mut writer).and_then(|()| writer.flush()).map_err(failed)?;
         drop(writer);

@@ -1,10 +1,11 @@
 //! `sprag synthesize`: writes a synthetic near-fault ground motion.
 
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::io::Write;
+use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::output::Results;
 use crate::record::{Intensity, ReadOptions, Record, STANDARD_GRAVITY_M_S2};
 use crate::synthesis::NearFaultMotion;
 
@@ -90,7 +91,9 @@ pub fn run(arguments: &SynthesizeArguments, out: &mut impl Write, err: &mut impl
 fn synthesize(arguments: &SynthesizeArguments) -> Result<String, String> {
     let csv = arguments.motion().csv().map_err(|error| error.to_string())?;
     let name = arguments.out.display().to_string();
-    write_whole(&arguments.out, csv.as_bytes()).map_err(|error| format!("{name}: cannot be written: {error}"))?;
+    let mut results = Results::default();
+    results.add(&arguments.out, |file| file.write_all(csv.as_bytes())).map_err(|error| error.to_string())?;
+    results.commit().map_err(|error| error.to_string())?;
     let record = Record::parse(&name, csv.as_bytes(), &ReadOptions::default()).map_err(|error| error.to_string())?;
     let intensity = Intensity::of(&record);
     Ok(format!(
@@ -100,25 +103,6 @@ fn synthesize(arguments: &SynthesizeArguments) -> Result<String, String> {
         intensity.pga_m_s2 / STANDARD_GRAVITY_M_S2,
         intensity.pgv_m_s
     ))
-}
-
-/// Writes a file beside its place and renames it, so that it is never seen half-written.
-fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    if path.is_dir() {
-        return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
-    }
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    // Temporary files are private by default; this one becomes the user's, as far as the umask allows.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.prefix(".sprag-").tempfile_in(folder).map_err(|error| {
-        io::Error::new(error.kind(), format!("its folder does not exist or may not be written ({})", error.kind()))
-    })?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    file.persist(path).map_err(|error| error.error)?;
-    Ok(())
 }
 
 #[cfg(test)]
