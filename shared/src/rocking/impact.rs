@@ -34,10 +34,12 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
         self.read_push(state, ground);
         observer.event(Event::Impact, time, state);
         // A push beyond the threshold ends impacts too weak for the clock to tell apart: the block uplifts to the other side.
-        let rate = self.released.acceleration(state.side.unit(), S::ZERO, S::ZERO, ground);
-        let unresolved = state.side.times(rate) < S::ZERO && time + state.velocity.abs() / rate.abs() == time;
-        if (state.velocity == S::ZERO || unresolved) && ground.abs() > self.uplift {
-            self.uplift(state, ground, false);
+        if ground.abs() > self.uplift {
+            let rate = self.released.acceleration(state.side.unit(), S::ZERO, S::ZERO, ground);
+            let unresolved = state.side.times(rate) < S::ZERO && time + state.velocity.abs() / rate.abs() == time;
+            if state.velocity == S::ZERO || unresolved {
+                self.uplift(state, ground, false);
+            }
             return time;
         }
         if state.velocity.abs() <= self.rest_speed && ground.abs() <= self.uplift {

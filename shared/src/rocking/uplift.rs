@@ -15,7 +15,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
             return Some((from, false));
         }
         let end = piece.acceleration(to);
-        let crossing = |sign: Sign, to: S, end: S| {
+        let crossing = |sign: Sign| {
             first_zero_of(
                 |t| (sign.times(piece.acceleration(t)) - self.uplift, sign.times(piece.slope(t))),
                 piece.curvature_bound(),
@@ -24,8 +24,8 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
                 false,
             )
         };
-        let positive = crossing(Sign::Positive, to, end);
-        let negative = crossing(Sign::Negative, to, end);
+        let positive = crossing(Sign::Positive);
+        let negative = crossing(Sign::Negative);
         let first = match (positive, negative) {
             (Some(a), Some(b)) => Some(a.smaller(b)),
             (a, b) => a.or(b),

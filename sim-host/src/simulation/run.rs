@@ -156,9 +156,7 @@ impl RunOne<'_> {
         let structure = self.scene.structure(self.index);
         structure.resolve(Resolved { run: self, method, precision: core::marker::PhantomData }).map_err(Failure::Parameter)?
     }
-}
 
-impl RunOne<'_> {
     #[expect(clippy::too_many_arguments, reason = "the pieces of one result, from two kinds of run")]
     fn result<S: Real>(
         &self,
