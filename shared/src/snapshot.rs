@@ -1,0 +1,101 @@
+//! A block and its device at one instant, as those see it who watch forces and energies.
+//!
+//! Everything is divided by I_O = λmR²: forces at the rack come as F/(λmR) in 1/s², energies as E/(λmR²) in 1/s², powers in
+//! 1/s³.
+
+use crate::arc::{Arc, Motion};
+use crate::observer::{Event, Stretch};
+use crate::rocking::State;
+use crate::scalar::Real;
+
+/// Where energy goes, or a rate of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spent<S> {
+    /// Slip and damping of the clutches.
+    pub clutch: S,
+    /// Brakes of idle flywheels.
+    pub brake: S,
+    /// Bearings of the flywheels.
+    pub bearing: S,
+    /// Friction of the rack.
+    pub rack: S,
+    /// What the paper's kinematics take away without a physical cause (negative: create).
+    pub kinematics: S,
+}
+
+/// One instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Snapshot<S> {
+    /// θ, θ̇, θ̈.
+    pub motion: Motion<S>,
+    /// Ground acceleration, horizontal and vertical, in g.
+    pub ground: [S; 2],
+    /// What each flywheel's drive exerts on the rack, positive where it resists positive motion; F/(λmR), 1/s².
+    pub force: [S; 2],
+    /// Friction and inertia of the rack itself, the same way.
+    pub rack_force: S,
+    /// Which flywheels are coupled.
+    pub engaged: [bool; 2],
+    /// Speed of each flywheel as that of a rack moving with it, over R; 1/s.
+    pub spin: [S; 2],
+    /// Kinetic energy of flywheels and rack, and of springs; E/(λmR²), 1/s².
+    pub stored: S,
+    /// Power lost, 1/s³.
+    pub spent: Spent<S>,
+}
+
+/// An arc on which the device can be asked too.
+pub trait DeviceArc<S: Real>: Arc<S> {
+    /// Block and device at `time` after the start of the arc.
+    fn snapshot(&self, time: S) -> Snapshot<S>;
+}
+
+/// Told of every stretch, with the device, and every event, in order. Times are local to the piece of ground motion.
+pub trait DeviceObserver<S: Real> {
+    /// The motion over a stretch.
+    #[inline(always)]
+    fn device_stretch<A: DeviceArc<S>>(&mut self, arc: &A, stretch: &Stretch<S>) {
+        let _ = (arc, stretch);
+    }
+
+    /// An event, with the state after it.
+    #[inline(always)]
+    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+        let _ = (event, time, state);
+    }
+}
+
+/// Nobody.
+impl<S: Real> DeviceObserver<S> for () {}
+
+/// Two observers.
+impl<S: Real, A: DeviceObserver<S>, B: DeviceObserver<S>> DeviceObserver<S> for (A, B) {
+    #[inline(always)]
+    fn device_stretch<C: DeviceArc<S>>(&mut self, arc: &C, stretch: &Stretch<S>) {
+        self.0.device_stretch(arc, stretch);
+        self.1.device_stretch(arc, stretch);
+    }
+
+    #[inline(always)]
+    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+        self.0.device_event(event, time, state);
+        self.1.device_event(event, time, state);
+    }
+}
+
+/// One that may be absent.
+impl<S: Real, A: DeviceObserver<S>> DeviceObserver<S> for Option<A> {
+    #[inline(always)]
+    fn device_stretch<C: DeviceArc<S>>(&mut self, arc: &C, stretch: &Stretch<S>) {
+        if let Some(watcher) = self {
+            watcher.device_stretch(arc, stretch);
+        }
+    }
+
+    #[inline(always)]
+    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+        if let Some(watcher) = self {
+            watcher.device_event(event, time, state);
+        }
+    }
+}
