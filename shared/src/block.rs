@@ -25,6 +25,15 @@ impl Block {
     /// # Errors
     /// [`ParameterError`] names the first parameter outside its range.
     pub fn new(size: f64, slenderness: f64, inertia_ratio: f64) -> Result<Block, ParameterError> {
+        Block::within(size, slenderness, inertia_ratio, 4.0, "from 1 to 4")
+    }
+
+    /// A block that is more than one body: their centres lie apart, so λ may be any from 1 up.
+    pub(crate) fn composite(size: f64, slenderness: f64, inertia_ratio: f64) -> Result<Block, ParameterError> {
+        Block::within(size, slenderness, inertia_ratio, f64::MAX, "1 or more, and finite")
+    }
+
+    fn within(size: f64, slenderness: f64, inertia_ratio: f64, most: f64, range: &'static str) -> Result<Block, ParameterError> {
         Ok(Block {
             size: require("size", size, size > 0.0, "above 0 m")?,
             slenderness: require(
@@ -33,7 +42,7 @@ impl Block {
                 slenderness > 0.0 && slenderness < core::f64::consts::FRAC_PI_2,
                 "above 0 and below 90 degrees (in rad)",
             )?,
-            inertia_ratio: require("inertia_ratio", inertia_ratio, (1.0..=4.0).contains(&inertia_ratio), "from 1 to 4")?,
+            inertia_ratio: require("inertia_ratio", inertia_ratio, (1.0..=most).contains(&inertia_ratio), range)?,
         })
     }
 

@@ -332,7 +332,8 @@ impl<O: Observer<f32>> Runner<'_, '_, '_, O> {
             Initially::Released { rotation, velocity } => system.released_at(rotation, velocity, first.unwrap_or(0.0)),
         };
         watch.peaks.rocked = state.phase == Phase::Rocking;
-        let no_return = |bound: f32| structure.geometry.point_of_no_return(&structure.block, f64::from(bound)) as f32;
+        let block = structure.loaded()?.block;
+        let no_return = |bound: f32| structure.geometry.point_of_no_return(&block, f64::from(bound)) as f32;
         let overturned = no_return(ground.bound());
         let mut follow = |shape: &Shape, duration: f32, overturned: f32| -> Result<(), Stopped> {
             // Every step may meet a few events, and dying impacts accumulate before they are summed.

@@ -93,6 +93,7 @@ impl<S: Real> Observer<S> for Digest {
             Event::Switch => 5,
             Event::Rest => 6,
             Event::Overturned => 7,
+            Event::Coupling => 8,
         };
         self.instant(state.rotation, state.velocity, state.side, kind);
     }

@@ -32,6 +32,10 @@ pub trait Equation<S: Scalar>: Copy {
 
     /// (1 + κ k ℓ²): inertia about the toe over that of the bare block.
     fn inertia(&self, side: S, rotation: S) -> S;
+
+    /// Power that the paper's kinematics take without a cause, per λmR² (1/s³): −κ k ℓ ℓ' θ̇³, which is what the energy
+    /// ½(1 + κ k ℓ²)θ̇² of block and flywheel misses of the work done on them; 0 where energy is conserved.
+    fn paper_power(&self, side: S, rotation: S, velocity: S) -> S;
 }
 
 /// The block alone, or with its inerter released: Eq. 2.
@@ -74,6 +78,11 @@ impl<S: Scalar> Equation<S> for FullBlock<S> {
     #[inline(always)]
     fn inertia(&self, _side: S, _rotation: S) -> S {
         S::of(1.0)
+    }
+
+    #[inline(always)]
+    fn paper_power(&self, _side: S, _rotation: S, _velocity: S) -> S {
+        S::of(0.0)
     }
 }
 
@@ -163,6 +172,16 @@ impl<S: Scalar, L: Lever<S>, K: Kinematics> Equation<S> for FullInerter<S, L, K>
         let arm = self.lever.arm(side, sin, cos);
         S::of(1.0) + self.coupling * (arm * arm)
     }
+
+    #[inline(always)]
+    fn paper_power(&self, side: S, rotation: S, velocity: S) -> S {
+        if K::CONSISTENT {
+            return S::of(0.0);
+        }
+        let (sin, cos) = Value::sin_cos(side * self.block.slenderness - rotation);
+        let (arm, rate) = (self.lever.arm(side, sin, cos), self.lever.arm_rate(side, sin, cos));
+        -(self.coupling * arm * rate * (velocity * velocity * velocity))
+    }
 }
 
 /// The slender block (Eq. 17-18), where an engaged inerter only lowers the frequency parameter:
@@ -200,5 +219,10 @@ impl<S: Scalar> Equation<S> for SlenderBlock<S> {
     #[inline(always)]
     fn inertia(&self, _side: S, _rotation: S) -> S {
         self.inertia
+    }
+
+    #[inline(always)]
+    fn paper_power(&self, _side: S, _rotation: S, _velocity: S) -> S {
+        S::of(0.0)
     }
 }

@@ -4,11 +4,14 @@
 //! The map, from the ground up:
 //! - [`scalar`], [`value`], [`lanes`]: what an equation is written over, so that it is written once; [`math`]: every
 //!   transcendental function.
-//! - [`block`], [`inertance`], [`lever`], [`clutch`]: the structure and its device; [`ground`]: what shakes it.
+//! - [`block`], [`carried`], [`inertance`], [`lever`], [`clutch`], [`restitution`]: the structure and its device; [`ground`]: what
+//!   shakes it.
 //! - [`equation`]: the equations of motion.
 //! - [`arc`], [`fixed`], [`tape`], [`taylor`]: methods; [`decay`]: free motion summed to its end; [`polynomial`], [`locate`]: where a smooth motion crosses zero.
 //! - [`structure`]: from parameters to the equations that they need.
 //! - [`rocking`]: the block from event to event; [`observer`]: who watches; [`digest`]: whether two runs are the same.
+//! - [`snapshot`]: block and device at an instant; [`watched`]: of an ideal device; [`ledger`]: where the energy goes; [`checks`]:
+//!   what the motion asks of toe, rack and flywheels; [`gear`]: and of their teeth.
 //! - [`detected`]: the usual scheme, in which nothing is located, as the yardstick of accuracy and cost.
 //! - [`case`]: a scene in words, which a board and its host run to the same bits.
 #![no_std]
@@ -17,9 +20,13 @@
 #[cfg(test)]
 extern crate std;
 
+pub mod accumulation;
 pub mod arc;
 pub mod block;
+pub mod body;
+pub mod carried;
 pub mod case;
+pub mod checks;
 pub mod clutch;
 pub mod decay;
 pub mod detected;
@@ -28,14 +35,18 @@ pub mod drivetrain;
 pub mod equation;
 pub mod error;
 pub mod fixed;
+pub mod gear;
 pub mod ground;
+pub mod hybrid;
 pub mod inertance;
 pub mod lanes;
+pub mod ledger;
 pub mod lever;
 pub mod locate;
 pub mod math;
 pub mod observer;
 pub mod polynomial;
+pub mod restitution;
 pub mod rocking;
 pub mod scalar;
 pub mod snapshot;
@@ -43,3 +54,4 @@ pub mod structure;
 pub mod tape;
 pub mod taylor;
 pub mod value;
+pub mod watched;

@@ -16,6 +16,8 @@ pub enum Event {
     Turn,
     /// The clutch engaged or released; the state is the one after it.
     Switch,
+    /// A clutch of a device with a memory stuck, slipped, or took up its play; the state is the one after it.
+    Coupling,
     /// The impacts have accumulated to rest.
     Rest,
     /// The block cannot return.

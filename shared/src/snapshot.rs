@@ -6,7 +6,7 @@
 use crate::arc::{Arc, Motion};
 use crate::observer::{Event, Stretch};
 use crate::rocking::State;
-use crate::scalar::Real;
+use crate::scalar::{Real, Sign};
 
 /// Where energy goes, or a rate of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -30,6 +30,8 @@ pub struct Snapshot<S> {
     pub motion: Motion<S>,
     /// Ground acceleration, horizontal and vertical, in g.
     pub ground: [S; 2],
+    /// ℓθ̇, the velocity of the rack over R; 1/s.
+    pub terminal_velocity: S,
     /// What each flywheel's drive exerts on the rack, positive where it resists positive motion; F/(λmR), 1/s².
     pub force: [S; 2],
     /// Friction and inertia of the rack itself, the same way.
@@ -50,11 +52,44 @@ pub trait DeviceArc<S: Real>: Arc<S> {
     fn snapshot(&self, time: S) -> Snapshot<S>;
 }
 
+/// So that who watches arcs of a known type can watch these.
+impl<S: Real> Arc<S> for &dyn DeviceArc<S> {
+    #[inline(always)]
+    fn length(&self) -> S {
+        (**self).length()
+    }
+
+    #[inline(always)]
+    fn at(&self, time: S) -> Motion<S> {
+        (**self).at(time)
+    }
+
+    #[inline(always)]
+    fn switching(&self, time: S) -> S {
+        (**self).switching(time)
+    }
+
+    #[inline(always)]
+    fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        (**self).acceleration_zero(from, to, sign, from_zero)
+    }
+
+    #[inline(always)]
+    fn switching_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        (**self).switching_zero(from, to, sign, from_zero)
+    }
+
+    #[inline(always)]
+    fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
+        (**self).largest_acceleration(from, to, floor)
+    }
+}
+
 /// Told of every stretch, with the device, and every event, in order. Times are local to the piece of ground motion.
 pub trait DeviceObserver<S: Real> {
     /// The motion over a stretch.
     #[inline(always)]
-    fn device_stretch<A: DeviceArc<S>>(&mut self, arc: &A, stretch: &Stretch<S>) {
+    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
         let _ = (arc, stretch);
     }
 
@@ -71,7 +106,7 @@ impl<S: Real> DeviceObserver<S> for () {}
 /// Two observers.
 impl<S: Real, A: DeviceObserver<S>, B: DeviceObserver<S>> DeviceObserver<S> for (A, B) {
     #[inline(always)]
-    fn device_stretch<C: DeviceArc<S>>(&mut self, arc: &C, stretch: &Stretch<S>) {
+    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
         self.0.device_stretch(arc, stretch);
         self.1.device_stretch(arc, stretch);
     }
@@ -83,10 +118,22 @@ impl<S: Real, A: DeviceObserver<S>, B: DeviceObserver<S>> DeviceObserver<S> for 
     }
 }
 
+impl<S: Real, A: DeviceObserver<S> + ?Sized> DeviceObserver<S> for &mut A {
+    #[inline(always)]
+    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        (**self).device_stretch(arc, stretch);
+    }
+
+    #[inline(always)]
+    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+        (**self).device_event(event, time, state);
+    }
+}
+
 /// One that may be absent.
 impl<S: Real, A: DeviceObserver<S>> DeviceObserver<S> for Option<A> {
     #[inline(always)]
-    fn device_stretch<C: DeviceArc<S>>(&mut self, arc: &C, stretch: &Stretch<S>) {
+    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
         if let Some(watcher) = self {
             watcher.device_stretch(arc, stretch);
         }

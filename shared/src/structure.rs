@@ -6,6 +6,7 @@
 use core::marker::PhantomData;
 
 use crate::block::{Block, Geometry};
+use crate::carried::Carried;
 use crate::clutch::{Clutch, ClutchedPair, NoInerter, SingleInerter};
 use crate::detected::Switched;
 use crate::equation::{Consistent, Equation, FullBlock, FullInerter, Kinematics, Paper, SlenderBlock};
@@ -13,6 +14,8 @@ use crate::error::{ParameterError, require};
 use crate::lever::{CentreOfMass, Lever, Mount, TyingPoint};
 use crate::rocking::System;
 use crate::scalar::Real;
+
+pub use crate::restitution::Restitution;
 
 /// Which device a block carries.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -34,15 +37,6 @@ pub enum KinematicsKind {
     Paper,
     /// R (ℓ θ̈ + ℓ' θ̇²).
     Consistent,
-}
-
-/// What happens to the velocity at an impact.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Restitution {
-    /// η as given, 0 to 1.
-    Constant(f64),
-    /// η = 1 − 2 sin²α/λ ([`Block::geometric_restitution`]).
-    Geometric,
 }
 
 /// A device and how it is mounted.
@@ -73,6 +67,8 @@ pub struct Structure {
     pub geometry: Geometry,
     /// The device.
     pub device: Device,
+    /// What rides on the block; [`Carried::NONE`] by default.
+    pub carried: Carried,
     /// Impacts.
     pub restitution: Restitution,
     /// θ̇/(pα) below which an impact may end in rest; 1e-12 to 1e-2, [`REST_SPEED`] by default. What remains after it is
@@ -96,32 +92,52 @@ pub trait WithSystem<S: Real> {
 }
 
 impl Structure {
-    /// η of its impacts.
+    /// The same structure as a block that carries nothing: block, mass ratio and mount are those of the loaded block
+    /// ([`Carried::block`], [`Carried::device`]), `self` as it is when there is nothing to carry. Whatever the block's α, R or λ
+    /// decides (uplift, overturning, impacts) is decided by this one's; dimensionless results (θ/α, ω/p, a_g/(g tan α)) stay
+    /// relative to the bare block, so that structures that carry more or less are compared on one scale.
+    ///
+    /// The slender model takes α', R' and λ' of the exact formulas and is linear about them.
     ///
     /// # Errors
-    /// [`ParameterError`] when it is not within 0 to 1; a geometric η below 0 belongs to a block too stocky to rock on.
-    pub fn restitution(&self) -> Result<f64, ParameterError> {
-        match self.restitution {
-            Restitution::Constant(eta) => require("restitution", eta, (0.0..=1.0).contains(&eta), "from 0 to 1"),
-            Restitution::Geometric => {
-                let eta = self.block.geometric_restitution();
-                require("geometric restitution", eta, eta >= 0.0, "0 or more (a less stocky block)")
-            }
+    /// [`ParameterError`] names the first parameter of what is carried that is outside its range.
+    pub fn loaded(&self) -> Result<Structure, ParameterError> {
+        self.carried.check()?;
+        if self.carried.is_none() {
+            return Ok(Structure { carried: Carried::NONE, ..*self });
         }
+        let block = self.carried.block(&self.block)?;
+        let device = self.carried.device(&self.block, self.geometry, &self.device);
+        Ok(Structure { block, device, carried: Carried::NONE, ..*self })
     }
 
-    /// Resolves the structure and hands the system to `next`.
+    /// η of its impacts, with what it carries.
+    ///
+    /// # Errors
+    /// As [`Restitution::evaluate`] and [`Structure::loaded`].
+    pub fn restitution(&self) -> Result<f64, ParameterError> {
+        let Structure { block, geometry, device, restitution, .. } = self.loaded()?;
+        restitution.evaluate(&block, geometry, &device)
+    }
+
+    /// Resolves the structure, with what it carries, and hands the system to `next`.
     ///
     /// # Errors
     /// [`ParameterError`] names the first parameter outside its range.
     pub fn resolve<S: Real, W: WithSystem<S>>(&self, next: W) -> Result<W::Output, ParameterError> {
+        let sigma = self.device.mass_ratio;
+        require("mass_ratio", sigma, (0.0..=10_000.0).contains(&sigma), "from 0 to 10000")?;
+        self.loaded()?.compose(next)
+    }
+
+    /// The composition for a structure that carries nothing.
+    fn compose<S: Real, W: WithSystem<S>>(&self, next: W) -> Result<W::Output, ParameterError> {
         let p2 = self.block.frequency_parameter_squared();
         let alpha = self.block.slenderness();
         let device = &self.device;
-        let sigma = require("mass_ratio", device.mass_ratio, (0.0..=10_000.0).contains(&device.mass_ratio), "from 0 to 10000")?;
-        let coupling = sigma / self.block.inertia_ratio();
+        let coupling = device.mass_ratio / self.block.inertia_ratio();
         let common = Common {
-            restitution: self.restitution()?,
+            restitution: self.restitution.evaluate(&self.block, self.geometry, device)?,
             uplift: self.geometry.uplift_threshold(&self.block),
             slenderness: alpha,
             speed: self.block.frequency_parameter() * alpha,

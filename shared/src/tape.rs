@@ -13,25 +13,25 @@ use crate::value::Value;
 /// Largest number of coefficients that a tape may hold.
 pub const MAXIMUM_ORDER: usize = 32;
 
-/// Nodes that an equation may use.
-const SLOTS: usize = 48;
+/// Nodes that an equation of [`crate::equation`] may use.
+pub const SLOTS: usize = 48;
 
 /// The coefficients of one order, of every quantity. Neighbouring orders of one quantity are kept apart on purpose: side by
 /// side, compilers load two of them as one vector just after they were stored one by one, and the processor stalls.
-type Order<S> = [Cell<S>; SLOTS];
+type Order<S, const SLOTS: usize> = [Cell<S>; SLOTS];
 
 /// Room for the series of one evaluation. Scratch space, not state: nothing is read before it is written.
-pub struct Tape<S, const N: usize> {
-    orders: [Order<S>; N],
+pub struct Tape<S, const N: usize, const SLOTS: usize = { self::SLOTS }> {
+    orders: [Order<S, SLOTS>; N],
 }
 
-impl<S: Real, const N: usize> Default for Tape<S, N> {
+impl<S: Real, const N: usize, const SLOTS: usize> Default for Tape<S, N, SLOTS> {
     fn default() -> Self {
         Tape { orders: core::array::from_fn(|_| core::array::from_fn(|_| Cell::new(S::ZERO))) }
     }
 }
 
-impl<S: Real, const N: usize> Tape<S, N> {
+impl<S: Real, const N: usize, const SLOTS: usize> Tape<S, N, SLOTS> {
     /// Sets coefficient `order` of the given quantity `slot`.
     #[inline(always)]
     pub fn set(&self, slot: usize, order: usize, coefficient: S) {
@@ -41,32 +41,32 @@ impl<S: Real, const N: usize> Tape<S, N> {
     /// The given quantity `slot` at `order`; new nodes are counted in `next`, which the caller sets to the number of given
     /// quantities before each order.
     #[inline(always)]
-    pub fn given<'t>(&'t self, next: &'t Cell<usize>, order: usize, slot: usize) -> Node<'t, S, N> {
+    pub fn given<'t>(&'t self, next: &'t Cell<usize>, order: usize, slot: usize) -> Node<'t, S, N, SLOTS> {
         Node { tape: &self.orders, next, order, slot }
     }
 }
 
 /// One quantity of the equation on the tape.
-pub struct Node<'t, S, const N: usize> {
-    tape: &'t [Order<S>; N],
+pub struct Node<'t, S, const N: usize, const SLOTS: usize = { self::SLOTS }> {
+    tape: &'t [Order<S, SLOTS>; N],
     next: &'t Cell<usize>,
     order: usize,
     slot: usize,
 }
 
-impl<S, const N: usize> Clone for Node<'_, S, N> {
+impl<S, const N: usize, const SLOTS: usize> Clone for Node<'_, S, N, SLOTS> {
     #[inline(always)]
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<S, const N: usize> Copy for Node<'_, S, N> {}
+impl<S, const N: usize, const SLOTS: usize> Copy for Node<'_, S, N, SLOTS> {}
 
-impl<'t, S: Real, const N: usize> Node<'t, S, N> {
+impl<'t, S: Real, const N: usize, const SLOTS: usize> Node<'t, S, N, SLOTS> {
     /// Coefficients `from` up to and without `to`; `to` at most order + 1.
     #[inline(always)]
-    fn run(&self, from: usize, to: usize) -> Run<'t, S> {
+    fn run(&self, from: usize, to: usize) -> Run<'t, S, SLOTS> {
         Run { orders: &self.tape[from..to], slot: self.slot }
     }
 
@@ -100,23 +100,23 @@ impl<'t, S: Real, const N: usize> Node<'t, S, N> {
 }
 
 /// Neighbouring coefficients of one quantity.
-struct Run<'t, S> {
-    orders: &'t [Order<S>],
+struct Run<'t, S, const SLOTS: usize> {
+    orders: &'t [Order<S, SLOTS>],
     slot: usize,
 }
 
-impl<S> Clone for Run<'_, S> {
+impl<S, const SLOTS: usize> Clone for Run<'_, S, SLOTS> {
     #[inline(always)]
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<S> Copy for Run<'_, S> {}
+impl<S, const SLOTS: usize> Copy for Run<'_, S, SLOTS> {}
 
 /// Σ a_j b_{n−1−j} over two runs of the same length n: one coefficient of a product.
 #[inline(always)]
-fn convolve<S: Real>(a: Run<'_, S>, b: Run<'_, S>) -> S {
+fn convolve<S: Real, const SLOTS: usize>(a: Run<'_, S, SLOTS>, b: Run<'_, S, SLOTS>) -> S {
     let mut sums = [S::ZERO; 4];
     let (quads, rest) = a.orders.as_chunks::<4>();
     let (rest_b, quads_b) = b.orders.as_rchunks::<4>();
@@ -134,7 +134,7 @@ fn convolve<S: Real>(a: Run<'_, S>, b: Run<'_, S>) -> S {
 
 /// [`convolve`] of one run with two others at once.
 #[inline(always)]
-fn convolve_both<S: Real>(a: Run<'_, S>, b: Run<'_, S>, c: Run<'_, S>) -> (S, S) {
+fn convolve_both<S: Real, const SLOTS: usize>(a: Run<'_, S, SLOTS>, b: Run<'_, S, SLOTS>, c: Run<'_, S, SLOTS>) -> (S, S) {
     let (mut first, mut second) = ([S::ZERO; 2], [S::ZERO; 2]);
     let (pairs, rest) = a.orders.as_chunks::<2>();
     let (rest_b, pairs_b) = b.orders.as_rchunks::<2>();
@@ -155,7 +155,7 @@ fn convolve_both<S: Real>(a: Run<'_, S>, b: Run<'_, S>, c: Run<'_, S>) -> (S, S)
 
 macro_rules! termwise {
     ($operator:ident, $method:ident) => {
-        impl<S: Real, const N: usize> $operator for Node<'_, S, N> {
+        impl<S: Real, const N: usize, const SLOTS: usize> $operator for Node<'_, S, N, SLOTS> {
             type Output = Self;
 
             #[inline(always)]
@@ -169,7 +169,7 @@ macro_rules! termwise {
 termwise!(Add, add);
 termwise!(Sub, sub);
 
-impl<S: Real, const N: usize> Neg for Node<'_, S, N> {
+impl<S: Real, const N: usize, const SLOTS: usize> Neg for Node<'_, S, N, SLOTS> {
     type Output = Self;
 
     #[inline(always)]
@@ -178,7 +178,7 @@ impl<S: Real, const N: usize> Neg for Node<'_, S, N> {
     }
 }
 
-impl<S: Real, const N: usize> Mul for Node<'_, S, N> {
+impl<S: Real, const N: usize, const SLOTS: usize> Mul for Node<'_, S, N, SLOTS> {
     type Output = Self;
 
     #[inline(always)]
@@ -187,7 +187,7 @@ impl<S: Real, const N: usize> Mul for Node<'_, S, N> {
     }
 }
 
-impl<S: Real, const N: usize> Div for Node<'_, S, N> {
+impl<S: Real, const N: usize, const SLOTS: usize> Div for Node<'_, S, N, SLOTS> {
     type Output = Self;
 
     /// q_k = (a_k − Σ_{j=1..k} b_j q_{k−j}) / b_0.
@@ -208,7 +208,7 @@ impl<S: Real, const N: usize> Div for Node<'_, S, N> {
     }
 }
 
-impl<S: Real, const N: usize> Value<S> for Node<'_, S, N> {
+impl<S: Real, const N: usize, const SLOTS: usize> Value<S> for Node<'_, S, N, SLOTS> {
     #[inline(always)]
     fn scale(self, factor: S) -> Self {
         self.node(self.last() * factor)

@@ -8,6 +8,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use sprag_shared::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::carried::Carried;
 use sprag_shared::clutch::Clutch;
 use sprag_shared::equation::{Equation, SlenderBlock};
 use sprag_shared::fixed::runge_kutta_4;
@@ -117,6 +118,7 @@ impl WithSystem<f64> for Run<'_> {
             block: &self.structure.block,
             geometry: self.structure.geometry,
             ground: self.ground,
+            vertical: None,
             free_time: 10.0,
             overturning: Overturning::Proven,
         };
@@ -131,6 +133,13 @@ impl WithSystem<f64> for Run<'_> {
 fn record(ground: &GroundMotion, geometry: Geometry, kind: DeviceKind, tolerance: f64) -> f64 {
     let Ok(block) = Block::new(6.0, 0.2, RECTANGLE_INERTIA_RATIO) else { return f64::NAN };
     let device = Device { kind, mass_ratio: 0.5, mount: Mount::CentreOfMass, kinematics: KinematicsKind::Paper };
-    let structure = Structure { block, geometry, device, restitution: Restitution::Constant(0.95), rest_speed: REST_SPEED };
+    let structure = Structure {
+        block,
+        geometry,
+        device,
+        carried: Carried::NONE,
+        restitution: Restitution::Constant(0.95),
+        rest_speed: REST_SPEED,
+    };
     structure.resolve(Run { tolerance, structure: &structure, ground }).unwrap_or(f64::NAN)
 }

@@ -1,9 +1,11 @@
 //! A whole ground motion: smooth pieces in a row, of one pulse, one record, or the sum of several.
 
+mod piece;
+
 use sprag_shared::block::GRAVITY;
-use sprag_shared::ground::harmonic::Harmonic;
 use sprag_shared::ground::{Harmonics, Linear, Piece, Ricker};
-use sprag_shared::scalar::Real;
+
+pub use piece::{MixturePiece, ShapePiece};
 
 /// A smooth piece of one motion, in g over local time in s.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,15 +82,21 @@ pub struct GroundMotion {
 impl GroundMotion {
     /// The sum of `components`.
     pub fn sum(components: &[Component]) -> GroundMotion {
-        let mut times: Vec<f64> = vec![0.0];
-        for component in components {
-            if !component.pieces.is_empty() {
-                times.push(component.start);
-            }
-            times.extend(component.pieces.iter().map(|(end, _)| component.start + end));
-        }
+        GroundMotion::cut(components, &kinks(components))
+    }
+
+    /// The sums of `horizontal` and of `vertical` components, cut at the kinks of both, so that they have the same segments;
+    /// where only one of them still moves, the other is quiet.
+    pub fn aligned(horizontal: &[Component], vertical: &[Component]) -> [GroundMotion; 2] {
+        let mut times = kinks(horizontal);
+        times.extend(kinks(vertical));
         times.sort_by(f64::total_cmp);
         times.dedup();
+        [horizontal, vertical].map(|components| GroundMotion::cut(components, &times))
+    }
+
+    /// The sum of `components` between one of the `times` and the next; every kink is among them.
+    fn cut(components: &[Component], times: &[f64]) -> GroundMotion {
         let mut at = vec![0_usize; components.len()];
         let mut segments = Vec::with_capacity(times.len());
         for pair in times.windows(2) {
@@ -144,6 +152,50 @@ impl GroundMotion {
         }
         peak * GRAVITY
     }
+
+    /// The smallest ü_g/g, to 1e-9 of the largest or of 1, and when (s); 0 at time 0 for a motion without segments.
+    ///
+    /// The curvature bounds how far a piece can dip between two instants, so nothing falls between samples.
+    pub fn lowest(&self) -> (f64, f64) {
+        let mut lowest = (f64::INFINITY, 0.0);
+        for segment in &self.segments {
+            let (first, last) = (segment.shape.acceleration(0.0), segment.shape.acceleration(segment.duration));
+            for (value, time) in [(first, 0.0), (last, segment.duration)] {
+                if value < lowest.0 {
+                    lowest = (value, segment.start + time);
+                }
+            }
+            let mut spans = vec![(0.0, first, segment.duration, last)];
+            let (curvature, tolerance) = (segment.shape.curvature_bound(), 1e-9 * segment.bound.max(1.0));
+            while let Some((from, first, to, last)) = spans.pop() {
+                let dip = curvature * (to - from) * (to - from) / 8.0;
+                let middle = 0.5 * (from + to);
+                if first.min(last) - dip >= lowest.0 - tolerance || middle <= from || middle >= to {
+                    continue;
+                }
+                let value = segment.shape.acceleration(middle);
+                if value < lowest.0 {
+                    lowest = (value, segment.start + middle);
+                }
+                spans.extend([(middle, value, to, last), (from, first, middle, value)]);
+            }
+        }
+        if lowest.0.is_finite() { lowest } else { (0.0, 0.0) }
+    }
+}
+
+/// Times from 0 on at which a sum of `components` may kink or jump, in order.
+fn kinks(components: &[Component]) -> Vec<f64> {
+    let mut times: Vec<f64> = vec![0.0];
+    for component in components {
+        if !component.pieces.is_empty() {
+            times.push(component.start);
+        }
+        times.extend(component.pieces.iter().map(|(end, _)| component.start + end));
+    }
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times
 }
 
 impl Smooth {
@@ -186,140 +238,10 @@ impl Shape {
             Shape::Mixture(parts) => MixturePiece::<f64>::of(parts).acceleration(time),
         }
     }
-}
 
-/// A mixture in the precision of a run.
-#[derive(Clone, Debug)]
-pub struct MixturePiece<S> {
-    parts: Vec<(S, SmoothPiece<S>)>,
-}
-
-/// A segment's shape in the precision of a run.
-#[derive(Clone, Debug)]
-pub enum ShapePiece<S> {
-    /// A straight line.
-    Linear(Linear<S>),
-    /// Anything else.
-    Mixture(MixturePiece<S>),
-}
-
-impl<S: Real> ShapePiece<S> {
-    /// In precision `S`.
-    pub fn of(shape: &Shape) -> Self {
-        match shape {
-            Shape::Linear(line) => ShapePiece::Linear(line_of(line)),
-            Shape::Mixture(parts) => ShapePiece::Mixture(MixturePiece::of(parts)),
-        }
-    }
-}
-
-impl<S: Real> Piece<S> for ShapePiece<S> {
-    #[inline]
-    fn acceleration(&self, time: S) -> S {
-        match self {
-            ShapePiece::Linear(line) => line.acceleration(time),
-            ShapePiece::Mixture(mixture) => mixture.acceleration(time),
-        }
-    }
-
-    #[inline]
-    fn slope(&self, time: S) -> S {
-        match self {
-            ShapePiece::Linear(line) => line.slope(time),
-            ShapePiece::Mixture(mixture) => mixture.slope(time),
-        }
-    }
-
-    #[inline]
-    fn curvature_bound(&self) -> S {
-        match self {
-            ShapePiece::Linear(_) => S::ZERO,
-            ShapePiece::Mixture(mixture) => mixture.curvature_bound(),
-        }
-    }
-
-    #[inline]
-    fn series(&self, time: S, coefficients: &mut [S]) {
-        match self {
-            ShapePiece::Linear(line) => line.series(time, coefficients),
-            ShapePiece::Mixture(mixture) => mixture.series(time, coefficients),
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug)]
-enum SmoothPiece<S> {
-    Linear(Linear<S>),
-    Single(Harmonics<S, 1>),
-    Triple(Harmonics<S, 3>),
-    Ricker(Ricker<S>),
-}
-
-fn line_of<S: Real>(line: &Linear<f64>) -> Linear<S> {
-    Linear { start: S::of(line.start), slope: S::of(line.slope) }
-}
-
-fn harmonics_of<S: Real, const M: usize>(harmonics: &Harmonics<f64, M>) -> Harmonics<S, M> {
-    Harmonics {
-        terms: harmonics.terms.map(|term| Harmonic {
-            amplitude: S::of(term.amplitude),
-            frequency: S::of(term.frequency),
-            phase: S::of(term.phase),
-        }),
-    }
-}
-
-impl<S: Real> MixturePiece<S> {
-    /// In precision `S`.
-    pub fn of(mixture: &[(f64, Smooth)]) -> Self {
-        let part = |smooth: &Smooth| match smooth {
-            Smooth::Linear(line) => SmoothPiece::Linear(line_of(line)),
-            Smooth::Single(harmonics) => SmoothPiece::Single(harmonics_of(harmonics)),
-            Smooth::Triple(harmonics) => SmoothPiece::Triple(harmonics_of(harmonics)),
-            Smooth::Ricker(wavelet) => SmoothPiece::Ricker(Ricker {
-                amplitude: S::of(wavelet.amplitude),
-                rate: S::of(wavelet.rate),
-                centre: S::of(wavelet.centre),
-            }),
-        };
-        MixturePiece { parts: mixture.iter().map(|(offset, smooth)| (S::of(*offset), part(smooth))).collect() }
-    }
-}
-
-macro_rules! each {
-    ($piece:expr, $inner:ident => $result:expr) => {
-        match $piece {
-            SmoothPiece::Linear($inner) => $result,
-            SmoothPiece::Single($inner) => $result,
-            SmoothPiece::Triple($inner) => $result,
-            SmoothPiece::Ricker($inner) => $result,
-        }
-    };
-}
-
-impl<S: Real> Piece<S> for MixturePiece<S> {
-    fn acceleration(&self, time: S) -> S {
-        self.parts.iter().fold(S::ZERO, |sum, (offset, piece)| sum + each!(piece, p => p.acceleration(*offset + time)))
-    }
-
-    fn slope(&self, time: S) -> S {
-        self.parts.iter().fold(S::ZERO, |sum, (offset, piece)| sum + each!(piece, p => p.slope(*offset + time)))
-    }
-
-    fn curvature_bound(&self) -> S {
-        self.parts.iter().fold(S::ZERO, |sum, (_, piece)| sum + each!(piece, p => Piece::<S>::curvature_bound(p)))
-    }
-
-    fn series(&self, time: S, coefficients: &mut [S]) {
-        coefficients.fill(S::ZERO);
-        let mut others = [S::ZERO; sprag_shared::tape::MAXIMUM_ORDER];
-        let length = coefficients.len().min(others.len());
-        for (offset, piece) in &self.parts {
-            each!(piece, p => p.series(*offset + time, &mut others[..length]));
-            for (sum, other) in coefficients.iter_mut().zip(&others) {
-                *sum = *sum + *other;
-            }
-        }
+    /// Upper bound of |d²(ü_g/g)/dt²|, 1/s².
+    fn curvature_bound(&self) -> f64 {
+        ShapePiece::<f64>::of(self).curvature_bound()
     }
 }
 
@@ -353,5 +275,63 @@ mod tests {
     fn a_record_of_one_sample_moves_nothing() {
         let motion = GroundMotion::sum(&[Component::record(0.0, 0.01, [1.0].into_iter())]);
         assert!(motion.segments().is_empty() && motion.duration() == 0.0);
+    }
+
+    /// A few motions that overlap, end before each other and jump.
+    fn parts() -> Vec<Component> {
+        vec![
+            Component::record(0.5, 0.25, [0.1, -0.2, 0.3, 0.0].into_iter()),
+            Component::pulse(0.6, 1.0, Smooth::Single(Harmonics::sine(0.4, core::f64::consts::TAU))),
+            Component::pulse(0.0, 0.8, Smooth::Linear(Linear::constant(0.05))),
+            Component::record(1.1, 0.1, (0..30).map(|k| 0.02 * f64::from(k % 7) - 0.05)),
+            Component::pulse(2.0, 0.7, Smooth::Ricker(Ricker { amplitude: 0.3, rate: 17.0, centre: 0.35 })),
+        ]
+    }
+
+    /// Fractions of 1 without a pattern, always the same.
+    fn fractions() -> impl Iterator<Item = f64> {
+        let mut state = 1_u64;
+        core::iter::repeat_with(move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        })
+    }
+
+    #[test]
+    fn aligned_motions_have_the_same_segments_and_the_values_of_separate_ones() {
+        let parts = parts();
+        for split in 0..=parts.len() {
+            let (horizontal, vertical) = parts.split_at(split);
+            let aligned = GroundMotion::aligned(horizontal, vertical);
+            let cuts = |motion: &GroundMotion| motion.segments().iter().map(|s| (s.start, s.duration)).collect::<Vec<_>>();
+            assert_eq!(cuts(&aligned[0]), cuts(&aligned[1]), "{split}");
+            assert_eq!(aligned[0].duration(), aligned[1].duration());
+            let separate = [GroundMotion::sum(horizontal), GroundMotion::sum(vertical)];
+            for time in fractions().take(2000).map(|fraction| 4.5 * fraction) {
+                for (one, other) in aligned.iter().zip(&separate) {
+                    assert!((at(one, time) - at(other, time)).abs() < 1e-13, "{split} at {time}");
+                    let segment = one.segments().iter().find(|s| time < s.start + s.duration);
+                    assert!(segment.is_none_or(|s| s.bound >= at(other, time).abs()), "bound, {split} at {time}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_lies_below_the_lowest_value_and_it_is_taken() {
+        let parts = parts();
+        for motion in [GroundMotion::sum(&parts), GroundMotion::sum(&parts[..2]), GroundMotion::sum(&parts[4..])] {
+            let (lowest, when) = motion.lowest();
+            // At a jump the value is that of one of its sides.
+            let taken = motion.segments().iter().any(|s| {
+                (s.start..=s.start + s.duration).contains(&when) && s.shape.acceleration(when - s.start) < lowest + 1e-12
+            });
+            assert!(taken, "{lowest} at {when}");
+            assert!(fractions().take(5000).all(|fraction| at(&motion, 4.5 * fraction) >= lowest - 2e-9), "{lowest} at {when}");
+        }
+        let sine = GroundMotion::sum(&[Component::pulse(0.5, 1.0, Smooth::Single(Harmonics::sine(0.4, 7.0)))]);
+        let (lowest, when) = sine.lowest();
+        assert!((lowest + 0.4).abs() < 1e-9 && (when - 0.5 - 1.5 * core::f64::consts::PI / 7.0).abs() < 1e-4);
+        assert_eq!(GroundMotion::default().lowest(), (0.0, 0.0));
     }
 }

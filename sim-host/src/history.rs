@@ -32,7 +32,7 @@ impl Sample {
 }
 
 /// The response of a block with one device to one ground motion.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct History {
     /// Name of the device, as the figure's legend shows it.
     pub device: String,

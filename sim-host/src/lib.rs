@@ -3,10 +3,11 @@
 //! - [`scene`], [`record`], [`ground_motion`], [`synthesis`]: what is simulated.
 //! - [`simulation`]: one scene, every device; [`batch`]: many dimensionless cases.
 //! - [`history`], [`outcome`], [`plot`], [`summary_table`], [`output`]: what comes out.
-//! - [`command`]: the subcommands of `sprag`.
+//! - [`effect`]: what a scene may ask for, and what follows from it; [`command`]: the subcommands of `sprag`.
 
 pub mod batch;
 pub mod command;
+pub mod effect;
 pub mod ground_motion;
 pub mod history;
 pub mod interrupt;
@@ -15,6 +16,7 @@ pub mod output;
 pub mod plot;
 pub mod record;
 pub mod scene;
+pub mod sensitivity;
 pub mod simulation;
 pub mod summary_table;
 pub mod synthesis;

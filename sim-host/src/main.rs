@@ -4,7 +4,7 @@ use std::io::{stderr, stdout};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use sprag_sim_host::command::{batch, record, simulate, synthesize};
+use sprag_sim_host::command::{batch, effects, explain, record, sensitivity, simulate, synthesize};
 use sprag_sim_host::interrupt::Interrupt;
 
 /// Rocking structures with inerters and clutches: simulate, and get the numbers to decide with.
@@ -19,8 +19,11 @@ struct Line {
 enum Command {
     Simulate(simulate::SimulateArguments),
     Batch(batch::BatchArguments),
+    Sensitivity(sensitivity::SensitivityArguments),
     Record(record::RecordArguments),
     Synthesize(synthesize::SynthesizeArguments),
+    Effects(effects::EffectsArguments),
+    Explain(explain::ExplainArguments),
 }
 
 fn main() -> ExitCode {
@@ -30,8 +33,11 @@ fn main() -> ExitCode {
     let code = match &line.command {
         Command::Simulate(arguments) => simulate::run(arguments, &mut out, &mut err, &interrupt),
         Command::Batch(arguments) => batch::run(arguments, &mut err, &interrupt),
+        Command::Sensitivity(arguments) => sensitivity::run(arguments, &mut out, &mut err, &interrupt),
         Command::Record(arguments) => record::run(arguments, &mut out, &mut err),
         Command::Synthesize(arguments) => synthesize::run(arguments, &mut out, &mut err),
+        Command::Effects(arguments) => effects::run(arguments, &mut out, &mut err),
+        Command::Explain(arguments) => explain::run(arguments, &mut out, &mut err),
     };
     ExitCode::from(u8::try_from(code).unwrap_or(1))
 }

@@ -222,8 +222,81 @@ fn ctrl_c_ends_a_long_run_and_leaves_nothing() {
 }
 
 #[test]
+fn effects_are_listed_and_shown() {
+    let text = |arguments: &[&str]| {
+        let output = sprag(arguments);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let table = text(&["effects"]);
+    let names = [
+        "kinematics",
+        "mount",
+        "geometry",
+        "vertical",
+        "impact",
+        "flywheel",
+        "engagement",
+        "clutch",
+        "rack",
+        "actuation",
+        "weight",
+        "checks",
+        "energy",
+    ];
+    for name in names {
+        assert!(table.lines().any(|line| line.starts_with(name)), "{name}: {table}");
+        let in_full = text(&["effects", name]);
+        assert!(["equation", "source", "keys", "cost"].iter().all(|part| in_full.contains(part)), "{in_full}");
+        assert!(in_full.lines().chain(table.lines()).all(|line| line.chars().count() <= 130), "{in_full}");
+    }
+    assert!(table.contains("device.N.clutch.capacity_ratio") && !table.contains('\u{1b}'), "{table}");
+    let json: serde_json::Value = serde_json::from_str(&text(&["effects", "--json"])).unwrap();
+    let entries = json.as_array().unwrap();
+    assert_eq!(entries.len(), names.len());
+    for entry in entries {
+        assert!(names.iter().any(|name| entry["name"] == *name), "{entry}");
+        for key in ["summary", "equation", "source", "keys"] {
+            assert!(entry.get(key).is_some(), "{key} in {entry}");
+        }
+        assert!(entry["keys"][0]["key"].is_string() && entry.get("cost").is_some(), "{entry}");
+    }
+    let one: serde_json::Value = serde_json::from_str(&text(&["effects", "rack", "--json"])).unwrap();
+    assert_eq!(one["name"], "rack");
+    let nowhere = tempfile::tempdir().unwrap();
+    refused(&["effects", "magic"], nowhere.path(), &["magic", "kinematics", "energy"]);
+}
+
+#[test]
+fn explain_says_what_is_on_why_and_which_equation_results() {
+    let seed = concat!(env!("CARGO_MANIFEST_DIR"), "/../fuzz/seeds/scene/effects.toml");
+    let output = sprag(&["explain", seed, "--set", "device.3.clutch.capacity_ratio=0.25"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).unwrap();
+    for words in [
+        "whole scene",
+        "because block.restitution = \"momentum-balance\"",
+        "because device.3.clutch.capacity_ratio = 0.25",
+        "(λ + κ σ ℓ²) θ̈ = −(g/R) [ (1 + v̈_g/g) sin δ + (ü_g/g) cos δ ] − ℓ (F₁ + F₂)/(m R)",
+        "F_c = 0.25 m g",
+        "effects off: mount, kinematics",
+        "followed by",
+    ] {
+        assert!(text.contains(words), "must say `{words}`: {text}");
+    }
+    assert!(text.lines().all(|line| line.chars().count() <= 130) && !text.contains('\u{1b}'), "{text}");
+    // No record is read, so that a scene may be explained before there is one.
+    let output = sprag(&["explain", &scene("record")]);
+    assert!(output.status.success() && String::from_utf8_lossy(&output.stdout).contains("effects on: none"));
+    let nowhere = tempfile::tempdir().unwrap();
+    refused(&["explain", "nowhere.toml"], nowhere.path(), &["nowhere.toml"]);
+    let brake = "device.2.flywheel.brake_deceleration_m_s2=instant";
+    refused(&["explain", &scene("figure05"), "--set", brake], nowhere.path(), &["figure05.toml", "brake", "ideal clutch"]);
+}
+
+#[test]
 fn every_subcommand_has_help_with_an_example() {
-    for command in ["simulate", "batch", "record", "synthesize"] {
+    for command in ["simulate", "batch", "record", "synthesize", "effects", "explain"] {
         let output = sprag(&[command, "--help"]);
         let help = String::from_utf8(output.stdout).unwrap();
         assert!(output.status.success() && help.contains("Example"), "{command}: {help}");

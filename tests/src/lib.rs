@@ -7,6 +7,7 @@ use std::path::PathBuf;
 
 use sprag_shared::arc::{Arc, Method, Motion};
 use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::carried::Carried;
 use sprag_shared::clutch::Clutch;
 use sprag_shared::decay::Decay;
 use sprag_shared::equation::Equation;
@@ -47,6 +48,7 @@ pub fn unit_block(geometry: Geometry, slenderness: f64, device: DeviceKind, mass
         block,
         geometry,
         device: Device { kind: device, mass_ratio, mount: Mount::CentreOfMass, kinematics: KinematicsKind::Paper },
+        carried: Carried::NONE,
         restitution: Restitution::Constant(restitution),
         rest_speed: REST_SPEED,
     }

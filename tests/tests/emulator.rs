@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::carried::Carried;
 use sprag_shared::case::{self, Case, Ending, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::digest::Digest;
 use sprag_shared::ground::Harmonics;
@@ -19,7 +20,7 @@ const METHODS: [FixedMethod; 3] = [FixedMethod::SemiImplicitEuler, FixedMethod::
 /// σ = 0.5, η = 0.85.
 fn structure(block: Block, geometry: Geometry, kind: DeviceKind) -> Structure {
     let device = Device { kind, mass_ratio: 0.5, ..Device::NONE };
-    Structure { block, geometry, device, restitution: Restitution::Constant(0.85), rest_speed: 1e-6 }
+    Structure { block, geometry, device, carried: Carried::NONE, restitution: Restitution::Constant(0.85), rest_speed: 1e-6 }
 }
 
 /// A slender block of p = 1/s under one cycle of sine with ω/p and a_g/(gα).

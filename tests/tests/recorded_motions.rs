@@ -77,10 +77,10 @@ fn every_recorded_motion_is_simulated_with_all_three_devices() {
     for motion in &motions {
         let mut scene = Scene::load(Path::new(SCENE), &motion.overrides).unwrap_or_else(|error| panic!("{error}"));
         scene.use_record(&Path::new(RECORDS).join(&motion.file)).unwrap();
-        let ground = scene.ground_motion().unwrap_or_else(|error| panic!("{error}"));
+        let ground = scene.ground_motions().unwrap_or_else(|error| panic!("{error}"));
         let runs = simulate(&scene, &ground, &Interrupt::default()).unwrap_or_else(|error| panic!("{}: {error}", motion.file));
         let [none, single, pair] = runs.as_slice() else { panic!("three devices") };
-        check(motion, &runs, ground.peak_m_s2() / 9.806_65 > scene.uplift_threshold());
+        check(motion, &runs, ground.horizontal.peak_m_s2() / 9.806_65 > scene.uplift_threshold());
         if motion.pulse_like && counted.insert(motion.identity.clone()) {
             for (count, run) in overturned.iter_mut().zip(&runs) {
                 *count += usize::from(run.outcome.overturned());

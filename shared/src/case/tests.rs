@@ -1,11 +1,13 @@
 use super::words::{MAGIC, VERSION};
 use super::*;
 use crate::block::{Block, Geometry};
+use crate::carried::Carried;
 use crate::digest::Digest;
 use crate::ground::harmonic::MavroeidisPapageorgiou;
 use crate::lever::Mount;
+use crate::restitution::Restitution;
 use crate::scalar::Real;
-use crate::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution};
+use crate::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED};
 
 /// A slender block of p = 1/s under one cycle of sine, ω/p = 4, a_g/gα = 1.5 (Figure 5).
 fn figure05(kind: DeviceKind) -> Case<'static> {
@@ -16,6 +18,7 @@ fn figure05(kind: DeviceKind) -> Case<'static> {
             block: Block::new(8.0, alpha, 1.25).unwrap(),
             geometry: Geometry::Slender,
             device: Device { kind, mass_ratio: 0.5, ..Device::NONE },
+            carried: Carried::NONE,
             restitution: Restitution::Constant(0.875),
             rest_speed: f64::from(REST_SPEED as f32),
         },
@@ -57,9 +60,13 @@ fn a_case_comes_back_as_it_went() {
         ground: Ground::pieces(&shapes.map(|shape| GroundPiece { shape, duration: 0.5 })).unwrap(),
         ..base
     });
-    for mount in [Mount::TyingPoint { height: 2.0, pulley_ratio: 1.5 }, Mount::BaseCorners { pulley_ratio: 3.0 }] {
+    for (mount, restitution) in [
+        (Mount::TyingPoint { height: 2.0, pulley_ratio: 1.5 }, Restitution::Geometric),
+        (Mount::BaseCorners { pulley_ratio: 3.0 }, Restitution::MomentumBalance),
+    ] {
         let device = Device { mount, kinematics: KinematicsKind::Consistent, ..base.structure.device };
-        let structure = Structure { device, geometry: Geometry::Full, restitution: Restitution::Geometric, ..base.structure };
+        let carried = Carried { mass_ratio: 0.0625, height: 5.5 };
+        let structure = Structure { device, carried, geometry: Geometry::Full, restitution, ..base.structure };
         cases.push(Case { structure, method: FixedMethod::SemiImplicitEuler, ..base });
     }
     for case in cases {
@@ -86,13 +93,13 @@ fn bad_words_are_named() {
     assert_eq!(with(0, 7), CaseError::Magic(7));
     assert_ne!(MAGIC, 7);
     assert_eq!(with(1, VERSION + 1), CaseError::Version(VERSION + 1));
-    for (index, of) in [(5, "geometry"), (6, "device"), (8, "mount"), (11, "kinematics"), (12, "restitution"), (15, "start")] {
+    for (index, of) in [(5, "geometry"), (6, "device"), (8, "mount"), (11, "kinematics"), (14, "restitution"), (17, "start")] {
         assert_eq!(with(index, 9), CaseError::Kind { of, word: 9 });
     }
-    for (index, of) in [(18, "method"), (21, "ground"), (23, "shape")] {
+    for (index, of) in [(20, "method"), (23, "ground"), (25, "shape")] {
         assert_eq!(with(index, u32::MAX), CaseError::Kind { of, word: u32::MAX });
     }
-    assert_eq!(with(22, 9), CaseError::TooManyPieces(9));
+    assert_eq!(with(24, 9), CaseError::TooManyPieces(9));
     let parameter = |index: usize, number: f32| match with(index, number.to_bits()) {
         CaseError::Parameter(error) => error.parameter,
         other => panic!("{other}"),
@@ -101,13 +108,32 @@ fn bad_words_are_named() {
     assert_eq!(parameter(3, f32::NAN), "slenderness");
     assert_eq!(parameter(4, 0.5), "inertia_ratio");
     assert_eq!(parameter(7, -1.0), "mass_ratio");
-    assert_eq!(parameter(13, 1.5), "restitution");
-    assert_eq!(parameter(14, 0.0), "rest_speed");
-    assert_eq!(parameter(19, 0.0), "step");
-    assert_eq!(parameter(20, f32::INFINITY), "free_time");
-    assert_eq!(parameter(24, -1.0), "duration");
-    assert_eq!(parameter(26, f32::NAN), "number of a shape");
-    assert_eq!(with(19, 1e-7_f32.to_bits()), CaseError::TooManySteps);
+    assert_eq!(parameter(12, 10.5), "carried mass_ratio");
+    assert_eq!(parameter(13, -1.0), "carried height");
+    assert_eq!(parameter(15, 1.5), "restitution");
+    assert_eq!(parameter(16, 0.0), "rest_speed");
+    assert_eq!(parameter(21, 0.0), "step");
+    assert_eq!(parameter(22, f32::INFINITY), "free_time");
+    assert_eq!(parameter(26, -1.0), "duration");
+    assert_eq!(parameter(28, f32::NAN), "number of a shape");
+    assert_eq!(with(21, 1e-7_f32.to_bits()), CaseError::TooManySteps);
+}
+
+/// Half of the mass at the base doubles the stability angle: a block that moves on beyond its own comes back.
+#[test]
+fn a_loaded_block_overturns_where_it_is_loaded_to() {
+    let base = figure05(DeviceKind::None);
+    let ending = |carried, geometry, rotation| {
+        let structure = Structure { carried, geometry, ..base.structure };
+        let initially = Initially::Released { rotation, velocity: 0.03 };
+        Case { structure, initially, ground: Ground::pieces(&[]).unwrap(), ..base }.run(&mut ()).unwrap().ending
+    };
+    for geometry in [Geometry::Full, Geometry::Slender] {
+        let low = Carried { mass_ratio: 1.0, height: 0.0 };
+        assert_eq!(ending(Carried::NONE, geometry, 0.2), Ending::OverturnedWithoutImpact);
+        assert_eq!(ending(low, geometry, 0.2), Ending::Safe);
+        assert_eq!(ending(low, geometry, 0.26), Ending::OverturnedWithoutImpact);
+    }
 }
 
 /// The slender peaks of Figure 5 (VERIFICATION): here with η = 0.875, so close to them before the first impact only; what

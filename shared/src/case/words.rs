@@ -1,4 +1,4 @@
-//! The words of a case, in order: 23 for the scene, then its ground motion. Numbers are the bits of an f32 in SI units;
+//! The words of a case, in order: 25 for the scene, then its ground motion. Numbers are the bits of an f32 in SI units;
 //! kinds count from 0 in the order in which their types list them.
 //!
 //! | words | what |
@@ -6,28 +6,31 @@
 //! | 0, 1 | [`MAGIC`], [`VERSION`] |
 //! | 2-5 | size R, slenderness α, inertia ratio λ, geometry (kind) |
 //! | 6-11 | device (kind), mass ratio σ, mount (kind), height, pulley ratio, kinematics (kind) |
-//! | 12-14 | restitution (0 given, 1 geometric), η, rest speed |
-//! | 15-17 | initially (0 rest, 1 released), θ, θ̇ |
-//! | 18-20 | method (kind), step, free time |
-//! | 21, 22 | ground (0 pieces, 1 record); number of pieces or of samples |
-//! | 23- | pieces: 11 words each, shape (kind), duration, and up to nine numbers; record: interval, samples |
+//! | 12, 13 | carried mass ratio μ, its height |
+//! | 14-16 | restitution (0 given, 1 geometric, 2 momentum balance), η (read if given), rest speed |
+//! | 17-19 | initially (0 rest, 1 released), θ, θ̇ |
+//! | 20-22 | method (kind), step, free time |
+//! | 23, 24 | ground (0 pieces, 1 record); number of pieces or of samples |
+//! | 25- | pieces: 11 words each, shape (kind), duration, and up to nine numbers; record: interval, samples |
 
 use core::fmt;
 
 use super::{Case, FixedMethod, Ground, GroundPiece, Initially, MOST_PIECES, Shape};
 use crate::block::{Block, Geometry};
+use crate::carried::Carried;
 use crate::error::{ParameterError, require};
 use crate::ground::harmonic::Harmonic;
 use crate::ground::{Harmonics, Linear, Ricker};
 use crate::lever::Mount;
+use crate::restitution::Restitution;
 use crate::rocking::Stopped;
-use crate::structure::{Device, DeviceKind, KinematicsKind, Restitution, Structure};
+use crate::structure::{Device, DeviceKind, KinematicsKind, Structure};
 
 /// "CASE", to be told from other files.
 pub const MAGIC: u32 = u32::from_le_bytes(*b"CASE");
 
 /// Of the words' meaning.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// Numbers of a shape.
 const NUMBERS: usize = 9;
@@ -148,7 +151,7 @@ impl<'a> Case<'a> {
         let mut out = Writer { words, count: 0 };
         out.word(MAGIC)?;
         out.word(VERSION)?;
-        let Structure { block, geometry, device, restitution, rest_speed } = &self.structure;
+        let Structure { block, geometry, device, carried, restitution, rest_speed } = &self.structure;
         out.number(block.size())?;
         out.number(block.slenderness())?;
         out.number(block.inertia_ratio())?;
@@ -164,9 +167,12 @@ impl<'a> Case<'a> {
         out.number(height)?;
         out.number(pulley_ratio)?;
         out.word(device.kinematics as u32)?;
+        out.number(carried.mass_ratio)?;
+        out.number(carried.height)?;
         let (rule, eta) = match *restitution {
             Restitution::Constant(eta) => (0, eta),
             Restitution::Geometric => (1, 0.0),
+            Restitution::MomentumBalance => (2, 0.0),
         };
         out.word(rule)?;
         out.number(eta)?;
@@ -224,9 +230,14 @@ impl<'a> Case<'a> {
             _ => Mount::BaseCorners { pulley_ratio },
         };
         let kinematics = input.kind("kinematics", &[KinematicsKind::Paper, KinematicsKind::Consistent])?;
-        let geometric = input.kind("restitution", &[false, true])?;
+        let carried = Carried { mass_ratio: input.number("carried mass_ratio")?, height: input.number("carried height")? };
+        let rule = input.kind("restitution", &[0, 1, 2])?;
         let eta = input.number("restitution")?;
-        let restitution = if geometric { Restitution::Geometric } else { Restitution::Constant(eta) };
+        let restitution = match rule {
+            0 => Restitution::Constant(eta),
+            1 => Restitution::Geometric,
+            _ => Restitution::MomentumBalance,
+        };
         let rest_speed = input.number("rest_speed")?;
         let released = input.kind("start", &[false, true])?;
         let (rotation, velocity) = (input.single("rotation")?, input.single("velocity")?);
@@ -252,7 +263,7 @@ impl<'a> Case<'a> {
             return Err(CaseError::Trailing(input.0.len() as u32));
         }
         let device = Device { kind, mass_ratio, mount, kinematics };
-        let structure = Structure { block, geometry, device, restitution, rest_speed };
+        let structure = Structure { block, geometry, device, carried, restitution, rest_speed };
         let initially = if released { Initially::Released { rotation, velocity } } else { Initially::Rest };
         Ok(Case { structure, initially, method, step, ground, free_time })
     }

@@ -3,6 +3,15 @@
 //! Parameters only, in SI units per mass of the block, so that they scale with nothing; what each effect does to the
 //! motion is in the file of its name.
 
+pub mod device;
+pub mod drive;
+pub mod elastic;
+pub mod friction;
+pub mod gears;
+pub mod ideal;
+pub mod overrunning;
+pub mod rigid;
+
 use crate::error::{ParameterError, require};
 
 /// Which forces the rack meets, whatever the clutch does.
@@ -101,6 +110,10 @@ impl Drivetrain {
         within("dry_deceleration", flywheel.dry_deceleration, 1e6, "from 0 to 1e6 m/s²")?;
         if flywheel.brake_deceleration != f64::INFINITY {
             within("brake_deceleration", flywheel.brake_deceleration, 1e9, "from 0 to 1e9 m/s², or infinite")?;
+        }
+        if self.engagement == Engagement::Overrunning {
+            // The block would catch up with a braked flywheel at once and be braked through it.
+            within("brake_deceleration", flywheel.brake_deceleration, 0.0, "0 m/s² for an overrunning clutch")?;
         }
         let capacity = |ratio: f64| require("capacity_ratio", ratio, ratio > 0.0 && ratio <= 1e6, "above 0, to 1e6").map(|_| ());
         match self.engagement {

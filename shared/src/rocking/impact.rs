@@ -1,5 +1,6 @@
 //! What an impact does, and how impacts that accumulate end in rest.
 
+use crate::accumulation::Accumulation;
 use crate::clutch::Clutch;
 use crate::decay::Swings;
 use crate::equation::Equation;
@@ -92,11 +93,9 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
         ends
     }
 
-    /// The infinitely many impacts that follow a weak one, in closed form: on each side the block decelerates at a
-    /// constant rate a₁ and falls back at a₂ (θ is too small to change them), so a swing that starts at θ̇ = v lasts
-    /// v/a₁ + v/√(a₁a₂) and the next one starts at v η √(a₂/a₁).
-    fn accumulation(&self, side: Sign, speed: S, ground: S) -> Tail<S> {
-        let swing = |side: Sign| {
+    /// The infinitely many impacts that follow a weak one ([`crate::accumulation`]).
+    fn accumulation(&self, side: Sign, speed: S, ground: S) -> Accumulation<S> {
+        let rates = |side: Sign| {
             let rate = |engaged: bool| {
                 let s = side.unit();
                 let a = if engaged {
@@ -106,38 +105,8 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
                 };
                 a.abs().larger(S::EPSILON * S::EPSILON)
             };
-            let rising = rate(C::engaged(side, side.opposite()));
-            let falling = rate(C::engaged(side, side));
-            let fall = (falling / rising).square_root();
-            (S::ONE / rising + fall / falling, fall)
+            (rate(C::engaged(side, side.opposite())), rate(C::engaged(side, side)))
         };
-        let (here, fall_here) = swing(side);
-        let (there, fall_there) = swing(side.opposite());
-        let ratio_here = self.restitution * fall_here;
-        let ratio_there = self.restitution * fall_there;
-        let both = ratio_here * ratio_there;
-        if both >= S::ONE - S::EPSILON * S::of(64.0) {
-            return Tail { duration: S::of(1e30), swing: speed * (here + there), impacts: 0 };
-        }
-        let duration = speed * (here + ratio_here * there) / (S::ONE - both);
-        let mut impacts = 0;
-        let mut incoming = speed * fall_here;
-        let mut first = true;
-        while incoming >= self.counted_speed && impacts < 100_000 {
-            impacts += 1;
-            incoming = incoming * self.restitution * if first { fall_there } else { fall_here };
-            first = !first;
-        }
-        Tail { duration, swing: speed * (here + there), impacts }
+        Accumulation::of(rates(side), rates(side.opposite()), self.restitution, speed, self.counted_speed)
     }
-}
-
-/// What remains of a dying motion.
-struct Tail<S> {
-    /// s.
-    duration: S,
-    /// Of the first two swings, s.
-    swing: S,
-    /// Impacts that still count.
-    impacts: u32,
 }

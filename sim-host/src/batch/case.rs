@@ -1,6 +1,7 @@
 //! One case of a batch: a dimensionless block under one cycle of a pulse.
 
 use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::carried::Carried;
 use sprag_shared::clutch::Clutch;
 use sprag_shared::equation::Equation;
 use sprag_shared::error::ParameterError;
@@ -113,6 +114,7 @@ impl Case {
                 mount: Mount::CentreOfMass,
                 kinematics: KinematicsKind::Paper,
             },
+            carried: Carried::NONE,
             restitution: Restitution::Constant(self.restitution),
             rest_speed: self.rest_speed,
         })

@@ -2,7 +2,10 @@
 //! output, 130 interrupted.
 
 pub mod batch;
+pub mod effects;
+pub mod explain;
 pub mod record;
+pub mod sensitivity;
 pub mod simulate;
 pub mod synthesize;
 

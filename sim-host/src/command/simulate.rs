@@ -10,10 +10,11 @@ use super::BAD_INPUT;
 use crate::history::{History, write_csv};
 use crate::interrupt::{self, Interrupt};
 use crate::output::{OutputError, Results, make_folder};
-use crate::plot::{PlotError, TimeAxis, history_figure};
-use crate::scene::ground::GroundError;
+use crate::plot::{PlotError, TimeAxis, energy_figure, history_figure};
+use crate::scene::ground::{GroundError, Motion};
 use crate::scene::schema::{SceneFile, TimeAxisName};
 use crate::scene::{Scene, SceneError};
+use crate::simulation::energy::write_energy;
 use crate::simulation::{DeviceRun, RunError, simulate};
 use crate::summary_table::{SummaryRow, summary_table};
 
@@ -22,7 +23,7 @@ use crate::summary_table::{SummaryRow, summary_table};
 #[command(after_help = "Examples:\n  sprag simulate scenes/near_fault.toml\n  \
     sprag simulate scenes/record.toml --record RSN181_IMPVALL.H_H-E06230.AT2 --out out/imperial\n  \
     sprag simulate scenes/figure10.toml --set accuracy.method=runge-kutta-4 --set accuracy.step_ratio=1e-3\n\n\
-    Writes summary.json, history.csv and history.svg.")]
+    Writes summary.json, history.csv and history.svg; with output.energy also energy.csv and energy.svg.")]
 pub struct SimulateArguments {
     /// Scene file.
     #[arg(value_name = "SCENE.toml")]
@@ -33,6 +34,9 @@ pub struct SimulateArguments {
     /// Ground motion record, in the place of the scene's.
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
+    /// The vertical record, in the place of the scene's.
+    #[arg(long, value_name = "FILE")]
+    pub record_vertical: Option<PathBuf>,
     /// Folder for the results; out/NAME of the scene by default.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -89,29 +93,29 @@ fn run_or_fail(
     if let Some(record) = &arguments.record {
         scene.use_record(record)?;
     }
-    let ground = scene.ground_motion()?;
+    if let Some(record) = &arguments.record_vertical {
+        scene.use_vertical_record(record)?;
+    }
+    let ground = scene.ground_motions()?;
     let folder = arguments.out.clone().unwrap_or_else(|| {
         let name = arguments.scene.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_os_string());
         Path::new("out").join(name)
     });
     // Where the results go is tried before the work, not after it.
     make_folder(&folder)?;
-    let runs = simulate(&scene, &ground, interrupt)?;
+    let mut runs = simulate(&scene, &ground, interrupt)?;
     let rows: Vec<SummaryRow> = runs.iter().map(row).collect();
     let axis = match scene.file.output.time_axis {
         TimeAxisName::Seconds => TimeAxis::Seconds,
         TimeAxisName::FrequencyParameter => TimeAxis::TimesFrequencyParameter,
     };
-    let histories: Vec<History> = runs.iter().map(|run| run.history.clone()).collect();
+    let histories: Vec<History> = runs.iter_mut().map(|run| std::mem::take(&mut run.history)).collect();
     let figure = history_figure(&scene.file.title, &histories, axis)?;
     let mut file = scene.file.clone();
-    if let Some(record) = &arguments.record {
-        // As the user wrote it, so that the summary does not depend on where it was made.
-        for table in &mut file.ground {
-            if table.motion == crate::scene::ground::Motion::Record {
-                table.file = Some(record.clone());
-                break;
-            }
+    // As the user wrote them, so that the summary does not depend on where it was made.
+    for (tables, record) in [(&mut file.ground, &arguments.record), (&mut file.vertical, &arguments.record_vertical)] {
+        if let (Some(table), Some(record)) = (tables.iter_mut().find(|table| table.motion == Motion::Record), record) {
+            table.file = Some(record.clone());
         }
     }
     let summary = Summary { command: "simulate", version: env!("CARGO_PKG_VERSION"), scene: &file, runs: &runs };
@@ -123,11 +127,21 @@ fn run_or_fail(
     })?;
     results.add(&folder.join("history.csv"), |file| write_csv(&histories, file).map_err(std::io::Error::other))?;
     results.add(&picture, |file| file.write_all(figure.as_bytes()))?;
+    if scene.file.output.energy {
+        let figure = energy_figure(&scene.file.title, &runs)?;
+        results.add(&folder.join("energy.csv"), |file| write_energy(&runs, file).map_err(std::io::Error::other))?;
+        results.add(&folder.join("energy.svg"), |file| file.write_all(figure.as_bytes()))?;
+    }
     if interrupt.is_set() {
         return Err(RunError::Interrupted.into());
     }
     results.commit()?;
     let _ = write!(out, "{}", summary_table(&rows));
+    for run in &runs {
+        for warning in run.checks.iter().flat_map(|checks| &checks.warnings) {
+            let _ = writeln!(err, "sprag: warning: {}: {warning}", run.device);
+        }
+    }
     let _ = writeln!(out, "results in {}", folder.display());
     if arguments.open
         && let Err(error) = open::that_detached(&picture)

@@ -1,10 +1,11 @@
-//! Figures of responses as SVG text.
+//! Figures as SVG text: responses, energies, sensitivities.
 //!
 //! plotters draws axes and curves; clip, dash patterns, tints and formula labels are SVG around its output.
 
 mod curve;
 mod decimate;
 mod device_trace;
+mod energy_figure;
 mod engagement;
 mod ground;
 mod history_figure;
@@ -13,12 +14,15 @@ mod legend;
 mod palette;
 mod panel;
 mod round_scale;
+mod sensitivity_figure;
 #[cfg(test)]
 mod synthetic;
 mod ticks;
 mod time_axis;
 
+pub use energy_figure::energy_figure;
 pub use history_figure::history_figure;
+pub use sensitivity_figure::{OwnMark, SensitivityLane, SensitivityRow, sensitivity_figure};
 pub use time_axis::TimeAxis;
 
 /// Why a figure could not be drawn.

@@ -1,4 +1,4 @@
-//! `[[ground]]`: the motions whose sum shakes the block.
+//! `[[ground]]` and `[[vertical]]`: the motions whose sums shake the block.
 
 use std::path::{Path, PathBuf};
 
@@ -7,13 +7,12 @@ use sprag_shared::block::{Block, GRAVITY};
 use sprag_shared::ground::harmonic::MavroeidisPapageorgiou;
 use sprag_shared::ground::{Harmonics, Linear, Ricker};
 
-use super::error::SceneError;
+use super::error::{Key, SceneError};
 use super::schema::KeyOf;
-use super::{Scene, error};
-use crate::ground_motion::{Component, GroundMotion, Smooth};
+use crate::ground_motion::{Component, Smooth};
 use crate::record::{Component as RecordComponent, ReadOptions, Record, RecordError, Units};
 
-/// One `[[ground]]` table.
+/// One `[[ground]]` or `[[vertical]]` table.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GroundTable {
@@ -93,6 +92,15 @@ pub enum Motion {
     Record,
 }
 
+/// Which way a motion goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// `[[ground]]`.
+    Horizontal,
+    /// `[[vertical]]`, positive upwards.
+    Vertical,
+}
+
 /// Why a scene's ground motion cannot be had.
 #[derive(Debug, thiserror::Error)]
 pub enum GroundError {
@@ -110,7 +118,11 @@ const RICKER_REACH: f64 = 6.0;
 impl GroundTable {
     /// # Errors
     /// [`SceneError`] for a key that the motion does not have, one that it needs, or a value outside its range.
-    pub(super) fn check(&self, key: &KeyOf<'_>) -> Result<(), SceneError> {
+    pub(super) fn check(&self, direction: Direction, key: &KeyOf<'_>) -> Result<(), SceneError> {
+        if direction == Direction::Vertical && self.amplitude_ratio.is_some() {
+            let reason = "a vertical motion has no uplift threshold to be a ratio of: give amplitude_g or amplitude_m_s2";
+            return Err(key("amplitude_ratio").conflict(reason));
+        }
         let given = [
             ("amplitude_ratio", self.amplitude_ratio.is_some()),
             ("amplitude_g", self.amplitude_g.is_some()),
@@ -127,12 +139,13 @@ impl GroundTable {
             ("time_step_s", self.time_step_s.is_some()),
             ("component", self.component.is_some()),
         ];
-        const AMPLITUDE: [&str; 3] = ["amplitude_ratio", "amplitude_g", "amplitude_m_s2"];
+        const AMPLITUDES: [&str; 3] = ["amplitude_ratio", "amplitude_g", "amplitude_m_s2"];
+        let amplitude = if direction == Direction::Vertical { &AMPLITUDES[1..] } else { &AMPLITUDES[..] };
         const FREQUENCY: [&str; 2] = ["frequency_ratio", "frequency_hz"];
         const DURATION: [&str; 2] = ["duration_s", "duration_ratio"];
         let (one_of_each, optional): (&[&[&str]], &[&str]) = match self.motion {
-            Motion::Sine | Motion::Cosine | Motion::HalfSine | Motion::Ricker => (&[&AMPLITUDE, &FREQUENCY], &[]),
-            Motion::Rectangular => (&[&AMPLITUDE, &DURATION], &[]),
+            Motion::Sine | Motion::Cosine | Motion::HalfSine | Motion::Ricker => (&[amplitude, &FREQUENCY], &[]),
+            Motion::Rectangular => (&[amplitude, &DURATION], &[]),
             Motion::MavroeidisPapageorgiou => (&[&["velocity_amplitude_m_s"], &FREQUENCY, &["oscillations"]], &["phase_deg"]),
             Motion::Record => (&[], &["file", "units", "time_step_s", "component"]),
         };
@@ -187,13 +200,13 @@ impl GroundTable {
         )
     }
 
-    /// The motion's smooth pieces.
-    fn component(
+    /// The motion's smooth pieces, for a block that uplifts at `uplift` (g).
+    pub(super) fn component(
         &self,
         block: &Block,
         uplift: f64,
         folder: &Path,
-        key: &dyn Fn(&str) -> error::Key,
+        key: &dyn Fn(&str) -> Key,
     ) -> Result<Component, GroundError> {
         let p = block.frequency_parameter();
         let amplitude = self.scale
@@ -244,35 +257,5 @@ impl GroundTable {
                 )
             }
         })
-    }
-}
-
-impl Scene {
-    /// Reads the records and sums the motions.
-    ///
-    /// # Errors
-    /// [`GroundError`] names the file and what is wrong with it.
-    pub fn ground_motion(&self) -> Result<GroundMotion, GroundError> {
-        let mut components = Vec::new();
-        for (index, table) in self.file.ground.iter().enumerate() {
-            let key = |name: &str| error::Key { origin: self.origin.clone(), key: format!("ground.{index}.{name}") };
-            components.push(table.component(&self.block, self.uplift_threshold(), &self.folder, &key)?);
-        }
-        Ok(GroundMotion::sum(&components))
-    }
-
-    /// Puts `file` in the place of the scene's record.
-    ///
-    /// # Errors
-    /// [`SceneError::Missing`] when the scene has no `[[ground]]` table of motion "record".
-    pub fn use_record(&mut self, file: &Path) -> Result<(), SceneError> {
-        let origin = self.origin.clone();
-        let table = self.file.ground.iter_mut().find(|table| table.motion == Motion::Record);
-        let table = table.ok_or_else(|| {
-            error::Key { origin, key: "ground".to_owned() }.missing("--record needs a [[ground]] table with motion = \"record\"")
-        })?;
-        // The command line's paths are relative to where the user stands, not to the scene.
-        table.file = Some(std::path::absolute(file).unwrap_or_else(|_| file.to_owned()));
-        Ok(())
     }
 }

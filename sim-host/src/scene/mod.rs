@@ -1,19 +1,27 @@
 //! Scenes: a block, its devices, the ground motion and how accurately to follow them, in a TOML file.
 
+pub mod accuracy;
+pub mod checks;
+pub mod device;
+pub mod drivetrain;
 pub mod error;
 pub mod ground;
+pub mod motions;
 pub mod overrides;
 pub mod schema;
+pub mod weight;
 
 use std::path::{Path, PathBuf};
 
 use sprag_shared::block::{Block, Geometry};
-use sprag_shared::inertance::{Flywheel, inertance_of_train};
-use sprag_shared::lever::Mount;
-use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, Restitution, Structure, WithSystem};
+use sprag_shared::drivetrain::Engagement;
+use sprag_shared::error::ParameterError;
+use sprag_shared::structure::{Restitution, Structure, WithSystem};
 
+pub use device::SceneDevice;
 pub use error::SceneError;
-use schema::{DeviceTable, SceneFile};
+use ground::Direction;
+use schema::SceneFile;
 
 /// Largest scene file that is read, bytes.
 pub const LARGEST_FILE: u64 = 1 << 20;
@@ -26,8 +34,8 @@ pub const MOST_DEVICES: usize = 16;
 pub struct Scene {
     /// As written, with defaults filled in.
     pub file: SceneFile,
-    /// Its devices, each with its name.
-    pub devices: Vec<(String, Device)>,
+    /// Its devices.
+    pub devices: Vec<SceneDevice>,
     /// The block.
     pub block: Block,
     /// Its impacts.
@@ -103,28 +111,31 @@ impl Scene {
         let mut devices = Vec::new();
         for (index, table) in file.device.iter().enumerate() {
             let key = |name: &str| key(&format!("device.{index}.{name}"));
-            let device = resolve_device(table, file.block.mass_kg, &key)?;
-            let structure = Structure {
-                block,
-                geometry: file.block.geometry.into(),
-                device,
-                restitution,
-                rest_speed: file.run.rest_speed_ratio,
-            };
+            let device = SceneDevice::resolve(table, &file.device, &block, file.block.mass_kg, &key)?;
             // Everything that the core refuses is found here, before any work.
             struct Nothing;
             impl WithSystem<f64> for Nothing {
                 type Output = ();
                 fn with<R, E, C>(self, _: sprag_shared::rocking::System<f64, R, E, C>) {}
             }
-            structure.resolve(Nothing).map_err(|error| key(error.parameter).range(error.value, error.range))?;
-            devices.push((table.name.clone().unwrap_or_else(|| default_name(table, &file.device)), device));
+            let structure = structure(&file, block, restitution, &device);
+            structure.resolve(Nothing).map_err(|error| refusal(&error, origin, index))?;
+            devices.push(device);
         }
-        for (index, motion) in file.ground.iter().enumerate() {
-            motion.check(&|name: &str| key(&format!("ground.{index}.{name}")))?;
+        for (tables, name, direction) in
+            [(&file.ground, "ground", Direction::Horizontal), (&file.vertical, "vertical", Direction::Vertical)]
+        {
+            for (index, motion) in tables.iter().enumerate() {
+                motion.check(direction, &|key_of_motion: &str| key(&format!("{name}.{index}.{key_of_motion}")))?;
+            }
         }
         file.run.check(&key)?;
         file.accuracy.check(&key)?;
+        let elastic = devices.iter().any(|device| matches!(device.drivetrain.engagement, Engagement::Elastic { .. }));
+        file.accuracy.check_devices(&key, first_beyond_ideal(&file, &devices).as_deref(), elastic)?;
+        if let Some(checks) = &file.checks {
+            checks.check(file.block.mass_kg, &key)?;
+        }
         file.output.check(&key)?;
         if file.ground.is_empty() && file.block.initial_rotation_ratio == 0.0 && file.block.initial_velocity_ratio == 0.0 {
             return Err(key("ground").missing("a [[ground]] table, or block.initial_rotation_ratio for free rocking"));
@@ -134,13 +145,7 @@ impl Scene {
 
     /// The block with device number `index` (below the number of devices).
     pub fn structure(&self, index: usize) -> Structure {
-        Structure {
-            block: self.block,
-            geometry: self.geometry(),
-            device: self.devices[index].1,
-            restitution: self.restitution,
-            rest_speed: self.file.run.rest_speed_ratio,
-        }
+        structure(&self.file, self.block, self.restitution, &self.devices[index])
     }
 
     /// Full or slender.
@@ -162,75 +167,41 @@ impl Scene {
     }
 }
 
-fn default_name(table: &DeviceTable, all: &[DeviceTable]) -> String {
-    let kind = match table.kind {
-        schema::Kind::None => "none",
-        schema::Kind::Inerter => "inerter",
-        schema::Kind::ClutchedPair => "clutched pair",
-    };
-    if all.iter().filter(|other| other.kind == table.kind && other.name.is_none()).count() < 2 {
-        return kind.to_owned();
-    }
-    // Several of a kind are told apart by what they differ in most often.
-    let position = all.iter().position(|other| std::ptr::eq(other, table)).unwrap_or(0);
-    match table.mass_ratio {
-        Some(ratio) => format!("{kind} {} (σ = {ratio})", position + 1),
-        None => format!("{kind} {}", position + 1),
+fn structure(file: &SceneFile, block: Block, restitution: Restitution, device: &SceneDevice) -> Structure {
+    Structure {
+        block,
+        geometry: file.block.geometry.into(),
+        device: device.device,
+        carried: device.carried,
+        restitution,
+        rest_speed: file.run.rest_speed_ratio,
     }
 }
 
-fn resolve_device(table: &DeviceTable, block_mass: Option<f64>, key: &dyn Fn(&str) -> error::Key) -> Result<Device, SceneError> {
-    let kind = DeviceKind::from(table.kind);
-    if kind == DeviceKind::None {
-        let stray = [
-            ("mass_ratio", table.mass_ratio.is_some()),
-            ("inertance_kg", table.inertance_kg.is_some()),
-            ("flywheels", table.flywheels.is_some()),
-            ("mount", table.mount.is_some()),
-            ("mount_height_m", table.mount_height_m.is_some()),
-            ("pulley_ratio", table.pulley_ratio.is_some()),
-            ("kinematics", table.kinematics.is_some()),
-        ];
-        return match stray.iter().find(|(_, given)| *given) {
-            Some((name, _)) => Err(key(name).conflict("a device of kind \"none\" has no inerter")),
-            None => Ok(Device::NONE),
-        };
-    }
-    let mass = || block_mass.ok_or_else(|| key("inertance_kg").conflict("an inertance in kg needs block.mass_kg"));
-    let mass_ratio = match (table.mass_ratio, table.inertance_kg, &table.flywheels) {
-        (Some(ratio), None, None) => ratio,
-        (None, Some(inertance), None) => {
-            if inertance.is_nan() || inertance < 0.0 {
-                return Err(key("inertance_kg").range(inertance, "0 kg or more"));
-            }
-            inertance / mass()?
-        }
-        (None, None, Some(wheels)) => {
-            let train: Vec<Flywheel> = wheels
-                .iter()
-                .map(|w| Flywheel { mass: w.mass_kg, radius: w.radius_m, pinion_radius: w.pinion_radius_m })
-                .collect();
-            inertance_of_train(&train).map_err(|error| key("flywheels").parameter(&error))? / mass()?
-        }
-        (None, None, None) => return Err(key("mass_ratio").missing("mass_ratio, inertance_kg or flywheels")),
-        _ => return Err(key("mass_ratio").conflict("give only one of mass_ratio, inertance_kg and flywheels")),
+/// A parameter of device number `index` that the core refuses, by the key that it comes from.
+fn refusal(error: &ParameterError, origin: &str, index: usize) -> SceneError {
+    let key = match error.parameter {
+        "rest_speed" => "run.rest_speed_ratio".to_owned(),
+        "height" | "carried height" => format!("device.{index}.mount_height_m"),
+        rule if rule.ends_with(" restitution") => format!("block.restitution: the {rule} of device.{index}"),
+        parameter => format!("device.{index}.{parameter}"),
     };
-    let pulley_ratio = table.pulley_ratio.unwrap_or(1.0);
-    let mount = match (table.mount.unwrap_or_default(), table.mount_height_m) {
-        (schema::MountName::TyingPoint, Some(height)) => Mount::TyingPoint { height, pulley_ratio },
-        (schema::MountName::TyingPoint, None) => {
-            return Err(key("mount_height_m").missing("the height of the tying point above the base, in m"));
-        }
-        (_, Some(_)) => return Err(key("mount_height_m").conflict("only a mount of kind \"tying-point\" has a height")),
-        (schema::MountName::BaseCorners, None) => Mount::BaseCorners { pulley_ratio },
-        (schema::MountName::CentreOfMass, None) if table.pulley_ratio.is_some() => {
-            return Err(key("pulley_ratio").conflict("a pulley needs a mount of kind \"tying-point\" or \"base-corners\""));
-        }
-        (schema::MountName::CentreOfMass, None) => Mount::CentreOfMass,
-    };
-    let kinematics = table.kinematics.map_or(KinematicsKind::Paper, KinematicsKind::from);
-    Ok(Device { kind, mass_ratio, mount, kinematics })
+    error::Key { origin: origin.to_owned(), key }.range(error.value, error.range)
 }
 
+/// The first key of the scene that takes a device or the ground beyond what an ideal device is followed under, if any.
+fn first_beyond_ideal(file: &SceneFile, devices: &[SceneDevice]) -> Option<String> {
+    let tables = file.device.iter().zip(devices).enumerate();
+    let of_device = |(index, (table, device)): (usize, (&schema::DeviceTable, &SceneDevice))| {
+        table.beyond_ideal(&device.drivetrain).map(|name| format!("device.{index}.{name}"))
+    };
+    let vertical = || (!file.vertical.is_empty()).then(|| "vertical".to_owned());
+    tables.into_iter().find_map(of_device).or_else(vertical)
+}
+
+#[cfg(test)]
+mod device_tests;
+#[cfg(test)]
+mod motions_tests;
 #[cfg(test)]
 mod tests;

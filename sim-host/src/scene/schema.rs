@@ -2,8 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 use sprag_shared::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
-use sprag_shared::structure::{DeviceKind, KinematicsKind, REST_SPEED, Restitution};
+use sprag_shared::structure::{REST_SPEED, Restitution};
 
+pub use super::accuracy::{AccuracyTable, EventTreatment, MethodName, Precision};
+use super::checks::ChecksTable;
+pub use super::device::{DeviceTable, Kind, KinematicsName, MountName};
 use super::error::{Key, SceneError};
 use super::ground::GroundTable;
 
@@ -28,12 +31,18 @@ pub struct SceneFile {
     /// `[[ground]]`, summed.
     #[serde(default)]
     pub ground: Vec<GroundTable>,
+    /// `[[vertical]]`, summed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub vertical: Vec<GroundTable>,
     /// `[run]`.
     #[serde(default)]
     pub run: RunTable,
     /// `[accuracy]`.
     #[serde(default)]
     pub accuracy: AccuracyTable,
+    /// `[checks]`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub checks: Option<ChecksTable>,
     /// `[output]`.
     #[serde(default)]
     pub output: OutputTable,
@@ -60,7 +69,7 @@ pub struct BlockTable {
     /// Full or slender.
     #[serde(default)]
     pub geometry: GeometryName,
-    /// η, or "geometric".
+    /// η, "geometric" or "momentum-balance".
     #[serde(default = "paper_restitution")]
     pub restitution: RestitutionValue,
     /// θ(0)/α.
@@ -75,6 +84,7 @@ fn rectangle() -> f64 {
     RECTANGLE_INERTIA_RATIO
 }
 
+/// η of the paper's examples.
 fn paper_restitution() -> RestitutionValue {
     RestitutionValue::Number(0.85)
 }
@@ -101,11 +111,11 @@ impl From<GeometryName> for Geometry {
 
 /// A number or a word.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged, expecting = "restitution must be a number from 0 to 1 or \"geometric\"")]
+#[serde(untagged, expecting = "restitution must be a number from 0 to 1, \"geometric\" or \"momentum-balance\"")]
 pub enum RestitutionValue {
     /// η.
     Number(f64),
-    /// "geometric".
+    /// "geometric" or "momentum-balance".
     Word(String),
 }
 
@@ -148,110 +158,13 @@ impl BlockTable {
                 Ok(Restitution::Constant(*eta))
             }
             RestitutionValue::Word(word) if word == "geometric" => Ok(Restitution::Geometric),
+            RestitutionValue::Word(word) if word == "momentum-balance" => Ok(Restitution::MomentumBalance),
             RestitutionValue::Word(word) => Err(SceneError::Range {
                 origin: key("").origin,
                 key: "block.restitution".to_owned(),
                 value: format!("{word:?}"),
-                range: "a number from 0 to 1 or \"geometric\"".to_owned(),
+                range: "a number from 0 to 1, \"geometric\" or \"momentum-balance\"".to_owned(),
             }),
-        }
-    }
-}
-
-/// `[[device]]`.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct DeviceTable {
-    /// None, inerter or clutched pair.
-    pub kind: Kind,
-    /// Its name in tables and legends.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub name: Option<String>,
-    /// σ.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mass_ratio: Option<f64>,
-    /// m_r, kg.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub inertance_kg: Option<f64>,
-    /// A flywheel train (Eq. 9), the first on the rack.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub flywheels: Option<Vec<FlywheelTable>>,
-    /// Where it is attached.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mount: Option<MountName>,
-    /// Height of a tying point above the base, m.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mount_height_m: Option<f64>,
-    /// Travel of the terminal over that of the point.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pulley_ratio: Option<f64>,
-    /// Paper or consistent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub kinematics: Option<KinematicsName>,
-}
-
-/// Kinds of devices.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Kind {
-    /// No device.
-    None,
-    /// One inerter.
-    Inerter,
-    /// Two clutched inerters.
-    ClutchedPair,
-}
-
-impl From<Kind> for DeviceKind {
-    fn from(kind: Kind) -> DeviceKind {
-        match kind {
-            Kind::None => DeviceKind::None,
-            Kind::Inerter => DeviceKind::Inerter,
-            Kind::ClutchedPair => DeviceKind::ClutchedPair,
-        }
-    }
-}
-
-/// A flywheel and its pinion.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct FlywheelTable {
-    /// kg.
-    pub mass_kg: f64,
-    /// m.
-    pub radius_m: f64,
-    /// m.
-    pub pinion_radius_m: f64,
-}
-
-/// Mounts of Figure 3.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum MountName {
-    /// Horizontal at the centre of mass.
-    #[default]
-    CentreOfMass,
-    /// Horizontal at a height on the centre line.
-    TyingPoint,
-    /// Vertical at both base corners.
-    BaseCorners,
-}
-
-/// Paper or consistent.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum KinematicsName {
-    /// Eq. 11.
-    Paper,
-    /// With the θ̇² term.
-    Consistent,
-}
-
-impl From<KinematicsName> for KinematicsKind {
-    fn from(name: KinematicsName) -> KinematicsKind {
-        match name {
-            KinematicsName::Paper => KinematicsKind::Paper,
-            KinematicsName::Consistent => KinematicsKind::Consistent,
         }
     }
 }
@@ -297,116 +210,6 @@ impl RunTable {
     }
 }
 
-/// How a scene is integrated.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum MethodName {
-    /// Taylor series, steps of its own choice unless `step_s` is given.
-    #[default]
-    Taylor,
-    /// Order 4, fixed steps.
-    #[serde(rename = "runge-kutta-4")]
-    RungeKutta4,
-    /// Order 1, fixed steps.
-    SemiImplicitEuler,
-}
-
-/// f32 or f64.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Precision {
-    /// As on the host.
-    #[default]
-    F64,
-    /// As on the microcontroller.
-    F32,
-}
-
-/// Located inside the step, or noticed at its end.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum EventTreatment {
-    /// Impacts and clutch switches take place where they are.
-    #[default]
-    Located,
-    /// Impacts and the clutch are looked at once a step, as in the paper.
-    StepEnd,
-}
-
-/// `[accuracy]`.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AccuracyTable {
-    /// The method.
-    #[serde(default)]
-    pub method: MethodName,
-    /// f64 or f32.
-    #[serde(default)]
-    pub precision: Precision,
-    /// Where events take place.
-    #[serde(default)]
-    pub events: EventTreatment,
-    /// Size of the last terms of the series over the rotation that matters.
-    #[serde(default = "tight")]
-    pub tolerance: f64,
-    /// Fixed step, s.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub step_s: Option<f64>,
-    /// Fixed step, in 1/p.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub step_ratio: Option<f64>,
-}
-
-fn tight() -> f64 {
-    crate::batch::case::TIGHT
-}
-
-impl Default for AccuracyTable {
-    fn default() -> Self {
-        AccuracyTable {
-            method: MethodName::Taylor,
-            precision: Precision::F64,
-            events: EventTreatment::Located,
-            tolerance: tight(),
-            step_s: None,
-            step_ratio: None,
-        }
-    }
-}
-
-impl AccuracyTable {
-    /// # Errors
-    /// [`SceneError`] names the key.
-    pub(super) fn check(&self, key: &KeyOf<'_>) -> Result<(), SceneError> {
-        key("accuracy.tolerance").require(self.tolerance, (1e-20..=1e-2).contains(&self.tolerance), "from 1e-20 to 0.01")?;
-        if self.step_s.is_some() && self.step_ratio.is_some() {
-            return Err(key("accuracy.step_s").conflict("give only one of step_s and step_ratio"));
-        }
-        if let Some(step) = self.step_s {
-            key("accuracy.step_s").require(step, (1e-7..=1.0).contains(&step), "from 1e-7 to 1 s")?;
-        }
-        if let Some(step) = self.step_ratio {
-            key("accuracy.step_ratio").require(step, (1e-7..=1.0).contains(&step), "from 1e-7 to 1")?;
-        }
-        let fixed = self.step_s.is_some() || self.step_ratio.is_some();
-        if !fixed && self.method != MethodName::Taylor {
-            return Err(key("accuracy.step_s").missing("a fixed-step method needs step_s or step_ratio"));
-        }
-        if !fixed && self.precision == Precision::F32 {
-            return Err(key("accuracy.precision").conflict("f32 needs a fixed step: give step_s or step_ratio"));
-        }
-        if self.events == EventTreatment::StepEnd && self.method == MethodName::Taylor {
-            return Err(key("accuracy.events").conflict("step-end events need method runge-kutta-4 or semi-implicit-euler"));
-        }
-        Ok(())
-    }
-
-    /// The fixed step for a block of frequency parameter `p`, s.
-    pub fn step(&self, p: f64) -> Option<f64> {
-        self.step_s.or(self.step_ratio.map(|ratio| ratio / p))
-    }
-}
-
 /// The time axis of pictures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -428,6 +231,9 @@ pub struct OutputTable {
     /// Seconds or p t.
     #[serde(default)]
     pub time_axis: TimeAxisName,
+    /// The energy ledger, plotted.
+    #[serde(default)]
+    pub energy: bool,
 }
 
 impl OutputTable {

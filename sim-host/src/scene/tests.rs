@@ -1,3 +1,7 @@
+use sprag_shared::carried::Carried;
+use sprag_shared::lever::Mount;
+use sprag_shared::structure::KinematicsKind;
+
 use super::*;
 
 const SCENE: &str = r#"
@@ -30,9 +34,10 @@ fn defaults_are_the_papers() {
     assert_eq!(scene.restitution, Restitution::Constant(0.85));
     assert_eq!(scene.geometry(), Geometry::Full);
     assert!((scene.block.inertia_ratio() - 4.0 / 3.0).abs() < 1e-15);
-    let [(none, _), (pair, device)] = scene.devices.as_slice() else { panic!("two devices") };
-    assert_eq!((none.as_str(), pair.as_str()), ("none", "clutched pair"));
-    assert_eq!((device.mount, device.kinematics), (Mount::CentreOfMass, KinematicsKind::Paper));
+    let [none, pair] = scene.devices.as_slice() else { panic!("two devices") };
+    assert_eq!((none.name.as_str(), pair.name.as_str()), ("none", "clutched pair"));
+    assert_eq!((pair.device.mount, pair.device.kinematics), (Mount::CentreOfMass, KinematicsKind::Paper));
+    assert!(none.is_ideal() && pair.is_ideal() && none.carried == Carried::NONE && pair.carried == Carried::NONE);
 }
 
 #[test]
@@ -47,7 +52,7 @@ fn an_error_names_the_key_the_value_and_what_it_may_be() {
         ("device.1.mass_ratio=-0.5", "mass_ratio is -0.5", "from 0 to 10000"),
         ("ground.0.frequency_ratio=0", "ground.0.frequency_ratio is 0", "from 0.001"),
         ("accuracy.tolerance=1", "accuracy.tolerance is 1", "from 1e-20"),
-        ("run.rest_speed_ratio=0.5", "rest_speed is 0.5", "from 1e-12"),
+        ("run.rest_speed_ratio=0.5", "run.rest_speed_ratio is 0.5", "from 1e-12"),
     ] {
         let message = refused(&[item]);
         assert!(message.contains(key) && message.contains(range), "{item}: {message}");
@@ -93,7 +98,7 @@ fn a_flywheel_train_gives_the_mass_ratio_of_equation_8() {
     assert!(message.contains("needs block.mass_kg"), "{message}");
     let scene = Scene::parse_with(&text, "scene.toml", &["block.mass_kg=48".to_owned()]).unwrap();
     // ½ · 3 · (0.4/0.1)² / 48 = 0.5.
-    assert!((scene.devices[1].1.mass_ratio - 0.5).abs() < 1e-15);
+    assert!((scene.devices[1].device.mass_ratio - 0.5).abs() < 1e-15);
 }
 
 #[test]

@@ -2,25 +2,30 @@
 
 use sprag_shared::arc::Method;
 use sprag_shared::block::{Block, Geometry};
+use sprag_shared::body::Body;
 use sprag_shared::clutch::Clutch;
+use sprag_shared::drivetrain::drive::Drive;
 use sprag_shared::equation::Equation;
 use sprag_shared::ground::{Linear, Quiet};
+use sprag_shared::hybrid::path::{Shaking, Tracer};
+use sprag_shared::hybrid::{Machine, MachineState};
 use sprag_shared::observer::{Observer, Peaks};
 use sprag_shared::rocking::{Limits, Phase, State, Stopped, System};
 use sprag_shared::scalar::Real;
+use sprag_shared::snapshot::DeviceObserver;
 
 use crate::ground_motion::{GroundMotion, Segment, ShapePiece};
 
 /// Arcs that one segment of ground motion may take.
 const MOST_ARCS: u32 = 50_000_000;
 
-/// An observer that needs to know which part of the ground motion it is shown.
-pub trait GroundObserver<S: Real>: Observer<S> {
+/// Someone who needs to know which part of the ground motion is shown.
+pub trait Segmented {
     /// The segment that follows, or `None` for the free time from `start` (s) on.
     fn segment(&mut self, start: f64, segment: Option<&Segment>);
 }
 
-impl<S: Real> GroundObserver<S> for Peaks<S> {
+impl<S: Real> Segmented for Peaks<S> {
     fn segment(&mut self, start: f64, _segment: Option<&Segment>) {
         self.origin = S::of(start);
     }
@@ -42,8 +47,10 @@ pub struct Course<'a> {
     pub block: &'a Block,
     /// Full or slender.
     pub geometry: Geometry,
-    /// The ground motion.
+    /// The horizontal ground motion.
     pub ground: &'a GroundMotion,
+    /// The vertical one, with the same segments.
+    pub vertical: Option<&'a GroundMotion>,
     /// Time after it, s.
     pub free_time: f64,
     /// When a block counts as overturned.
@@ -81,7 +88,7 @@ impl Course<'_> {
         E: Equation<S>,
         C: Clutch,
         M: Method<S>,
-        O: GroundObserver<S>,
+        O: Observer<S> + Segmented,
     {
         // The bound of a record falls rarely, and a limit costs an arctangent.
         let (mut bound, mut limits) = (f64::NAN, self.limits(0.0));
@@ -108,5 +115,49 @@ impl Course<'_> {
         } else {
             system.advance(method, state, &Quiet, duration, &limits, observer)
         }
+    }
+
+    /// Follows a device with a memory as [`Course::follow`] an ideal one, and tells `observer` of every swing.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn follow_machine<S, B, D, T, O, const X: usize, const G: usize>(
+        &self,
+        machine: &Machine<S, B, D, X, G>,
+        tracer: &T,
+        state: &mut MachineState<S>,
+        observer: &mut O,
+        mut goes_on: impl FnMut() -> bool,
+    ) -> Result<(), Stopped>
+    where
+        S: Real,
+        B: Body<S>,
+        D: Drive<S, X, G>,
+        T: Tracer<S>,
+        O: DeviceObserver<S> + Segmented,
+    {
+        let still = ShapePiece::Linear(Linear::constant(S::ZERO));
+        // A lighter block falls under a weaker push, and friction may hold it beyond.
+        let lightest = 1.0 + self.vertical.map_or(0.0, |vertical| vertical.lowest().0).min(0.0);
+        let held = machine.drive.gears().map_or(0.0, |gears| gears.rack_dry.to_f64())
+            / (self.block.frequency_parameter_squared() * lightest);
+        let limits = |bound: f64| self.limits::<S>(bound / lightest + held);
+        let vertical = self.vertical.map(GroundMotion::segments);
+        for (index, segment) in self.ground.segments().iter().enumerate() {
+            if state.motion.phase == Phase::Overturned || !goes_on() {
+                return Ok(());
+            }
+            observer.segment(segment.start, Some(segment));
+            let horizontal = ShapePiece::of(&segment.shape);
+            let up = vertical.and_then(|segments| segments.get(index)).map(|segment| ShapePiece::of(&segment.shape));
+            let shaking = Shaking { horizontal: &horizontal, vertical: up.as_ref().unwrap_or(&still) };
+            machine.advance(tracer, state, shaking, S::of(segment.duration), &limits(segment.bound), observer)?;
+        }
+        if state.motion.phase == Phase::Overturned || !goes_on() {
+            return Ok(());
+        }
+        observer.segment(self.ground.duration(), None);
+        let shaking = Shaking { horizontal: &still, vertical: &still };
+        machine.advance(tracer, state, shaking, S::of(self.free_time), &limits(0.0), observer)
     }
 }

@@ -1,59 +1,53 @@
 //! Samples a motion for histories.
 
-use sprag_shared::arc::{Arc, Motion};
 use sprag_shared::block::GRAVITY;
-use sprag_shared::clutch::{Clutch, Flywheel, flywheel};
-use sprag_shared::equation::Equation;
-use sprag_shared::observer::{Event, Observer, Stretch};
+use sprag_shared::observer::{Event, Stretch};
 use sprag_shared::rocking::State;
 use sprag_shared::scalar::Real;
+use sprag_shared::snapshot::{DeviceArc, DeviceObserver, Snapshot};
 
-use super::drive::GroundObserver;
+use super::drive::Segmented;
 use crate::ground_motion::Segment;
 use crate::history::Sample;
 
-/// Samples at a regular interval, and on both sides of every impact and clutch switch.
+/// Samples at a regular interval, and on both sides of every event at which something may jump.
 #[derive(Debug)]
-pub struct Recorder<'a, S, E, C> {
+pub struct Recorder<'a> {
     /// The samples so far.
     pub samples: Vec<Sample>,
     /// Times of impacts, s.
     pub impacts: Vec<f64>,
     /// Clutch switches.
     pub switches: u32,
-    /// Largest |F|/(mg) at samples and at the ends of stretches.
+    /// Largest |F|/(mg) of the flywheels at samples and at the ends of stretches.
     pub peak_force: f64,
-    engaged: &'a E,
     force_scale: f64,
+    stays_engaged: bool,
     interval: f64,
     next: u64,
     origin: f64,
-    segment: Option<&'a Segment>,
     segments: &'a [Segment],
     broken: bool,
     pending: Option<Sample>,
-    precision: core::marker::PhantomData<(S, C)>,
 }
 
-impl<'a, S: Real, E: Equation<S>, C: Clutch> Recorder<'a, S, E, C> {
-    /// Samples every `interval` s. Forces are those of the equation `engaged`, which gives the terminals' acceleration
-    /// per R; `force_scale` = σR/g makes it F/(mg).
-    pub fn new(engaged: &'a E, force_scale: f64, interval: f64, segments: &'a [Segment]) -> Self {
+impl<'a> Recorder<'a> {
+    /// Samples every `interval` s. `force_scale` makes a snapshot's force F/(mg) of the bare block; `stays_engaged` says that the
+    /// device has no clutch.
+    pub fn new(force_scale: f64, stays_engaged: bool, interval: f64, segments: &'a [Segment]) -> Self {
         Recorder {
             samples: Vec::new(),
             impacts: Vec::new(),
             switches: 0,
             peak_force: 0.0,
-            engaged,
             force_scale,
+            stays_engaged,
             interval,
             next: 0,
             origin: 0.0,
-            segment: None,
             segments,
             broken: true,
             pending: None,
-            precision: core::marker::PhantomData,
         }
     }
 
@@ -68,54 +62,40 @@ impl<'a, S: Real, E: Equation<S>, C: Clutch> Recorder<'a, S, E, C> {
         }
     }
 
-    fn ground(&self, time: f64) -> f64 {
-        self.segment.map_or(0.0, |segment| segment.shape.acceleration(time - segment.start) * GRAVITY)
-    }
-
     /// The ground at any time, for a block that stands over several segments.
     fn ground_anywhere(&self, time: f64) -> f64 {
         let index = self.segments.partition_point(|s| s.start + s.duration < time);
         self.segments.get(index).map_or(0.0, |s| s.shape.acceleration(time - s.start) * GRAVITY)
     }
 
-    fn sample(&mut self, time: f64, motion: &Motion<S>, stretch: &Stretch<S>) -> Sample {
-        let wheel = flywheel::<C>(stretch.engaged, stretch.direction);
-        let mut force = 0.0;
-        if C::INERTER && stretch.engaged {
-            let side: S = stretch.side.unit();
-            let terminal = self.engaged.terminal_acceleration(side, motion.rotation, motion.velocity, motion.acceleration);
-            force = terminal.to_f64() * self.force_scale;
-            self.peak_force = self.peak_force.max(force.abs());
-        }
+    fn sample<S: Real>(&mut self, time: f64, snapshot: &Snapshot<S>) -> Sample {
+        let Snapshot { motion, ground, force, engaged, .. } = snapshot;
+        let force_ratio = force.map(|force| force.to_f64() * self.force_scale);
+        self.peak_force = self.peak_force.max((force_ratio[0] + force_ratio[1]).abs());
         Sample {
             time_s: time,
-            ground_m_s2: self.ground(time),
+            ground_m_s2: ground[0].to_f64() * GRAVITY,
             rotation_rad: motion.rotation.to_f64(),
             velocity_rad_s: motion.velocity.to_f64(),
             acceleration_rad_s2: motion.acceleration.to_f64(),
-            force_ratio: match wheel {
-                Flywheel::Second => [0.0, force],
-                _ => [force, 0.0],
-            },
-            engaged: match wheel {
-                Flywheel::Idle => 0,
-                Flywheel::First => 1,
-                Flywheel::Second => 2,
+            force_ratio,
+            engaged: match engaged {
+                [false, false] => 0,
+                [true, _] => 1,
+                [false, true] => 2,
             },
         }
     }
 
     fn standing(&self, time: f64) -> Sample {
-        let ground_m_s2 = self.ground_anywhere(time);
-        let engaged = u8::from(C::INERTER && !C::FOLLOWS_SIGNS);
         Sample {
             time_s: time,
-            ground_m_s2,
+            ground_m_s2: self.ground_anywhere(time),
             rotation_rad: 0.0,
             velocity_rad_s: 0.0,
             acceleration_rad_s2: 0.0,
             force_ratio: [0.0; 2],
-            engaged,
+            engaged: u8::from(self.stays_engaged),
         }
     }
 
@@ -148,14 +128,14 @@ impl<'a, S: Real, E: Equation<S>, C: Clutch> Recorder<'a, S, E, C> {
     }
 }
 
-impl<S: Real, E: Equation<S>, C: Clutch> Observer<S> for Recorder<'_, S, E, C> {
-    fn stretch<A: Arc<S>>(&mut self, arc: &A, stretch: &Stretch<S>) {
+impl<S: Real> DeviceObserver<S> for Recorder<'_> {
+    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
         let start = self.origin + stretch.start.to_f64();
         // Summed as the core sums them, so that an arc ends on the very instant at which the next one starts.
         let at = |time: S| self.origin + (stretch.start + time).to_f64();
         let (from, to) = (at(stretch.from), at(stretch.to));
         if self.broken {
-            let sample = self.sample(from, &stretch.first, stretch);
+            let sample = self.sample(from, &arc.snapshot(stretch.from));
             self.push(sample);
             self.broken = false;
             while self.grid() <= from {
@@ -164,15 +144,14 @@ impl<S: Real, E: Equation<S>, C: Clutch> Observer<S> for Recorder<'_, S, E, C> {
         }
         while self.grid() < to {
             let time = self.grid();
-            let motion = arc.at(S::of(time - start));
-            let sample = self.sample(time, &motion, stretch);
+            let sample = self.sample(time, &arc.snapshot(S::of(time - start)));
             self.push(sample);
             self.next += 1;
         }
-        self.pending = Some(self.sample(to, &stretch.last, stretch));
+        self.pending = Some(self.sample(to, &arc.snapshot(stretch.to)));
     }
 
-    fn event(&mut self, event: Event, time: S, _state: &State<S>) {
+    fn device_event(&mut self, event: Event, time: S, _state: &State<S>) {
         let at = self.origin + time.to_f64();
         match event {
             Event::Uplift => {
@@ -199,30 +178,22 @@ impl<S: Real, E: Equation<S>, C: Clutch> Observer<S> for Recorder<'_, S, E, C> {
                 self.switches += 1;
                 self.broken = true;
             }
+            Event::Coupling => {
+                self.flush();
+                self.broken = true;
+            }
             Event::Turn | Event::Overturned => self.flush(),
         }
     }
 }
 
-impl<'a, S: Real, E: Equation<S>, C: Clutch> GroundObserver<S> for Recorder<'a, S, E, C> {
+impl Segmented for Recorder<'_> {
     fn segment(&mut self, start: f64, segment: Option<&Segment>) {
         self.origin = start;
-        self.segment = segment.and_then(|segment| {
-            let index = self.segments.partition_point(|s| s.start < segment.start);
-            self.segments.get(index)
-        });
         // The ground may jump here.
         if segment.is_none() {
             self.flush();
             self.broken = true;
         }
-    }
-}
-
-/// A recorder and peaks, told of the same segments.
-impl<S: Real, A: GroundObserver<S>, B: GroundObserver<S>> GroundObserver<S> for (A, B) {
-    fn segment(&mut self, start: f64, segment: Option<&Segment>) {
-        self.0.segment(start, segment);
-        self.1.segment(start, segment);
     }
 }

@@ -12,7 +12,7 @@ use sprag_shared::scalar::Real;
 use super::drive::Course;
 use crate::ground_motion::ShapePiece;
 use crate::history::Sample;
-use crate::scene::schema::MethodName;
+use crate::scene::accuracy::MethodName;
 
 /// Which step is taken, and how often it is sampled.
 #[derive(Clone, Copy, Debug)]

@@ -1,0 +1,72 @@
+//! What the checks found.
+
+use crate::scalar::Real;
+
+/// A largest or smallest value and its time from the origin, s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extreme<S> {
+    /// The value.
+    pub value: S,
+    /// s.
+    pub time: S,
+}
+
+impl<S: Real> Extreme<S> {
+    /// Puts `value` in the place of a smaller one; the first of equals stays.
+    pub(super) fn raise(extreme: &mut Option<Extreme<S>>, value: S, time: S) {
+        if extreme.is_none_or(|known| value > known.value) {
+            *extreme = Some(Extreme { value, time });
+        }
+    }
+}
+
+/// Extremes over the time in which the block rocks; none where it never did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Report<S> {
+    /// Largest |H|/V while V > 0: the friction without which the toe would slide. At uplift it is tan α (slender: α) or
+    /// more; before a loss of contact it grows without bound.
+    pub friction: Option<Extreme<S>>,
+    /// Smallest V/(mg). Negative where the ground would have to pull.
+    pub vertical: Option<Extreme<S>>,
+    /// When V first falls to 0, s: from there on the block would fly, and the motion is not one that it can have.
+    pub contact_lost: Option<S>,
+    /// Largest ratio of the impulses along and normal to the ground at an impact; for a bare block
+    /// (1 − η)/((1 + η) tan α).
+    pub impact_friction: Option<Extreme<S>>,
+    /// Largest |F|/(mg) of each flywheel at the rack.
+    pub force: [Option<Extreme<S>>; 2],
+    /// Farthest travel of the terminals in the positive and in the negative direction, both positive, m.
+    pub travel: [Option<Extreme<S>>; 2],
+}
+
+impl<S: Real> Report<S> {
+    /// Farthest travel of the terminals, m: half the length that a rack needs between its stops.
+    pub fn stroke(&self) -> Option<Extreme<S>> {
+        match self.travel {
+            [Some(positive), Some(negative)] => Some(if negative.value > positive.value { negative } else { positive }),
+            [positive, negative] => positive.or(negative),
+        }
+    }
+
+    /// The record of a quantity in the order of the readings: friction, −V, forces.
+    pub(super) fn record(&self, quantity: usize) -> Option<S> {
+        match quantity {
+            0 => self.friction.map(|extreme| extreme.value),
+            1 => self.vertical.map(|extreme| -extreme.value),
+            _ => self.force[(quantity - 2) & 1].map(|extreme| extreme.value),
+        }
+    }
+
+    /// Raises such a record.
+    pub(super) fn raise(&mut self, quantity: usize, value: S, time: S) {
+        match quantity {
+            0 => Extreme::raise(&mut self.friction, value, time),
+            1 => {
+                if self.vertical.is_none_or(|known| -value < known.value) {
+                    self.vertical = Some(Extreme { value: -value, time });
+                }
+            }
+            _ => Extreme::raise(&mut self.force[(quantity - 2) & 1], value, time),
+        }
+    }
+}

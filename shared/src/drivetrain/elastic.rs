@@ -1,0 +1,296 @@
+//! A clutch with a torsional spring, a damper and gear play, and plates in series with it that slip at their capacity.
+//!
+//! With x the twist as travel of the rack over R and o the edge of the play on the side in contact,
+//! F = K (x − o) + C ẋ and ẋ = ℓθ̇ − w; within the play F = 0. Saturated plates hold F at the capacity; the twist then relaxes as
+//! C ẋ = F − K (x − o), and the plates slip at ℓθ̇ − w − ẋ. The contact ends where the spring is without force, so that a
+//! damper may pull for an instant (the classical dead zone).
+
+use super::device::{Coupling, Device, Law, Watch, Wheel};
+use super::drive::{Account, Drive, Instant, MomentOf, acceleration, account, command, moment, open};
+use super::gears::Gears;
+use crate::body::Body;
+use crate::scalar::{Real, Sign};
+use crate::value::Value;
+
+/// Two flywheels, an elastic clutch on each, that obey Eq. 10.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElasticPair<S>(pub Gears<S>);
+
+impl<S: Real> ElasticPair<S> {
+    /// Largest force that leaves the mode as it is: the plates' capacity, or the bearing friction of a flywheel that stands.
+    fn bound(&self, wheel: &Wheel<S>) -> S {
+        let capacity = self.0.capacity_of(wheel).0;
+        match wheel.turning {
+            Some(_) => capacity,
+            None => capacity.smaller(self.0.inertance * self.0.bearing_dry),
+        }
+    }
+
+    /// Force of a clutch in contact.
+    fn force<B: Body<S>>(&self, at: &Instant<'_, S, B>, wheel: usize) -> S {
+        let rack = at.rack_speed();
+        let wheel = &at.device.wheels[wheel];
+        let edge = match wheel.coupling {
+            Coupling::Elastic(side) | Coupling::Saturated(side) => side.times(self.0.half_play),
+            _ => return S::ZERO,
+        };
+        self.0.stiffness * (wheel.twist - edge) + self.0.damping * (rack - wheel.spin)
+    }
+
+    /// A wheel in contact: plates that the force overcomes slip, a flywheel that it overcomes starts.
+    fn settle_contact<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
+        let force = self.force(at, wheel);
+        let clutch = &mut at.device.wheels[wheel];
+        if force.abs() > self.0.capacity_of(clutch).0 {
+            self.saturate(at, wheel, force);
+        } else {
+            self.0.settle(clutch, force);
+        }
+    }
+}
+
+impl<S: Real> Drive<S, 4, 3> for ElasticPair<S> {
+    const COMMANDED: bool = true;
+    const HOLDS: bool = true;
+
+    #[inline(always)]
+    fn load(&self, device: &Device<S>) -> [S; 4] {
+        let [a, b] = &device.wheels;
+        [a.spin, b.spin, a.twist, b.twist]
+    }
+
+    #[inline(always)]
+    fn store(&self, device: &mut Device<S>, extra: &[S; 4], _rack: S) {
+        let [a, b] = &mut device.wheels;
+        [a.spin, b.spin, a.twist, b.twist] = *extra;
+    }
+
+    #[inline(always)]
+    fn scales(&self, speed: S) -> [S; 4] {
+        // A twist matters by its force: that of a spring that would give the flywheel this speed.
+        let twist = speed * (self.0.inertance / self.0.stiffness).square_root();
+        [speed, speed, twist, twist]
+    }
+
+    #[inline(always)]
+    fn gears(&self) -> Option<&Gears<S>> {
+        Some(&self.0)
+    }
+
+    #[inline(always)]
+    fn law(&self, direction: Sign, drive: Sign, device: &Device<S>) -> Law<S> {
+        let gears = &self.0;
+        let mut law = gears.law(direction, device);
+        law.watch[0] = Watch::Command(drive.unit());
+        let plays = gears.half_play > S::ZERO;
+        for (i, wheel) in device.wheels.iter().enumerate() {
+            law.follows[i] = S::ONE;
+            match wheel.coupling {
+                Coupling::InPlay => law.watch[i + 1] = Watch::Play(gears.half_play, i),
+                Coupling::Elastic(side) => {
+                    law.stiffness[i] = gears.stiffness;
+                    law.damping[i] = gears.damping;
+                    law.rest_twist[i] = side.times(gears.half_play);
+                    let bound = self.bound(wheel);
+                    law.watch[i + 1] = match (plays, bound.is_finite()) {
+                        (true, true) => Watch::Bounded(side.unit(), bound, i),
+                        (true, false) => Watch::Contact(side.unit(), i),
+                        (false, true) => Watch::Below(bound, i),
+                        (false, false) => Watch::Nothing,
+                    };
+                }
+                Coupling::Saturated(side) => {
+                    law.rest_twist[i] = side.times(gears.half_play);
+                    law.follows[i] = S::ZERO;
+                    law.relaxation[i] = if gears.damping > S::ZERO { S::ONE / gears.damping } else { S::ZERO };
+                    law.watch[i + 1] = Watch::Slip(side.unit(), i);
+                }
+                _ => law.follows[i] = S::ZERO,
+            }
+        }
+        law
+    }
+
+    #[inline(always)]
+    fn flow<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 4>) -> (V, [V; 4]) {
+        let law = at.law;
+        let rack = at.body.along(&at.posture, at.velocity);
+        let relative = [0, 1].map(|i| rack - at.extra[i]);
+        let plates = [0, 1].map(|i| at.clock.scale(law.slip_growth[i]).offset(law.slip[i]));
+        let twist = [0, 1].map(|i| at.extra[i + 2].offset(-law.rest_twist[i]));
+        let force = [0, 1].map(|i| twist[i].scale(law.stiffness[i]) + relative[i].scale(law.damping[i]) + plates[i]);
+        let spin =
+            [0, 1].map(|i| force[i].scale(law.moves[i] * self.0.mobility).offset(-law.drag[i]) - at.extra[i].scale(law.decay[i]));
+        let slides = [0, 1].map(|i| {
+            let relaxes = (plates[i] - twist[i].scale(self.0.stiffness)).scale(law.relaxation[i]);
+            relative[i].scale(law.follows[i]) + relaxes
+        });
+        let acceleration = acceleration::<S, V, B, 4, true>(at, self.0.rack_push, Some(force[0] + force[1]));
+        (acceleration, [spin[0], spin[1], slides[0], slides[1]])
+    }
+
+    #[inline(always)]
+    fn guard<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 4>, acceleration: V, watch: Watch<S>) -> V {
+        let law = at.law;
+        let relative = |i: usize| at.body.along(&at.posture, at.velocity) - at.extra[i & 1];
+        let twist = |i: usize| at.extra[(i & 1) + 2].offset(-law.rest_twist[i & 1]);
+        let below = |bound: S, i: usize| {
+            let force = twist(i).scale(self.0.stiffness) + relative(i).scale(self.0.damping);
+            (-force.square()).offset(bound * bound)
+        };
+        match watch {
+            Watch::Command(sign) => command::<S, V, B, 4, true>(at, self.0.rack_push, sign),
+            Watch::Play(half, i) => (-at.extra[(i & 1) + 2].square()).offset(half * half),
+            Watch::Contact(sign, i) => twist(i).scale(sign),
+            Watch::Bounded(sign, bound, i) => twist(i).scale(sign) * below(bound, i),
+            Watch::Below(bound, i) => below(bound, i),
+            Watch::Slip(sign, i) => {
+                let j = i & 1;
+                let plates = at.clock.scale(law.slip_growth[j]).offset(law.slip[j]);
+                let relaxes = (plates - twist(i).scale(self.0.stiffness)).scale(law.relaxation[j]);
+                (relative(i) - relaxes).scale(sign)
+            }
+            _ => acceleration,
+        }
+    }
+
+    fn engage<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
+        let plays = self.0.half_play > S::ZERO;
+        let clutch = &mut at.device.wheels[wheel];
+        (clutch.engaged_for, clutch.twist) = (S::ZERO, S::ZERO);
+        clutch.coupling = if plays { Coupling::InPlay } else { Coupling::Elastic(Sign::Positive) };
+        if plays {
+            self.0.settle(clutch, S::ZERO);
+        } else {
+            self.settle_contact(at, wheel);
+        }
+    }
+
+    fn release<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
+        open(&self.0, at, wheel);
+    }
+
+    fn reached<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, watch: Watch<S>) {
+        match watch {
+            Watch::Play(half, i) => {
+                let wheel = &mut at.device.wheels[i & 1];
+                let side = Sign::of(wheel.twist, Sign::Positive);
+                wheel.twist = side.times(half);
+                wheel.coupling = Coupling::Elastic(side);
+                self.settle_contact(at, i & 1);
+            }
+            Watch::Contact(_, i) => self.part(at, i & 1),
+            Watch::Bounded(_, bound, i) => {
+                let i = i & 1;
+                let wheel = &at.device.wheels[i];
+                let Coupling::Elastic(side) = wheel.coupling else { return };
+                let reach = self.0.stiffness * (wheel.twist - side.times(self.0.half_play)).abs();
+                if reach < (bound - self.force(at, i).abs()).abs() {
+                    self.part(at, i);
+                } else {
+                    self.overcome(at, i);
+                }
+            }
+            Watch::Below(_, i) => self.overcome(at, i & 1),
+            Watch::Slip(_, i) => {
+                let wheel = &mut at.device.wheels[i & 1];
+                if let Coupling::Saturated(side) = wheel.coupling {
+                    wheel.coupling = Coupling::Elastic(side);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn settle<B: Body<S>>(&self, at: &mut Instant<'_, S, B>) {
+        for wheel in 0..2 {
+            match at.device.wheels[wheel].coupling {
+                Coupling::Elastic(_) => self.settle_contact(at, wheel),
+                Coupling::Saturated(side) => {
+                    // The jump may have ended the slip.
+                    let law = self.law(at.direction, at.direction, at.device);
+                    let moment = moment(self, at.body, &law, at, at.device);
+                    if self.guard(&moment, S::ZERO, Watch::Slip(side.unit(), wheel)) < S::ZERO {
+                        at.device.wheels[wheel].coupling = Coupling::Elastic(side);
+                        self.settle_contact(at, wheel);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn impact<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>, _before: S) {}
+
+    #[inline(always)]
+    fn engaged_at_impact(&self, _device: &Device<S>) -> usize {
+        0
+    }
+
+    #[inline(always)]
+    fn swing_coupling(&self, inward: bool) -> S {
+        if inward { self.0.inertance + self.0.rack_coupling } else { self.0.rack_coupling }
+    }
+
+    #[inline(always)]
+    fn standing_friction(&self, _prompt: bool) -> S {
+        // A spring has to be wound up before it holds.
+        self.0.standing_friction(false)
+    }
+
+    fn account<B: Body<S>>(&self, at: &MomentOf<'_, S, B, S, 4>, acceleration: S, device: &Device<S>) -> Account<S> {
+        let spins = [at.extra[0], at.extra[1]];
+        let mut account = account(at, &self.0, acceleration, device, spins);
+        let rack = at.body.along(&at.posture, at.velocity);
+        for (i, wheel) in device.wheels.iter().enumerate() {
+            let (Coupling::Elastic(_) | Coupling::Saturated(_)) = wheel.coupling else { continue };
+            let twist = at.extra[i + 2] - at.law.rest_twist[i];
+            let plates = at.law.slip[i] + at.law.slip_growth[i] * at.clock;
+            let relative = rack - at.extra[i];
+            let force = at.law.stiffness[i] * twist + at.law.damping[i] * relative + plates;
+            let spring = self.0.stiffness * twist;
+            let rate = at.law.follows[i] * relative + at.law.relaxation[i] * (plates - spring);
+            account.force[i] = force;
+            account.stored = account.stored + S::HALF * spring * twist;
+            account.spent.clutch = account.spent.clutch + force * relative - spring * rate;
+        }
+        account
+    }
+}
+
+impl<S: Real> ElasticPair<S> {
+    /// Teeth part: what remains of the twist is play.
+    fn part<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
+        let wheel = &mut at.device.wheels[wheel];
+        if let Coupling::Elastic(side) = wheel.coupling {
+            wheel.twist = side.times(self.0.half_play);
+            wheel.coupling = Coupling::InPlay;
+            self.0.settle(wheel, S::ZERO);
+        }
+    }
+
+    /// The force has reached its bound: a standing flywheel starts, or the plates slip.
+    fn overcome<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, i: usize) {
+        let force = self.force(at, i);
+        let wheel = &mut at.device.wheels[i];
+        if wheel.turning.is_none() && self.bound(wheel) < self.0.capacity_of(wheel).0 {
+            wheel.turning = Some(Sign::of(force, Sign::Positive));
+            return;
+        }
+        self.saturate(at, i, force);
+    }
+
+    /// The plates slip. A damper that pulls teeth apart with such a force has parted them instead.
+    fn saturate<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, i: usize, force: S) {
+        let sign = Sign::of(force, Sign::Positive);
+        let wheel = &mut at.device.wheels[i];
+        if self.0.half_play > S::ZERO && wheel.coupling == Coupling::Elastic(sign.opposite()) {
+            self.part(at, i);
+            return;
+        }
+        wheel.coupling = Coupling::Saturated(sign);
+        let held = sign.times(self.0.capacity_of(wheel).0);
+        self.0.settle(wheel, held);
+    }
+}

@@ -1,0 +1,179 @@
+//! A friction clutch: plates carry force up to their capacity and slip beyond it. Stick and slip begin at located events: slip
+//! when the force of a locked flywheel reaches the capacity, stick when the plates run at one speed and can hold it.
+
+use super::device::{Coupling, Device, Law, Watch};
+use super::drive::{Account, Drive, Instant, MomentOf, acceleration, account, command, force_if_locked, locked_force, open};
+use super::gears::Gears;
+use super::rigid::two_spins;
+use crate::body::Body;
+use crate::scalar::{Real, Sign};
+use crate::value::Value;
+
+/// Two flywheels, a friction clutch on each, that obey Eq. 10.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrictionPair<S>(pub Gears<S>);
+
+impl<S: Real> FrictionPair<S> {
+    /// Stick or slip where the plates run at one speed.
+    fn stick_or_slip<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
+        let force = force_if_locked(self, &self.0, at, wheel);
+        let rack = at.rack_speed();
+        let wheel = &mut at.device.wheels[wheel];
+        wheel.spin = rack;
+        if force.abs() <= self.0.capacity_of(wheel).0 {
+            wheel.coupling = Coupling::Locked;
+        } else {
+            self.slip(wheel, Sign::of(force, Sign::Positive));
+        }
+    }
+
+    fn slip(&self, wheel: &mut crate::drivetrain::device::Wheel<S>, sign: Sign) {
+        wheel.coupling = Coupling::Slipping(sign);
+        let force = sign.times(self.0.capacity_of(wheel).0);
+        self.0.settle(wheel, force);
+    }
+}
+
+impl<S: Real> Drive<S, 2, 3> for FrictionPair<S> {
+    const COMMANDED: bool = true;
+    const HOLDS: bool = true;
+
+    two_spins!();
+
+    #[inline(always)]
+    fn law(&self, direction: Sign, drive: Sign, device: &Device<S>) -> Law<S> {
+        let mut law = self.0.law(direction, device);
+        law.watch[0] = Watch::Command(drive.unit());
+        for (i, wheel) in device.wheels.iter().enumerate() {
+            law.watch[i + 1] = match wheel.coupling {
+                Coupling::Locked => {
+                    let (capacity, growth) = self.0.capacity_of(wheel);
+                    Watch::Capacity(capacity, growth)
+                }
+                Coupling::Slipping(sign) => Watch::Slip(sign.unit(), i),
+                _ => Watch::Nothing,
+            };
+        }
+        law
+    }
+
+    #[inline(always)]
+    fn flow<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 2>) -> (V, [V; 2]) {
+        let law = at.law;
+        let plates = at.clock.scale(law.slip_growth[0] + law.slip_growth[1]).offset(law.slip[0] + law.slip[1]);
+        let rates = [0, 1].map(|i| {
+            let gain = law.moves[i] * self.0.mobility;
+            at.clock.scale(law.slip_growth[i] * gain).offset(law.slip[i] * gain - law.drag[i]) - at.extra[i].scale(law.decay[i])
+        });
+        (acceleration::<S, V, B, 2, true>(at, self.0.rack_push, Some(plates)), rates)
+    }
+
+    #[inline(always)]
+    fn guard<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 2>, acceleration: V, watch: Watch<S>) -> V {
+        match watch {
+            Watch::Command(sign) => command::<S, V, B, 2, true>(at, self.0.rack_push, sign),
+            Watch::Capacity(capacity, growth) => {
+                let force = locked_force(at, &self.0, acceleration);
+                at.clock.scale(growth).offset(capacity).square() - force.square()
+            }
+            Watch::Slip(sign, wheel) => (at.body.along(&at.posture, at.velocity) - at.extra[wheel & 1]).scale(sign),
+            _ => acceleration,
+        }
+    }
+
+    fn engage<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
+        let slip = at.rack_speed() - at.device.wheels[wheel].spin;
+        at.device.wheels[wheel].engaged_for = S::ZERO;
+        if slip == S::ZERO {
+            self.stick_or_slip(at, wheel);
+        } else {
+            self.slip(&mut at.device.wheels[wheel], Sign::of(slip, Sign::Positive));
+        }
+    }
+
+    fn release<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
+        open(&self.0, at, wheel);
+    }
+
+    fn reached<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, watch: Watch<S>) {
+        match watch {
+            Watch::Slip(_, wheel) => self.stick_or_slip(at, wheel & 1),
+            Watch::Capacity(..) => {
+                for wheel in 0..2 {
+                    if at.device.wheels[wheel].coupling == Coupling::Locked {
+                        let force = force_if_locked(self, &self.0, at, wheel);
+                        if force.abs() >= self.0.capacity_of(&at.device.wheels[wheel]).0 * S::of(0.999) {
+                            self.slip(&mut at.device.wheels[wheel], Sign::of(force, Sign::Positive));
+                        }
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn settle<B: Body<S>>(&self, at: &mut Instant<'_, S, B>) {
+        let rack = at.rack_speed();
+        for wheel in 0..2 {
+            match at.device.wheels[wheel].coupling {
+                Coupling::Locked => {
+                    let force = force_if_locked(self, &self.0, at, wheel);
+                    if force.abs() > self.0.capacity_of(&at.device.wheels[wheel]).0 {
+                        at.device.wheels[wheel].spin = rack;
+                        self.slip(&mut at.device.wheels[wheel], Sign::of(force, Sign::Positive));
+                    }
+                }
+                Coupling::Slipping(_) => {
+                    let slip = rack - at.device.wheels[wheel].spin;
+                    if slip == S::ZERO {
+                        self.stick_or_slip(at, wheel);
+                    } else {
+                        self.slip(&mut at.device.wheels[wheel], Sign::of(slip, Sign::Positive));
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn impact<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, before: S) {
+        // No plate holds against an impulse: the flywheel keeps its speed and the plates slip.
+        let rack = at.rack_speed();
+        for wheel in &mut at.device.wheels {
+            if wheel.coupling == Coupling::Locked && rack != before {
+                wheel.spin = before;
+                self.slip(wheel, Sign::of(rack - before, Sign::Positive));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn engaged_at_impact(&self, _device: &Device<S>) -> usize {
+        0
+    }
+
+    #[inline(always)]
+    fn swing_coupling(&self, inward: bool) -> S {
+        if inward { self.0.inertance + self.0.rack_coupling } else { self.0.rack_coupling }
+    }
+
+    #[inline(always)]
+    fn standing_friction(&self, prompt: bool) -> S {
+        // Plates carry no more than their capacity, which a slow clutch does not have at once.
+        let gears = &self.0;
+        let carried = if gears.rise_time > S::ZERO { S::ZERO } else { gears.capacity };
+        gears.standing_friction(prompt).smaller(gears.rack_dry + carried)
+    }
+
+    fn account<B: Body<S>>(&self, at: &MomentOf<'_, S, B, S, 2>, acceleration: S, device: &Device<S>) -> Account<S> {
+        let mut account = account(at, &self.0, acceleration, device, at.extra);
+        let rack = at.body.along(&at.posture, at.velocity);
+        for (i, wheel) in device.wheels.iter().enumerate() {
+            if let Coupling::Slipping(_) = wheel.coupling {
+                account.force[i] = at.law.slip[i] + at.law.slip_growth[i] * at.clock;
+                account.spent.clutch = account.spent.clutch + account.force[i] * (rack - at.extra[i]);
+            }
+        }
+        account
+    }
+}

@@ -1,0 +1,162 @@
+//! The numbers of a drivetrain, resolved for one block: forces over λmR, lengths over R, inertance over λm.
+
+use super::device::{Coupling, Device, Law, Wheel};
+use super::{Drivetrain, Engagement};
+use crate::block::Block;
+use crate::scalar::{Real, Sign};
+
+/// A drivetrain in the units of the equations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gears<S> {
+    /// k = σ/λ of one flywheel.
+    pub inertance: S,
+    /// 1/k, or 0 without inertance.
+    pub mobility: S,
+    /// Guided rack: its mass ratio over λ …
+    pub rack_coupling: S,
+    /// … and times p².
+    pub rack_push: S,
+    /// Viscous force of the rack, 1/s.
+    pub rack_viscous: S,
+    /// Dry friction of the rack, 1/s².
+    pub rack_dry: S,
+    /// Viscous rate of a flywheel, 1/s.
+    pub bearing_rate: S,
+    /// Dry deceleration of a flywheel, 1/s².
+    pub bearing_dry: S,
+    /// Deceleration by the brake, 1/s².
+    pub brake: S,
+    /// The brake stops a released flywheel at once.
+    pub stops_at_once: bool,
+    /// Capacity of the plates, 1/s²; infinite without plates.
+    pub capacity: S,
+    /// Time to full capacity, s.
+    pub rise_time: S,
+    /// Stiffness of the clutch, 1/s².
+    pub stiffness: S,
+    /// Its damping, 1/s.
+    pub damping: S,
+    /// Half the play over R.
+    pub half_play: S,
+}
+
+impl<S: Real> Gears<S> {
+    /// Of `block`, which weighs `heavier` times as much as the one that the drivetrain's ratios refer to, with σ of its own.
+    pub fn of(drivetrain: &Drivetrain, block: &Block, mass_ratio: f64, heavier: f64) -> Gears<S> {
+        let (lambda, size, p2) = (block.inertia_ratio(), block.size(), block.frequency_parameter_squared());
+        let k = mass_ratio / lambda;
+        let Drivetrain { engagement, flywheel, rack, actuation } = drivetrain;
+        let stops_at_once = flywheel.brake_deceleration.is_infinite() || *engagement == Engagement::Ideal;
+        let (mut capacity, mut stiffness, mut damping, mut half_play) = (f64::INFINITY, 0.0, 0.0, 0.0);
+        match *engagement {
+            Engagement::Friction { capacity_ratio } => capacity = capacity_ratio * p2 / heavier,
+            Engagement::Elastic { stiffness: k, damping: c, backlash, capacity_ratio } => {
+                (stiffness, damping, half_play) = (k / (lambda * heavier), c / (lambda * heavier), 0.5 * backlash / size);
+                capacity = capacity_ratio * p2 / heavier;
+            }
+            Engagement::Ideal | Engagement::Rigid | Engagement::Overrunning => {}
+        }
+        Gears {
+            inertance: S::of(k),
+            mobility: S::of(if k > 0.0 { 1.0 / k } else { 0.0 }),
+            rack_coupling: S::of(rack.guided_mass_ratio / (lambda * heavier)),
+            rack_push: S::of(rack.guided_mass_ratio * p2 / heavier),
+            rack_viscous: S::of(rack.viscous / (lambda * heavier)),
+            rack_dry: S::of(rack.dry_ratio * p2 / heavier),
+            bearing_rate: S::of(flywheel.viscous_rate),
+            bearing_dry: S::of(flywheel.dry_deceleration / size),
+            brake: S::of(if stops_at_once { 0.0 } else { flywheel.brake_deceleration / size }),
+            stops_at_once,
+            capacity: S::of(capacity),
+            rise_time: S::of(actuation.rise_time),
+            stiffness: S::of(stiffness),
+            damping: S::of(damping),
+            half_play: S::of(half_play),
+        }
+    }
+
+    /// Capacity now and its growth.
+    #[inline]
+    pub fn capacity_of(&self, wheel: &Wheel<S>) -> (S, S) {
+        if wheel.engaged_for >= self.rise_time {
+            return (self.capacity, S::ZERO);
+        }
+        let growth = self.capacity / self.rise_time;
+        (growth * wheel.engaged_for, growth)
+    }
+
+    /// The law of rack, bearings, brakes and plates in the present mode.
+    #[inline]
+    pub fn law(&self, direction: Sign, device: &Device<S>) -> Law<S> {
+        let mut law = Law::of(direction);
+        law.coupling = self.rack_coupling;
+        (law.viscous, law.dry) = (self.rack_viscous, self.rack_dry);
+        for (i, wheel) in device.wheels.iter().enumerate() {
+            if wheel.coupling == Coupling::Locked {
+                law.coupling = law.coupling + self.inertance;
+                law.viscous = law.viscous + self.inertance * self.bearing_rate;
+                law.dry = law.dry + self.inertance * self.bearing_dry;
+                continue;
+            }
+            if let Some(turning) = wheel.turning {
+                let brake = if wheel.coupling == Coupling::Open { self.brake } else { S::ZERO };
+                law.decay[i] = self.bearing_rate;
+                law.drag[i] = turning.times(self.bearing_dry + brake);
+                law.moves[i] = S::ONE;
+            }
+            if let Coupling::Slipping(sign) | Coupling::Saturated(sign) = wheel.coupling {
+                let (capacity, growth) = self.capacity_of(wheel);
+                (law.slip[i], law.slip_growth[i]) = (sign.times(capacity), sign.times(growth));
+            }
+        }
+        law.dry = direction.times(law.dry);
+        law
+    }
+
+    /// Dry friction of the rack, and of the bearings of a flywheel that is locked to it; 1/s².
+    #[inline]
+    pub fn standing_friction(&self, locked: bool) -> S {
+        if locked { self.rack_dry + self.inertance * self.bearing_dry } else { self.rack_dry }
+    }
+
+    /// Deceleration of an idle or engaged flywheel by dry friction, 1/s².
+    #[inline]
+    pub fn dry_of(&self, wheel: &Wheel<S>) -> S {
+        if wheel.coupling == Coupling::Open { self.bearing_dry + self.brake } else { self.bearing_dry }
+    }
+
+    /// Decides which way a flywheel turns on which `force` (1/s²) acts: a standing one starts only beyond its dry friction.
+    #[inline]
+    pub fn settle(&self, wheel: &mut Wheel<S>, force: S) {
+        let dry = self.inertance * self.dry_of(wheel);
+        wheel.turning = if wheel.spin > S::ZERO {
+            Some(Sign::Positive)
+        } else if wheel.spin < S::ZERO {
+            Some(Sign::Negative)
+        } else if force.abs() > dry {
+            Some(Sign::of(force, Sign::Positive))
+        } else {
+            None
+        };
+    }
+
+    /// What an idle flywheel has left of its speed after `time` (s): ẇ = −c w − d sgn w in closed form, never past zero.
+    pub fn coast(&self, wheel: &mut Wheel<S>, time: S) {
+        if wheel.coupling == Coupling::Locked || wheel.spin == S::ZERO {
+            return;
+        }
+        let (c, d) = (self.bearing_rate, self.dry_of(wheel));
+        let speed = wheel.spin.abs();
+        let x = c * time;
+        // (1 − e^−x)/x, where the difference would lose its digits.
+        let mean = if x < S::of(1e-3) {
+            S::ONE - x * (S::HALF - x * (S::of(1.0 / 6.0) - x * S::of(1.0 / 24.0)))
+        } else {
+            (S::ONE - (-x).exp()) / x
+        };
+        let left = speed * (S::ONE - x * mean) - d * time * mean;
+        let sign = Sign::of(wheel.spin, Sign::Positive);
+        wheel.spin = if left > S::ZERO { sign.times(left) } else { S::ZERO };
+        wheel.turning = if left > S::ZERO { Some(sign) } else { None };
+    }
+}

@@ -1,0 +1,226 @@
+//! Devices without a memory: none, one inerter, and the ideal clutched pair, for scenes in which something else than the device
+//! calls for this engine. With `FRICTION` the rack and the bearings lose energy, and a guided rack has a mass.
+
+use super::device::{Coupling, Device, Law, Watch};
+use super::drive::{Account, Drive, Instant, MomentOf, acceleration, account, command, open};
+use super::gears::Gears;
+use crate::body::Body;
+use crate::scalar::{Real, Sign};
+use crate::value::Value;
+
+/// The block alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Alone;
+
+/// One inerter, always engaged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Single<S, const FRICTION: bool>(pub Gears<S>);
+
+/// The clutched pair that engages a stopped flywheel at speed without a loss of momentum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IdealPair<S, const FRICTION: bool>(pub Gears<S>);
+
+/// What devices without unknowns of their own have in common.
+macro_rules! without_unknowns {
+    () => {
+        #[inline(always)]
+        fn load(&self, _device: &Device<S>) -> [S; 0] {
+            []
+        }
+
+        #[inline(always)]
+        fn scales(&self, _speed: S) -> [S; 0] {
+            []
+        }
+
+        #[inline(always)]
+        fn settle<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>) {}
+
+        #[inline(always)]
+        fn impact<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>, _before: S) {}
+
+        #[inline(always)]
+        fn reached<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>, _watch: Watch<S>) {}
+
+        #[inline(always)]
+        fn store(&self, _device: &mut Device<S>, _extra: &[S; 0], _rack: S) {}
+    };
+}
+
+impl<S: Real> Drive<S, 0, 0> for Alone {
+    const COMMANDED: bool = false;
+    const HOLDS: bool = false;
+
+    without_unknowns!();
+
+    #[inline(always)]
+    fn law(&self, direction: Sign, _drive: Sign, _device: &Device<S>) -> Law<S> {
+        Law::of(direction)
+    }
+
+    #[inline(always)]
+    fn flow<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 0>) -> (V, [V; 0]) {
+        (at.body.drive(&at.posture, at.ground), [])
+    }
+
+    #[inline(always)]
+    fn guard<V: Value<S>, B: Body<S>>(&self, _at: &MomentOf<'_, S, B, V, 0>, acceleration: V, _watch: Watch<S>) -> V {
+        acceleration
+    }
+
+    #[inline(always)]
+    fn engage<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>, _wheel: usize) {}
+
+    #[inline(always)]
+    fn release<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>, _wheel: usize) {}
+
+    #[inline(always)]
+    fn engaged_at_impact(&self, _device: &Device<S>) -> usize {
+        0
+    }
+
+    #[inline(always)]
+    fn swing_coupling(&self, _inward: bool) -> S {
+        S::ZERO
+    }
+
+    #[inline(always)]
+    fn standing_friction(&self, _prompt: bool) -> S {
+        S::ZERO
+    }
+
+    #[inline(always)]
+    fn gears(&self) -> Option<&Gears<S>> {
+        None
+    }
+
+    #[inline(always)]
+    fn account<B: Body<S>>(&self, _at: &MomentOf<'_, S, B, S, 0>, _acceleration: S, _device: &Device<S>) -> Account<S> {
+        Account::default()
+    }
+}
+
+impl<S: Real, const FRICTION: bool> Drive<S, 0, 0> for Single<S, FRICTION> {
+    const COMMANDED: bool = false;
+    const HOLDS: bool = FRICTION;
+
+    without_unknowns!();
+
+    #[inline(always)]
+    fn law(&self, direction: Sign, _drive: Sign, device: &Device<S>) -> Law<S> {
+        if FRICTION {
+            return self.0.law(direction, device);
+        }
+        Law { coupling: self.0.inertance, ..Law::of(direction) }
+    }
+
+    #[inline(always)]
+    fn flow<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 0>) -> (V, [V; 0]) {
+        (acceleration::<S, V, B, 0, FRICTION>(at, self.0.rack_push, None), [])
+    }
+
+    #[inline(always)]
+    fn guard<V: Value<S>, B: Body<S>>(&self, _at: &MomentOf<'_, S, B, V, 0>, acceleration: V, _watch: Watch<S>) -> V {
+        acceleration
+    }
+
+    #[inline(always)]
+    fn engage<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
+        at.device.wheels[wheel].coupling = Coupling::Locked;
+    }
+
+    #[inline(always)]
+    fn release<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>, _wheel: usize) {}
+
+    #[inline(always)]
+    fn engaged_at_impact(&self, _device: &Device<S>) -> usize {
+        1
+    }
+
+    #[inline(always)]
+    fn swing_coupling(&self, _inward: bool) -> S {
+        self.0.inertance + self.0.rack_coupling
+    }
+
+    #[inline(always)]
+    fn standing_friction(&self, _prompt: bool) -> S {
+        self.0.standing_friction(true)
+    }
+
+    #[inline(always)]
+    fn gears(&self) -> Option<&Gears<S>> {
+        Some(&self.0)
+    }
+
+    #[inline(always)]
+    fn account<B: Body<S>>(&self, at: &MomentOf<'_, S, B, S, 0>, acceleration: S, device: &Device<S>) -> Account<S> {
+        account(at, &self.0, acceleration, device, [S::ZERO; 2])
+    }
+}
+
+impl<S: Real, const FRICTION: bool> Drive<S, 0, 1> for IdealPair<S, FRICTION> {
+    const COMMANDED: bool = true;
+    const HOLDS: bool = FRICTION;
+
+    without_unknowns!();
+
+    #[inline(always)]
+    fn law(&self, direction: Sign, drive: Sign, device: &Device<S>) -> Law<S> {
+        let mut law = if FRICTION {
+            self.0.law(direction, device)
+        } else {
+            let locked = device.wheels.iter().filter(|wheel| wheel.coupling == Coupling::Locked).count();
+            Law { coupling: S::count(locked as u32) * self.0.inertance, ..Law::of(direction) }
+        };
+        law.watch[0] = Watch::Command(drive.unit());
+        law
+    }
+
+    #[inline(always)]
+    fn flow<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 0>) -> (V, [V; 0]) {
+        (acceleration::<S, V, B, 0, FRICTION>(at, self.0.rack_push, None), [])
+    }
+
+    #[inline(always)]
+    fn guard<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 0>, acceleration: V, watch: Watch<S>) -> V {
+        match watch {
+            Watch::Command(sign) => command::<S, V, B, 0, FRICTION>(at, self.0.rack_push, sign),
+            _ => acceleration,
+        }
+    }
+
+    #[inline(always)]
+    fn engage<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
+        at.device.wheels[wheel].coupling = Coupling::Locked;
+    }
+
+    #[inline(always)]
+    fn release<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
+        open(&self.0, at, wheel);
+    }
+
+    #[inline(always)]
+    fn engaged_at_impact(&self, _device: &Device<S>) -> usize {
+        0
+    }
+
+    #[inline(always)]
+    fn swing_coupling(&self, inward: bool) -> S {
+        if inward { self.0.inertance + self.0.rack_coupling } else { self.0.rack_coupling }
+    }
+
+    #[inline(always)]
+    fn standing_friction(&self, prompt: bool) -> S {
+        self.0.standing_friction(prompt)
+    }
+
+    #[inline(always)]
+    fn gears(&self) -> Option<&Gears<S>> {
+        Some(&self.0)
+    }
+
+    #[inline(always)]
+    fn account<B: Body<S>>(&self, at: &MomentOf<'_, S, B, S, 0>, acceleration: S, device: &Device<S>) -> Account<S> {
+        account(at, &self.0, acceleration, device, [S::ZERO; 2])
+    }
+}

@@ -1,0 +1,121 @@
+//! One-way (sprag) clutches: nobody commands them. Each holds while its flywheel resists the block and lets go as soon as the
+//! flywheel would drive it; it holds again when the block has caught up, so that there is never a jolt.
+
+use super::device::{Coupling, Device, Law, Watch};
+use super::drive::{Account, Drive, Instant, MomentOf, acceleration, account, force_if_locked, jolt, locked_force, open};
+use super::gears::Gears;
+use super::rigid::{coasting, two_spins};
+use crate::body::Body;
+use crate::scalar::{Real, Sign};
+use crate::value::Value;
+
+/// Two flywheels, an overrunning clutch on each, for one direction of motion each.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OverrunningPair<S>(pub Gears<S>);
+
+/// The flywheel for motion in `direction`.
+#[inline(always)]
+pub fn wheel_for(direction: Sign) -> usize {
+    match direction {
+        Sign::Positive => 0,
+        Sign::Negative => 1,
+    }
+}
+
+impl<S: Real> Drive<S, 2, 1> for OverrunningPair<S> {
+    const COMMANDED: bool = false;
+    const HOLDS: bool = true;
+
+    two_spins!();
+
+    #[inline(always)]
+    fn law(&self, direction: Sign, _drive: Sign, device: &Device<S>) -> Law<S> {
+        let mut law = self.0.law(direction, device);
+        let wheel = wheel_for(direction);
+        law.watch[0] = match device.wheels[wheel].coupling {
+            Coupling::Locked => Watch::Held(law.direction),
+            _ => Watch::Ahead(law.direction, wheel),
+        };
+        law
+    }
+
+    #[inline(always)]
+    fn flow<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 2>) -> (V, [V; 2]) {
+        (acceleration::<S, V, B, 2, true>(at, self.0.rack_push, None), coasting(at))
+    }
+
+    #[inline(always)]
+    fn guard<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 2>, acceleration: V, watch: Watch<S>) -> V {
+        match watch {
+            Watch::Held(sign) => locked_force(at, &self.0, acceleration).scale(sign),
+            Watch::Ahead(sign, wheel) => (at.extra[wheel & 1] - at.body.along(&at.posture, at.velocity)).scale(sign),
+            _ => acceleration,
+        }
+    }
+
+    #[inline(always)]
+    fn engage<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>, _wheel: usize) {}
+
+    #[inline(always)]
+    fn release<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>, _wheel: usize) {}
+
+    fn reached<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, watch: Watch<S>) {
+        let wheel = wheel_for(at.direction);
+        match watch {
+            Watch::Ahead(..) => at.device.wheels[wheel].coupling = Coupling::Locked,
+            _ => open(&self.0, at, wheel),
+        }
+    }
+
+    fn settle<B: Body<S>>(&self, at: &mut Instant<'_, S, B>) {
+        let (wheel, rack) = (wheel_for(at.direction), at.rack_speed());
+        let other = 1 - wheel;
+        if at.device.wheels[other].coupling == Coupling::Locked {
+            open(&self.0, at, other);
+        }
+        let resists = at.direction.times(force_if_locked(self, &self.0, at, wheel)) > S::ZERO;
+        if at.device.wheels[wheel].coupling == Coupling::Locked {
+            if !resists {
+                open(&self.0, at, wheel);
+            }
+            return;
+        }
+        let ahead = at.direction.times(at.device.wheels[wheel].spin - rack);
+        if ahead < S::ZERO {
+            jolt(&self.0, at, wheel);
+        } else if ahead == S::ZERO && resists {
+            at.device.wheels[wheel].coupling = Coupling::Locked;
+        }
+    }
+
+    fn impact<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, before: S) {
+        // The block slows down at once and its flywheel runs on.
+        for wheel in &mut at.device.wheels {
+            if wheel.coupling == Coupling::Locked {
+                wheel.spin = before;
+                wheel.coupling = Coupling::Open;
+                self.0.settle(wheel, S::ZERO);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn engaged_at_impact(&self, _device: &Device<S>) -> usize {
+        0
+    }
+
+    #[inline(always)]
+    fn swing_coupling(&self, inward: bool) -> S {
+        if inward { self.0.inertance + self.0.rack_coupling } else { self.0.rack_coupling }
+    }
+
+    #[inline(always)]
+    fn standing_friction(&self, prompt: bool) -> S {
+        self.0.standing_friction(prompt)
+    }
+
+    #[inline(always)]
+    fn account<B: Body<S>>(&self, at: &MomentOf<'_, S, B, S, 2>, acceleration: S, device: &Device<S>) -> Account<S> {
+        account(at, &self.0, acceleration, device, at.extra)
+    }
+}

@@ -1,0 +1,169 @@
+//! From the signs of Eq. 10 to a clutch that has moved: commands, delays, dwell and commands that are missed.
+
+use super::{Machine, MachineState};
+use crate::body::Body;
+use crate::drivetrain::Actuation;
+use crate::drivetrain::device::{Coupling, Watch, Wheel};
+use crate::drivetrain::drive::Drive;
+use crate::drivetrain::overrunning::wheel_for;
+use crate::rocking::Phase;
+use crate::scalar::{Real, Sign};
+use crate::snapshot::DeviceObserver;
+
+/// What lies between a command and the clutch, resolved.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Actuator<S> {
+    /// s.
+    pub engagement_delay: S,
+    /// s.
+    pub release_delay: S,
+    /// s.
+    pub dwell: S,
+    /// An engagement is missed when its number draws less than this out of 2³².
+    pub misses: u64,
+    /// Seed of the draw.
+    pub seed: u64,
+}
+
+impl<S: Real> Actuator<S> {
+    /// Of an actuation within its ranges.
+    pub fn of(actuation: &Actuation) -> Actuator<S> {
+        Actuator {
+            engagement_delay: S::of(actuation.engagement_delay),
+            release_delay: S::of(actuation.release_delay),
+            dwell: S::of(actuation.dwell),
+            misses: (actuation.miss_probability * 4_294_967_296.0) as u64,
+            seed: actuation.miss_seed,
+        }
+    }
+
+    /// Whether engagement number `count` is missed: SplitMix64 (Steele, Lea and Flood 2014) of seed and number, so that it depends
+    /// on nothing else.
+    pub fn misses(&self, count: u32) -> bool {
+        let mut z = self.seed.wrapping_add(u64::from(count).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 32) < self.misses
+    }
+}
+
+/// Most answers to one event: a jolt may change the signs that caused it.
+const MOST_ANSWERS: usize = 4;
+
+impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {
+    /// Gives the commands that the present signs ask for, and carries out those that are due.
+    pub(super) fn command(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+        if !D::COMMANDED || state.motion.phase != Phase::Rocking || state.held {
+            return;
+        }
+        for _ in 0..MOST_ANSWERS {
+            let motion = &state.motion;
+            let resists = motion.direction == motion.drive;
+            let wheel = wheel_for(motion.direction);
+            for index in 0..2 {
+                self.give(state, index, resists && index == wheel);
+            }
+            let velocity = state.motion.velocity;
+            for index in 0..2 {
+                let due = state.device.wheels[index].pending == S::ZERO;
+                if due {
+                    self.carry_out(state, index, time, observer);
+                }
+            }
+            if state.motion.velocity == velocity {
+                if D::HOLDS && velocity == S::ZERO && state.motion.rotation != S::ZERO {
+                    // The bearings of a wheel that has just been engaged may hold the block.
+                    self.turned(state);
+                }
+                return;
+            }
+            state.motion.drive = self.drive_sign(state);
+            self.settle(state, time, observer);
+        }
+    }
+
+    /// A command to one clutch, if it is new.
+    fn give(&self, state: &mut MachineState<S>, index: usize, engage: bool) {
+        let device = &mut state.device;
+        let wheel = &mut device.wheels[index];
+        if wheel.commanded == engage {
+            return;
+        }
+        wheel.commanded = engage;
+        let open = wheel.coupling == Coupling::Open;
+        let delay = if engage {
+            device.engagements += 1;
+            wheel.obeys = !self.actuator.misses(device.engagements);
+            device.missed += u32::from(!wheel.obeys);
+            self.actuator.engagement_delay
+        } else {
+            self.actuator.release_delay
+        };
+        // Where it is already what it shall be, an older command is only taken back.
+        let moves = if engage { open && wheel.obeys } else { !open };
+        wheel.pending = if moves { delay.larger(wheel.dwell) } else { -S::ONE };
+    }
+
+    fn carry_out(&self, state: &mut MachineState<S>, index: usize, time: S, observer: &mut dyn DeviceObserver<S>) {
+        let wheel = &mut state.device.wheels[index];
+        (wheel.pending, wheel.dwell, wheel.engaged_for) = (-S::ONE, self.actuator.dwell, S::ZERO);
+        let engage = wheel.commanded;
+        self.with_instant(state, time, observer, |drive, at| {
+            if engage {
+                drive.engage(at, index);
+            } else {
+                drive.release(at, index);
+            }
+        });
+        state.fresh = [false; 3];
+    }
+
+    /// Time until something happens by the clock alone, s.
+    pub(super) fn next_due(&self, state: &MachineState<S>) -> Option<S> {
+        if !D::COMMANDED {
+            return None;
+        }
+        let mut due = state.device.next_due().filter(|time| *time > S::ZERO);
+        if let Some(gears) = self.drive.gears().filter(|gears| gears.rise_time > S::ZERO) {
+            for wheel in &state.device.wheels {
+                if let Some(time) = self.ramp_due(gears, wheel) {
+                    due = Some(due.map_or(time, |sooner: S| sooner.smaller(time)));
+                }
+            }
+        }
+        due
+    }
+
+    /// Until a rising capacity is full, or overcomes the friction that holds a standing flywheel.
+    fn ramp_due(&self, gears: &crate::drivetrain::gears::Gears<S>, wheel: &Wheel<S>) -> Option<S> {
+        if wheel.coupling == Coupling::Open || wheel.engaged_for >= gears.rise_time {
+            return None;
+        }
+        let full = gears.rise_time - wheel.engaged_for;
+        let (capacity, growth) = gears.capacity_of(wheel);
+        let held = wheel.turning.is_none() && matches!(wheel.coupling, Coupling::Slipping(_) | Coupling::Saturated(_));
+        let starts = (gears.inertance * gears.dry_of(wheel) - capacity) / growth;
+        Some(if held && starts > S::ZERO && starts < full { starts } else { full })
+    }
+
+    /// A clock has run out: a rising capacity may start a flywheel that stood.
+    pub(super) fn ramps(&self, state: &mut MachineState<S>) {
+        let Some(gears) = self.drive.gears().filter(|gears| gears.rise_time > S::ZERO) else { return };
+        for wheel in &mut state.device.wheels {
+            if let (Coupling::Slipping(sign) | Coupling::Saturated(sign), None) = (wheel.coupling, wheel.turning) {
+                let capacity = gears.capacity_of(wheel).0;
+                // The instant at which both are equal is the start.
+                gears.settle(wheel, sign.times(capacity * (S::ONE + S::EPSILON * S::of(16.0))));
+            }
+        }
+    }
+
+    /// Sign of the terminals' acceleration under weight and ground in the present state; where it is zero, as it was.
+    pub(super) fn drive_sign(&self, state: &MachineState<S>) -> Sign {
+        let motion = &state.motion;
+        let law = self.drive.law(motion.direction, Sign::Positive, &state.device);
+        let now = crate::arc::Motion { rotation: motion.rotation, velocity: motion.velocity, acceleration: S::ZERO };
+        let moment = self.moment(&law, motion.side, &now, self.drive.load(&state.device), state.ground, S::ZERO);
+        Sign::of(self.drive.guard(&moment, S::ZERO, Watch::Command(S::ONE)), motion.drive)
+    }
+}

@@ -1,0 +1,444 @@
+//! A rocking block whose device has a memory: flywheels that keep spinning, clutches that slip, stretch and come late.
+//!
+//! Such a system is hybrid: smooth motion in one mode, until a watched function reaches zero and another mode takes over. Every
+//! event is located on the path ([`path`]), and every mode is left in one that is consistent at that instant. Ideal devices have
+//! a loop of their own ([`crate::rocking`]) that knows none of this; both agree where both apply.
+//!
+//! As there, signs are part of the state, so that an event just handled is not found again.
+
+mod command;
+pub mod exponential;
+mod hold;
+mod impact;
+pub mod path;
+mod quantity;
+pub mod resolve;
+pub mod series;
+pub mod steps;
+
+pub use command::Actuator;
+
+use crate::arc::{Arc, Motion};
+use crate::body::Body;
+use crate::drivetrain::device::{Coupling, Device, Law, Watch};
+use crate::drivetrain::drive::{Drive, Instant, Moment, MomentOf};
+use crate::ground::Piece;
+use crate::locate::locate;
+use crate::observer::{Event, Stretch};
+use crate::rocking::{Limits, Phase, State, Stopped};
+use crate::scalar::{Real, Sign};
+use crate::snapshot::{DeviceArc, DeviceObserver, Snapshot, Spent};
+use path::{Path, PathStart, Shaking, Tracer};
+
+/// A block with its device, resolved into exactly what they need.
+#[derive(Clone, Copy, Debug)]
+pub struct Machine<S, B, D, const X: usize, const G: usize> {
+    /// The block.
+    pub body: B,
+    /// The device.
+    pub drive: D,
+    /// Velocity after an impact over that before, with 0, 1 and 2 flywheels engaged through it; each 0 to 1.
+    pub restitution: [S; 3],
+    /// α, rad: the size of a rotation that matters.
+    pub slenderness: S,
+    /// pα, rad/s: the size of an angular velocity that matters.
+    pub speed: S,
+    /// θ̇ (rad/s) below which an impact may end in rest.
+    pub rest_speed: S,
+    /// θ̇ (rad/s) below which an impact does not count.
+    pub counted_speed: S,
+    /// What lies between a command and the clutch.
+    pub actuator: Actuator<S>,
+}
+
+/// The state of a block with a device.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MachineState<S> {
+    /// The block's.
+    pub motion: State<S>,
+    /// The device's.
+    pub device: Device<S>,
+    /// Friction holds the tilted block at a turn.
+    pub held: bool,
+    /// Ground acceleration at the end of the last piece, in g.
+    pub ground: [S; 2],
+    /// The watched functions that are zero here, by an event just handled.
+    fresh: [bool; 3],
+}
+
+/// What ended a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum End {
+    Reached,
+    Turn,
+    Impact,
+    Overturned,
+    Guard(usize),
+    Stopped(usize),
+}
+
+impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {
+    /// A block that stands, with an idle device.
+    pub fn at_rest(&self) -> MachineState<S> {
+        let motion = State::default();
+        let mut state = MachineState { motion, device: Device::at_rest(), held: false, ground: [S::ZERO; 2], fresh: [false; 3] };
+        self.part_at_rest(&mut state);
+        state
+    }
+
+    /// A block released at θ (rad) with θ̇ (rad/s) while the ground accelerates by `ground` (in g).
+    pub fn released_at(&self, rotation: S, velocity: S, ground: [S; 2]) -> MachineState<S> {
+        let mut state = self.at_rest();
+        let side = Sign::of(rotation, Sign::of(velocity, Sign::Positive));
+        state.motion = State { rotation, velocity, phase: Phase::Rocking, side, ..State::default() };
+        state.motion.direction = Sign::of(velocity, side.opposite());
+        state.ground = ground;
+        self.start(&mut state);
+        state
+    }
+
+    /// Follows block and device over a piece of ground motion from its local time 0 to `duration` (s), telling `observer`
+    /// of every stretch and event.
+    ///
+    /// # Errors
+    /// [`Stopped`], with the state as it was then.
+    pub fn advance<T: Tracer<S>, P: Piece<S>, Q: Piece<S>>(
+        &self,
+        tracer: &T,
+        state: &mut MachineState<S>,
+        shaking: Shaking<'_, P, Q>,
+        duration: S,
+        limits: &Limits<S>,
+        observer: &mut dyn DeviceObserver<S>,
+    ) -> Result<(), Stopped> {
+        let mut time = S::ZERO;
+        let mut tick = 0_u32;
+        let mut events = 0_u32;
+        self.ground_at_start(state, shaking.at::<S, B>(S::ZERO), observer);
+        while time < duration && state.motion.phase != Phase::Overturned {
+            if state.motion.phase == Phase::Rest {
+                let uplift = self.uplift_time(shaking, time, duration);
+                let until = uplift.unwrap_or(duration);
+                self.idle(state, until - time);
+                time = until;
+                if uplift.is_none() {
+                    break;
+                }
+                self.uplift(state, shaking.at::<S, B>(time));
+                observer.device_event(Event::Uplift, time, &state.motion);
+                self.command(state, time, observer);
+            }
+            let outward = state.motion.side == state.motion.direction
+                && state.motion.side.times(state.motion.rotation) >= limits.overturned;
+            if outward {
+                state.motion.phase = Phase::Overturned;
+                observer.device_event(Event::Overturned, time, &state.motion);
+                break;
+            }
+            let mut stop = match tracer.step() {
+                Some(step) => {
+                    while S::count(tick) * step <= time {
+                        tick += 1;
+                    }
+                    (S::count(tick) * step).smaller(duration)
+                }
+                None => duration,
+            };
+            if let Some(due) = self.next_due(state) {
+                stop = stop.smaller(time + due);
+                if stop <= time {
+                    // What the clock cannot tell from now is due now.
+                    state.device.elapse(due);
+                }
+            }
+            if stop <= time {
+            } else if state.held {
+                time = self.hold(state, shaking, time, stop, observer);
+            } else {
+                self.follow(tracer, state, shaking, &mut time, stop, limits, observer);
+            }
+            self.ramps(state);
+            self.command(state, time, observer);
+            events += 1;
+            if !(state.motion.rotation.is_finite() && state.motion.velocity.is_finite()) {
+                return Err(Stopped::NotFinite);
+            }
+            if events >= limits.events {
+                return Err(Stopped::TooManyEvents);
+            }
+        }
+        state.ground = shaking.at::<S, B>(duration);
+        Ok(())
+    }
+
+    /// One step, up to its first event.
+    #[expect(clippy::too_many_arguments, reason = "one call site, and each is a different thing")]
+    #[inline]
+    fn follow<T: Tracer<S>, P: Piece<S>, Q: Piece<S>>(
+        &self,
+        tracer: &T,
+        state: &mut MachineState<S>,
+        shaking: Shaking<'_, P, Q>,
+        time: &mut S,
+        stop: S,
+        limits: &Limits<S>,
+        observer: &mut dyn DeviceObserver<S>,
+    ) {
+        let motion = &state.motion;
+        let law = self.drive.law(motion.direction, motion.drive, &state.device);
+        let start = PathStart {
+            body: &self.body,
+            drive: &self.drive,
+            law,
+            shaking,
+            side: motion.side,
+            rotation: motion.rotation,
+            velocity: motion.velocity,
+            extra: self.drive.load(&state.device),
+            time: *time,
+            length: stop - *time,
+            scale: self.slenderness,
+            speed: self.speed,
+        };
+        let path = tracer.path::<B, D, P, Q, X, G>(start);
+        let length = path.length();
+        let mut until = length;
+        let mut end = End::Reached;
+        if let Some(turn) = path.velocity_zero(until, motion.direction, motion.velocity == S::ZERO) {
+            (until, end) = (turn, End::Turn);
+        }
+        for guard in 0..G {
+            if law.watch[guard] != Watch::Nothing
+                && let Some(zero) = path.guard_zero(guard, until, state.fresh[guard])
+            {
+                (until, end) = (zero, End::Guard(guard));
+            }
+        }
+        if X >= 2 {
+            for (i, wheel) in state.device.wheels.iter().enumerate() {
+                if let (Some(turning), true) = (wheel.turning, wheel.coupling != Coupling::Locked)
+                    && let Some(zero) = path.extra_zero(i, until, turning, wheel.spin == S::ZERO)
+                {
+                    (until, end) = (zero, End::Stopped(i));
+                }
+            }
+        }
+        let mut last = path.at(until);
+        // θ is monotone up to here.
+        let crossing = |level: S, before: Sign| {
+            locate(S::ZERO, until, before, S::HALF * until, |t| {
+                let motion = path.at(t);
+                (motion.rotation - level, motion.velocity)
+            })
+        };
+        if motion.side.times(last.rotation) < S::ZERO {
+            until = crossing(S::ZERO, motion.side);
+            (end, last) = (End::Impact, path.at(until));
+        } else if motion.side == motion.direction && motion.side.times(last.rotation) > limits.overturned {
+            until = crossing(motion.side.times(limits.overturned), motion.side.opposite());
+            (end, last) = (End::Overturned, path.at(until));
+        }
+        let first = path.at(S::ZERO);
+        let engaged = state.device.wheels.iter().any(|wheel| wheel.coupling != Coupling::Open);
+        let stretch = Stretch {
+            start: *time,
+            from: S::ZERO,
+            to: until,
+            first,
+            last,
+            engaged,
+            side: motion.side,
+            direction: motion.direction,
+        };
+        let seen = Seen { machine: self, path: &path, law: &law, state: &*state, shaking, time: *time };
+        observer.device_stretch(&seen, &stretch);
+        let extra = path.extra(until);
+        *time = if end == End::Reached && length == stop - *time { stop } else { *time + until };
+        let motion = &mut state.motion;
+        (motion.rotation, motion.velocity) = (last.rotation, last.velocity);
+        let posture = self.body.posture(motion.side.unit(), motion.rotation);
+        self.drive.store(&mut state.device, &extra, self.body.along(&posture, motion.velocity));
+        state.device.elapse(until);
+        state.fresh = [false; 3];
+        let ground = shaking.at::<S, B>(*time);
+        state.ground = ground;
+        match end {
+            End::Reached => {}
+            End::Turn => {
+                motion.velocity = S::ZERO;
+                observer.device_event(Event::Turn, *time, &state.motion);
+                state.motion.direction = state.motion.direction.opposite();
+                self.settle(state, *time, observer);
+                if state.motion.velocity == S::ZERO {
+                    self.turned(state);
+                }
+            }
+            End::Impact => {
+                state.motion.rotation = S::ZERO;
+                *time = self.impact(state, shaking, *time, stop, observer);
+            }
+            End::Overturned => {
+                motion.rotation = motion.side.times(limits.overturned);
+                motion.phase = Phase::Overturned;
+                observer.device_event(Event::Overturned, *time, &state.motion);
+            }
+            End::Guard(index) => match law.watch[index] {
+                Watch::Command(_) => {
+                    motion.drive = motion.drive.opposite();
+                    state.fresh[index] = true;
+                }
+                watch => {
+                    self.with_instant(state, *time, observer, |drive, at| drive.reached(at, watch));
+                    state.fresh[index] = true;
+                }
+            },
+            End::Stopped(wheel) => self.stopped(state, wheel),
+        }
+    }
+
+    /// A flywheel has come to a stop; what acts on it decides which way it goes on, if at all.
+    fn stopped(&self, state: &mut MachineState<S>, index: usize) {
+        let law = self.drive.law(state.motion.direction, state.motion.drive, &state.device);
+        let motion = Motion { rotation: state.motion.rotation, velocity: state.motion.velocity, acceleration: S::ZERO };
+        let moment = self.moment(&law, state.motion.side, &motion, self.drive.load(&state.device), state.ground, S::ZERO);
+        let force = self.drive.account(&moment, S::ZERO, &state.device).force[index & 1];
+        let wheel = &mut state.device.wheels[index & 1];
+        wheel.spin = S::ZERO;
+        if let Some(gears) = self.drive.gears() {
+            gears.settle(wheel, force);
+        }
+    }
+
+    /// Lets the device answer an event, and tells of a change of its coupling.
+    fn with_instant(
+        &self,
+        state: &mut MachineState<S>,
+        time: S,
+        observer: &mut dyn DeviceObserver<S>,
+        answer: impl FnOnce(&D, &mut Instant<'_, S, B>),
+    ) {
+        let before = state.device.wheels.map(|wheel| wheel.coupling);
+        let motion = &mut state.motion;
+        let mut at = Instant {
+            body: &self.body,
+            side: motion.side,
+            direction: motion.direction,
+            rotation: motion.rotation,
+            velocity: motion.velocity,
+            ground: state.ground,
+            device: &mut state.device,
+        };
+        answer(&self.drive, &mut at);
+        let velocity = at.velocity;
+        if velocity != motion.velocity {
+            motion.velocity = velocity;
+            motion.direction = Sign::of(velocity, motion.direction);
+            if motion.rotation == S::ZERO {
+                motion.side = motion.direction;
+            }
+        }
+        let after = state.device.wheels.map(|wheel| wheel.coupling);
+        let open = |wheels: [Coupling; 2]| wheels.map(|coupling| coupling == Coupling::Open);
+        if open(before) != open(after) {
+            observer.device_event(Event::Switch, time, &state.motion);
+        } else if before != after {
+            observer.device_event(Event::Coupling, time, &state.motion);
+        }
+    }
+
+    /// After a jump of velocity or ground: modes that it ended are left.
+    fn settle(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+        self.with_instant(state, time, observer, |drive, at| drive.settle(at));
+    }
+
+    /// What an equation needs to know of an instant.
+    fn moment<'a>(
+        &'a self,
+        law: &'a Law<S>,
+        side: Sign,
+        motion: &Motion<S>,
+        extra: [S; X],
+        ground: [S; 2],
+        clock: S,
+    ) -> MomentOf<'a, S, B, S, X> {
+        let posture = self.body.posture(side.unit(), motion.rotation);
+        Moment { body: &self.body, law, posture, velocity: motion.velocity, extra, ground, clock }
+    }
+
+    /// Block and device at an instant, for watchers.
+    fn snapshot(
+        &self,
+        law: &Law<S>,
+        state: &MachineState<S>,
+        motion: Motion<S>,
+        extra: [S; X],
+        ground: [S; 2],
+        clock: S,
+    ) -> Snapshot<S> {
+        let side = state.motion.side;
+        let moment = self.moment(law, side, &motion, extra, ground, clock);
+        let account = self.drive.account(&moment, motion.acceleration, &state.device);
+        let kinematics = self.body.paper_power(side.unit(), &moment.posture, motion.velocity, law.coupling);
+        Snapshot {
+            motion,
+            ground,
+            force: account.force,
+            rack_force: account.rack_force,
+            engaged: account.engaged,
+            spin: account.spin,
+            stored: account.stored,
+            spent: Spent { kinematics, ..account.spent },
+            terminal_velocity: self.body.along(&moment.posture, motion.velocity),
+        }
+    }
+}
+
+/// A path as watchers see it.
+struct Seen<'a, S, B, D, A, P, Q, const X: usize, const G: usize> {
+    machine: &'a Machine<S, B, D, X, G>,
+    path: &'a A,
+    law: &'a Law<S>,
+    state: &'a MachineState<S>,
+    shaking: Shaking<'a, P, Q>,
+    time: S,
+}
+
+impl<S: Real, B, D, A: Arc<S>, P, Q, const X: usize, const G: usize> Arc<S> for Seen<'_, S, B, D, A, P, Q, X, G> {
+    #[inline(always)]
+    fn length(&self) -> S {
+        self.path.length()
+    }
+
+    #[inline(always)]
+    fn at(&self, time: S) -> Motion<S> {
+        self.path.at(time)
+    }
+
+    #[inline(always)]
+    fn switching(&self, time: S) -> S {
+        self.path.switching(time)
+    }
+
+    #[inline(always)]
+    fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
+        self.path.largest_acceleration(from, to, floor)
+    }
+}
+
+impl<S, B, D, A, P, Q, const X: usize, const G: usize> DeviceArc<S> for Seen<'_, S, B, D, A, P, Q, X, G>
+where
+    S: Real,
+    B: Body<S>,
+    D: Drive<S, X, G>,
+    A: Path<S, X>,
+    P: Piece<S>,
+    Q: Piece<S>,
+{
+    fn snapshot(&self, time: S) -> Snapshot<S> {
+        let ground = self.shaking.at::<S, B>(self.time + time);
+        self.machine.snapshot(self.law, self.state, self.path.at(time), self.path.extra(time), ground, time)
+    }
+}
+
+#[cfg(test)]
+mod tests;

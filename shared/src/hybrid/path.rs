@@ -1,0 +1,157 @@
+//! The motion of a block and its device over one step, as a method sees it.
+
+use crate::arc::{Arc, Motion};
+use crate::body::Body;
+use crate::drivetrain::device::Law;
+use crate::drivetrain::drive::{Drive, Moment};
+use crate::ground::Piece;
+use crate::locate::locate_by_value;
+use crate::scalar::{Real, Sign};
+
+/// Horizontal and vertical ground motion over one piece.
+#[derive(Debug)]
+pub struct Shaking<'a, P, Q> {
+    /// Horizontal.
+    pub horizontal: &'a P,
+    /// Vertical; not looked at unless the body says so.
+    pub vertical: &'a Q,
+}
+
+impl<P, Q> Clone for Shaking<'_, P, Q> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<P, Q> Copy for Shaking<'_, P, Q> {}
+
+impl<P, Q> Shaking<'_, P, Q> {
+    /// Both accelerations in g at the local time `time` (s), the vertical one only for a body that wants it.
+    #[inline(always)]
+    pub fn at<S: Real, B: Body<S>>(&self, time: S) -> [S; 2]
+    where
+        P: Piece<S>,
+        Q: Piece<S>,
+    {
+        let horizontal = self.horizontal.acceleration(time);
+        [horizontal, if B::VERTICAL { self.vertical.acceleration(time) } else { S::ZERO }]
+    }
+}
+
+/// Where a step starts and what governs it.
+#[derive(Clone, Copy, Debug)]
+pub struct PathStart<'a, S, B, D, P, Q, const X: usize> {
+    /// The block.
+    pub body: &'a B,
+    /// The device.
+    pub drive: &'a D,
+    /// Its mode.
+    pub law: Law<S>,
+    /// The ground motion.
+    pub shaking: Shaking<'a, P, Q>,
+    /// s.
+    pub side: Sign,
+    /// θ.
+    pub rotation: S,
+    /// θ̇.
+    pub velocity: S,
+    /// The device's unknowns.
+    pub extra: [S; X],
+    /// Local time in the piece, s.
+    pub time: S,
+    /// How far the step may reach, s; above 0.
+    pub length: S,
+    /// Size of a rotation that matters (rad), for tolerances.
+    pub scale: S,
+    /// Size of an angular velocity that matters, rad/s.
+    pub speed: S,
+}
+
+impl<S: Real, B: Body<S>, D, P: Piece<S>, Q: Piece<S>, const X: usize> PathStart<'_, S, B, D, P, Q, X> {
+    /// θ̈ and the rates of the device's unknowns a time `t` after the start.
+    #[inline(never)]
+    pub fn rates<const G: usize>(&self, t: S, rotation: S, velocity: S, extra: &[S; X]) -> (S, [S; X])
+    where
+        D: Drive<S, X, G>,
+    {
+        self.drive.flow(&Moment {
+            body: self.body,
+            law: &self.law,
+            posture: self.body.posture(self.side.unit(), rotation),
+            velocity,
+            extra: *extra,
+            ground: self.shaking.at::<S, B>(self.time + t),
+            clock: t,
+        })
+    }
+
+    /// Watched function `index` in the given state.
+    #[inline(always)]
+    pub fn guard<const G: usize>(&self, index: usize, t: S, motion: &Motion<S>, extra: &[S; X]) -> S
+    where
+        D: Drive<S, X, G>,
+    {
+        let moment = Moment {
+            body: self.body,
+            law: &self.law,
+            posture: self.body.posture(self.side.unit(), motion.rotation),
+            velocity: motion.velocity,
+            extra: *extra,
+            ground: self.shaking.at::<S, B>(self.time + t),
+            clock: t,
+        };
+        self.drive.guard(&moment, motion.acceleration, self.law.watch[index])
+    }
+}
+
+/// The motion from a [`PathStart`] over times from 0 to [`Arc::length`]. Zeros are sought in (0, `to`].
+///
+/// The defaults see what the ends of the step show; a method with a series overrides them and proves its answers.
+pub trait Path<S: Real, const X: usize>: Arc<S> {
+    /// The device's unknowns at `time`.
+    fn extra(&self, time: S) -> [S; X];
+
+    /// Watched function `index` at `time`.
+    fn guard(&self, index: usize, time: S) -> S;
+
+    /// First zero of θ̇, which has the sign `sign` just after the start, and is zero there with `from_zero`.
+    fn velocity_zero(&self, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        let _ = from_zero;
+        let end = self.at(to).velocity;
+        (sign.times(end) < S::ZERO).then(|| locate_by_value(S::ZERO, to, sign, |t| self.at(t).velocity))
+    }
+
+    /// First zero of watched function `index`, positive just after the start.
+    fn guard_zero(&self, index: usize, to: S, from_zero: bool) -> Option<S> {
+        let _ = from_zero;
+        let positive = Sign::Positive;
+        (self.guard(index, to) < S::ZERO).then(|| locate_by_value(S::ZERO, to, positive, |t| self.guard(index, t)))
+    }
+
+    /// First zero of the device's unknown `index`, of sign `sign` just after the start.
+    fn extra_zero(&self, index: usize, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        let _ = from_zero;
+        let value = |t: S| self.extra(t).get(index).copied().unwrap_or(S::ZERO);
+        (sign.times(value(to)) < S::ZERO).then(|| locate_by_value(S::ZERO, to, sign, value))
+    }
+}
+
+/// A way to integrate a block with a device.
+pub trait Tracer<S: Real> {
+    /// Its paths.
+    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, P: Piece<S> + 'a, Q: Piece<S> + 'a, const X: usize, const G: usize>: Path<
+            S,
+            X,
+        >
+    where
+        Self: 'a;
+
+    /// The path from `start`.
+    fn path<'a, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, const X: usize, const G: usize>(
+        &'a self,
+        start: PathStart<'a, S, B, D, P, Q, X>,
+    ) -> Self::Path<'a, B, D, P, Q, X, G>;
+
+    /// The fixed step (s), if it has one.
+    fn step(&self) -> Option<S>;
+}

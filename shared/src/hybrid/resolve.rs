@@ -1,0 +1,173 @@
+//! From the parameters of a block and its drivetrain to exactly the loop that they need.
+//!
+//! As [`Structure::resolve`] for ideal devices, this chooses once, before the loop, among static compositions.
+
+use core::marker::PhantomData;
+
+use super::{Actuator, Machine};
+use crate::block::Geometry;
+use crate::body::{Body, FullBody, SlenderBody};
+use crate::drivetrain::drive::Drive;
+use crate::drivetrain::elastic::ElasticPair;
+use crate::drivetrain::friction::FrictionPair;
+use crate::drivetrain::gears::Gears;
+use crate::drivetrain::ideal::{Alone, IdealPair, Single};
+use crate::drivetrain::overrunning::OverrunningPair;
+use crate::drivetrain::rigid::RigidPair;
+use crate::drivetrain::{Drivetrain, Engagement, Rack};
+use crate::equation::{Consistent, FullBlock, Kinematics, Paper};
+use crate::error::{ParameterError, require};
+use crate::lever::TyingPoint;
+use crate::math;
+use crate::restitution::Restitution;
+use crate::scalar::Real;
+use crate::structure::{COUNTED_SPEED, DeviceKind, KinematicsKind, Structure};
+
+/// What to do with the resolved machine; called once, with its own types.
+pub trait WithMachine<S: Real>: Sized {
+    /// The result.
+    type Output;
+
+    /// Goes on with `machine`.
+    fn with<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(self, machine: Machine<S, B, D, X, G>)
+    -> Self::Output;
+
+    /// Goes on with a `machine` that has an elastic clutch, for which there are more methods.
+    fn with_elastic<B: Body<S>>(self, machine: Machine<S, B, ElasticPair<S>, 4, 3>) -> Self::Output {
+        self.with(machine)
+    }
+}
+
+impl Drivetrain {
+    /// Resolves `structure` with this drivetrain and hands the machine to `next`; `vertical` says that the ground moves
+    /// vertically too.
+    ///
+    /// # Errors
+    /// [`ParameterError`] names the first parameter outside its range.
+    pub fn resolve<S: Real, W: WithMachine<S>>(
+        &self,
+        structure: &Structure,
+        vertical: bool,
+        next: W,
+    ) -> Result<W::Output, ParameterError> {
+        self.check()?;
+        let heavier = 1.0 + structure.carried.mass_ratio;
+        let structure = structure.loaded()?;
+        let sigma = structure.device.mass_ratio;
+        require("mass_ratio", sigma, (0.0..=10_000.0).contains(&sigma), "from 0 to 10000")?;
+        let rest = structure.rest_speed;
+        require("rest_speed", rest, (1e-12..=1e-2).contains(&rest), "from 1e-12 to 1e-2")?;
+        let rack = self.rack.guided_mass_ratio / heavier;
+        let parts = Parts { drivetrain: *self, structure, heavier, restitution: restitutions(&structure, sigma, rack)? };
+        match (structure.geometry, vertical) {
+            (Geometry::Slender, false) => parts.driven(parts.slender::<S, false>()?, next),
+            (Geometry::Slender, true) => parts.driven(parts.slender::<S, true>()?, next),
+            (Geometry::Full, false) => parts.full::<S, W, false>(next),
+            (Geometry::Full, true) => parts.full::<S, W, true>(next),
+        }
+    }
+
+    /// Whether flywheels have a speed of their own. Such a device moves by the consistent kinematics, whatever the structure
+    /// says: a rack whose acceleration is not the derivative of its speed would run away from a flywheel locked to it.
+    pub fn has_memory(&self, kind: DeviceKind) -> bool {
+        kind == DeviceKind::ClutchedPair && self.engagement != Engagement::Ideal
+    }
+}
+
+/// η with 0, 1 and 2 flywheels engaged through the impact, beside the guided rack.
+fn restitutions(structure: &Structure, sigma: f64, rack: f64) -> Result<[f64; 3], ParameterError> {
+    if structure.restitution != Restitution::MomentumBalance {
+        return Ok([structure.restitution()?; 3]);
+    }
+    let engaged = |count: f64| {
+        crate::restitution::momentum_balance(&structure.block, structure.geometry, &structure.device.mount, rack + count * sigma)
+    };
+    Ok([engaged(0.0)?, engaged(1.0)?, engaged(2.0)?])
+}
+
+struct Parts {
+    drivetrain: Drivetrain,
+    structure: Structure,
+    /// Its mass over that of the bare block.
+    heavier: f64,
+    restitution: [f64; 3],
+}
+
+impl Parts {
+    fn remembers(&self) -> bool {
+        self.drivetrain.has_memory(self.structure.device.kind)
+    }
+
+    fn slender<S: Real, const VERTICAL: bool>(&self) -> Result<SlenderBody<S, VERTICAL>, ParameterError> {
+        let Structure { block, device, .. } = &self.structure;
+        Ok(SlenderBody {
+            frequency_squared: S::of(block.frequency_parameter_squared()),
+            slenderness: S::of(block.slenderness()),
+            lever: S::of(math::square_root(device.mount.slender_lever_squared(block)?)),
+        })
+    }
+
+    fn full<S: Real, W: WithMachine<S>, const VERTICAL: bool>(&self, next: W) -> Result<W::Output, ParameterError> {
+        if self.remembers() || self.structure.device.kinematics == KinematicsKind::Consistent {
+            return self.driven(self.full_body::<S, Consistent, VERTICAL>()?, next);
+        }
+        Ok(self.without_memory(self.full_body::<S, Paper, VERTICAL>()?, next))
+    }
+
+    fn full_body<S: Real, K: Kinematics, const VERTICAL: bool>(&self) -> Result<FullBody<S, K, VERTICAL>, ParameterError> {
+        let Structure { block, device, .. } = &self.structure;
+        let constants = device.mount.lever(block)?;
+        Ok(FullBody {
+            block: FullBlock {
+                frequency_squared: S::of(block.frequency_parameter_squared()),
+                slenderness: S::of(block.slenderness()),
+            },
+            lever: TyingPoint { along: S::of(constants.along), across: S::of(constants.across) },
+            kinematics: PhantomData,
+        })
+    }
+
+    fn gears<S: Real>(&self) -> Gears<S> {
+        Gears::of(&self.drivetrain, &self.structure.block, self.structure.device.mass_ratio, self.heavier)
+    }
+
+    fn driven<S: Real, B: Body<S>, W: WithMachine<S>>(&self, body: B, next: W) -> Result<W::Output, ParameterError> {
+        Ok(if self.remembers() { self.with_memory(body, next) } else { self.without_memory(body, next) })
+    }
+
+    fn without_memory<S: Real, B: Body<S>, W: WithMachine<S>>(&self, body: B, next: W) -> W::Output {
+        let Drivetrain { flywheel, rack, .. } = &self.drivetrain;
+        let friction = *rack != Rack::default() || flywheel.viscous_rate != 0.0 || flywheel.dry_deceleration != 0.0;
+        match (self.structure.device.kind, friction) {
+            (DeviceKind::None, _) => next.with(self.machine(body, Alone)),
+            (DeviceKind::Inerter, false) => next.with(self.machine(body, Single::<S, false>(self.gears()))),
+            (DeviceKind::Inerter, true) => next.with(self.machine(body, Single::<S, true>(self.gears()))),
+            (DeviceKind::ClutchedPair, false) => next.with(self.machine(body, IdealPair::<S, false>(self.gears()))),
+            (DeviceKind::ClutchedPair, true) => next.with(self.machine(body, IdealPair::<S, true>(self.gears()))),
+        }
+    }
+
+    fn with_memory<S: Real, B: Body<S>, W: WithMachine<S>>(&self, body: B, next: W) -> W::Output {
+        match self.drivetrain.engagement {
+            Engagement::Ideal | Engagement::Rigid => next.with(self.machine(body, RigidPair(self.gears()))),
+            Engagement::Overrunning => next.with(self.machine(body, OverrunningPair(self.gears()))),
+            Engagement::Friction { .. } => next.with(self.machine(body, FrictionPair(self.gears()))),
+            Engagement::Elastic { .. } => next.with_elastic(self.machine(body, ElasticPair(self.gears()))),
+        }
+    }
+
+    fn machine<S: Real, B, D, const X: usize, const G: usize>(&self, body: B, drive: D) -> Machine<S, B, D, X, G> {
+        let block = &self.structure.block;
+        let speed = block.frequency_parameter() * block.slenderness();
+        Machine {
+            body,
+            drive,
+            restitution: self.restitution.map(S::of),
+            slenderness: S::of(block.slenderness()),
+            speed: S::of(speed),
+            rest_speed: S::of(self.structure.rest_speed * speed),
+            counted_speed: S::of(COUNTED_SPEED * speed),
+            actuator: Actuator::of(&self.drivetrain.actuation),
+        }
+    }
+}

@@ -1,0 +1,253 @@
+//! The Taylor method for a block with a device: one power series for every unknown and every watched function, and with
+//! them events to the last bits ([`crate::taylor`]).
+
+use core::cell::Cell;
+
+use super::path::{Path, PathStart, Tracer};
+use super::quantity::{Quantity, SLOTS};
+use crate::arc::{Arc, Motion};
+use crate::body::Body;
+use crate::drivetrain::device::Watch;
+use crate::drivetrain::drive::{Drive, Moment};
+use crate::ground::Piece;
+use crate::math::RECIPROCALS;
+use crate::polynomial;
+use crate::scalar::{Real, Sign};
+use crate::tape::{MAXIMUM_ORDER, Tape};
+
+/// A Taylor method with `N` coefficients for each quantity (8 to 32), and the tape it works on. One per thread: it is
+/// scratch space, not state.
+pub struct Series<S, const N: usize> {
+    tape: Tape<S, N, SLOTS>,
+    tolerance: S,
+    step: Option<S>,
+}
+
+impl<S: Real, const N: usize> Series<S, N> {
+    /// Steps of its own choice: as long as the series' last terms stay below `tolerance` times what matters.
+    pub fn adaptive(tolerance: S) -> Self {
+        const { assert!(N >= 8 && N <= MAXIMUM_ORDER) };
+        Series { tape: Tape::default(), tolerance, step: None }
+    }
+
+    /// Fixed steps of `step` s (above 0), order N − 2.
+    pub fn fixed(step: S) -> Self {
+        Series { step: Some(step), ..Series::adaptive(S::ZERO) }
+    }
+}
+
+impl<S: Real, const N: usize> core::fmt::Debug for Series<S, N> {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        formatter.debug_struct("Series").field("tolerance", &self.tolerance).field("step", &self.step).finish()
+    }
+}
+
+/// The series of one step.
+#[derive(Clone, Copy, Debug)]
+pub struct SeriesPath<S, const N: usize, const X: usize, const G: usize> {
+    length: S,
+    /// Coefficients in use, of θ.
+    terms: usize,
+    rotation: [S; N],
+    velocity: [S; N],
+    acceleration: [S; N],
+    extra: [[S; N]; X],
+    guards: [[S; N]; G],
+}
+
+impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
+    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, P: Piece<S> + 'a, Q: Piece<S> + 'a, const X: usize, const G: usize> =
+        SeriesPath<S, N, X, G>;
+
+    #[inline(never)]
+    fn path<'a, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, const X: usize, const G: usize>(
+        &'a self,
+        start: PathStart<'a, S, B, D, P, Q, X>,
+    ) -> SeriesPath<S, N, X, G> {
+        // θ, θ̇, the ground twice and the clock, then the device's unknowns.
+        const GIVEN: usize = 5;
+        let tape = &self.tape;
+        let next = Cell::new(GIVEN + X);
+        let side = start.side.unit();
+        let none = [S::ZERO; N];
+        let mut path = SeriesPath {
+            length: start.length,
+            terms: N,
+            rotation: none,
+            velocity: none,
+            acceleration: none,
+            extra: [none; X],
+            guards: [none; G],
+        };
+        let (mut ground, mut vertical) = (none, none);
+        start.shaking.horizontal.series(start.time, &mut ground);
+        if B::VERTICAL {
+            start.shaking.vertical.series(start.time, &mut vertical);
+        }
+        path.rotation[0] = start.rotation;
+        path.rotation[1] = start.velocity;
+        path.velocity[0] = start.velocity;
+        tape.set(0, 0, start.rotation);
+        tape.set(0, 1, start.velocity);
+        tape.set(1, 0, start.velocity);
+        for (i, &value) in start.extra.iter().enumerate() {
+            path.extra[i][0] = value;
+            tape.set(GIVEN + i, 0, value);
+        }
+        let scale = start.scale.larger(start.rotation.abs());
+        let sizes = start.drive.scales(start.speed);
+        let tolerance = self.tolerance * scale;
+        let mut power = start.length * start.length;
+        let mut previous = S::ONE;
+        let mut push_power = S::ONE;
+        for k in 0..N - 2 {
+            tape.set(2, k, ground[k]);
+            if B::VERTICAL {
+                tape.set(3, k, vertical[k]);
+            }
+            tape.set(4, k, if k == 1 { S::ONE } else { S::ZERO });
+            next.set(GIVEN + X);
+            let given = |slot| Quantity(tape.given(&next, k, slot));
+            let (theta, omega, push) = (given(0), given(1), given(2));
+            let up = if B::VERTICAL { given(3) } else { push };
+            let at = Moment {
+                body: start.body,
+                law: &start.law,
+                posture: start.body.posture(side, theta),
+                velocity: omega,
+                extra: core::array::from_fn(|i| given(GIVEN + i)),
+                ground: [push, up],
+                clock: given(4),
+            };
+            let (acceleration, rates) = start.drive.flow(&at);
+            let a = acceleration.0.last();
+            let reciprocal = S::of(RECIPROCALS[(k + 1) & 63]);
+            let v = a * reciprocal;
+            let c = v * S::of(RECIPROCALS[(k + 2) & 63]);
+            let mut term = (c * power).abs().larger((ground[k] * push_power).abs());
+            if B::VERTICAL {
+                term = term.larger((vertical[k] * push_power).abs());
+            }
+            for (i, rate) in rates.iter().enumerate() {
+                let coefficient = rate.0.last() * reciprocal;
+                path.extra[i][k + 1] = coefficient;
+                tape.set(GIVEN + i, k + 1, coefficient);
+                term = term.larger((coefficient * push_power * start.length).abs() * (scale / sizes[i]));
+            }
+            for (i, guard) in path.guards.iter_mut().enumerate() {
+                let watch = start.law.watch[i];
+                if watch != Watch::Nothing {
+                    guard[k] = start.drive.guard(&at, acceleration, watch).0.last();
+                }
+            }
+            path.acceleration[k] = a;
+            path.velocity[k + 1] = v;
+            path.rotation[k + 2] = c;
+            tape.set(1, k + 1, v);
+            tape.set(0, k + 2, c);
+            if k >= 3 && term <= tolerance && previous <= tolerance * S::of(50.0) {
+                path.terms = k + 3;
+                break;
+            }
+            previous = term;
+            push_power = push_power * start.length;
+            power = power * start.length;
+        }
+        if self.step.is_none() && path.terms == N {
+            // Jorba and Zou's two-term rule over every unknown; those of the first order have one coefficient fewer.
+            for back in [2, 1] {
+                path.reach(N - back, path.rotation[N - back].abs(), tolerance);
+                for i in 0..X {
+                    let order = N - 1 - back;
+                    path.reach(order, path.extra[i][order].abs() * (scale / sizes[i]), tolerance);
+                }
+            }
+        }
+        path
+    }
+
+    #[inline(always)]
+    fn step(&self) -> Option<S> {
+        self.step
+    }
+}
+
+impl<S: Real, const N: usize, const X: usize, const G: usize> Arc<S> for SeriesPath<S, N, X, G> {
+    #[inline(always)]
+    fn length(&self) -> S {
+        self.length
+    }
+
+    #[inline(never)]
+    fn at(&self, time: S) -> Motion<S> {
+        if time == S::ZERO {
+            return Motion { rotation: self.rotation[0], velocity: self.velocity[0], acceleration: self.acceleration[0] };
+        }
+        let n = self.terms.min(N);
+        Motion {
+            rotation: polynomial::value(&self.rotation[..n], time),
+            velocity: polynomial::value(&self.velocity[..n - 1], time),
+            acceleration: polynomial::value(&self.acceleration[..n - 2], time),
+        }
+    }
+
+    #[inline]
+    fn switching(&self, time: S) -> S {
+        self.at(time).acceleration
+    }
+
+    #[inline]
+    fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
+        let coefficients = &self.acceleration[..self.terms.min(N) - 2];
+        let curvature = polynomial::curvature_bound(coefficients, self.length);
+        polynomial::largest_magnitude(coefficients, curvature, from, to, floor)
+    }
+}
+
+impl<S: Real, const N: usize, const X: usize, const G: usize> SeriesPath<S, N, X, G> {
+    /// Shortens the path until a term of `order` with this `coefficient` stays below `tolerance`.
+    #[inline]
+    fn reach(&mut self, order: usize, coefficient: S, tolerance: S) {
+        if coefficient != S::ZERO {
+            let reach = (tolerance / coefficient).rough_power(S::of(RECIPROCALS[order & 63])) * S::of(0.95);
+            self.length = self.length.smaller(reach);
+        }
+    }
+
+    #[inline(never)]
+    fn zero(&self, coefficients: &[S], to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        let curvature = polynomial::curvature_bound(coefficients, to);
+        polynomial::first_zero(coefficients, curvature, S::ZERO, to, sign, from_zero)
+    }
+}
+
+impl<S: Real, const N: usize, const X: usize, const G: usize> Path<S, X> for SeriesPath<S, N, X, G> {
+    #[inline(never)]
+    fn extra(&self, time: S) -> [S; X] {
+        let n = self.terms.min(N) - 1;
+        core::array::from_fn(|i| polynomial::value(&self.extra[i][..n], time))
+    }
+
+    #[inline(never)]
+    fn guard(&self, index: usize, time: S) -> S {
+        let n = self.terms.min(N) - 2;
+        self.guards.get(index).map_or(S::ONE, |guard| polynomial::value(&guard[..n], time))
+    }
+
+    #[inline]
+    fn velocity_zero(&self, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        self.zero(&self.velocity[..self.terms.min(N) - 1], to, sign, from_zero)
+    }
+
+    #[inline]
+    fn guard_zero(&self, index: usize, to: S, from_zero: bool) -> Option<S> {
+        let guard = self.guards.get(index)?;
+        self.zero(&guard[..self.terms.min(N) - 2], to, Sign::Positive, from_zero)
+    }
+
+    #[inline]
+    fn extra_zero(&self, index: usize, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        let unknown = self.extra.get(index)?;
+        self.zero(&unknown[..self.terms.min(N) - 1], to, sign, from_zero)
+    }
+}

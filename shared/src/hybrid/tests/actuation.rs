@@ -1,0 +1,101 @@
+//! Delays, dwell, ramps and missed commands, against the clock.
+
+use std::vec::Vec;
+
+use super::{Seen, pair, tight};
+use crate::block::Geometry;
+use crate::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses};
+use crate::observer::Event;
+
+fn with(actuation: Actuation) -> Drivetrain {
+    Drivetrain { actuation, ..Drivetrain::default() }
+}
+
+fn switches(seen: &Seen) -> Vec<f64> {
+    seen.events.iter().filter(|(event, _)| *event == Event::Switch).map(|(_, time)| *time).collect()
+}
+
+/// The first command comes with uplift, and the clutch obeys it after exactly the delay.
+#[test]
+fn an_engagement_comes_late_by_its_delay() {
+    let shake = pair(Geometry::Full, 3.0, 5.0);
+    let uplift = |seen: &Seen| seen.events.iter().find(|(event, _)| *event == Event::Uplift).unwrap().1;
+    for delay in [1e-3, 0.02, 0.05] {
+        let seen = shake.machine(&with(Actuation { engagement_delay: delay, ..Actuation::default() }), &tight());
+        assert!((switches(&seen)[0] - uplift(&seen) - delay).abs() < 1e-12, "{delay}");
+    }
+}
+
+/// A release comes late by its delay after the bracket has changed its sign.
+#[test]
+fn a_release_comes_late_by_its_delay() {
+    let shake = pair(Geometry::Full, 3.0, 5.0);
+    let prompt = switches(&shake.machine(&Drivetrain::default(), &tight()));
+    let delay = 0.01;
+    let late = switches(&shake.machine(&with(Actuation { release_delay: delay, ..Actuation::default() }), &tight()));
+    // Engaged at uplift, released at the first zero of the acceleration: so far both are one motion.
+    assert!((late[1] - prompt[1] - delay).abs() < 1e-9, "{late:?} and {prompt:?}");
+}
+
+/// No delay is no delay, to the last bit.
+#[test]
+fn a_seed_without_a_probability_changes_nothing() {
+    let shake = pair(Geometry::Full, 3.0, 5.0);
+    let (plain, seeded) = (Actuation::default(), Actuation { miss_seed: 7, ..Actuation::default() });
+    let peaks = [plain, seeded].map(|actuation| shake.machine(&with(actuation), &tight()).peak.to_bits());
+    assert_eq!(peaks[0], peaks[1]);
+}
+
+/// A clutch that misses every command is none.
+#[test]
+fn a_clutch_that_never_obeys_is_none() {
+    let shake = pair(Geometry::Full, 3.0, 5.0);
+    let never = shake.machine(&with(Actuation { miss_probability: 1.0, ..Actuation::default() }), &tight());
+    let mut alone = shake;
+    alone.structure.device = crate::structure::Device::NONE;
+    assert!(switches(&never).is_empty());
+    assert!((never.peak / alone.ideal().peak - 1.0).abs() < 1e-12);
+}
+
+/// Missed commands are drawn from seed and number: one in four, and the same ones every time.
+#[test]
+fn misses_follow_their_probability() {
+    let actuator =
+        crate::hybrid::Actuator::<f64>::of(&Actuation { miss_probability: 0.25, miss_seed: 42, ..Actuation::default() });
+    let missed = (0..100_000).filter(|count| actuator.misses(*count)).count();
+    assert!((missed as f64 / 25_000.0 - 1.0).abs() < 0.03, "{missed}");
+}
+
+/// Between two moves of one clutch lies at least its dwell.
+#[test]
+fn a_clutch_dwells() {
+    let shake = pair(Geometry::Full, 6.0, 6.0);
+    let dwell = 0.08;
+    let seen = shake.machine(&with(Actuation { dwell, ..Actuation::default() }), &tight());
+    let moves = switches(&seen);
+    let rests: Vec<f64> = seen.events.iter().filter(|(event, _)| *event == Event::Rest).map(|(_, time)| *time).collect();
+    assert!(moves.len() > 4);
+    // Two clutches: every second move may belong to the other one.
+    for triple in moves.windows(3) {
+        let ends = rests.iter().any(|rest| (triple[2] - rest).abs() < 1e-12);
+        assert!(ends || triple[2] - triple[0] > dwell - 1e-9, "{triple:?}");
+    }
+}
+
+/// A slow rise of the capacity lies between no clutch and a fast one, and takes less from the plates' force.
+#[test]
+fn a_capacity_that_rises_slowly_carries_less() {
+    let shake = pair(Geometry::Full, 3.0, 5.0);
+    let plates = |rise_time: f64| Drivetrain {
+        engagement: Engagement::Friction { capacity_ratio: 0.05 },
+        flywheel: FlywheelLosses { brake_deceleration: f64::INFINITY, ..FlywheelLosses::default() },
+        actuation: Actuation { rise_time, ..Actuation::default() },
+        ..Drivetrain::default()
+    };
+    let peak = |rise_time: f64| shake.machine(&plates(rise_time), &tight()).peak;
+    let mut alone = shake;
+    alone.structure.device = crate::structure::Device::NONE;
+    let (at_once, short, never) = (peak(0.0), peak(1e-6), alone.ideal().peak);
+    assert!((short / at_once - 1.0).abs() < 1e-4, "{short} and {at_once}");
+    assert!((peak(9.0) / never - 1.0).abs() < 0.05, "{} and {never}", peak(9.0));
+}

@@ -1,0 +1,182 @@
+//! Vertical ground motion, guided racks and rack friction, against what they amount to.
+
+use super::{Ground, Shake, pair, shake, structure, tight};
+use crate::block::Geometry;
+use crate::body::Body;
+use crate::drivetrain::drive::Drive;
+use crate::drivetrain::{Drivetrain, Rack};
+use crate::hybrid::path::Shaking;
+use crate::hybrid::resolve::WithMachine;
+use crate::hybrid::{Machine, series::Series};
+use crate::observer::{Event, Peaks};
+use crate::rocking::{Limits, Phase};
+use crate::structure::{DeviceKind, KinematicsKind};
+
+/// One piece of ground motion in both directions.
+struct Both(Ground, Ground, f64, bool);
+
+impl WithMachine<f64> for Both {
+    type Output = (f64, Phase);
+    fn with<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
+        self,
+        machine: Machine<f64, B, D, X, G>,
+    ) -> Self::Output {
+        assert_eq!(B::VERTICAL, self.3);
+        struct Watch(Peaks<f64>);
+        impl crate::snapshot::DeviceObserver<f64> for Watch {
+            fn device_stretch(&mut self, arc: &dyn crate::snapshot::DeviceArc<f64>, stretch: &crate::observer::Stretch<f64>) {
+                crate::observer::Observer::stretch(&mut self.0, &arc, stretch);
+            }
+        }
+        let (mut state, mut watch) = (machine.at_rest(), Watch(Peaks::default()));
+        let shaking = Shaking { horizontal: &self.0, vertical: &self.1 };
+        let limits = Limits { overturned: 1.2, events: 100_000 };
+        machine.advance(&tight(), &mut state, shaking, self.2, &limits, &mut watch).unwrap();
+        (watch.0.rotation, state.motion.phase)
+    }
+}
+
+/// Under a constant vertical acceleration gravity is another one: the motion is that without it, scaled in time by
+/// √(1 + v̈_g/g), under a push divided by 1 + v̈_g/g.
+#[test]
+fn constant_vertical_acceleration_is_another_gravity() {
+    for geometry in [Geometry::Slender, Geometry::Full] {
+        for kind in [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair] {
+            for vertical in [-0.4, 0.3] {
+                let structure = structure(geometry, 12.0, kind, 0.4, KinematicsKind::Consistent);
+                let (amplitude, frequency) = (0.9, 12.0);
+                let stretch = f64::sqrt(1.0 + vertical);
+                let (plain, lifted) = (
+                    Both(Ground::sine(amplitude, frequency), Ground::constant(0.0), 2.0, false),
+                    Both(
+                        Ground::sine(amplitude * (1.0 + vertical), frequency * stretch),
+                        Ground::constant(vertical),
+                        2.0 / stretch,
+                        true,
+                    ),
+                );
+                let plain = Drivetrain::default().resolve(&structure, false, plain).unwrap();
+                let lifted = Drivetrain::default().resolve(&structure, true, lifted).unwrap();
+                assert_eq!(plain.1, lifted.1);
+                assert!((plain.0 / lifted.0 - 1.0).abs() < 1e-10, "{geometry:?} {kind:?} {vertical}: {plain:?} {lifted:?}");
+            }
+        }
+    }
+}
+
+/// At rest the block waits for |ü_g| > (g + v̈_g) tan α.
+#[test]
+fn vertical_acceleration_moves_the_uplift_threshold() {
+    let structure = structure(Geometry::Full, 12.0, DeviceKind::None, 0.0, KinematicsKind::Paper);
+    let threshold = structure.block.slenderness().tan();
+    for (push, rocks) in [(0.999, false), (1.001, true)] {
+        let both = Both(Ground::constant(threshold * 0.7 * push), Ground::constant(-0.3), 0.5, true);
+        let (_, phase) = Drivetrain::default().resolve(&structure, true, both).unwrap();
+        assert_eq!(phase == Phase::Rocking, rocks);
+    }
+}
+
+/// A slender block with a guided rack is a slender block: inertia 1 + σ_r/λ, and a push 1 + σ_r as strong.
+#[test]
+fn a_guided_rack_is_inertia_and_push() {
+    let sigma = 0.2;
+    let rack = Drivetrain { rack: Rack { guided_mass_ratio: sigma, ..Rack::default() }, ..Drivetrain::default() };
+    let with = shake(structure(Geometry::Slender, 10.0, DeviceKind::Inerter, 0.0, KinematicsKind::Paper), 2.0, 4.0);
+    // The inertia is that of an inerter of the same mass; the push of the ground on it is the rest.
+    let same =
+        shake(structure(Geometry::Slender, 10.0, DeviceKind::Inerter, sigma, KinematicsKind::Paper), 2.0 * (1.0 + sigma), 4.0);
+    let (guided, plain) = (with.machine(&rack, &tight()), same.ideal());
+    assert!((guided.peak / plain.peak - 1.0).abs() < 1e-11, "{} and {}", guided.peak, plain.peak);
+    assert_eq!(guided.impacts, plain.impacts);
+}
+
+fn dry(ratio: f64) -> Drivetrain {
+    Drivetrain { rack: Rack { dry_ratio: ratio, ..Rack::default() }, ..Drivetrain::default() }
+}
+
+/// Free fall from θ₀ to the first turn on the other side without impact losses: dry friction takes F times the travel.
+#[test]
+fn dry_friction_takes_its_force_times_the_travel() {
+    let mut structure = structure(Geometry::Slender, 10.0, DeviceKind::Inerter, 0.3, KinematicsKind::Paper);
+    structure.restitution = crate::restitution::Restitution::Constant(1.0);
+    let (p2, alpha) = (structure.block.frequency_parameter_squared(), structure.block.slenderness());
+    let force = 0.01;
+    struct Swing(f64);
+    impl WithMachine<f64> for Swing {
+        type Output = std::vec::Vec<f64>;
+        fn with<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
+            self,
+            machine: Machine<f64, B, D, X, G>,
+        ) -> Self::Output {
+            #[derive(Default)]
+            struct Turns(std::vec::Vec<f64>);
+            impl crate::snapshot::DeviceObserver<f64> for Turns {
+                fn device_event(&mut self, event: Event, _time: f64, state: &crate::rocking::State<f64>) {
+                    if event == Event::Turn {
+                        self.0.push(state.rotation);
+                    }
+                }
+            }
+            let mut state = machine.released_at(self.0, 0.0, [0.0; 2]);
+            let mut turns = Turns::default();
+            let quiet = Ground::QUIET;
+            let limits = Limits { overturned: 1.0, events: 10_000 };
+            let shaking = Shaking { horizontal: &quiet, vertical: &quiet };
+            machine.advance(&Series::<f64, 20>::adaptive(1e-17), &mut state, shaking, 6.0, &limits, &mut turns).unwrap();
+            turns.0
+        }
+    }
+    let start = 0.6 * alpha;
+    let turns = dry(force).resolve(&structure, false, Swing(start)).unwrap();
+    // p²(α|θ| − θ²/2) falls by p² F/(mg) over every unit of travel.
+    let energy = |theta: f64| p2 * (alpha * theta.abs() - 0.5 * theta * theta);
+    let mut before = start;
+    assert!(turns.len() > 3, "{turns:?}");
+    for turn in turns {
+        let lost = energy(before) - energy(turn);
+        let expected = p2 * force * (before.abs() + turn.abs());
+        assert!((lost / expected - 1.0).abs() < 1e-9, "{lost} and {expected}");
+        before = turn;
+    }
+}
+
+/// Near the unstable equilibrium the weight hardly moves the block, and rack friction holds it there.
+#[test]
+fn friction_holds_a_block_where_nothing_else_does() {
+    let structure = structure(Geometry::Full, 10.0, DeviceKind::Inerter, 0.3, KinematicsKind::Paper);
+    let alpha = structure.block.slenderness();
+    struct Release(f64);
+    impl WithMachine<f64> for Release {
+        type Output = (f64, bool);
+        fn with<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
+            self,
+            machine: Machine<f64, B, D, X, G>,
+        ) -> Self::Output {
+            let mut state = machine.released_at(self.0, 0.0, [0.0; 2]);
+            let quiet = Ground::QUIET;
+            let limits = Limits { overturned: 1.5, events: 10_000 };
+            let shaking = Shaking { horizontal: &quiet, vertical: &quiet };
+            machine.advance(&Series::<f64, 20>::adaptive(1e-17), &mut state, shaking, 1.0, &limits, &mut ()).unwrap();
+            (state.motion.rotation, state.held)
+        }
+    }
+    // Held while |sin(α − θ)| ≤ F/(mg) cos(α − θ).
+    let reach = 0.02_f64.atan();
+    for (angle, held) in [(alpha - 0.99 * reach, true), (alpha - 1.01 * reach, false), (alpha + 0.99 * reach, true)] {
+        let (rotation, stays) = dry(0.02).resolve(&structure, false, Release(angle)).unwrap();
+        assert_eq!(stays, held, "at {angle}");
+        assert_eq!(rotation == angle, held, "at {angle}: {rotation}");
+    }
+}
+
+/// A mirrored pulse gives the mirrored motion.
+#[test]
+fn devices_are_symmetric() {
+    for (name, drivetrain) in super::drivetrains() {
+        let shake = pair(Geometry::Full, 3.0, 5.0);
+        let mirrored = Shake { amplitude: -shake.amplitude, ..shake };
+        let (one, other) = (shake.machine(&drivetrain, &tight()), mirrored.machine(&drivetrain, &tight()));
+        assert_eq!(one.peak.to_bits(), other.peak.to_bits(), "{name}");
+        assert_eq!(one.spins[0].to_bits(), (-other.spins[1]).to_bits(), "{name}");
+    }
+}

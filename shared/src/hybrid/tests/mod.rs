@@ -1,0 +1,308 @@
+//! The loop for devices with a memory, against the loop for ideal ones, closed forms, limits and other methods.
+
+mod actuation;
+mod energy;
+mod ground;
+mod limits;
+mod methods;
+
+use std::vec::Vec;
+
+use super::path::{Shaking, Tracer};
+use super::resolve::WithMachine;
+use super::series::Series;
+use super::{Machine, MachineState};
+use crate::block::{Block, Geometry};
+use crate::body::Body;
+use crate::carried::Carried;
+use crate::clutch::Clutch;
+use crate::detected::Switched;
+use crate::drivetrain::drive::Drive;
+use crate::drivetrain::elastic::ElasticPair;
+use crate::drivetrain::{Drivetrain, Engagement, FlywheelLosses, Rack};
+use crate::equation::Equation;
+use crate::ground::{Harmonics, Linear, Piece, Quiet};
+use crate::hybrid::exponential::ExponentialMidpoint;
+use crate::lever::Mount;
+use crate::observer::{Event, Peaks};
+use crate::restitution::Restitution;
+use crate::rocking::{Limits, State, System};
+use crate::snapshot::DeviceObserver;
+use crate::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Structure, WithSystem};
+use crate::taylor::Taylor;
+
+/// Every ground motion of these tests as one type, so that there is one copy of every loop.
+#[derive(Clone, Copy, Debug)]
+pub enum Ground {
+    Sine(Harmonics<f64, 1>),
+    Line(Linear<f64>),
+}
+
+impl Ground {
+    pub const QUIET: Ground = Ground::Line(Linear { start: 0.0, slope: 0.0 });
+
+    pub fn sine(amplitude: f64, frequency: f64) -> Ground {
+        Ground::Sine(Harmonics::sine(amplitude, frequency))
+    }
+
+    pub fn constant(level: f64) -> Ground {
+        Ground::Line(Linear::constant(level))
+    }
+}
+
+impl Piece<f64> for Ground {
+    fn acceleration(&self, time: f64) -> f64 {
+        match self {
+            Ground::Sine(sine) => sine.acceleration(time),
+            Ground::Line(line) => line.acceleration(time),
+        }
+    }
+
+    fn slope(&self, time: f64) -> f64 {
+        match self {
+            Ground::Sine(sine) => sine.slope(time),
+            Ground::Line(line) => Piece::slope(line, time),
+        }
+    }
+
+    fn curvature_bound(&self) -> f64 {
+        match self {
+            Ground::Sine(sine) => sine.curvature_bound(),
+            Ground::Line(_) => 0.0,
+        }
+    }
+
+    fn series(&self, time: f64, coefficients: &mut [f64]) {
+        match self {
+            Ground::Sine(sine) => sine.series(time, coefficients),
+            Ground::Line(line) => line.series(time, coefficients),
+        }
+    }
+}
+
+/// A block with α and σ under one sine cycle, then left alone.
+#[derive(Clone, Copy, Debug)]
+pub struct Shake {
+    pub structure: Structure,
+    /// In g.
+    pub amplitude: f64,
+    /// rad/s.
+    pub frequency: f64,
+    /// s.
+    pub free_time: f64,
+}
+
+/// What both loops report.
+#[derive(Clone, Debug, Default)]
+pub struct Seen {
+    pub peak: f64,
+    pub acceleration: f64,
+    pub impacts: u32,
+    pub ended: Option<f64>,
+    pub events: Vec<(Event, f64)>,
+    pub state: State<f64>,
+    pub spins: [f64; 2],
+}
+
+pub fn structure(geometry: Geometry, degrees: f64, kind: DeviceKind, sigma: f64, kinematics: KinematicsKind) -> Structure {
+    Structure {
+        block: Block::new(2.0, degrees.to_radians(), 4.0 / 3.0).unwrap(),
+        geometry,
+        device: Device { kind, mass_ratio: sigma, mount: Mount::CentreOfMass, kinematics },
+        restitution: Restitution::Constant(0.85),
+        carried: Carried::NONE,
+        rest_speed: REST_SPEED,
+    }
+}
+
+pub fn shake(structure: Structure, amplitude: f64, frequency: f64) -> Shake {
+    let p = structure.block.frequency_parameter();
+    let amplitude = amplitude * structure.geometry.uplift_threshold(&structure.block);
+    Shake { structure, amplitude, frequency: frequency * p, free_time: 12.0 / p }
+}
+
+/// Peaks of a machine, as those of a system.
+#[derive(Default)]
+struct Watcher {
+    peaks: Peaks<f64>,
+    events: Vec<(Event, f64)>,
+}
+
+impl DeviceObserver<f64> for Watcher {
+    fn device_stretch(&mut self, arc: &dyn crate::snapshot::DeviceArc<f64>, stretch: &crate::observer::Stretch<f64>) {
+        crate::observer::Observer::stretch(&mut self.peaks, &arc, stretch);
+    }
+
+    fn device_event(&mut self, event: Event, time: f64, state: &State<f64>) {
+        crate::observer::Observer::event(&mut self.peaks, event, time, state);
+        self.events.push((event, self.peaks.origin + time));
+    }
+}
+
+impl Shake {
+    fn limits(&self, quiet: bool) -> Limits<f64> {
+        let bound = if quiet { 0.0 } else { self.amplitude.abs() };
+        let block = self.structure.loaded().unwrap().block;
+        Limits { overturned: self.structure.geometry.point_of_no_return(&block, bound), events: 100_000 }
+    }
+
+    /// By the loop for ideal devices.
+    pub fn ideal(&self) -> Seen {
+        struct Run<'a>(&'a Shake);
+        impl WithSystem<f64> for Run<'_> {
+            type Output = Seen;
+            fn with<R: Equation<f64>, E: Switched<f64>, C: Clutch>(self, system: System<f64, R, E, C>) -> Seen {
+                struct Every(Peaks<f64>);
+                impl crate::observer::Observer<f64> for Every {
+                    fn stretch<A: crate::arc::Arc<f64>>(&mut self, arc: &A, stretch: &crate::observer::Stretch<f64>) {
+                        self.0.stretch(arc, stretch);
+                    }
+                    fn event(&mut self, event: Event, time: f64, state: &State<f64>) {
+                        self.0.event(event, time, state);
+                    }
+                }
+                let method = Taylor::<f64, 20>::adaptive(1e-17);
+                let (mut state, mut peaks) = (State::default(), Every(Peaks::default()));
+                let pulse = Harmonics::sine(self.0.amplitude, self.0.frequency);
+                let duration = core::f64::consts::TAU / self.0.frequency;
+                system.advance(&method, &mut state, &pulse, duration, &self.0.limits(false), &mut peaks).unwrap();
+                peaks.0.origin = duration;
+                system.advance(&method, &mut state, &Quiet, self.0.free_time, &self.0.limits(true), &mut peaks).unwrap();
+                let peaks = peaks.0;
+                Seen {
+                    peak: peaks.rotation,
+                    acceleration: peaks.acceleration,
+                    impacts: state.impacts,
+                    ended: peaks.ended,
+                    state,
+                    ..Seen::default()
+                }
+            }
+        }
+        self.structure.resolve(Run(self)).unwrap()
+    }
+
+    /// By the loop for devices with a memory.
+    pub fn machine<T: Tracer<f64>>(&self, drivetrain: &Drivetrain, method: &T) -> Seen {
+        self.watched(drivetrain, method, &mut ())
+    }
+
+    /// The same, with a `watcher`.
+    pub fn watched<T: Tracer<f64>>(&self, drivetrain: &Drivetrain, method: &T, watcher: &mut dyn DeviceObserver<f64>) -> Seen {
+        struct Run<'a, T>(&'a Shake, &'a T, &'a mut dyn DeviceObserver<f64>);
+        impl<T: Tracer<f64>> WithMachine<f64> for Run<'_, T> {
+            type Output = Seen;
+            fn with<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
+                self,
+                machine: Machine<f64, B, D, X, G>,
+            ) -> Seen {
+                self.0.follow(&machine, self.1, self.2)
+            }
+        }
+        drivetrain.resolve(&self.structure, false, Run(self, method, watcher)).unwrap()
+    }
+
+    /// An elastic clutch by the exponential midpoint method.
+    pub fn exponential(&self, drivetrain: &Drivetrain, step: f64) -> Seen {
+        struct Run<'a>(&'a Shake, f64);
+        impl WithMachine<f64> for Run<'_> {
+            type Output = Seen;
+            fn with<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
+                self,
+                _machine: Machine<f64, B, D, X, G>,
+            ) -> Seen {
+                panic!("not an elastic clutch")
+            }
+            fn with_elastic<B: Body<f64>>(self, machine: Machine<f64, B, ElasticPair<f64>, 4, 3>) -> Seen {
+                self.0.follow(&machine, &ExponentialMidpoint { step: self.1 }, &mut ())
+            }
+        }
+        drivetrain.resolve(&self.structure, false, Run(self, step)).unwrap()
+    }
+
+    fn follow<B: Body<f64>, D: Drive<f64, X, G>, T: Tracer<f64>, const X: usize, const G: usize>(
+        &self,
+        machine: &Machine<f64, B, D, X, G>,
+        method: &T,
+        watcher: &mut dyn DeviceObserver<f64>,
+    ) -> Seen {
+        let mut watcher = (Watcher::default(), watcher);
+        let mut state: MachineState<f64> = machine.at_rest();
+        let pulse = Ground::sine(self.amplitude, self.frequency);
+        let duration = core::f64::consts::TAU / self.frequency;
+        let shaking = Shaking { horizontal: &pulse, vertical: &Ground::QUIET };
+        machine.advance(method, &mut state, shaking, duration, &self.limits(false), &mut watcher).unwrap();
+        watcher.0.peaks.origin = duration;
+        let shaking = Shaking { horizontal: &Ground::QUIET, vertical: &Ground::QUIET };
+        machine.advance(method, &mut state, shaking, self.free_time, &self.limits(true), &mut watcher).unwrap();
+        let own = watcher.0;
+        Seen {
+            peak: own.peaks.rotation,
+            acceleration: own.peaks.acceleration,
+            impacts: state.motion.impacts,
+            ended: own.peaks.ended,
+            events: own.events,
+            state: state.motion,
+            spins: state.device.wheels.map(|wheel| wheel.spin),
+        }
+    }
+}
+
+/// Every kind of drivetrain, with losses where they belong.
+pub fn drivetrains() -> [(&'static str, Drivetrain); 7] {
+    let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 5.0 };
+    let bearings = FlywheelLosses { brake_deceleration: 0.0, ..flywheel };
+    let rack = Rack { guided_mass_ratio: 0.02, viscous: 0.05, dry_ratio: 0.004 };
+    let of = |engagement, flywheel, rack| Drivetrain { engagement, flywheel, rack, ..Drivetrain::default() };
+    let elastic = |backlash, capacity_ratio| Engagement::Elastic { stiffness: 3e3, damping: 8.0, backlash, capacity_ratio };
+    [
+        ("ideal with friction", of(Engagement::Ideal, bearings, rack)),
+        ("rigid", of(Engagement::Rigid, flywheel, rack)),
+        ("overrunning", of(Engagement::Overrunning, bearings, rack)),
+        ("friction clutch", of(Engagement::Friction { capacity_ratio: 0.03 }, flywheel, rack)),
+        (
+            "elastic",
+            of(
+                Engagement::Elastic { stiffness: 3e3, damping: 8.0, backlash: 0.0, capacity_ratio: f64::INFINITY },
+                flywheel,
+                rack,
+            ),
+        ),
+        ("elastic with play", of(elastic(2e-3, f64::INFINITY), flywheel, rack)),
+        ("elastic with play and plates", of(elastic(2e-3, 0.03), flywheel, rack)),
+    ]
+}
+
+pub fn pair(geometry: Geometry, amplitude: f64, frequency: f64) -> Shake {
+    shake(structure(geometry, 15.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent), amplitude, frequency)
+}
+
+pub fn tight() -> Series<f64, 20> {
+    Series::adaptive(1e-17)
+}
+
+const KINDS: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
+
+/// With an ideal drivetrain it is a second program for the same model.
+#[test]
+fn ideal_devices_move_as_in_their_own_loop() {
+    for geometry in [Geometry::Slender, Geometry::Full] {
+        for kind in KINDS {
+            for kinematics in [KinematicsKind::Paper, KinematicsKind::Consistent] {
+                for (amplitude, frequency) in [(1.5, 4.0), (3.0, 5.0), (6.0, 6.0), (1.2, 1.0)] {
+                    let shake = shake(structure(geometry, 15.0, kind, 0.5, kinematics), amplitude, frequency);
+                    let (own, other) = (shake.ideal(), shake.machine(&Drivetrain::default(), &tight()));
+                    let what = std::format!("{geometry:?} {kind:?} {kinematics:?} a = {amplitude}, ω/p = {frequency}");
+                    assert!((own.peak / other.peak - 1.0).abs() < 1e-11, "{what}: {} and {}", own.peak, other.peak);
+                    assert!((own.acceleration / other.acceleration - 1.0).abs() < 1e-10, "{what}: θ̈");
+                    assert_eq!(own.impacts, other.impacts, "{what}");
+                    assert_eq!(own.state.phase, other.state.phase, "{what}");
+                    match (own.ended, other.ended) {
+                        (Some(a), Some(b)) => assert!((a / b - 1.0).abs() < 1e-9, "{what}: ends at {a} and {b}"),
+                        (a, b) => assert_eq!(a.is_some(), b.is_some(), "{what}"),
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,241 @@
+//! `sprag sensitivity`: what each effect changes, alone and together, under one or many ground motions.
+
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use serde::Serialize;
+
+use super::BAD_INPUT;
+use crate::interrupt::{self, Interrupt};
+use crate::output::{OutputError, Results, make_folder};
+use crate::plot::{OwnMark, PlotError, SensitivityLane, SensitivityRow, sensitivity_figure};
+use crate::scene::ground::{GroundError, Motion};
+use crate::scene::schema::SceneFile;
+use crate::scene::{Scene, SceneError};
+use crate::sensitivity::motion::{RecordFiles, StudyMotion};
+use crate::sensitivity::report::{page, table, write_csv};
+use crate::sensitivity::statistics::{Summary, summaries};
+use crate::sensitivity::study::{Findings, Flip, Study};
+use crate::simulation::RunError;
+
+/// Turn each effect on alone, and all of a realistic device together: does it matter?
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag sensitivity scenes/near_fault.toml\n  \
+    sprag sensitivity scenes/near_fault.toml --records records/*.AT2 --out out/sensitivity\n\n\
+    Runs every device under the scene's ground motion and under each record in its place, as the scene has it and with each variant.\n\
+    Writes sensitivity.csv, sensitivity.md, sensitivity.svg and summary.json. A record that cannot be read is named, the others are\n\
+    still run, and the exit code is 2.")]
+pub struct SensitivityArguments {
+    /// Scene file.
+    #[arg(value_name = "SCENE.toml")]
+    pub scene: PathBuf,
+    /// Ground motion records, each in the place of the scene's.
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    pub records: Vec<PathBuf>,
+    /// Vertical components of the records, as many and in the same order; without them the ground moves vertically by 2/3 of its
+    /// horizontal motion.
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    pub records_vertical: Vec<PathBuf>,
+    /// Change one value of the scene, such as block.size_m=2 or device.1.mass_ratio=0.5.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Folder for the results; out/NAME-sensitivity of the scene by default.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Threads; all cores by default. The result does not depend on it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+}
+
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error("{0}")]
+    Scene(#[from] SceneError),
+    #[error("{0}")]
+    Ground(#[from] GroundError),
+    #[error("{0}")]
+    Run(#[from] RunError),
+    #[error("--records-vertical names {vertical} files, but --records {horizontal}; each record needs its own")]
+    Unpaired { vertical: usize, horizontal: usize },
+    #[error("{}: vertical: the scene's vertical motion does not belong to the records; leave out [[vertical]] or --records", scene.display())]
+    VerticalOfAnother { scene: PathBuf },
+    #[error("{}: no ground motion could be read", scene.display())]
+    NoMotion { scene: PathBuf },
+    #[error("the picture cannot be drawn: {0}")]
+    Plot(#[from] PlotError),
+    #[error("{0}")]
+    Output(#[from] OutputError),
+    #[error("the threads cannot be started: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+/// `summary.json`.
+#[derive(Serialize)]
+struct Document<'a> {
+    command: &'static str,
+    version: &'static str,
+    scene: &'a SceneFile,
+    records: Vec<&'a str>,
+    runs: &'a [Summary],
+    left_out: &'a [String],
+}
+
+/// Runs the command; a table goes to `out`, errors go to `err`.
+pub fn run(arguments: &SensitivityArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
+    match run_or_fail(arguments, out, err, interrupt) {
+        Ok(true) => 0,
+        Ok(false) => BAD_INPUT,
+        Err(Failure::Run(RunError::Interrupted)) => {
+            let _ = writeln!(err, "sprag: interrupted; nothing was written");
+            interrupt::EXIT_CODE
+        }
+        Err(failure) => {
+            let _ = writeln!(err, "sprag: {failure}");
+            BAD_INPUT
+        }
+    }
+}
+
+/// Whether everything could be read and run.
+fn run_or_fail(
+    arguments: &SensitivityArguments,
+    out: &mut impl Write,
+    err: &mut impl Write,
+    interrupt: &Interrupt,
+) -> Result<bool, Failure> {
+    let (scene, study) = Study::load(&arguments.scene, &arguments.set)?;
+    let records = records(arguments, &scene)?;
+    let mut motions: Vec<StudyMotion> = Vec::new();
+    let mut errors: Vec<String> = Vec::new();
+    motions.extend(StudyMotion::own(&scene)?);
+    for record in &records {
+        match StudyMotion::record(&scene, record) {
+            Ok(motion) => motions.push(motion),
+            Err(GroundError::Record(error)) => errors.push(error.to_string()),
+            Err(error) => return Err(error.into()),
+        }
+    }
+    if motions.is_empty() && errors.is_empty() {
+        // What the scene lacks, in the words of a simulation.
+        scene.ground_motions()?;
+    }
+    for error in &errors {
+        let _ = writeln!(err, "sprag: {error}");
+    }
+    if motions.is_empty() {
+        return Err(Failure::NoMotion { scene: arguments.scene.clone() });
+    }
+    let folder = arguments.out.clone().unwrap_or_else(|| {
+        let name = arguments.scene.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Path::new("out").join(format!("{name}-sensitivity"))
+    });
+    // Where the results go is tried before the work, not after it.
+    make_folder(&folder)?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
+    let progress = progress_bar((study.runs() * motions.len()) as u64);
+    let findings = pool.install(|| study.run(&motions, interrupt, &|| progress.inc(1)));
+    progress.finish_and_clear();
+    let findings = findings?;
+    write(arguments, &scene, &study, &motions, &findings, &folder, out)?;
+    for error in &findings.failed {
+        let _ = writeln!(err, "sprag: {error}");
+    }
+    Ok(errors.is_empty() && findings.failed.is_empty())
+}
+
+/// The records, each with its vertical component.
+fn records(arguments: &SensitivityArguments, scene: &Scene) -> Result<Vec<RecordFiles>, Failure> {
+    let (horizontal, vertical) = (&arguments.records, &arguments.records_vertical);
+    if !vertical.is_empty() && vertical.len() != horizontal.len() {
+        return Err(Failure::Unpaired { vertical: vertical.len(), horizontal: horizontal.len() });
+    }
+    if !horizontal.is_empty() && !scene.file.vertical.is_empty() {
+        return Err(Failure::VerticalOfAnother { scene: arguments.scene.clone() });
+    }
+    let pair =
+        |(index, file): (usize, &PathBuf)| RecordFiles { horizontal: file.clone(), vertical: vertical.get(index).cloned() };
+    if !horizontal.is_empty() && scene.file.ground.iter().all(|table| table.motion != Motion::Record) {
+        scene.clone().use_record(&horizontal[0])?;
+    }
+    Ok(horizontal.iter().enumerate().map(pair).collect())
+}
+
+/// Writes the results.
+fn write(
+    arguments: &SensitivityArguments,
+    scene: &Scene,
+    study: &Study,
+    motions: &[StudyMotion],
+    findings: &Findings,
+    folder: &Path,
+    out: &mut impl Write,
+) -> Result<(), Failure> {
+    let runs = summaries(findings, motions, &study.devices);
+    let records: Vec<&str> = motions.iter().filter(|motion| !motion.own).map(|motion| motion.name.as_str()).collect();
+    let left_out = [&study.left_out[..], &findings.left_out, &findings.failed].concat();
+    let title = &scene.file.title;
+    let figure = sensitivity_figure(title, &study.devices, &figure_rows(&runs))?;
+    let document = Document {
+        command: "sensitivity",
+        version: env!("CARGO_PKG_VERSION"),
+        scene: &scene.file,
+        records: records.clone(),
+        runs: &runs,
+        left_out: &left_out,
+    };
+    let mut results = Results::default();
+    results.add(&folder.join("summary.json"), |file| {
+        serde_json::to_writer_pretty(&mut *file, &document).map_err(std::io::Error::other)?;
+        file.write_all(b"\n")
+    })?;
+    results.add(&folder.join("sensitivity.csv"), |file| {
+        write_csv(findings, motions, &study.devices, file).map_err(std::io::Error::other)
+    })?;
+    results
+        .add(&folder.join("sensitivity.md"), |file| file.write_all(page(title, &runs, records.len(), &left_out).as_bytes()))?;
+    results.add(&folder.join("sensitivity.svg"), |file| file.write_all(figure.as_bytes()))?;
+    results.commit()?;
+    let _ = write!(out, "{}", table(&runs));
+    for line in &left_out {
+        let _ = writeln!(out, "left out: {line}");
+    }
+    let _ = writeln!(out, "results of {} in {}", arguments.scene.display(), folder.display());
+    Ok(())
+}
+
+/// One row a variant, one lane a device.
+fn figure_rows(summaries: &[Summary]) -> Vec<SensitivityRow> {
+    let same = |one: &Summary, other: &Summary| (one.effect, one.variant) == (other.effect, other.variant);
+    let lane = |summary: &Summary| SensitivityLane {
+        device: summary.device_index,
+        changes: summary.changes.clone(),
+        quantiles: summary.change.map(|quantiles| [quantiles.p16, quantiles.median, quantiles.p84]),
+        own: summary.own_motion.and_then(|own| match (own.flip, own.change) {
+            (Some(Flip::ToOverturned), _) => Some(OwnMark::Overturns),
+            (Some(Flip::ToStanding), _) => Some(OwnMark::Stands),
+            (None, change) => change.map(OwnMark::Change),
+        }),
+        overturns: summary.overturns_instead,
+        stands: summary.stands_instead,
+    };
+    let row = |of_variant: &[Summary]| SensitivityRow {
+        effect: of_variant[0].effect.to_owned(),
+        variant: of_variant[0].variant.to_owned(),
+        lanes: of_variant.iter().map(lane).collect(),
+    };
+    summaries.chunk_by(same).map(row).collect()
+}
+
+/// A bar on a terminal, nothing in a pipe.
+fn progress_bar(length: u64) -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(length);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} runs, {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}

@@ -1,0 +1,49 @@
+//! Effects on the block: geometry, vertical ground motion, impacts.
+
+use sprag_shared::block::Geometry;
+
+use super::{Effect, EffectKey, settings};
+
+/// Which equation of the block.
+pub const GEOMETRY: Effect = Effect {
+    name: "geometry",
+    summary: "the exact block, or its linearisation for small angles",
+    equation: &[
+        "full:    λ θ̈ = −(g/R) [ sin δ + (ü_g/g) cos δ ],  δ = α s − θ",
+        "slender: λ θ̈ = −(g/R) [ δ + ü_g/g ],  ℓ constant",
+    ],
+    source: "Thiers-Moggia and Málaga-Chuquitaype 2019, Eq. 2 and 15-18; Housner 1963",
+    keys: &[EffectKey { key: "block.geometry", default: "\"full\"", range: "\"full\" or \"slender\"" }],
+    of_device: false,
+    is_on: |scene, index| (scene.geometry() == Geometry::Slender).then(|| settings(scene, index, GEOMETRY.keys)),
+};
+
+/// Vertical ground motion.
+pub const VERTICAL: Effect = Effect {
+    name: "vertical",
+    summary: "a vertical ground acceleration, positive upwards, that makes the block heavier and lighter",
+    equation: &["g sin δ becomes (g + v̈_g) sin δ; uplift from rest when |ü_g| > (g + v̈_g) tan α; refused unless 1 + v̈_g/g > 0"],
+    source: "Yim, Chopra and Penzien 1980",
+    keys: &[EffectKey { key: "vertical", default: "-", range: "tables with the keys of [[ground]] but amplitude_ratio" }],
+    of_device: false,
+    is_on: |scene, _| match scene.file.vertical.len() {
+        0 => None,
+        1 => Some("one [[vertical]] table".to_owned()),
+        several => Some(format!("{several} [[vertical]] tables, summed")),
+    },
+};
+
+/// Where η comes from.
+pub const IMPACT: Effect = Effect {
+    name: "impact",
+    summary: "velocity after an impact: given, of the bare block's momentum, or with what stays engaged",
+    equation: &[
+        "θ̇⁺ = η θ̇⁻",
+        "geometric:        η = 1 − 2 sin²α/λ",
+        "momentum-balance: (λ + n σ ℓ₊²) θ̇⁺ = (λ η_geometric + n σ ℓ₊ ℓ₋) θ̇⁻, n flywheels locked to the rack through the impact",
+    ],
+    source: "Eq. 3 of the paper; Housner 1963; moment of momentum about the new toe with the inerter's impulse, derived here",
+    keys: &[EffectKey { key: "block.restitution", default: "0.85", range: "from 0 to 1, \"geometric\" or \"momentum-balance\"" }],
+    of_device: false,
+    is_on: |scene, index| Some(settings(scene, index, IMPACT.keys)).filter(|setting| !setting.is_empty()),
+};

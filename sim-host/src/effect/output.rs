@@ -1,0 +1,41 @@
+//! Effects on what is reported: checks of demands, and the energy ledger. The motion stays as it is.
+
+use super::{Effect, EffectKey, settings};
+
+/// Demands on support and gears.
+pub const CHECKS: Effect = Effect {
+    name: "checks",
+    summary: "demands on friction, support, stroke and gear teeth, with warnings above given limits",
+    equation: &[
+        "toe, horizontal device: H = ü_g/g + (R/g) (cos δ θ̈ + sin δ θ̇²) + n F,  V = 1 + v̈_g/g + (R/g) (sin δ θ̈ − cos δ θ̇²)",
+        "vertical device: s n F in V instead;  no sliding while |H|/V stays below the friction available",
+        "gear: σ_b = F_t/(b m Y),  Y = 0.484 − 2.87/z; first mesh F_t = F, others with the train of flywheels",
+    ],
+    source: "equilibrium of the block; Lewis 1893 for the bending stress of teeth",
+    keys: &[
+        EffectKey { key: "checks.friction_coefficient", default: "-", range: "above 0, to 10; without, only reported" },
+        EffectKey { key: "checks.gear.module_mm", default: "-", range: "above 0, to 100 mm; needs block.mass_kg" },
+        EffectKey { key: "checks.gear.face_width_mm", default: "-", range: "above 0, to 10000 mm" },
+        EffectKey { key: "checks.gear.teeth", default: "-", range: "from 12 to 10000" },
+        EffectKey { key: "checks.gear.allowable_stress_mpa", default: "-", range: "above 0, to 100000 MPa" },
+        EffectKey { key: "checks.largest_force_ratio", default: "-", range: "above 0, to 1e6, of the block's weight" },
+        EffectKey { key: "checks.largest_stroke_m", default: "-", range: "above 0, to 10000 m" },
+    ],
+    of_device: false,
+    is_on: |scene, index| {
+        scene.file.checks.as_ref()?;
+        let set = settings(scene, index, CHECKS.keys);
+        Some(if set.is_empty() { "[checks]".to_owned() } else { set })
+    },
+};
+
+/// Where the energy goes.
+pub const ENERGY: Effect = Effect {
+    name: "energy",
+    summary: "an energy ledger: kinetic, potential, stored, given by the ground, lost at impacts and in the device; plotted",
+    equation: &["initial + input of the ground + created = kinetic + potential + stored + Σ dissipated"],
+    source: "energy balance of block and device",
+    keys: &[EffectKey { key: "output.energy", default: "false", range: "true or false" }],
+    of_device: false,
+    is_on: |scene, index| scene.file.output.energy.then(|| settings(scene, index, ENERGY.keys)),
+};

@@ -1,0 +1,213 @@
+//! The flywheels' own equations and the rules at engagement, uplift, impact and rest, as text with a scene's numbers.
+
+use sprag_shared::block::{GRAVITY, Geometry};
+use sprag_shared::drivetrain::{Actuation, Engagement};
+use sprag_shared::math;
+use sprag_shared::restitution::{Restitution, momentum_balance};
+use sprag_shared::structure::DeviceKind;
+
+use super::explanation::Subject;
+use super::number::number;
+
+/// What moves the flywheels.
+pub(super) fn flywheels(subject: &Subject<'_>) -> Vec<String> {
+    let drivetrain = &subject.device.drivetrain;
+    let losses = &drivetrain.flywheel;
+    let mut lines = Vec::new();
+    let own = match (subject.device.device.kind, drivetrain.engagement) {
+        (DeviceKind::ClutchedPair, Engagement::Ideal) => {
+            lines.push("an engaged flywheel moves with the rack, w = R ℓ θ̇; a released one stops at once".to_owned());
+            false
+        }
+        (DeviceKind::ClutchedPair, Engagement::Elastic { .. }) => {
+            lines.push("ẇᵢ = Fᵢ/m_r − c wᵢ − (d + b) sgn wᵢ,  wᵢ the speed of a rack that would move with flywheel i".to_owned());
+            true
+        }
+        (DeviceKind::ClutchedPair, _) => {
+            lines.push("a locked flywheel moves with the rack, wᵢ = R ℓ θ̇; any other by".to_owned());
+            lines.push("ẇᵢ = Fᵢ/m_r − c wᵢ − (d + b) sgn wᵢ,  wᵢ the speed of a rack that would move with flywheel i".to_owned());
+            true
+        }
+        _ => {
+            lines.push("the flywheel always moves with the rack, w = R ℓ θ̇".to_owned());
+            false
+        }
+    };
+    if own {
+        lines.push(format!(
+            "c = {} 1/s,  d = {} m/s²,  b = {} while released, else 0",
+            number(losses.viscous_rate),
+            number(losses.dry_deceleration),
+            if losses.brake_deceleration.is_infinite() {
+                "∞ (stopped at once)".to_owned()
+            } else {
+                format!("{} m/s²", number(losses.brake_deceleration))
+            }
+        ));
+    } else if losses.viscous_rate != 0.0 || losses.dry_deceleration != 0.0 {
+        lines.push(format!("c = {} 1/s,  d = {} m/s²", number(losses.viscous_rate), number(losses.dry_deceleration)));
+    }
+    lines.extend(clutch(subject));
+    lines
+}
+
+/// What a clutch with properties does.
+fn clutch(subject: &Subject<'_>) -> Vec<String> {
+    let bound = |capacity_ratio: f64| format!("F_c = {} m g", number(subject.per_mass(capacity_ratio)));
+    match subject.device.drivetrain.engagement {
+        Engagement::Friction { capacity_ratio } => vec![format!(
+            "clutch: sticks (wᵢ = R ℓ θ̇) while |Fᵢ| ≤ F_c, else Fᵢ = F_c sgn(R ℓ θ̇ − wᵢ),  {}",
+            bound(capacity_ratio)
+        )],
+        Engagement::Elastic { stiffness, damping, backlash, capacity_ratio } => {
+            let mut lines = vec![format!(
+                "clutch: Fᵢ = K (zᵢ − z₀) + C żᵢ,  żᵢ = R ℓ θ̇ − wᵢ,  K/m = {} 1/s²,  C/m = {} 1/s",
+                number(subject.per_mass(stiffness)),
+                number(subject.per_mass(damping))
+            )];
+            if backlash > 0.0 {
+                lines.push(format!(
+                    "z₀ = ±{} m, the contact on either side of the backlash; between them Fᵢ = 0",
+                    number(backlash / 2.0)
+                ));
+            } else {
+                lines.push("z₀ = 0: no backlash".to_owned());
+            }
+            if capacity_ratio.is_finite() {
+                lines.push(format!("plates in series slip at |Fᵢ| = F_c,  {}", bound(capacity_ratio)));
+            }
+            lines
+        }
+        Engagement::Ideal | Engagement::Rigid | Engagement::Overrunning => Vec::new(),
+    }
+}
+
+/// When flywheels engage, and what that costs.
+pub(super) fn engagement(subject: &Subject<'_>) -> Vec<String> {
+    if subject.device.device.kind == DeviceKind::Inerter {
+        return vec!["always engaged: a single inerter has no clutch".to_owned()];
+    }
+    let drivetrain = &subject.device.drivetrain;
+    let turns = "the first flywheel works on positive motion, the second on negative";
+    if drivetrain.engagement == Engagement::Overrunning {
+        return vec![
+            format!("nobody commands it; {turns}"),
+            "a flywheel holds while it resists, lets go when it would drive the block, and holds again when the block catches up"
+                .to_owned(),
+        ];
+    }
+    let mut lines = vec![format!("commanded while acceleration and velocity of the terminals have one sign (Eq. 10); {turns}")];
+    lines.push(
+        match drivetrain.engagement {
+            Engagement::Ideal => "a stopped flywheel takes on the rack's speed without a loss of momentum",
+            Engagement::Rigid => {
+                "block and flywheel exchange momentum: (λ + (K + σ) ℓ²) θ̇⁺ = (λ + K ℓ²) θ̇⁻ + σ ℓ w/R, K already locked"
+            }
+            Engagement::Friction { .. } => "plates slip until flywheel and rack have one speed: no jump",
+            Engagement::Elastic { .. } | Engagement::Overrunning => {
+                "the spring starts without twist, in the middle of the backlash: no jump"
+            }
+        }
+        .to_owned(),
+    );
+    let Actuation { engagement_delay, release_delay, rise_time, dwell, miss_probability, miss_seed } = drivetrain.actuation;
+    if drivetrain.actuation != Actuation::default() {
+        let mut parts = Vec::new();
+        for (value, text) in [
+            (engagement_delay, "engages {} s after the command"),
+            (release_delay, "releases {} s after the command"),
+            (rise_time, "capacity rises over {} s"),
+            (dwell, "stays as it is for {} s after moving"),
+            (miss_probability, "misses an engagement with probability {}"),
+        ] {
+            if value != 0.0 {
+                parts.push(text.replace("{}", &number(value)));
+            }
+        }
+        if miss_probability != 0.0 {
+            parts.push(format!("seed {miss_seed}"));
+        }
+        lines.push(parts.join("; "));
+    }
+    lines
+}
+
+/// Uplift, impact and rest.
+pub(super) fn impact(subject: &Subject<'_>) -> Vec<String> {
+    let drivetrain = &subject.device.drivetrain;
+    let mut lines = vec![uplift(subject)];
+    lines.push(format!("impact at θ = 0: θ̇⁺ = η θ̇⁻,  {}", restitution(subject)));
+    if subject.device.device.kind == DeviceKind::ClutchedPair {
+        let at_impact = match drivetrain.engagement {
+            Engagement::Ideal => None,
+            Engagement::Rigid => Some("a locked flywheel stays locked and changes its speed with the rack; others keep theirs"),
+            Engagement::Overrunning => Some("the block slows down at once and its flywheels run on"),
+            Engagement::Friction { .. } => {
+                Some("no plate holds against an impulse: flywheels keep their speed and the plates slip")
+            }
+            Engagement::Elastic { .. } => Some("springs keep their twist and flywheels their speed"),
+        };
+        lines.extend(at_impact.map(|text| format!("at an impact {text}")));
+    }
+    let losses = &drivetrain.flywheel;
+    if drivetrain.rack.dry_ratio != 0.0 || losses.dry_deceleration != 0.0 {
+        lines.push("dry friction of rack and bearings may hold the block where its velocity is 0".to_owned());
+    }
+    lines.push("rest: where impacts accumulate while the ground stays below the uplift threshold".to_owned());
+    lines
+}
+
+/// The threshold at which weight and friction no longer hold a standing block.
+fn uplift(subject: &Subject<'_>) -> String {
+    let (structure, drivetrain) = (&subject.loaded, &subject.device.drivetrain);
+    let (block, geometry) = (&structure.block, structure.geometry);
+    let weight = if subject.has_vertical() { "(g + v̈_g)" } else { "g" };
+    let threshold = geometry.uplift_threshold(block);
+    let slope = if geometry == Geometry::Full { "tan α" } else { "α" };
+    // Flywheels of a pair are released at rest, so that only a single inerter's bearing holds.
+    let bearing = match structure.device.kind {
+        DeviceKind::Inerter => structure.device.mass_ratio * drivetrain.flywheel.dry_deceleration / GRAVITY,
+        DeviceKind::None | DeviceKind::ClutchedPair => 0.0,
+    };
+    let dry = subject.per_mass(drivetrain.rack.dry_ratio) + bearing;
+    let guided = subject.per_mass(drivetrain.rack.guided_mass_ratio);
+    if dry == 0.0 && guided == 0.0 {
+        return format!("uplifts from rest when |ü_g| > {weight} {slope},  {slope} = {}", number(threshold));
+    }
+    let (sin, cos) = match geometry {
+        Geometry::Full => ("sin α", "cos α"),
+        Geometry::Slender => ("α", "1"),
+    };
+    let push = if guided == 0.0 { format!("{cos} |ü_g|") } else { format!("({cos} + μ_g ℓ) |ü_g|") };
+    let terms = [(drivetrain.rack.dry_ratio, " + μ_r g ℓ"), (bearing, " + σ d ℓ")];
+    let hold: String = terms.iter().filter(|(value, _)| *value != 0.0).map(|(_, term)| *term).collect();
+    let lever = structure.device.mount.lever_at(block, geometry, 0.0).unwrap_or(0.0);
+    let moments = match geometry {
+        Geometry::Full => math::sin_cos(block.slenderness()),
+        Geometry::Slender => (block.slenderness(), 1.0),
+    };
+    let value = (moments.0 + lever * dry) / (moments.1 + lever * guided);
+    let quiet = if subject.has_vertical() { " while v̈_g = 0" } else { "" };
+    format!("uplifts from rest when {push} > {weight} {sin}{hold}: above {} g{quiet}", number(value))
+}
+
+fn restitution(subject: &Subject<'_>) -> String {
+    let structure = &subject.loaded;
+    let eta = |value: Result<f64, _>| value.map_or_else(|_: sprag_shared::error::ParameterError| "-".to_owned(), number);
+    match structure.restitution {
+        Restitution::Constant(value) => format!("η = {} as given", number(value)),
+        Restitution::Geometric => format!("η = 1 − 2 sin²α/λ = {}", eta(structure.restitution())),
+        Restitution::MomentumBalance => {
+            let with = |count: f64| {
+                let device = &structure.device;
+                eta(momentum_balance(&structure.block, structure.geometry, &device.mount, count * device.mass_ratio))
+            };
+            match (structure.device.kind, subject.device.drivetrain.engagement) {
+                (DeviceKind::ClutchedPair, Engagement::Rigid) => {
+                    format!("η by moment of momentum with what is locked: {} with no flywheel, {} with one", with(0.0), with(1.0))
+                }
+                _ => format!("η by moment of momentum with what stays engaged = {}", eta(structure.restitution())),
+            }
+        }
+    }
+}

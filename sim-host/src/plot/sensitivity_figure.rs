@@ -1,0 +1,372 @@
+//! The figure of a study of sensitivity: how much each variant changes the peak rotation of each device.
+
+use plotters::style::RGBColor;
+
+use super::PlotError;
+use super::layer::{Anchor, Text, escape, text_width_px, units, write_rect};
+use super::legend::write_heading;
+use super::palette::{GROUND, GUIDE, INK, device_look, hex};
+use super::ticks::{round_ticks, tick_text};
+
+const WIDTH_PX: f64 = 900.0;
+const MARGIN_PX: f64 = 12.0;
+/// Left of the axis, for effects and variants.
+const LABELS_PX: f64 = 262.0;
+/// Where variants start, right of their effects.
+const VARIANT_PX: f64 = 84.0;
+/// Right of the axis, for one column of counts.
+const COUNT_PX: f64 = 62.0;
+const LANE_PX: f64 = 13.0;
+const ROW_GAP_PX: f64 = 7.0;
+const FONT_PX: f64 = 11.5;
+const SMALL_FONT_PX: f64 = 10.5;
+const DOT_PX: f64 = 2.4;
+const MEDIAN_PX: f64 = 4.6;
+const DIAMOND_PX: f64 = 5.4;
+/// Half-widths that the axis may have.
+const LIMITS: [f64; 7] = [0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0];
+/// Part of the changes that the axis should hold.
+const HELD: f64 = 0.93;
+/// Bands behind every other effect.
+const BAND: RGBColor = RGBColor(245, 245, 245);
+
+/// One variant.
+#[derive(Clone, Debug)]
+pub struct SensitivityRow {
+    /// Effect, the same in neighbouring rows of one effect.
+    pub effect: String,
+    /// What it is set to.
+    pub variant: String,
+    /// The devices that it is for.
+    pub lanes: Vec<SensitivityLane>,
+}
+
+/// One device of a row. Changes are relative to the device without the variant.
+#[derive(Clone, Debug)]
+pub struct SensitivityLane {
+    /// Number of the device.
+    pub device: usize,
+    /// Under each record.
+    pub changes: Vec<f64>,
+    /// 16th percentile, median and 84th percentile of these.
+    pub quantiles: Option<[f64; 3]>,
+    /// Under the scene's own motion.
+    pub own: Option<OwnMark>,
+    /// Records that overturn the block only with the variant.
+    pub overturns: usize,
+    /// Records that overturn it only without.
+    pub stands: usize,
+}
+
+/// What the scene's own motion shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum OwnMark {
+    /// A relative change.
+    Change(f64),
+    /// The block overturns instead.
+    Overturns,
+    /// The block stands instead.
+    Stands,
+}
+
+/// Draws `rows` as an SVG document: a lane for each device, the change of its peak rotation along a shared axis in percent.
+///
+/// Dots are records, a disc their median on the line from the 16th to the 84th percentile, a diamond the scene's own motion.
+/// What lies beyond the axis is a triangle at its edge. Columns on the right count the records that change the outcome; a diamond
+/// there is the scene's own motion doing so. The text is the same for the same input.
+///
+/// # Errors
+/// [`PlotError`] without rows, and for changes that are not finite.
+pub fn sensitivity_figure(title: &str, devices: &[String], rows: &[SensitivityRow]) -> Result<String, PlotError> {
+    if rows.is_empty() {
+        return Err(PlotError::NoHistories);
+    }
+    let lanes = || rows.iter().flat_map(|row| &row.lanes);
+    for lane in lanes() {
+        if !lane.values().all(f64::is_finite) {
+            return Err(PlotError::NotFinite { device: devices.get(lane.device).cloned().unwrap_or_default(), time_s: 0.0 });
+        }
+    }
+    let mut body = String::new();
+    let (left_px, width_px) = (MARGIN_PX, WIDTH_PX - 2.0 * MARGIN_PX);
+    let heading_px = write_heading(&mut body, title, &[], (left_px, width_px), MARGIN_PX);
+    let used: Vec<usize> = (0..devices.len()).filter(|index| lanes().any(|lane| lane.device == *index)).collect();
+    let legend_px = write_legend(&mut body, devices, &used, (left_px, width_px), heading_px - 2.0);
+
+    let row_px = |row: &SensitivityRow| row.lanes.len().max(1) as f64 * LANE_PX + ROW_GAP_PX;
+    let axis = Axis {
+        left_px: left_px + LABELS_PX,
+        width_px: width_px - LABELS_PX - 2.0 * COUNT_PX,
+        top_px: legend_px + 34.0,
+        bottom_px: legend_px + 34.0 + rows.iter().map(row_px).sum::<f64>(),
+        limit: limit(lanes().flat_map(SensitivityLane::values)),
+    };
+    let mut marks = String::new();
+    let (mut top_px, mut band) = (axis.top_px, false);
+    for (index, row) in rows.iter().enumerate() {
+        let starts = index == 0 || rows[index - 1].effect != row.effect;
+        band ^= starts;
+        if band {
+            let size = (units(width_px), units(row_px(row)));
+            write_rect(&mut body, (units(left_px), units(top_px)), size, BAND);
+        }
+        let baseline = top_px + 0.5 * row_px(row) + 0.36 * FONT_PX;
+        if starts {
+            let text = escape(&row.effect);
+            let text = Text::new(&text, (left_px + 4.0, baseline), FONT_PX);
+            Text { attributes: " font-weight=\"bold\"", ..text }.write(&mut marks, false);
+        }
+        Text::new(&escape(&row.variant), (left_px + VARIANT_PX, baseline), FONT_PX).write(&mut marks, false);
+        for (number, lane) in row.lanes.iter().enumerate() {
+            let middle = top_px + 0.5 * ROW_GAP_PX + (number as f64 + 0.5) * LANE_PX;
+            write_lane(&mut marks, &axis, lane, middle);
+        }
+        top_px += row_px(row);
+    }
+    axis.write(&mut body);
+    body.push_str(&marks);
+
+    let height_px = axis.bottom_px + 46.0;
+    Ok(format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+         <svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH_PX:.0}\" height=\"{height_px:.0}\" \
+         viewBox=\"0 0 {} {}\" font-family=\"sans-serif\">\n\
+         <title>{}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{body}</svg>\n",
+        units(WIDTH_PX),
+        units(height_px),
+        escape(title),
+    ))
+}
+
+impl SensitivityLane {
+    fn values(&self) -> impl Iterator<Item = f64> {
+        let own = match self.own {
+            Some(OwnMark::Change(change)) => Some(change),
+            _ => None,
+        };
+        self.changes.iter().copied().chain(self.quantiles.into_iter().flatten()).chain(own)
+    }
+}
+
+/// The smallest of [`LIMITS`] that holds most of `changes`.
+fn limit(changes: impl Iterator<Item = f64>) -> f64 {
+    let mut sizes: Vec<f64> = changes.map(f64::abs).collect();
+    sizes.sort_by(f64::total_cmp);
+    let held = sizes.get((HELD * sizes.len() as f64) as usize).or(sizes.last()).copied().unwrap_or(0.0);
+    LIMITS.into_iter().find(|limit| held <= *limit).unwrap_or(LIMITS[LIMITS.len() - 1])
+}
+
+/// The shared axis.
+struct Axis {
+    left_px: f64,
+    width_px: f64,
+    top_px: f64,
+    bottom_px: f64,
+    /// Half-width, relative.
+    limit: f64,
+}
+
+impl Axis {
+    fn right_px(&self) -> f64 {
+        self.left_px + self.width_px
+    }
+
+    fn position_px(&self, change: f64) -> f64 {
+        self.left_px + 0.5 * self.width_px * (1.0 + change / self.limit)
+    }
+
+    /// Middle of the column of counts number `index`.
+    fn column_px(&self, index: usize) -> f64 {
+        self.right_px() + (index as f64 + 0.5) * COUNT_PX
+    }
+
+    fn write(&self, svg: &mut String) {
+        let range = -100.0 * self.limit..100.0 * self.limit;
+        let ticks = round_ticks(&range, 8, 0.0);
+        let step = ticks.get(1).zip(ticks.first()).map_or(1.0, |(second, first)| second - first);
+        let (top, bottom) = (units(self.top_px), units(self.bottom_px));
+        for &tick in &ticks {
+            let x = units(self.position_px(tick / 100.0));
+            let (colour, width) = if tick == 0.0 { (INK, 10) } else { (GUIDE, 4) };
+            svg.push_str(&format!(
+                "<path d=\"M{x} {top}V{}\" stroke=\"{}\" stroke-width=\"{width}\"/>\n",
+                bottom + units(4.0),
+                hex(colour)
+            ));
+            let sign = if tick > 0.0 { "+" } else { "" };
+            let text = format!("{sign}{}", tick_text(tick, step));
+            let at = (self.position_px(tick / 100.0), self.bottom_px + 17.0);
+            Text { anchor: Anchor::Middle, ..Text::new(&text, at, SMALL_FONT_PX) }.write(svg, false);
+        }
+        let at = (self.left_px + 0.5 * self.width_px, self.bottom_px + 36.0);
+        let text = Text::new("change of the peak rotation (%)", at, 13.0);
+        Text { anchor: Anchor::Middle, ..text }.write(svg, false);
+        for edge in [self.left_px, self.right_px()] {
+            svg.push_str(&format!("<path d=\"M{} {top}V{bottom}\" stroke=\"{}\" stroke-width=\"8\"/>\n", units(edge), hex(INK)));
+        }
+        for (index, words) in [["overturns", "instead"], ["stands", "instead"]].into_iter().enumerate() {
+            for (line, word) in words.into_iter().enumerate() {
+                let at = (self.column_px(index), self.top_px - 18.0 + 12.0 * line as f64);
+                Text { anchor: Anchor::Middle, colour: GROUND, ..Text::new(word, at, SMALL_FONT_PX) }.write(svg, false);
+            }
+        }
+    }
+}
+
+fn write_lane(svg: &mut String, axis: &Axis, lane: &SensitivityLane, middle_px: f64) {
+    let colour = device_look(lane.device).colour;
+    let y = units(middle_px);
+    for &change in &lane.changes {
+        if change.abs() <= axis.limit {
+            write_disc(svg, (axis.position_px(change), middle_px), DOT_PX, colour, " fill-opacity=\"0.45\"");
+        } else {
+            write_beyond(svg, axis, change, middle_px, colour);
+        }
+    }
+    if let Some([low, median, high]) = lane.quantiles {
+        let inside = |change: f64| axis.position_px(change.clamp(-axis.limit, axis.limit));
+        let (from, to) = (units(inside(low)), units(inside(high)));
+        svg.push_str(&format!("<path d=\"M{from} {y}H{to}\" stroke=\"{}\" stroke-width=\"16\"/>\n", hex(colour)));
+        let edge = " stroke=\"#ffffff\" stroke-width=\"12\"";
+        write_disc(svg, (inside(median), middle_px), MEDIAN_PX, colour, edge);
+    }
+    match lane.own {
+        Some(OwnMark::Change(change)) if change.abs() <= axis.limit => {
+            write_diamond(svg, (axis.position_px(change), middle_px), colour);
+        }
+        Some(OwnMark::Change(change)) => {
+            let edge = if change > 0.0 { axis.right_px() - DIAMOND_PX } else { axis.left_px + DIAMOND_PX };
+            write_diamond(svg, (edge, middle_px), colour);
+            write_beyond(svg, axis, change, middle_px, colour);
+        }
+        Some(OwnMark::Overturns) => write_diamond(svg, (axis.column_px(0) - 14.0, middle_px), colour),
+        Some(OwnMark::Stands) => write_diamond(svg, (axis.column_px(1) - 14.0, middle_px), colour),
+        None => {}
+    }
+    for (index, count) in [lane.overturns, lane.stands].into_iter().enumerate() {
+        if count > 0 {
+            let text = count.to_string();
+            let at = (axis.column_px(index), middle_px + 0.36 * SMALL_FONT_PX);
+            let text = Text::new(&text, at, SMALL_FONT_PX);
+            Text { anchor: Anchor::Middle, colour, attributes: " font-weight=\"bold\"", ..text }.write(svg, false);
+        }
+    }
+}
+
+fn write_disc(svg: &mut String, (x_px, y_px): (f64, f64), radius_px: f64, colour: RGBColor, attributes: &str) {
+    svg.push_str(&format!(
+        "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\"{attributes}/>\n",
+        units(x_px),
+        units(y_px),
+        units(radius_px),
+        hex(colour),
+    ));
+}
+
+fn write_diamond(svg: &mut String, (x_px, y_px): (f64, f64), colour: RGBColor) {
+    let half = units(DIAMOND_PX);
+    svg.push_str(&format!(
+        "<path d=\"M{} {}l{half} {half}l-{half} {half}l-{half} -{half}z\" fill=\"#ffffff\" stroke=\"{}\" stroke-width=\"16\"/>\n",
+        units(x_px),
+        units(y_px) - half,
+        hex(colour),
+    ));
+}
+
+/// A triangle that points over the edge of the axis.
+fn write_beyond(svg: &mut String, axis: &Axis, change: f64, middle_px: f64, colour: RGBColor) {
+    let (tip, base) = if change > 0.0 { (axis.right_px() + 6.0, -1) } else { (axis.left_px - 6.0, 1) };
+    write_triangle(svg, (tip, middle_px), base, colour);
+}
+
+fn write_triangle(svg: &mut String, (x_px, y_px): (f64, f64), base: i32, colour: RGBColor) {
+    let (length, half) = (base * units(6.0), units(3.2));
+    svg.push_str(&format!(
+        "<path d=\"M{} {}l{length} -{half}v{}z\" fill=\"{}\" fill-opacity=\"0.6\"/>\n",
+        units(x_px),
+        units(y_px),
+        2 * half,
+        hex(colour),
+    ));
+}
+
+/// Appends the devices' colours and the marks; returns the lower edge (px).
+fn write_legend(svg: &mut String, devices: &[String], used: &[usize], (left_px, width_px): (f64, f64), top_px: f64) -> f64 {
+    type Mark<'a> = Box<dyn Fn(&mut String, (f64, f64)) + 'a>;
+    let mut entries: Vec<(Mark<'_>, &str)> = Vec::new();
+    for &index in used {
+        let colour = device_look(index).colour;
+        let mark: Mark<'_> =
+            Box::new(move |svg, (x, y)| write_rect(svg, (units(x - 6.0), units(y - 5.0)), (units(12.0), units(10.0)), colour));
+        entries.push((mark, &devices[index]));
+    }
+    let devices = entries.len();
+    entries.push((Box::new(|svg, at| write_disc(svg, at, DOT_PX, INK, " fill-opacity=\"0.45\"")), "a record"));
+    let median: Mark<'_> = Box::new(|svg, (x, y)| {
+        let (from, to, y_units) = (units(x - 9.0), units(x + 9.0), units(y));
+        svg.push_str(&format!("<path d=\"M{from} {y_units}H{to}\" stroke=\"{}\" stroke-width=\"16\"/>\n", hex(INK)));
+        write_disc(svg, (x, y), MEDIAN_PX, INK, " stroke=\"#ffffff\" stroke-width=\"12\"");
+    });
+    entries.push((median, "median, 16th to 84th percentile"));
+    entries.push((Box::new(|svg, at| write_diamond(svg, at, INK)), "the scene's own motion"));
+    entries.push((Box::new(|svg, (x, y)| write_triangle(svg, (x + 3.0, y), -1, INK)), "beyond the axis"));
+
+    let (mut x, mut middle) = (left_px, top_px + 9.0);
+    for (index, (mark, name)) in entries.iter().enumerate() {
+        let entry_px = 24.0 + text_width_px(name, FONT_PX);
+        if index == devices || (x > left_px && x + entry_px > left_px + width_px) {
+            (x, middle) = (left_px, middle + 18.0);
+        }
+        mark(svg, (x + 9.0, middle));
+        Text::new(&escape(name), (x + 24.0, middle + 0.36 * FONT_PX), FONT_PX).write(svg, false);
+        x += entry_px + 14.0;
+    }
+    middle + 9.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rows() -> Vec<SensitivityRow> {
+        let lane = |device: usize, change: f64| SensitivityLane {
+            device,
+            changes: vec![change, -change, 30.0 * change],
+            quantiles: Some([-change, change, 2.0 * change]),
+            own: Some(OwnMark::Change(change)),
+            overturns: device,
+            stands: 0,
+        };
+        let row = |effect: &str, variant: &str, lanes| SensitivityRow { effect: effect.into(), variant: variant.into(), lanes };
+        let flipped = SensitivityLane { own: Some(OwnMark::Overturns), quantiles: None, changes: vec![], ..lane(1, 0.0) };
+        vec![
+            row("impact", "geometric & <more>", vec![lane(0, 0.1), lane(1, -0.05)]),
+            row("impact", "momentum balance", vec![lane(0, 0.2)]),
+            row("rack", "dry friction", vec![flipped]),
+        ]
+    }
+
+    #[test]
+    fn a_figure_is_finite_escaped_and_repeats_to_the_byte() {
+        let devices = ["none", "pair"].map(str::to_owned);
+        let svg = sensitivity_figure("A & B", &devices, &rows()).unwrap();
+        assert!(svg.contains("A &amp; B") && svg.contains("geometric &amp; &lt;more&gt;"));
+        for bad in ["NaN", "inf", "2147483647", "--"] {
+            assert!(!svg.contains(bad), "{bad}");
+        }
+        assert_eq!(svg.matches("<text").count(), svg.matches("</text>").count());
+        assert_eq!(svg.matches(">impact<").count(), 1);
+        assert_eq!(svg, sensitivity_figure("A & B", &devices, &rows()).unwrap());
+    }
+
+    #[test]
+    fn the_axis_holds_most_changes_and_a_figure_needs_finite_ones() {
+        assert_eq!(limit([0.0; 5].into_iter()), LIMITS[0]);
+        assert_eq!(limit((0..1000).map(|k| f64::from(k) * 1e-4)), 0.1);
+        assert_eq!(limit([1e9].into_iter()), 2.0);
+        assert_eq!(sensitivity_figure("", &[], &[]), Err(PlotError::NoHistories));
+        let mut rows = rows();
+        rows[0].lanes[0].changes[0] = f64::NAN;
+        assert!(matches!(sensitivity_figure("", &["none".to_owned()], &rows), Err(PlotError::NotFinite { .. })));
+    }
+}

@@ -1,0 +1,157 @@
+//! `[accuracy]`: how a scene is integrated.
+
+use serde::{Deserialize, Serialize};
+
+use super::error::SceneError;
+use super::schema::KeyOf;
+
+/// How a scene is integrated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MethodName {
+    /// Taylor series, steps of its own choice unless `step_s` is given.
+    #[default]
+    Taylor,
+    /// Order 4, fixed steps.
+    #[serde(rename = "runge-kutta-4")]
+    RungeKutta4,
+    /// Order 1, fixed steps; ideal devices only.
+    SemiImplicitEuler,
+    /// Order 2, fixed steps, for stiff elastic clutches; devices without one are integrated by Runge-Kutta 4 at the same step.
+    ExponentialMidpoint,
+}
+
+impl MethodName {
+    /// As scenes spell it.
+    pub fn name(self) -> &'static str {
+        match self {
+            MethodName::Taylor => "taylor",
+            MethodName::RungeKutta4 => "runge-kutta-4",
+            MethodName::SemiImplicitEuler => "semi-implicit-euler",
+            MethodName::ExponentialMidpoint => "exponential-midpoint",
+        }
+    }
+}
+
+/// f32 or f64.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Precision {
+    /// As on the host.
+    #[default]
+    F64,
+    /// As on the microcontroller.
+    F32,
+}
+
+/// Located inside the step, or noticed at its end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum EventTreatment {
+    /// Impacts and clutch switches take place where they are.
+    #[default]
+    Located,
+    /// Impacts and the clutch are looked at once a step, as in the paper.
+    StepEnd,
+}
+
+/// `[accuracy]`.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AccuracyTable {
+    /// The method.
+    #[serde(default)]
+    pub method: MethodName,
+    /// f64 or f32.
+    #[serde(default)]
+    pub precision: Precision,
+    /// Where events take place.
+    #[serde(default)]
+    pub events: EventTreatment,
+    /// Size of the last terms of the series over the rotation that matters.
+    #[serde(default = "tight")]
+    pub tolerance: f64,
+    /// Fixed step, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step_s: Option<f64>,
+    /// Fixed step, in 1/p.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step_ratio: Option<f64>,
+}
+
+fn tight() -> f64 {
+    crate::batch::case::TIGHT
+}
+
+impl Default for AccuracyTable {
+    fn default() -> Self {
+        AccuracyTable {
+            method: MethodName::Taylor,
+            precision: Precision::F64,
+            events: EventTreatment::Located,
+            tolerance: tight(),
+            step_s: None,
+            step_ratio: None,
+        }
+    }
+}
+
+impl AccuracyTable {
+    /// # Errors
+    /// [`SceneError`] names the key.
+    pub(super) fn check(&self, key: &KeyOf<'_>) -> Result<(), SceneError> {
+        key("accuracy.tolerance").require(self.tolerance, (1e-20..=1e-2).contains(&self.tolerance), "from 1e-20 to 0.01")?;
+        if self.step_s.is_some() && self.step_ratio.is_some() {
+            return Err(key("accuracy.step_s").conflict("give only one of step_s and step_ratio"));
+        }
+        if let Some(step) = self.step_s {
+            key("accuracy.step_s").require(step, (1e-7..=1.0).contains(&step), "from 1e-7 to 1 s")?;
+        }
+        if let Some(step) = self.step_ratio {
+            key("accuracy.step_ratio").require(step, (1e-7..=1.0).contains(&step), "from 1e-7 to 1")?;
+        }
+        let fixed = self.step_s.is_some() || self.step_ratio.is_some();
+        if !fixed && self.method != MethodName::Taylor {
+            return Err(key("accuracy.step_s").missing("a fixed-step method needs step_s or step_ratio"));
+        }
+        if !fixed && self.precision == Precision::F32 {
+            return Err(key("accuracy.precision").conflict("f32 needs a fixed step: give step_s or step_ratio"));
+        }
+        if self.events == EventTreatment::StepEnd && self.method == MethodName::Taylor {
+            return Err(key("accuracy.events").conflict("step-end events need method runge-kutta-4 or semi-implicit-euler"));
+        }
+        Ok(())
+    }
+
+    /// What only ideal devices, or only elastic clutches, are followed by. `beyond_ideal` is the first key that goes beyond the
+    /// ideal device, if any; `elastic` tells whether any device has an elastic clutch.
+    ///
+    /// # Errors
+    /// [`SceneError::Conflict`] names the key.
+    pub(super) fn check_devices(&self, key: &KeyOf<'_>, beyond_ideal: Option<&str>, elastic: bool) -> Result<(), SceneError> {
+        if let Some(effect) = beyond_ideal {
+            let reason = |what: &str| format!("{what} is for ideal devices only, and {effect} goes beyond them");
+            if self.method == MethodName::SemiImplicitEuler {
+                return Err(key("accuracy.method").conflict(&reason("semi-implicit-euler")));
+            }
+            if self.events == EventTreatment::StepEnd {
+                return Err(key("accuracy.events").conflict(&reason("step-end")));
+            }
+            if self.method == MethodName::Taylor && self.precision == Precision::F32 {
+                let reason = reason("taylor in f32") + "; runge-kutta-4 is for all";
+                return Err(key("accuracy.method").conflict(&reason));
+            }
+        }
+        if self.method == MethodName::ExponentialMidpoint && !elastic {
+            let reason = "exponential-midpoint is for elastic clutches, and no device has one: give a clutch.stiffness_ratio or \
+                          another method";
+            return Err(key("accuracy.method").conflict(reason));
+        }
+        Ok(())
+    }
+
+    /// The fixed step for a block of frequency parameter `p`, s.
+    pub fn step(&self, p: f64) -> Option<f64> {
+        self.step_s.or(self.step_ratio.map(|ratio| ratio / p))
+    }
+}

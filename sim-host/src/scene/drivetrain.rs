@@ -1,0 +1,359 @@
+//! The tables of a `[[device]]` that take it beyond the ideal device: `engagement`, `flywheel`, `clutch`, `rack`, `actuation`.
+
+use serde::{Deserialize, Serialize};
+use sprag_shared::block::{Block, GRAVITY};
+use sprag_shared::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses, Rack};
+use sprag_shared::lever::Mount;
+use sprag_shared::math;
+use sprag_shared::structure::Device;
+
+use super::device::{DeviceTable, Kind};
+use super::error::SceneError;
+use super::schema::KeyOf;
+
+/// How flywheels are coupled by a clutch without properties of its own.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum EngagementName {
+    /// The paper's.
+    #[default]
+    Ideal,
+    /// Obeys Eq. 10, with an exchange of momentum.
+    Rigid,
+    /// Holds one way, by itself.
+    Overrunning,
+}
+
+/// `flywheel`: what slows it down, as deceleration of a rack that moves with it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FlywheelLossesTable {
+    /// 1/s.
+    #[serde(default)]
+    pub viscous_rate_1_s: f64,
+    /// m/s².
+    #[serde(default)]
+    pub dry_deceleration_m_s2: f64,
+    /// m/s², or "instant".
+    #[serde(default)]
+    pub brake_deceleration_m_s2: BrakeValue,
+}
+
+/// A number or a word.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged, expecting = "brake_deceleration_m_s2 must be a number in m/s² or \"instant\"")]
+pub enum BrakeValue {
+    /// m/s².
+    Number(f64),
+    /// "instant".
+    Word(BrakeWord),
+}
+
+/// The word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum BrakeWord {
+    /// Stopped at once.
+    Instant,
+}
+
+impl Default for BrakeValue {
+    fn default() -> Self {
+        BrakeValue::Number(0.0)
+    }
+}
+
+impl BrakeValue {
+    /// m/s², or infinite.
+    fn deceleration(&self) -> f64 {
+        match self {
+            BrakeValue::Number(deceleration) => *deceleration,
+            BrakeValue::Word(BrakeWord::Instant) => f64::INFINITY,
+        }
+    }
+}
+
+/// `clutch`: a capacity makes plates that slip, a stiffness a spring.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ClutchTable {
+    /// Largest force at the rack over the block's weight.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub capacity_ratio: Option<f64>,
+    /// The same in N.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub capacity_n: Option<f64>,
+    /// K/(mp²), K the stiffness at the rack.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stiffness_ratio: Option<f64>,
+    /// K, N/m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stiffness_n_m: Option<f64>,
+    /// ζ = C/(2 √(K m_r)), C the damping at the rack.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping_ratio: Option<f64>,
+    /// C, N s/m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping_n_s_m: Option<f64>,
+    /// Play at the rack from contact to contact, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub backlash_m: Option<f64>,
+}
+
+/// `rack`: friction that the rack meets, whatever the clutch does.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RackTable {
+    /// Viscous force over the block's mass and the velocity, 1/s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub viscous_1_s: Option<f64>,
+    /// Viscous force over the velocity, N s/m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub viscous_n_s_m: Option<f64>,
+    /// Dry friction over the block's weight.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dry_friction_ratio: Option<f64>,
+    /// Dry friction, N.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dry_friction_n: Option<f64>,
+}
+
+/// `actuation`: what lies between a command and a clutch that has obeyed it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ActuationTable {
+    /// From the command to engagement, s.
+    pub engagement_delay_s: f64,
+    /// From the command to release, s.
+    pub release_delay_s: f64,
+    /// From first contact to full capacity, s.
+    pub rise_time_s: f64,
+    /// A clutch that has just moved stays so for this long, s.
+    pub dwell_s: f64,
+    /// Probability that an engagement is missed.
+    pub miss_probability: f64,
+    /// Which engagements those are.
+    pub miss_seed: u64,
+}
+
+/// A quantity per mass of the block from the one of two keys that is given: `direct` already is one, `absolute` is divided by
+/// `unit` times the block's mass.
+pub(super) fn either(
+    key: &KeyOf<'_>,
+    direct: (&str, Option<f64>),
+    absolute: (&str, Option<f64>),
+    block_mass: Option<f64>,
+    unit: f64,
+) -> Result<Option<f64>, SceneError> {
+    match (direct.1, absolute.1) {
+        (Some(_), Some(_)) => Err(key(direct.0).conflict(&format!("give only one of {} and {}", direct.0, absolute.0))),
+        (given, None) => Ok(given),
+        (None, Some(value)) => match block_mass {
+            Some(mass) => Ok(Some(value / (mass * unit))),
+            None => Err(key(absolute.0).conflict("a value in kg or N needs block.mass_kg")),
+        },
+    }
+}
+
+impl DeviceTable {
+    /// What these tables make of `device`, which has an inerter; its weight left out.
+    ///
+    /// # Errors
+    /// [`SceneError`] names the key; ranges are left to [`Drivetrain::check`].
+    pub(super) fn drivetrain(
+        &self,
+        device: &Device,
+        block: &Block,
+        block_mass: Option<f64>,
+        key: &KeyOf<'_>,
+    ) -> Result<Drivetrain, SceneError> {
+        let needs_pair = |name: &str, reason: &str| {
+            Err(key(name).conflict(&format!("{reason}: a device of kind \"{}\" has no clutch", self.kind.name())))
+        };
+        if self.kind != Kind::ClutchedPair {
+            if self.engagement.is_some() {
+                return needs_pair("engagement", "only a clutch engages");
+            }
+            if self.clutch.is_some() {
+                return needs_pair("clutch", "a clutch's properties without a clutch");
+            }
+            if self.actuation.is_some() {
+                return needs_pair("actuation", "only a clutch is commanded");
+            }
+        }
+        if let (Some(_), Some(_)) = (self.engagement, &self.clutch) {
+            return Err(key("engagement").conflict("the properties of clutch already say how it engages: give only one of both"));
+        }
+        let engagement = match (&self.clutch, self.engagement.unwrap_or_default()) {
+            (Some(clutch), _) => clutch.engagement(device.mass_ratio, block, block_mass, key)?,
+            (None, EngagementName::Ideal) => Engagement::Ideal,
+            (None, EngagementName::Rigid) => Engagement::Rigid,
+            (None, EngagementName::Overrunning) => Engagement::Overrunning,
+        };
+        let flywheel = self.flywheel_losses(engagement, key)?;
+        let actuation = self.actuation(engagement, key)?;
+        let rack = match &self.rack {
+            Some(rack) => rack.resolve(block_mass, key)?,
+            None => Rack::default(),
+        };
+        let drivetrain = Drivetrain { engagement, flywheel, rack, actuation };
+        if let Some(name) = self.beyond_ideal(&drivetrain).filter(|name| *name != "rack") {
+            if device.mass_ratio == 0.0 {
+                return Err(key(name).conflict("there is no flywheel: the mass ratio is 0"));
+            }
+            let remembers = engagement != Engagement::Ideal || actuation != Actuation::default();
+            if remembers && let Mount::BaseCorners { .. } = device.mount {
+                let reason = "a flywheel that keeps its speed needs a horizontal mount: at the base corners each corner would have \
+                              flywheels of its own";
+                return Err(key(if name == "flywheel" { "mount" } else { name }).conflict(reason));
+            }
+        }
+        Ok(drivetrain)
+    }
+
+    /// The first of the device's keys that takes it beyond the ideal device, if any.
+    pub fn beyond_ideal(&self, drivetrain: &Drivetrain) -> Option<&'static str> {
+        let ideal = Drivetrain::default();
+        let coupling = if self.clutch.is_some() { "clutch" } else { "engagement" };
+        [
+            (coupling, drivetrain.engagement != ideal.engagement),
+            ("actuation", drivetrain.actuation != ideal.actuation),
+            ("flywheel", drivetrain.flywheel != ideal.flywheel),
+            ("weight", drivetrain.rack.guided_mass_ratio != 0.0),
+            ("rack", drivetrain.rack != ideal.rack),
+        ]
+        .into_iter()
+        .find_map(|(name, is_on)| is_on.then_some(name))
+    }
+
+    fn flywheel_losses(&self, engagement: Engagement, key: &KeyOf<'_>) -> Result<FlywheelLosses, SceneError> {
+        let Some(table) = &self.flywheel else {
+            return Ok(FlywheelLosses::default());
+        };
+        let brake_deceleration = table.brake_deceleration_m_s2.deceleration();
+        if brake_deceleration != 0.0 {
+            let name = "flywheel.brake_deceleration_m_s2";
+            if self.kind == Kind::Inerter {
+                return Err(key(name).conflict("a brake acts on a released flywheel, and that of a single inerter never is"));
+            }
+            if engagement == Engagement::Ideal {
+                let reason =
+                    "the ideal clutch stops a released flywheel at once, so a brake needs another engagement or a clutch";
+                return Err(key(name).conflict(reason));
+            }
+        }
+        Ok(FlywheelLosses {
+            viscous_rate: table.viscous_rate_1_s,
+            dry_deceleration: table.dry_deceleration_m_s2,
+            brake_deceleration,
+        })
+    }
+
+    fn actuation(&self, engagement: Engagement, key: &KeyOf<'_>) -> Result<Actuation, SceneError> {
+        let Some(table) = &self.actuation else {
+            return Ok(Actuation::default());
+        };
+        if engagement == Engagement::Overrunning {
+            return Err(key("actuation").conflict("nobody commands an overrunning clutch"));
+        }
+        let has_capacity = match engagement {
+            Engagement::Friction { .. } => true,
+            Engagement::Elastic { capacity_ratio, .. } => capacity_ratio != f64::INFINITY,
+            _ => false,
+        };
+        if table.rise_time_s != 0.0 && !has_capacity {
+            let reason = "only a capacity can rise: give clutch.capacity_ratio or clutch.capacity_n";
+            return Err(key("actuation.rise_time_s").conflict(reason));
+        }
+        Ok(Actuation {
+            engagement_delay: table.engagement_delay_s,
+            release_delay: table.release_delay_s,
+            rise_time: table.rise_time_s,
+            dwell: table.dwell_s,
+            miss_probability: table.miss_probability,
+            // A seed of nothing is no effect.
+            miss_seed: if table.miss_probability == 0.0 { 0 } else { table.miss_seed },
+        })
+    }
+
+    /// The key from which a parameter of [`Drivetrain::check`] comes, and the parameter too where its value is not the key's.
+    pub(super) fn key_of(&self, parameter: &str) -> String {
+        let (clutch, rack) = (self.clutch.as_ref(), self.rack.as_ref());
+        let of =
+            |absolute: bool, name: &str, other: &str| if absolute { format!("{name} as {parameter}") } else { other.to_owned() };
+        match parameter {
+            "guided_mass_ratio" => "weight.rack_ratio".to_owned(),
+            "rack viscous" => of(rack.is_some_and(|r| r.viscous_n_s_m.is_some()), "rack.viscous_n_s_m", "rack.viscous_1_s"),
+            "rack dry_ratio" => {
+                of(rack.is_some_and(|r| r.dry_friction_n.is_some()), "rack.dry_friction_n", "rack.dry_friction_ratio")
+            }
+            "capacity_ratio" => of(clutch.is_some_and(|c| c.capacity_n.is_some()), "clutch.capacity_n", "clutch.capacity_ratio"),
+            "stiffness" if clutch.is_some_and(|c| c.stiffness_n_m.is_some()) => of(true, "clutch.stiffness_n_m", ""),
+            "stiffness" => of(true, "clutch.stiffness_ratio", ""),
+            "damping" if clutch.is_some_and(|c| c.damping_n_s_m.is_some()) => of(true, "clutch.damping_n_s_m", ""),
+            "damping" => of(true, "clutch.damping_ratio", ""),
+            "backlash" => "clutch.backlash_m".to_owned(),
+            "viscous_rate" => "flywheel.viscous_rate_1_s".to_owned(),
+            "dry_deceleration" => "flywheel.dry_deceleration_m_s2".to_owned(),
+            "brake_deceleration" => "flywheel.brake_deceleration_m_s2".to_owned(),
+            "miss_probability" => "actuation.miss_probability".to_owned(),
+            time => format!("actuation.{time}_s"),
+        }
+    }
+}
+
+impl ClutchTable {
+    fn engagement(
+        &self,
+        mass_ratio: f64,
+        block: &Block,
+        block_mass: Option<f64>,
+        key: &KeyOf<'_>,
+    ) -> Result<Engagement, SceneError> {
+        let either = |direct, absolute, unit| either(key, direct, absolute, block_mass, unit);
+        let capacity = either(("clutch.capacity_ratio", self.capacity_ratio), ("clutch.capacity_n", self.capacity_n), GRAVITY)?;
+        let p2 = block.frequency_parameter_squared();
+        let stiffness = either(
+            ("clutch.stiffness_ratio", self.stiffness_ratio.map(|ratio| ratio * p2)),
+            ("clutch.stiffness_n_m", self.stiffness_n_m),
+            1.0,
+        )?;
+        let Some(stiffness) = stiffness else {
+            let stray = [
+                ("clutch.damping_ratio", self.damping_ratio.is_some()),
+                ("clutch.damping_n_s_m", self.damping_n_s_m.is_some()),
+                ("clutch.backlash_m", self.backlash_m.is_some()),
+            ];
+            if let Some((name, _)) = stray.iter().find(|(_, given)| *given) {
+                let reason = "only an elastic clutch has damping and play: give clutch.stiffness_ratio or clutch.stiffness_n_m";
+                return Err(key(name).conflict(reason));
+            }
+            let capacity_ratio =
+                capacity.ok_or_else(|| key("clutch").missing("a capacity (capacity_ratio, capacity_n) or a stiffness"))?;
+            return Ok(Engagement::Friction { capacity_ratio });
+        };
+        // C = 2ζ √(K m_r), each over the block's mass.
+        let critical = 2.0 * math::square_root((stiffness * mass_ratio).max(0.0));
+        let damping = either(
+            ("clutch.damping_ratio", self.damping_ratio.map(|ratio| ratio * critical)),
+            ("clutch.damping_n_s_m", self.damping_n_s_m),
+            1.0,
+        )?;
+        Ok(Engagement::Elastic {
+            stiffness,
+            damping: damping.unwrap_or(0.0),
+            backlash: self.backlash_m.unwrap_or(0.0),
+            capacity_ratio: capacity.unwrap_or(f64::INFINITY),
+        })
+    }
+}
+
+impl RackTable {
+    fn resolve(&self, block_mass: Option<f64>, key: &KeyOf<'_>) -> Result<Rack, SceneError> {
+        let either = |direct, absolute, unit| either(key, direct, absolute, block_mass, unit);
+        let viscous = either(("rack.viscous_1_s", self.viscous_1_s), ("rack.viscous_n_s_m", self.viscous_n_s_m), 1.0)?;
+        let dry =
+            either(("rack.dry_friction_ratio", self.dry_friction_ratio), ("rack.dry_friction_n", self.dry_friction_n), GRAVITY)?;
+        Ok(Rack { guided_mass_ratio: 0.0, viscous: viscous.unwrap_or(0.0), dry_ratio: dry.unwrap_or(0.0) })
+    }
+}

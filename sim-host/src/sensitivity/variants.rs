@@ -1,0 +1,181 @@
+//! The effects that a study of sensitivity turns on, each at a stated, typical value.
+
+use crate::scene::device::Kind;
+
+/// One change of a scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Variant {
+    /// The effect's name in [`crate::effect::EFFECTS`]; "together" for several.
+    pub effect: &'static str,
+    /// What it is set to, for tables and pictures.
+    pub name: &'static str,
+    /// The kinds of devices that it is for.
+    pub kinds: &'static [Kind],
+    /// `KEY=VALUE`, as for `--set`; `N` is the number of the device.
+    pub changes: &'static [&'static str],
+    /// Further ones, for a clutched pair.
+    pub of_pair: &'static [&'static str],
+    /// The ground moves vertically too.
+    pub vertical: bool,
+}
+
+/// Vertical over horizontal acceleration where there is no vertical record: the ratio that codes take.
+pub const VERTICAL_RATIO: f64 = 2.0 / 3.0;
+
+const EVERY: &[Kind] = &[Kind::None, Kind::Inerter, Kind::ClutchedPair];
+const INERTERS: &[Kind] = &[Kind::Inerter, Kind::ClutchedPair];
+const PAIR: &[Kind] = &[Kind::ClutchedPair];
+
+const fn variant(effect: &'static str, name: &'static str, kinds: &'static [Kind], changes: &'static [&'static str]) -> Variant {
+    Variant { effect, name, kinds, changes, of_pair: &[], vertical: false }
+}
+
+/// All of them, in the order of the registry of effects.
+///
+/// - Losses: 0.5 m/s² at the rack is the friction of rolling bearings, a few thousandths of the load, behind gears of ratio
+///   30; 0.05 1/s is windage, a flywheel that coasts for 20 s. A brake of 10 m/s² stops one from 1 m/s within 0.1 s.
+/// - Clutches: a tenth of the block's weight is about the largest force of the ideal device, a fiftieth makes it slip. 1e4 m p²
+///   is a mode of flywheel and shaft at some tens of p, 10 % its damping with gears and lubricant, 1 mm the play of coarse
+///   gears after years. Released flywheels stop at once, as the ideal ones do, so that the clutch alone differs.
+/// - Rack: 0.01 of the weight and 0.05 1/s are rolling guides and their seals.
+/// - Delays: 20 ms is a fast electromagnetic clutch with its driver, 50 ms an ordinary one; every tenth engagement missed is a
+///   poor sensor.
+/// - Weight: with gears of ratio 5 to 10, flywheels of 0.02 of the block's mass make mass ratios of 0.5 to 2; the rack has half
+///   of that.
+pub const VARIANTS: [Variant; 21] = [
+    variant("geometry", "slender", EVERY, &["block.geometry=slender"]),
+    Variant { vertical: true, ..variant("vertical", "vertical ground motion", EVERY, &[]) },
+    variant("impact", "geometric restitution", EVERY, &["block.restitution=geometric"]),
+    variant("impact", "momentum balance", EVERY, &["block.restitution=momentum-balance"]),
+    variant("kinematics", "consistent", INERTERS, &["device.N.kinematics=consistent"]),
+    variant("weight", "guided rack 0.01 m", INERTERS, &["device.N.weight={ flywheels_ratio = 0.02, rack_ratio = 0.01 }"]),
+    variant(
+        "weight",
+        "flywheels 0.02 m on the block",
+        INERTERS,
+        &["device.N.weight={ flywheels_ratio = 0.02, flywheels_on = \"block\" }"],
+    ),
+    variant("rack", "dry friction 0.01 m g", INERTERS, &["device.N.rack={ dry_friction_ratio = 0.01 }"]),
+    variant("rack", "viscous 0.05 1/s", INERTERS, &["device.N.rack={ viscous_1_s = 0.05 }"]),
+    variant(
+        "engagement",
+        "rigid, brake 10 m/s²",
+        PAIR,
+        &[
+            "device.N.engagement=rigid",
+            "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.5, brake_deceleration_m_s2 = 10 }",
+        ],
+    ),
+    variant(
+        "engagement",
+        "rigid, instant brake",
+        PAIR,
+        &[
+            "device.N.engagement=rigid",
+            "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.5, brake_deceleration_m_s2 = \"instant\" }",
+        ],
+    ),
+    variant(
+        "engagement",
+        "overrunning, no brake",
+        PAIR,
+        &["device.N.engagement=overrunning", "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.5 }"],
+    ),
+    variant("clutch", "capacity 0.1 m g", PAIR, &["device.N.clutch={ capacity_ratio = 0.1 }", INSTANT_BRAKE]),
+    variant("clutch", "capacity 0.02 m g", PAIR, &["device.N.clutch={ capacity_ratio = 0.02 }", INSTANT_BRAKE]),
+    variant(
+        "clutch",
+        "elastic, K = 1e4 m p²",
+        PAIR,
+        &["device.N.clutch={ stiffness_ratio = 1e4, damping_ratio = 0.1 }", INSTANT_BRAKE],
+    ),
+    variant(
+        "clutch",
+        "elastic, 1 mm backlash",
+        PAIR,
+        &["device.N.clutch={ stiffness_ratio = 1e4, damping_ratio = 0.1, backlash_m = 0.001 }", INSTANT_BRAKE],
+    ),
+    variant("actuation", "delays of 20 ms", PAIR, &["device.N.actuation={ engagement_delay_s = 0.02, release_delay_s = 0.02 }"]),
+    variant("actuation", "delays of 50 ms", PAIR, &["device.N.actuation={ engagement_delay_s = 0.05, release_delay_s = 0.05 }"]),
+    variant("actuation", "1 in 10 engagements missed", PAIR, &["device.N.actuation={ miss_probability = 0.1 }"]),
+    variant(
+        "flywheel",
+        "bearings 0.5 m/s², 0.05 1/s",
+        INERTERS,
+        &["device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.5 }"],
+    ),
+    Variant {
+        of_pair: &[
+            "device.N.clutch={ capacity_ratio = 0.1 }",
+            "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.5, brake_deceleration_m_s2 = 10 }",
+            "device.N.actuation={ engagement_delay_s = 0.02, release_delay_s = 0.02 }",
+        ],
+        ..variant(
+            "together",
+            "a realistic device",
+            INERTERS,
+            &[
+                "device.N.kinematics=consistent",
+                "block.restitution=geometric",
+                "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.5 }",
+                "device.N.rack={ dry_friction_ratio = 0.01, viscous_1_s = 0.05 }",
+                "device.N.weight={ flywheels_ratio = 0.02, rack_ratio = 0.01 }",
+            ],
+        )
+    },
+];
+
+/// As the ideal clutch has it.
+const INSTANT_BRAKE: &str = "device.N.flywheel={ brake_deceleration_m_s2 = \"instant\" }";
+
+impl Variant {
+    /// Its `KEY=VALUE` for device number `index` of `kind`; `None` if it is not for that kind.
+    pub fn overrides(&self, index: usize, kind: Kind) -> Option<Vec<String>> {
+        let of_pair = if kind == Kind::ClutchedPair { self.of_pair } else { &[] };
+        let changes = self.changes.iter().chain(of_pair);
+        self.kinds.contains(&kind).then(|| changes.map(|change| change.replacen(".N.", &format!(".{index}."), 1)).collect())
+    }
+
+    /// Effect and name in one.
+    pub fn label(&self) -> String {
+        format!("{}: {}", self.effect, self.name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::effect;
+    use crate::effect::explanation::Effects;
+    use crate::scene::Scene;
+
+    #[test]
+    fn every_variant_turns_its_effect_on_and_nothing_else_but_what_it_needs() {
+        let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/near_fault.toml"));
+        let base = Scene::load(path, &[]).unwrap();
+        for variant in &VARIANTS {
+            for (index, table) in base.file.device.iter().enumerate() {
+                let Some(overrides) = variant.overrides(index, table.kind) else {
+                    continue;
+                };
+                let scene = Scene::load(path, &overrides).unwrap_or_else(|error| panic!("{}: {error}", variant.label()));
+                if variant.effect == "together" || variant.vertical {
+                    continue;
+                }
+                let effect = effect::find(variant.effect).unwrap();
+                assert!((effect.is_on)(&scene, index).is_some(), "{}", variant.label());
+                let on = Effects::of_scene(&scene).on.into_iter().chain(Effects::of_device(&scene, index).on);
+                let others: Vec<_> = on.map(|setting| setting.effect.name).filter(|name| *name != variant.effect).collect();
+                assert!(others.iter().all(|name| *name == "flywheel"), "{}: {others:?}", variant.label());
+            }
+        }
+    }
+
+    #[test]
+    fn names_tell_variants_apart() {
+        let labels: std::collections::BTreeSet<String> = VARIANTS.iter().map(Variant::label).collect();
+        assert_eq!(labels.len(), VARIANTS.len());
+    }
+}

@@ -1,0 +1,113 @@
+//! What a motion asks of the toe, the device and its gears, and where an assumption of the model fails.
+
+use serde::Serialize;
+use sprag_shared::block::GRAVITY;
+use sprag_shared::checks::{Extreme, Report};
+use sprag_shared::gear::{Gear, tooth_load_ratios};
+use sprag_shared::inertance::Flywheel;
+use sprag_shared::scalar::Real;
+
+use super::run::Task;
+use crate::scene::checks::ChecksTable;
+use crate::scene::device::FlywheelTable;
+
+/// The results of `[checks]`; none where the block never rocked.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Demand {
+    /// Coefficient of friction without which the toe would slide.
+    pub friction_needed: Option<f64>,
+    /// When, s.
+    pub friction_needed_time_s: Option<f64>,
+    /// The same over the impulses of impacts.
+    pub impact_friction_needed: Option<f64>,
+    /// Smallest vertical reaction over the weight.
+    pub smallest_vertical_reaction_ratio: Option<f64>,
+    /// When the toe would leave the ground, s.
+    pub contact_lost_time_s: Option<f64>,
+    /// Largest |F|/(mg) of a flywheel's drive at the rack.
+    pub force_ratio: Option<f64>,
+    /// Farthest travel of the terminals to one side, m.
+    pub stroke_m: Option<f64>,
+    /// Largest bending stress at the root of a tooth, each mesh from the rack on, MPa.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub tooth_stress_mpa: Vec<f64>,
+    /// The assumptions that fail, in words.
+    pub warnings: Vec<String>,
+}
+
+impl Demand {
+    /// Of a report about the device of `task`.
+    pub(super) fn of<S: Real>(task: &Task<'_>, table: &ChecksTable, report: &Report<S>) -> Demand {
+        let number = |extreme: &Option<Extreme<S>>| extreme.map(|extreme| extreme.value.to_f64());
+        let time = |extreme: &Option<Extreme<S>>| extreme.map(|extreme| extreme.time.to_f64());
+        // Forces of the report are over the weight of the loaded block; results are over that of the bare one.
+        let heavier = 1.0 + task.device().carried.mass_ratio;
+        let forces: Vec<f64> = report.force.iter().filter_map(number).map(|force| force * heavier).collect();
+        let force_ratio = forces.iter().copied().reduce(f64::max);
+        let mut demand = Demand {
+            friction_needed: number(&report.friction),
+            friction_needed_time_s: time(&report.friction),
+            impact_friction_needed: number(&report.impact_friction),
+            smallest_vertical_reaction_ratio: number(&report.vertical),
+            contact_lost_time_s: report.contact_lost.map(Real::to_f64),
+            force_ratio,
+            stroke_m: report.stroke().map(|extreme| extreme.value.to_f64()),
+            tooth_stress_mpa: Vec::new(),
+            warnings: Vec::new(),
+        };
+        demand.teeth(task, table);
+        demand.warn(table);
+        demand
+    }
+
+    fn teeth(&mut self, task: &Task<'_>, table: &ChecksTable) {
+        let (Some(gear), Some(mass), Some(force)) = (&table.gear, task.scene.file.block.mass_kg, self.force_ratio) else {
+            return;
+        };
+        let tooth = Gear {
+            module_m: gear.module_mm * 1e-3,
+            face_width_m: gear.face_width_mm * 1e-3,
+            teeth: gear.teeth,
+            allowable_stress_pa: gear.allowable_stress_mpa * 1e6,
+        };
+        let load = force * mass * GRAVITY;
+        let train: Vec<Flywheel> =
+            task.scene.file.device[task.index].flywheels.iter().flatten().map(FlywheelTable::wheel).collect();
+        let ratios: Vec<f64> = match tooth_load_ratios(&train) {
+            Ok(ratios) => ratios.collect(),
+            Err(_) => vec![1.0],
+        };
+        self.tooth_stress_mpa = ratios.iter().map(|ratio| tooth.bending_stress(load * ratio) * 1e-6).collect();
+        for (mesh, stress) in self.tooth_stress_mpa.iter().enumerate() {
+            if *stress > gear.allowable_stress_mpa {
+                let allowed = gear.allowable_stress_mpa;
+                self.warnings.push(format!("teeth of mesh {} are overloaded: {stress:.1} MPa, {allowed} MPa allowed", mesh + 1));
+            }
+        }
+    }
+
+    fn warn(&mut self, table: &ChecksTable) {
+        let mut warn = |message: String| self.warnings.push(message);
+        if let Some(time) = self.contact_lost_time_s {
+            warn(format!("the toe would leave the ground at {time:.4} s: from there on the model does not hold"));
+        }
+        if let Some(available) = table.friction_coefficient {
+            if let Some(needed) = self.friction_needed.filter(|needed| *needed > available) {
+                warn(format!("the toe would slide: a coefficient of friction of {needed:.3} is needed, {available} is there"));
+            }
+            if let Some(needed) = self.impact_friction_needed.filter(|needed| *needed > available) {
+                warn(format!("the toe would slide at an impact: {needed:.3} is needed, {available} is there"));
+            }
+        }
+        if let (Some(limit), Some(force)) = (table.largest_force_ratio, self.force_ratio)
+            && force > limit
+        {
+            warn(format!("the device's force reaches {force:.4} of the block's weight; the limit is {limit}"));
+        }
+        if let (Some(limit), Some(stroke)) = (table.largest_stroke_m, self.stroke_m)
+            && stroke > limit
+        {
+            warn(format!("the terminals travel {stroke:.4} m; the limit is {limit} m"));
+        }
+    }
+}

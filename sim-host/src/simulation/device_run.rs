@@ -1,0 +1,135 @@
+//! What a run of one device comes to.
+
+use serde::Serialize;
+use sprag_shared::ledger::Entries;
+use sprag_shared::observer::Peaks;
+use sprag_shared::rocking::State;
+use sprag_shared::scalar::Real;
+
+use super::demand::Demand;
+use super::energy::EnergyReport;
+use super::run::Task;
+use super::step_end::Trace;
+use super::watchers::Watchers;
+use crate::history::{History, Sample};
+use crate::outcome::Outcome;
+
+/// One device's run. The fields that serialize are the objects in `runs` of `summary.json`; times in s.
+#[derive(Clone, Debug, Serialize)]
+pub struct DeviceRun {
+    /// Its name.
+    pub device: String,
+    /// Its outcome.
+    pub outcome: Outcome,
+    /// max |θ|/α; null when overturned.
+    pub peak_rotation: Option<f64>,
+    /// max |θ̈|/(p²α); null when overturned.
+    pub peak_acceleration: Option<f64>,
+    /// Impacts.
+    pub impacts: u32,
+    /// First impact.
+    pub first_impact_time_s: Option<f64>,
+    /// Rest, overturning or the end of the run.
+    pub end_time_s: f64,
+    /// Times that the clutch engaged or released.
+    pub clutch_switches: u32,
+    /// Engagements that the clutch missed.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub missed_engagements: u32,
+    /// max |F|/(mg) of the inerter's terminals on their support.
+    pub peak_force_ratio: f64,
+    /// What the motion asks of toe, device and gears, where the scene has `[checks]`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub checks: Option<Demand>,
+    /// Where the energy went, where the scene keeps a ledger.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy: Option<EnergyReport>,
+    /// The history.
+    #[serde(skip)]
+    pub history: History,
+}
+
+fn is_zero(count: &u32) -> bool {
+    *count == 0
+}
+
+/// What a run found beside its state and peaks.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Found {
+    pub samples: Vec<Sample>,
+    pub impacts_s: Vec<f64>,
+    pub clutch_switches: u32,
+    pub missed_engagements: u32,
+    pub peak_force_ratio: f64,
+    pub checks: Option<Demand>,
+    pub energy: Option<EnergyReport>,
+}
+
+impl Found {
+    /// By those who watched.
+    pub fn watched<S: Real>(task: &Task<'_>, watchers: Watchers<'_, S>) -> Found {
+        let Watchers { recorder, energy, checks, .. } = watchers;
+        let table = task.scene.file.checks.as_ref();
+        Found {
+            samples: recorder.samples,
+            impacts_s: recorder.impacts,
+            clutch_switches: recorder.switches,
+            missed_engagements: 0,
+            peak_force_ratio: recorder.peak_force,
+            checks: checks.zip(table).map(|(checks, table)| Demand::of(task, table, &checks.report())),
+            energy: energy.map(|energy| {
+                let barrier = energy.ledger.barrier().to_f64();
+                let last = energy.ledger.entries().each(Real::to_f64);
+                let shares = |entries: Entries<f64>| entries.scaled(1.0 / barrier);
+                EnergyReport {
+                    entries: shares(last).into(),
+                    history: energy.samples.iter().map(|(time, entries)| (*time, shares(*entries).into())).collect(),
+                }
+            }),
+        }
+    }
+}
+
+impl<S> From<Trace<S>> for Found {
+    fn from(trace: Trace<S>) -> Found {
+        Found {
+            samples: trace.samples,
+            impacts_s: trace.impacts,
+            clutch_switches: trace.switches,
+            peak_force_ratio: trace.peak_force,
+            ..Found::default()
+        }
+    }
+}
+
+impl DeviceRun {
+    /// Of a motion that ended in `state` with `peaks`. Results stay relative to the bare block.
+    pub(super) fn of<S: Real>(task: &Task<'_>, state: &State<S>, peaks: &Peaks<S>, found: Found) -> DeviceRun {
+        let device = task.device().name.clone();
+        let (alpha, p) = (task.scene.block.slenderness(), task.scene.block.frequency_parameter());
+        let outcome = Outcome::of(state, peaks);
+        let safe = |value: S| (!outcome.overturned()).then_some(value.to_f64());
+        DeviceRun {
+            device: device.clone(),
+            outcome,
+            peak_rotation: safe(peaks.rotation).map(|peak| peak / alpha),
+            peak_acceleration: safe(peaks.acceleration).map(|peak| peak / (p * p * alpha)),
+            impacts: state.impacts,
+            first_impact_time_s: peaks.first_impact.map(Real::to_f64),
+            end_time_s: peaks.ended.map_or(task.end(), Real::to_f64),
+            clutch_switches: found.clutch_switches,
+            missed_engagements: found.missed_engagements,
+            peak_force_ratio: found.peak_force_ratio,
+            checks: found.checks,
+            energy: found.energy,
+            history: History {
+                device,
+                outcome: outcome.name().to_owned(),
+                slenderness_rad: alpha,
+                frequency_parameter_1_s: p,
+                samples: found.samples,
+                impacts_s: found.impacts_s,
+            },
+        }
+    }
+}
