@@ -294,9 +294,65 @@ fn explain_says_what_is_on_why_and_which_equation_results() {
     refused(&["explain", &scene("figure05"), "--set", brake], nowhere.path(), &["figure05.toml", "brake", "ideal clutch"]);
 }
 
+/// A block under a short pulse: the whole table of variants in a moment.
+const SHORT_SCENE: &str = "[block]\nsize_m = 2\nslenderness_deg = 10\n[[device]]\nkind = \"inerter\"\nmass_ratio = 0.2\n\
+    [[ground]]\nmotion = \"record\"\nfile = \"own.csv\"\n[run]\nfree_time_s = 2\n";
+
+/// Half a sine of `peak` (g) and 0.6 s, as a record.
+fn pulse(peak: f64) -> String {
+    let sample = |k: i32| format!("{},{}\n", f64::from(k) * 0.01, peak * f64::from(k * (60 - k)) / 900.0);
+    (0..=60).fold("# time_s,acc_g\n".to_owned(), |text, k| text + &sample(k))
+}
+
+#[test]
+fn sensitivity_does_not_depend_on_the_number_of_threads_and_names_a_bad_record() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let (scene, bad) = (file("short.toml", SHORT_SCENE), file("bad.csv", "# time_s,acc_g\n0,0\n0.01,NaN\n"));
+    let records = [file("weak.csv", &pulse(0.25)), file("strong.csv", &pulse(-0.3)), file("own.csv", &pulse(0.28))];
+    let outs = ["1", "3"].map(|threads| {
+        let out = folder.path().join(threads);
+        let line = ["sensitivity", &scene, "--threads", threads, "--out", out.to_str().unwrap(), "--records"];
+        let output = sprag(&[&line[..], &[&records[0], &bad, &records[1]]].concat());
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains("bad.csv") && message.trim_end().lines().count() == 1, "{message}");
+        out
+    });
+    for name in ["summary.json", "sensitivity.csv", "sensitivity.md", "sensitivity.svg"] {
+        let [one, other] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
+        assert!(one == other && !one.is_empty(), "{name}");
+    }
+    let summary: serde_json::Value = serde_json::from_slice(&fs::read(outs[0].join("summary.json")).unwrap()).unwrap();
+    assert_eq!(summary["records"], serde_json::json!(["weak", "strong"]));
+    let table = fs::read_to_string(outs[0].join("sensitivity.csv")).unwrap();
+    let rows: Vec<&str> = table.lines().filter(|row| row.contains(",kinematics,consistent,")).collect();
+    assert_eq!(rows.len(), 3, "{table}");
+    assert!(rows[0].starts_with("own motion,inerter,") && rows[2].starts_with("strong,inerter,"), "{rows:?}");
+}
+
+#[test]
+fn bad_input_of_sensitivity_costs_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let near_fault = scene("near_fault");
+    let line = |scene: &str, more: &[&str], words: &[&str]| {
+        refused(&[&["sensitivity", scene, "--out", out.to_str().unwrap()], more].concat(), &out, words);
+    };
+    line("nowhere.toml", &[], &["nowhere.toml"]);
+    line(&near_fault, &["--set", "block.colour=red"], &["colour"]);
+    line(&scene("figure05"), &["--records", "x.AT2"], &["motion = \"record\""]);
+    line(&scene("record"), &[], &["--record"]);
+    line(&near_fault, &["--records", "x.AT2", "y.AT2", "--records-vertical", "z.AT2"], &["1 files", "2"]);
+}
+
 #[test]
 fn every_subcommand_has_help_with_an_example() {
-    for command in ["simulate", "batch", "record", "synthesize", "effects", "explain"] {
+    for command in ["simulate", "batch", "sensitivity", "record", "synthesize", "effects", "explain"] {
         let output = sprag(&[command, "--help"]);
         let help = String::from_utf8(output.stdout).unwrap();
         assert!(output.status.success() && help.contains("Example"), "{command}: {help}");

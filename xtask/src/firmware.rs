@@ -12,6 +12,18 @@ pub const TARGET: &str = "thumbv7em-none-eabihf";
 /// The firmware's package.
 pub const PACKAGE: &str = "sprag-firmware";
 
+/// How the emulator runs it, as in `.cargo/config.toml`; the firmware follows.
+pub const EMULATOR: [&str; 8] = [
+    "-machine",
+    "netduinoplus2",
+    "-nographic",
+    "-semihosting-config",
+    "enable=on,target=native",
+    "-icount",
+    "shift=0",
+    "-kernel",
+];
+
 /// The environment variable through which the emulator tests find the firmware.
 pub const ELF_VARIABLE: &str = "SPRAG_FIRMWARE_ELF";
 

@@ -1,5 +1,6 @@
 //! Sprag's own tasks, run as `cargo xtask <task>`.
 
+mod effects;
 mod firmware;
 mod fuzz;
 mod process;
@@ -21,6 +22,8 @@ Tasks:
   test      every check, in order; stops at the first that fails
   ci        the same
   firmware  build the firmware for the board and hold its size against firmware/size.budget
+  effects   measure what each effect costs, on the host under callgrind and on the emulated board, and write
+            docs/effects-cost.csv; fails if an effect that is off costs more than 1 %
   fuzz [TARGET]
             feed random input to one fuzz target, or to each of them in turn
 
@@ -70,6 +73,10 @@ fn run(mut args: impl Iterator<Item = String>) -> Result<(), Stop> {
         ["firmware"] => {
             tools::need_board_target(&root)?;
             firmware::build(&root).and_then(|elf| size::check(&root, &elf))
+        }
+        ["effects"] => {
+            tools::need_board_target(&root)?;
+            effects::run(&root)
         }
         ["fuzz"] => fuzz::run(&root, None, seconds),
         ["fuzz", target] => fuzz::run(&root, Some(target), seconds),

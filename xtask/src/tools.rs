@@ -33,6 +33,14 @@ pub fn need_emulator() -> Result<(), Stop> {
     need("qemu-system-arm", &["qemu-system-arm"])
 }
 
+/// Makes sure that callgrind is installed.
+///
+/// # Errors
+/// If it is not and cannot be.
+pub fn need_valgrind() -> Result<(), Stop> {
+    need("valgrind", &["valgrind"])
+}
+
 /// Makes sure that there is a C++ compiler, which libFuzzer is built with.
 ///
 /// # Errors

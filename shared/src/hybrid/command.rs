@@ -71,7 +71,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 }
             }
             if state.motion.velocity == velocity {
-                if D::HOLDS && velocity == S::ZERO && state.motion.rotation != S::ZERO {
+                if D::HOLDS && velocity == S::ZERO && state.motion.rotation != S::ZERO && !state.free {
                     // The bearings of a wheel that has just been engaged may hold the block.
                     self.turned(state);
                 }

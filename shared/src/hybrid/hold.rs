@@ -92,7 +92,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         }
         state.ground = shaking.at::<S, B>(until);
         if free.is_some() {
-            state.held = false;
+            (state.held, state.free) = (false, true);
             state.motion.direction = sign;
             state.motion.drive = if D::COMMANDED { self.drive_sign(state) } else { state.motion.drive };
             self.settle(state, until, observer);

@@ -64,6 +64,8 @@ pub struct MachineState<S> {
     pub ground: [S; 2],
     /// The watched functions that are zero here, by an event just handled.
     fresh: [bool; 3],
+    /// Friction has just let the block go: what moves it is zero here and about to grow.
+    free: bool,
 }
 
 /// What ended a step.
@@ -81,7 +83,8 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     /// A block that stands, with an idle device.
     pub fn at_rest(&self) -> MachineState<S> {
         let motion = State::default();
-        let mut state = MachineState { motion, device: Device::at_rest(), held: false, ground: [S::ZERO; 2], fresh: [false; 3] };
+        let ground = [S::ZERO; 2];
+        let mut state = MachineState { motion, device: Device::at_rest(), held: false, ground, fresh: [false; 3], free: false };
         self.part_at_rest(&mut state);
         state
     }
@@ -259,7 +262,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let posture = self.body.posture(motion.side.unit(), motion.rotation);
         self.drive.store(&mut state.device, &extra, self.body.along(&posture, motion.velocity));
         state.device.elapse(until);
-        state.fresh = [false; 3];
+        (state.fresh, state.free) = ([false; 3], false);
         let ground = shaking.at::<S, B>(*time);
         state.ground = ground;
         match end {

@@ -254,3 +254,126 @@ fn write_legend(
     }
     middle + 0.5 * ROW_PX
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::history::History;
+    use crate::outcome::Outcome;
+    use crate::simulation::energy::EnergyReport;
+
+    const NOTHING: Shares = Shares {
+        initial: 0.0,
+        input: 0.0,
+        created: 0.0,
+        kinetic: 0.0,
+        potential: 0.0,
+        stored: 0.0,
+        impact: 0.0,
+        clutch: 0.0,
+        brake: 0.0,
+        bearing: 0.0,
+        rack: 0.0,
+        kinematics: 0.0,
+        residual: 0.0,
+    };
+
+    fn run(device: &str, outcome: Outcome, history: Vec<(f64, Shares)>) -> DeviceRun {
+        let entries = history.last().map_or(NOTHING, |(_, shares)| *shares);
+        DeviceRun {
+            device: device.to_owned(),
+            outcome,
+            peak_rotation: Some(0.5),
+            peak_acceleration: Some(1.0),
+            impacts: 3,
+            first_impact_time_s: Some(1.0),
+            end_time_s: 10.0,
+            clutch_switches: 0,
+            missed_engagements: 0,
+            peak_force_ratio: 0.0,
+            checks: None,
+            energy: Some(EnergyReport { entries, history }),
+            history: History::default(),
+        }
+    }
+
+    /// Kinetic and potential energy take turns and go to impacts, or grow until the potential energy drops.
+    fn swinging(count: usize, grows: bool) -> Vec<(f64, Shares)> {
+        let sample = |index: usize| {
+            let part = index as f64 / count as f64;
+            let (total, wave) = (if grows { 2.0 * part } else { 0.8 * (1.0 - part) }, (40.0 * part).fract());
+            let potential = if grows && part > 0.9 { -50.0 * part } else { total * wave };
+            let kinetic = total - potential;
+            let impact = if grows { 0.0 } else { 0.8 * part };
+            (9.0 * part, Shares { input: total + impact, kinetic, potential, impact, ..NOTHING })
+        };
+        (0..count).map(sample).collect()
+    }
+
+    fn assert_well_formed(svg: &str) {
+        for bad in ["NaN", "inf", "2147483647", "-2147483648"] {
+            assert!(!svg.contains(bad), "{bad}");
+        }
+        for element in ["text", "svg", "g", "title"] {
+            let opened = svg.matches(&format!("<{element} ")).count() + svg.matches(&format!("<{element}>")).count();
+            assert_eq!(opened, svg.matches(&format!("</{element}>")).count(), "{element}");
+        }
+    }
+
+    #[test]
+    fn every_device_has_a_panel_and_only_what_some_device_has_is_in_the_legend() {
+        let runs = [
+            run("one & only", Outcome::Safe, swinging(500, false)),
+            run("over", Outcome::OverturnedAfterImpact, swinging(500, true)),
+            run("rest", Outcome::NoRocking, Vec::new()),
+        ];
+        let svg = energy_figure("A <title>", &runs).unwrap();
+        assert_well_formed(&svg);
+        assert_eq!(svg.matches("rotate(-90 ").count(), 3);
+        assert_eq!(svg.matches(">overturns<").count(), 1);
+        assert_eq!(svg.matches(">never rocks<").count(), 1);
+        assert!(svg.contains("A &lt;title&gt;") && svg.contains("one &amp; only (safe)"));
+        assert!(svg.contains("gone in impacts") && svg.contains(">potential<") && svg.contains(">kinetic<"));
+        for absent in ["brakes", "clutches", "bearings", "the rack", "stored", "created", "kinematics"] {
+            assert!(!svg.contains(absent), "{absent}");
+        }
+    }
+
+    #[test]
+    fn energy_that_the_papers_kinematics_give_is_put_in_and_what_they_take_is_an_area() {
+        let with = |kinematics: f64| {
+            let add = |(time, shares): (f64, Shares)| (time, Shares { kinematics, ..shares });
+            let history = swinging(100, false).into_iter().map(add).collect();
+            energy_figure("", &[run("one", Outcome::Safe, history)]).unwrap()
+        };
+        let (taken, given) = (with(0.25), with(-0.25));
+        assert!(taken.contains("taken by the paper's kinematics") && taken.contains("kinematics took 0.250"));
+        assert!(given.contains("given by the paper's kinematics") && given.contains("kinematics gave 0.250"));
+        let shares = Shares { input: 1.0, kinematics: -0.25, ..NOTHING };
+        assert_eq!(supply(&shares), 1.25);
+    }
+
+    #[test]
+    fn long_ledgers_stay_small_and_the_bytes_repeat() {
+        let runs = [run("long", Outcome::Safe, swinging(200_000, false))];
+        let svg = energy_figure("", &runs).unwrap();
+        assert_well_formed(&svg);
+        assert!(svg.len() < 300_000, "{}", svg.len());
+        assert_eq!(svg, energy_figure("", &runs).unwrap());
+    }
+
+    #[test]
+    fn what_cannot_be_drawn_is_refused() {
+        assert_eq!(energy_figure("", &[]), Err(PlotError::NoHistories));
+        let mut without = run("none", Outcome::Safe, Vec::new());
+        without.energy = None;
+        assert_eq!(energy_figure("", &[without]), Err(PlotError::NoHistories));
+        let mut history = swinging(100, false);
+        history[50].1.kinetic = f64::NAN;
+        let broken = energy_figure("", &[run("one", Outcome::Safe, history.clone())]);
+        assert!(matches!(broken, Err(PlotError::NotFinite { .. })));
+        history[50].1.kinetic = 0.0;
+        history.swap(3, 30);
+        assert!(matches!(energy_figure("", &[run("one", Outcome::Safe, history)]), Err(PlotError::TimeGoesBack { .. })));
+    }
+}

@@ -11,9 +11,9 @@ use super::ticks::{round_ticks, tick_text};
 const WIDTH_PX: f64 = 900.0;
 const MARGIN_PX: f64 = 12.0;
 /// Left of the axis, for effects and variants.
-const LABELS_PX: f64 = 262.0;
+const LABELS_PX: f64 = 280.0;
 /// Where variants start, right of their effects.
-const VARIANT_PX: f64 = 84.0;
+const VARIANT_PX: f64 = 96.0;
 /// Right of the axis, for one column of counts.
 const COUNT_PX: f64 = 62.0;
 const LANE_PX: f64 = 13.0;
@@ -23,8 +23,8 @@ const SMALL_FONT_PX: f64 = 10.5;
 const DOT_PX: f64 = 2.4;
 const MEDIAN_PX: f64 = 4.6;
 const DIAMOND_PX: f64 = 5.4;
-/// Half-widths that the axis may have.
-const LIMITS: [f64; 7] = [0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0];
+/// Half-widths that the axis may have; nothing can shrink by more than all of it.
+const LIMITS: [f64; 6] = [0.02, 0.05, 0.1, 0.2, 0.5, 1.0];
 /// Part of the changes that the axis should hold.
 const HELD: f64 = 0.93;
 /// Bands behind every other effect.
@@ -363,7 +363,7 @@ mod tests {
     fn the_axis_holds_most_changes_and_a_figure_needs_finite_ones() {
         assert_eq!(limit([0.0; 5].into_iter()), LIMITS[0]);
         assert_eq!(limit((0..1000).map(|k| f64::from(k) * 1e-4)), 0.1);
-        assert_eq!(limit([1e9].into_iter()), 2.0);
+        assert_eq!(limit([1e9].into_iter()), 1.0);
         assert_eq!(sensitivity_figure("", &[], &[]), Err(PlotError::NoHistories));
         let mut rows = rows();
         rows[0].lanes[0].changes[0] = f64::NAN;

@@ -114,6 +114,7 @@ fn own_motion(own: &OwnMotion) -> String {
         (Some(Flip::ToOverturned), _) => "overturns".to_owned(),
         (Some(Flip::ToStanding), _) => "stands".to_owned(),
         (None, Some(change)) => percent(change),
+        (None, None) if own.peak_base.is_none() => "both overturn".to_owned(),
         (None, None) => "-".to_owned(),
     }
 }

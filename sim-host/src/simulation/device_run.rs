@@ -1,7 +1,6 @@
 //! What a run of one device comes to.
 
 use serde::Serialize;
-use sprag_shared::ledger::Entries;
 use sprag_shared::observer::Peaks;
 use sprag_shared::rocking::State;
 use sprag_shared::scalar::Real;
@@ -68,24 +67,16 @@ pub(super) struct Found {
 impl Found {
     /// By those who watched.
     pub fn watched<S: Real>(task: &Task<'_>, watchers: Watchers<'_, S>) -> Found {
-        let Watchers { recorder, energy, checks, .. } = watchers;
-        let table = task.scene.file.checks.as_ref();
+        let Watchers { recorder, asked, .. } = watchers;
+        let (checks, energy) = asked.results(task);
         Found {
             samples: recorder.samples,
             impacts_s: recorder.impacts,
             clutch_switches: recorder.switches,
             missed_engagements: 0,
             peak_force_ratio: recorder.peak_force,
-            checks: checks.zip(table).map(|(checks, table)| Demand::of(task, table, &checks.report())),
-            energy: energy.map(|energy| {
-                let barrier = energy.ledger.barrier().to_f64();
-                let last = energy.ledger.entries().each(Real::to_f64);
-                let shares = |entries: Entries<f64>| entries.scaled(1.0 / barrier);
-                EnergyReport {
-                    entries: shares(last).into(),
-                    history: energy.samples.iter().map(|(time, entries)| (*time, shares(*entries).into())).collect(),
-                }
-            }),
+            checks,
+            energy,
         }
     }
 }

@@ -1,10 +1,14 @@
 //! One scene, every device: histories and what they amount to.
 
+#[cfg_attr(not(feature = "effects"), path = "unasked.rs")]
+mod asked;
+#[cfg_attr(not(feature = "effects"), allow(dead_code, reason = "only effects demand anything"))]
 pub mod demand;
 pub mod device_run;
 pub mod drive;
 pub mod energy;
 mod ideal;
+#[cfg_attr(not(feature = "effects"), path = "no_machine.rs")]
 mod machine;
 pub mod recorder;
 pub mod run;

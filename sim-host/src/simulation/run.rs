@@ -1,19 +1,19 @@
 //! `simulate`: every device of a scene under its ground motion.
 
 use sprag_shared::block::Block;
-use sprag_shared::checks::Checks;
 use sprag_shared::drivetrain::Engagement;
 use sprag_shared::error::ParameterError;
-use sprag_shared::ledger::{Account, Clutching, Ledger};
+use sprag_shared::ledger::{Account, Clutching};
 use sprag_shared::observer::Peaks;
 use sprag_shared::rocking::Stopped;
 use sprag_shared::scalar::Real;
 use sprag_shared::structure::{DeviceKind, Structure};
 
+use super::asked::Asked;
 use super::device_run::DeviceRun;
 use super::drive::{Course, Overturning};
 use super::recorder::Recorder;
-use super::watchers::{EnergyHistory, Watchers};
+use super::watchers::Watchers;
 use super::{ideal, machine};
 use crate::ground_motion::GroundMotion;
 use crate::interrupt::Interrupt;
@@ -54,6 +54,12 @@ pub enum RunError {
         /// s.
         duration: f64,
     },
+    /// The program was built without effects.
+    #[error("{device}: this program was built without effects")]
+    NoEffects {
+        /// Device.
+        device: String,
+    },
     /// Ctrl-C.
     #[error("interrupted")]
     Interrupted,
@@ -72,8 +78,8 @@ pub fn simulate(scene: &Scene, ground: &GroundMotions, interrupt: &Interrupt) ->
     let run = |index: usize| {
         let device = &scene.devices[index].name;
         let task = Task { scene, ground, index, interval, interrupt };
-        let done = if task.is_ideal() { ideal::run(&task) } else { machine::run(&task) };
-        done.map_err(|failure| match failure {
+        task.run().map_err(|failure| match failure {
+            Failure::NoEffects => RunError::NoEffects { device: device.clone() },
             Failure::Parameter(error) => RunError::Parameter { device: device.clone(), error },
             Failure::Stopped(error) => RunError::Stopped { device: device.clone(), error },
             Failure::Interrupted => RunError::Interrupted,
@@ -87,6 +93,8 @@ pub(super) enum Failure {
     Parameter(ParameterError),
     Stopped(Stopped),
     Interrupted,
+    #[cfg_attr(feature = "effects", expect(dead_code, reason = "for a program without effects"))]
+    NoEffects,
 }
 
 impl From<ParameterError> for Failure {
@@ -110,6 +118,10 @@ impl<'a> Task<'a> {
     /// Nothing calls for a memory: the loop for ideal devices is enough.
     fn is_ideal(&self) -> bool {
         self.device().is_ideal() && self.ground.vertical.is_none()
+    }
+
+    fn run(&self) -> Result<DeviceRun, Failure> {
+        if self.is_ideal() { ideal::run(self) } else { machine::run(self) }
     }
 
     /// The device.
@@ -163,33 +175,29 @@ impl<'a> Task<'a> {
         (1.0 + self.device().carried.mass_ratio) / loaded.block.frequency_parameter_squared()
     }
 
-    /// Those who watch.
-    pub fn watchers<S: Real>(&self, loaded: &Structure) -> Result<Watchers<'a, S>, ParameterError> {
+    /// What a ledger and checks have to know of the device.
+    #[cfg_attr(not(feature = "effects"), allow(dead_code, reason = "for those only"))]
+    pub fn account(&self, loaded: &Structure) -> Account {
         let device = self.device();
-        let geometry = self.scene.geometry();
-        let account = Account {
+        Account {
             clutching: match (device.device.kind, device.drivetrain.engagement) {
                 (DeviceKind::ClutchedPair, Engagement::Ideal) => Clutching::Ideal,
                 (DeviceKind::ClutchedPair, _) => Clutching::Real,
                 _ => Clutching::Permanent,
             },
             mass_ratio: loaded.device.mass_ratio,
-            rack_mass_ratio: device.drivetrain.rack.guided_mass_ratio,
-        };
-        let stays_engaged = device.device.kind == DeviceKind::Inerter;
+            rack_mass_ratio: device.drivetrain.rack.guided_mass_ratio / (1.0 + device.carried.mass_ratio),
+        }
+    }
+
+    /// Those who watch.
+    pub fn watchers<S: Real>(&self, loaded: &Structure) -> Result<Watchers<'a, S>, Failure> {
+        let stays_engaged = self.device().device.kind == DeviceKind::Inerter;
         let segments = self.ground.horizontal.segments();
-        let mut watchers = Watchers {
+        Ok(Watchers {
             recorder: Recorder::new(self.force_scale(loaded), stays_engaged, self.interval, segments),
             peaks: Peaks { rocked: self.released().is_some(), ..Peaks::default() },
-            energy: None,
-            checks: None,
-        };
-        if self.scene.file.output.energy {
-            watchers.energy = Some(EnergyHistory::new(Ledger::new(&loaded.block, geometry, &account), self.interval));
-        }
-        if self.scene.file.checks.is_some() {
-            watchers.checks = Some(Checks::new(&loaded.block, geometry, &loaded.device.mount, &account)?);
-        }
-        Ok(watchers)
+            asked: Asked::of(self, loaded)?,
+        })
     }
 }

@@ -51,7 +51,7 @@ fn a_seed_without_a_probability_changes_nothing() {
 fn a_clutch_that_never_obeys_is_none() {
     let shake = pair(Geometry::Full, 3.0, 5.0);
     let never = shake.machine(&with(Actuation { miss_probability: 1.0, ..Actuation::default() }), &tight());
-    let mut alone = shake;
+    let mut alone = shake.clone();
     alone.structure.device = crate::structure::Device::NONE;
     assert!(switches(&never).is_empty());
     assert!((never.peak / alone.ideal().peak - 1.0).abs() < 1e-12);
@@ -93,7 +93,7 @@ fn a_capacity_that_rises_slowly_carries_less() {
         ..Drivetrain::default()
     };
     let peak = |rise_time: f64| shake.machine(&plates(rise_time), &tight()).peak;
-    let mut alone = shake;
+    let mut alone = shake.clone();
     alone.structure.device = crate::structure::Device::NONE;
     let (at_once, short, never) = (peak(0.0), peak(1e-6), alone.ideal().peak);
     assert!((short / at_once - 1.0).abs() < 1e-4, "{short} and {at_once}");

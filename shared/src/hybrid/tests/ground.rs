@@ -1,6 +1,6 @@
 //! Vertical ground motion, guided racks and rack friction, against what they amount to.
 
-use super::{Ground, Shake, pair, shake, structure, tight};
+use super::{Ground, pair, shake, structure, tight};
 use crate::block::Geometry;
 use crate::body::Body;
 use crate::drivetrain::drive::Drive;
@@ -174,9 +174,12 @@ fn friction_holds_a_block_where_nothing_else_does() {
 fn devices_are_symmetric() {
     for (name, drivetrain) in super::drivetrains() {
         let shake = pair(Geometry::Full, 3.0, 5.0);
-        let mirrored = Shake { amplitude: -shake.amplitude, ..shake };
+        let mut mirrored = shake.clone();
+        if let (Ground::Sine(sine), _) = &mut mirrored.pieces[0] {
+            sine.terms[0].amplitude = -sine.terms[0].amplitude;
+        }
         let (one, other) = (shake.machine(&drivetrain, &tight()), mirrored.machine(&drivetrain, &tight()));
         assert_eq!(one.peak.to_bits(), other.peak.to_bits(), "{name}");
-        assert_eq!(one.spins[0].to_bits(), (-other.spins[1]).to_bits(), "{name}");
+        assert_eq!(one.spins[0], -other.spins[1], "{name}");
     }
 }

@@ -80,14 +80,12 @@ impl Piece<f64> for Ground {
     }
 }
 
-/// A block with α and σ under one sine cycle, then left alone.
-#[derive(Clone, Copy, Debug)]
+/// A block under pieces of ground motion, then left alone.
+#[derive(Clone, Debug)]
 pub struct Shake {
     pub structure: Structure,
-    /// In g.
-    pub amplitude: f64,
-    /// rad/s.
-    pub frequency: f64,
+    /// Each with its duration, s.
+    pub pieces: Vec<(Ground, f64)>,
     /// s.
     pub free_time: f64,
 }
@@ -102,6 +100,8 @@ pub struct Seen {
     pub events: Vec<(Event, f64)>,
     pub state: State<f64>,
     pub spins: [f64; 2],
+    /// Clutch switches: time, and the state before and after.
+    pub switches: Vec<(f64, State<f64>, State<f64>)>,
 }
 
 pub fn structure(geometry: Geometry, degrees: f64, kind: DeviceKind, sigma: f64, kinematics: KinematicsKind) -> Structure {
@@ -118,7 +118,8 @@ pub fn structure(geometry: Geometry, degrees: f64, kind: DeviceKind, sigma: f64,
 pub fn shake(structure: Structure, amplitude: f64, frequency: f64) -> Shake {
     let p = structure.block.frequency_parameter();
     let amplitude = amplitude * structure.geometry.uplift_threshold(&structure.block);
-    Shake { structure, amplitude, frequency: frequency * p, free_time: 12.0 / p }
+    let cycle = (Ground::sine(amplitude, frequency * p), core::f64::consts::TAU / (frequency * p));
+    Shake { structure, pieces: std::vec![cycle], free_time: 12.0 / p }
 }
 
 /// Peaks of a machine, as those of a system.
@@ -126,22 +127,34 @@ pub fn shake(structure: Structure, amplitude: f64, frequency: f64) -> Shake {
 struct Watcher {
     peaks: Peaks<f64>,
     events: Vec<(Event, f64)>,
+    last: State<f64>,
+    switches: Vec<(f64, State<f64>, State<f64>)>,
 }
 
 impl DeviceObserver<f64> for Watcher {
     fn device_stretch(&mut self, arc: &dyn crate::snapshot::DeviceArc<f64>, stretch: &crate::observer::Stretch<f64>) {
+        let (rotation, velocity) = (stretch.last.rotation, stretch.last.velocity);
+        self.last = State { rotation, velocity, ..State::default() };
         crate::observer::Observer::stretch(&mut self.peaks, &arc, stretch);
     }
 
     fn device_event(&mut self, event: Event, time: f64, state: &State<f64>) {
         crate::observer::Observer::event(&mut self.peaks, event, time, state);
         self.events.push((event, self.peaks.origin + time));
+        if event == Event::Switch {
+            self.switches.push((self.peaks.origin + time, self.last, *state));
+        }
+        self.last = *state;
     }
 }
 
 impl Shake {
     fn limits(&self, quiet: bool) -> Limits<f64> {
-        let bound = if quiet { 0.0 } else { self.amplitude.abs() };
+        let largest = |(ground, _): &(Ground, f64)| match ground {
+            Ground::Sine(sine) => sine.terms[0].amplitude.abs(),
+            Ground::Line(line) => line.start.abs(),
+        };
+        let bound = if quiet { 0.0 } else { self.pieces.iter().map(largest).fold(0.0, f64::max) };
         let block = self.structure.loaded().unwrap().block;
         Limits { overturned: self.structure.geometry.point_of_no_return(&block, bound), events: 100_000 }
     }
@@ -163,10 +176,13 @@ impl Shake {
                 }
                 let method = Taylor::<f64, 20>::adaptive(1e-17);
                 let (mut state, mut peaks) = (State::default(), Every(Peaks::default()));
-                let pulse = Harmonics::sine(self.0.amplitude, self.0.frequency);
-                let duration = core::f64::consts::TAU / self.0.frequency;
-                system.advance(&method, &mut state, &pulse, duration, &self.0.limits(false), &mut peaks).unwrap();
-                peaks.0.origin = duration;
+                let mut origin = 0.0;
+                for (ground, duration) in &self.0.pieces {
+                    peaks.0.origin = origin;
+                    system.advance(&method, &mut state, ground, *duration, &self.0.limits(false), &mut peaks).unwrap();
+                    origin += duration;
+                }
+                peaks.0.origin = origin;
                 system.advance(&method, &mut state, &Quiet, self.0.free_time, &self.0.limits(true), &mut peaks).unwrap();
                 let peaks = peaks.0;
                 Seen {
@@ -228,11 +244,11 @@ impl Shake {
     ) -> Seen {
         let mut watcher = (Watcher::default(), watcher);
         let mut state: MachineState<f64> = machine.at_rest();
-        let pulse = Ground::sine(self.amplitude, self.frequency);
-        let duration = core::f64::consts::TAU / self.frequency;
-        let shaking = Shaking { horizontal: &pulse, vertical: &Ground::QUIET };
-        machine.advance(method, &mut state, shaking, duration, &self.limits(false), &mut watcher).unwrap();
-        watcher.0.peaks.origin = duration;
+        for (ground, duration) in &self.pieces {
+            let shaking = Shaking { horizontal: ground, vertical: &Ground::QUIET };
+            machine.advance(method, &mut state, shaking, *duration, &self.limits(false), &mut watcher).unwrap();
+            watcher.0.peaks.origin += duration;
+        }
         let shaking = Shaking { horizontal: &Ground::QUIET, vertical: &Ground::QUIET };
         machine.advance(method, &mut state, shaking, self.free_time, &self.limits(true), &mut watcher).unwrap();
         let own = watcher.0;
@@ -244,6 +260,7 @@ impl Shake {
             events: own.events,
             state: state.motion,
             spins: state.device.wheels.map(|wheel| wheel.spin),
+            switches: own.switches,
         }
     }
 }

@@ -1,0 +1,104 @@
+//! Cases of devices with a memory, and of any device over ground that moves vertically too.
+
+use super::ideal::{STIFF, most_events};
+use super::{Case, CaseError, Ending, FixedMethod, Initially, RunEnd, Shape};
+use crate::body::Body;
+use crate::drivetrain::drive::Drive;
+use crate::drivetrain::elastic::ElasticPair;
+use crate::fixed::RungeKutta4;
+use crate::hybrid::Machine;
+use crate::hybrid::exponential::ExponentialMidpoint;
+use crate::hybrid::path::{Shaking, Tracer};
+use crate::hybrid::resolve::WithMachine;
+use crate::observer::{Event, Observer, Peaks, Stretch};
+use crate::rocking::{Limits, Phase, State, Stopped};
+use crate::snapshot::{DeviceArc, DeviceObserver};
+
+/// |θ| at which a block lies on the ground, rad. A device may bring a block back from beyond the angle from which its weight
+/// and the ground alone would not.
+const OVERTURNED: f32 = core::f32::consts::FRAC_PI_2;
+
+/// What methods run that are not for these devices.
+const IDEAL: &str = "ideal devices over horizontal ground only: loops for all others would not fit the flash of the board";
+
+/// Runs a case that is not ideal.
+pub(super) fn run(case: &Case<'_>, observer: &mut dyn DeviceObserver<f32>) -> Result<RunEnd, CaseError> {
+    if let method @ (FixedMethod::SemiImplicitEuler | FixedMethod::Taylor) = case.method {
+        return Err(CaseError::Method { method, runs: IDEAL });
+    }
+    case.drivetrain.resolve(&case.structure, case.ground.is_vertical(), Runner { case, observer })?
+}
+
+/// The caller's observer, the peaks, and a count of steps.
+struct Watch<'o> {
+    observer: &'o mut dyn DeviceObserver<f32>,
+    peaks: Peaks<f32>,
+    steps: u32,
+}
+
+impl DeviceObserver<f32> for Watch<'_> {
+    fn device_stretch(&mut self, arc: &dyn DeviceArc<f32>, stretch: &Stretch<f32>) {
+        self.steps += 1;
+        self.peaks.stretch(&arc, stretch);
+        self.observer.device_stretch(arc, stretch);
+    }
+
+    fn device_event(&mut self, event: Event, time: f32, state: &State<f32>) {
+        self.peaks.event(event, time, state);
+        self.observer.device_event(event, time, state);
+    }
+}
+
+struct Runner<'c, 'w, 'o> {
+    case: &'c Case<'w>,
+    observer: &'o mut dyn DeviceObserver<f32>,
+}
+
+impl WithMachine<f32> for Runner<'_, '_, '_> {
+    type Output = Result<RunEnd, CaseError>;
+
+    fn with<B: Body<f32>, D: Drive<f32, X, G>, const X: usize, const G: usize>(
+        self,
+        machine: Machine<f32, B, D, X, G>,
+    ) -> Self::Output {
+        match self.case.method {
+            method @ FixedMethod::ExponentialMidpoint => Err(CaseError::Method { method, runs: STIFF }),
+            _ => self.run(&machine, &RungeKutta4 { step: self.case.step }),
+        }
+    }
+
+    fn with_elastic<B: Body<f32>>(self, machine: Machine<f32, B, ElasticPair<f32>, 4, 3>) -> Self::Output {
+        match self.case.method {
+            FixedMethod::ExponentialMidpoint => self.run(&machine, &ExponentialMidpoint { step: self.case.step }),
+            _ => self.with(machine),
+        }
+    }
+}
+
+impl Runner<'_, '_, '_> {
+    fn run<B: Body<f32>, D: Drive<f32, X, G>, T: Tracer<f32>, const X: usize, const G: usize>(
+        self,
+        machine: &Machine<f32, B, D, X, G>,
+        tracer: &T,
+    ) -> Result<RunEnd, CaseError> {
+        let Case { initially, step, ground, free_time, .. } = self.case;
+        let mut watch = Watch { observer: self.observer, peaks: Peaks::default(), steps: 0 };
+        let mut state = match *initially {
+            Initially::Rest => machine.at_rest(),
+            Initially::Released { rotation, velocity } => machine.released_at(rotation, velocity, ground.first()),
+        };
+        watch.peaks.rocked = state.motion.phase == Phase::Rocking;
+        let mut follow = |horizontal: &Shape, vertical: &Shape, duration: f32| -> Result<(), Stopped> {
+            let limits = Limits { overturned: OVERTURNED, events: most_events(duration, *step) };
+            let shaking = Shaking { horizontal, vertical };
+            let done = machine.advance(tracer, &mut state, shaking, duration, &limits, &mut watch);
+            watch.peaks.origin += duration;
+            done
+        };
+        ground.try_for_each(&mut follow)?;
+        follow(&Shape::Quiet, &Shape::Quiet, *free_time)?;
+        let Watch { peaks, steps, .. } = watch;
+        let ending = Ending::of(&state.motion, &peaks);
+        Ok(RunEnd { ending, state: state.motion, peaks, steps, missed: state.device.missed })
+    }
+}

@@ -1,0 +1,119 @@
+//! What a scene asks for beyond history and peaks: the energy ledger and the checks.
+
+use sprag_shared::checks::Checks;
+use sprag_shared::ledger::{Entries, Ledger};
+use sprag_shared::observer::{Event, Stretch};
+use sprag_shared::rocking::State;
+use sprag_shared::scalar::Real;
+use sprag_shared::snapshot::{DeviceArc, DeviceObserver};
+use sprag_shared::structure::Structure;
+
+use super::demand::Demand;
+use super::drive::Segmented;
+use super::energy::EnergyReport;
+use super::run::{Failure, Task};
+use crate::ground_motion::Segment;
+
+/// Those of them that the scene asks for.
+#[derive(Debug)]
+pub struct Asked<S> {
+    energy: Option<EnergyHistory<S>>,
+    checks: Option<Checks<S>>,
+}
+
+impl<S: Real> Asked<S> {
+    /// Of `task`, whose block with what it carries is `loaded`.
+    pub(super) fn of(task: &Task<'_>, loaded: &Structure) -> Result<Asked<S>, Failure> {
+        let (geometry, account, file) = (task.scene.geometry(), task.account(loaded), &task.scene.file);
+        let energy = || EnergyHistory::new(Ledger::new(&loaded.block, geometry, &account), task.interval);
+        let checks = match file.checks {
+            Some(_) => Some(Checks::new(&loaded.block, geometry, &loaded.device.mount, &account)?),
+            None => None,
+        };
+        Ok(Asked { energy: file.output.energy.then(energy), checks })
+    }
+
+    /// What they found.
+    pub(super) fn results(self, task: &Task<'_>) -> (Option<Demand>, Option<EnergyReport>) {
+        let table = task.scene.file.checks.as_ref();
+        let demand = self.checks.zip(table).map(|(checks, table)| Demand::of(task, table, &checks.report()));
+        let energy = self.energy.map(|energy| {
+            let barrier = energy.ledger.barrier().to_f64();
+            let last = energy.ledger.entries().each(Real::to_f64);
+            let shares = |entries: Entries<f64>| entries.scaled(1.0 / barrier);
+            EnergyReport {
+                entries: shares(last).into(),
+                history: energy.samples.iter().map(|(time, entries)| (*time, shares(*entries).into())).collect(),
+            }
+        });
+        (demand, energy)
+    }
+}
+
+impl<S: Real> DeviceObserver<S> for Asked<S> {
+    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        self.energy.device_stretch(arc, stretch);
+        self.checks.device_stretch(arc, stretch);
+    }
+
+    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+        self.energy.device_event(event, time, state);
+        self.checks.device_event(event, time, state);
+    }
+}
+
+impl<S: Real> Segmented for Asked<S> {
+    fn segment(&mut self, start: f64, _segment: Option<&Segment>) {
+        if let Some(energy) = &mut self.energy {
+            energy.origin = start;
+        }
+        if let Some(checks) = &mut self.checks {
+            checks.origin = S::of(start);
+        }
+    }
+}
+
+/// A ledger, written down at a regular interval.
+#[derive(Debug)]
+struct EnergyHistory<S> {
+    ledger: Ledger<S>,
+    /// Time (s) and entries, 1/s².
+    samples: Vec<(f64, Entries<f64>)>,
+    origin: f64,
+    interval: f64,
+}
+
+impl<S: Real> EnergyHistory<S> {
+    /// Writes `ledger` down at least every `interval` (s) in which the block moves.
+    fn new(ledger: Ledger<S>, interval: f64) -> EnergyHistory<S> {
+        EnergyHistory { ledger, samples: Vec::new(), origin: 0.0, interval }
+    }
+
+    /// Writes down the entries at `time` (s).
+    fn write(&mut self, time: f64) {
+        let entries = self.ledger.entries();
+        self.samples.push((time, entries.each(Real::to_f64)));
+    }
+}
+
+impl<S: Real> DeviceObserver<S> for EnergyHistory<S> {
+    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        self.ledger.device_stretch(arc, stretch);
+        let time = self.origin + (stretch.start + stretch.to).to_f64();
+        if self.samples.last().is_none_or(|last| time >= last.0 + self.interval) {
+            self.write(time);
+        }
+    }
+
+    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+        let at = self.origin + time.to_f64();
+        // Both sides of a jump.
+        if event == Event::Impact || event == Event::Switch {
+            self.write(at);
+        }
+        self.ledger.device_event(event, time, state);
+        if event != Event::Turn {
+            self.write(at);
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! In a program without effects a scene can ask for nothing beyond history and peaks.
+
+use std::marker::PhantomData;
+
+use sprag_shared::scalar::Real;
+use sprag_shared::snapshot::DeviceObserver;
+use sprag_shared::structure::Structure;
+
+use super::demand::Demand;
+use super::drive::Segmented;
+use super::energy::EnergyReport;
+use super::run::{Failure, Task};
+use crate::ground_motion::Segment;
+
+/// Nothing.
+#[derive(Debug)]
+pub struct Asked<S>(PhantomData<S>);
+
+impl<S: Real> Asked<S> {
+    /// Refuses a scene that asks for more.
+    pub(super) fn of(task: &Task<'_>, _loaded: &Structure) -> Result<Asked<S>, Failure> {
+        let file = &task.scene.file;
+        if file.output.energy || file.checks.is_some() { Err(Failure::NoEffects) } else { Ok(Asked(PhantomData)) }
+    }
+
+    /// Nothing.
+    pub(super) fn results(self, _task: &Task<'_>) -> (Option<Demand>, Option<EnergyReport>) {
+        (None, None)
+    }
+}
+
+impl<S: Real> DeviceObserver<S> for Asked<S> {}
+
+impl<S: Real> Segmented for Asked<S> {
+    fn segment(&mut self, _start: f64, _segment: Option<&Segment>) {}
+}

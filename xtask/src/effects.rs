@@ -1,0 +1,260 @@
+//! What effects cost, and that one which is off costs nothing: instructions a step on the host under callgrind, nanoseconds a
+//! step, and instructions a step on the emulated board.
+//!
+//! A run with half the step takes the same motion in twice as many steps; the difference between both, over the added steps, is
+//! the cost of a step without start and output.
+
+use crate::{
+    firmware,
+    process::{executables, output},
+    stop::Stop,
+    tools,
+};
+use std::{
+    fmt::Write as _,
+    path::{Path, PathBuf},
+    process::Command,
+    time::{Duration, Instant},
+};
+
+/// Largest relative difference between the loop of the full program and that of one without effects.
+const SAME: f64 = 0.01;
+
+/// Steps of both runs, s.
+const STEPS: [f64; 2] = [1e-3, 5e-4];
+
+/// Runs of which the fastest counts.
+const REPETITIONS: u32 = 7;
+
+/// The scene, from the root.
+const SCENE: &str = "docs/effects-cost.toml";
+
+/// A row: name of the effect in the registry (or a base), what is set for it, its base, and the board's kernel.
+struct Row {
+    name: &'static str,
+    set: &'static [&'static str],
+    base: &'static str,
+    kernel: &'static str,
+}
+
+const PAIR: &str = "device.0={kind=\"clutched-pair\",mass_ratio=0.5,kinematics=\"consistent\"";
+
+const ROWS: &[Row] = &[
+    Row { name: "block alone", set: &["device.0={kind=\"none\"}"], base: "", kernel: "" },
+    Row { name: "inerter", set: &["device.0={kind=\"inerter\",mass_ratio=0.5}"], base: "", kernel: "" },
+    Row {
+        name: "clutched pair",
+        set: &["device.0={kind=\"clutched-pair\",mass_ratio=0.5}"],
+        base: "",
+        kernel: "located-rk4-step",
+    },
+    Row {
+        name: "geometry",
+        set: &["block.geometry=\"full\"", "device.0={kind=\"clutched-pair\",mass_ratio=0.5}"],
+        base: "clutched pair",
+        kernel: "located-rk4-step",
+    },
+    Row { name: "kinematics", set: &["block.geometry=\"full\"", "PAIR}"], base: "geometry", kernel: "" },
+    Row {
+        name: "mount",
+        set: &["block.geometry=\"full\"", "PAIR,mount=\"tying-point\",mount_height_m=1.5}"],
+        base: "kinematics",
+        kernel: "",
+    },
+    Row { name: "impact", set: &["PAIR}", "block.restitution=\"momentum-balance\""], base: "clutched pair", kernel: "" },
+    Row {
+        name: "vertical",
+        set: &["PAIR}", "vertical=[{motion=\"sine\",amplitude_g=0.01,frequency_hz=0.1}]"],
+        base: "clutched pair",
+        kernel: "machine-alone-vertical",
+    },
+    Row {
+        name: "flywheel",
+        set: &[
+            "PAIR,engagement=\"rigid\",flywheel={viscous_rate_1_s=0.05,dry_deceleration_m_s2=0.3,brake_deceleration_m_s2=5.0}}",
+        ],
+        base: "clutched pair",
+        kernel: "rigid",
+    },
+    Row { name: "engagement", set: &["PAIR,engagement=\"overrunning\"}"], base: "clutched pair", kernel: "overrunning" },
+    Row { name: "clutch", set: &["PAIR,clutch={capacity_ratio=0.1}}"], base: "clutched pair", kernel: "friction-clutch" },
+    Row {
+        name: "clutch, elastic",
+        set: &["PAIR,clutch={stiffness_ratio=1e4,damping_ratio=0.1}}"],
+        base: "clutched pair",
+        kernel: "elastic-rk4",
+    },
+    Row {
+        name: "clutch, elastic, exponential",
+        set: &["PAIR,clutch={stiffness_ratio=1e4,damping_ratio=0.1}}", "accuracy.method=\"exponential-midpoint\""],
+        base: "clutched pair",
+        kernel: "elastic-exponential",
+    },
+    Row {
+        name: "rack",
+        set: &["PAIR,rack={dry_friction_ratio=0.01,viscous_1_s=0.05}}"],
+        base: "clutched pair",
+        kernel: "ideal-pair-friction",
+    },
+    Row {
+        name: "actuation",
+        set: &["PAIR,actuation={engagement_delay_s=0.02,release_delay_s=0.02}}"],
+        base: "clutched pair",
+        kernel: "ideal-pair",
+    },
+    Row { name: "weight", set: &["PAIR,weight={rack_ratio=0.01}}"], base: "clutched pair", kernel: "" },
+    Row { name: "checks", set: &["PAIR}", "checks={}"], base: "clutched pair", kernel: "" },
+    Row { name: "energy", set: &["PAIR}", "output.energy=true"], base: "clutched pair", kernel: "" },
+    Row {
+        name: "all together",
+        set: &[
+            "block.geometry=\"full\"",
+            "block.restitution=\"momentum-balance\"",
+            "PAIR,clutch={capacity_ratio=0.1},flywheel={viscous_rate_1_s=0.05,dry_deceleration_m_s2=0.3,brake_deceleration_m_s2=5.0},\
+             rack={dry_friction_ratio=0.01,viscous_1_s=0.05},actuation={engagement_delay_s=0.02,release_delay_s=0.02},\
+             weight={rack_ratio=0.01}}",
+            "vertical=[{motion=\"sine\",amplitude_g=0.01,frequency_hz=0.1}]",
+            "checks={}",
+            "output.energy=true",
+        ],
+        base: "block alone",
+        kernel: "all-together",
+    },
+];
+
+/// What was measured.
+struct Measured {
+    instructions: f64,
+    nanoseconds: f64,
+    target: Option<u32>,
+}
+
+/// Measures, prints the table, and writes `docs/effects-cost.csv`.
+///
+/// # Errors
+/// If a tool is missing, a run fails, or an effect that is off is not free.
+pub fn run(root: &Path) -> Result<(), Stop> {
+    let bare = off_costs_nothing(root)?;
+    let elf = firmware::build(root)?;
+    tools::need_emulator()?;
+    let kernels = output(Command::new("qemu-system-arm").args(firmware::EMULATOR).arg(&elf))?;
+    let full = sprag(root, &[])?;
+    let mut table =
+        String::from("| effect | instructions a step | ns a step | added to | instructions added | on the board, a step |\n");
+    table.push_str("| --- | --- | --- | --- | --- | --- |\n");
+    let mut csv = String::from("effect,host_instructions,host_ns,target_instructions\n");
+    let mut done: Vec<(&str, Measured)> = Vec::new();
+    for row in ROWS {
+        let measured = Measured {
+            instructions: instructions_per_step(root, &full, row.set)?,
+            nanoseconds: nanoseconds_per_step(root, &full, row.set)?,
+            target: kernel(&kernels, row.kernel),
+        };
+        let base = done.iter().find(|(name, _)| *name == row.base).map(|(_, base)| base);
+        let added = base.map_or(f64::NAN, |base| measured.instructions - base.instructions);
+        let target = measured.target.map_or_else(|| "–".to_owned(), |count| count.to_string());
+        let dash = |text: &str| if text.is_empty() { "–".to_owned() } else { text.to_owned() };
+        let change = if added.is_nan() { "–".to_owned() } else { format!("{added:+.0}") };
+        let (instructions, nanoseconds) = (measured.instructions, measured.nanoseconds);
+        let _ =
+            writeln!(table, "| {} | {instructions:.0} | {nanoseconds:.0} | {} | {change} | {target} |", row.name, dash(row.base));
+        if let (Some(base), false) = (base, row.name.contains([',', ' '])) {
+            let time = measured.nanoseconds - base.nanoseconds;
+            let _ = writeln!(csv, "{},{added:+.0},{time:+.0},{target}", row.name);
+        }
+        done.push((row.name, measured));
+    }
+    println!("{table}");
+    println!("{bare}");
+    let path = root.join("docs/effects-cost.csv");
+    std::fs::write(&path, csv).map_err(|error| Stop::usage(format!("{}: {error}", path.display())))
+}
+
+/// Compares the loop of the slender block alone in the full program with that of a program without effects.
+///
+/// # Errors
+/// If they differ by more than 1 %.
+pub fn off_costs_nothing(root: &Path) -> Result<String, Stop> {
+    tools::need_valgrind()?;
+    let full = instructions_per_step(root, &sprag(root, &[])?, &[])?;
+    let bare = instructions_per_step(root, &sprag(root, &["--no-default-features"])?, &[])?;
+    let change = full / bare - 1.0;
+    let line = format!(
+        "slender block alone: {full:.2} instructions a step in the full program, {bare:.2} without effects: {:+.3} %",
+        100.0 * change
+    );
+    if change.abs() < SAME { Ok(line) } else { Err(Stop::failed(line)) }
+}
+
+/// The program, built for speed in a folder of its own for each set of features.
+fn sprag(root: &Path, features: &[&str]) -> Result<PathBuf, Stop> {
+    let folder = if features.is_empty() { "target" } else { "target/without-effects" };
+    let mut build = crate::process::cargo(root, &["build", "--release", "--package", "sprag-sim-host", "--bin", "sprag"]);
+    build.args(features).arg("--target-dir").arg(root.join(folder));
+    executables(&mut build)?.pop().ok_or_else(|| Stop::failed("cargo names no program"))
+}
+
+/// The scene's settings for one run.
+fn arguments(root: &Path, set: &[&str], step: f64, out: &Path) -> Vec<String> {
+    let mut words = vec!["simulate".to_owned(), root.join(SCENE).display().to_string()];
+    let mut all = vec!["accuracy.method=\"runge-kutta-4\"".to_owned(), format!("accuracy.step_s={step}")];
+    all.extend(set.iter().map(|item| item.replace("PAIR", PAIR)));
+    for item in all {
+        words.extend(["--set".to_owned(), item]);
+    }
+    words.extend(["--out".to_owned(), out.display().to_string()]);
+    words
+}
+
+/// Time for which the block rocks, s.
+fn rocking_time(folder: &Path) -> Result<f64, Stop> {
+    let path = folder.join("summary.json");
+    let text = std::fs::read_to_string(&path).map_err(|error| Stop::usage(format!("{}: {error}", path.display())))?;
+    let number = text.split_once("\"end_time_s\":").and_then(|(_, rest)| rest.split([',', '}', '\n']).next());
+    number.and_then(|number| number.trim().parse().ok()).ok_or_else(|| Stop::failed("a summary without end_time_s"))
+}
+
+fn added_steps(folder: &Path) -> Result<f64, Stop> {
+    Ok(rocking_time(folder)? * (1.0 / STEPS[1] - 1.0 / STEPS[0]))
+}
+
+fn instructions_per_step(root: &Path, program: &Path, set: &[&str]) -> Result<f64, Stop> {
+    let folder = root.join("target/effects");
+    std::fs::create_dir_all(&folder).map_err(|error| Stop::usage(format!("{}: {error}", folder.display())))?;
+    let mut counts = [0.0; 2];
+    for (count, step) in counts.iter_mut().zip(STEPS) {
+        let profile = folder.join("callgrind");
+        let mut run = Command::new("valgrind");
+        run.arg("--tool=callgrind").arg("--quiet").arg(format!("--callgrind-out-file={}", profile.display())).arg(program);
+        output(run.args(arguments(root, set, step, &folder)))?;
+        let text = std::fs::read_to_string(&profile).map_err(|error| Stop::usage(format!("{}: {error}", profile.display())))?;
+        let total = text.lines().rev().find_map(|line| line.strip_prefix("totals:").or_else(|| line.strip_prefix("summary:")));
+        *count = total.and_then(|total| total.trim().parse().ok()).ok_or_else(|| Stop::failed("callgrind counted nothing"))?;
+    }
+    Ok((counts[1] - counts[0]) / added_steps(&folder)?)
+}
+
+fn nanoseconds_per_step(root: &Path, program: &Path, set: &[&str]) -> Result<f64, Stop> {
+    // Short runs of a whole program need many more steps to be seen above its start.
+    const FINER: f64 = 20.0;
+    let folder = root.join("target/effects");
+    let mut fastest = [Duration::MAX; 2];
+    for _ in 0..REPETITIONS {
+        for (time, step) in fastest.iter_mut().zip(STEPS) {
+            let start = Instant::now();
+            output(Command::new(program).args(arguments(root, set, step / FINER, &folder)))?;
+            *time = (*time).min(start.elapsed());
+        }
+    }
+    let difference = fastest[1].as_secs_f64() - fastest[0].as_secs_f64();
+    Ok(difference * 1e9 / (added_steps(&folder)? * FINER))
+}
+
+/// Instructions of a kernel in the board's report.
+fn kernel(report: &str, name: &str) -> Option<u32> {
+    let mut words = report
+        .lines()
+        .map(str::split_whitespace)
+        .find_map(|mut words| (words.next() == Some("kernel") && words.next() == Some(name)).then_some(words))?;
+    words.next()?.parse().ok()
+}
