@@ -3,6 +3,8 @@
 //! Every kernel is a function of its own that is not inlined, with inputs and outputs in memory, so that a count includes
 //! the call and can be compared with a call from anywhere.
 
+mod devices;
+
 use core::{fmt, hint::black_box, marker::PhantomData};
 use sprag_shared::{
     arc::Method,
@@ -15,6 +17,7 @@ use sprag_shared::{
     math::sine32,
     observer::{Event, Observer, Stretch},
     rocking::{Limits, State, Stopped, System},
+    snapshot::{DeviceArc, DeviceObserver},
     taylor::Taylor,
 };
 
@@ -112,6 +115,16 @@ impl Observer<f32> for Tally {
     }
 }
 
+impl DeviceObserver<f32> for Tally {
+    fn device_stretch(&mut self, _arc: &dyn DeviceArc<f32>, _stretch: &Stretch<f32>) {
+        self.steps += 1;
+    }
+
+    fn device_event(&mut self, _event: Event, _time: f32, _state: &State<f32>) {
+        self.events += 1;
+    }
+}
+
 /// One cycle of a sine pulse and every event in it, located.
 #[inline(never)]
 fn passage<M: Method<f32>>(system: &Pair, method: &M, pulse: &Harmonics<f32, 1>, tally: &mut Tally) -> Result<(), Stopped> {
@@ -179,10 +192,11 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
     let pulse = black_box(Harmonics::sine(0.5, core::f32::consts::TAU));
     located("located-euler-step", &SemiImplicitEuler { step: STEP }, (&pair, &pulse), counter, out)?;
     located("located-rk4-step", &RungeKutta4 { step: STEP }, (&pair, &pulse), counter, out)?;
-    located("located-taylor12-step", &Taylor::<f32, 12>::fixed(10.0 * STEP), (&pair, &pulse), counter, out)
+    located("located-taylor12-step", &Taylor::<f32, 12>::fixed(10.0 * STEP), (&pair, &pulse), counter, out)?;
+    devices::report(counter, out)
 }
 
-/// The mean cost of a step with its events located, over one pulse.
+/// The mean cost of a step of an ideal pair with its events located, over one pulse.
 fn located<M: Method<f32>>(
     name: &str,
     method: &M,
@@ -190,9 +204,19 @@ fn located<M: Method<f32>>(
     counter: &mut impl FnMut() -> u32,
     out: &mut impl fmt::Write,
 ) -> fmt::Result {
+    mean(name, |tally| passage(pair, method, pulse, tally), counter, out)
+}
+
+/// Prints what a step costs on the average of what `pass` tallies.
+fn mean(
+    name: &str,
+    pass: impl FnOnce(&mut Tally) -> Result<(), Stopped>,
+    counter: &mut impl FnMut() -> u32,
+    out: &mut impl fmt::Write,
+) -> fmt::Result {
     let mut tally = Tally::default();
     let mut done = Ok(());
-    let instructions = count(counter, || done = passage(pair, method, pulse, &mut tally));
+    let instructions = count(counter, || done = pass(&mut tally));
     match done {
         Ok(()) => {
             let mean = instructions.checked_div(tally.steps).unwrap_or(0);

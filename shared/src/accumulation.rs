@@ -54,7 +54,8 @@ mod tests {
     fn a_geometric_series() {
         let tail = Accumulation::of((3.0_f64, 3.0), (3.0, 3.0), 0.8, 0.5, 0.1);
         assert!((tail.duration - 2.0 * 0.5 / (3.0 * 0.2)).abs() < 1e-15);
-        assert_eq!(tail.impacts, (1..).take_while(|n| 0.5 * 0.8_f64.powi(n - 1) >= 0.1).count() as u32);
+        let incoming = core::iter::successors(Some(0.5_f64), |speed| Some(speed * 0.8));
+        assert_eq!(tail.impacts, incoming.take_while(|speed| *speed >= 0.1).count() as u32);
         assert!(Accumulation::of((3.0_f64, 3.0), (3.0, 3.0), 1.0, 0.5, 0.1).duration > 1e29);
     }
 

@@ -4,8 +4,11 @@
 //! The words and their order are in [`words`]; this page is what they mean. Ideal devices run in the loop of [`crate::rocking`]
 //! ([`ideal`]), all others and every vertical ground motion in that of [`crate::hybrid`] ([`machine`]).
 
+mod codec;
+mod drivetrain_words;
 mod error;
 mod ground;
+mod ground_words;
 mod ideal;
 mod machine;
 #[cfg(test)]

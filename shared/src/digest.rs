@@ -4,9 +4,11 @@ use crate::arc::Arc;
 use crate::observer::{Event, Observer, Stretch};
 use crate::rocking::State;
 use crate::scalar::{Real, Sign};
+use crate::snapshot::{DeviceArc, DeviceObserver};
 
 /// FNV-1a, 64 bits (Fowler, Noll and Vo 1991), over the bits of θ and θ̇, the toe and the clutch at the end of every
-/// stretch and after every event, and two counts.
+/// stretch and after every event, and two counts; of a device with a memory also the speeds of both flywheels and which of
+/// them are coupled.
 ///
 /// Compared between two machines, builds or versions:
 /// - counts differ: the runs took different ways. An event was seen by one and missed by the other, or a step was cut
@@ -96,6 +98,19 @@ impl<S: Real> Observer<S> for Digest {
             Event::Coupling => 8,
         };
         self.instant(state.rotation, state.velocity, state.side, kind);
+    }
+}
+
+impl<S: Real> DeviceObserver<S> for Digest {
+    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        Observer::stretch(self, &arc, stretch);
+        let seen = arc.snapshot(stretch.to);
+        seen.spin.iter().for_each(|&spin| self.number(spin));
+        self.byte(seen.engaged.iter().fold(0, |flags, &engaged| flags << 1 | u8::from(engaged)));
+    }
+
+    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+        Observer::event(self, event, time, state);
     }
 }
 

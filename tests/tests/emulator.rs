@@ -11,8 +11,9 @@ use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::carried::Carried;
 use sprag_shared::case::{self, Case, Ending, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::digest::Digest;
+use sprag_shared::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses, Rack};
 use sprag_shared::ground::Harmonics;
-use sprag_shared::structure::{Device, DeviceKind, Restitution, Structure};
+use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, Restitution, Structure};
 
 const DEVICES: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
 const METHODS: [FixedMethod; 3] = [FixedMethod::SemiImplicitEuler, FixedMethod::RungeKutta4, FixedMethod::Taylor];
@@ -30,6 +31,7 @@ fn slender_sine(kind: DeviceKind, frequency_ratio: f32, amplitude_ratio: f32) ->
     let pulse = GroundPiece { shape: Shape::Sine(sine), duration: std::f32::consts::TAU / frequency_ratio };
     Case {
         structure: structure(block, Geometry::Slender, kind),
+        drivetrain: Drivetrain::default(),
         initially: Initially::Rest,
         method: FixedMethod::RungeKutta4,
         step: 2e-3,
@@ -51,10 +53,11 @@ fn near_fault(kind: DeviceKind, record: &Record) -> Case<'_> {
     let block = Block::new(2.0, 10.0_f64.to_radians(), RECTANGLE_INERTIA_RATIO).unwrap();
     Case {
         structure: structure(block, Geometry::Full, kind),
+        drivetrain: Drivetrain::default(),
         initially: Initially::Rest,
         method: FixedMethod::RungeKutta4,
         step: record.interval,
-        ground: Ground::Record { interval: record.interval, samples: &record.samples },
+        ground: Ground::Record { interval: record.interval, samples: &record.samples, vertical: None },
         free_time: 5.0,
     }
 }
@@ -132,6 +135,7 @@ fn compare(name: &str, case: &Case<'_>) -> Option<(Ending, u64, u64)> {
         ("outcome", end.ending.name().to_owned()),
         ("impacts", end.state.impacts.to_string()),
         ("peak_rotation_rad", end.peaks.rotation.to_string()),
+        ("missed_engagements", end.missed.to_string()),
         ("stretches", digest.stretches().to_string()),
         ("events", digest.events().to_string()),
         ("steps", end.steps.to_string()),
@@ -185,6 +189,133 @@ fn the_near_fault_motion_is_the_same_on_the_board() {
     }
 }
 
+/// What an effect adds to the ideal pair.
+struct Effect {
+    name: &'static str,
+    drivetrain: Drivetrain,
+    method: FixedMethod,
+    restitution: Restitution,
+    carried: Carried,
+}
+
+impl Effect {
+    fn of(name: &'static str, drivetrain: Drivetrain) -> Effect {
+        let restitution = Restitution::Constant(0.85);
+        Effect { name, drivetrain, method: FixedMethod::RungeKutta4, restitution, carried: Carried::NONE }
+    }
+}
+
+/// Every one alone, and all together.
+fn effects() -> Vec<Effect> {
+    let rack = Rack { guided_mass_ratio: 0.0, viscous: 0.05, dry_ratio: 0.004 };
+    let guided = Rack { guided_mass_ratio: 0.05, ..Rack::default() };
+    let coasting = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 0.0 };
+    let braked = FlywheelLosses { brake_deceleration: 5.0, ..coasting };
+    let late = Actuation {
+        engagement_delay: 0.02,
+        release_delay: 0.01,
+        rise_time: 0.0,
+        dwell: 0.03,
+        miss_probability: 0.25,
+        miss_seed: 0x1234_5678_9abc_def0,
+    };
+    let of = |engagement, flywheel| Drivetrain { engagement, flywheel, ..Drivetrain::default() };
+    let spring = |backlash, capacity_ratio| Engagement::Elastic { stiffness: 3e3, damping: 8.0, backlash, capacity_ratio };
+    let (rigid, plates) = (of(Engagement::Rigid, braked), of(Engagement::Friction { capacity_ratio: 0.03 }, braked));
+    let (elastic, loose) = (of(spring(0.0, f64::INFINITY), braked), of(spring(0.002, 0.03), braked));
+    let all =
+        Drivetrain { rack: Rack { guided_mass_ratio: 0.05, ..rack }, actuation: Actuation { rise_time: 0.02, ..late }, ..plates };
+    let gears = Carried { mass_ratio: 0.05, height: 3.0 };
+    let balance = Restitution::MomentumBalance;
+    vec![
+        Effect::of("rigid", rigid),
+        Effect::of("overrunning", of(Engagement::Overrunning, coasting)),
+        Effect::of("friction clutch", plates),
+        Effect::of("elastic", elastic),
+        Effect { method: FixedMethod::ExponentialMidpoint, ..Effect::of("elastic, exponential midpoint", elastic) },
+        Effect::of("elastic with play and plates", loose),
+        Effect { method: FixedMethod::ExponentialMidpoint, ..Effect::of("play and plates, exponential midpoint", loose) },
+        Effect::of("rack and bearing friction", Drivetrain { rack, ..of(Engagement::Ideal, coasting) }),
+        Effect::of("delays and misses", Drivetrain { actuation: late, ..Drivetrain::default() }),
+        Effect {
+            carried: gears,
+            ..Effect::of("guided rack and carried mass", Drivetrain { rack: guided, ..Drivetrain::default() })
+        },
+        Effect { restitution: balance, ..Effect::of("momentum balance", rigid) },
+        Effect { restitution: balance, carried: gears, ..Effect::of("all together", all) },
+    ]
+}
+
+/// The pulse of `scenes/near_fault.csv` (from 6.5 s to 9.5 s), and 0.7 times what comes 0.2 s before it, for the vertical motion.
+fn pulse() -> [Record; 2] {
+    let Record { interval, samples } = Record::read(&workspace().join("scenes/near_fault.csv"));
+    [(1300, 1.0), (1260, 0.7)].map(|(first, factor)| {
+        let scaled = samples[first..first + 600].iter().map(|&bits| (f32::from_bits(bits) * factor).to_bits());
+        Record { interval, samples: scaled.collect() }
+    })
+}
+
+/// R = 2 m, α = 14° on a pair with `drivetrain`, in the consistent kinematics.
+fn real_device(record: &Record, drivetrain: Drivetrain) -> Case<'_> {
+    let case = near_fault(DeviceKind::ClutchedPair, record);
+    let device = Device { kinematics: KinematicsKind::Consistent, ..case.structure.device };
+    let block = Block::new(2.0, 14.0_f64.to_radians(), RECTANGLE_INERTIA_RATIO).unwrap();
+    Case { structure: Structure { block, device, ..case.structure }, drivetrain, free_time: 3.0, ..case }
+}
+
+fn hash(case: &Case<'_>) -> u64 {
+    let mut digest = Digest::default();
+    case.run(&mut digest).unwrap();
+    digest.hash()
+}
+
+#[test]
+fn every_effect_is_the_same_on_the_board() {
+    let [record, _] = pulse();
+    // A seed without a probability changes nothing but the loop.
+    let seed = Drivetrain { actuation: Actuation { miss_seed: 7, ..Actuation::default() }, ..Drivetrain::default() };
+    let mut hashes = [Drivetrain::default(), seed].map(|drivetrain| hash(&real_device(&record, drivetrain))).to_vec();
+    for Effect { name, drivetrain, method, restitution, carried } in effects() {
+        for geometry in [Geometry::Full, Geometry::Slender] {
+            let base = real_device(&record, drivetrain);
+            let case = Case { structure: Structure { geometry, restitution, carried, ..base.structure }, method, ..base };
+            if compare(&format!("{name} {geometry:?}"), &case).is_none() {
+                return;
+            }
+            let missed = case.run(&mut ()).unwrap().missed;
+            assert_eq!(missed > 0, drivetrain.actuation.miss_probability > 0.0, "{name} {geometry:?}: {missed} missed");
+            let own = hash(&case);
+            assert!(!hashes.contains(&own), "{name} {geometry:?} changes nothing");
+            hashes.push(own);
+        }
+    }
+}
+
+/// Over ground that moves vertically too: a record, with every clutch and without one, and shapes in closed form.
+#[test]
+fn vertical_motion_is_the_same_on_the_board() {
+    let [record, up] = pulse();
+    let ground = Ground::Record { interval: record.interval, samples: &record.samples, vertical: Some(&up.samples) };
+    let all = effects().pop().unwrap().drivetrain;
+    for kind in DEVICES {
+        for drivetrain in [Drivetrain::default(), all] {
+            let level = real_device(&record, drivetrain);
+            let level = Case { structure: structure(level.structure.block, Geometry::Full, kind), ..level };
+            let case = Case { ground, ..level };
+            let name = format!("vertical {kind:?} {:?}", drivetrain.engagement);
+            if compare(&name, &case).is_none() {
+                return;
+            }
+            assert_ne!(hash(&case), hash(&level), "{name} changes nothing");
+        }
+    }
+    let level = figure10(DeviceKind::ClutchedPair);
+    let Ground::Pieces { horizontal: [pulse, ..], .. } = level.ground else { unreachable!() };
+    let up = Shape::Sine(Harmonics::sine(0.4, 20.0));
+    let case = Case { ground: Ground::both_ways(&[(pulse, up)]).unwrap(), free_time: 3.0, ..level };
+    compare("vertical sine", &case);
+}
+
 /// One Runge-Kutta step of the full model with a clutched pair, Eq. 10 and impact included, takes at most 250
 /// instructions.
 #[test]
@@ -202,4 +333,6 @@ fn a_step_is_cheap_enough() {
     let step = kernels["rk4-full-clutched-pair"];
     assert!((100..=250).contains(&step), "{step} instructions");
     assert!(20 * kernels["sine32-sin-cos"] < kernels["libm-sinf-and-cosf"]);
+    let machines = kernels.iter().filter(|(name, _)| name.starts_with("machine-"));
+    assert!(machines.clone().count() == 13 && machines.map(|(_, count)| count).all(|count| (500..=20_000).contains(count)));
 }

@@ -97,7 +97,8 @@ impl Ground<'_> {
         match self {
             Ground::Pieces { horizontal, vertical } => {
                 let Some(first) = horizontal.iter().position(|piece| piece.duration > 0.0) else { return [0.0; 2] };
-                [horizontal[first].shape, vertical.map_or(Shape::Quiet, |shapes| shapes[first])].map(|shape| shape.acceleration(0.0))
+                [horizontal[first].shape, vertical.map_or(Shape::Quiet, |shapes| shapes[first])]
+                    .map(|shape| shape.acceleration(0.0))
             }
             Ground::Record { samples, vertical, .. } => {
                 [*samples, vertical.unwrap_or(&[])].map(|samples| samples.first().map_or(0.0, |&bits| f32::from_bits(bits)))
@@ -105,21 +106,21 @@ impl Ground<'_> {
         }
     }
 
-    /// Every piece with its vertical shape and its duration, in order, as long as `follow` has no error.
+    /// Every piece that lasts, with its vertical shape and its duration, in order, for as long as `follow` has no error.
     pub(super) fn try_for_each<E>(&self, mut follow: impl FnMut(&Shape, &Shape, f32) -> Result<(), E>) -> Result<(), E> {
         match self {
             Ground::Pieces { horizontal, vertical } => {
                 let vertical = vertical.as_ref().unwrap_or(&[Shape::Quiet; MOST_PIECES]);
-                let mut pieces = horizontal.iter().zip(vertical);
+                let mut pieces = horizontal.iter().zip(vertical).filter(|(piece, _)| piece.duration > 0.0);
                 pieces.try_for_each(|(piece, vertical)| follow(&piece.shape, vertical, piece.duration))
             }
             Ground::Record { interval, samples, vertical } => {
-                let line = |samples: &[u32], index: usize| match samples.get(index..index + 2) {
-                    Some(&[from, to]) => Shape::Linear(Linear::between(f32::from_bits(from), f32::from_bits(to), *interval)),
+                let line = |pair: &[u32]| match *pair {
+                    [from, to] => Shape::Linear(Linear::between(f32::from_bits(from), f32::from_bits(to), *interval)),
                     _ => Shape::Quiet,
                 };
-                (1..samples.len())
-                    .try_for_each(|end| follow(&line(samples, end - 1), &line(vertical.unwrap_or(&[]), end - 1), *interval))
+                let mut verticals = vertical.unwrap_or(&[]).windows(2);
+                samples.windows(2).try_for_each(|pair| follow(&line(pair), &line(verticals.next().unwrap_or(&[])), *interval))
             }
         }
     }

@@ -21,12 +21,15 @@ const OVERTURNED: f32 = core::f32::consts::FRAC_PI_2;
 /// What methods run that are not for these devices.
 const IDEAL: &str = "ideal devices over horizontal ground only: loops for all others would not fit the flash of the board";
 
-/// Runs a case that is not ideal.
+/// Runs a case that is not ideal. The vertical ground motion is in every loop, if only as none: δ (1 + 0) is δ to the last bit,
+/// and a second set of loops without it would not fit the flash.
+// Inline so that its loops are made in the crate that runs cases, and shared with what else that crate does with them.
+#[inline]
 pub(super) fn run(case: &Case<'_>, observer: &mut dyn DeviceObserver<f32>) -> Result<RunEnd, CaseError> {
     if let method @ (FixedMethod::SemiImplicitEuler | FixedMethod::Taylor) = case.method {
         return Err(CaseError::Method { method, runs: IDEAL });
     }
-    case.drivetrain.resolve(&case.structure, case.ground.is_vertical(), Runner { case, observer })?
+    case.drivetrain.resolve(&case.structure, true, Runner { case, observer })?
 }
 
 /// The caller's observer, the peaks, and a count of steps.
@@ -61,15 +64,17 @@ impl WithMachine<f32> for Runner<'_, '_, '_> {
         self,
         machine: Machine<f32, B, D, X, G>,
     ) -> Self::Output {
+        let step = self.case.step;
         match self.case.method {
             method @ FixedMethod::ExponentialMidpoint => Err(CaseError::Method { method, runs: STIFF }),
-            _ => self.run(&machine, &RungeKutta4 { step: self.case.step }),
+            _ => self.run(&machine, &RungeKutta4 { step }),
         }
     }
 
     fn with_elastic<B: Body<f32>>(self, machine: Machine<f32, B, ElasticPair<f32>, 4, 3>) -> Self::Output {
+        let step = self.case.step;
         match self.case.method {
-            FixedMethod::ExponentialMidpoint => self.run(&machine, &ExponentialMidpoint { step: self.case.step }),
+            FixedMethod::ExponentialMidpoint => self.run(&machine, &ExponentialMidpoint { step }),
             _ => self.with(machine),
         }
     }
@@ -96,7 +101,9 @@ impl Runner<'_, '_, '_> {
             done
         };
         ground.try_for_each(&mut follow)?;
-        follow(&Shape::Quiet, &Shape::Quiet, *free_time)?;
+        if *free_time > 0.0 {
+            follow(&Shape::Quiet, &Shape::Quiet, *free_time)?;
+        }
         let Watch { peaks, steps, .. } = watch;
         let ending = Ending::of(&state.motion, &peaks);
         Ok(RunEnd { ending, state: state.motion, peaks, steps, missed: state.device.missed })

@@ -74,8 +74,10 @@ impl<S: Real> Drive<S, 2, 1> for OverrunningPair<S> {
             open(&self.0, at, other);
         }
         let resists = at.direction.times(force_if_locked(self, &self.0, at, wheel)) > S::ZERO;
+        // What stands still is held by the clutch until the push overcomes the bearings.
+        let stands = rack == S::ZERO;
         if at.device.wheels[wheel].coupling == Coupling::Locked {
-            if !resists {
+            if !resists && !stands {
                 open(&self.0, at, wheel);
             }
             return;
@@ -83,7 +85,7 @@ impl<S: Real> Drive<S, 2, 1> for OverrunningPair<S> {
         let ahead = at.direction.times(at.device.wheels[wheel].spin - rack);
         if ahead < S::ZERO {
             jolt(&self.0, at, wheel);
-        } else if ahead == S::ZERO && resists {
+        } else if ahead == S::ZERO && (resists || stands) {
             at.device.wheels[wheel].coupling = Coupling::Locked;
         }
     }

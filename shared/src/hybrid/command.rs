@@ -64,15 +64,17 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 self.give(state, index, resists && index == wheel);
             }
             let velocity = state.motion.velocity;
+            let mut engages = false;
             for index in 0..2 {
-                let due = state.device.wheels[index].pending == S::ZERO;
-                if due {
+                if state.device.wheels[index].pending == S::ZERO {
+                    engages |= state.device.wheels[index].commanded;
                     self.carry_out(state, index, time, observer);
                 }
             }
             if state.motion.velocity == velocity {
-                if D::HOLDS && velocity == S::ZERO && state.motion.rotation != S::ZERO && !state.free {
+                if engages && D::HOLDS && velocity == S::ZERO && state.motion.rotation != S::ZERO {
                     // The bearings of a wheel that has just been engaged may hold the block.
+                    state.free = false;
                     self.turned(state);
                 }
                 return;

@@ -70,11 +70,11 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             (free, sign)
         });
         let (free, sign) = match ways {
-            [(Some(a), _), (Some(b), negative)] if b < a => (Some(b), negative),
+            [(Some(a), _), (Some(b), negative)] if b.0 < a.0 => (Some(b), negative),
             [(Some(a), positive), _] => (Some(a), positive),
             [_, (b, negative)] => (b, negative),
         };
-        let until = free.unwrap_or(stop);
+        let until = free.map_or(stop, |(at, _)| at);
         if until > time {
             let still = Motion { rotation: state.motion.rotation, velocity: S::ZERO, acceleration: S::ZERO };
             let stretch = Stretch {
@@ -91,8 +91,8 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             self.idle(state, until - time);
         }
         state.ground = shaking.at::<S, B>(until);
-        if free.is_some() {
-            (state.held, state.free) = (false, true);
+        if let Some((_, crossing)) = free {
+            (state.held, state.free) = (false, crossing);
             state.motion.direction = sign;
             state.motion.drive = if D::COMMANDED { self.drive_sign(state) } else { state.motion.drive };
             self.settle(state, until, observer);

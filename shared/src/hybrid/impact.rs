@@ -30,10 +30,15 @@ impl<S: Real> Threshold<S> {
         self.horizontal * ground[0] + self.vertical * (S::ONE + ground[1]) + self.constant
     }
 
-    /// First instant in [`from`, `to`) at which it is above zero.
-    pub(super) fn exceeded<B: Body<S>, P: Piece<S>, Q: Piece<S>>(&self, shaking: Shaking<'_, P, Q>, from: S, to: S) -> Option<S> {
+    /// First instant in [`from`, `to`) at which it is above zero, and whether it gets there by crossing zero or by a jump.
+    pub(super) fn exceeded<B: Body<S>, P: Piece<S>, Q: Piece<S>>(
+        &self,
+        shaking: Shaking<'_, P, Q>,
+        from: S,
+        to: S,
+    ) -> Option<(S, bool)> {
         if self.at(shaking.at::<S, B>(from)) > S::ZERO {
-            return Some(from);
+            return Some((from, false));
         }
         let end = self.at(shaking.at::<S, B>(to));
         let mut curvature = self.horizontal.abs() * shaking.horizontal.curvature_bound();
@@ -49,7 +54,7 @@ impl<S: Real> Threshold<S> {
         };
         let zero = first_zero_of(value, curvature, (from, to, end), Sign::Negative, false);
         // What the clock cannot tell from the end of the piece is left to the next one.
-        zero.filter(|&t| to - t > to * S::EPSILON * S::of(4.0))
+        zero.filter(|&t| to - t > to * S::EPSILON * S::of(4.0)).map(|t| (t, true))
     }
 }
 
@@ -69,18 +74,19 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         self.uplift_threshold(Sign::Positive).at(ground).larger(self.uplift_threshold(Sign::Negative).at(ground))
     }
 
-    /// First instant in [`from`, `to`) at which the ground pushes a standing block harder than its weight holds it.
-    pub(super) fn uplift_time<P: Piece<S>, Q: Piece<S>>(&self, shaking: Shaking<'_, P, Q>, from: S, to: S) -> Option<S> {
+    /// First instant in [`from`, `to`) at which the ground pushes a standing block harder than its weight holds it, and whether
+    /// it gets there by crossing that threshold.
+    pub(super) fn uplift_time<P: Piece<S>, Q: Piece<S>>(&self, shaking: Shaking<'_, P, Q>, from: S, to: S) -> Option<(S, bool)> {
         let first = self.uplift_threshold(Sign::Positive).exceeded::<B, P, Q>(shaking, from, to);
         let second = self.uplift_threshold(Sign::Negative).exceeded::<B, P, Q>(shaking, from, to);
         match (first, second) {
-            (Some(a), Some(b)) => Some(a.smaller(b)),
+            (Some(a), Some(b)) => Some(if b.0 < a.0 { b } else { a }),
             (a, b) => a.or(b),
         }
     }
 
     /// Sets the block in motion, to the side to which the ground pushes it.
-    pub(super) fn uplift(&self, state: &mut MachineState<S>, ground: [S; 2]) {
+    pub(super) fn uplift(&self, state: &mut MachineState<S>, ground: [S; 2], crossing: bool) {
         let positive = self.uplift_threshold(Sign::Positive).at(ground);
         let negative = self.uplift_threshold(Sign::Negative).at(ground);
         let side = if positive >= negative { Sign::Positive } else { Sign::Negative };
@@ -88,7 +94,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         state.motion =
             State { phase: Phase::Rocking, side, direction: side, drive: side, push: side, impacts, ..State::default() };
         state.ground = ground;
-        state.fresh = [D::COMMANDED, false, false];
+        (state.fresh, state.free) = ([D::COMMANDED, false, false], crossing);
         self.with_instant(state, S::ZERO, &mut (), |drive, at| drive.settle(at));
     }
 

@@ -64,7 +64,7 @@ pub struct MachineState<S> {
     pub ground: [S; 2],
     /// The watched functions that are zero here, by an event just handled.
     fresh: [bool; 3],
-    /// Friction has just let the block go: what moves it is zero here and about to grow.
+    /// The ground has just set a standing block free: what moves it is zero here and about to grow.
     free: bool,
 }
 
@@ -121,13 +121,11 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         while time < duration && state.motion.phase != Phase::Overturned {
             if state.motion.phase == Phase::Rest {
                 let uplift = self.uplift_time(shaking, time, duration);
-                let until = uplift.unwrap_or(duration);
+                let until = uplift.map_or(duration, |(at, _)| at);
                 self.idle(state, until - time);
                 time = until;
-                if uplift.is_none() {
-                    break;
-                }
-                self.uplift(state, shaking.at::<S, B>(time));
+                let Some((_, crossing)) = uplift else { break };
+                self.uplift(state, shaking.at::<S, B>(time), crossing);
                 observer.device_event(Event::Uplift, time, &state.motion);
                 self.command(state, time, observer);
             }
@@ -200,6 +198,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             extra: self.drive.load(&state.device),
             time: *time,
             length: stop - *time,
+            balanced: state.free,
             scale: self.slenderness,
             speed: self.speed,
         };
@@ -256,13 +255,15 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let seen = Seen { machine: self, path: &path, law: &law, state: &*state, shaking, time: *time };
         observer.device_stretch(&seen, &stretch);
         let extra = path.extra(until);
+        let before = *time;
         *time = if end == End::Reached && length == stop - *time { stop } else { *time + until };
         let motion = &mut state.motion;
         (motion.rotation, motion.velocity) = (last.rotation, last.velocity);
         let posture = self.body.posture(motion.side.unit(), motion.rotation);
         self.drive.store(&mut state.device, &extra, self.body.along(&posture, motion.velocity));
         state.device.elapse(until);
-        (state.fresh, state.free) = ([false; 3], false);
+        // An event that the clock cannot tell from the start leaves the block as free as it was.
+        (state.fresh, state.free) = ([false; 3], state.free && *time == before);
         let ground = shaking.at::<S, B>(*time);
         state.ground = ground;
         match end {

@@ -61,6 +61,8 @@ pub struct PathStart<'a, S, B, D, P, Q, const X: usize> {
     pub time: S,
     /// How far the step may reach, s; above 0.
     pub length: S,
+    /// θ̈ is zero here and about to leave zero, because an event was located on it; its rounding error must not count.
+    pub balanced: bool,
     /// Size of a rotation that matters (rad), for tolerances.
     pub scale: S,
     /// Size of an angular velocity that matters, rad/s.

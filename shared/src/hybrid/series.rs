@@ -120,6 +120,9 @@ impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
                 clock: given(4),
             };
             let (acceleration, rates) = start.drive.flow(&at);
+            if k == 0 && start.balanced {
+                acceleration.0.set_last(S::ZERO);
+            }
             let a = acceleration.0.last();
             let reciprocal = S::of(RECIPROCALS[(k + 1) & 63]);
             let v = a * reciprocal;
@@ -157,9 +160,10 @@ impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
             // Jorba and Zou's two-term rule over every unknown; those of the first order have one coefficient fewer.
             for back in [2, 1] {
                 path.reach(N - back, path.rotation[N - back].abs(), tolerance);
-                for i in 0..X {
-                    let order = N - 1 - back;
-                    path.reach(order, path.extra[i][order].abs() * (scale / sizes[i]), tolerance);
+                let order = N - 1 - back;
+                let extra = path.extra.map(|unknown| unknown[order].abs());
+                for (coefficient, &size) in extra.iter().zip(&sizes) {
+                    path.reach(order, *coefficient * (scale / size), tolerance);
                 }
             }
         }

@@ -24,9 +24,9 @@ use crate::simulation::RunError;
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag sensitivity scenes/near_fault.toml\n  \
     sprag sensitivity scenes/near_fault.toml --records records/*.AT2 --out out/sensitivity\n\n\
-    Runs every device under the scene's ground motion and under each record in its place, as the scene has it and with each variant.\n\
-    Writes sensitivity.csv, sensitivity.md, sensitivity.svg and summary.json. A record that cannot be read is named, the others are\n\
-    still run, and the exit code is 2.")]
+    Runs every device under the scene's ground motion and under each record in its place, as it is and with each variant.\n\
+    Writes sensitivity.csv, sensitivity.md, sensitivity.svg and summary.json. A record that cannot be read and a run that\n\
+    fails are named, the others are still done, and the exit code is 2.")]
 pub struct SensitivityArguments {
     /// Scene file.
     #[arg(value_name = "SCENE.toml")]
@@ -59,7 +59,7 @@ enum Failure {
     Run(#[from] RunError),
     #[error("--records-vertical names {vertical} files, but --records {horizontal}; each record needs its own")]
     Unpaired { vertical: usize, horizontal: usize },
-    #[error("{}: vertical: the scene's vertical motion does not belong to the records; leave out [[vertical]] or --records", scene.display())]
+    #[error("{}: vertical: does not belong to the records; leave out [[vertical]] or --records", scene.display())]
     VerticalOfAnother { scene: PathBuf },
     #[error("{}: no ground motion could be read", scene.display())]
     NoMotion { scene: PathBuf },

@@ -38,13 +38,21 @@ impl SceneDevice {
         block_mass: Option<f64>,
         key: &KeyOf<'_>,
     ) -> Result<SceneDevice, SceneError> {
-        let device = resolve_inerter(table, block_mass, key)?;
+        let mut device = resolve_inerter(table, block_mass, key)?;
         let (mut drivetrain, mut carried) = (Drivetrain::default(), Carried::NONE);
         if device.kind != DeviceKind::None {
             drivetrain = table.drivetrain(&device, block, block_mass, key)?;
             if let Some(weight) = &table.weight {
                 (carried, drivetrain.rack.guided_mass_ratio) = weight.resolve(&device, block, block_mass, key)?;
             }
+        }
+        if drivetrain.has_memory(device.kind) {
+            if table.kinematics == Some(KinematicsName::Paper) {
+                let reason =
+                    "flywheels with a speed of their own need consistent kinematics: the paper's rack would run away from them";
+                return Err(key("kinematics").conflict(reason));
+            }
+            device.kinematics = KinematicsKind::Consistent;
         }
         drivetrain.check().map_err(|error| key(&table.key_of(error.parameter)).range(error.value, error.range))?;
         let name = table.name.clone().unwrap_or_else(|| default_name(table, all));

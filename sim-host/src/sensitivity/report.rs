@@ -3,7 +3,7 @@
 use std::io;
 
 use super::motion::StudyMotion;
-use super::statistics::{OwnMotion, Summary};
+use super::statistics::{OwnMotion, Quantiles, Summary};
 use super::study::{Findings, Flip, ROCKS_FROM};
 use super::variants::VARIANTS;
 
@@ -55,9 +55,9 @@ pub fn write_csv(
 pub fn page(title: &str, summaries: &[Summary], records: usize, left_out: &[String]) -> String {
     let mut page = format!("# {}\n\n", if title.is_empty() { "Does it matter?" } else { title });
     page += &format!(
-        "Change of the peak rotation max |θ|/α when one effect is turned on, relative to the scene as it is. Median, 16th and 84th\n\
-         percentile are over those of {records} records under which both blocks stand and the one of the scene as it is reaches\n\
-         {ROCKS_FROM} α (their number: rocking). The last columns count records that change the outcome.\n\n"
+        "Change of the peak rotation max |θ|/α when one effect is turned on, relative to the scene as it is. Median, 16th and\n\
+         84th percentile are over those of {records} records under which both blocks stand and the one of the scene as it is\n\
+         reaches {ROCKS_FROM} α (their number: rocking). The last columns count records that change the outcome.\n\n"
     );
     page += &table(summaries);
     if !left_out.is_empty() {
@@ -75,8 +75,7 @@ pub fn table(summaries: &[Summary]) -> String {
         ["effect", "variant", "device", "own motion", "median", "16 %", "84 %", "rocking", "overturns instead", "stands instead"];
     let mut rows = vec![titles.map(str::to_owned)];
     for summary in summaries {
-        let of =
-            |pick: fn(&super::statistics::Quantiles) -> f64| summary.change.as_ref().map_or("-".to_owned(), |q| percent(pick(q)));
+        let of = |pick: fn(&Quantiles) -> f64| summary.change.as_ref().map_or("-".to_owned(), |q| percent(pick(q)));
         rows.push([
             summary.effect.to_owned(),
             summary.variant.to_owned(),

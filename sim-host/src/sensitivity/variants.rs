@@ -32,16 +32,17 @@ const fn variant(effect: &'static str, name: &'static str, kinds: &'static [Kind
 
 /// All of them, in the order of the registry of effects.
 ///
-/// - Losses: 0.5 m/s² at the rack is the friction of rolling bearings, a few thousandths of the load, behind gears of ratio
-///   30; 0.05 1/s is windage, a flywheel that coasts for 20 s. A brake of 10 m/s² stops one from 1 m/s within 0.1 s.
+/// - Losses: 0.05 m/s² at the rack, with a mass ratio of 0.5 a force of 0.0025 m g, is a train of gears with seals (plain rolling
+///   bearings have a tenth of it); 0.05 1/s is windage, a flywheel that coasts for 20 s. A brake of 10 m/s² stops one from 1 m/s
+///   within 0.1 s.
 /// - Clutches: a tenth of the block's weight is about the largest force of the ideal device, a fiftieth makes it slip. 1e4 m p²
-///   is a mode of flywheel and shaft at some tens of p, 10 % its damping with gears and lubricant, 1 mm the play of coarse
-///   gears after years. Released flywheels stop at once, as the ideal ones do, so that the clutch alone differs.
+///   is a mode of shaft and flywheel at 140 p for a mass ratio of 0.5, 10 % its damping with gears and lubricant, 1 mm the play
+///   of coarse gears after years. Released flywheels stop at once, as the ideal ones do, so that the clutch alone differs.
 /// - Rack: 0.01 of the weight and 0.05 1/s are rolling guides and their seals.
 /// - Delays: 20 ms is a fast electromagnetic clutch with its driver, 50 ms an ordinary one; every tenth engagement missed is a
 ///   poor sensor.
-/// - Weight: with gears of ratio 5 to 10, flywheels of 0.02 of the block's mass make mass ratios of 0.5 to 2; the rack has half
-///   of that.
+/// - Weight: a flywheel of 0.02 of the block's mass and seven times its pinion's radius has a mass ratio of 0.5; the rack has
+///   half of that mass.
 pub const VARIANTS: [Variant; 21] = [
     variant("geometry", "slender", EVERY, &["block.geometry=slender"]),
     Variant { vertical: true, ..variant("vertical", "vertical ground motion", EVERY, &[]) },
@@ -63,7 +64,7 @@ pub const VARIANTS: [Variant; 21] = [
         PAIR,
         &[
             "device.N.engagement=rigid",
-            "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.5, brake_deceleration_m_s2 = 10 }",
+            "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05, brake_deceleration_m_s2 = 10 }",
         ],
     ),
     variant(
@@ -72,14 +73,14 @@ pub const VARIANTS: [Variant; 21] = [
         PAIR,
         &[
             "device.N.engagement=rigid",
-            "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.5, brake_deceleration_m_s2 = \"instant\" }",
+            "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05, brake_deceleration_m_s2 = \"instant\" }",
         ],
     ),
     variant(
         "engagement",
         "overrunning, no brake",
         PAIR,
-        &["device.N.engagement=overrunning", "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.5 }"],
+        &["device.N.engagement=overrunning", "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05 }"],
     ),
     variant("clutch", "capacity 0.1 m g", PAIR, &["device.N.clutch={ capacity_ratio = 0.1 }", INSTANT_BRAKE]),
     variant("clutch", "capacity 0.02 m g", PAIR, &["device.N.clutch={ capacity_ratio = 0.02 }", INSTANT_BRAKE]),
@@ -102,12 +103,12 @@ pub const VARIANTS: [Variant; 21] = [
         "flywheel",
         "bearings 0.5 m/s², 0.05 1/s",
         INERTERS,
-        &["device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.5 }"],
+        &["device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05 }"],
     ),
     Variant {
         of_pair: &[
             "device.N.clutch={ capacity_ratio = 0.1 }",
-            "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.5, brake_deceleration_m_s2 = 10 }",
+            "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05, brake_deceleration_m_s2 = 10 }",
             "device.N.actuation={ engagement_delay_s = 0.02, release_delay_s = 0.02 }",
         ],
         ..variant(
@@ -117,7 +118,7 @@ pub const VARIANTS: [Variant; 21] = [
             &[
                 "device.N.kinematics=consistent",
                 "block.restitution=geometric",
-                "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.5 }",
+                "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05 }",
                 "device.N.rack={ dry_friction_ratio = 0.01, viscous_1_s = 0.05 }",
                 "device.N.weight={ flywheels_ratio = 0.02, rack_ratio = 0.01 }",
             ],

@@ -19,6 +19,9 @@ use crate::ground_motion::{GroundMotion, Segment, ShapePiece};
 /// Arcs that one segment of ground motion may take.
 const MOST_ARCS: u32 = 50_000_000;
 
+/// Steps and events of a device with a memory that one segment may take.
+const MOST_EVENTS: u32 = 2_000_000;
+
 /// Someone who needs to know which part of the ground motion is shown.
 pub trait Segmented {
     /// The segment that follows, or `None` for the free time from `start` (s) on.
@@ -141,7 +144,7 @@ impl Course<'_> {
         let lightest = 1.0 + self.vertical.map_or(0.0, |vertical| vertical.lowest().0).min(0.0);
         let held = machine.drive.gears().map_or(0.0, |gears| gears.rack_dry.to_f64())
             / (self.block.frequency_parameter_squared() * lightest);
-        let limits = |bound: f64| self.limits::<S>(bound / lightest + held);
+        let limits = |bound: f64| Limits { events: MOST_EVENTS, ..self.limits::<S>(bound / lightest + held) };
         let vertical = self.vertical.map(GroundMotion::segments);
         for (index, segment) in self.ground.segments().iter().enumerate() {
             if state.motion.phase == Phase::Overturned || !goes_on() {

@@ -29,6 +29,7 @@ fn the_ledger_closes_for_every_drivetrain() {
                 match drivetrain.engagement {
                     Engagement::Ideal => assert!(entries.clutch.abs() < 1e-14 * entries.input, "{what}"),
                     Engagement::Overrunning => assert!(entries.clutch.abs() < 1e-12 * entries.input, "{what}: no jolt, no loss"),
+                    Engagement::Rigid => assert!(entries.clutch >= 0.0 && entries.created == 0.0, "{what}"),
                     _ => assert!(entries.clutch > 0.0 && entries.created == 0.0, "{what}"),
                 }
             }

@@ -68,7 +68,7 @@ fn constant_vertical_acceleration_is_another_gravity() {
 #[test]
 fn vertical_acceleration_moves_the_uplift_threshold() {
     let structure = structure(Geometry::Full, 12.0, DeviceKind::None, 0.0, KinematicsKind::Paper);
-    let threshold = structure.block.slenderness().tan();
+    let threshold = crate::math::tan(structure.block.slenderness());
     for (push, rocks) in [(0.999, false), (1.001, true)] {
         let both = Both(Ground::constant(threshold * 0.7 * push), Ground::constant(-0.3), 0.5, true);
         let (_, phase) = Drivetrain::default().resolve(&structure, true, both).unwrap();
@@ -161,7 +161,7 @@ fn friction_holds_a_block_where_nothing_else_does() {
         }
     }
     // Held while |sin(α − θ)| ≤ F/(mg) cos(α − θ).
-    let reach = 0.02_f64.atan();
+    let reach = crate::math::atan(0.02);
     for (angle, held) in [(alpha - 0.99 * reach, true), (alpha - 1.01 * reach, false), (alpha + 0.99 * reach, true)] {
         let (rotation, stays) = dry(0.02).resolve(&structure, false, Release(angle)).unwrap();
         assert_eq!(stays, held, "at {angle}");

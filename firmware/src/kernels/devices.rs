@@ -1,0 +1,134 @@
+//! What every effect of a real device costs: the mean of a Runge-Kutta step with its events located, over the pulse of the
+//! ideal pair's kernel.
+//!
+//! The loops are those of the cases ([`sprag_shared::case`]), so that they are in flash once: a shape of ground motion is chosen
+//! at every look, and the ground moves vertically too, if only by nothing. Devices without a memory have the paper's
+//! kinematics unless the name says otherwise, all others the consistent ones.
+
+use super::{Tally, mean};
+use core::{f32::consts::TAU, fmt, hint::black_box, marker::PhantomData};
+use sprag_shared::{
+    block::{Block, RECTANGLE_INERTIA_RATIO},
+    body::{Body, FullBody},
+    case::Shape,
+    drivetrain::{
+        Actuation, Drivetrain, Engagement, FlywheelLosses, Rack,
+        drive::Drive,
+        elastic::ElasticPair,
+        friction::FrictionPair,
+        gears::Gears,
+        ideal::{Alone, IdealPair, Single},
+        overrunning::OverrunningPair,
+        rigid::RigidPair,
+    },
+    equation::{Consistent, Paper},
+    fixed::RungeKutta4,
+    ground::Harmonics,
+    hybrid::{
+        Actuator, Machine,
+        exponential::ExponentialMidpoint,
+        path::{Shaking, Tracer},
+    },
+    lever::TyingPoint,
+    rocking::{Limits, Stopped},
+};
+
+/// σ.
+const MASS_RATIO: f64 = 0.5;
+
+/// A rack on guides, with friction.
+const RACK: Rack = Rack { guided_mass_ratio: 0.02, viscous: 0.05, dry_ratio: 0.004 };
+
+/// Bearings with friction.
+const BEARINGS: FlywheelLosses = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 0.0 };
+
+/// And a brake.
+const BRAKED: FlywheelLosses = FlywheelLosses { brake_deceleration: 5.0, ..BEARINGS };
+
+/// A clutch that is late, and sometimes deaf.
+const LATE: Actuation =
+    Actuation { engagement_delay: 0.02, release_delay: 0.01, rise_time: 0.02, dwell: 0.03, miss_probability: 0.1, miss_seed: 1 };
+
+const IDEAL: Drivetrain = Drivetrain { engagement: Engagement::Ideal, flywheel: NO_LOSSES, rack: NO_RACK, actuation: PROMPT };
+const NO_LOSSES: FlywheelLosses = FlywheelLosses { viscous_rate: 0.0, dry_deceleration: 0.0, brake_deceleration: 0.0 };
+const NO_RACK: Rack = Rack { guided_mass_ratio: 0.0, viscous: 0.0, dry_ratio: 0.0 };
+const PROMPT: Actuation =
+    Actuation { engagement_delay: 0.0, release_delay: 0.0, rise_time: 0.0, dwell: 0.0, miss_probability: 0.0, miss_seed: 0 };
+const ROUGH: Drivetrain = Drivetrain { flywheel: BEARINGS, rack: RACK, ..IDEAL };
+const RIGID: Drivetrain = Drivetrain { engagement: Engagement::Rigid, flywheel: BRAKED, ..IDEAL };
+const OVERRUNNING: Drivetrain = Drivetrain { engagement: Engagement::Overrunning, flywheel: BEARINGS, ..IDEAL };
+const FRICTION: Drivetrain = Drivetrain { engagement: Engagement::Friction { capacity_ratio: 0.03 }, flywheel: BRAKED, ..IDEAL };
+const ELASTIC: Drivetrain = Drivetrain {
+    engagement: Engagement::Elastic { stiffness: 3e3, damping: 8.0, backlash: 0.0, capacity_ratio: f64::INFINITY },
+    flywheel: BRAKED,
+    ..IDEAL
+};
+const ALL: Drivetrain = Drivetrain { rack: RACK, actuation: LATE, ..FRICTION };
+
+const STILL: Shape = Shape::Quiet;
+
+const fn body<K, const VERTICAL: bool>() -> FullBody<f32, K, VERTICAL> {
+    FullBody { block: super::BLOCK, lever: TyingPoint { along: 1.0, across: 0.0 }, kinematics: PhantomData }
+}
+
+/// A block on its device, with the numbers of the ideal pair's kernel.
+fn machine<B, D, const X: usize, const G: usize>(body: B, drive: D, drivetrain: &Drivetrain) -> Machine<f32, B, D, X, G> {
+    Machine {
+        body,
+        drive,
+        restitution: [super::RESTITUTION; 3],
+        slenderness: super::SLENDERNESS,
+        speed: 0.33,
+        rest_speed: 3e-7,
+        counted_speed: 3e-7,
+        actuator: Actuator::of(&drivetrain.actuation),
+    }
+}
+
+/// One cycle of a sine pulse and every event in it, located.
+#[inline(never)]
+fn passage<B: Body<f32>, D: Drive<f32, X, G>, T: Tracer<f32>, const X: usize, const G: usize>(
+    machine: &Machine<f32, B, D, X, G>,
+    tracer: &T,
+    shaking: Shaking<'_, Shape, Shape>,
+    tally: &mut Tally,
+) -> Result<(), Stopped> {
+    let limits = Limits { overturned: core::f32::consts::FRAC_PI_2, events: 10_000 };
+    machine.advance(tracer, &mut machine.at_rest(), shaking, 1.0, &limits, tally)
+}
+
+/// Prints a line for every effect; all zeros on the host.
+///
+/// # Errors
+/// If `out` refuses a line.
+pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> fmt::Result {
+    let Ok(block) = Block::new(2.0, f64::from(super::SLENDERNESS), RECTANGLE_INERTIA_RATIO) else { return Err(fmt::Error) };
+    let gears = |drivetrain: &Drivetrain| black_box(Gears::<f32>::of(drivetrain, &block, MASS_RATIO, 1.0));
+    let pulse = black_box(Shape::Sine(Harmonics::sine(0.5, TAU)));
+    let up = black_box(Shape::Sine(Harmonics::sine(0.2, 4.0 * TAU)));
+    let (level, both) = (Shaking { horizontal: &pulse, vertical: &STILL }, Shaking { horizontal: &pulse, vertical: &up });
+    let tracer = RungeKutta4 { step: super::STEP };
+    let midpoint = ExponentialMidpoint { step: super::STEP };
+    let (paper, consistent) = (body::<Paper, true>(), body::<Consistent, true>());
+
+    macro_rules! line {
+        ($name:literal, $body:expr, $drive:expr, $drivetrain:expr, $tracer:expr, $shaking:expr) => {{
+            let machine = black_box(machine($body, $drive, &$drivetrain));
+            mean($name, |tally| passage(&machine, $tracer, $shaking, tally), counter, out)?;
+        }};
+    }
+    line!("machine-alone-horizontal", body::<Paper, false>(), Alone, IDEAL, &tracer, level);
+    line!("machine-alone", paper, Alone, IDEAL, &tracer, level);
+    line!("machine-alone-vertical", paper, Alone, IDEAL, &tracer, both);
+    line!("machine-single-friction", paper, Single::<f32, true>(gears(&ROUGH)), ROUGH, &tracer, level);
+    line!("machine-ideal-pair", paper, IdealPair::<f32, false>(gears(&IDEAL)), IDEAL, &tracer, level);
+    line!("machine-ideal-pair-friction", paper, IdealPair::<f32, true>(gears(&ROUGH)), ROUGH, &tracer, level);
+    line!("machine-ideal-pair-consistent", consistent, IdealPair::<f32, false>(gears(&IDEAL)), IDEAL, &tracer, level);
+    line!("machine-rigid", consistent, RigidPair(gears(&RIGID)), RIGID, &tracer, level);
+    line!("machine-overrunning", consistent, OverrunningPair(gears(&OVERRUNNING)), OVERRUNNING, &tracer, level);
+    line!("machine-friction-clutch", consistent, FrictionPair(gears(&FRICTION)), FRICTION, &tracer, level);
+    line!("machine-elastic-rk4", consistent, ElasticPair(gears(&ELASTIC)), ELASTIC, &tracer, level);
+    line!("machine-elastic-exponential", consistent, ElasticPair(gears(&ELASTIC)), ELASTIC, &midpoint, level);
+    line!("machine-all-together", consistent, FrictionPair(gears(&ALL)), ALL, &tracer, both);
+    Ok(())
+}

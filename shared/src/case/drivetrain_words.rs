@@ -1,0 +1,58 @@
+//! The drivetrain of a case in words.
+
+use super::CaseError;
+use super::codec::{Reader, Writer};
+use crate::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses, Rack};
+
+pub(super) fn encode(drivetrain: &Drivetrain, out: &mut Writer<'_>) -> Result<(), CaseError> {
+    let Drivetrain { engagement, flywheel, rack, actuation } = drivetrain;
+    let (kind, numbers) = match *engagement {
+        Engagement::Ideal => (0, [0.0; 4]),
+        Engagement::Rigid => (1, [0.0; 4]),
+        Engagement::Overrunning => (2, [0.0; 4]),
+        Engagement::Friction { capacity_ratio } => (3, [0.0, 0.0, 0.0, capacity_ratio]),
+        Engagement::Elastic { stiffness, damping, backlash, capacity_ratio } => {
+            (4, [stiffness, damping, backlash, capacity_ratio])
+        }
+    };
+    out.word(kind)?;
+    out.numbers(&numbers)?;
+    out.numbers(&[flywheel.viscous_rate, flywheel.dry_deceleration, flywheel.brake_deceleration])?;
+    out.numbers(&[rack.guided_mass_ratio, rack.viscous, rack.dry_ratio])?;
+    let Actuation { engagement_delay, release_delay, rise_time, dwell, miss_probability, miss_seed } = *actuation;
+    out.numbers(&[engagement_delay, release_delay, rise_time, dwell, miss_probability])?;
+    out.word(miss_seed as u32)?;
+    out.word((miss_seed >> 32) as u32)
+}
+
+pub(super) fn decode(input: &mut Reader<'_>) -> Result<Drivetrain, CaseError> {
+    let kind = input.kind("engagement", &[0, 1, 2, 3, 4])?;
+    let (stiffness, damping) = (input.number("stiffness")?, input.number("damping")?);
+    let (backlash, capacity_ratio) = (input.number("backlash")?, input.number("capacity_ratio")?);
+    let engagement = match kind {
+        0 => Engagement::Ideal,
+        1 => Engagement::Rigid,
+        2 => Engagement::Overrunning,
+        3 => Engagement::Friction { capacity_ratio },
+        _ => Engagement::Elastic { stiffness, damping, backlash, capacity_ratio },
+    };
+    let flywheel = FlywheelLosses {
+        viscous_rate: input.number("viscous_rate")?,
+        dry_deceleration: input.number("dry_deceleration")?,
+        brake_deceleration: input.number("brake_deceleration")?,
+    };
+    let rack = Rack {
+        guided_mass_ratio: input.number("guided_mass_ratio")?,
+        viscous: input.number("rack viscous")?,
+        dry_ratio: input.number("rack dry_ratio")?,
+    };
+    let actuation = Actuation {
+        engagement_delay: input.number("engagement_delay")?,
+        release_delay: input.number("release_delay")?,
+        rise_time: input.number("rise_time")?,
+        dwell: input.number("dwell")?,
+        miss_probability: input.number("miss_probability")?,
+        miss_seed: u64::from(input.word("miss_seed")?) | u64::from(input.word("the upper half of miss_seed")?) << 32,
+    };
+    Ok(Drivetrain { engagement, flywheel, rack, actuation })
+}
