@@ -1,8 +1,8 @@
 //! A case: one scene as a flat row of 32-bit words, small and plain enough for a board to read from its host, and complete
 //! enough for both to run it in single precision with fixed steps and compare every bit ([`crate::digest`]).
 //!
-//! The words and their order are in [`words`]; this page is what they mean. Ideal devices run in the loop of [`crate::rocking`]
-//! ([`ideal`]), all others and every vertical ground motion in that of [`crate::hybrid`] ([`machine`]).
+//! The words and their order are in [`words`]; this page is what they mean. Ideal devices over horizontal ground run in the loop
+//! of [`crate::rocking`], all others in that of [`crate::hybrid`].
 
 mod codec;
 mod drivetrain_words;

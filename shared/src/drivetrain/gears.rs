@@ -140,12 +140,41 @@ impl<S: Real> Gears<S> {
         };
     }
 
-    /// What an idle flywheel has left of its speed after `time` (s): ẇ = −c w − d sgn w in closed form, never past zero.
+    /// When an idle flywheel stops (s), if that is within `time` (s) but not at its end; to the resolution of the clock.
+    pub fn stops_within(&self, wheel: &Wheel<S>, time: S) -> Option<S> {
+        let stopped = |after: S| {
+            let mut wheel = *wheel;
+            self.coast(&mut wheel, after);
+            wheel.spin == S::ZERO
+        };
+        if wheel.spin == S::ZERO || !stopped(time) {
+            return None;
+        }
+        let (mut low, mut high) = (S::ZERO, time);
+        for _ in 0..64 {
+            let middle = S::HALF * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            if stopped(middle) {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        (high < time).then_some(high)
+    }
+
+    /// What a flywheel has left of its speed after `time` (s) while the rack stands: ẇ = −c w − d sgn w in closed form, never past
+    /// zero.
     pub fn coast(&self, wheel: &mut Wheel<S>, time: S) {
         if wheel.coupling == Coupling::Locked || wheel.spin == S::ZERO {
             return;
         }
-        let (c, d) = (self.bearing_rate, self.dry_of(wheel));
+        // The plates of a rack that stands brake it too.
+        let slips = matches!(wheel.coupling, Coupling::Slipping(_));
+        let plates = if slips { self.capacity_of(wheel).0 * self.mobility } else { S::ZERO };
+        let (c, d) = (self.bearing_rate, self.dry_of(wheel) + plates);
         let speed = wheel.spin.abs();
         let x = c * time;
         // (1 − e^−x)/x, where the difference would lose its digits.
@@ -158,5 +187,8 @@ impl<S: Real> Gears<S> {
         let sign = Sign::of(wheel.spin, Sign::Positive);
         wheel.spin = if left > S::ZERO { sign.times(left) } else { S::ZERO };
         wheel.turning = if left > S::ZERO { Some(sign) } else { None };
+        if slips && left <= S::ZERO {
+            wheel.coupling = Coupling::Locked;
+        }
     }
 }

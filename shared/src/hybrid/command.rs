@@ -63,7 +63,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             for index in 0..2 {
                 self.give(state, index, resists && index == wheel);
             }
-            let velocity = state.motion.velocity;
+            let (velocity, direction) = (state.motion.velocity, state.motion.direction);
             let mut engages = false;
             for index in 0..2 {
                 if state.device.wheels[index].pending == S::ZERO {
@@ -79,7 +79,10 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 }
                 return;
             }
-            state.motion.drive = self.drive_sign(state);
+            // A jolt that only slows the block down leaves the sign that asked for it, or a clutch would chatter at its zero.
+            if state.motion.direction != direction {
+                state.motion.drive = self.drive_sign(state);
+            }
             self.settle(state, time, observer);
         }
     }

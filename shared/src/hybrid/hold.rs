@@ -75,6 +75,12 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             [_, (b, negative)] => (b, negative),
         };
         let until = free.map_or(stop, |(at, _)| at);
+        // A flywheel that comes to a stop on the way kinks the powers that watchers integrate.
+        let whole = until - time;
+        let wheels =
+            self.drive.gears().into_iter().flat_map(|gears| state.device.wheels.iter().map(|w| gears.stops_within(w, whole)));
+        let shortest = wheels.flatten().fold(whole, Real::smaller);
+        let (until, free) = if shortest < whole { (time + shortest, None) } else { (until, free) };
         if until > time {
             let still = Motion { rotation: state.motion.rotation, velocity: S::ZERO, acceleration: S::ZERO };
             let stretch = Stretch {
