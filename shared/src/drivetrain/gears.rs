@@ -141,6 +141,7 @@ impl<S: Real> Gears<S> {
     }
 
     /// When an idle flywheel stops (s), if that is within `time` (s) but not at its end; to the resolution of the clock.
+    #[inline(never)]
     pub fn stops_within(&self, wheel: &Wheel<S>, time: S) -> Option<S> {
         let stopped = |after: S| {
             let mut wheel = *wheel;
@@ -167,13 +168,16 @@ impl<S: Real> Gears<S> {
 
     /// What a flywheel has left of its speed after `time` (s) while the rack stands: ẇ = −c w − d sgn w in closed form, never past
     /// zero.
+    #[inline(never)]
     pub fn coast(&self, wheel: &mut Wheel<S>, time: S) {
         if wheel.coupling == Coupling::Locked || wheel.spin == S::ZERO {
             return;
         }
         // The plates of a rack that stands brake it too.
         let slips = matches!(wheel.coupling, Coupling::Slipping(_));
-        let plates = if slips { self.capacity_of(wheel).0 * self.mobility } else { S::ZERO };
+        // A rising capacity counts with its mean.
+        let halfway = Wheel { engaged_for: wheel.engaged_for + S::HALF * time, ..*wheel };
+        let plates = if slips { self.capacity_of(&halfway).0 * self.mobility } else { S::ZERO };
         let (c, d) = (self.bearing_rate, self.dry_of(wheel) + plates);
         let speed = wheel.spin.abs();
         let x = c * time;

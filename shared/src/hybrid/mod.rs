@@ -273,8 +273,16 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 observer.device_event(Event::Turn, *time, &state.motion);
                 state.motion.direction = state.motion.direction.opposite();
                 self.settle(state, *time, observer);
-                if state.motion.velocity == S::ZERO {
-                    self.turned(state);
+                // What the clutches of one way let go may move the block the other way, whose clutches then hold it.
+                for _ in 0..2 {
+                    let direction = state.motion.direction;
+                    if state.motion.velocity == S::ZERO {
+                        self.turned(state);
+                    }
+                    if state.motion.direction == direction {
+                        break;
+                    }
+                    self.settle(state, *time, observer);
                 }
             }
             End::Impact => {

@@ -101,7 +101,7 @@ pub const VARIANTS: [Variant; 21] = [
     variant("actuation", "1 in 10 engagements missed", PAIR, &["device.N.actuation={ miss_probability = 0.1 }"]),
     variant(
         "flywheel",
-        "bearings 0.5 m/s², 0.05 1/s",
+        "bearings 0.05 m/s², 0.05 1/s",
         INERTERS,
         &["device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05 }"],
     ),

@@ -140,11 +140,12 @@ impl Course<'_> {
         O: DeviceObserver<S> + Segmented,
     {
         let still = ShapePiece::Linear(Linear::constant(S::ZERO));
-        // A lighter block falls under a weaker push, and friction may hold it beyond.
+        // A lighter block falls under a weaker push, a guided rack is pushed too, and friction may hold the block beyond.
         let lightest = 1.0 + self.vertical.map_or(0.0, |vertical| vertical.lowest().0).min(0.0);
-        let held = machine.drive.gears().map_or(0.0, |gears| gears.rack_dry.to_f64())
-            / (self.block.frequency_parameter_squared() * lightest);
-        let limits = |bound: f64| Limits { events: MOST_EVENTS, ..self.limits::<S>(bound / lightest + held) };
+        let p2 = self.block.frequency_parameter_squared();
+        let (held, pushed) =
+            machine.drive.gears().map_or((0.0, 0.0), |gears| (gears.rack_dry.to_f64() / p2, gears.rack_push.to_f64() / p2));
+        let limits = |bound: f64| Limits { events: MOST_EVENTS, ..self.limits::<S>((bound * (1.0 + pushed) + held) / lightest) };
         let vertical = self.vertical.map(GroundMotion::segments);
         for (index, segment) in self.ground.segments().iter().enumerate() {
             if state.motion.phase == Phase::Overturned || !goes_on() {
