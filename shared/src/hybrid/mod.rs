@@ -255,15 +255,13 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let seen = Seen { machine: self, path: &path, law: &law, state: &*state, shaking, time: *time };
         observer.device_stretch(&seen, &stretch);
         let extra = path.extra(until);
-        let before = *time;
         *time = if end == End::Reached && length == stop - *time { stop } else { *time + until };
         let motion = &mut state.motion;
         (motion.rotation, motion.velocity) = (last.rotation, last.velocity);
         let posture = self.body.posture(motion.side.unit(), motion.rotation);
         self.drive.store(&mut state.device, &extra, self.body.along(&posture, motion.velocity));
         state.device.elapse(until);
-        // An event that the clock cannot tell from the start leaves the block as free as it was.
-        (state.fresh, state.free) = ([false; 3], state.free && *time == before);
+        (state.fresh, state.free) = ([false; 3], false);
         let ground = shaking.at::<S, B>(*time);
         state.ground = ground;
         match end {

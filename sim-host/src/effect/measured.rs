@@ -5,14 +5,14 @@ use serde::Serialize;
 /// The committed table, with a header line.
 const TABLE: &str = include_str!("../../../docs/effects-cost.csv");
 
-/// Cost of an effect, over that of the same scene without it.
+/// Cost of an effect a step: on the host what it adds to the same scene without it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cost {
     /// Instructions on the host.
     pub host_instructions: String,
     /// Time on the host, ns.
     pub host_ns: String,
-    /// Instructions on the microcontroller.
+    /// Instructions of a whole step on the microcontroller with it.
     pub target_instructions: String,
 }
 
