@@ -99,16 +99,16 @@ fn the_equation_has_what_the_scene_asks_for() {
     let bracket = "−(g/R) [ (1 + v̈_g/g) sin δ + (ü_g/g) cos δ ]";
     for (index, equation) in [
         (0, format!("(λ + σ ℓ²) θ̈ + σ ℓ ℓ′ θ̇² = {bracket} − ℓ (F_b + F_r)/(m R)\n")),
-        (1, format!("(λ + κ σ ℓ² + μ_g ℓ²) θ̈ = {bracket} − μ_g ℓ ü_g/R\n")),
-        (2, format!("(λ + κ σ ℓ²) θ̈ = {bracket}\n")),
-        (3, format!("(λ + κ σ ℓ²) θ̈ = {bracket} − ℓ (F₁ + F₂)/(m R)\n")),
+        (1, format!("(λ + κ σ ℓ² + μ_g ℓ²) θ̈ + (κ σ + μ_g) ℓ ℓ′ θ̇² = {bracket} − μ_g ℓ ü_g/R\n")),
+        (2, format!("(λ + κ σ ℓ²) θ̈ + κ σ ℓ ℓ′ θ̇² = {bracket} − ℓ F_b/(m R)\n")),
+        (3, format!("(λ + κ σ ℓ²) θ̈ + κ σ ℓ ℓ′ θ̇² = {bracket} − ℓ (F₁ + F₂)/(m R)\n")),
         (4, format!("λ θ̈ = {bracket} − ℓ (F₁ + F₂ + F_r)/(m R)\n")),
     ] {
         let text = explained(index, &[]);
         assert!(text.starts_with(&equation), "{index}: {text}");
     }
     let slender = explained(2, &["block.geometry=slender", "vertical=[]"]);
-    assert!(slender.starts_with("(λ + κ σ ℓ²) θ̈ = −(g/R) [ δ + ü_g/g ]\n"), "{slender}");
+    assert!(slender.starts_with("(λ + κ σ ℓ²) θ̈ = −(g/R) [ δ + ü_g/g ] − ℓ F_b/(m R)\n"), "{slender}");
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn an_explanation_has_the_numbers_of_the_scene() {
             &["λ = 1.3309", "alone: R = 2 m,  α = 10°", "σ = m_r/m = 0.4902", "c = 0.1 1/s", "stands still", "Runge-Kutta 4"][..],
         ),
         (1, &["μ_g = 0.005", "stopped at once", "exchange momentum", "with no flywheel"]),
-        (2, &["nobody commands it", "b = 2 m/s²", "run on"]),
+        (2, &["nobody commands it", "c = 0.2 1/s", "run on"]),
         (3, &["F_c = 0.2 m g", "engages 0.01 s after", "capacity rises over 0.02 s", "probability 0.1; seed 7", "plates slip"]),
         (4, &["K/m = 3677.5 1/s²", "z₀ = ±0.00025 m", "F_c = 0.20394 m g", "exponential midpoint, step 0.001 s"]),
         (5, &["K/m = 250 1/s²", "no backlash", "device with memory"]),
