@@ -279,7 +279,7 @@ fn explain_says_what_is_on_why_and_which_equation_results() {
         "because device.3.clutch.capacity_ratio = 0.25",
         "(λ + κ σ ℓ²) θ̈ + κ σ ℓ ℓ′ θ̇² = −(g/R) [ (1 + v̈_g/g) sin δ + (ü_g/g) cos δ ] − ℓ (F₁ + F₂)/(m R)",
         "F_c = 0.25 m g",
-        "effects off: mount, kinematics",
+        "effects off: mount",
         "followed by",
     ] {
         assert!(text.contains(words), "must say `{words}`: {text}");
