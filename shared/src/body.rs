@@ -46,6 +46,9 @@ pub trait Body<S: Scalar>: Copy {
     /// ℓ.
     fn arm(&self, posture: &Self::Posture<S>) -> S;
 
+    /// The terminals' travel per R, ∫ ℓ dθ, up to a constant of each side.
+    fn travel(&self, side: S, posture: &Self::Posture<S>) -> S;
+
     /// Factors of ü_g/g and of 1 + v̈_g/g in D at the posture: −p² cos δ and −p² sin δ.
     fn factors(&self, posture: &Self::Posture<S>) -> (S, S);
 }
@@ -104,6 +107,11 @@ impl<S: Scalar, const VERTICAL: bool> Body<S> for SlenderBody<S, VERTICAL> {
     #[inline(always)]
     fn arm(&self, _delta: &S) -> S {
         self.lever
+    }
+
+    #[inline(always)]
+    fn travel(&self, _side: S, delta: &S) -> S {
+        -(self.lever * *delta)
     }
 
     #[inline(always)]
@@ -192,6 +200,12 @@ impl<S: Scalar, K: Kinematics, const VERTICAL: bool> Body<S> for FullBody<S, K, 
     #[inline(always)]
     fn arm(&self, posture: &Turned<S>) -> S {
         posture.arm
+    }
+
+    #[inline(always)]
+    fn travel(&self, side: S, posture: &Turned<S>) -> S {
+        // ℓ = A cos δ + s B sin δ with dδ = −dθ.
+        side * self.lever.across * posture.cos - self.lever.along * posture.sin
     }
 
     #[inline(always)]

@@ -1,6 +1,7 @@
 //! A fingerprint of a motion: two runs with the same digest went through the same bits.
 
 use crate::arc::Arc;
+use crate::control::controller::Decision;
 use crate::observer::{Event, Observer, Stretch};
 use crate::rocking::State;
 use crate::scalar::{Real, Sign};
@@ -67,6 +68,18 @@ impl Digest {
         let bits = if x.partial_cmp(&x).is_some() { x.bits() } else { NAN };
         for &byte in bits.to_le_bytes().iter().take(size_of::<S>()) {
             self.byte(byte);
+        }
+    }
+
+    /// Command, wish, phase and estimate of a tick of a controller; neither a stretch nor an event.
+    pub fn decision(&mut self, decision: &Decision) {
+        let Decision { command, estimate, wish, phase, fault } = decision;
+        self.byte(u8::from(command[0]) | u8::from(command[1]) << 1 | u8::from(estimate.standing) << 2 | (*wish as u8) << 3);
+        self.byte(*phase as u8);
+        self.byte(fault.map_or(0, |fault| fault.code() as u8));
+        self.instant(estimate.rotation, estimate.velocity, estimate.side, 0);
+        for quantity in [estimate.push, estimate.ground[0], estimate.ground[1], estimate.ground_rate] {
+            self.number(quantity);
         }
     }
 

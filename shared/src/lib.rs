@@ -28,6 +28,7 @@ pub mod carried;
 pub mod case;
 pub mod checks;
 pub mod clutch;
+pub mod control;
 pub mod decay;
 pub mod detected;
 pub mod digest;

@@ -23,6 +23,8 @@ pub struct Actuator<S> {
     pub misses: u64,
     /// Seed of the draw.
     pub seed: u64,
+    /// Commands come from a controller ([`Machine::order`]) and not from the signs of Eq. 10.
+    pub controlled: bool,
 }
 
 impl<S: Real> Actuator<S> {
@@ -34,6 +36,7 @@ impl<S: Real> Actuator<S> {
             dwell: S::of(actuation.dwell),
             misses: (actuation.miss_probability * 4_294_967_296.0) as u64,
             seed: actuation.miss_seed,
+            controlled: false,
         }
     }
 
@@ -60,8 +63,10 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             let motion = &state.motion;
             let resists = motion.direction == motion.drive;
             let wheel = wheel_for(motion.direction);
-            for index in 0..2 {
-                self.give(state, index, resists && index == wheel);
+            if !self.actuator.controlled {
+                for index in 0..2 {
+                    self.give(state, index, resists && index == wheel);
+                }
             }
             let (velocity, direction) = (state.motion.velocity, state.motion.direction);
             let mut engages = false;
@@ -84,6 +89,46 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 state.motion.drive = self.drive_sign(state);
             }
             self.settle(state, time, observer);
+        }
+    }
+
+    /// A controller's command to each clutch, at local time 0 of the piece of ground motion that follows. It takes effect after the
+    /// delay, at once where there is none.
+    pub fn order(&self, state: &mut MachineState<S>, wanted: [bool; 2], observer: &mut dyn DeviceObserver<S>) {
+        // What is to be released is released first, so that two that change places are never both engaged.
+        for engage in [false, true] {
+            for (index, &wish) in wanted.iter().enumerate() {
+                if wish == engage {
+                    self.give(state, index, wish);
+                }
+            }
+            if state.motion.phase == Phase::Rocking && !state.held {
+                self.command(state, S::ZERO, observer);
+            } else if state.motion.phase == Phase::Rest {
+                self.carry_out_at_rest(state, observer);
+            }
+        }
+    }
+
+    /// Clutches of a standing block that have been commanded for long.
+    pub fn preset(&self, state: &mut MachineState<S>, engaged: [bool; 2]) {
+        for (index, &engage) in engaged.iter().enumerate() {
+            let wheel = &mut state.device.wheels[index & 1];
+            (wheel.commanded, wheel.obeys, wheel.pending, wheel.dwell) = (engage, true, -S::ONE, S::ZERO);
+            if engage {
+                self.with_instant(state, S::ZERO, &mut (), |drive, at| drive.engage(at, index));
+            }
+        }
+        state.motion.velocity = S::ZERO;
+    }
+
+    /// Commands to the clutches of a standing block that are due.
+    pub(super) fn carry_out_at_rest(&self, state: &mut MachineState<S>, observer: &mut dyn DeviceObserver<S>) {
+        for index in 0..2 {
+            if state.device.wheels[index].pending == S::ZERO {
+                self.carry_out(state, index, S::ZERO, observer);
+                state.motion.velocity = S::ZERO;
+            }
         }
     }
 

@@ -159,6 +159,9 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             state.device.wheels[0].coupling = Coupling::Locked;
             return;
         }
+        if self.actuator.controlled {
+            return;
+        }
         self.with_instant(state, S::ZERO, &mut (), |_, at| {
             for wheel in 0..2 {
                 if at.device.wheels[wheel].coupling != Coupling::Open {

@@ -361,6 +361,18 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         self.with_instant(state, time, observer, |drive, at| drive.settle(at));
     }
 
+    /// Block and device as they are, under the ground's acceleration at the end of the last piece.
+    pub fn now(&self, state: &MachineState<S>) -> Snapshot<S> {
+        let law = self.drive.law(state.motion.direction, state.motion.drive, &state.device);
+        let extra = self.drive.load(&state.device);
+        let mut motion = Motion { rotation: state.motion.rotation, velocity: state.motion.velocity, acceleration: S::ZERO };
+        if state.motion.phase == Phase::Rocking && !state.held {
+            let moment = self.moment(&law, state.motion.side, &motion, extra, state.ground, S::ZERO);
+            motion.acceleration = self.drive.flow(&moment).0;
+        }
+        self.snapshot(&law, state, motion, extra, state.ground, S::ZERO)
+    }
+
     /// What an equation needs to know of an instant.
     fn moment<'a>(
         &'a self,

@@ -1,0 +1,195 @@
+//! One control tick: readings in, a command for each clutch out.
+//!
+//! Readings, estimate, prediction, law, turn, dwell and supervisor in a row, in single precision, without a panic, a heap or a loop whose
+//! length depends on data. The host simulates this code and the firmware runs it.
+
+use super::calibration::Calibration;
+use super::estimate::Estimate;
+use super::estimator::{Estimator, EstimatorState};
+use super::fault::Fault;
+use super::gate::{Gate, GateState};
+use super::instruments::{Instruments, InstrumentsState};
+use super::law::{DRIFT_TIME, Law, Situation, Wish};
+use super::model::{KnownBody, Model};
+use super::prediction::predict_from;
+use super::sample::Sample;
+use super::signs::Signs;
+use super::supervisor::{Phase, Requests, Supervisor, SupervisorInput, SupervisorState};
+use super::turns::TurnsState;
+use crate::scalar::Sign;
+
+/// Parameters of a controller for a body `B` by a law `L`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Controller<B, L> {
+    /// The structure as it is believed to be.
+    pub model: Model<B>,
+    /// The sensors.
+    pub instruments: Instruments,
+    /// The estimator.
+    pub estimator: Estimator,
+    /// The law.
+    pub law: L,
+    /// From a tick to the moment at which its command has moved the clutch, s.
+    pub horizon: f32,
+    /// Width of the hysteresis of signs in standard deviations of the estimate.
+    pub bands: f32,
+    /// A clutch may be engaged while the block stands, so that the flywheel resists from the first instant of uplift, without a delay. A
+    /// flywheel that is taken on at rest costs nothing but the coil's holding current.
+    pub engaged_at_rest: bool,
+    /// Minimum dwell.
+    pub gate: Gate,
+    /// Who watches.
+    pub supervisor: Supervisor,
+}
+
+/// Its state.
+#[derive(Clone, Debug)]
+pub struct ControllerState {
+    instruments: InstrumentsState,
+    estimator: EstimatorState,
+    calibration: Calibration,
+    signs: Signs,
+    turns: TurnsState,
+    gate: GateState,
+    drift: f32,
+    supervisor: SupervisorState,
+}
+
+impl ControllerState {
+    /// Of the supervisor, with the log of what happened.
+    pub fn supervisor(&self) -> &SupervisorState {
+        &self.supervisor
+    }
+}
+
+/// What a tick is told beside the readings.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Circumstances {
+    /// How late the tick came, s; 0 in time.
+    pub lateness: f32,
+    /// What an operator asks for.
+    pub requests: Requests,
+}
+
+/// What a tick comes to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Decision {
+    /// Whether each clutch shall be engaged.
+    pub command: [bool; 2],
+    /// The motion now.
+    pub estimate: Estimate,
+    /// What the law wanted.
+    pub wish: Wish,
+    /// State of the controller.
+    pub phase: Phase,
+    /// Why it is in [`Phase::Fault`].
+    pub fault: Option<Fault>,
+}
+
+impl<B: KnownBody, L: Law<B>> Controller<B, L> {
+    /// State at power-on.
+    pub fn start(&self) -> ControllerState {
+        ControllerState {
+            instruments: InstrumentsState::default(),
+            estimator: self.estimator.start(),
+            calibration: Calibration::default(),
+            signs: Signs::default(),
+            turns: TurnsState::default(),
+            gate: GateState::default(),
+            drift: 0.0,
+            supervisor: SupervisorState::default(),
+        }
+    }
+
+    /// One tick.
+    #[inline]
+    pub fn tick(&self, state: &mut ControllerState, sample: &Sample, circumstances: Circumstances) -> Decision {
+        let estimate = self.look(state, sample);
+        let (wish, wanted) = self.choose(state, &estimate, sample.engaged);
+        self.oversee(state, sample, circumstances, Choice { estimate, wish, wanted })
+    }
+
+    /// First part of a tick: the motion now.
+    #[inline]
+    pub fn look(&self, state: &mut ControllerState, sample: &Sample) -> Estimate {
+        let seen = self.instruments.read(&mut state.instruments, sample, &state.calibration);
+        self.estimator.step(&mut state.estimator, &self.model, &self.instruments, &seen, count(sample.engaged))
+    }
+
+    /// Second part: what the law wants of the motion ahead, and as commands.
+    #[inline]
+    pub fn choose(&self, state: &mut ControllerState, estimate: &Estimate, engaged: [bool; 2]) -> (Wish, [bool; 2]) {
+        let model = &self.model;
+        let posture = model.posture(estimate.side, estimate.rotation);
+        let rack = model.body.along(&posture, estimate.velocity);
+        state.turns.spin_at(model, rack, engaged, self.instruments.period);
+        let ahead =
+            if self.law.predicts() { predict_from(model, &posture, estimate, count(engaged), self.horizon) } else { *estimate };
+        state.signs = if estimate.standing {
+            // The way it goes when the ground sets it free: Eq. 10 engages from the start.
+            let side = Sign::of(-estimate.ground[0], Sign::Positive);
+            Signs { rotation: side, velocity: side, push: side, ground: side.opposite() }
+        } else {
+            state.signs.after(&ahead, self.bands)
+        };
+        let elapsed = self.model.frequency * self.instruments.period;
+        state.drift = (state.drift + elapsed * estimate.ground[0]) * (1.0 - elapsed / DRIFT_TIME);
+        let situation = Situation {
+            model,
+            estimate: ahead,
+            signs: state.signs,
+            engaged,
+            spins: state.turns.spins,
+            ground_drift: state.drift,
+        };
+        let wish = match self.law.wish(&situation) {
+            Wish::Resist if estimate.standing && !self.engaged_at_rest => Wish::Release,
+            wish => wish,
+        };
+        let wanted = state.turns.take(model, wish, state.signs.velocity, &ahead);
+        (wish, self.gate.step(&mut state.gate, wanted))
+    }
+
+    /// Last part: whether it may be had.
+    #[inline]
+    pub fn oversee(
+        &self,
+        state: &mut ControllerState,
+        sample: &Sample,
+        circumstances: Circumstances,
+        choice: Choice,
+    ) -> Decision {
+        let Choice { estimate, wish, wanted } = choice;
+        let input = SupervisorInput {
+            sample,
+            wish: wanted,
+            estimate: (estimate.rotation, estimate.velocity),
+            lateness: circumstances.lateness,
+            requests: circumstances.requests,
+        };
+        let verdict = self.supervisor.step(&mut state.supervisor, &input);
+        if verdict.just_calibrated {
+            state.calibration = verdict.calibration;
+            state.instruments = InstrumentsState::default();
+            state.estimator = self.estimator.start();
+        }
+        Decision { command: verdict.command, estimate, wish, phase: verdict.phase, fault: verdict.fault }
+    }
+}
+
+/// What the first two parts of a tick come to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Choice {
+    /// The motion now.
+    pub estimate: Estimate,
+    /// What the law wants.
+    pub wish: Wish,
+    /// The same as commands, after turns and dwell.
+    pub wanted: [bool; 2],
+}
+
+/// How many flywheels are on the rack.
+#[inline(always)]
+fn count(engaged: [bool; 2]) -> u8 {
+    u8::from(engaged[0]) + u8::from(engaged[1])
+}

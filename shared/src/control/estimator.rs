@@ -1,0 +1,84 @@
+//! The estimators that a scene can choose from.
+
+use super::complementary::{Complementary, ComplementaryState};
+use super::estimate::Estimate;
+use super::instruments::{Instruments, Measured};
+use super::kalman::{Kalman, KalmanState};
+use super::model::{KnownBody, Model};
+use super::model_aided::{ModelAided, ModelAidedState};
+use super::supervisor::Required;
+
+/// One of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Estimator {
+    /// Equation of motion, gyroscope, encoder.
+    ModelAided(ModelAided),
+    /// Kinematic Kalman filter of gyroscope, accelerometers and encoder.
+    Kalman(Kalman),
+    /// Encoder and accelerometers.
+    Complementary(Complementary),
+}
+
+/// State of the one that was chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EstimatorState {
+    /// Of [`Estimator::ModelAided`].
+    ModelAided(ModelAidedState),
+    /// Of [`Estimator::Kalman`].
+    Kalman(KalmanState),
+    /// Of [`Estimator::Complementary`].
+    Complementary(ComplementaryState),
+}
+
+impl Estimator {
+    /// State of a standing block.
+    pub fn start(&self) -> EstimatorState {
+        match self {
+            Estimator::ModelAided(_) => EstimatorState::ModelAided(ModelAidedState::default()),
+            Estimator::Kalman(_) => EstimatorState::Kalman(KalmanState::default()),
+            Estimator::Complementary(_) => EstimatorState::Complementary(ComplementaryState::default()),
+        }
+    }
+
+    /// Sensors that it cannot do without.
+    pub fn required(&self) -> Required {
+        match self {
+            Estimator::ModelAided(_) => {
+                Required { gyroscope: true, block_accelerometer: false, ground_accelerometer: true, encoder: true }
+            }
+            Estimator::Kalman(_) => {
+                Required { gyroscope: true, block_accelerometer: true, ground_accelerometer: true, encoder: true }
+            }
+            Estimator::Complementary(_) => {
+                Required { gyroscope: false, block_accelerometer: true, ground_accelerometer: true, encoder: true }
+            }
+        }
+    }
+
+    /// One tick, with `engaged` flywheels on the rack. A state of another estimator is started anew.
+    #[inline]
+    pub fn step<B: KnownBody>(
+        &self,
+        state: &mut EstimatorState,
+        model: &Model<B>,
+        instruments: &Instruments,
+        seen: &Measured,
+        engaged: u8,
+    ) -> Estimate {
+        match (self, state) {
+            (Estimator::ModelAided(estimator), EstimatorState::ModelAided(state)) => {
+                estimator.step(state, model, instruments, seen, engaged)
+            }
+            (Estimator::Kalman(estimator), EstimatorState::Kalman(state)) => {
+                estimator.step(state, model, instruments, seen, engaged)
+            }
+            (Estimator::Complementary(estimator), EstimatorState::Complementary(state)) => {
+                estimator.step(state, model, instruments, seen, engaged)
+            }
+            (_, state) => {
+                *state = self.start();
+                Estimate { standing: true, ..Estimate::default() }
+            }
+        }
+    }
+}

@@ -1,0 +1,270 @@
+//! The structure as the controller believes it to be.
+//!
+//! The same bodies that the simulator integrates ([`crate::body`]), in single precision: what the controller knows of the
+//! dynamics is written nowhere else.
+
+use core::marker::PhantomData;
+
+use crate::block::Geometry;
+use crate::body::{Body, FullBody, SlenderBody};
+use crate::drivetrain::{Drivetrain, Engagement};
+use crate::equation::{FullBlock, Kinematics};
+use crate::error::ParameterError;
+use crate::lever::TyingPoint;
+use crate::math;
+use crate::scalar::Sign;
+use crate::structure::Structure;
+
+/// A body that a [`Structure`] can be resolved into for the controller. Its vertical ground motion is always looked at.
+pub trait KnownBody: Body<f32> {
+    /// The body of `structure`, which carries nothing.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for a mount outside its range.
+    fn of(structure: &Structure) -> Result<Self, ParameterError>;
+}
+
+/// The linearised block.
+pub type KnownSlender = SlenderBody<f32, true>;
+
+/// The exact block.
+pub type KnownFull<K> = FullBody<f32, K, true>;
+
+impl KnownBody for KnownSlender {
+    fn of(structure: &Structure) -> Result<Self, ParameterError> {
+        let block = &structure.block;
+        Ok(SlenderBody {
+            frequency_squared: block.frequency_parameter_squared() as f32,
+            slenderness: block.slenderness() as f32,
+            lever: math::square_root(structure.device.mount.slender_lever_squared(block)?) as f32,
+        })
+    }
+}
+
+impl<K: Kinematics> KnownBody for KnownFull<K> {
+    fn of(structure: &Structure) -> Result<Self, ParameterError> {
+        let block = &structure.block;
+        let lever = structure.device.mount.lever(block)?;
+        Ok(FullBody {
+            block: FullBlock {
+                frequency_squared: block.frequency_parameter_squared() as f32,
+                slenderness: block.slenderness() as f32,
+            },
+            lever: TyingPoint { along: lever.along as f32, across: lever.across as f32 },
+            kinematics: PhantomData,
+        })
+    }
+}
+
+/// What the controller knows of the structure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Model<B> {
+    /// The block.
+    pub body: B,
+    /// p, 1/s.
+    pub frequency: f32,
+    /// p², 1/s².
+    pub frequency_squared: f32,
+    /// α, rad.
+    pub slenderness: f32,
+    /// R, m.
+    pub size: f32,
+    /// η.
+    pub restitution: f32,
+    /// Ground acceleration (in g) at which it uplifts.
+    pub uplift: f32,
+    /// k = σ/λ of one flywheel.
+    pub coupling: f32,
+    /// A flywheel that is engaged exchanges momentum with the block and goes on spinning when released.
+    pub wheels_spin: bool,
+    /// Rate at which the speed of a released flywheel decays, 1/s, …
+    pub decay: f32,
+    /// … and its constant deceleration (bearing and brake), over R, 1/s².
+    pub drag: f32,
+    /// A flywheel stops at once when released.
+    pub stops_at_once: bool,
+    /// Travel over R of each side's toe at θ = 0, by [`Body::travel`], for s = +1.
+    standing_travel: f32,
+}
+
+impl<B: KnownBody> Model<B> {
+    /// Of a structure with its drivetrain. What it carries is folded into the block.
+    ///
+    /// # Errors
+    /// [`ParameterError`] names the first parameter outside its range.
+    pub fn new(structure: &Structure, drivetrain: &Drivetrain) -> Result<Model<B>, ParameterError> {
+        let structure = structure.loaded()?;
+        let block = &structure.block;
+        let body = B::of(&structure)?;
+        let wheels_spin = drivetrain.engagement != Engagement::Ideal;
+        let flywheel = &drivetrain.flywheel;
+        let stops_at_once = !wheels_spin || flywheel.brake_deceleration.is_infinite();
+        let brake = if stops_at_once { 0.0 } else { flywheel.brake_deceleration };
+        let uplift = match structure.geometry {
+            Geometry::Full => math::tan(block.slenderness()),
+            Geometry::Slender => block.slenderness(),
+        };
+        let standing = body.posture(1.0, 0.0);
+        Ok(Model {
+            body,
+            frequency: block.frequency_parameter() as f32,
+            frequency_squared: block.frequency_parameter_squared() as f32,
+            slenderness: block.slenderness() as f32,
+            size: block.size() as f32,
+            restitution: structure.restitution()? as f32,
+            uplift: uplift as f32,
+            coupling: (structure.device.mass_ratio / block.inertia_ratio()) as f32,
+            wheels_spin,
+            decay: flywheel.viscous_rate as f32,
+            drag: ((flywheel.dry_deceleration + brake) / block.size()) as f32,
+            stops_at_once,
+            standing_travel: body.travel(1.0, &standing),
+        })
+    }
+
+    /// What θ alone decides, to be worked out once for all that need it.
+    #[inline(always)]
+    pub fn posture(&self, side: Sign, rotation: f32) -> B::Posture<f32> {
+        self.body.posture(side.unit(), rotation)
+    }
+
+    /// Quantity with the sign of the terminals' acceleration that Eq. 10 compares with the velocity, 1/s²: arm · (arm · D + ℓ'θ̇²), and
+    /// D with the paper's kinematics. `ground` in g, horizontal and vertical.
+    #[inline(always)]
+    pub fn push(&self, side: Sign, rotation: f32, velocity: f32, ground: [f32; 2]) -> f32 {
+        self.push_at(&self.posture(side, rotation), velocity, ground)
+    }
+
+    /// [`Model::push`] in a posture.
+    #[inline(always)]
+    pub fn push_at(&self, posture: &B::Posture<f32>, velocity: f32, ground: [f32; 2]) -> f32 {
+        self.body.switching(posture, velocity, self.body.drive(posture, ground))
+    }
+
+    /// θ̈ with `engaged` flywheels locked to the rack.
+    #[inline(always)]
+    pub fn acceleration(&self, side: Sign, rotation: f32, velocity: f32, ground: [f32; 2], engaged: u8) -> f32 {
+        self.acceleration_at(&self.posture(side, rotation), velocity, ground, engaged)
+    }
+
+    /// [`Model::acceleration`] in a posture.
+    #[inline(always)]
+    pub fn acceleration_at(&self, posture: &B::Posture<f32>, velocity: f32, ground: [f32; 2], engaged: u8) -> f32 {
+        let drive = self.body.drive(posture, ground);
+        self.body.over_inertia(posture, drive, f32::from(engaged) * self.coupling, velocity)
+    }
+
+    /// Speed of the rack over R.
+    #[inline(always)]
+    pub fn rack_speed(&self, side: Sign, rotation: f32, velocity: f32) -> f32 {
+        self.body.along(&self.posture(side, rotation), velocity)
+    }
+
+    /// θ at which the rack has travelled `travel` (over R), by one step of Newton's method from `near`: within ½ ℓ'/ℓ (θ − near)².
+    #[inline(always)]
+    pub fn rotation_of_travel(&self, travel: f32, near: f32, side: Sign) -> f32 {
+        let posture = self.body.posture(side.unit(), near);
+        let reached = self.body.travel(side.unit(), &posture) - side.times(self.standing_travel);
+        near + (travel - reached) / self.body.arm(&posture)
+    }
+
+    /// cos δ and sin δ (1 and δ for the slender block).
+    #[inline(always)]
+    pub fn direction_cosines(&self, side: Sign, rotation: f32) -> (f32, f32) {
+        let (horizontal, vertical) = self.body.factors(&self.body.posture(side.unit(), rotation));
+        (-horizontal / self.frequency_squared, -vertical / self.frequency_squared)
+    }
+
+    /// Speed of a released flywheel a time `period` (s) later; both over R, 1/s.
+    #[inline(always)]
+    pub fn coasted(&self, spin: f32, period: f32) -> f32 {
+        let slowed = spin.abs() * (1.0 - self.decay * period) - self.drag * period;
+        let left = if slowed > 0.0 && !self.stops_at_once { slowed } else { 0.0 };
+        if spin < 0.0 { -left } else { left }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::block::Block;
+    use crate::equation::{Consistent, Paper};
+    use crate::lever::Mount;
+    use crate::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution};
+
+    fn structure(geometry: Geometry, mount: Mount) -> Structure {
+        Structure {
+            block: Block::new(2.0, 0.2, 4.0 / 3.0).unwrap(),
+            geometry,
+            device: Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, mount, kinematics: KinematicsKind::Paper },
+            carried: crate::carried::Carried::NONE,
+            restitution: Restitution::Constant(0.85),
+            rest_speed: REST_SPEED,
+        }
+    }
+
+    /// Travel and rotation are each other's inverse for every body and mount, on both sides.
+    #[test]
+    fn rotation_follows_from_travel() {
+        for mount in
+            [Mount::CentreOfMass, Mount::TyingPoint { height: 3.0, pulley_ratio: 1.5 }, Mount::BaseCorners { pulley_ratio: 2.0 }]
+        {
+            inverse::<KnownFull<Paper>>(&structure(Geometry::Full, mount));
+            inverse::<KnownSlender>(&structure(Geometry::Slender, mount));
+        }
+    }
+
+    fn inverse<B: KnownBody>(structure: &Structure) {
+        let model = Model::<B>::new(structure, &Drivetrain::default()).unwrap();
+        for rotation in [-0.3_f32, -0.05, -1e-4, 1e-4, 0.02, 0.19, 0.4] {
+            let side = Sign::of(rotation, Sign::Positive);
+            // ∫ ℓ dθ by the midpoint rule in double precision.
+            let n = 2000;
+            let arm = |k: i32| {
+                let at = f64::from(rotation) * (f64::from(k) + 0.5) / f64::from(n);
+                structure.device.mount.lever_at(&structure.block, structure.geometry, at).unwrap() * f64::from(rotation)
+                    / f64::from(n)
+            };
+            let travel: f64 = (0..n).map(arm).sum();
+            let near = rotation + 2e-4;
+            let found = model.rotation_of_travel(travel as f32, near, side);
+            assert!((found - rotation).abs() < 3e-7, "{rotation}: {found}");
+        }
+    }
+
+    #[test]
+    fn eq_10_sees_the_terminals_acceleration_in_the_kinematics_of_the_model() {
+        let at = |v: f32| {
+            let paper =
+                Model::<KnownFull<Paper>>::new(&structure(Geometry::Full, Mount::CentreOfMass), &Drivetrain::default()).unwrap();
+            let exact =
+                Model::<KnownFull<Consistent>>::new(&structure(Geometry::Full, Mount::CentreOfMass), &Drivetrain::default())
+                    .unwrap();
+            (paper.push(Sign::Positive, 0.1, v, [0.02, 0.0]), exact.push(Sign::Positive, 0.1, v, [0.02, 0.0]))
+        };
+        let (paper, _) = at(0.3);
+        let delta = 0.1_f64;
+        let bracket = -(3.0 * 9.80665 / 8.0) * (math::sin(delta) + 0.02 * math::cos(delta));
+        assert!((f64::from(paper) - bracket).abs() < 1e-6);
+        // cos δ (cos δ D + sin δ θ̇²).
+        let (still, moving) = (at(0.0).1, at(0.5).1);
+        assert!((f64::from(moving - still) - math::cos(delta) * math::sin(delta) * 0.25).abs() < 1e-6);
+    }
+
+    #[test]
+    fn released_flywheels_slow_down_and_never_turn_back() {
+        let drivetrain = Drivetrain {
+            engagement: Engagement::Rigid,
+            flywheel: crate::drivetrain::FlywheelLosses { viscous_rate: 0.5, dry_deceleration: 0.4, brake_deceleration: 1.0 },
+            ..Drivetrain::default()
+        };
+        let model = Model::<KnownSlender>::new(&structure(Geometry::Slender, Mount::CentreOfMass), &drivetrain).unwrap();
+        let mut spin = -0.3;
+        for _ in 0..2000 {
+            let next = model.coasted(spin, 5e-4);
+            assert!(next <= 0.0 && next >= spin);
+            spin = next;
+        }
+        assert_eq!(spin, 0.0);
+    }
+}

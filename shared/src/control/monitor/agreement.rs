@@ -1,0 +1,249 @@
+//! Two witnesses of one motion: the gyroscope's rate and the encoder's count over sliding windows.
+
+/// Slots of a window, which moves on by one of them at a time.
+pub(super) const SLOTS: u32 = 8;
+
+/// When gyroscope and encoder disagree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct AgreementLimits {
+    /// s.
+    pub period: f32,
+    /// Encoder counts per rad of the block; 0 for no comparison.
+    pub counts_per_radian: f32,
+    /// Ticks of a slot of the fast and of the slow window.
+    pub slots: [u32; 2],
+    /// Counts by which they may differ whatever the motion.
+    pub counts: f32,
+    /// Share of the movement by which they may differ.
+    pub share: f32,
+    /// s, by which one may be later than the other.
+    pub delay: f32,
+}
+
+/// How they disagree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Disagreement {
+    /// The gyroscope turns and the count stays.
+    Standing,
+    /// Both move, but not alike, and the gyroscope more.
+    GyroscopeAhead,
+    /// Both move, but not alike, and the encoder more.
+    EncoderAhead,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Slot {
+    /// rad by the gyroscope.
+    angle: f32,
+    /// Largest |rate|, rad/s.
+    peak: f32,
+    /// Change of the count, and how far it went to and fro, up to [`FARTHEST`].
+    counts: i32,
+    travel: u32,
+}
+
+/// So far that the sum of all slots is within a u32.
+const FARTHEST: u32 = u32::MAX / (2 * SLOTS);
+
+impl Slot {
+    #[inline(always)]
+    fn and(self, other: Slot) -> Slot {
+        let travel = self.travel + other.travel;
+        Slot {
+            angle: self.angle + other.angle,
+            peak: if other.peak > self.peak { other.peak } else { self.peak },
+            counts: self.counts.wrapping_add(other.counts),
+            travel: if travel > FARTHEST { FARTHEST } else { travel },
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Window {
+    /// In a ring.
+    slots: [Slot; SLOTS as usize],
+    /// Their angles, twice over, so that they can be read in a row from any of them.
+    angles: [f32; 2 * SLOTS as usize],
+    /// Which of them is the newest.
+    newest: usize,
+    /// Sums over the slots; whole numbers, so that nothing is lost when they are kept up.
+    counts: i32,
+    travel: u32,
+    open: Slot,
+    ticks: u32,
+    found: Option<Disagreement>,
+}
+
+impl Window {
+    #[inline(always)]
+    fn step(&mut self, limits: &AgreementLimits, rate_tolerance: f32, length: u32, news: Slot) {
+        let closed = if length > 1 {
+            self.open = self.open.and(news);
+            self.ticks = self.ticks.saturating_add(1);
+            if self.ticks < length {
+                return;
+            }
+            self.ticks = 0;
+            core::mem::take(&mut self.open)
+        } else {
+            news
+        };
+        self.newest = (self.newest + 1) & LAST;
+        let slot = &mut self.slots[self.newest & LAST];
+        self.counts = self.counts.wrapping_add(closed.counts).wrapping_sub(slot.counts);
+        self.travel = (self.travel + closed.travel).wrapping_sub(slot.travel);
+        *slot = closed;
+        self.angles[self.newest & LAST] = closed.angle;
+        self.angles[(self.newest & LAST) + SLOTS as usize] = closed.angle;
+        self.found = limits.judge(self, rate_tolerance, limits.period * SLOTS as f32 * length as f32);
+    }
+
+    /// From the oldest to the newest.
+    #[inline(always)]
+    fn oldest_first(&self) -> impl Iterator<Item = &Slot> {
+        (1..=SLOTS as usize).map(|age| &self.slots[(self.newest + age) & LAST])
+    }
+}
+
+const LAST: usize = SLOTS as usize - 1;
+const _: () = assert!(SLOTS.is_power_of_two());
+
+impl AgreementLimits {
+    #[inline(always)]
+    fn judge(&self, window: &Window, rate_tolerance: f32, duration: f32) -> Option<Disagreement> {
+        let first = (window.newest & LAST) + 1;
+        let in_a_row = window.angles.get(first..first + SLOTS as usize).unwrap_or_default();
+        let angle = in_a_row.iter().fold(0.0, |sum, angle| sum + angle);
+        let expected = self.counts_per_radian * angle;
+        let counted = window.counts as f32;
+        let ahead = expected.abs() > counted.abs();
+        let off = (expected - counted).abs();
+        // Where nothing at all is counted it is no matter of the lever.
+        let share = if window.travel == 0 { 0.0 } else { self.share * if ahead { expected.abs() } else { counted.abs() } };
+        // A reading that is late by a delay lacks what moved meanwhile. This is what lets an impact and a single bad reading pass.
+        let allowed =
+            |peak: f32| self.counts + self.counts_per_radian.abs() * (rate_tolerance * duration + self.delay * peak) + share;
+        // Most of the time nobody needs to know the peak.
+        if off <= allowed(0.0) {
+            return None;
+        }
+        let peak = window.slots.iter().fold(0.0, |peak, slot| if slot.peak > peak { slot.peak } else { peak });
+        // A count that has just begun to stay shows in the newer half only.
+        let stays = || window.oldest_first().skip(SLOTS as usize / 2).all(|slot| slot.travel == 0);
+        if off <= allowed(peak) {
+            None
+        } else if ahead && stays() {
+            Some(Disagreement::Standing)
+        } else if ahead {
+            Some(Disagreement::GyroscopeAhead)
+        } else {
+            Some(Disagreement::EncoderAhead)
+        }
+    }
+}
+
+/// What both said lately.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Agreement {
+    windows: [Window; 2],
+    counts: Option<i32>,
+}
+
+impl Agreement {
+    /// One tick of `rate` (rad/s, finite, less its bias), known to `rate_tolerance`, and `counts`.
+    pub fn step(&mut self, limits: &AgreementLimits, rate_tolerance: f32, rate: f32, counts: i32) {
+        let change = counts.wrapping_sub(self.counts.unwrap_or(counts));
+        self.counts = Some(counts);
+        let news =
+            Slot { angle: rate * limits.period, peak: rate.abs(), counts: change, travel: change.unsigned_abs().min(FARTHEST) };
+        for (window, length) in self.windows.iter_mut().zip(limits.slots) {
+            window.step(limits, rate_tolerance, length, news);
+        }
+    }
+
+    /// What was found when a window last moved on.
+    pub fn found(&self) -> Option<Disagreement> {
+        let [fast, slow] = &self.windows;
+        fast.found.or(slow.found)
+    }
+
+    /// By how many counts the encoder has moved within the fast window.
+    pub fn travel(&self) -> u32 {
+        let [fast, _] = &self.windows;
+        fast.travel + fast.open.travel
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIMITS: AgreementLimits =
+        AgreementLimits { period: 0.0005, counts_per_radian: 1e5, slots: [1, 16], counts: 4.0, share: 0.25, delay: 0.002 };
+
+    /// Ticks until they disagree, and how.
+    fn found(rate: impl Fn(u32) -> f32, counts: impl Fn(u32) -> i32) -> Option<(u32, Disagreement)> {
+        let mut agreement = Agreement::default();
+        (0..2000).find_map(|tick| {
+            agreement.step(&LIMITS, 0.02, rate(tick), counts(tick));
+            agreement.found().map(|found| (tick, found))
+        })
+    }
+
+    fn travelled(rate: f32, tick: u32) -> i32 {
+        (rate * 0.0005 * 1e5 * tick as f32) as i32
+    }
+
+    #[test]
+    fn they_agree_across_a_wrap_at_any_rate() {
+        for rate in [0.0, 0.03, 0.5, -2.0, 8.0] {
+            for start in [0, i32::MAX - 7, i32::MIN + 3] {
+                assert_eq!(found(|_| rate, |tick| start.wrapping_add(travelled(rate, tick))), None, "{rate}");
+                // As well where the lever differs by a fifth and the encoder is read every other tick.
+                let coarse = |tick: u32| start.wrapping_add(travelled(1.2 * rate, tick / 2 * 2));
+                assert_eq!(found(|_| rate + 0.01, coarse), None, "{rate}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_impact_and_a_single_bad_reading_pass() {
+        let before =
+            |tick: u32| if tick < 1000 { travelled(1.0, tick) } else { travelled(1.0, 1000) + travelled(0.8, tick - 1000) };
+        assert_eq!(found(|tick| if tick < 1003 { 1.0 } else { 0.8 }, before), None);
+        assert_eq!(found(|tick| if tick == 1000 || tick == 1001 { 30.0 } else { 0.5 }, |tick| travelled(0.5, tick)), None);
+    }
+
+    #[test]
+    fn a_count_that_stays_is_found_in_a_window() {
+        let (tick, how) = found(|_| 0.3, |tick| travelled(0.3, tick.min(1000))).unwrap();
+        assert_eq!(how, Disagreement::Standing);
+        assert!(tick <= 1009, "{tick}");
+        // Slower than the fast window can see.
+        let (tick, how) = found(|_| 0.04, |tick| travelled(0.04, tick.min(1000))).unwrap();
+        assert_eq!(how, Disagreement::Standing);
+        assert!((1009..1000 + 144 + 16).contains(&tick), "{tick}");
+    }
+
+    #[test]
+    fn a_wrong_rate_is_found_in_a_window() {
+        let (tick, how) = found(|tick| if tick < 1000 { 0.3 } else { 3.0 }, |tick| travelled(0.3, tick)).unwrap();
+        assert_eq!(how, Disagreement::GyroscopeAhead);
+        assert!(tick <= 1009, "{tick}");
+        let (tick, how) = found(|tick| if tick < 1000 { 0.6 } else { 0.0 }, |tick| travelled(0.6, tick)).unwrap();
+        assert_eq!(how, Disagreement::EncoderAhead);
+        assert!(tick <= 1009, "{tick}");
+        // A count that jumps is wrong at once.
+        let jump = |tick: u32| travelled(0.3, tick) + if tick < 1000 { 0 } else { 5000 };
+        assert_eq!(found(|_| 0.3, jump), Some((1000, Disagreement::EncoderAhead)));
+    }
+
+    #[test]
+    fn travel_is_that_of_the_fast_window() {
+        let mut agreement = Agreement::default();
+        for (tick, expected) in [0, 1, 2, 2, 2, 2, 2, 2, 2, 1, 0].into_iter().enumerate() {
+            agreement.step(&LIMITS, 0.02, 0.0, [0, 1, 0][tick.min(2)]);
+            assert_eq!(agreement.travel(), expected, "{tick}");
+        }
+    }
+}

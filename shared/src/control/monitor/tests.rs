@@ -1,0 +1,97 @@
+use super::*;
+
+fn monitor() -> Monitor {
+    MonitorParameters::default().resolve(0.0005, 0.2).unwrap()
+}
+
+fn still(number: u32) -> Sample {
+    let of = |value| Reading { value, number };
+    Sample {
+        gyroscope: of(0.0),
+        block_accelerometer: [of(0.0), of(9.81)],
+        ground_accelerometer: [of(0.0), of(9.81)],
+        encoder: super::super::sample::Count { counts: 0, number },
+        engaged: [false; 2],
+    }
+}
+
+const CONTEXT: Context<'_> = Context {
+    calibration: &Calibration { gyroscope: 0.0, block: [0.0; 2], ground: [0.0; 2], encoder_zero: 0 },
+    calibrated: true,
+    at_rest: true,
+};
+
+#[test]
+fn a_sensor_that_has_not_spoken_is_neither_good_nor_bad() {
+    let (monitor, mut state) = (monitor(), MonitorState::default());
+    for _ in 0..100 {
+        let found = monitor.step(&mut state, &Sample::default(), &CONTEXT);
+        assert_eq!((found.faults, found.good()), ([None; 4], [false; 4]));
+    }
+    let mut expected = MonitorState::expecting([true, false, true, false]);
+    let mut found = Findings::default();
+    for _ in 0..10 {
+        found = monitor.step(&mut expected, &Sample::default(), &CONTEXT);
+    }
+    assert_eq!(found.seen, [false; 4]);
+    assert_eq!(
+        found.faults,
+        [Some(Fault::Stale(Sensor::Gyroscope)), None, Some(Fault::Stale(Sensor::GroundAccelerometer)), None]
+    );
+}
+
+#[test]
+fn an_ideal_sensor_at_rest_is_good() {
+    let (monitor, mut state) = (monitor(), MonitorState::default());
+    for tick in 0..10_000_u32 {
+        let found = monitor.step(&mut state, &still(1 + tick / 2), &CONTEXT);
+        assert_eq!((found.faults, found.good()), ([None; 4], [true; 4]));
+    }
+}
+
+#[test]
+fn one_axis_makes_a_sensor_wrong() {
+    let monitor = monitor();
+    for axis in 0..2 {
+        let mut state = MonitorState::default();
+        let mut sample = still(1);
+        assert_eq!(monitor.step(&mut state, &sample, &CONTEXT).faults, [None; 4]);
+        sample.block_accelerometer[axis].value = f32::NAN;
+        let found = monitor.step(&mut state, &sample, &CONTEXT);
+        assert_eq!(found.faults[1], Some(Fault::NotFinite(Sensor::BlockAccelerometer)));
+        assert_eq!(found.good(), [true, false, true, true]);
+    }
+}
+
+#[test]
+fn a_gap_does_not_look_like_a_difference() {
+    let parameters = MonitorParameters {
+        encoder: EncoderLimits { counts_per_radian: 1e5, ..MonitorParameters::default().encoder },
+        ..MonitorParameters::default()
+    };
+    let monitor = parameters.resolve(0.0005, 0.2).unwrap();
+    let mut state = MonitorState::default();
+    let turning = |tick: u32, lost: bool| {
+        let mut sample = still(1 + tick);
+        // A rate of 1 rad/s, in noise too small to repeat.
+        sample.gyroscope.value = if lost { f32::NAN } else { 1.0 + 1e-6 * tick as f32 };
+        sample.block_accelerometer[0].value = 1e-3 * tick as f32;
+        sample.encoder.counts = 50 * tick as i32;
+        sample
+    };
+    for tick in 0..1000 {
+        let lost = (300..400).contains(&tick);
+        let found = monitor.step(&mut state, &turning(tick, lost), &Context { at_rest: false, ..CONTEXT });
+        assert_eq!(found.faults[0].is_some(), lost, "{tick}");
+        assert_eq!(found.faults[1..], [None; 3], "{tick}");
+    }
+}
+
+#[test]
+fn the_stuck_time_follows_the_noise() {
+    assert_eq!(stuck_time(0.0, 0.001), 0.0);
+    assert_eq!(stuck_time(f32::NAN, 0.001), 0.0);
+    let times = [0.5, 1.0, 3.0, 10.0, 30.0, 100.0, f32::INFINITY].map(|steps| stuck_time(steps, 0.001));
+    assert!(times.windows(2).all(|pair| pair[0] >= pair[1]));
+    assert!(times[4] < 0.0051 && times[6] > 0.0039);
+}

@@ -1,0 +1,200 @@
+//! One reading, looked at by itself: is it new, finite, within its range, and does it change?
+
+use super::super::sample::Reading;
+use super::super::ticks::Streak;
+
+/// Readings that must repeat before they count as stuck, so that a slow sensor is not judged by two.
+const FEWEST_REPEATS: u8 = 3;
+
+/// When a reading is at fault: times in ticks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct WatchLimits {
+    pub stale: u32,
+    pub stuck: u32,
+    pub stuck_moving: u32,
+    pub full_scale: f32,
+    pub saturation: u32,
+}
+
+/// What is known of a reading.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Watch {
+    number: u32,
+    bits: u32,
+    /// A reading has been taken.
+    seen: bool,
+    /// The sensor is there, so that a reading is due.
+    due: bool,
+    /// Identical new readings in a row, at any time and while the block moves.
+    repeats: u8,
+    repeats_moving: u8,
+    /// Ticks since the last new reading.
+    age: u32,
+    saturated: Streak,
+    unchanged: Streak,
+    unchanged_moving: Streak,
+}
+
+impl Watch {
+    /// Of a sensor that is there, though nothing has been read yet.
+    pub fn expecting() -> Watch {
+        Watch { due: true, ..Watch::default() }
+    }
+
+    /// A reading has been taken.
+    pub fn seen(&self) -> bool {
+        self.seen
+    }
+
+    /// One tick; `moving` says that the block does, by another sensor's account or this one's. `true` where nothing at all can be held
+    /// against the reading: it is new, differs from the last and is within its range.
+    #[inline]
+    pub fn step(&mut self, reading: Reading, limits: &WatchLimits, moving: bool) -> bool {
+        let bits = reading.value.to_bits();
+        let news = reading.number != self.number && (bits != self.bits || !self.seen);
+        // What is within its range is finite, too.
+        if news && reading.value.abs() < limits.full_scale {
+            let mut unchanged_moving = Streak::default();
+            unchanged_moving.note(moving);
+            *self = Watch {
+                number: reading.number,
+                bits,
+                seen: true,
+                due: true,
+                repeats: 0,
+                repeats_moving: 0,
+                age: 0,
+                saturated: Streak::default(),
+                unchanged: Streak::ONE,
+                unchanged_moving,
+            };
+            return limits.stale > 0;
+        }
+        self.doubt(reading, limits, moving);
+        false
+    }
+
+    /// One tick of a reading of which only the arrival is watched.
+    #[inline]
+    pub fn arrival(&mut self, number: u32, limits: &WatchLimits) -> bool {
+        let fresh = number != self.number;
+        if fresh {
+            (self.number, self.age, self.seen, self.due) = (number, 0, true, true);
+        } else {
+            self.age = self.age.saturating_add(1);
+        }
+        fresh && limits.stale > 0
+    }
+
+    #[inline(never)]
+    fn doubt(&mut self, reading: Reading, limits: &WatchLimits, moving: bool) {
+        // A number of 0 says that none has been taken. After that any other number is news, so that a wrap is nothing special.
+        let fresh = reading.number != self.number;
+        self.age = self.age.saturating_add(1);
+        if fresh {
+            let changed = !self.seen || reading.value.to_bits() != self.bits;
+            if changed {
+                self.unchanged = Streak::default();
+                self.unchanged_moving = Streak::default();
+            }
+            self.repeats = if changed { 0 } else { self.repeats.saturating_add(1) };
+            self.repeats_moving = if changed || !moving { 0 } else { self.repeats_moving.saturating_add(1) };
+            (self.number, self.bits, self.age) = (reading.number, reading.value.to_bits(), 0);
+            (self.seen, self.due) = (true, true);
+        }
+        self.unchanged.note(self.seen);
+        self.unchanged_moving.note(self.seen && moving);
+        self.saturated.note(self.seen && reading.value.abs() >= limits.full_scale);
+    }
+
+    pub fn stale(&self, limits: &WatchLimits) -> bool {
+        self.due && self.age >= limits.stale
+    }
+
+    pub fn saturated(&self, limits: &WatchLimits) -> bool {
+        self.saturated.lasted(limits.saturation)
+    }
+
+    pub fn stuck(&self, limits: &WatchLimits) -> bool {
+        let always = self.repeats >= FEWEST_REPEATS && self.unchanged.lasted(limits.stuck);
+        always || (self.repeats_moving >= FEWEST_REPEATS && self.unchanged_moving.lasted(limits.stuck_moving))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::ticks::NEVER;
+    use super::*;
+
+    const LIMITS: WatchLimits = WatchLimits { stale: 6, stuck: NEVER, stuck_moving: 8, full_scale: 10.0, saturation: 8 };
+
+    fn feed(watch: &mut Watch, numbers: core::ops::Range<u32>, moving: bool, value: impl Fn(u32) -> f32) {
+        for number in numbers {
+            for _ in 0..2 {
+                watch.step(Reading { value: value(number), number }, &LIMITS, moving);
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_is_wrong_before_the_first_reading() {
+        let mut watch = Watch::default();
+        for _ in 0..100 {
+            watch.step(Reading { value: 20.0, number: 0 }, &LIMITS, true);
+        }
+        assert!(!watch.seen() && !watch.stale(&LIMITS) && !watch.stuck(&LIMITS) && !watch.saturated(&LIMITS));
+        let mut expected = Watch::expecting();
+        for tick in 1..10 {
+            expected.step(Reading::default(), &LIMITS, false);
+            assert!(!expected.seen());
+            assert_eq!(expected.stale(&LIMITS), tick >= 6);
+        }
+    }
+
+    #[test]
+    fn numbers_wrap() {
+        let mut watch = Watch::default();
+        for step in 0..20_u32 {
+            let number = (u32::MAX - 8).wrapping_add(step);
+            for _ in 0..2 {
+                watch.step(Reading { value: step as f32, number }, &LIMITS, true);
+                assert!(!watch.stale(&LIMITS) && !watch.stuck(&LIMITS));
+            }
+        }
+    }
+
+    #[test]
+    fn stuck_only_where_it_must_change() {
+        let mut watch = Watch::default();
+        feed(&mut watch, 1..500, false, |_| 0.3);
+        assert!(!watch.stuck(&LIMITS));
+        // The time at rest does not count.
+        feed(&mut watch, 500..504, true, |_| 0.3);
+        assert!(!watch.stuck(&LIMITS));
+        feed(&mut watch, 504..505, true, |_| 0.3);
+        assert!(watch.stuck(&LIMITS));
+        feed(&mut watch, 505..506, true, |_| 0.4);
+        assert!(!watch.stuck(&LIMITS));
+    }
+
+    #[test]
+    fn a_slow_sensor_needs_three_repeats() {
+        let mut watch = Watch::default();
+        for tick in 0..30_u32 {
+            watch.step(Reading { value: 0.3, number: 1 + tick / 8 }, &LIMITS, true);
+            assert_eq!(watch.stuck(&LIMITS), tick >= 24, "{tick}");
+        }
+    }
+
+    #[test]
+    fn saturation_has_its_time() {
+        let mut watch = Watch::default();
+        feed(&mut watch, 1..3, true, |_| 5.0);
+        feed(&mut watch, 3..7, true, |number| if number % 2 == 0 { 10.0 } else { -11.0 });
+        assert!(!watch.saturated(&LIMITS));
+        feed(&mut watch, 7..8, true, |_| 10.0);
+        assert!(watch.saturated(&LIMITS));
+        feed(&mut watch, 8..9, true, |_| 5.0);
+        assert!(!watch.saturated(&LIMITS));
+    }
+}

@@ -1,0 +1,60 @@
+//! What goes into a supervisor and comes out of it at every tick.
+
+use super::super::calibration::Calibration;
+use super::super::fault::Fault;
+use super::super::sample::Sample;
+
+/// Where the controller stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Phase {
+    /// Waits for the first reading of every required sensor.
+    #[default]
+    Boot,
+    /// Waits for stillness, then pulses the clutches.
+    SelfTest,
+    /// Waits for stillness, then averages biases.
+    Calibrate,
+    /// The law decides; nothing moves.
+    Armed,
+    /// The law decides; the block rocks or the ground shakes.
+    Rocking,
+    /// The safe state, until recovered.
+    Fault,
+}
+
+/// What somebody asks for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Requests {
+    /// Leave Fault, through a new self-test. Taken where it begins, and only at rest: one that comes in motion must be made again.
+    pub clear: bool,
+}
+
+/// What the supervisor is told at a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SupervisorInput<'a> {
+    /// Sensors and feedback.
+    pub sample: &'a Sample,
+    /// Clutches that the law wants engaged.
+    pub wish: [bool; 2],
+    /// θ, rad, and θ̇, rad/s, as last estimated.
+    pub estimate: (f32, f32),
+    /// How late this tick came, s; 0 or less where it was in time.
+    pub lateness: f32,
+    /// What somebody asks for.
+    pub requests: Requests,
+}
+
+/// What the supervisor says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Verdict {
+    /// Where the controller stands.
+    pub phase: Phase,
+    /// While it stands in Fault, the first cause.
+    pub fault: Option<Fault>,
+    /// To be sent to the clutches.
+    pub command: [bool; 2],
+    /// What the estimators subtract.
+    pub calibration: Calibration,
+    /// The controller has just been armed: estimators must start anew, from rest.
+    pub just_calibrated: bool,
+}

@@ -1,0 +1,85 @@
+//! Which faults there are at a tick, which of them are news, and which must be acted upon.
+
+use super::super::event_log::Kind;
+use super::super::fault::{Fault, Recovery};
+use super::super::monitor::Findings;
+use super::{Phase, Supervisor, SupervisorInput, SupervisorState, log};
+
+/// Sources of faults: four sensors, clutches, timing, estimate, the law.
+pub(super) const SOURCES: usize = 8;
+
+impl Supervisor {
+    /// Asks every source, logs what is new, and returns the first fault that must be acted upon, and whether any of them takes a request.
+    #[inline]
+    pub(super) fn judge(
+        &self,
+        state: &mut SupervisorState,
+        input: &SupervisorInput<'_>,
+        findings: &Findings,
+    ) -> (Option<Fault>, bool) {
+        let deciding = matches!(state.phase, Phase::Armed | Phase::Rocking);
+        let clutch = self.actuator.step(&mut state.actuator, state.sent, input.sample.engaged).map(|fault| match fault {
+            Fault::ClutchRefuses(wheel) | Fault::ClutchEngagedUnbidden(wheel) if state.phase == Phase::SelfTest => {
+                Fault::SelfTestFailed(wheel)
+            }
+            other => other,
+        });
+        // NaN is late, by any measure.
+        let late = input.lateness.is_nan() || input.lateness > 0.0;
+        let by_far = input.lateness.is_nan() || input.lateness > self.overrun_limit;
+        state.late.note(late);
+        let overrun = by_far || state.late.length() >= self.overrun_ticks;
+        let (rotation, velocity) = input.estimate;
+        let sick = || findings.faults.into_iter().flatten().any(|fault| self.acted_upon(fault));
+        // An estimate from a bad sensor is that sensor's fault.
+        let lost = deciding && !(rotation.is_finite() && velocity.is_finite()) && !sick();
+        let both = deciding && self.too_many(input.wish);
+        if findings.nothing() && clutch.is_none() && !overrun && !lost && !both && !state.any_active {
+            return (None, false);
+        }
+        self.weigh(
+            state,
+            input,
+            [
+                findings.faults[0],
+                findings.faults[1],
+                findings.faults[2],
+                findings.faults[3],
+                clutch,
+                overrun.then_some(Fault::Overrun),
+                lost.then_some(Fault::EstimateNotFinite),
+                both.then_some(Fault::BothClutches),
+            ],
+        )
+    }
+
+    /// What the sources say now, beside what they said before.
+    #[inline(never)]
+    fn weigh(
+        &self,
+        state: &mut SupervisorState,
+        input: &SupervisorInput<'_>,
+        now: [Option<Fault>; SOURCES],
+    ) -> (Option<Fault>, bool) {
+        let before = state.active;
+        state.active = now;
+        state.any_active = now != [None; SOURCES];
+        let (mut first, mut latches) = (None, false);
+        for (source, (before, now)) in before.into_iter().zip(now).enumerate() {
+            // The law's wish is the last one: it is not followed, so it does no harm.
+            let acted_upon = now.filter(|fault| source + 1 < SOURCES && self.acted_upon(*fault));
+            if let Some(fault) = now.filter(|_| before != now) {
+                let code = fault.code();
+                log(state, input, if acted_upon.is_some() { Kind::Fault(code) } else { Kind::Warning(code) });
+            }
+            first = first.or(acted_upon);
+            latches |= acted_upon.is_some_and(|fault| fault.recovery() == Recovery::OnRequest);
+        }
+        (first, latches)
+    }
+
+    /// A fault of a sensor that is not required is only a warning.
+    pub(super) fn acted_upon(&self, fault: Fault) -> bool {
+        fault.sensor().is_none_or(|sensor| self.required.contains(sensor))
+    }
+}

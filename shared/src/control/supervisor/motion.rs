@@ -1,0 +1,119 @@
+//! Whether anything moves, by whichever sensors may be believed.
+
+use super::super::calibration::{Calibration, off_gravity};
+use super::super::sample::Sample;
+
+/// What counts as motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct MotionLimits {
+    /// rad/s.
+    pub rate: f32,
+    /// m/s².
+    pub shaking: f32,
+    pub counts: u32,
+    /// m/s².
+    pub gravity: f32,
+}
+
+/// For how many ticks nothing has moved.
+///
+/// Two ways to tell, because a bias is not known before it has been measured: a reading that stays near one value is still, whatever the
+/// value; and once calibrated, a rate or an acceleration is that of a motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Motion {
+    /// Readings of the block, and of the ground, have stayed where they were.
+    pub block_still: u32,
+    pub ground_still: u32,
+    /// Neither moves, by calibrated readings.
+    pub quiet: u32,
+    rate: f32,
+    ground: [f32; 2],
+    counts: i32,
+}
+
+impl Motion {
+    /// One tick of sensors of which `good` (in the order of `Sensor::ALL`) may be believed.
+    pub fn step(&mut self, limits: &MotionLimits, sample: &Sample, good: [bool; 4], calibration: &Calibration) {
+        let [gyroscope, _, ground, encoder] = good;
+        let rate = sample.gyroscope.value;
+        let turned = gyroscope && (rate - self.rate).abs() > limits.rate;
+        if turned {
+            self.rate = rate;
+        }
+        let counts = sample.encoder.counts;
+        let travelled = encoder && counts.wrapping_sub(self.counts).unsigned_abs() > limits.counts;
+        if travelled {
+            self.counts = counts;
+        }
+        let force = sample.ground_accelerometer.map(|reading| reading.value);
+        // The last place is off by (0, g) from what the function takes for rest, which is subtracted as a bias.
+        let shaken = ground && off_gravity(force, self.ground, 0.0) > limits.shaking;
+        if shaken {
+            self.ground = force;
+        }
+        // Without a witness nobody knows that the block is still; a ground that nobody watches is no reason to wait.
+        let block_still = (gyroscope || encoder) && !turned && !travelled;
+        self.block_still = if block_still { self.block_still.saturating_add(1) } else { 0 };
+        self.ground_still = if shaken { 0 } else { self.ground_still.saturating_add(1) };
+        let rocks = travelled || (gyroscope && (rate - calibration.gyroscope).abs() > limits.rate);
+        let shakes = ground && off_gravity(force, calibration.ground, limits.gravity) > limits.shaking;
+        self.quiet = if rocks || shakes { 0 } else { self.quiet.saturating_add(1) };
+    }
+
+    /// Block and ground have been still for so many ticks.
+    pub fn still(&self, ticks: u32) -> bool {
+        self.block_still >= ticks && self.ground_still >= ticks
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::sample::{Count, Reading};
+    use super::*;
+
+    const LIMITS: MotionLimits = MotionLimits { rate: 0.02, shaking: 0.3, counts: 2, gravity: 9.81 };
+
+    fn sample(rate: f32, ground: f32, counts: i32) -> Sample {
+        let of = |value| Reading { value, number: 1 };
+        Sample {
+            gyroscope: of(rate),
+            ground_accelerometer: [of(ground), of(9.81)],
+            encoder: Count { counts, number: 1 },
+            ..Sample::default()
+        }
+    }
+
+    fn run(motion: &mut Motion, sample: Sample, good: [bool; 4]) {
+        for _ in 0..10 {
+            motion.step(&LIMITS, &sample, good, &Calibration::default());
+        }
+    }
+
+    #[test]
+    fn a_bias_is_still_but_not_quiet() {
+        let mut motion = Motion::default();
+        run(&mut motion, sample(0.1, 0.0, 5), [true; 4]);
+        assert_eq!((motion.block_still, motion.ground_still, motion.quiet), (9, 9, 0));
+        run(&mut motion, sample(0.11, 0.1, 6), [true; 4]);
+        assert_eq!((motion.block_still, motion.ground_still), (19, 19));
+        run(&mut motion, sample(0.0, 0.1, 6), [true; 4]);
+        assert_eq!((motion.block_still, motion.ground_still, motion.quiet), (9, 29, 10));
+    }
+
+    #[test]
+    fn each_witness_alone() {
+        let mut motion = Motion::default();
+        run(&mut motion, sample(0.0, 0.0, i32::MAX), [true; 4]);
+        run(&mut motion, sample(0.0, 0.0, i32::MIN + 1), [true; 4]);
+        assert_eq!(motion.block_still, 19, "a wrap of two counts is no motion");
+        run(&mut motion, sample(0.0, 0.0, i32::MIN + 2), [true; 4]);
+        assert_eq!((motion.block_still, motion.ground_still, motion.quiet), (9, 29, 9));
+        run(&mut motion, sample(0.0, 0.4, i32::MIN + 2), [true; 4]);
+        assert_eq!((motion.block_still, motion.ground_still, motion.quiet), (19, 9, 0));
+        run(&mut motion, sample(9.0, 9.0, 9), [false; 4]);
+        assert_eq!((motion.block_still, motion.ground_still, motion.quiet), (0, 19, 10));
+        run(&mut motion, sample(9.0, f32::NAN, i32::MIN + 2), [false, false, false, true]);
+        assert_eq!((motion.block_still, motion.quiet), (10, 20));
+        assert!(motion.still(10) && !motion.still(11));
+    }
+}
