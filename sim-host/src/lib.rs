@@ -6,17 +6,23 @@
 //! - [`effect`]: what a scene may ask for, and what follows from it; [`command`]: the subcommands of `sprag`.
 
 pub mod batch;
+#[cfg(feature = "effects")]
+pub mod closed_loop;
 pub mod command;
 pub mod effect;
 pub mod ground_motion;
 pub mod history;
 pub mod interrupt;
+#[cfg(feature = "effects")]
+pub mod loop_study;
 pub mod outcome;
 pub mod output;
 pub mod plot;
+pub mod progress;
 pub mod record;
 pub mod scene;
 pub mod sensitivity;
+pub mod sensor;
 pub mod simulation;
 pub mod summary_table;
 pub mod synthesis;

@@ -5,6 +5,8 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use sprag_sim_host::command::{batch, effects, explain, record, sensitivity, simulate, synthesize};
+#[cfg(feature = "effects")]
+use sprag_sim_host::command::{closed_loop, loop_study};
 use sprag_sim_host::interrupt::Interrupt;
 
 /// Rocking structures with inerters and clutches: simulate, and get the numbers to decide with.
@@ -20,6 +22,10 @@ enum Command {
     Simulate(simulate::SimulateArguments),
     Batch(batch::BatchArguments),
     Sensitivity(sensitivity::SensitivityArguments),
+    #[cfg(feature = "effects")]
+    Loop(closed_loop::LoopArguments),
+    #[cfg(feature = "effects")]
+    LoopStudy(loop_study::LoopStudyArguments),
     Record(record::RecordArguments),
     Synthesize(synthesize::SynthesizeArguments),
     Effects(effects::EffectsArguments),
@@ -34,6 +40,10 @@ fn main() -> ExitCode {
         Command::Simulate(arguments) => simulate::run(arguments, &mut out, &mut err, &interrupt),
         Command::Batch(arguments) => batch::run(arguments, &mut err, &interrupt),
         Command::Sensitivity(arguments) => sensitivity::run(arguments, &mut out, &mut err, &interrupt),
+        #[cfg(feature = "effects")]
+        Command::Loop(arguments) => closed_loop::run(arguments, &mut out, &mut err, &interrupt),
+        #[cfg(feature = "effects")]
+        Command::LoopStudy(arguments) => loop_study::run(arguments, &mut out, &mut err, &interrupt),
         Command::Record(arguments) => record::run(arguments, &mut out, &mut err),
         Command::Synthesize(arguments) => synthesize::run(arguments, &mut out, &mut err),
         Command::Effects(arguments) => effects::run(arguments, &mut out, &mut err),

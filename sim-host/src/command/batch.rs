@@ -1,11 +1,9 @@
 //! `sprag batch`: many independent cases, one a row.
 
-use std::io::{BufReader, IsTerminal, Write};
+use std::io::{BufReader, Write};
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 use sprag_shared::taylor::Taylor;
 
@@ -14,6 +12,7 @@ use crate::batch::case::{CaseError, CaseResult, TERMS, TIGHT};
 use crate::batch::table::{CASE_COLUMNS, RESULT_COLUMNS, TableError, read_cases, write_result};
 use crate::interrupt::{self, Interrupt};
 use crate::output::{OutputError, Results};
+use crate::progress::Progress;
 
 /// Run many independent cases: dimensionless blocks under one-cycle pulses.
 #[derive(Args, Clone, Debug)]
@@ -92,8 +91,8 @@ fn run_or_fail(arguments: &BatchArguments, interrupt: &Interrupt) -> Result<(), 
     results.add(&arguments.out, |_| Ok(()))?;
     drop(results);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
-    let progress = progress_bar(cases.len() as u64);
-    let done = AtomicU64::new(0);
+    let progress = Progress::new("cases");
+    progress.begin(cases.len() as u64);
     let answers: Vec<Result<CaseResult, CaseError>> = pool.install(|| {
         cases
             .par_chunks(CHUNK)
@@ -101,12 +100,12 @@ fn run_or_fail(arguments: &BatchArguments, interrupt: &Interrupt) -> Result<(), 
                 let method = Taylor::<f64, TERMS>::adaptive(arguments.tolerance);
                 let stop = interrupt.is_set();
                 let answers: Vec<_> = if stop { Vec::new() } else { chunk.iter().map(|(_, case)| case.run(&method)).collect() };
-                progress.set_position(done.fetch_add(chunk.len() as u64, Ordering::Relaxed) + chunk.len() as u64);
+                progress.advance(chunk.len() as u64);
                 answers
             })
             .collect()
     });
-    progress.finish_and_clear();
+    progress.finish();
     if interrupt.is_set() {
         return Err(Failure::Interrupted);
     }
@@ -125,16 +124,4 @@ fn run_or_fail(arguments: &BatchArguments, interrupt: &Interrupt) -> Result<(), 
     })?;
     results.commit()?;
     Ok(())
-}
-
-/// A bar on a terminal, nothing in a pipe.
-fn progress_bar(length: u64) -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new(length);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} cases, {eta} left") {
-        bar.set_style(style);
-    }
-    bar
 }

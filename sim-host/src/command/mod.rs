@@ -2,8 +2,12 @@
 //! output, 130 interrupted.
 
 pub mod batch;
+#[cfg(feature = "effects")]
+pub mod closed_loop;
 pub mod effects;
 pub mod explain;
+#[cfg(feature = "effects")]
+pub mod loop_study;
 pub mod record;
 pub mod sensitivity;
 pub mod simulate;

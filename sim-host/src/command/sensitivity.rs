@@ -1,16 +1,16 @@
 //! `sprag sensitivity`: what each effect changes, alone and together, under one or many ground motions.
 
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use super::BAD_INPUT;
 use crate::interrupt::{self, Interrupt};
 use crate::output::{OutputError, Results, make_folder};
 use crate::plot::{OwnMark, PlotError, SensitivityLane, SensitivityRow, sensitivity_figure};
+use crate::progress::Progress;
 use crate::scene::ground::{GroundError, Motion};
 use crate::scene::schema::SceneFile;
 use crate::scene::{Scene, SceneError};
@@ -134,9 +134,10 @@ fn run_or_fail(
     // Where the results go is tried before the work, not after it.
     make_folder(&folder)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
-    let progress = progress_bar((study.runs() * motions.len()) as u64);
-    let findings = pool.install(|| study.run(&motions, interrupt, &|| progress.inc(1)));
-    progress.finish_and_clear();
+    let progress = Progress::new("runs");
+    progress.begin((study.runs() * motions.len()) as u64);
+    let findings = pool.install(|| study.run(&motions, interrupt, &|| progress.step()));
+    progress.finish();
     let findings = findings?;
     write(arguments, &scene, &study, &motions, &findings, &folder, out)?;
     for error in &findings.failed {
@@ -226,16 +227,4 @@ fn figure_rows(summaries: &[Summary]) -> Vec<SensitivityRow> {
         lanes: of_variant.iter().map(lane).collect(),
     };
     summaries.chunk_by(same).map(row).collect()
-}
-
-/// A bar on a terminal, nothing in a pipe.
-fn progress_bar(length: u64) -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new(length);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} runs, {eta} left") {
-        bar.set_style(style);
-    }
-    bar
 }

@@ -31,6 +31,18 @@ impl<S: Real> ShapePiece<S> {
     }
 }
 
+impl<S: Real> ShapePiece<S> {
+    /// The same shape from `delay` (s) on, in a time of its own.
+    pub fn after(&self, delay: S) -> Self {
+        match self {
+            ShapePiece::Linear(line) => ShapePiece::Linear(Linear { start: line.acceleration(delay), slope: line.slope }),
+            ShapePiece::Mixture(mixture) => ShapePiece::Mixture(MixturePiece {
+                parts: mixture.parts.iter().map(|(offset, piece)| (*offset + delay, *piece)).collect(),
+            }),
+        }
+    }
+}
+
 impl<S: Real> Piece<S> for ShapePiece<S> {
     #[inline]
     fn acceleration(&self, time: S) -> S {

@@ -5,27 +5,26 @@ use std::ops::Range;
 use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::{Cartesian2d, DrawingArea, PathElement, SVGBackend};
-use plotters::style::{Color, RGBColor};
+use plotters::style::Color;
 
 use super::PlotError;
 use super::decimate::decimate;
 use super::layer::{plotters_layer, text_of, units};
-use super::palette::CURVE_PX;
+use super::palette::Stroke;
 use super::panel::Panel;
 
 /// Appends the curve through `points` to `svg`.
 pub(super) fn write_curve(
     svg: &mut String,
     canvas: (u32, u32),
-    panel: &Panel,
+    panel: &Panel<'_>,
     points: &[(f64, f64)],
-    colour: RGBColor,
-    dashes: &str,
+    stroke: Stroke,
 ) -> Result<(), PlotError> {
     let few = decimate(points, &panel.x, panel.width_px as usize);
     let pieces = cut(&few, &panel.y);
-    let style = colour.stroke_width(units(CURVE_PX) as u32);
-    svg.push_str(&format!("<g stroke-dasharray=\"{dashes}\" stroke-linejoin=\"round\">\n"));
+    let style = stroke.colour.stroke_width(units(stroke.width_px) as u32);
+    svg.push_str(&format!("<g stroke-dasharray=\"{}\" stroke-linejoin=\"round\">\n", stroke.dashes));
     svg.push_str(&plotters_layer(canvas, |root: &DrawingArea<SVGBackend<'_>, Shift>| {
         let scales = Cartesian2d::<RangedCoordf64, RangedCoordf64>::new(
             panel.x.clone(),

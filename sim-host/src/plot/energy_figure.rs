@@ -9,9 +9,9 @@ use plotters::style::{Color, RGBColor};
 use super::PlotError;
 use super::curve::write_curve;
 use super::decimate::decimate;
-use super::layer::{Anchor, Text, escape, plotters_layer, text_of, text_width_px, units, write_rect};
+use super::layer::{Anchor, Text, document, escape, plotters_layer, text_of, text_width_px, units, write_rect};
 use super::legend::write_heading;
-use super::palette::{FLYWHEEL_TINTS, GROUND, GUIDE, INK, device_look, hex};
+use super::palette::{FLYWHEEL_TINTS, GROUND, GUIDE, INK, Stroke, device_look, hex};
 use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
 use crate::simulation::DeviceRun;
 use crate::simulation::energy::Shares;
@@ -98,13 +98,14 @@ pub fn energy_figure(title: &str, runs: &[DeviceRun]) -> Result<String, PlotErro
     for (index, ((run, ledger), scale)) in runs.iter().zip(&ledgers).zip(scales).enumerate() {
         top_px += NAME_PX;
         let (x, y) = (0.0..end, 0.0..scale);
-        let panel = Panel { left_px, top_px, width_px, height_px: PANEL_PX, x, y, title: "share of the barrier", guides: &[1.0] };
+        let panel = Panel::new((left_px, top_px), (width_px, PANEL_PX), x, y);
+        let panel = Panel { title: Some("share of the barrier"), guides: &[1.0], ..panel };
         let at = (left_px, top_px - 6.0);
         Text { attributes: " font-weight=\"bold\"", ..Text::new(&escape(&name(run)), at, FONT_PX) }.write(&mut body, false);
         write_areas(&mut body, canvas, &panel, ledger, &layers)?;
         panel.write_axes(&mut body, canvas, (index + 1 == runs.len()).then_some("time (s)"))?;
         let line: Vec<(f64, f64)> = ledger.iter().map(|(time, shares)| (*time, supply(shares))).collect();
-        write_curve(&mut body, canvas, &panel, &line, INK, "none")?;
+        write_curve(&mut body, canvas, &panel, &line, Stroke::solid(INK))?;
         if run.outcome.overturned()
             && let Some((x, y)) = line.last().map(|point| panel.position_px(*point))
         {
@@ -118,15 +119,7 @@ pub fn energy_figure(title: &str, runs: &[DeviceRun]) -> Result<String, PlotErro
         }
         top_px += PANEL_PX;
     }
-    Ok(format!(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
-         <svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH_PX:.0}\" height=\"{height_px:.0}\" \
-         viewBox=\"0 0 {} {}\" font-family=\"sans-serif\">\n\
-         <title>{}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{body}</svg>\n",
-        canvas.0,
-        canvas.1,
-        escape(title),
-    ))
+    Ok(document(title, (WIDTH_PX, height_px), &body))
 }
 
 /// Refuses numbers that cannot be drawn.
@@ -187,7 +180,7 @@ fn scales(ledgers: &[Vec<(f64, Shares)>]) -> Vec<f64> {
 fn write_areas(
     svg: &mut String,
     canvas: (u32, u32),
-    panel: &Panel,
+    panel: &Panel<'_>,
     ledger: &[(f64, Shares)],
     layers: &[Layer],
 ) -> Result<(), PlotError> {
@@ -260,6 +253,7 @@ mod tests {
     use super::*;
     use crate::history::History;
     use crate::outcome::Outcome;
+    use crate::plot::synthetic::assert_well_formed;
     use crate::simulation::energy::EnergyReport;
 
     const NOTHING: Shares = Shares {
@@ -308,16 +302,6 @@ mod tests {
             (9.0 * part, Shares { input: total + impact, kinetic, potential, impact, ..NOTHING })
         };
         (0..count).map(sample).collect()
-    }
-
-    fn assert_well_formed(svg: &str) {
-        for bad in ["NaN", "inf", "2147483647", "-2147483648"] {
-            assert!(!svg.contains(bad), "{bad}");
-        }
-        for element in ["text", "svg", "g", "title"] {
-            let opened = svg.matches(&format!("<{element} ")).count() + svg.matches(&format!("<{element}>")).count();
-            assert_eq!(opened, svg.matches(&format!("</{element}>")).count(), "{element}");
-        }
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! Shading of engaged intervals, impact marks, and the notes where blocks overturn.
 
+use plotters::style::RGBColor;
+
 use super::device_trace::DeviceTrace;
 use super::layer::{Anchor, Text, text_width_px, units, write_rect};
 use super::palette::{FLYWHEEL_TINTS, hex};
@@ -22,26 +24,23 @@ const NOTE_FONT_PX: f64 = 10.5;
 ///
 /// One clutched device shades the whole height. Several share it in lanes, top to bottom, each with a bar in the
 /// device's colour right of the frame.
-pub(super) fn write_shading(svg: &mut String, panel: &Panel, traces: &[DeviceTrace]) {
+pub(super) fn write_shading(svg: &mut String, panel: &Panel<'_>, traces: &[DeviceTrace]) {
     let clutched: Vec<&DeviceTrace> = traces.iter().filter(|trace| !trace.engagements.is_empty()).collect();
     let lane_px = panel.height_px / clutched.len().max(1) as f64;
     for (lane, trace) in clutched.iter().enumerate() {
         let top = units(panel.top_px + lane as f64 * lane_px);
         let height = units(panel.top_px + (lane + 1) as f64 * lane_px) - top;
         let least = if trace.engagements.len() > MOST_INTERVALS { LEAST_WIDTH_PX } else { 0.0 };
-        // One path per tint is a third of the text that rectangles would be.
-        let mut paths = [String::new(), String::new()];
+        let mut bars = [Vec::new(), Vec::new()];
         for &(from, to, flywheel) in &trace.engagements {
             let left = units(panel.position_px((from, 0.0)).0);
             let width = units(panel.position_px((to, 0.0)).0) - left;
             if width > 0 && width >= units(least) {
-                paths[usize::from(flywheel != 1)].push_str(&format!("M{left} {top}h{width}v{height}h{}z", -width));
+                bars[usize::from(flywheel != 1)].push((left, width));
             }
         }
-        for (path, tint) in paths.iter().zip(FLYWHEEL_TINTS) {
-            if !path.is_empty() {
-                svg.push_str(&format!("<path d=\"{path}\" fill=\"{}\"/>\n", hex(tint)));
-            }
+        for (bars, tint) in bars.iter().zip(FLYWHEEL_TINTS) {
+            write_bars(svg, bars, (top, height), tint);
         }
         if clutched.len() > 1 {
             let bar = (units(LANE_BAR_PX), height - units(2.0));
@@ -50,10 +49,20 @@ pub(super) fn write_shading(svg: &mut String, panel: &Panel, traces: &[DeviceTra
     }
 }
 
+/// Appends filled bars, each a left edge and a width, between one upper edge and one height; all in drawing units.
+///
+/// One path is a third of the text that rectangles would be.
+pub(super) fn write_bars(svg: &mut String, bars: &[(i32, i32)], (top, height): (i32, i32), fill: RGBColor) {
+    let path: String = bars.iter().map(|(left, width)| format!("M{left} {top}h{width}v{height}h{}z", -width)).collect();
+    if !path.is_empty() {
+        svg.push_str(&format!("<path d=\"{path}\" fill=\"{}\"/>\n", hex(fill)));
+    }
+}
+
 /// Appends a triangle for each impact; its tip touches the line θ = 0.
 ///
 /// Devices take turns above and below the line. Beyond 60 impacts only marks that keep a minimum distance stay.
-pub(super) fn write_impacts(svg: &mut String, panel: &Panel, traces: &[DeviceTrace]) {
+pub(super) fn write_impacts(svg: &mut String, panel: &Panel<'_>, traces: &[DeviceTrace]) {
     let zero = units(panel.position_px((panel.x.start, 0.0)).1);
     for (index, trace) in traces.iter().enumerate() {
         let side = if index % 2 == 0 { 1 } else { -1 };
@@ -71,7 +80,7 @@ pub(super) fn write_impacts(svg: &mut String, panel: &Panel, traces: &[DeviceTra
     }
 }
 
-fn thinned(panel: &Panel, impacts: &[f64]) -> Vec<f64> {
+fn thinned(panel: &Panel<'_>, impacts: &[f64]) -> Vec<f64> {
     let distance = if impacts.len() > MOST_MARKS { panel.width_px / MOST_MARKS as f64 } else { 0.0 };
     let mut kept: Vec<f64> = Vec::new();
     for &time in impacts.iter().filter(|&&time| time >= panel.x.start && time <= panel.x.end) {
@@ -86,7 +95,7 @@ fn thinned(panel: &Panel, impacts: &[f64]) -> Vec<f64> {
 /// Appends a mark and the word "overturns" where a block's curve leaves the panel for good.
 ///
 /// Words move away from the edge, row by row, until they overlap no earlier word.
-pub(super) fn write_overturns(svg: &mut String, panel: &Panel, traces: &[DeviceTrace]) {
+pub(super) fn write_overturns(svg: &mut String, panel: &Panel<'_>, traces: &[DeviceTrace]) {
     let width = text_width_px(NOTE, NOTE_FONT_PX);
     let mut taken: Vec<(f64, f64)> = Vec::new();
     for trace in traces {
@@ -132,8 +141,8 @@ pub(super) fn write_overturns(svg: &mut String, panel: &Panel, traces: &[DeviceT
 mod tests {
     use super::*;
 
-    fn panel() -> Panel {
-        Panel { left_px: 0.0, top_px: 0.0, width_px: 600.0, height_px: 100.0, x: 0.0..10.0, y: -1.0..1.0, title: "", guides: &[] }
+    fn panel() -> Panel<'static> {
+        Panel::new((0.0, 0.0), (600.0, 100.0), 0.0..10.0, -1.0..1.0)
     }
 
     #[test]

@@ -4,9 +4,9 @@ use super::curve::write_curve;
 use super::device_trace::{DeviceTrace, check, rotation_limit};
 use super::engagement::{write_impacts, write_overturns, write_shading};
 use super::ground::ground_curve;
-use super::layer::{escape, units};
-use super::legend::write_heading;
-use super::palette::GROUND;
+use super::layer::{document, units};
+use super::legend::{device_keys, write_heading};
+use super::palette::{GROUND, Stroke};
 use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel, scale_around_zero};
 use super::time_axis::time_span;
 use super::{PlotError, TimeAxis};
@@ -50,7 +50,7 @@ pub fn history_figure(title: &str, histories: &[History], axes: TimeAxis) -> Res
 
     let area = (MARGIN_PX + LEFT_LABELS_PX, WIDTH_PX - MARGIN_PX - LEFT_LABELS_PX - RIGHT_MARGIN_PX);
     let mut body = String::new();
-    let heading_px = write_heading(&mut body, title, &traces, area, MARGIN_PX);
+    let heading_px = write_heading(&mut body, title, &device_keys(&traces), area, MARGIN_PX);
 
     let values = |pick: fn(&DeviceTrace) -> &[(f64, f64)]| {
         traces.iter().flat_map(move |trace| {
@@ -62,7 +62,7 @@ pub fn history_figure(title: &str, histories: &[History], axes: TimeAxis) -> Res
     let mut top_px = heading_px;
     let mut panel = |title, height_px, y, guides| {
         let (left_px, width_px) = area;
-        let panel = Panel { left_px, top_px, width_px, height_px, x: x.clone(), y, title, guides };
+        let panel = Panel { title: Some(title), guides, ..Panel::new((left_px, top_px), (width_px, height_px), x.clone(), y) };
         top_px += height_px + GAP_PX;
         panel
     };
@@ -81,12 +81,11 @@ pub fn history_figure(title: &str, histories: &[History], axes: TimeAxis) -> Res
 
     write_shading(&mut body, &rotation_panel, &traces);
     ground_panel.write_axes(&mut body, canvas, None)?;
-    write_curve(&mut body, canvas, &ground_panel, &ground, GROUND, "none")?;
+    write_curve(&mut body, canvas, &ground_panel, &ground, Stroke::solid(GROUND))?;
 
     rotation_panel.write_axes(&mut body, canvas, None)?;
     for trace in &traces {
-        let look = trace.look;
-        write_curve(&mut body, canvas, &rotation_panel, &trace.rotation, look.colour, look.dashes)?;
+        write_curve(&mut body, canvas, &rotation_panel, &trace.rotation, trace.look.stroke())?;
     }
     write_impacts(&mut body, &rotation_panel, &traces);
     write_overturns(&mut body, &rotation_panel, &traces);
@@ -94,33 +93,24 @@ pub fn history_figure(title: &str, histories: &[History], axes: TimeAxis) -> Res
     let velocity_title = force_panel.is_none().then(|| axes.title());
     velocity_panel.write_axes(&mut body, canvas, velocity_title)?;
     for trace in &traces {
-        let look = trace.look;
-        write_curve(&mut body, canvas, &velocity_panel, &trace.velocity, look.colour, look.dashes)?;
+        write_curve(&mut body, canvas, &velocity_panel, &trace.velocity, trace.look.stroke())?;
     }
 
     if let Some(panel) = &force_panel {
         write_shading(&mut body, panel, &traces);
         panel.write_axes(&mut body, canvas, Some(axes.title()))?;
         for trace in &traces {
-            write_curve(&mut body, canvas, panel, &trace.force, trace.look.colour, trace.look.dashes)?;
+            write_curve(&mut body, canvas, panel, &trace.force, trace.look.stroke())?;
         }
     }
 
-    Ok(format!(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
-         <svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH_PX:.0}\" height=\"{height_px:.0}\" \
-         viewBox=\"0 0 {} {}\" font-family=\"sans-serif\">\n\
-         <title>{}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{body}</svg>\n",
-        canvas.0,
-        canvas.1,
-        escape(title),
-    ))
+    Ok(document(title, (WIDTH_PX, height_px), &body))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::synthetic::{at_rest, overturning, safe, with_clutched_pair, with_inerter};
+    use crate::plot::synthetic::{assert_well_formed, at_rest, overturning, safe, with_clutched_pair, with_inerter};
 
     fn three() -> Vec<History> {
         vec![
@@ -128,32 +118,6 @@ mod tests {
             with_inerter(safe("single inerter", 0.9, 800)),
             with_clutched_pair(safe("clutched pair", 0.5, 800)),
         ]
-    }
-
-    /// Every element is closed in order, attributes are quoted, and all coordinates are plain numbers.
-    fn assert_well_formed(svg: &str) {
-        let mut open: Vec<&str> = Vec::new();
-        for tag in svg.split('<').skip(1) {
-            let (tag, text) = tag.split_once('>').expect("a tag ends");
-            assert!(!text.contains('>'));
-            assert_eq!(tag.matches('"').count() % 2, 0, "{tag}");
-            if let Some(name) = tag.strip_prefix('/') {
-                assert_eq!(open.pop(), Some(name));
-            } else if !tag.ends_with('/') && !tag.starts_with('?') {
-                open.push(tag.split_whitespace().next().expect("a tag has a name"));
-            }
-        }
-        assert!(open.is_empty(), "{open:?}");
-        for bad in ["NaN", "inf", "2147483647", "-2147483648"] {
-            assert!(!svg.contains(bad), "{bad}");
-        }
-        for points in svg.split("points=\"").skip(1) {
-            for pair in points.split('"').next().unwrap_or("").split_whitespace() {
-                let (x, y) = pair.split_once(',').expect("a pair");
-                let (x, y): (i32, i32) = (x.parse().unwrap(), y.parse().unwrap());
-                assert!((0..=7600).contains(&x) && (0..=20_000).contains(&y), "{pair}");
-            }
-        }
     }
 
     fn panel_titles(svg: &str) -> usize {

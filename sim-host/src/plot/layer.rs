@@ -31,6 +31,19 @@ where
     Ok(document[start..end].trim_start().to_owned())
 }
 
+/// The whole SVG document around `body`, on white.
+pub(super) fn document(title: &str, (width_px, height_px): (f64, f64), body: &str) -> String {
+    format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+         <svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width_px:.0}\" height=\"{height_px:.0}\" \
+         viewBox=\"0 0 {} {}\" font-family=\"sans-serif\">\n\
+         <title>{}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{body}</svg>\n",
+        units(width_px),
+        units(height_px),
+        escape(title),
+    )
+}
+
 /// Turns a drawing error into its text.
 pub(super) fn text_of<DB: DrawingBackend>(error: plotters::drawing::DrawingAreaErrorKind<DB::ErrorType>) -> String {
     error.to_string()
@@ -62,15 +75,17 @@ pub(super) fn text_width_px(text: &str, font_px: f64) -> f64 {
 const UP_FROM_SUBSCRIPT: &str = " dy=\"-0.19em\"";
 const UP_AND_ON_FROM_SUBSCRIPT: &str = " dx=\"0.3em\" dy=\"-0.19em\"";
 const BACK_FROM_DOT: &str = " dx=\"0.14em\" dy=\"0.8em\"";
+const BACK_FROM_TWO_DOTS: &str = " dx=\"0.02em\" dy=\"0.8em\"";
 
-/// A formula from plain markup: `*x*` italic, `_x` one subscript character, `'` a dot over the symbol before it.
+/// A formula from plain markup: `*x*` italic, `_x` one subscript character, `'` a dot and `''` two dots
+/// over the symbol before them.
 ///
 /// The dot is a full stop moved back and up by fractions of the font size, because fonts place combining dots badly.
 pub(super) fn formula(markup: &str) -> String {
     let mut svg = String::new();
     let mut italic = false;
     let mut return_shift = "";
-    let mut characters = markup.chars();
+    let mut characters = markup.chars().peekable();
     while let Some(character) = characters.next() {
         match character {
             '*' => {
@@ -78,9 +93,13 @@ pub(super) fn formula(markup: &str) -> String {
                 italic = !italic;
             }
             '_' => {
-                let subscript = characters.next().unwrap_or(' ');
+                let subscript = escape(&characters.next().unwrap_or(' ').to_string());
                 svg.push_str(&format!("<tspan dy=\"0.25em\" font-size=\"75%\">{subscript}</tspan>"));
                 return_shift = UP_FROM_SUBSCRIPT;
+            }
+            '\'' if characters.next_if_eq(&'\'').is_some() => {
+                svg.push_str("<tspan dx=\"-0.56em\" dy=\"-0.8em\">..</tspan>");
+                return_shift = BACK_FROM_TWO_DOTS;
             }
             '\'' => {
                 svg.push_str("<tspan dx=\"-0.45em\" dy=\"-0.8em\">.</tspan>");
@@ -95,6 +114,9 @@ pub(super) fn formula(markup: &str) -> String {
             }
         }
     }
+    if italic {
+        svg.push_str("</tspan>");
+    }
     svg
 }
 
@@ -105,6 +127,8 @@ pub(super) enum Anchor {
     Start,
     /// The position is the middle.
     Middle,
+    /// The position is the right end.
+    End,
 }
 
 /// A text element: ready-made SVG `content` at a baseline position in pixels.
@@ -136,6 +160,7 @@ impl<'a> Text<'a> {
         let anchor = match self.anchor {
             Anchor::Start => "start",
             Anchor::Middle => "middle",
+            Anchor::End => "end",
         };
         let turn = if turned { format!(" transform=\"rotate(-90 {x} {y})\"") } else { String::new() };
         svg.push_str(&format!(
@@ -160,6 +185,17 @@ pub(super) fn write_rect(svg: &mut String, corner: (i32, i32), size: (i32, i32),
     ));
 }
 
+/// Appends a disc around a position in pixels; `attributes` have a leading space.
+pub(super) fn write_disc(svg: &mut String, (x_px, y_px): (f64, f64), radius_px: f64, colour: RGBColor, attributes: &str) {
+    svg.push_str(&format!(
+        "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\"{attributes}/>\n",
+        units(x_px),
+        units(y_px),
+        units(radius_px),
+        hex(colour),
+    ));
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -171,11 +207,13 @@ mod tests {
 
     #[test]
     fn formulas_balance_their_tags() {
-        for markup in ["*a*_g (g)", "θ'/(*p*α)", "*F*/(*mg*)", "plain"] {
+        for markup in ["*a*_g (g)", "θ'/(*p*α)", "θ''/(*p*²α)", "*F*/(*mg*)", "plain", "*open", "_"] {
             let svg = formula(markup);
             assert_eq!(svg.matches("<tspan").count(), svg.matches("</tspan>").count(), "{svg}");
         }
         assert_eq!(formula("time (s)"), "time (s)");
+        assert!(formula("θ''").contains(">..<") && formula("θ'").contains(">.<"));
+        assert!(formula("a_<").contains("&lt;"));
     }
 
     #[test]

@@ -3,8 +3,8 @@
 use plotters::style::RGBColor;
 
 use super::device_trace::DeviceTrace;
-use super::layer::{Text, escape, text_width_px, units, write_rect};
-use super::palette::{CURVE_PX, FLYWHEEL_TINTS, INK, hex};
+use super::layer::{Text, escape, text_width_px, units, write_disc, write_rect};
+use super::palette::{FLYWHEEL_TINTS, INK, Stroke, hex};
 
 const TITLE_FONT_PX: f64 = 14.0;
 const FONT_PX: f64 = 11.0;
@@ -12,13 +12,28 @@ const ROW_PX: f64 = 17.0;
 const SWATCH_PX: f64 = 30.0;
 const GAP_PX: f64 = 14.0;
 
+/// Radius of the discs at the points of a line (px).
+pub(super) const MARK_PX: f64 = 2.6;
+
+/// Part of a width that [`wrapped`] may use for bold text, which is wider.
+pub(super) const BOLD_WIDTH: f64 = 0.92;
+
+/// A legend entry: what it looks like and its name.
+pub(super) type Key = (Swatch, String);
+
 /// What stands left of a legend text.
 #[derive(Debug, Clone, Copy)]
-enum Swatch {
-    /// A piece of a device's curve.
-    Line(RGBColor, &'static str),
+pub(super) enum Swatch {
+    /// A piece of a curve.
+    Line(Stroke),
+    /// A piece of a curve with a disc at its points.
+    MarkedLine(Stroke),
     /// A tint.
     Tint(RGBColor),
+    /// A tint and the colour that stands for the same where it is alone.
+    Tints(RGBColor, RGBColor),
+    /// A colour that needs an edge, since it may be near white.
+    Framed(RGBColor),
     /// The triangle of an impact.
     Triangle,
     /// The bar beside a lane of tints.
@@ -26,10 +41,12 @@ enum Swatch {
 }
 
 /// Appends title and legend from `top_px` down, over the width from `left_px`; returns the lower edge (px).
+///
+/// Every group of entries starts a row of its own.
 pub(super) fn write_heading(
     svg: &mut String,
     title: &str,
-    traces: &[DeviceTrace],
+    groups: &[Vec<Key>],
     (left_px, width_px): (f64, f64),
     top_px: f64,
 ) -> f64 {
@@ -40,16 +57,19 @@ pub(super) fn write_heading(
         Text { attributes: " font-weight=\"bold\"", ..text }.write(svg, false);
     }
     y += 4.0;
-
-    let devices: Vec<(Swatch, String)> =
-        traces.iter().map(|trace| (Swatch::Line(trace.look.colour, trace.look.dashes), trace.label.clone())).collect();
-    y = write_entries(svg, &devices, (left_px, width_px), y);
-    y = write_entries(svg, &keys(traces), (left_px, width_px), y);
+    for entries in groups {
+        y = write_entries(svg, entries, (left_px, width_px), y);
+    }
     y + 6.0
 }
 
+/// The devices, and the marks that the figure actually shows.
+pub(super) fn device_keys(traces: &[DeviceTrace]) -> [Vec<Key>; 2] {
+    [traces.iter().map(|trace| (Swatch::Line(trace.look.stroke()), trace.label.clone())).collect(), keys(traces)]
+}
+
 /// Entries for the marks that the figure actually shows.
-fn keys(traces: &[DeviceTrace]) -> Vec<(Swatch, String)> {
+fn keys(traces: &[DeviceTrace]) -> Vec<Key> {
     let mut keys = Vec::new();
     for (index, name) in ["first flywheel engaged", "second flywheel engaged"].into_iter().enumerate() {
         let shown = |trace: &DeviceTrace| trace.engagements.iter().any(|(_, _, flywheel)| usize::from(*flywheel != 1) == index);
@@ -67,7 +87,7 @@ fn keys(traces: &[DeviceTrace]) -> Vec<(Swatch, String)> {
 }
 
 /// Appends entries in as many columns as fit; returns the lower edge (px).
-fn write_entries(svg: &mut String, entries: &[(Swatch, String)], (left_px, width_px): (f64, f64), top_px: f64) -> f64 {
+fn write_entries(svg: &mut String, entries: &[Key], (left_px, width_px): (f64, f64), top_px: f64) -> f64 {
     let lefts = column_lefts(entries, width_px);
     let columns = lefts.len();
     for (index, (swatch, text)) in entries.iter().enumerate() {
@@ -82,7 +102,7 @@ fn write_entries(svg: &mut String, entries: &[(Swatch, String)], (left_px, width
 }
 
 /// Left edges of the columns (px), at least one: the largest number of columns whose widest entries fit side by side.
-fn column_lefts(entries: &[(Swatch, String)], width_px: f64) -> Vec<f64> {
+fn column_lefts(entries: &[Key], width_px: f64) -> Vec<f64> {
     for columns in (2..=entries.len()).rev() {
         let mut widths = vec![0.0_f64; columns];
         for (index, (_, text)) in entries.iter().enumerate() {
@@ -106,13 +126,26 @@ fn column_lefts(entries: &[(Swatch, String)], width_px: f64) -> Vec<f64> {
 fn write_swatch(svg: &mut String, swatch: Swatch, x_px: f64, middle_px: f64) {
     let (x, y, width) = (units(x_px), units(middle_px), units(SWATCH_PX));
     match swatch {
-        Swatch::Line(colour, dashes) => svg.push_str(&format!(
-            "<path d=\"M{x} {y}h{width}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-dasharray=\"{dashes}\"/>\n",
-            hex(colour),
-            units(CURVE_PX),
+        Swatch::Line(stroke) => svg.push_str(&format!(
+            "<path d=\"M{x} {y}h{width}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-dasharray=\"{}\"/>\n",
+            hex(stroke.colour),
+            units(stroke.width_px),
+            stroke.dashes,
         )),
+        Swatch::MarkedLine(stroke) => {
+            write_swatch(svg, Swatch::Line(stroke), x_px, middle_px);
+            write_disc(svg, (x_px + 0.5 * SWATCH_PX, middle_px), MARK_PX, stroke.colour, "");
+        }
         Swatch::Tint(colour) => {
             write_rect(svg, (x, y - units(5.0)), (width, units(10.0)), colour);
+        }
+        Swatch::Tints(tint, bar) => {
+            write_swatch(svg, Swatch::Tint(tint), x_px, middle_px);
+            write_rect(svg, (x + width / 2, y - units(5.0)), (width - width / 2, units(10.0)), bar);
+        }
+        Swatch::Framed(colour) => {
+            write_rect(svg, (x, y - units(5.0)), (width, units(10.0)), INK);
+            write_rect(svg, (x + units(0.6), y - units(4.4)), (width - units(1.2), units(8.8)), colour);
         }
         Swatch::LaneBar => {
             let corner = (x + width / 2, y - units(5.0));
@@ -132,7 +165,7 @@ fn write_swatch(svg: &mut String, swatch: Swatch, x_px: f64, middle_px: f64) {
 
 /// `text` escaped; when it is wider than `width_px`, an ellipsis stands for the end of the device's name, so that the
 /// outcome in parentheses stays, or for the end of the text when the outcome alone is long.
-fn shortened(text: &str, width_px: f64) -> String {
+pub(super) fn shortened(text: &str, width_px: f64) -> String {
     if text_width_px(text, FONT_PX) <= width_px {
         return escape(text);
     }
@@ -150,7 +183,7 @@ fn shortened(text: &str, width_px: f64) -> String {
 }
 
 /// Lines of `title`, broken at spaces; a single word may still be too wide.
-fn wrapped(title: &str, width_px: f64, font_px: f64) -> Vec<String> {
+pub(super) fn wrapped(title: &str, width_px: f64, font_px: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in title.split_whitespace() {
         match lines.last_mut() {

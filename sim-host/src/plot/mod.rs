@@ -1,16 +1,22 @@
-//! Figures as SVG text: responses, energies, sensitivities.
+//! Figures as SVG text: responses, energies, sensitivities, closed loops, maps of outcomes, charts of lines.
 //!
 //! plotters draws axes and curves; clip, dash patterns, tints and formula labels are SVG around its output.
 
+mod cell;
+mod cell_map;
+mod chart;
 mod curve;
 mod decimate;
 mod device_trace;
 mod energy_figure;
 mod engagement;
+mod fault_mark;
 mod ground;
 mod history_figure;
+mod lane;
 mod layer;
 mod legend;
+mod loop_figure;
 mod palette;
 mod panel;
 mod round_scale;
@@ -20,9 +26,14 @@ mod synthetic;
 mod ticks;
 mod time_axis;
 
+pub use cell::Cell;
+pub use cell_map::{CellMap, CellMaps, cell_map_figure};
+pub use chart::{Chart, ChartPanel, Line, chart_figure};
 pub use energy_figure::energy_figure;
 pub use history_figure::history_figure;
+pub use loop_figure::{LoopTrace, loop_figure};
 pub use sensitivity_figure::{OwnMark, SensitivityLane, SensitivityRow, sensitivity_figure};
+pub use ticks::Scale;
 pub use time_axis::TimeAxis;
 
 /// Why a figure could not be drawn.
@@ -55,6 +66,34 @@ pub enum PlotError {
     InvalidBlock {
         /// Name of the device.
         device: String,
+    },
+    /// There are no panels, no maps, or no points that the axes can show.
+    #[error("the figure `{title}` has nothing to draw")]
+    NothingToDraw {
+        /// Title of the figure.
+        title: String,
+    },
+    /// A value to draw is not a finite number.
+    #[error("`{name}` holds a number that is not finite")]
+    NotFiniteValue {
+        /// Name of the line, or title of the axis.
+        name: String,
+    },
+    /// A series or a grid has another number of values than it should have.
+    #[error("`{name}` has {found} values instead of {expected}")]
+    WrongLength {
+        /// Name of the series or grid.
+        name: String,
+        /// How many values it has.
+        found: usize,
+        /// How many it should have.
+        expected: usize,
+    },
+    /// The last cell of an axis does not lie beyond the first.
+    #[error("the axis `{title}` does not increase")]
+    EmptyAxis {
+        /// Title of the axis.
+        title: String,
     },
     /// The drawing library refused.
     #[error("cannot draw the figure: {0}")]

@@ -2,6 +2,24 @@
 
 use plotters::style::RGBColor;
 
+/// How a line is drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stroke {
+    /// Colour.
+    pub colour: RGBColor,
+    /// Dash lengths in tenths of a pixel, as SVG writes them; `none` for a solid line.
+    pub dashes: &'static str,
+    /// Width (px).
+    pub width_px: f64,
+}
+
+impl Stroke {
+    /// A solid curve.
+    pub(super) fn solid(colour: RGBColor) -> Self {
+        Self { colour, dashes: "none", width_px: CURVE_PX }
+    }
+}
+
 /// How one device's curves look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct DeviceLook {
@@ -9,6 +27,13 @@ pub(super) struct DeviceLook {
     pub colour: RGBColor,
     /// Dash lengths in tenths of a pixel, as SVG writes them; `none` for a solid curve.
     pub dashes: &'static str,
+}
+
+impl DeviceLook {
+    /// The look of its curves.
+    pub(super) fn stroke(self) -> Stroke {
+        Stroke { colour: self.colour, dashes: self.dashes, width_px: CURVE_PX }
+    }
 }
 
 /// Curve width in pixels.
@@ -37,11 +62,23 @@ const COLOURS: [RGBColor; 7] = [
     RGBColor(230, 159, 0),
 ];
 
+/// Bars that show when the first or second flywheel is engaged: the tints, dark enough to stand alone.
+pub(super) const FLYWHEEL_BARS: [RGBColor; 2] = [RGBColor(62, 124, 177), RGBColor(226, 160, 48)];
+
+/// Faults.
+pub(super) const FAULT: RGBColor = RGBColor(150, 0, 90);
+
 const DASHES: [&str; 5] = ["none", "60 25", "100 25 15 25", "18 18", "140 40"];
 
 /// The look of the device at `index`; colours repeat after seven devices, pairs of colour and dash after 35.
 pub(super) fn device_look(index: usize) -> DeviceLook {
     DeviceLook { colour: COLOURS[index % COLOURS.len()], dashes: DASHES[index % DASHES.len()] }
+}
+
+/// The look of the reference line at `index`; dashes repeat after three.
+pub(super) fn guide_stroke(index: usize) -> Stroke {
+    const GUIDE_DASHES: [&str; 3] = ["40 30", "100 40", "12 22"];
+    Stroke { colour: GUIDE, dashes: GUIDE_DASHES[index % GUIDE_DASHES.len()], width_px: 0.9 }
 }
 
 /// `#rrggbb`.

@@ -7,9 +7,9 @@ use plotters::style::{Color, IntoTextStyle};
 
 use super::PlotError;
 use super::layer::{Anchor, Text, formula, plotters_layer, text_of, units};
-use super::palette::{GUIDE, INK};
+use super::palette::{GUIDE, INK, hex};
 use super::round_scale::RoundScale;
-use super::ticks::{round_ticks, tick_text};
+use super::ticks::{Scale, decade_ticks, power_of_ten, round_ticks, tick_text};
 
 /// Space left of a panel for tick labels and the axis title (px).
 pub(super) const LEFT_LABELS_PX: f64 = 62.0;
@@ -18,8 +18,15 @@ pub(super) const LEFT_LABELS_PX: f64 = 62.0;
 pub(super) const BOTTOM_LABELS_PX: f64 = 42.0;
 
 const TICK_PX: f64 = 4.0;
+const MINOR_TICK_PX: f64 = 2.5;
 /// Distance that ticks of the vertical axis aim for (px).
 const TICK_DISTANCE_PX: f64 = 28.0;
+/// Width that a label of the horizontal axis needs (px).
+const LABEL_WIDTH_PX: f64 = 42.0;
+/// Most labels of the horizontal axis.
+const MOST_LABELS: usize = 8;
+/// From ticks to their labels, where plotters has it too (px).
+const LABEL_GAP_PX: (f64, f64) = (6.0, 8.0);
 const TICK_FONT_PX: f64 = 11.0;
 const TITLE_FONT_PX: f64 = 13.0;
 const FRAME_PX: f64 = 0.8;
@@ -29,7 +36,7 @@ const PLOTTERS_FONT_FACTOR: f64 = 1.24;
 
 /// A panel of the figure.
 #[derive(Debug, Clone)]
-pub(super) struct Panel {
+pub(super) struct Panel<'a> {
     /// Left edge of the data area (px).
     pub left_px: f64,
     /// Upper edge of the data area (px).
@@ -38,17 +45,28 @@ pub(super) struct Panel {
     pub width_px: f64,
     /// Height of the data area (px).
     pub height_px: f64,
-    /// Scale of the shared time axis.
+    /// Range of the shared axis; of powers of ten on a logarithmic one.
     pub x: Range<f64>,
-    /// Scale of the panel's own quantity.
+    /// Range of the panel's own quantity; of powers of ten on a logarithmic axis.
     pub y: Range<f64>,
-    /// Title of the vertical axis, in the markup of [`formula`].
-    pub title: &'static str,
+    /// How the two axes are divided.
+    pub scales: (Scale, Scale),
+    /// Title of the vertical axis, in the markup of [`formula`]; without one, its ticks have no labels either.
+    pub title: Option<&'a str>,
+    /// Whether the vertical axis has ticks.
+    pub y_ticks: bool,
     /// Heights of dashed guide lines.
-    pub guides: &'static [f64],
+    pub guides: &'a [f64],
 }
 
-impl Panel {
+impl Panel<'_> {
+    /// A panel with linear axes, without title and guide lines.
+    pub(super) fn new(corner_px: (f64, f64), size_px: (f64, f64), x: Range<f64>, y: Range<f64>) -> Self {
+        let ((left_px, top_px), (width_px, height_px)) = (corner_px, size_px);
+        let scales = (Scale::Linear, Scale::Linear);
+        Self { left_px, top_px, width_px, height_px, x, y, scales, title: None, y_ticks: true, guides: &[] }
+    }
+
     /// Position of a data point in pixels.
     pub(super) fn position_px(&self, point: (f64, f64)) -> (f64, f64) {
         let across = (point.0 - self.x.start) / (self.x.end - self.x.start);
@@ -66,17 +84,26 @@ impl Panel {
         self.left_px + self.width_px
     }
 
-    /// Appends zero line, guide lines, frame, ticks and titles. The time axis is labelled when it has a title.
-    pub(super) fn write_axes(&self, svg: &mut String, canvas: (u32, u32), time_title: Option<&str>) -> Result<(), PlotError> {
+    /// Appends zero line, guide lines, frame, ticks and titles. The shared axis is labelled when it has a title, which may be
+    /// empty.
+    pub(super) fn write_axes(&self, svg: &mut String, canvas: (u32, u32), x_title: Option<&str>) -> Result<(), PlotError> {
         self.write_guides(svg, canvas)?;
-        svg.push_str(&self.axes(canvas, time_title.is_some())?);
+        self.write_frame(svg, canvas, x_title)
+    }
 
-        let middle = (self.left_px - LEFT_LABELS_PX + TITLE_FONT_PX, self.top_px + 0.5 * self.height_px);
-        let title = formula(self.title);
-        Text { anchor: Anchor::Middle, ..Text::new(&title, middle, TITLE_FONT_PX) }.write(svg, true);
-        if let Some(time_title) = time_title {
+    /// Appends frame, ticks and titles, as [`Self::write_axes`] does.
+    pub(super) fn write_frame(&self, svg: &mut String, canvas: (u32, u32), x_title: Option<&str>) -> Result<(), PlotError> {
+        svg.push_str(&self.axes(canvas, x_title.is_some())?);
+        self.write_decades(svg, x_title.is_some());
+
+        if let Some(title) = self.title.filter(|title| !title.is_empty()) {
+            let middle = (self.left_px - LEFT_LABELS_PX + TITLE_FONT_PX, self.top_px + 0.5 * self.height_px);
+            let title = formula(title);
+            Text { anchor: Anchor::Middle, ..Text::new(&title, middle, TITLE_FONT_PX) }.write(svg, true);
+        }
+        if let Some(title) = x_title.filter(|title| !title.is_empty()) {
             let middle = (self.left_px + 0.5 * self.width_px, self.bottom_px() + BOTTOM_LABELS_PX - 6.0);
-            let title = formula(time_title);
+            let title = formula(title);
             Text { anchor: Anchor::Middle, ..Text::new(&title, middle, TITLE_FONT_PX) }.write(svg, false);
         }
         Ok(())
@@ -90,7 +117,10 @@ impl Panel {
             PathElement::new(vec![(left, y), (right, y)], style)
         };
         let inside = |height: &&f64| self.y.contains(*height);
-        svg.push_str(&plotters_layer(canvas, |root| root.draw(&line(0.0)).map_err(text_of::<SVGBackend<'_>>))?);
+        // The zero of a logarithmic axis is a one.
+        if self.scales.1 == Scale::Linear && inside(&&0.0) {
+            svg.push_str(&plotters_layer(canvas, |root| root.draw(&line(0.0)).map_err(text_of::<SVGBackend<'_>>))?);
+        }
         svg.push_str("<g stroke-dasharray=\"40 30\">\n");
         svg.push_str(&plotters_layer(canvas, |root| {
             for &height in self.guides.iter().filter(inside) {
@@ -102,13 +132,22 @@ impl Panel {
         Ok(())
     }
 
-    fn axes(&self, canvas: (u32, u32), labels_time: bool) -> Result<String, PlotError> {
-        let x_ticks = round_ticks(&self.x, 8, 0.0);
+    /// Number of labels that the axes aim for.
+    fn label_counts(&self) -> (usize, usize) {
+        let across = (self.width_px / LABEL_WIDTH_PX) as usize;
+        (across.clamp(2, MOST_LABELS), (self.height_px / TICK_DISTANCE_PX) as usize)
+    }
+
+    /// Frame, and ticks and labels of linear axes.
+    fn axes(&self, canvas: (u32, u32), labels_x: bool) -> Result<String, PlotError> {
+        let (across, up) = self.label_counts();
+        let linear = |scale: Scale, ticks: Vec<f64>| if scale == Scale::Linear { ticks } else { Vec::new() };
+        let x_ticks = linear(self.scales.0, round_ticks(&self.x, across, 0.0));
         // Half a label's height keeps clear of the neighbouring panels.
-        let y_ticks = round_ticks(&self.y, (self.height_px / TICK_DISTANCE_PX) as usize, 0.5 * TICK_FONT_PX / self.height_px);
+        let y_ticks = linear(self.scales.1, round_ticks(&self.y, up, 0.5 * TICK_FONT_PX / self.height_px));
         let (x_step, y_step) = (tick_step(&x_ticks), tick_step(&y_ticks));
-        let below = if labels_time { units(BOTTOM_LABELS_PX) } else { 0 };
-        let beside = units(LEFT_LABELS_PX);
+        let below = if labels_x { units(BOTTOM_LABELS_PX) } else { 0 };
+        let beside = if self.title.is_some() { units(LEFT_LABELS_PX) } else { 0 };
         let frame: ShapeStyle = INK.stroke_width(units(FRAME_PX) as u32);
         let (left, right) = (units(self.left_px), units(self.right_px()));
         let (top, bottom) = (units(self.top_px), units(self.bottom_px()));
@@ -136,11 +175,17 @@ impl Panel {
                 .map_err(text_of::<SVGBackend<'_>>)?;
 
             let mut paths = vec![vec![(left, top), (right, top), (right, bottom), (left, bottom), (left, top)]];
-            if !labels_time {
+            if !labels_x {
                 // Unlabelled ticks point inwards, away from the next panel.
                 paths.extend(x_ticks.iter().map(|&tick| {
                     let x = units(self.position_px((tick, self.y.start)).0);
                     vec![(x, bottom), (x, bottom - units(TICK_PX))]
+                }));
+            }
+            if self.title.is_none() && self.y_ticks {
+                paths.extend(y_ticks.iter().map(|&tick| {
+                    let y = units(self.position_px((self.x.start, tick)).1);
+                    vec![(left, y), (left + units(TICK_PX), y)]
                 }));
             }
             for path in paths {
@@ -148,6 +193,48 @@ impl Panel {
             }
             Ok(())
         })
+    }
+
+    /// Appends ticks and labels of logarithmic axes.
+    fn write_decades(&self, svg: &mut String, labels_x: bool) {
+        let (across, up) = self.label_counts();
+        let mut path = String::new();
+        if self.scales.0 == Scale::Logarithmic {
+            let (labelled, minor) = decade_ticks(&self.x, across, self.width_px);
+            // Unlabelled ticks point inwards, away from the next panel.
+            let outward = if labels_x { 1 } else { -1 };
+            let mut tick = |power: f64, length_px: f64| {
+                let (x, y) = self.position_px((power, self.y.start));
+                path.push_str(&format!("M{} {}v{}", units(x), units(y), outward * units(length_px)));
+                (x, y + TICK_PX + LABEL_GAP_PX.1 + 0.36 * TICK_FONT_PX)
+            };
+            minor.into_iter().for_each(|power| _ = tick(power, MINOR_TICK_PX));
+            for power in labelled {
+                let at = tick(power, TICK_PX);
+                if labels_x {
+                    Text { anchor: Anchor::Middle, ..Text::new(&power_of_ten(power), at, TICK_FONT_PX) }.write(svg, false);
+                }
+            }
+        }
+        if self.scales.1 == Scale::Logarithmic {
+            let (labelled, minor) = decade_ticks(&self.y, up, self.height_px);
+            let outward = if self.title.is_some() { -1 } else { 1 };
+            let mut tick = |power: f64, length_px: f64| {
+                let (x, y) = self.position_px((self.x.start, power));
+                path.push_str(&format!("M{} {}h{}", units(x), units(y), outward * units(length_px)));
+                (x - TICK_PX - LABEL_GAP_PX.0, y + 0.36 * TICK_FONT_PX)
+            };
+            minor.into_iter().for_each(|power| _ = tick(power, MINOR_TICK_PX));
+            for power in labelled {
+                let at = tick(power, TICK_PX);
+                if self.title.is_some() {
+                    Text { anchor: Anchor::End, ..Text::new(&power_of_ten(power), at, TICK_FONT_PX) }.write(svg, false);
+                }
+            }
+        }
+        if !path.is_empty() {
+            svg.push_str(&format!("<path d=\"{path}\" stroke=\"{}\" stroke-width=\"{}\"/>\n", hex(INK), units(FRAME_PX)));
+        }
     }
 }
 

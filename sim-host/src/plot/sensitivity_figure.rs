@@ -3,7 +3,7 @@
 use plotters::style::RGBColor;
 
 use super::PlotError;
-use super::layer::{Anchor, Text, escape, text_width_px, units, write_rect};
+use super::layer::{Anchor, Text, document, escape, text_width_px, units, write_disc, write_rect};
 use super::legend::write_heading;
 use super::palette::{GROUND, GUIDE, INK, device_look, hex};
 use super::ticks::{round_ticks, tick_text};
@@ -127,15 +127,7 @@ pub fn sensitivity_figure(title: &str, devices: &[String], rows: &[SensitivityRo
     body.push_str(&marks);
 
     let height_px = axis.bottom_px + 46.0;
-    Ok(format!(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
-         <svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH_PX:.0}\" height=\"{height_px:.0}\" \
-         viewBox=\"0 0 {} {}\" font-family=\"sans-serif\">\n\
-         <title>{}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{body}</svg>\n",
-        units(WIDTH_PX),
-        units(height_px),
-        escape(title),
-    ))
+    Ok(document(title, (WIDTH_PX, height_px), &body))
 }
 
 impl SensitivityLane {
@@ -251,16 +243,6 @@ fn write_lane(svg: &mut String, axis: &Axis, lane: &SensitivityLane, middle_px: 
             Text { anchor: Anchor::Middle, colour, attributes: " font-weight=\"bold\"", ..text }.write(svg, false);
         }
     }
-}
-
-fn write_disc(svg: &mut String, (x_px, y_px): (f64, f64), radius_px: f64, colour: RGBColor, attributes: &str) {
-    svg.push_str(&format!(
-        "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\"{attributes}/>\n",
-        units(x_px),
-        units(y_px),
-        units(radius_px),
-        hex(colour),
-    ));
 }
 
 fn write_diamond(svg: &mut String, (x_px, y_px): (f64, f64), colour: RGBColor) {

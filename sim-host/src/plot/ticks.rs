@@ -2,6 +2,89 @@
 
 use std::ops::Range;
 
+use sprag_shared::math;
+
+/// How an axis is divided.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Scale {
+    /// Equal steps of the value.
+    #[default]
+    Linear,
+    /// Equal steps of its decimal logarithm, for positive values.
+    Logarithmic,
+}
+
+/// Air beyond the outermost points, relative to the range.
+const AIR: f64 = 0.05;
+/// A linear vertical axis starts at zero when the values reach down to this part of the highest.
+const ZERO_WITHIN: f64 = 0.35;
+
+/// Distances between labelled powers of ten, the last for all that doubles hold.
+const POWER_STRIDES: [f64; 8] = [1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0];
+
+/// Narrowest decade that has ticks inside, and narrowest one that has a tick at all (px).
+const LEAST_DECADE_PX: (f64, f64) = (20.0, 3.0);
+
+/// The range of an axis that shows `values`, which are powers of ten on a logarithmic one; `None` without values.
+pub(super) fn axis_range(values: impl Iterator<Item = f64>, scale: Scale) -> Option<Range<f64>> {
+    let (mut low, mut high) =
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+    if low > high {
+        return None;
+    }
+    if scale == Scale::Linear {
+        if low > 0.0 && low < ZERO_WITHIN * high {
+            low = 0.0;
+        } else if high < 0.0 && high > ZERO_WITHIN * low {
+            high = 0.0;
+        }
+    }
+    let size = low.abs().max(high.abs());
+    // Ticks need steps that change the values they are added to.
+    if high - low < 1e-9 * size || high - low < 1e-200 {
+        let half = if size < 1e-200 { 0.5 } else { 0.1 * size };
+        (low, high) = (low - half, high + half);
+    }
+    let air = AIR * (high - low);
+    let (from, to) = (low - air, high + air);
+    // A logarithmic axis needs two powers of ten to be read.
+    if scale == Scale::Logarithmic && to.floor() - from.ceil() < 1.0 {
+        let (from, to) = ((low + 1e-9).floor(), (high - 1e-9).ceil());
+        return Some(from - 0.01..to.max(from + 1.0) + 0.01);
+    }
+    Some(from..to)
+}
+
+/// Labelled and minor ticks of a logarithmic axis over the powers of ten in `range`, `length_px` long: about `target` labels.
+pub(super) fn decade_ticks(range: &Range<f64>, target: usize, length_px: f64) -> (Vec<f64>, Vec<f64>) {
+    let width = range.end - range.start;
+    let fits = |stride: &f64| width / stride <= target.max(1) as f64 + 1e-9;
+    let stride = POWER_STRIDES.into_iter().find(fits).unwrap_or(POWER_STRIDES[POWER_STRIDES.len() - 1]);
+    let multiples = |stride: f64| {
+        let first = (range.start / stride - 1e-9).ceil() as i32;
+        let last = (range.end / stride + 1e-9).floor() as i32;
+        (first..=last).map(move |multiple| f64::from(multiple) * stride)
+    };
+    let labelled: Vec<f64> = multiples(stride).collect();
+    let decade_px = length_px / width;
+    let minor = if stride > 1.0 && decade_px >= LEAST_DECADE_PX.1 {
+        multiples(1.0).filter(|power| !labelled.contains(power)).collect()
+    } else if stride == 1.0 && decade_px >= LEAST_DECADE_PX.0 {
+        let decades = (range.start.floor() as i32)..=(range.end.ceil() as i32);
+        let inside = decades.flat_map(|power| (2..10).map(move |digit| f64::from(power) + math::log10(f64::from(digit))));
+        inside.filter(|power| range.contains(power)).collect()
+    } else {
+        Vec::new()
+    };
+    (labelled, minor)
+}
+
+/// Ten to the whole number `power`, with a raised exponent and a true minus sign, as SVG content.
+pub(super) fn power_of_ten(power: f64) -> String {
+    let sign = if power < 0.0 { "\u{2212}" } else { "" };
+    format!("10<tspan dy=\"-0.45em\" font-size=\"75%\">{sign}{:.0}</tspan>", power.abs())
+}
+
 /// Multiples of 1, 2 or 5 times a power of ten inside `range`, about `target` of them; never more than twice that.
 ///
 /// Ticks closer to an end than `margin` times the range are left out, so that labels of stacked panels stay apart. Where
@@ -81,6 +164,35 @@ mod tests {
             let ticks = round_ticks(&(-width..width), 5, 0.0);
             assert!((3..=10).contains(&ticks.len()), "{width}: {ticks:?}");
         }
+    }
+
+    #[test]
+    fn ranges_hold_their_values_and_are_never_empty() {
+        for (low, high) in [(0.0, 0.0), (1e15, 1e15), (-3.0, -3.0), (5e-324, 1e-300), (-1e150, 1e150), (2.0, 3.0), (-0.1, 8.0)] {
+            for scale in [Scale::Linear, Scale::Logarithmic] {
+                let range = axis_range([low, high].into_iter(), scale).unwrap();
+                assert!(range.start <= low && range.end >= high && range.end > range.start, "{low} {high}: {range:?}");
+            }
+        }
+        assert_eq!(axis_range([0.2, 1.0].into_iter(), Scale::Linear).unwrap().start, -AIR);
+        assert!(axis_range([0.8, 1.0].into_iter(), Scale::Linear).unwrap().start > 0.7);
+        // Two powers of ten at least: from 3 to 8 becomes from 1 to 10.
+        let short = axis_range([0.5, 0.9].into_iter(), Scale::Logarithmic).unwrap();
+        assert!(short.start < 0.0 && short.start > -0.1 && short.end > 1.0 && short.end < 1.1);
+        assert_eq!(axis_range(std::iter::empty(), Scale::Linear), None);
+    }
+
+    #[test]
+    fn decades_are_labelled_and_divided_where_there_is_room() {
+        let (labelled, minor) = decade_ticks(&(-3.2..-0.9), 5, 200.0);
+        assert_eq!(labelled, vec![-3.0, -2.0, -1.0]);
+        assert_eq!(minor.len(), 3 + 8 + 8);
+        let (labelled, minor) = decade_ticks(&(-12.0..0.5), 5, 200.0);
+        assert_eq!(labelled, vec![-12.0, -9.0, -6.0, -3.0, 0.0]);
+        assert_eq!(minor.len(), 8);
+        let (labelled, minor) = decade_ticks(&(-323.0..308.0), 5, 200.0);
+        assert!(labelled.len() >= 3 && labelled.len() <= 8 && minor.is_empty());
+        assert_eq!(power_of_ten(-3.0), "10<tspan dy=\"-0.45em\" font-size=\"75%\">\u{2212}3</tspan>");
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod checks;
+pub mod controller;
 pub mod device;
 pub mod drivetrain;
 pub mod error;
@@ -9,6 +10,7 @@ pub mod ground;
 pub mod motions;
 pub mod overrides;
 pub mod schema;
+pub mod sensors;
 pub mod weight;
 
 use std::path::{Path, PathBuf};
@@ -135,6 +137,9 @@ impl Scene {
         file.accuracy.check_devices(&key, first_beyond_ideal(&file, &devices).as_deref(), elastic)?;
         if let Some(checks) = &file.checks {
             checks.check(file.block.mass_kg, &key)?;
+        }
+        if let Some(controller) = &file.controller {
+            controller.check(&key)?;
         }
         file.output.check(&key)?;
         if file.ground.is_empty() && file.block.initial_rotation_ratio == 0.0 && file.block.initial_velocity_ratio == 0.0 {

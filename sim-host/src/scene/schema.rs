@@ -6,6 +6,7 @@ use sprag_shared::structure::{REST_SPEED, Restitution};
 
 pub use super::accuracy::{AccuracyTable, EventTreatment, MethodName, Precision};
 use super::checks::ChecksTable;
+use super::controller::ControllerTable;
 pub use super::device::{DeviceTable, Kind, KinematicsName, MountName};
 use super::error::{Key, SceneError};
 use super::ground::GroundTable;
@@ -43,6 +44,9 @@ pub struct SceneFile {
     /// `[checks]`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub checks: Option<ChecksTable>,
+    /// `[controller]`, for closed loops.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub controller: Option<ControllerTable>,
     /// `[output]`.
     #[serde(default)]
     pub output: OutputTable,

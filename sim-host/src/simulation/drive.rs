@@ -69,6 +69,25 @@ impl Course<'_> {
         })
     }
 
+    /// The block's weight at its lightest, over its weight at rest.
+    pub fn lightest(&self) -> f64 {
+        1.0 + self.vertical.map_or(0.0, |vertical| vertical.lowest().0).min(0.0)
+    }
+
+    /// As [`Course::angle`], for a device: a block that is `lightest` light falls under a weaker push, a guided rack is pushed too, and
+    /// friction may hold the block beyond.
+    pub fn machine_angle<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+        &self,
+        machine: &Machine<S, B, D, X, G>,
+        bound: f64,
+        lightest: f64,
+    ) -> S {
+        let p2 = self.block.frequency_parameter_squared();
+        let (held, pushed) =
+            machine.drive.gears().map_or((0.0, 0.0), |gears| (gears.rack_dry.to_f64() / p2, gears.rack_push.to_f64() / p2));
+        self.angle((bound * (1.0 + pushed) + held) / lightest)
+    }
+
     fn limits<S: Real>(&self, bound: f64) -> Limits<S> {
         Limits { overturned: self.angle(bound), events: MOST_ARCS }
     }
@@ -140,12 +159,8 @@ impl Course<'_> {
         O: DeviceObserver<S> + Segmented,
     {
         let still = ShapePiece::Linear(Linear::constant(S::ZERO));
-        // A lighter block falls under a weaker push, a guided rack is pushed too, and friction may hold the block beyond.
-        let lightest = 1.0 + self.vertical.map_or(0.0, |vertical| vertical.lowest().0).min(0.0);
-        let p2 = self.block.frequency_parameter_squared();
-        let (held, pushed) =
-            machine.drive.gears().map_or((0.0, 0.0), |gears| (gears.rack_dry.to_f64() / p2, gears.rack_push.to_f64() / p2));
-        let limits = |bound: f64| Limits { events: MOST_EVENTS, ..self.limits::<S>((bound * (1.0 + pushed) + held) / lightest) };
+        let lightest = self.lightest();
+        let limits = |bound: f64| Limits { events: MOST_EVENTS, overturned: self.machine_angle(machine, bound, lightest) };
         let vertical = self.vertical.map(GroundMotion::segments);
         for (index, segment) in self.ground.segments().iter().enumerate() {
             if state.motion.phase == Phase::Overturned || !goes_on() {

@@ -89,7 +89,7 @@ pub fn simulate(scene: &Scene, ground: &GroundMotions, interrupt: &Interrupt) ->
 }
 
 /// Why a device's run ended without a result.
-pub(super) enum Failure {
+pub(crate) enum Failure {
     Parameter(ParameterError),
     Stopped(Stopped),
     Interrupted,
@@ -105,7 +105,7 @@ impl From<ParameterError> for Failure {
 
 /// One device of a scene, to be run.
 #[derive(Clone, Copy)]
-pub(super) struct Task<'a> {
+pub(crate) struct Task<'a> {
     pub scene: &'a Scene,
     pub ground: &'a GroundMotions,
     pub index: usize,
@@ -120,7 +120,8 @@ impl<'a> Task<'a> {
         self.device().is_ideal() && self.ground.vertical.is_none()
     }
 
-    fn run(&self) -> Result<DeviceRun, Failure> {
+    /// Its run.
+    pub fn run(&self) -> Result<DeviceRun, Failure> {
         if self.is_ideal() { ideal::run(self) } else { machine::run(self) }
     }
 

@@ -1,0 +1,254 @@
+//! From a scene to a closed loop: the controller with its belief about the structure, the sensors, the plant.
+
+use sprag_shared::block::{Block, Geometry};
+use sprag_shared::control::controller::Controller;
+use sprag_shared::control::gate::Gate;
+use sprag_shared::control::law::{ClutchLaw, GatedTable, Law, SignTable};
+use sprag_shared::control::look_ahead::LookAhead;
+use sprag_shared::control::model::{KnownBody, KnownFull, KnownSlender, Model};
+use sprag_shared::control::supervisor::Supervisor;
+use sprag_shared::drivetrain::{Drivetrain, Engagement};
+use sprag_shared::equation::{Consistent, Paper};
+use sprag_shared::error::ParameterError;
+use sprag_shared::restitution::Restitution;
+use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
+
+use super::design::SensorDesign;
+use super::disturbance::Disturbance;
+use super::driver::{Driver, Shared};
+use super::plant::{Build, Plant, Surroundings, Watcher, WithPlant};
+use super::run::{Clock, ClosedLoop, Ending, LoopError, TickObserver};
+use super::supervision::supervision;
+use crate::interrupt::Interrupt;
+use crate::scene::Scene;
+use crate::scene::accuracy::MethodName;
+use crate::scene::controller::{ControllerTable, LawName};
+use crate::scene::motions::GroundMotions;
+use crate::sensor::Suite;
+use crate::simulation::run::{Failure, Task};
+
+/// A law for every body that a controller can believe in; laws over [`sprag_shared::control::law::Situation`] of any body are.
+pub trait AnyLaw: Law<KnownSlender> + Law<KnownFull<Paper>> + Law<KnownFull<Consistent>> + Copy + 'static {}
+
+impl<L: Law<KnownSlender> + Law<KnownFull<Paper>> + Law<KnownFull<Consistent>> + Copy + 'static> AnyLaw for L {}
+
+/// Why a loop cannot be run, or ended without a result.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LoopFailure {
+    /// A parameter that the core refuses.
+    #[error("{0}")]
+    Parameter(#[from] ParameterError),
+    /// The loop ended.
+    #[error("{0}")]
+    Loop(#[from] LoopError),
+}
+
+impl From<Failure> for LoopFailure {
+    fn from(failure: Failure) -> LoopFailure {
+        match failure {
+            Failure::Parameter(error) => LoopFailure::Parameter(error),
+            Failure::Stopped(stopped) => LoopFailure::Loop(LoopError::Stopped(stopped)),
+            // Closed loops are an effect, so there are effects here.
+            Failure::Interrupted | Failure::NoEffects => LoopFailure::Loop(LoopError::Interrupted),
+        }
+    }
+}
+
+/// A closed loop of one device of a scene.
+#[derive(Clone, Copy)]
+pub struct LoopTask<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its ground motion.
+    pub ground: &'a GroundMotions,
+    /// Which device; a clutched pair.
+    pub index: usize,
+    /// What drives it.
+    pub controller: &'a ControllerTable,
+    /// Its sensors.
+    pub suite: &'a Suite,
+    /// Of the sensors' specimens and noise.
+    pub seed: u64,
+    /// Ctrl-C.
+    pub interrupt: &'a Interrupt,
+}
+
+impl ControllerTable {
+    /// The law of its name.
+    pub fn clutch_law(&self) -> ClutchLaw {
+        match self.law {
+            LawName::Passive => ClutchLaw::Passive,
+            LawName::AlwaysEngaged => ClutchLaw::AlwaysEngaged,
+            LawName::Resisting => ClutchLaw::Resisting,
+            LawName::ResistingPredicted => ClutchLaw::ResistingPredicted,
+            LawName::SignTable => ClutchLaw::SignTable(self.sign_table.map_or(SignTable::EITHER, SignTable)),
+            LawName::GatedTable => ClutchLaw::GatedTable(GatedTable::DEFAULT),
+            LawName::LookAhead => ClutchLaw::LookAhead(LookAhead::default()),
+        }
+    }
+}
+
+impl<'a> LoopTask<'a> {
+    fn task(&self) -> Task<'a> {
+        Task { scene: self.scene, ground: self.ground, index: self.index, interval: f64::INFINITY, interrupt: self.interrupt }
+    }
+
+    fn drivetrain(&self) -> Drivetrain {
+        self.scene.devices[self.index].drivetrain
+    }
+
+    /// Devices with a memory move by the consistent kinematics, whatever the scene says.
+    fn structure(&self) -> Structure {
+        let mut structure = self.scene.structure(self.index);
+        if self.drivetrain().has_memory(DeviceKind::ClutchedPair) {
+            structure.device.kinematics = KinematicsKind::Consistent;
+        }
+        structure
+    }
+
+    /// What the controller believes.
+    ///
+    /// # Errors
+    /// [`ParameterError`] where a belief is beyond what a block can be.
+    pub fn believed(&self) -> Result<Structure, ParameterError> {
+        let (mut structure, belief) = (self.structure().loaded()?, &self.controller.belief);
+        let block = &structure.block;
+        structure.block = Block::new(
+            block.size() * belief.size_factor,
+            block.slenderness() * belief.slenderness_factor,
+            block.inertia_ratio(),
+        )?;
+        structure.device.mass_ratio *= belief.mass_ratio_factor;
+        let restitution = structure.restitution()?;
+        structure.restitution = Restitution::Constant((restitution * belief.restitution_factor).min(1.0));
+        Ok(structure)
+    }
+
+    /// From a command to a clutch that has moved, s: the longer of engaging and releasing.
+    pub fn actuation(&self) -> f64 {
+        let actuation = self.drivetrain().actuation;
+        self.controller.latency_s + actuation.engagement_delay.max(actuation.release_delay)
+    }
+
+    /// The controller for bodies `B`, by `law`.
+    ///
+    /// # Errors
+    /// [`ParameterError`] names the first parameter outside its range.
+    pub fn controller<B: KnownBody, L: Law<B>>(&self, law: L) -> Result<Controller<B, L>, ParameterError> {
+        let structure = self.believed()?;
+        let table = self.controller;
+        let period = 1.0 / table.rate_hz;
+        let design = SensorDesign::new(&structure, self.suite, table.estimator, period, table.shock_s)?;
+        let supervision = supervision(&structure, self.suite, &design, table, self.actuation());
+        Ok(Controller {
+            model: Model::new(&structure, &self.drivetrain())?,
+            instruments: design.instruments,
+            estimator: design.estimator,
+            law,
+            horizon: (self.actuation() + 0.5 * period) as f32,
+            bands: table.hysteresis as f32,
+            engaged_at_rest: table.engaged_at_rest,
+            gate: Gate { dwell: (table.dwell_s / period).round() as u16 },
+            supervisor: Supervisor::new(&supervision)?,
+        })
+    }
+
+    /// The controller at power-on, for the body that the scene calls for.
+    ///
+    /// # Errors
+    /// As [`LoopTask::controller`].
+    pub fn driver<L: AnyLaw>(&self, law: L) -> Result<Box<dyn Driver>, ParameterError> {
+        let structure = self.structure();
+        Ok(match (structure.geometry, structure.device.kinematics) {
+            (Geometry::Slender, _) => Box::new(Shared::new(self.controller::<KnownSlender, L>(law)?)),
+            (Geometry::Full, KinematicsKind::Paper) => Box::new(Shared::new(self.controller::<KnownFull<Paper>, L>(law)?)),
+            (Geometry::Full, KinematicsKind::Consistent) => {
+                Box::new(Shared::new(self.controller::<KnownFull<Consistent>, L>(law)?))
+            }
+        })
+    }
+
+    /// Clock of the loop.
+    pub fn clock(&self) -> Clock {
+        let task = self.task();
+        Clock {
+            period: 1.0 / self.controller.rate_hz,
+            substeps: self.controller.substeps,
+            prelude: self.controller.prelude_s,
+            end: task.end(),
+            ground_end: self.ground.horizontal.duration(),
+            actuation: self.actuation(),
+        }
+    }
+
+    /// Runs the loop with the law of its table.
+    ///
+    /// # Errors
+    /// [`LoopFailure`].
+    pub fn run(&self, watcher: &mut dyn Watcher, observer: &mut dyn TickObserver) -> Result<Ending, LoopFailure> {
+        let mut driver = self.driver(self.controller.clutch_law())?;
+        self.run_with(&mut *driver, &mut (), watcher, observer)
+    }
+
+    /// Runs the loop with any controller, and with whatever goes wrong.
+    ///
+    /// # Errors
+    /// [`LoopFailure`].
+    pub fn run_with(
+        &self,
+        driver: &mut dyn Driver,
+        disturbance: &mut dyn Disturbance,
+        watcher: &mut dyn Watcher,
+        observer: &mut dyn TickObserver,
+    ) -> Result<Ending, LoopFailure> {
+        let task = self.task();
+        let loaded = task.loaded()?;
+        let clock = self.clock();
+        let surroundings = Surroundings {
+            course: task.course(&loaded.block),
+            ground: self.ground,
+            released: task.released(),
+            ground_at_start: task.ground_at_start(),
+            shock: self.controller.shock_s,
+            latency: self.controller.latency_s,
+            step: clock.period,
+            exponential: self.scene.file.accuracy.method == MethodName::ExponentialMidpoint,
+        };
+        let closed = ClosedLoop { clock, suite: self.suite, seed: self.seed, disturbance, interrupt: self.interrupt };
+        let next = Running { closed, driver, watcher, observer };
+        self.drivetrain().resolve(&self.structure_of_plant(), self.ground.vertical.is_some(), Build { surroundings, next })?
+    }
+
+    fn structure_of_plant(&self) -> Structure {
+        self.scene.structure(self.index)
+    }
+
+    /// The same device as the paper has it, without a controller: ideal engagement, nothing lost, nothing late.
+    ///
+    /// # Errors
+    /// [`LoopFailure`].
+    pub fn ideal(&self) -> Result<crate::simulation::DeviceRun, LoopFailure> {
+        let mut scene = self.scene.clone();
+        scene.devices[self.index].drivetrain = Drivetrain { engagement: Engagement::Ideal, ..Drivetrain::default() };
+        scene.file.output.energy = false;
+        scene.file.checks = None;
+        let task = self.task();
+        let interval = (task.end() / 2000.0).max(1e-6);
+        Ok(Task { scene: &scene, interval, ..task }.run()?)
+    }
+}
+
+struct Running<'a, 'b> {
+    closed: ClosedLoop<'a>,
+    driver: &'b mut dyn Driver,
+    watcher: &'b mut dyn Watcher,
+    observer: &'b mut dyn TickObserver,
+}
+
+impl WithPlant for Running<'_, '_> {
+    type Output = Result<Ending, LoopFailure>;
+
+    fn with(self, plant: &mut dyn Plant) -> Self::Output {
+        Ok(self.closed.run(plant, self.driver, self.watcher, self.observer)?)
+    }
+}

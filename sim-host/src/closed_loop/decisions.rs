@@ -1,0 +1,143 @@
+//! How good a controller's decisions are: against the same law on the plant as it truly is.
+
+use serde::Serialize;
+
+/// One instant of a closed loop, as decisions are judged.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment {
+    /// s.
+    pub time: f64,
+    /// The block rocks.
+    pub rocks: bool,
+    /// θ̇, rad/s.
+    pub velocity: f64,
+    /// The law, on the true motion, would engage.
+    pub ideal: bool,
+    /// One is.
+    pub engaged: bool,
+}
+
+/// Collects moments at a regular interval.
+#[derive(Clone, Debug, Default)]
+pub struct Decisions {
+    wrong: f64,
+    whole: f64,
+    last: Option<Moment>,
+    ideal: Vec<(f64, bool)>,
+    moved: Vec<(f64, bool)>,
+}
+
+/// What they come to.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct DecisionReport {
+    /// Share of the rocking time, weighted by |θ̇|, in which the clutches are not as the same law on the true motion has them. The clutches
+    /// and not the command: a law that predicts gives commands early on purpose.
+    pub wrong_share: f64,
+    /// From the instant at which the law on the true motion changes to the clutch's movement, s: median, …
+    pub delay_median_s: Option<f64>,
+    /// … and 95th percentile.
+    pub delay_95_s: Option<f64>,
+    /// Movements of the clutches.
+    pub switches: u32,
+    /// Those of the law on the true motion.
+    pub ideal_switches: u32,
+    /// Movements beyond those.
+    pub chatter: u32,
+}
+
+/// Longest delay of a movement that still belongs to a change of the law, s.
+const LONGEST: f64 = 0.1;
+
+impl Decisions {
+    /// Adds a moment.
+    pub fn add(&mut self, now: Moment) {
+        if let Some(last) = self.last {
+            let weight = last.velocity.abs() * (now.time - last.time);
+            if last.rocks {
+                self.whole += weight;
+                if last.ideal != last.engaged {
+                    self.wrong += weight;
+                }
+            }
+        }
+        let before = self.last.unwrap_or(Moment { ideal: false, engaged: false, ..now });
+        // A standing block has no law to follow.
+        let ideal = if now.rocks { now.ideal } else { before.ideal };
+        if ideal != before.ideal {
+            self.ideal.push((now.time, ideal));
+        }
+        if now.engaged != before.engaged {
+            self.moved.push((now.time, now.engaged));
+        }
+        self.last = Some(Moment { ideal, ..now });
+    }
+
+    /// What they come to so far.
+    pub fn report(&self) -> DecisionReport {
+        let mut delays = self.delays();
+        delays.sort_by(f64::total_cmp);
+        let quantile = |share: f64| delays.get(((delays.len() as f64 - 1.0).max(0.0) * share).round() as usize).copied();
+        let (switches, ideal_switches) = (self.moved.len() as u32, self.ideal.len() as u32);
+        DecisionReport {
+            wrong_share: if self.whole > 0.0 { self.wrong / self.whole } else { 0.0 },
+            delay_median_s: quantile(0.5),
+            delay_95_s: quantile(0.95),
+            switches,
+            ideal_switches,
+            chatter: switches.saturating_sub(ideal_switches),
+        }
+    }
+
+    /// For every change of the law the nearest movement of the clutches in the same direction.
+    pub fn delays(&self) -> Vec<f64> {
+        let nearest = |&(at, to): &(f64, bool)| {
+            let same = self.moved.iter().filter(|moved| moved.1 == to).map(|moved| moved.0 - at);
+            same.filter(|delay| delay.abs() < LONGEST).min_by(|a, b| a.abs().total_cmp(&b.abs()))
+        };
+        self.ideal.iter().filter_map(nearest).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A law that changes every 0.2 s, and a clutch that follows 3 ms later.
+    #[test]
+    fn a_late_clutch_is_late_and_wrong_for_as_long_as_it_is_late() {
+        let mut decisions = Decisions::default();
+        for k in 0..20_000 {
+            let time = f64::from(k) * 1e-4;
+            let on = |t: f64| t >= 0.0 && (t / 0.2) as u32 % 2 == 1;
+            decisions.add(Moment { time, rocks: true, velocity: -2.0, ideal: on(time), engaged: on(time - 0.003) });
+        }
+        let report = decisions.report();
+        assert!((report.delay_median_s.unwrap() - 0.003).abs() < 2e-4, "{report:?}");
+        assert!((report.wrong_share - 0.015).abs() < 1e-3);
+        assert_eq!((report.switches, report.ideal_switches, report.chatter), (9, 9, 0));
+    }
+
+    #[test]
+    fn chatter_is_what_goes_beyond_the_law() {
+        let mut decisions = Decisions::default();
+        for k in 0..100_u32 {
+            let time = f64::from(k) * 1e-2;
+            decisions.add(Moment { time, rocks: true, velocity: 1.0, ideal: k > 50, engaged: k % 2 == 1 });
+        }
+        let report = decisions.report();
+        assert_eq!(report.ideal_switches, 1);
+        assert_eq!(report.chatter, 98);
+        assert!((report.wrong_share - 0.5).abs() < 0.02);
+    }
+
+    #[test]
+    fn a_standing_block_has_no_wrong_decisions() {
+        let mut decisions = Decisions::default();
+        for k in 0..10 {
+            let at = Moment { time: f64::from(k), rocks: false, velocity: 0.0, ideal: k % 2 == 0, engaged: true };
+            decisions.add(at);
+        }
+        assert_eq!(decisions.report().wrong_share, 0.0);
+        assert_eq!(decisions.report().ideal_switches, 0);
+    }
+}

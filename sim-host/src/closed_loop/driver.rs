@@ -1,0 +1,80 @@
+//! The controller of a closed loop: the shared code itself, or something that answers in its place.
+
+use sprag_shared::control::controller::{Circumstances, Controller, ControllerState, Decision};
+use sprag_shared::control::estimate::Estimate;
+use sprag_shared::control::event_log::Entry;
+use sprag_shared::control::law::{DRIFT_TIME, Law, Situation, Wish};
+use sprag_shared::control::model::KnownBody;
+use sprag_shared::control::sample::Sample;
+use sprag_shared::control::signs::Signs;
+use sprag_shared::math;
+use sprag_shared::scalar::Sign;
+
+use super::plant::Whereabouts;
+
+/// Who answers samples with decisions.
+pub trait Driver {
+    /// One tick.
+    fn tick(&mut self, sample: &Sample, circumstances: Circumstances) -> Decision;
+
+    /// What the law would want of the plant as it truly is, now and without hysteresis.
+    fn ideal(&mut self, plant: &Whereabouts) -> Wish;
+
+    /// What its log holds, oldest first.
+    fn log(&self) -> Vec<Entry>;
+}
+
+/// The shared controller and its state.
+pub struct Shared<B, L> {
+    /// Parameters.
+    pub controller: Controller<B, L>,
+    /// State.
+    pub state: ControllerState,
+    signs: Signs,
+    drift: f64,
+    time: f64,
+}
+
+impl<B: KnownBody, L: Law<B>> Shared<B, L> {
+    /// At power-on.
+    pub fn new(controller: Controller<B, L>) -> Shared<B, L> {
+        let state = controller.start();
+        Shared { controller, state, signs: Signs::default(), drift: 0.0, time: 0.0 }
+    }
+}
+
+impl<B: KnownBody, L: Law<B>> Driver for Shared<B, L> {
+    fn tick(&mut self, sample: &Sample, circumstances: Circumstances) -> Decision {
+        self.controller.tick(&mut self.state, sample, circumstances)
+    }
+
+    fn ideal(&mut self, plant: &Whereabouts) -> Wish {
+        let (side, ground) = (plant.motion.side, plant.ground.map(|g| g as f32));
+        let (rotation, velocity) = (plant.motion.rotation as f32, plant.motion.velocity as f32);
+        let model = &self.controller.model;
+        let push = model.push(side, rotation, velocity, ground);
+        let estimate = Estimate { rotation, velocity, side, push, ground, ..Estimate::default() };
+        // The plant's own signs, which know which way a zero goes.
+        self.signs = Signs {
+            rotation: side,
+            velocity: plant.motion.direction,
+            push: plant.motion.drive,
+            ground: Sign::of(ground[0], self.signs.ground),
+        };
+        let elapsed = f64::from(model.frequency) * (plant.time - self.time);
+        self.drift = (self.drift + elapsed * plant.ground[0]) * math::exp(-elapsed / f64::from(DRIFT_TIME));
+        self.time = plant.time;
+        self.controller.law.wish(&Situation {
+            model,
+            estimate,
+            signs: self.signs,
+            engaged: plant.engaged,
+            spins: plant.spins.map(|spin| spin as f32),
+            ground_drift: self.drift as f32,
+        })
+    }
+
+    fn log(&self) -> Vec<Entry> {
+        self.state.supervisor().log.iter().copied().collect()
+    }
+}

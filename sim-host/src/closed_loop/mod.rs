@@ -1,0 +1,15 @@
+//! The closed loop: a plant with any effects, sensors as they are, and the controller that is flashed.
+
+pub mod assemble;
+pub mod decisions;
+mod design;
+pub mod disturbance;
+pub mod driver;
+mod gains;
+pub mod plant;
+pub mod report;
+pub mod run;
+mod supervision;
+mod truth;
+
+pub use assemble::{AnyLaw, LoopFailure, LoopTask};

@@ -1,0 +1,306 @@
+//! The structure of a closed loop: any device that takes commands, followed over the ground motion a short piece at a time.
+
+use sprag_shared::body::Body;
+use sprag_shared::drivetrain::device::Coupling;
+use sprag_shared::drivetrain::drive::Drive;
+use sprag_shared::drivetrain::elastic::ElasticPair;
+use sprag_shared::error::ParameterError;
+use sprag_shared::fixed::RungeKutta4;
+use sprag_shared::ground::Linear;
+use sprag_shared::hybrid::exponential::ExponentialMidpoint;
+use sprag_shared::hybrid::path::{Shaking, Tracer};
+use sprag_shared::hybrid::resolve::WithMachine;
+use sprag_shared::hybrid::{Machine, MachineState};
+use sprag_shared::observer::{Event, Stretch};
+use sprag_shared::rocking::{Limits, Phase, State, Stopped};
+use sprag_shared::scalar::Real;
+use sprag_shared::snapshot::{DeviceArc, DeviceObserver};
+
+use super::truth::{Places, Shocks};
+use crate::ground_motion::{GroundMotion, Segment, ShapePiece};
+use crate::scene::motions::GroundMotions;
+use crate::sensor::Truth;
+use crate::simulation::drive::{Course, Segmented};
+
+/// Someone who watches a plant.
+pub trait Watcher: DeviceObserver<f64> + Segmented {}
+
+impl<T: DeviceObserver<f64> + Segmented> Watcher for T {}
+
+/// Steps and events that one piece may take.
+const MOST_EVENTS: u32 = 100_000;
+
+/// Where a plant is.
+#[derive(Clone, Copy, Debug)]
+pub struct Whereabouts {
+    /// s.
+    pub time: f64,
+    /// The block.
+    pub motion: State<f64>,
+    /// Quantity with the sign of the terminals' acceleration (Eq. 10), 1/s²; 0 at rest.
+    pub push: f64,
+    /// Ground acceleration in g, horizontal and vertical.
+    pub ground: [f64; 2],
+    /// Which clutches are engaged.
+    pub engaged: [bool; 2],
+    /// Speeds of the flywheels over R, 1/s.
+    pub spins: [f64; 2],
+    /// Engagements missed so far.
+    pub missed: u32,
+}
+
+/// A plant, whatever it is made of.
+pub trait Plant {
+    /// The clutches before the motion.
+    fn preset(&mut self, engaged: [bool; 2]);
+
+    /// Gives a command to each clutch.
+    fn order(&mut self, wanted: [bool; 2], watcher: &mut dyn Watcher);
+
+    /// Follows it until `until` (s).
+    ///
+    /// # Errors
+    /// [`Stopped`] by the core.
+    fn advance(&mut self, until: f64, watcher: &mut dyn Watcher) -> Result<(), Stopped>;
+
+    /// Where it is.
+    fn whereabouts(&self) -> Whereabouts;
+
+    /// What perfect sensors would read.
+    fn truth(&self) -> Truth;
+}
+
+/// What to do with a plant; called once.
+pub trait WithPlant {
+    /// The result.
+    type Output;
+
+    /// Goes on with it.
+    fn with(self, plant: &mut dyn Plant) -> Self::Output;
+}
+
+/// What a plant is made from beside its machine.
+#[derive(Clone, Copy)]
+pub struct Surroundings<'a> {
+    /// What to follow.
+    pub course: Course<'a>,
+    /// The same ground motion.
+    pub ground: &'a GroundMotions,
+    /// θ and θ̇ at the start, if the block is not at rest.
+    pub released: Option<(f64, f64)>,
+    /// Ground acceleration at the start, in g.
+    pub ground_at_start: [f64; 2],
+    /// Duration of the shocks that sensors see, s.
+    pub shock: f64,
+    /// From a command to the clutch's own delays, s.
+    pub latency: f64,
+    /// Largest step, s.
+    pub step: f64,
+    /// Elastic clutches by the exponential midpoint method.
+    pub exponential: bool,
+}
+
+/// Resolves a machine into a plant.
+pub struct Build<'a, W> {
+    /// What surrounds it.
+    pub surroundings: Surroundings<'a>,
+    /// What to do with it.
+    pub next: W,
+}
+
+impl<W: WithPlant<Output = Result<R, E>>, R, E: From<ParameterError>> WithMachine<f64> for Build<'_, W> {
+    type Output = Result<R, E>;
+
+    fn with<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
+        self,
+        machine: Machine<f64, B, D, X, G>,
+    ) -> Self::Output {
+        let step = self.surroundings.step;
+        self.next.with(&mut MachinePlant::new(machine, RungeKutta4 { step }, self.surroundings))
+    }
+
+    fn with_elastic<B: Body<f64>>(self, machine: Machine<f64, B, ElasticPair<f64>, 4, 3>) -> Self::Output {
+        let step = self.surroundings.step;
+        if self.surroundings.exponential {
+            self.next.with(&mut MachinePlant::new(machine, ExponentialMidpoint { step }, self.surroundings))
+        } else {
+            self.next.with(&mut MachinePlant::new(machine, RungeKutta4 { step }, self.surroundings))
+        }
+    }
+}
+
+/// A machine and its place in the ground motion.
+struct MachinePlant<'a, B, D, T, const X: usize, const G: usize> {
+    machine: Machine<f64, B, D, X, G>,
+    tracer: T,
+    state: MachineState<f64>,
+    surroundings: Surroundings<'a>,
+    shocks: Shocks,
+    places: Places,
+    time: f64,
+    index: usize,
+    pieces: Option<[ShapePiece<f64>; 2]>,
+    limits: Limits<f64>,
+    lightest: f64,
+}
+
+impl<'a, B, D, T, const X: usize, const G: usize> MachinePlant<'a, B, D, T, X, G>
+where
+    B: Body<f64>,
+    D: Drive<f64, X, G>,
+    T: Tracer<f64>,
+{
+    fn new(mut machine: Machine<f64, B, D, X, G>, tracer: T, surroundings: Surroundings<'a>) -> Self {
+        machine.actuator.controlled = true;
+        machine.actuator.engagement_delay += surroundings.latency;
+        machine.actuator.release_delay += surroundings.latency;
+        let state = match surroundings.released {
+            Some((rotation, velocity)) => machine.released_at(rotation, velocity, surroundings.ground_at_start),
+            None => machine.at_rest(),
+        };
+        let block = surroundings.course.block;
+        MachinePlant {
+            machine,
+            tracer,
+            state,
+            surroundings,
+            shocks: Shocks::new(surroundings.shock),
+            places: Places { size: block.size(), frequency_squared: block.frequency_parameter_squared() },
+            time: 0.0,
+            index: 0,
+            pieces: None,
+            limits: Limits { overturned: 0.0, events: MOST_EVENTS },
+            lightest: surroundings.course.lightest(),
+        }
+    }
+
+    fn push(&self) -> f64 {
+        let motion = &self.state.motion;
+        if motion.phase != Phase::Rocking {
+            return 0.0;
+        }
+        let body = &self.machine.body;
+        let posture = body.posture(motion.side.unit(), motion.rotation);
+        body.switching(&posture, motion.velocity, body.drive(&posture, self.state.ground))
+    }
+
+    fn segment(&self) -> Option<&'a Segment> {
+        self.surroundings.ground.horizontal.segments().get(self.index)
+    }
+
+    /// The pieces of ground motion in force, and the limits that go with them.
+    fn enter_segment(&mut self) {
+        let horizontal = self.segment();
+        let vertical = self.surroundings.ground.vertical.as_ref().map(GroundMotion::segments);
+        let still = || ShapePiece::Linear(Linear::constant(0.0));
+        let shape = |segment: Option<&Segment>| segment.map_or_else(still, |segment| ShapePiece::of(&segment.shape));
+        self.pieces = Some([shape(horizontal), shape(vertical.and_then(|segments| segments.get(self.index)))]);
+        let bound = horizontal.map_or(0.0, |segment| segment.bound);
+        self.limits.overturned = self.surroundings.course.machine_angle(&self.machine, bound, self.lightest);
+    }
+}
+
+impl<B, D, T, const X: usize, const G: usize> Plant for MachinePlant<'_, B, D, T, X, G>
+where
+    B: Body<f64>,
+    D: Drive<f64, X, G>,
+    T: Tracer<f64>,
+{
+    fn preset(&mut self, engaged: [bool; 2]) {
+        if self.state.motion.phase == Phase::Rest {
+            self.machine.preset(&mut self.state, engaged);
+        }
+    }
+
+    fn order(&mut self, wanted: [bool; 2], watcher: &mut dyn Watcher) {
+        watcher.segment(self.time, self.segment());
+        self.shocks.origin = self.time;
+        self.machine.order(&mut self.state, wanted, &mut Both(watcher, &mut self.shocks));
+    }
+
+    fn advance(&mut self, until: f64, watcher: &mut dyn Watcher) -> Result<(), Stopped> {
+        while self.time < until && self.state.motion.phase != Phase::Overturned {
+            while self.segment().is_some_and(|segment| segment.start + segment.duration <= self.time) {
+                self.index += 1;
+                self.pieces = None;
+            }
+            if self.pieces.is_none() {
+                self.enter_segment();
+                if self.segment().is_none() {
+                    watcher.segment(self.time, None);
+                }
+            }
+            let segment = self.segment();
+            let (start, end) =
+                segment.map_or((self.time, until), |segment| (segment.start, until.min(segment.start + segment.duration)));
+            watcher.segment(self.time, segment);
+            self.shocks.origin = self.time;
+            if let Some([horizontal, vertical]) = &self.pieces {
+                let offset = self.time - start;
+                let (horizontal, vertical) = (horizontal.after(offset), vertical.after(offset));
+                let shaking = Shaking { horizontal: &horizontal, vertical: &vertical };
+                let mut both = Both(watcher, &mut self.shocks);
+                self.machine.advance(&self.tracer, &mut self.state, shaking, end - self.time, &self.limits, &mut both)?;
+            }
+            self.time = end;
+        }
+        Ok(())
+    }
+
+    fn whereabouts(&self) -> Whereabouts {
+        let now = self.machine.now(&self.state);
+        Whereabouts {
+            time: self.time,
+            motion: self.state.motion,
+            push: self.push(),
+            ground: [now.ground[0], if B::VERTICAL { now.ground[1] } else { 0.0 }],
+            engaged: self.state.device.wheels.map(|wheel| wheel.coupling != Coupling::Open),
+            spins: now.spin,
+            missed: self.state.device.missed,
+        }
+    }
+
+    fn truth(&self) -> Truth {
+        let now = self.machine.now(&self.state);
+        self.places.truth(&self.machine, &self.state, &now, self.shocks.at(self.time))
+    }
+}
+
+/// A watcher and the shocks.
+struct Both<'a>(&'a mut dyn Watcher, &'a mut Shocks);
+
+impl DeviceObserver<f64> for Both<'_> {
+    fn device_stretch(&mut self, arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
+        self.0.device_stretch(arc, stretch);
+        self.1.device_stretch(arc, stretch);
+    }
+
+    fn device_event(&mut self, event: Event, time: f64, state: &State<f64>) {
+        self.0.device_event(event, time, state);
+        self.1.device_event(event, time, state);
+    }
+}
+
+/// Follows only what a study counts: the largest rotation and how it ended.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Extremes {
+    /// As simulations have them; the acceleration stays 0.
+    pub peaks: sprag_shared::observer::Peaks<f64>,
+}
+
+impl DeviceObserver<f64> for Extremes {
+    fn device_stretch(&mut self, _arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
+        let (first, last) = (stretch.first.rotation.abs(), stretch.last.rotation.abs());
+        self.peaks.rotation = self.peaks.rotation.larger(first).larger(last);
+    }
+
+    fn device_event(&mut self, event: Event, time: f64, state: &State<f64>) {
+        sprag_shared::observer::Observer::event(&mut self.peaks, event, time, state);
+    }
+}
+
+impl Segmented for Extremes {
+    fn segment(&mut self, start: f64, _segment: Option<&Segment>) {
+        self.peaks.origin = start;
+    }
+}

@@ -1,0 +1,197 @@
+//! The loop itself: plant, sensors, controller and clutches, tick by tick.
+
+use sprag_shared::control::controller::{Circumstances, Decision};
+use sprag_shared::control::fault::Fault;
+use sprag_shared::control::law::Wish;
+use sprag_shared::control::sample::Sample;
+use sprag_shared::control::supervisor::Phase as ControllerPhase;
+use sprag_shared::rocking::{Phase, State, Stopped};
+
+use super::decisions::{DecisionReport, Decisions, Moment};
+use super::disturbance::Disturbance;
+use super::driver::Driver;
+use super::plant::{Plant, Watcher, Whereabouts};
+use crate::interrupt::Interrupt;
+use crate::sensor::{Sensors, Suite, Truth};
+
+/// Clock of a loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clock {
+    /// Of the control tick, s.
+    pub period: f64,
+    /// Pieces of a period at whose ends the sensors see the plant; 1 or more.
+    pub substeps: u32,
+    /// Stillness before the motion, in which the controller tests and calibrates itself, s.
+    pub prelude: f64,
+    /// When the motion ends, s.
+    pub end: f64,
+    /// When the ground stops, s; a block that rests after it ends the run.
+    pub ground_end: f64,
+    /// From a command to a clutch that has moved, s, which the clutches' feedback in the prelude shows.
+    pub actuation: f64,
+}
+
+/// One tick of a loop.
+#[derive(Clone, Copy, Debug)]
+pub struct Tick {
+    /// The plant.
+    pub plant: Whereabouts,
+    /// What the controller was told.
+    pub sample: Sample,
+    /// And said.
+    pub decision: Decision,
+    /// What the same law would want of the true motion.
+    pub ideal: bool,
+}
+
+/// Whatever looks at every tick.
+pub trait TickObserver {
+    /// A tick.
+    fn tick(&mut self, tick: &Tick);
+}
+
+/// Nobody.
+impl TickObserver for () {
+    fn tick(&mut self, _tick: &Tick) {}
+}
+
+/// Every tick.
+impl TickObserver for Vec<Tick> {
+    fn tick(&mut self, tick: &Tick) {
+        self.push(*tick);
+    }
+}
+
+/// Why a loop ended without a result.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LoopError {
+    /// By the core.
+    #[error("{0}")]
+    Stopped(Stopped),
+    /// Ctrl-C.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+/// How a loop ended.
+#[derive(Clone, Debug)]
+pub struct Ending {
+    /// The block.
+    pub motion: State<f64>,
+    /// Ticks while the ground or the block moved.
+    pub ticks: u64,
+    /// How good the decisions were.
+    pub decisions: DecisionReport,
+    /// From a change of the law to the clutch's movement, s.
+    pub delays: Vec<f64>,
+    /// The controller's last state.
+    pub phase: ControllerPhase,
+    /// Faults in the order in which they were entered, and when, s.
+    pub faults: Vec<(f64, Fault)>,
+    /// Engagements that the clutches missed.
+    pub missed: u32,
+}
+
+/// One closed loop.
+pub struct ClosedLoop<'a> {
+    /// Clock.
+    pub clock: Clock,
+    /// Sensors.
+    pub suite: &'a Suite,
+    /// Of their noise and scatter.
+    pub seed: u64,
+    /// What goes wrong on purpose.
+    pub disturbance: &'a mut dyn Disturbance,
+    /// Ctrl-C.
+    pub interrupt: &'a Interrupt,
+}
+
+impl ClosedLoop<'_> {
+    /// Runs it.
+    ///
+    /// # Errors
+    /// [`LoopError`].
+    pub fn run(
+        self,
+        plant: &mut dyn Plant,
+        driver: &mut dyn Driver,
+        watcher: &mut dyn Watcher,
+        observer: &mut dyn TickObserver,
+    ) -> Result<Ending, LoopError> {
+        let clock = self.clock;
+        let still = Truth::STILL;
+        let mut sensors = Sensors::new(self.suite, self.seed, &still);
+        let mut command = self.prelude(&mut sensors, driver);
+        plant.preset(command);
+        let fine = clock.period / f64::from(clock.substeps);
+        let mut decisions = Decisions::default();
+        let mut faults = Vec::new();
+        let mut last_fault = None;
+        let mut phase = ControllerPhase::Boot;
+        let mut tick: u64 = 0;
+        let start = clock.prelude;
+        loop {
+            let time = tick as f64 * clock.period;
+            let whereabouts = plant.whereabouts();
+            if time >= clock.end || whereabouts.motion.phase == Phase::Overturned {
+                break;
+            }
+            if whereabouts.motion.phase == Phase::Rest && time > clock.ground_end {
+                break;
+            }
+            if tick.is_multiple_of(4096) && self.interrupt.is_set() {
+                return Err(LoopError::Interrupted);
+            }
+            let mut sample = sensors.sample();
+            sample.engaged = whereabouts.engaged;
+            let mut circumstances = Circumstances::default();
+            self.disturbance.disturb(time, &mut sample, &mut circumstances);
+            let decision = driver.tick(&sample, circumstances);
+            let ideal = driver.ideal(&whereabouts) != Wish::Release;
+            let rocks = whereabouts.motion.phase == Phase::Rocking;
+            let engaged = whereabouts.engaged[0] || whereabouts.engaged[1];
+            decisions.add(Moment { time, rocks, velocity: whereabouts.motion.velocity, ideal, engaged });
+            if decision.fault != last_fault {
+                last_fault = decision.fault;
+                faults.extend(decision.fault.map(|fault| (time, fault)));
+            }
+            phase = decision.phase;
+            observer.tick(&Tick { plant: whereabouts, sample, decision, ideal });
+            command = self.disturbance.clutches(time, decision.command, command);
+            plant.order(command, watcher);
+            for part in 1..=clock.substeps {
+                let until = if part == clock.substeps { (tick + 1) as f64 * clock.period } else { time + f64::from(part) * fine };
+                plant.advance(until.min(clock.end), watcher).map_err(LoopError::Stopped)?;
+                sensors.advance(start + until, &plant.truth());
+            }
+            tick += 1;
+        }
+        let end = plant.whereabouts();
+        Ok(Ending {
+            motion: end.motion,
+            ticks: tick,
+            decisions: decisions.report(),
+            delays: decisions.delays(),
+            phase,
+            faults,
+            missed: end.missed,
+        })
+    }
+
+    /// Stillness: the controller boots, tests its clutches and calibrates its sensors. Returns the last command.
+    fn prelude(&self, sensors: &mut Sensors, driver: &mut dyn Driver) -> [bool; 2] {
+        let clock = &self.clock;
+        let ticks = (clock.prelude / clock.period).round() as u64;
+        let lag = (clock.actuation / clock.period).ceil() as usize;
+        let mut pending = std::collections::VecDeque::from(vec![[false; 2]; lag + 1]);
+        let mut command = [false; 2];
+        for tick in 0..ticks {
+            sensors.advance(tick as f64 * clock.period, &Truth::STILL);
+            let mut sample = sensors.sample();
+            sample.engaged = pending.pop_front().unwrap_or_default();
+            command = driver.tick(&sample, Circumstances::default()).command;
+            pending.push_back(command);
+        }
+        command
+    }
+}

@@ -1,0 +1,112 @@
+//! What sensors on the block, on the ground and on the rack would read if they were perfect.
+
+use sprag_shared::block::GRAVITY;
+use sprag_shared::body::Body;
+use sprag_shared::drivetrain::drive::Drive;
+use sprag_shared::hybrid::{Machine, MachineState};
+use sprag_shared::math;
+use sprag_shared::observer::{Event, Stretch};
+use sprag_shared::rocking::State;
+use sprag_shared::snapshot::{DeviceArc, DeviceObserver, Snapshot};
+
+use crate::sensor::Truth;
+
+/// Where the sensors sit: a block of size R at its centre of mass.
+#[derive(Clone, Copy, Debug)]
+pub struct Places {
+    /// R of the loaded block, m.
+    pub size: f64,
+    /// Its p², 1/s².
+    pub frequency_squared: f64,
+}
+
+impl Places {
+    /// Truth of a plant in `state`, with the acceleration of a shock (`shock`, rad/s²) on top.
+    ///
+    /// With c = cos δ and s = sin δ (1 and δ for the slender block) the centre of mass has, relative to the ground, the acceleration
+    /// R (c θ̈ + s θ̇², s θ̈ − c θ̇²); a specific force is that minus gravity, turned into the axes of the block.
+    pub fn truth<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
+        &self,
+        machine: &Machine<f64, B, D, X, G>,
+        state: &MachineState<f64>,
+        snapshot: &Snapshot<f64>,
+        shock: f64,
+    ) -> Truth {
+        let side = state.motion.side.unit();
+        let motion = snapshot.motion;
+        let posture = machine.body.posture(side, motion.rotation);
+        let travel = machine.body.travel(side, &posture) - machine.body.travel(side, &machine.body.posture(side, 0.0));
+        let (across, along) = machine.body.factors(&posture);
+        let (c, s) = (-across / self.frequency_squared, -along / self.frequency_squared);
+        let acceleration = motion.acceleration + shock;
+        let square = motion.velocity * motion.velocity;
+        let ground = [snapshot.ground[0] * GRAVITY, GRAVITY * (1.0 + if B::VERTICAL { snapshot.ground[1] } else { 0.0 })];
+        let horizontal = ground[0] + self.size * (c * acceleration + s * square);
+        let vertical = ground[1] + self.size * (s * acceleration - c * square);
+        let (sine, cosine) = math::sin_cos(motion.rotation);
+        Truth {
+            rate: motion.velocity,
+            block: [horizontal * cosine - vertical * sine, horizontal * sine + vertical * cosine],
+            ground,
+            travel: travel * self.size,
+        }
+    }
+}
+
+/// What sensors see of a jump of θ̇ at an impact or a jolt: a half-sine of acceleration that makes up the jump, because no contact is
+/// without a duration. The motion itself keeps the jump.
+#[derive(Clone, Copy, Debug)]
+pub struct Shocks {
+    /// s; 0 is no shock at all.
+    pub duration: f64,
+    /// Start and jump of the last few.
+    recent: [(f64, f64); 4],
+    next: usize,
+    /// θ̇ at the end of the last stretch.
+    velocity: Option<f64>,
+    /// Start of the piece that is being followed, s.
+    pub origin: f64,
+}
+
+impl Shocks {
+    /// Of contacts that last for `duration` (s).
+    pub fn new(duration: f64) -> Shocks {
+        Shocks { duration, recent: [(f64::NEG_INFINITY, 0.0); 4], next: 0, velocity: None, origin: 0.0 }
+    }
+
+    /// rad/s² at `time` (s).
+    pub fn at(&self, time: f64) -> f64 {
+        if self.duration <= 0.0 {
+            return 0.0;
+        }
+        let part = |&(start, jump): &(f64, f64)| {
+            let phase = (time - start) / self.duration;
+            // ∫ π/2 sin(πφ) dφ over a contact is 1.
+            if (0.0..1.0).contains(&phase) {
+                jump / self.duration * std::f64::consts::FRAC_PI_2 * math::sin(std::f64::consts::PI * phase)
+            } else {
+                0.0
+            }
+        };
+        self.recent.iter().map(part).sum()
+    }
+}
+
+impl DeviceObserver<f64> for Shocks {
+    fn device_stretch(&mut self, _arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
+        if let Some(before) = self.velocity {
+            let jump = stretch.first.velocity - before;
+            if jump.abs() > 1e-9 {
+                self.recent[self.next % 4] = (self.origin + stretch.start, jump);
+                self.next += 1;
+            }
+        }
+        self.velocity = Some(stretch.last.velocity);
+    }
+
+    fn device_event(&mut self, event: Event, _time: f64, _state: &State<f64>) {
+        if matches!(event, Event::Rest | Event::Uplift | Event::Overturned) {
+            self.velocity = None;
+        }
+    }
+}

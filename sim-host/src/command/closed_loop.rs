@@ -1,0 +1,262 @@
+//! `sprag loop`: the controller in closed loop with the plant, its sensors and its clutches.
+
+use std::io::Write;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::BAD_INPUT;
+use crate::closed_loop::plant::Extremes;
+use crate::closed_loop::report::{LoopReport, LoopSummary, loop_trace, write_history};
+use crate::closed_loop::run::{LoopError, Tick};
+use crate::closed_loop::{LoopFailure, LoopTask};
+use crate::interrupt::{self, Interrupt};
+use crate::loop_study::statistics::quantile;
+use crate::output::{OutputError, Results, make_folder};
+use crate::plot::{PlotError, loop_figure};
+use crate::progress::Progress;
+use crate::scene::controller::ControllerTable;
+use crate::scene::ground::GroundError;
+use crate::scene::motions::GroundMotions;
+use crate::scene::schema::SceneFile;
+use crate::scene::{Scene, SceneError};
+use crate::sensor::Suite;
+use sprag_shared::structure::DeviceKind;
+
+/// Run the controller of a scene in closed loop.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag loop scenes/controller.toml\n  \
+    sprag loop scenes/controller.toml --set controller.law=gated-table --out out/gated\n  \
+    sprag loop scenes/controller.toml --monte-carlo 200\n\n\
+    Writes summary.json, history.csv and loop.svg; with --monte-carlo also monte_carlo.csv.")]
+pub struct LoopArguments {
+    /// Scene file with a clutched pair and a [controller].
+    #[arg(value_name = "SCENE.toml")]
+    pub scene: PathBuf,
+    /// Change one value of the scene, such as controller.rate_hz=1000.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Ground motion record, in the place of the scene's.
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    /// Run so many specimens of the sensors, each with noise and errors of its own.
+    #[arg(long, value_name = "N")]
+    pub monte_carlo: Option<NonZeroUsize>,
+    /// Threads of --monte-carlo; all processors by default. Results do not depend on it.
+    #[arg(long, value_name = "N")]
+    pub threads: Option<NonZeroUsize>,
+    /// Folder for the results; out/NAME-loop of the scene by default.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error("{0}")]
+    Scene(#[from] SceneError),
+    #[error("{0}")]
+    Ground(#[from] GroundError),
+    #[error("{device}: {failure}")]
+    Loop { device: String, failure: LoopFailure },
+    #[error("{scene}: a closed loop needs a [[device]] of kind \"clutched-pair\"")]
+    NoPair { scene: String },
+    #[error(
+        "{scene}: block.initial_rotation_ratio and block.initial_velocity_ratio must be 0: the controller calibrates itself at rest"
+    )]
+    NotAtRest { scene: String },
+    #[error("{scene}: device {device}: an overrunning clutch takes no commands")]
+    Uncommanded { scene: String, device: String },
+    #[error("the picture cannot be drawn: {0}")]
+    Plot(#[from] PlotError),
+    #[error("{0}")]
+    Output(#[from] OutputError),
+    #[error("no threads: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+    #[error("interrupted")]
+    Interrupted,
+}
+
+#[derive(Serialize)]
+struct Summary<'a> {
+    command: &'static str,
+    version: &'static str,
+    scene: &'a SceneFile,
+    runs: &'a [LoopSummary],
+}
+
+/// Runs the command; a table goes to `out`, errors go to `err`.
+pub fn run(arguments: &LoopArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
+    match run_or_fail(arguments, out, interrupt) {
+        Ok(()) => 0,
+        Err(Failure::Interrupted | Failure::Loop { failure: LoopFailure::Loop(LoopError::Interrupted), .. }) => {
+            let _ = writeln!(err, "sprag: interrupted; nothing was written");
+            interrupt::EXIT_CODE
+        }
+        Err(failure) => {
+            let _ = writeln!(err, "sprag: {failure}");
+            BAD_INPUT
+        }
+    }
+}
+
+/// What every loop of a scene shares.
+struct Desk<'a> {
+    scene: &'a Scene,
+    ground: &'a GroundMotions,
+    controller: &'a ControllerTable,
+    suite: &'a Suite,
+    interrupt: &'a Interrupt,
+}
+
+impl Desk<'_> {
+    fn task(&self, index: usize, seed: u64) -> LoopTask<'_> {
+        let Desk { scene, ground, controller, suite, interrupt } = *self;
+        LoopTask { scene, ground, index, controller, suite, seed, interrupt }
+    }
+}
+
+fn run_or_fail(arguments: &LoopArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+    let mut scene = Scene::load(&arguments.scene, &arguments.set)?;
+    if let Some(record) = &arguments.record {
+        scene.use_record(record)?;
+    }
+    let name = || arguments.scene.display().to_string();
+    let pairs: Vec<usize> =
+        (0..scene.devices.len()).filter(|&index| scene.devices[index].device.kind == DeviceKind::ClutchedPair).collect();
+    if pairs.is_empty() {
+        return Err(Failure::NoPair { scene: name() });
+    }
+    if scene.file.block.initial_rotation_ratio != 0.0 || scene.file.block.initial_velocity_ratio != 0.0 {
+        return Err(Failure::NotAtRest { scene: name() });
+    }
+    for &index in &pairs {
+        if scene.devices[index].drivetrain.engagement == sprag_shared::drivetrain::Engagement::Overrunning {
+            return Err(Failure::Uncommanded { scene: name(), device: scene.devices[index].name.clone() });
+        }
+    }
+    let ground = scene.ground_motions()?;
+    let controller = scene.file.controller.clone().unwrap_or_default();
+    let suite = controller.suite(&scene.origin)?;
+    let folder = arguments.out.clone().unwrap_or_else(|| {
+        let stem = arguments.scene.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy().into_owned());
+        Path::new("out").join(format!("{stem}-loop"))
+    });
+    make_folder(&folder)?;
+    let desk = Desk { scene: &scene, ground: &ground, controller: &controller, suite: &suite, interrupt };
+    let mut reports: Vec<LoopReport> = Vec::new();
+    for &index in &pairs {
+        let failed = |failure| Failure::Loop { device: scene.devices[index].name.clone(), failure };
+        let mut ticks: Vec<Tick> = Vec::new();
+        let mut extremes = Extremes::default();
+        let task = desk.task(index, controller.sensors.seed());
+        let ending = task.run(&mut extremes, &mut ticks).map_err(failed)?;
+        let ideal = task.ideal().map_err(failed)?;
+        reports.push(LoopReport::new(&task, ending, &extremes.peaks, ideal, ticks));
+    }
+    let mut results = Results::default();
+    if let Some(count) = arguments.monte_carlo {
+        let table = monte_carlo(arguments, &desk, &mut reports, &pairs, count)?;
+        results.add(&folder.join("monte_carlo.csv"), |file| file.write_all(table.as_bytes()))?;
+    }
+    let summaries: Vec<LoopSummary> = reports.iter().map(|report| report.summary.clone()).collect();
+    let mut file = scene.file.clone();
+    if let (Some(table), Some(record)) =
+        (file.ground.iter_mut().find(|table| table.motion == crate::scene::ground::Motion::Record), &arguments.record)
+    {
+        table.file = Some(record.clone());
+    }
+    file.controller = Some(controller.clone());
+    let summary = Summary { command: "loop", version: env!("CARGO_PKG_VERSION"), scene: &file, runs: &summaries };
+    results.add(&folder.join("summary.json"), |file| {
+        serde_json::to_writer_pretty(&mut *file, &summary).map_err(std::io::Error::other)?;
+        file.write_all(b"\n")
+    })?;
+    results.add(&folder.join("history.csv"), |file| write_history(&reports, file).map_err(std::io::Error::other))?;
+    for (number, report) in reports.iter().enumerate() {
+        let picture = loop_figure(&heading(&scene, report), &loop_trace(report, &scene.block))?;
+        let name = if number == 0 { "loop.svg".to_owned() } else { format!("loop-{}.svg", number + 1) };
+        results.add(&folder.join(name), |file| file.write_all(picture.as_bytes()))?;
+    }
+    if interrupt.is_set() {
+        return Err(Failure::Interrupted);
+    }
+    results.commit()?;
+    for summary in &summaries {
+        let _ = write!(out, "{summary}");
+    }
+    let _ = writeln!(out, "results in {}", folder.display());
+    Ok(())
+}
+
+fn heading(scene: &Scene, report: &LoopReport) -> String {
+    let title = if scene.file.title.is_empty() { "Closed loop" } else { &scene.file.title };
+    format!("{title}: {}, {}, {}", report.summary.device, report.summary.law, report.summary.estimator)
+}
+
+/// Runs `count` specimens of the sensors, puts quantiles into the reports, and returns the table of all.
+fn monte_carlo(
+    arguments: &LoopArguments,
+    desk: &Desk<'_>,
+    reports: &mut [LoopReport],
+    pairs: &[usize],
+    count: NonZeroUsize,
+) -> Result<String, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
+    let progress = Progress::new("specimens");
+    progress.begin((count.get() * pairs.len()) as u64);
+    let mut table = String::from("device,seed,outcome,peak_rotation,wrong_share,switches,chatter,faults\n");
+    let alpha = desk.scene.block.slenderness();
+    for (report, &index) in reports.iter_mut().zip(pairs) {
+        let runs: Vec<_> = pool.install(|| {
+            (0..count.get() as u64)
+                .into_par_iter()
+                .map(|specimen| {
+                    let seed = desk.controller.sensors.seed().wrapping_add(specimen);
+                    let mut extremes = Extremes::default();
+                    let ending = desk.task(index, seed).run(&mut extremes, &mut ());
+                    progress.step();
+                    ending.map(|ending| {
+                        (
+                            seed,
+                            crate::outcome::Outcome::of(&ending.motion, &extremes.peaks),
+                            extremes.peaks.rotation / alpha,
+                            ending,
+                        )
+                    })
+                })
+                .collect()
+        });
+        let (mut peaks, mut overturned) = (Vec::new(), 0);
+        for run in runs {
+            let (seed, outcome, peak, ending) =
+                run.map_err(|failure| Failure::Loop { device: report.summary.device.clone(), failure })?;
+            if outcome.overturned() {
+                overturned += 1;
+            } else {
+                peaks.push(peak);
+            }
+            let decisions = &ending.decisions;
+            table.push_str(&format!(
+                "\"{}\",{seed},{outcome},{peak},{},{},{},{}\n",
+                report.summary.device.replace('"', "\"\""),
+                decisions.wrong_share,
+                decisions.switches,
+                decisions.chatter,
+                ending.faults.len()
+            ));
+        }
+        let at = |share: f64| Some(quantile(&peaks, share)).filter(|value| value.is_finite());
+        report.summary.monte_carlo = Some(crate::closed_loop::report::Scatter {
+            specimens: count.get(),
+            overturned,
+            peak_rotation_05: at(0.05),
+            peak_rotation_median: at(0.5),
+            peak_rotation_95: at(0.95),
+        });
+    }
+    progress.finish();
+    Ok(table)
+}

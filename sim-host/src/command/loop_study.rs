@@ -1,0 +1,121 @@
+//! `sprag loop-study`: the studies of the controller, made again.
+
+use std::io::Write;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::BAD_INPUT;
+use crate::interrupt::{self, Interrupt};
+use crate::loop_study::bench::{Motion, StudyError};
+use crate::loop_study::decisions::decisions;
+use crate::loop_study::faults::faults;
+use crate::loop_study::ideal_limit::ideal_limit;
+use crate::loop_study::laws::laws;
+use crate::loop_study::practice::practice;
+use crate::loop_study::report::Report;
+use crate::loop_study::robustness::robustness;
+use crate::output::{OutputError, Results, make_folder};
+use crate::progress::Progress;
+
+/// Which study.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Study {
+    /// Error against the ideal pair over the control rate.
+    IdealLimit,
+    /// Real sensors, rates and delays against the ideal pair.
+    Practice,
+    /// What each clutch law overturns, in the ideal model and in real ones.
+    Laws,
+    /// How often and how late clutches are wrong: estimators by sensors by delays.
+    Decisions,
+    /// Delay, noise, rate and wrong beliefs.
+    Robustness,
+    /// Every class of fault at rest, at uplift, in mid-swing and at an impact.
+    Faults,
+}
+
+/// Make a study of the controller: tables and pictures.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag loop-study practice --out out/practice\n  \
+    sprag loop-study laws --records records/*.AT2 --out out/laws\n\n\
+    Writes a page NAME.md, its tables as CSV and its pictures as SVG.")]
+pub struct LoopStudyArguments {
+    /// Which.
+    #[arg(value_enum)]
+    pub study: Study,
+    /// Recorded ground motions to study beside the pulses.
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    pub records: Vec<PathBuf>,
+    /// Folder for the results.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Threads; all processors by default. Results do not depend on it.
+    #[arg(long, value_name = "N")]
+    pub threads: Option<NonZeroUsize>,
+}
+
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error("{0}")]
+    Study(#[from] StudyError),
+    #[error("{0}")]
+    Output(#[from] OutputError),
+    #[error("no threads: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+/// Runs the command; the page goes to `out`, errors go to `err`.
+pub fn run(arguments: &LoopStudyArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
+    match run_or_fail(arguments, out, interrupt) {
+        Ok(()) => 0,
+        Err(Failure::Study(StudyError::Interrupted)) => {
+            let _ = writeln!(err, "sprag: interrupted; nothing was written");
+            interrupt::EXIT_CODE
+        }
+        Err(failure) => {
+            let _ = writeln!(err, "sprag: {failure}");
+            BAD_INPUT
+        }
+    }
+}
+
+fn run_or_fail(arguments: &LoopStudyArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+    make_folder(&arguments.out)?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
+    let progress = Progress::new("runs");
+    let records: Vec<Motion> = arguments
+        .records
+        .iter()
+        .map(|file| Motion::Record { file: std::path::absolute(file).unwrap_or_else(|_| file.clone()), scale: 1.0 })
+        .collect();
+    let report = pool.install(|| match arguments.study {
+        Study::IdealLimit => ideal_limit(&progress, interrupt),
+        Study::Practice => practice(&records, &progress, interrupt),
+        Study::Laws => laws(&records, &progress, interrupt),
+        Study::Decisions => decisions(&records, &progress, interrupt),
+        Study::Robustness => robustness(&records, &progress, interrupt),
+        Study::Faults => faults(&progress, interrupt),
+    });
+    progress.finish();
+    let report = report?;
+    write(&report, arguments, out)?;
+    Ok(())
+}
+
+fn write(report: &Report, arguments: &LoopStudyArguments, out: &mut impl Write) -> Result<(), OutputError> {
+    let folder = &arguments.out;
+    let mut results = Results::default();
+    results.add(&folder.join(format!("{}.md", report.name)), |file| file.write_all(report.text.as_bytes()))?;
+    for (name, table) in &report.tables {
+        results.add(&folder.join(format!("{name}.csv")), |file| file.write_all(table.csv().as_bytes()))?;
+    }
+    for (name, svg) in &report.figures {
+        results.add(&folder.join(format!("{name}.svg")), |file| file.write_all(svg.as_bytes()))?;
+    }
+    results.commit()?;
+    let _ = write!(out, "{}", report.text);
+    let _ = writeln!(out, "results in {}", folder.display());
+    Ok(())
+}

@@ -1,0 +1,223 @@
+//! Many closed loops in parallel: motions by variants.
+
+use std::path::PathBuf;
+
+use rayon::prelude::*;
+
+use crate::closed_loop::plant::Extremes;
+use crate::closed_loop::run::Ending;
+use crate::closed_loop::{LoopFailure, LoopTask};
+use crate::interrupt::Interrupt;
+use crate::outcome::Outcome;
+use crate::progress::Progress;
+use crate::scene::Scene;
+use crate::scene::error::SceneError;
+use crate::scene::ground::GroundError;
+
+/// A ground motion of a study.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Motion {
+    /// A one-cycle pulse.
+    Pulse {
+        /// "sine" or "cosine".
+        shape: &'static str,
+        /// ω_g/p.
+        frequency: f64,
+        /// a_g/(g tan α).
+        amplitude: f64,
+    },
+    /// A recorded one.
+    Record {
+        /// File.
+        file: PathBuf,
+        /// Factor on its accelerations.
+        scale: f64,
+    },
+}
+
+impl Motion {
+    /// `[[ground]]` and `[run]` of a scene.
+    fn tables(&self) -> String {
+        match self {
+            Motion::Pulse { shape, frequency, amplitude } => format!(
+                "[[ground]]\nmotion = \"{shape}\"\nfrequency_ratio = {frequency:?}\namplitude_ratio = {amplitude:?}\n\
+                 [run]\nfree_time_ratio = 10.0\n"
+            ),
+            Motion::Record { file, scale } => {
+                let file = file.display().to_string().replace('\\', "/");
+                format!("[[ground]]\nmotion = \"record\"\nfile = {file:?}\nscale = {scale:?}\n[run]\nfree_time_s = 5.0\n")
+            }
+        }
+    }
+}
+
+/// A structure with its device and controller, in the words of a scene; without a ground motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variant {
+    /// For tables.
+    pub name: String,
+    /// Keys of the scene.
+    pub overrides: Vec<String>,
+    /// Of the sensors.
+    pub seed: u64,
+}
+
+impl Variant {
+    /// With overrides `KEY=VALUE`.
+    pub fn new(name: &str, overrides: &[&str]) -> Variant {
+        Variant { name: name.to_owned(), overrides: overrides.iter().map(|&text| text.to_owned()).collect(), seed: 1 }
+    }
+
+    /// The same with one override more.
+    #[must_use]
+    pub fn with(&self, text: &str) -> Variant {
+        let mut variant = self.clone();
+        variant.overrides.push(text.to_owned());
+        variant
+    }
+}
+
+/// The block and pair of the studies, as the paper's section 5 has them: R = 2 m, α = 10°, η = 0.85, σ = 0.5.
+pub const BASE: &str = "\
+[block]
+size_m = 2.0
+slenderness_deg = 10.0
+restitution = 0.85
+[[device]]
+kind = \"clutched-pair\"
+mass_ratio = 0.5
+[controller]
+substeps = 1
+";
+
+/// What one closed loop came to.
+#[derive(Clone, Debug)]
+pub struct LoopResult {
+    /// Outcome.
+    pub outcome: Outcome,
+    /// max |θ|/α.
+    pub peak: f64,
+    /// How it ended.
+    pub ending: Ending,
+}
+
+/// Why a study ended early.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// A scene that the study wrote.
+    #[error("{0}")]
+    Scene(#[from] SceneError),
+    /// A record.
+    #[error("{0}")]
+    Ground(#[from] GroundError),
+    /// A loop.
+    #[error("{motion}: {failure}")]
+    Loop {
+        /// Motion and variant.
+        motion: String,
+        /// Why.
+        failure: LoopFailure,
+    },
+    /// Ctrl-C.
+    #[error("interrupted")]
+    Interrupted,
+    /// A figure.
+    #[error("the picture cannot be drawn: {0}")]
+    Plot(#[from] crate::plot::PlotError),
+}
+
+/// The scene of a motion and a variant.
+///
+/// # Errors
+/// [`StudyError`] for a scene that cannot be.
+pub fn scene_of(motion: &Motion, variant: &Variant) -> Result<Scene, StudyError> {
+    let text = format!("{BASE}{}", motion.tables());
+    let mut scene = Scene::parse_with(&text, "study", &variant.overrides)?;
+    scene.folder = PathBuf::new();
+    Ok(scene)
+}
+
+/// Gives `work` the closed loop of a motion and a variant.
+///
+/// # Errors
+/// [`StudyError`].
+pub fn with_loop<R>(
+    motion: &Motion,
+    variant: &Variant,
+    interrupt: &Interrupt,
+    work: impl FnOnce(&LoopTask<'_>) -> Result<R, LoopFailure>,
+) -> Result<R, StudyError> {
+    let scene = scene_of(motion, variant)?;
+    let ground = scene.ground_motions()?;
+    let controller = scene.file.controller.clone().unwrap_or_default();
+    let suite = controller.suite("study")?;
+    let task = LoopTask {
+        scene: &scene,
+        ground: &ground,
+        index: 0,
+        controller: &controller,
+        suite: &suite,
+        seed: variant.seed,
+        interrupt,
+    };
+    work(&task).map_err(|failure| match failure {
+        LoopFailure::Loop(crate::closed_loop::run::LoopError::Interrupted) => StudyError::Interrupted,
+        failure => StudyError::Loop { motion: format!("{motion:?}, {}", variant.name), failure },
+    })
+}
+
+/// Runs one closed loop.
+///
+/// # Errors
+/// [`StudyError`].
+pub fn run_loop(motion: &Motion, variant: &Variant, interrupt: &Interrupt) -> Result<LoopResult, StudyError> {
+    with_loop(motion, variant, interrupt, |task| {
+        let mut extremes = Extremes::default();
+        let ending = task.run(&mut extremes, &mut ())?;
+        let outcome = Outcome::of(&ending.motion, &extremes.peaks);
+        Ok(LoopResult { outcome, peak: extremes.peaks.rotation / task.scene.block.slenderness(), ending })
+    })
+}
+
+/// Outcome and peak |θ|/α of the ideal device of `variant` without a controller.
+///
+/// # Errors
+/// [`StudyError`].
+pub fn run_ideal(motion: &Motion, variant: &Variant, interrupt: &Interrupt) -> Result<(Outcome, f64), StudyError> {
+    with_loop(motion, variant, interrupt, |task| {
+        let run = task.ideal()?;
+        Ok((run.outcome, run.peak_rotation.unwrap_or(f64::INFINITY)))
+    })
+}
+
+/// Does `work` for every pair of a motion and a variant, in parallel; results by variant, then by motion.
+///
+/// # Errors
+/// The first error by order, not by time.
+pub fn each<R: Send>(
+    motions: &[Motion],
+    variants: &[Variant],
+    progress: &Progress,
+    work: impl Fn(&Motion, &Variant) -> Result<R, StudyError> + Sync,
+) -> Result<Vec<Vec<R>>, StudyError> {
+    progress.begin((motions.len() * variants.len()) as u64);
+    let results: Vec<Result<R, StudyError>> = (0..motions.len() * variants.len())
+        .into_par_iter()
+        .map(|index| {
+            let result = work(&motions[index % motions.len()], &variants[index / motions.len()]);
+            progress.step();
+            result
+        })
+        .collect();
+    let mut results = results.into_iter();
+    let by_variant = |_| results.by_ref().take(motions.len()).collect::<Result<Vec<R>, StudyError>>();
+    (0..variants.len()).map(by_variant).collect()
+}
+
+/// A grid of pulses, both shapes: ω/p from `frequencies` and amplitudes from `amplitudes`, first and last included.
+pub fn grid(shape: &'static str, count: usize, frequencies: (f64, f64), amplitudes: (f64, f64)) -> Vec<Motion> {
+    let at = |(from, to): (f64, f64), index: usize| from + (to - from) * index as f64 / (count.max(2) - 1) as f64;
+    (0..count * count)
+        .map(|index| Motion::Pulse { shape, frequency: at(frequencies, index % count), amplitude: at(amplitudes, index / count) })
+        .collect()
+}

@@ -1,0 +1,72 @@
+//! Decision quality: estimators by sensors by delays.
+
+use super::bench::{Motion, StudyError, Variant, each, grid, run_loop};
+use super::report::{Report, Table};
+use super::statistics::{cell, quantile};
+use crate::interrupt::Interrupt;
+use crate::progress::Progress;
+use crate::scene::controller::EstimatorName;
+
+/// From sample to clutch, ms.
+const DELAYS: [f64; 3] = [0.0, 1.0, 5.0];
+
+/// Runs the study over 50 pulses and `records`.
+///
+/// # Errors
+/// [`StudyError`].
+pub fn decisions(records: &[Motion], progress: &Progress, interrupt: &Interrupt) -> Result<Report, StudyError> {
+    let mut motions = [grid("sine", 5, (1.0, 6.0), (1.5, 5.2)), grid("cosine", 5, (1.0, 6.0), (1.5, 5.2))].concat();
+    motions.extend_from_slice(records);
+    let mut variants = Vec::new();
+    let mut labels = Vec::new();
+    for estimator in EstimatorName::ALL {
+        for suite in ["ideal", "adis16470", "icm-42688-p", "bmi088", "mpu-6050"] {
+            for delay in DELAYS {
+                labels.push([estimator.name().to_owned(), suite.to_owned(), format!("{delay:.0}")]);
+                variants.push(Variant::new(
+                    suite,
+                    &[
+                        &format!("controller.estimator=\"{}\"", estimator.name()),
+                        &format!("controller.sensors.suite=\"{suite}\""),
+                        &format!("controller.latency_s={:?}", 1e-3 * delay),
+                    ],
+                ));
+            }
+        }
+    }
+    let results = each(&motions, &variants, progress, |motion, variant| run_loop(motion, variant, interrupt))?;
+    let mut report = Report::new("decisions", "Decision quality");
+    report.paragraph(&format!(
+        "Eq. 10 predicted at 2 kHz over {} motions (R = 2 m, α = 10°, σ = 0.5), against Eq. 10 on the true motion. Wrong: share of the rocking \
+         time, weighted by |θ̇|, in which the clutches are not as the law on the true motion has them, mean over the motions. Late: from \
+         the instant at which that law changes to the clutch's movement, over all changes that a movement within 0.1 s belongs to. \
+         Chatter: movements of the clutches beyond those of the law, a run.",
+        motions.len()
+    ));
+    let mut table = Table::new(&[
+        "estimator",
+        "sensors",
+        "delay ms",
+        "wrong %",
+        "late: median ms",
+        "95th percentile ms",
+        "chatter a run",
+        "switches a run",
+        "ideal switches a run",
+    ]);
+    for (label, results) in labels.into_iter().zip(&results) {
+        let count = results.len() as f64;
+        let mean = |pick: &dyn Fn(&super::bench::LoopResult) -> f64| results.iter().map(pick).sum::<f64>() / count;
+        let delays: Vec<f64> = results.iter().flat_map(|result| result.ending.delays.iter().map(|delay| 1e3 * delay)).collect();
+        let mut row = label.to_vec();
+        row.push(cell(100.0 * mean(&|result| result.ending.decisions.wrong_share), 2));
+        row.push(cell(quantile(&delays, 0.5), 2));
+        row.push(cell(quantile(&delays, 0.95), 2));
+        row.push(cell(mean(&|result| f64::from(result.ending.decisions.chatter)), 2));
+        row.push(cell(mean(&|result| f64::from(result.ending.decisions.switches)), 1));
+        row.push(cell(mean(&|result| f64::from(result.ending.decisions.ideal_switches)), 1));
+        table.row(row);
+    }
+    report.table("decisions", table);
+    Ok(report)
+}

@@ -1,0 +1,11 @@
+//! Studies of the controller: what it is worth against the ideal pair, and where it breaks.
+
+pub mod bench;
+pub mod decisions;
+pub mod faults;
+pub mod ideal_limit;
+pub mod laws;
+pub mod practice;
+pub mod report;
+pub mod robustness;
+pub mod statistics;

@@ -1,0 +1,120 @@
+//! As good as the ideal pair in practice: real sensors, a real rate, a real delay.
+
+use super::bench::{Motion, StudyError, Variant, each, run_ideal, run_loop};
+use super::report::{Report, Table};
+use super::statistics::{cell, quantile};
+use crate::interrupt::Interrupt;
+use crate::progress::Progress;
+use crate::scene::controller::EstimatorName;
+
+/// A hundred pulses of each shape: ω/p 1 to 6, amplitudes 1.2 to 5.2.
+pub fn pulses() -> Vec<Motion> {
+    let mut motions = Vec::new();
+    for shape in ["sine", "cosine"] {
+        motions.extend(super::bench::grid(shape, 10, (1.0, 6.0), (1.2, 5.2)));
+    }
+    motions
+}
+
+/// How far loops are from the ideal pair.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Comparison {
+    /// Change of the peak rotation, relative, under each motion in which both stand and rock.
+    pub changes: Vec<f64>,
+    /// Motions in which only the loop overturns, …
+    pub overturned: usize,
+    /// … and in which only the ideal pair does.
+    pub saved: usize,
+    /// All motions.
+    pub motions: usize,
+}
+
+impl Comparison {
+    /// Of loops with the ideal pair.
+    pub fn of(loops: &[super::bench::LoopResult], ideals: &[(crate::outcome::Outcome, f64)]) -> Comparison {
+        let mut comparison = Comparison { motions: loops.len(), ..Comparison::default() };
+        for (closed, (outcome, peak)) in loops.iter().zip(ideals) {
+            match (closed.outcome.overturned(), outcome.overturned()) {
+                (true, false) => comparison.overturned += 1,
+                (false, true) => comparison.saved += 1,
+                (false, false) if *peak > 0.0 => comparison.changes.push(closed.peak / peak - 1.0),
+                _ => {}
+            }
+        }
+        comparison
+    }
+
+    /// |change| at a quantile.
+    pub fn size(&self, share: f64) -> f64 {
+        quantile(&self.changes.iter().map(|change| change.abs()).collect::<Vec<f64>>(), share)
+    }
+
+    /// As cells of a table.
+    pub fn cells(&self) -> Vec<String> {
+        vec![
+            cell(100.0 * quantile(&self.changes, 0.5), 3),
+            cell(100.0 * self.size(0.5), 3),
+            cell(100.0 * self.size(0.95), 2),
+            self.overturned.to_string(),
+            self.saved.to_string(),
+            self.changes.len().to_string(),
+            self.motions.to_string(),
+        ]
+    }
+}
+
+/// Headings of [`Comparison::cells`].
+pub const COLUMNS: [&str; 7] = [
+    "median change %",
+    "median size %",
+    "95th percentile %",
+    "overturned beyond ideal",
+    "saved beyond ideal",
+    "both stand",
+    "motions",
+];
+
+/// Runs the study over the pulses and `records`.
+///
+/// # Errors
+/// [`StudyError`].
+pub fn practice(records: &[Motion], progress: &Progress, interrupt: &Interrupt) -> Result<Report, StudyError> {
+    let pulses = pulses();
+    let mut report = Report::new("practice", "As good as ideal in practice");
+    report.paragraph(
+        "Peak rotation of the closed loop against the ideal clutched pair (no controller, no delay): R = 2 m, α = 10°, σ = 0.5, η = 0.85, \
+         control rate 2 kHz, 1 ms from sample to clutch, Eq. 10 predicted. Changes among motions in which both keep the block standing.",
+    );
+    let parts = [
+        ("Pulses", "practice-pulses", &pulses[..], &["adis16470", "icm-42688-p", "bmi088", "mpu-6050"][..]),
+        ("Recorded motions", "practice-records", records, &["adis16470", "icm-42688-p"][..]),
+    ];
+    for (heading, name, motions, suites) in parts {
+        if motions.is_empty() {
+            continue;
+        }
+        let mut variants = Vec::new();
+        for suite in suites {
+            for estimator in EstimatorName::ALL.map(EstimatorName::name) {
+                let overrides = [
+                    format!("controller.sensors.suite=\"{suite}\""),
+                    format!("controller.estimator=\"{estimator}\""),
+                    "controller.latency_s=0.001".to_owned(),
+                ];
+                variants.push(Variant { name: format!("{suite}, {estimator}"), overrides: overrides.to_vec(), seed: 1 });
+            }
+        }
+        let ideals =
+            each(motions, &[Variant::new("ideal", &[])], progress, |motion, variant| run_ideal(motion, variant, interrupt))?;
+        let loops = each(motions, &variants, progress, |motion, variant| run_loop(motion, variant, interrupt))?;
+        let mut table = Table::new(&[&["sensors, estimator"], &COLUMNS[..], &["faults among blocks that stand"]].concat());
+        for (variant, loops) in variants.iter().zip(&loops) {
+            let comparison = Comparison::of(loops, &ideals[0]);
+            let faults = loops.iter().filter(|closed| !closed.outcome.overturned() && !closed.ending.faults.is_empty()).count();
+            table.row([vec![variant.name.clone()], comparison.cells(), vec![faults.to_string()]].concat());
+        }
+        report.section(heading);
+        report.table(name, table);
+    }
+    Ok(report)
+}

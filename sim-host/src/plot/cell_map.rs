@@ -1,0 +1,274 @@
+//! Small multiples of maps: outcomes over a grid of two parameters.
+
+use super::PlotError;
+use super::cell::Cell;
+use super::layer::{Text, document, escape, units, write_rect};
+use super::legend::{BOLD_WIDTH, Key, Swatch, wrapped, write_heading};
+use super::palette::{GROUND, hex};
+use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
+
+const MARGIN_PX: f64 = 10.0;
+/// Wider on the right, where half of the last tick label sticks out.
+const RIGHT_MARGIN_PX: f64 = 20.0;
+/// Between maps (px).
+const GAP_PX: f64 = 14.0;
+/// Width that the maps of a row share, and the limits of one map (px).
+const ROW_PX: f64 = 900.0;
+const SMALLEST_MAP_PX: f64 = 110.0;
+const LARGEST_MAP_PX: f64 = 360.0;
+const FONT_PX: f64 = 11.0;
+const LINE_PX: f64 = 14.0;
+
+/// One map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CellMap {
+    /// Heading.
+    pub title: String,
+    /// Line below the heading, such as "436 of 1024"; empty for none.
+    pub note: String,
+    /// Cells in a row.
+    pub columns: usize,
+    /// Rows of cells.
+    pub rows: usize,
+    /// Outcomes, row by row from the lowest, each from the left.
+    pub cells: Vec<Cell>,
+}
+
+/// A figure of maps over the same two axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CellMaps {
+    /// Heading of the figure.
+    pub title: String,
+    /// Title of the horizontal axis. In axis titles `*x*` is italic, `_x` one subscript character, `'` a dot and `''` two dots over
+    /// the symbol before.
+    pub x_title: String,
+    /// Values at the centres of the first and the last column of cells.
+    pub x: (f64, f64),
+    /// Title of the vertical axis.
+    pub y_title: String,
+    /// Values at the centres of the lowest and the highest row of cells.
+    pub y: (f64, f64),
+    /// Maps, row by row.
+    pub maps: Vec<CellMap>,
+    /// Maps in a row; zero counts as one.
+    pub columns: usize,
+}
+
+/// Draws `maps` as an SVG document; the legend has the outcomes that occur.
+///
+/// Only maps at the left and at the lower edge have labelled axes. Runs of equal cells in a row are one rectangle. The text is the
+/// same for the same input.
+///
+/// # Errors
+/// [`PlotError`] without maps or cells, for a list of cells of the wrong length, and for axes that are not finite or do not
+/// increase; an axis of a single cell may have two equal values.
+pub fn cell_map_figure(maps: &CellMaps) -> Result<String, PlotError> {
+    if maps.maps.is_empty() {
+        return Err(PlotError::NothingToDraw { title: maps.title.clone() });
+    }
+    for map in &maps.maps {
+        check(map, maps)?;
+    }
+    let columns = maps.columns.clamp(1, maps.maps.len());
+    let map_px = (ROW_PX / columns as f64 - GAP_PX).clamp(SMALLEST_MAP_PX, LARGEST_MAP_PX).floor();
+    let left_px = MARGIN_PX + LEFT_LABELS_PX;
+    let row_px = columns as f64 * (map_px + GAP_PX) - GAP_PX;
+    // Room for title and legend over a single small map.
+    let width_px = left_px + row_px.max(LARGEST_MAP_PX) + RIGHT_MARGIN_PX;
+
+    let used = |cell: &Cell| maps.maps.iter().any(|map| map.cells.contains(cell));
+    let keys: Vec<Key> =
+        Cell::ALL.into_iter().filter(used).map(|cell| (Swatch::Framed(cell.colour()), cell.name().to_owned())).collect();
+    let mut body = String::new();
+    let mut top_px = write_heading(&mut body, &maps.title, &[keys], (left_px, width_px - left_px - RIGHT_MARGIN_PX), MARGIN_PX);
+
+    let headings: Vec<Vec<String>> = maps.maps.iter().map(|map| wrapped(&map.title, BOLD_WIDTH * map_px, FONT_PX)).collect();
+    let noted = |row: &[CellMap]| row.iter().any(|map| !map.note.is_empty());
+    let heading_px: Vec<f64> = headings
+        .chunks(columns)
+        .zip(maps.maps.chunks(columns))
+        .map(|(lines, row)| (lines.iter().map(Vec::len).max().unwrap_or(0) + usize::from(noted(row))) as f64 * LINE_PX + 4.0)
+        .collect();
+    let rows_px: f64 = heading_px.iter().map(|heading| heading + map_px + GAP_PX).sum();
+    let height_px = top_px + rows_px - GAP_PX + BOTTOM_LABELS_PX + 4.0;
+    let canvas = (units(width_px) as u32, units(height_px) as u32);
+
+    for (row, (row_maps, heading)) in maps.maps.chunks(columns).zip(heading_px).enumerate() {
+        top_px += heading;
+        for (column, map) in row_maps.iter().enumerate() {
+            let index = row * columns + column;
+            let left_px = left_px + column as f64 * (map_px + GAP_PX);
+            let mut baseline = top_px - 6.0;
+            if noted(row_maps) {
+                let note = escape(&map.note);
+                Text { colour: GROUND, ..Text::new(&note, (left_px, baseline), FONT_PX) }.write(&mut body, false);
+                baseline -= LINE_PX;
+            }
+            for line in headings[index].iter().rev() {
+                let text = Text::new(line, (left_px, baseline), FONT_PX);
+                Text { attributes: " font-weight=\"bold\"", ..text }.write(&mut body, false);
+                baseline -= LINE_PX;
+            }
+            let (x, y) = (edges(maps.x, map.columns), edges(maps.y, map.rows));
+            let panel = Panel::new((left_px, top_px), (map_px, map_px), x.0..x.1, y.0..y.1);
+            let panel = Panel { title: (column == 0).then_some(&maps.y_title), ..panel };
+            write_cells(&mut body, &panel, map);
+            let last = index + columns >= maps.maps.len();
+            panel.write_frame(&mut body, canvas, last.then_some(&maps.x_title))?;
+        }
+        top_px += map_px + GAP_PX;
+    }
+    Ok(document(&maps.title, (width_px, height_px), &body))
+}
+
+/// Refuses what cannot be drawn.
+fn check(map: &CellMap, maps: &CellMaps) -> Result<(), PlotError> {
+    let expected = map.columns.saturating_mul(map.rows);
+    if map.cells.len() != expected {
+        return Err(PlotError::WrongLength { name: map.title.clone(), found: map.cells.len(), expected });
+    }
+    if expected == 0 {
+        return Err(PlotError::NothingToDraw { title: map.title.clone() });
+    }
+    for (title, (first, last), count) in [(&maps.x_title, maps.x, map.columns), (&maps.y_title, maps.y, map.rows)] {
+        // The square root keeps differences finite too.
+        if ![first, last].iter().all(|value| value.abs() < f64::MAX.sqrt()) {
+            return Err(PlotError::NotFiniteValue { name: title.clone() });
+        }
+        // Ticks need steps that change the values they are added to.
+        let (low, high) = edges((first, last), count);
+        if high - low <= 1e-9 * low.abs().max(high.abs()) || high - low < 1e-200 {
+            return Err(PlotError::EmptyAxis { title: title.clone() });
+        }
+    }
+    Ok(())
+}
+
+/// Outer edges of the first and last of `count` cells with these centres.
+fn edges((first, last): (f64, f64), count: usize) -> (f64, f64) {
+    let half = match count {
+        0 | 1 if first == last => 0.5 * if first == 0.0 { 1.0 } else { first.abs() },
+        // A single cell lies between its two values.
+        0 | 1 => 0.0,
+        count => 0.5 * (last - first) / (count - 1) as f64,
+    };
+    (first - half, last + half)
+}
+
+/// Runs of equal cells in a row: first cell, number of cells, what they are.
+fn runs(row: &[Cell]) -> Vec<(usize, usize, Cell)> {
+    let mut runs: Vec<(usize, usize, Cell)> = Vec::new();
+    for (column, &cell) in row.iter().enumerate() {
+        match runs.last_mut() {
+            Some(run) if run.2 == cell => run.1 += 1,
+            _ => runs.push((column, 1, cell)),
+        }
+    }
+    runs
+}
+
+/// Appends the cells: the commonest outcome as the ground, the others as one path each.
+fn write_cells(svg: &mut String, panel: &Panel<'_>, map: &CellMap) {
+    let count = |cell: &Cell| map.cells.iter().filter(|other| *other == cell).count();
+    let Some(commonest) = Cell::ALL.into_iter().max_by_key(count) else {
+        return;
+    };
+    let corner = (units(panel.left_px), units(panel.top_px));
+    write_rect(svg, corner, (units(panel.width_px), units(panel.height_px)), commonest.colour());
+    let across = |column: usize| units(panel.left_px + panel.width_px * column as f64 / map.columns as f64);
+    let up = |row: usize| units(panel.bottom_px() - panel.height_px * row as f64 / map.rows as f64);
+    for cell in Cell::ALL.into_iter().filter(|cell| *cell != commonest) {
+        let mut path = String::new();
+        for (row, cells) in map.cells.chunks(map.columns).enumerate() {
+            for (first, length, _) in runs(cells).into_iter().filter(|run| run.2 == cell) {
+                let (left, width) = (across(first), across(first + length) - across(first));
+                path.push_str(&format!("M{left} {}h{width}V{}h{}z", up(row), up(row + 1), -width));
+            }
+        }
+        if !path.is_empty() {
+            // Crisp edges leave no seams between rows.
+            svg.push_str(&format!("<path d=\"{path}\" fill=\"{}\" shape-rendering=\"crispEdges\"/>\n", hex(cell.colour())));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::synthetic::assert_well_formed;
+
+    fn map(title: &str, columns: usize, rows: usize) -> CellMap {
+        let cell = |index: usize| match (index % columns + index / columns, index % columns) {
+            (0..4, _) => Cell::NoRocking,
+            (4..9, _) => Cell::Stands,
+            (_, 0..6) => Cell::OverturnsAfterImpact,
+            _ => Cell::Overturns,
+        };
+        let cells = (0..columns * rows).map(cell).collect();
+        CellMap { title: title.to_owned(), note: "1 of <2>".to_owned(), columns, rows, cells }
+    }
+
+    fn maps(count: usize, columns: usize) -> CellMaps {
+        CellMaps {
+            title: "A & B".to_owned(),
+            x_title: "ω/*p*".to_owned(),
+            x: (0.5, 6.0),
+            y_title: "*a*_p (g)".to_owned(),
+            y: (0.1, 2.0),
+            maps: (0..count).map(|index| map(&format!("map <{index}>"), 8, 9)).collect(),
+            columns,
+        }
+    }
+
+    #[test]
+    fn maps_are_well_formed_and_repeat_to_the_byte() {
+        for (count, columns) in [(1, 0), (1, 3), (5, 3), (12, 6)] {
+            let svg = cell_map_figure(&maps(count, columns)).unwrap();
+            assert_well_formed(&svg);
+            assert!(svg.contains("A &amp; B") && svg.contains("map &lt;0&gt;") && svg.contains("1 of &lt;2&gt;"));
+            // Axes on the left of every row only.
+            assert_eq!(svg.matches("rotate(-90 ").count(), count.div_ceil(columns.max(1)));
+            assert_eq!(svg, cell_map_figure(&maps(count, columns)).unwrap());
+        }
+        let mut one = maps(1, 1);
+        one.maps[0].cells.fill(Cell::Stands);
+        let svg = cell_map_figure(&one).unwrap();
+        assert!(svg.contains("rocks and stands") && !svg.contains("overturns"));
+    }
+
+    #[test]
+    fn equal_neighbours_merge() {
+        use Cell::{NoRocking, Overturns, Stands};
+        assert_eq!(runs(&[Stands, Stands, Overturns, Stands]), vec![(0, 2, Stands), (2, 1, Overturns), (3, 1, Stands)]);
+        assert!(runs(&[]).is_empty());
+        let mut large = maps(1, 1);
+        let cells: Vec<Cell> = (0..1024).map(|index| if index % 32 < 20 { NoRocking } else { Overturns }).collect();
+        large.maps = vec![CellMap { columns: 32, rows: 32, cells, ..map("large", 1, 1) }];
+        let svg = cell_map_figure(&large).unwrap();
+        let path = svg.split("<path d=\"").find(|path| path.contains("crispEdges")).unwrap();
+        assert_eq!(path.split('"').next().unwrap().matches('z').count(), 32);
+    }
+
+    #[test]
+    fn edges_lie_half_a_cell_out() {
+        assert_eq!(edges((1.0, 3.0), 3), (0.5, 3.5));
+        assert_eq!(edges((2.0, 2.0), 1), (1.0, 3.0));
+        assert_eq!(edges((0.0, 0.0), 1), (-0.5, 0.5));
+    }
+
+    #[test]
+    fn what_cannot_be_drawn_is_refused() {
+        assert!(matches!(cell_map_figure(&maps(0, 1)), Err(PlotError::NothingToDraw { .. })));
+        let mut short = maps(1, 1);
+        short.maps[0].cells.pop();
+        assert!(matches!(cell_map_figure(&short), Err(PlotError::WrongLength { found: 71, expected: 72, .. })));
+        let with = |x: (f64, f64)| cell_map_figure(&CellMaps { x, ..maps(1, 1) });
+        assert!(matches!(with((0.0, f64::NAN)), Err(PlotError::NotFiniteValue { .. })));
+        for x in [(1.0, 1.0), (2.0, 1.0)] {
+            assert!(matches!(with(x), Err(PlotError::EmptyAxis { .. })));
+        }
+        let mut none = maps(1, 1);
+        none.maps[0] = CellMap { columns: 0, rows: 4, cells: Vec::new(), ..none.maps[0].clone() };
+        assert!(matches!(cell_map_figure(&none), Err(PlotError::NothingToDraw { .. })));
+    }
+}

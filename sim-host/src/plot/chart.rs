@@ -1,0 +1,260 @@
+//! A chart of lines in panels that share the horizontal axis, with linear or logarithmic scales.
+
+use sprag_shared::math;
+
+use super::PlotError;
+use super::curve::write_curve;
+use super::layer::{Text, document, units, write_disc};
+use super::legend::{BOLD_WIDTH, Key, MARK_PX, Swatch, wrapped, write_heading};
+use super::palette::{Stroke, device_look, guide_stroke};
+use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
+use super::ticks::{Scale, axis_range};
+
+const MARGIN_PX: f64 = 10.0;
+/// Wider on the right, where half of the last tick label sticks out.
+const RIGHT_MARGIN_PX: f64 = 20.0;
+/// Data area of a panel in a figure of one, two or more columns (px).
+const PANEL_SIZES_PX: [(f64, f64); 3] = [(668.0, 300.0), (350.0, 250.0), (260.0, 200.0)];
+const COLUMN_GAP_PX: f64 = 14.0;
+/// Below a panel that is not the last of its column, for tick labels (px).
+const TICK_LABELS_PX: f64 = 34.0;
+const HEADING_FONT_PX: f64 = 12.0;
+const HEADING_LINE_PX: f64 = 15.0;
+
+/// A line of a chart.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Line {
+    /// Name in the legend. Lines of one name look the same in every panel and share an entry.
+    pub name: String,
+    /// Points in drawing order, in the units of the axes.
+    pub points: Vec<(f64, f64)>,
+    /// Draws a disc at every point.
+    pub marks: bool,
+    /// Makes it a thin grey dashed reference line, such as a slope.
+    pub guide: bool,
+}
+
+/// A panel of a chart.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ChartPanel {
+    /// Heading of the panel; empty for none.
+    pub title: String,
+    /// Title of the vertical axis, in the markup of [`Chart::x_title`].
+    pub y_title: String,
+    /// Vertical axis, which is the panel's own.
+    pub y: Scale,
+    /// Lines, drawn in this order.
+    pub lines: Vec<Line>,
+}
+
+/// A figure of panels in rows.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Chart {
+    /// Heading of the figure.
+    pub title: String,
+    /// Title of the horizontal axis. In axis titles `*x*` is italic, `_x` one subscript character, `'` a dot and `''` two dots over
+    /// the symbol before.
+    pub x_title: String,
+    /// Horizontal axis, the same for all panels.
+    pub x: Scale,
+    /// Panels, row by row.
+    pub panels: Vec<ChartPanel>,
+    /// Panels in a row; zero counts as one.
+    pub columns: usize,
+}
+
+/// Draws `chart` as an SVG document.
+///
+/// Lines get their looks by name in the order of first appearance. A logarithmic axis has ticks at powers of ten, and points that
+/// are not positive there are left out. The text is the same for the same input, and long lines are thinned to the width of the
+/// panels.
+///
+/// # Errors
+/// [`PlotError`] without panels, when no point of the figure or of a panel can be shown, and for numbers that are not finite.
+pub fn chart_figure(chart: &Chart) -> Result<String, PlotError> {
+    let nothing = || PlotError::NothingToDraw { title: chart.title.clone() };
+    let mut panels: Vec<Vec<Vec<(f64, f64)>>> = Vec::new();
+    for panel in &chart.panels {
+        panels.push(panel.lines.iter().map(|line| shown(line, chart.x, panel.y)).collect::<Result<_, _>>()?);
+    }
+    let x = axis_range(panels.iter().flatten().flatten().map(|point| point.0), chart.x).ok_or_else(nothing)?;
+    let looks = Looks::new(chart);
+
+    let columns = chart.columns.clamp(1, chart.panels.len().max(1));
+    let (panel_width_px, panel_height_px) = PANEL_SIZES_PX[columns.min(PANEL_SIZES_PX.len()) - 1];
+    let column_px = LEFT_LABELS_PX + panel_width_px + COLUMN_GAP_PX;
+    let width_px = MARGIN_PX + columns as f64 * column_px - COLUMN_GAP_PX + RIGHT_MARGIN_PX;
+    let left_px = MARGIN_PX + LEFT_LABELS_PX;
+    let mut body = String::new();
+    let area = (left_px, width_px - left_px - RIGHT_MARGIN_PX);
+    let mut top_px = write_heading(&mut body, &chart.title, &looks.groups(), area, MARGIN_PX) + 4.0;
+
+    // plotters cuts off what lies beyond its canvas, so the height comes first.
+    let headings: Vec<Vec<String>> =
+        chart.panels.iter().map(|panel| wrapped(&panel.title, BOLD_WIDTH * panel_width_px, HEADING_FONT_PX)).collect();
+    let heading_px = |row: &[Vec<String>]| row.iter().map(Vec::len).max().unwrap_or(0) as f64 * HEADING_LINE_PX;
+    let rows_px: f64 = headings.chunks(columns).map(|row| heading_px(row) + panel_height_px + TICK_LABELS_PX).sum();
+    let height_px = top_px + rows_px - TICK_LABELS_PX + BOTTOM_LABELS_PX + 4.0;
+    let canvas = (units(width_px) as u32, units(height_px) as u32);
+
+    for (row, row_headings) in headings.chunks(columns).enumerate() {
+        top_px += heading_px(row_headings);
+        for (column, lines) in row_headings.iter().enumerate() {
+            let index = row * columns + column;
+            let left_px = left_px + column as f64 * column_px;
+            for (number, line) in lines.iter().rev().enumerate() {
+                let at = (left_px, top_px - 5.0 - number as f64 * HEADING_LINE_PX);
+                let text = Text::new(line, at, HEADING_FONT_PX);
+                Text { attributes: " font-weight=\"bold\"", ..text }.write(&mut body, false);
+            }
+            let (source, curves) = (&chart.panels[index], &panels[index]);
+            let y = axis_range(curves.iter().flatten().map(|point| point.1), source.y).ok_or_else(nothing)?;
+            let panel = Panel {
+                scales: (chart.x, source.y),
+                title: Some(&source.y_title),
+                ..Panel::new((left_px, top_px), (panel_width_px, panel_height_px), x.clone(), y)
+            };
+            let last = index + columns >= chart.panels.len();
+            panel.write_axes(&mut body, canvas, Some(if last { &chart.x_title } else { "" }))?;
+            for (line, points) in source.lines.iter().zip(curves) {
+                let stroke = looks.stroke(line);
+                write_curve(&mut body, canvas, &panel, points, stroke)?;
+                if line.marks || points.len() == 1 {
+                    points.iter().for_each(|point| write_disc(&mut body, panel.position_px(*point), MARK_PX, stroke.colour, ""));
+                }
+            }
+        }
+        top_px += panel_height_px + TICK_LABELS_PX;
+    }
+    Ok(document(&chart.title, (width_px, height_px), &body))
+}
+
+/// The points of `line` on the panel's scales: those that it can show.
+fn shown(line: &Line, x: Scale, y: Scale) -> Result<Vec<(f64, f64)>, PlotError> {
+    let on = |scale: Scale, value: f64| match scale {
+        Scale::Linear => Some(value),
+        Scale::Logarithmic => (value > 0.0).then(|| math::log10(value)),
+    };
+    // The square root keeps differences finite too.
+    if line.points.iter().any(|point| [point.0, point.1].iter().any(|value| value.is_nan() || value.abs() >= f64::MAX.sqrt())) {
+        return Err(PlotError::NotFiniteValue { name: line.name.clone() });
+    }
+    Ok(line.points.iter().filter_map(|point| Some((on(x, point.0)?, on(y, point.1)?))).collect())
+}
+
+/// Which look belongs to which name.
+struct Looks<'a> {
+    /// Name, and whether some line of that name has marks.
+    lines: Vec<(&'a str, bool)>,
+    guides: Vec<&'a str>,
+}
+
+impl<'a> Looks<'a> {
+    fn new(chart: &'a Chart) -> Self {
+        let mut looks = Self { lines: Vec::new(), guides: Vec::new() };
+        for line in chart.panels.iter().flat_map(|panel| &panel.lines) {
+            let name = line.name.as_str();
+            if line.guide {
+                if !looks.guides.contains(&name) {
+                    looks.guides.push(name);
+                }
+            } else if let Some(known) = looks.lines.iter_mut().find(|known| known.0 == name) {
+                known.1 |= line.marks;
+            } else {
+                looks.lines.push((name, line.marks));
+            }
+        }
+        looks
+    }
+
+    fn stroke(&self, line: &Line) -> Stroke {
+        if line.guide {
+            guide_stroke(self.guides.iter().position(|name| *name == line.name).unwrap_or(0))
+        } else {
+            device_look(self.lines.iter().position(|(name, _)| *name == line.name).unwrap_or(0)).stroke()
+        }
+    }
+
+    /// Legend entries; nameless lines have none.
+    fn groups(&self) -> [Vec<Key>; 2] {
+        let line = |(index, (name, marks)): (usize, &(&str, bool))| {
+            let stroke = device_look(index).stroke();
+            (if *marks { Swatch::MarkedLine(stroke) } else { Swatch::Line(stroke) }, (*name).to_owned())
+        };
+        let guide = |(index, name): (usize, &&str)| (Swatch::Line(guide_stroke(index)), (*name).to_owned());
+        let named = |key: &Key| !key.1.is_empty();
+        [
+            self.lines.iter().enumerate().map(line).filter(named).collect(),
+            self.guides.iter().enumerate().map(guide).filter(named).collect(),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::synthetic::assert_well_formed;
+
+    fn line(name: &str, exponent: i32) -> Line {
+        let points = (0..10).map(|k| (f64::from(1 << k), 1e-2 * (0..k * exponent).fold(1.0, |value, _| 0.5 * value)));
+        Line { name: name.to_owned(), points: points.collect(), marks: true, guide: false }
+    }
+
+    fn chart(scale: Scale, columns: usize) -> Chart {
+        let guide = Line { guide: true, marks: false, ..line("slope −4", 4) };
+        let panel = |title: &str| ChartPanel {
+            title: title.to_owned(),
+            y_title: "error".to_owned(),
+            y: scale,
+            lines: vec![line("a & <b>", 2), line("fourth order", 4), guide.clone()],
+        };
+        Chart {
+            title: "A <title>".to_owned(),
+            x_title: "steps".to_owned(),
+            x: scale,
+            panels: ["one", "two & a half", "three"].map(panel).to_vec(),
+            columns,
+        }
+    }
+
+    #[test]
+    fn a_chart_is_well_formed_and_repeats_to_the_byte() {
+        for scale in [Scale::Linear, Scale::Logarithmic] {
+            for columns in [0, 1, 2, 5] {
+                let svg = chart_figure(&chart(scale, columns)).unwrap();
+                assert_well_formed(&svg);
+                assert!(svg.contains("A &lt;title&gt;") && svg.contains("two &amp; a half"));
+                // Once in the legend, in spite of three panels.
+                assert_eq!(svg.matches("a &amp; &lt;b&gt;").count(), 1);
+                assert_eq!(svg.matches("<circle").count(), 3 * 2 * 10 + 2);
+                assert_eq!(svg, chart_figure(&chart(scale, columns)).unwrap());
+            }
+        }
+    }
+
+    #[test]
+    fn logarithmic_axes_label_powers_of_ten_and_leave_out_what_is_not_positive() {
+        let mut chart = chart(Scale::Logarithmic, 3);
+        chart.panels.truncate(1);
+        chart.panels[0].lines.truncate(1);
+        chart.panels[0].lines[0].points.extend([(0.0, 1.0), (1.0, -1.0), (2.0, 0.0)]);
+        let svg = chart_figure(&chart).unwrap();
+        assert_well_formed(&svg);
+        assert_eq!(svg.matches("<circle").count(), 10 + 1);
+        for power in ["\u{2212}3", "0", "1", "2"] {
+            assert!(svg.contains(&format!("10<tspan dy=\"-0.45em\" font-size=\"75%\">{power}</tspan>")), "{power}");
+        }
+        chart.panels[0].lines[0].points = vec![(1.0, -1.0)];
+        assert!(matches!(chart_figure(&chart), Err(PlotError::NothingToDraw { .. })));
+    }
+
+    #[test]
+    fn what_cannot_be_drawn_is_refused() {
+        assert!(matches!(chart_figure(&Chart::default()), Err(PlotError::NothingToDraw { .. })));
+        for bad in [f64::NAN, f64::INFINITY, f64::MIN] {
+            let mut chart = chart(Scale::Linear, 1);
+            chart.panels[1].lines[1].points[3].1 = bad;
+            assert_eq!(chart_figure(&chart), Err(PlotError::NotFiniteValue { name: "fourth order".to_owned() }));
+        }
+    }
+}

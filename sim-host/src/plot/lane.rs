@@ -1,0 +1,102 @@
+//! Bars over time: what the law wants, the command and the clutches of a closed loop.
+
+use plotters::style::RGBColor;
+
+use super::engagement::write_bars;
+use super::layer::{Anchor, Text, units};
+use super::loop_figure::LoopTrace;
+use super::palette::{FLYWHEEL_BARS, GROUND};
+use super::panel::Panel;
+
+/// Height of a lane, and of the bars in it (px).
+const LANE_PX: f64 = 26.0;
+const BAR_PX: f64 = 16.0;
+const LANES: [[&str; 2]; 3] = [["law on the", "true motion"], ["command", ""], ["clutches", ""]];
+const LANE_FONT_PX: f64 = 10.5;
+/// Height of all lanes (px).
+pub(super) const LANES_PX: f64 = LANES.len() as f64 * LANE_PX;
+/// Bars closer than this are one, and none is narrower (drawing units).
+const LEAST_GAP: i32 = 3;
+/// What the law wants: no flywheel in particular.
+pub(super) const LAW: RGBColor = GROUND;
+
+/// Left edges and widths (drawing units) of the times in which `active` holds, each value until the next sample. Times that would
+/// be too narrow to see are widened, and gaps too narrow to see are closed.
+fn bars(panel: &Panel<'_>, time: &[f64], active: impl Fn(usize) -> bool) -> Vec<(i32, i32)> {
+    let x = |time: f64| units(panel.position_px((time, panel.y.start)).0);
+    let mut bars: Vec<(i32, i32)> = Vec::new();
+    for (index, pair) in time.windows(2).enumerate() {
+        if !active(index) {
+            continue;
+        }
+        let (left, right) = (x(pair[0]), x(pair[1]));
+        match bars.last_mut() {
+            Some(bar) if left - bar.1 <= LEAST_GAP => bar.1 = right,
+            _ => bars.push((left, right)),
+        }
+    }
+    bars.into_iter().map(|(left, right)| (left, (right - left).max(LEAST_GAP))).collect()
+}
+
+/// Appends bars where a flywheel is engaged in `states`; while both are, the first has the upper half and the second the lower.
+pub(super) fn write_flywheels(
+    svg: &mut String,
+    panel: &Panel<'_>,
+    (top_px, height_px): (f64, f64),
+    (time, states): (&[f64], &[u8]),
+    colours: [RGBColor; 2],
+) {
+    let mut draw = |from_px: f64, to_px: f64, shown: [fn(u8) -> bool; 2]| {
+        let extent = (units(from_px), units(to_px) - units(from_px));
+        for (shown, colour) in shown.into_iter().zip(colours) {
+            let active = |index: usize| states.get(index).is_some_and(|state| shown(state & 3));
+            write_bars(svg, &bars(panel, time, active), extent, colour);
+        }
+    };
+    let (middle_px, bottom_px) = (top_px + 0.5 * height_px, top_px + height_px);
+    if states.iter().any(|state| state & 3 == 3) {
+        draw(top_px, middle_px, [|state| state & 1 != 0, |state| state == 2]);
+        draw(middle_px, bottom_px, [|state| state == 1, |state| state & 2 != 0]);
+    } else {
+        draw(top_px, bottom_px, [|state| state == 1, |state| state == 2]);
+    }
+}
+
+/// Appends the lanes and their names.
+pub(super) fn write_lanes(svg: &mut String, panel: &Panel<'_>, trace: &LoopTrace) {
+    for (lane, words) in LANES.into_iter().enumerate() {
+        let top_px = panel.top_px + lane as f64 * LANE_PX;
+        let extent = (top_px + 0.5 * (LANE_PX - BAR_PX), BAR_PX);
+        match lane {
+            0 => {
+                let law = bars(panel, &trace.time, |index| trace.ideal.get(index) == Some(&true));
+                write_bars(svg, &law, (units(extent.0), units(extent.1)), LAW);
+            }
+            1 => write_flywheels(svg, panel, extent, (&trace.time, &trace.commanded), FLYWHEEL_BARS),
+            _ => write_flywheels(svg, panel, extent, (&trace.time, &trace.engaged), FLYWHEEL_BARS),
+        }
+        let lines = words.iter().filter(|word| !word.is_empty()).count();
+        for (line, word) in words.iter().take(lines).enumerate() {
+            let down = (line as f64 - 0.5 * (lines as f64 - 1.0)) * LANE_FONT_PX;
+            let at = (panel.left_px - 6.0, top_px + 0.5 * LANE_PX + down + 0.36 * LANE_FONT_PX);
+            Text { anchor: Anchor::End, ..Text::new(word, at, LANE_FONT_PX) }.write(svg, false);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bars_hold_until_the_next_sample_and_close_narrow_gaps() {
+        let panel = Panel::new((0.0, 0.0), (100.0, 10.0), 0.0..10.0, 0.0..1.0);
+        let time: Vec<f64> = (0..=10).map(f64::from).collect();
+        assert_eq!(bars(&panel, &time, |index| (2..5).contains(&index) || index == 7), vec![(200, 300), (700, 100)]);
+        // The last value has no next sample.
+        assert!(bars(&panel, &time, |index| index == 10).is_empty());
+        let fine: Vec<f64> = (0..=100_000).map(|index| f64::from(index) * 1e-4).collect();
+        assert_eq!(bars(&panel, &fine, |index| index % 2 == 0).len(), 1);
+        assert_eq!(bars(&panel, &fine, |index| index == 50_000), vec![(500, LEAST_GAP)]);
+    }
+}

@@ -1,0 +1,291 @@
+//! The figure of a closed loop over time: true and estimated motion, and what law, command and clutches do.
+
+use std::ops::Range;
+
+use super::PlotError;
+use super::curve::write_curve;
+use super::fault_mark::{FAULT_ROW_PX, fault_places, fault_stroke, write_faults};
+use super::lane::{LANES_PX, LAW, write_flywheels, write_lanes};
+use super::layer::{document, units};
+use super::legend::{Key, Swatch, write_heading};
+use super::palette::{FLYWHEEL_BARS, FLYWHEEL_TINTS, GROUND, Stroke, device_look};
+use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel, scale_around_zero};
+
+const WIDTH_PX: f64 = 760.0;
+const MARGIN_PX: f64 = 10.0;
+/// Wider on the right, where half of the last tick label sticks out.
+const RIGHT_MARGIN_PX: f64 = 20.0;
+const GAP_PX: f64 = 11.0;
+const PANEL_PX: f64 = 118.0;
+const GROUND_PANEL_PX: f64 = 84.0;
+const ROTATION_PANEL_PX: f64 = 184.0;
+/// Limits of the half-height of the θ/α panel.
+const ROTATION_LIMITS: (f64, f64) = (1.2, 2.5);
+/// Estimates beyond this many times the largest true value are cut off.
+const ESTIMATE_REACH: f64 = 1.5;
+/// Name of the trace in errors.
+const NAME: &str = "closed loop";
+const IDEAL: &str = "ideal pair";
+
+/// A closed loop over time. All vectors but `rotation_ideal` and `faults` have the length of `time`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LoopTrace {
+    /// Time (s), in order.
+    pub time: Vec<f64>,
+    /// Ground acceleration (g).
+    pub ground_g: Vec<f64>,
+    /// True rotation θ/α.
+    pub rotation: Vec<f64>,
+    /// Time (s) and θ/α of a run with the ideal pair, on its own times in order; may be empty.
+    pub rotation_ideal: Vec<(f64, f64)>,
+    /// True angular velocity over pα.
+    pub velocity: Vec<f64>,
+    /// Estimated angular velocity over pα.
+    pub velocity_estimated: Vec<f64>,
+    /// True angular acceleration over p²α.
+    pub push: Vec<f64>,
+    /// Estimated angular acceleration over p²α.
+    pub push_estimated: Vec<f64>,
+    /// Flywheels that the clutches engage: 0 none, 1 the first, 2 the second, 3 both; higher bits are ignored.
+    pub engaged: Vec<u8>,
+    /// Flywheels that the controller asks for, as in `engaged`.
+    pub commanded: Vec<u8>,
+    /// Whether the law wants a flywheel engaged, judged by the true motion.
+    pub ideal: Vec<bool>,
+    /// Times (s) and texts of faults.
+    pub faults: Vec<(f64, String)>,
+}
+
+/// Draws a closed loop as an SVG document.
+///
+/// Panels from top to bottom: ground acceleration (g); rotation θ/α with dashed lines at ±1 and tints where a flywheel is engaged,
+/// beside the run with the ideal pair; angular velocity and acceleration, true and estimated; and lanes with what the law wants of
+/// the true motion, the command, and what the clutches do. Every value of a lane holds until the next sample. Faults are vertical
+/// lines with their texts on top. Estimates that go far beyond the true values are cut off at the edge of their panel. Samples of
+/// the ideal pair, and faults, outside the time span of the loop are left out.
+///
+/// The text is the same for the same input, and long traces are thinned to the width of the panels.
+///
+/// # Errors
+/// [`PlotError`] for vectors of different lengths, without a time span, for numbers that are not finite and times out of order.
+pub fn loop_figure(title: &str, trace: &LoopTrace) -> Result<String, PlotError> {
+    check(trace)?;
+    let (Some(&start), Some(&end)) = (trace.time.first(), trace.time.last()) else {
+        return Err(PlotError::EmptyTimeSpan);
+    };
+    if end <= start {
+        return Err(PlotError::EmptyTimeSpan);
+    }
+    let x = start..end;
+    let (left_px, width_px) = (MARGIN_PX + LEFT_LABELS_PX, WIDTH_PX - MARGIN_PX - LEFT_LABELS_PX - RIGHT_MARGIN_PX);
+    let inside = |time: f64| time >= start && time <= end;
+    let position_px = |time: f64| left_px + (time - start) / (end - start) * width_px;
+    let marks: Vec<(f64, &str)> =
+        trace.faults.iter().filter(|fault| inside(fault.0)).map(|fault| (position_px(fault.0), fault.1.as_str())).collect();
+    let ideal: Vec<(f64, f64)> = trace.rotation_ideal.iter().copied().filter(|point| inside(point.0)).collect();
+    let mut body = String::new();
+    let keys = keys(trace, !ideal.is_empty(), !marks.is_empty());
+    let heading_px = write_heading(&mut body, title, &keys, (left_px, width_px), MARGIN_PX);
+
+    let places = fault_places(&marks, left_px + width_px);
+    let fault_rows = places.iter().flatten().map(|place| place.1 + 1).max().unwrap_or(0);
+    let first_px = heading_px + fault_rows as f64 * FAULT_ROW_PX;
+
+    let peak = trace.rotation.iter().chain(ideal.iter().map(|point| &point.1)).fold(0.0_f64, |peak, value| peak.max(value.abs()));
+    let limit = (1.15 * peak).clamp(ROTATION_LIMITS.0, ROTATION_LIMITS.1);
+    let mut top_px = first_px;
+    let mut panel = |height_px: f64, y, title| {
+        let panel = Panel { title, ..Panel::new((left_px, top_px), (width_px, height_px), x.clone(), y) };
+        top_px += height_px + GAP_PX;
+        panel
+    };
+    let ground_panel = panel(GROUND_PANEL_PX, scale_around_zero(trace.ground_g.iter().copied(), 0.1), Some("*a*_g (g)"));
+    let rotation_panel = Panel { guides: &[-1.0, 1.0], ..panel(ROTATION_PANEL_PX, -limit..limit, Some("θ/α")) };
+    let velocity_scale = scale_with_estimate(&trace.velocity, &trace.velocity_estimated);
+    let velocity_panel = panel(PANEL_PX, velocity_scale, Some("θ'/(*p*α)"));
+    let push_panel = panel(PANEL_PX, scale_with_estimate(&trace.push, &trace.push_estimated), Some("θ''/(*p*²α)"));
+    let lane_panel = Panel { y_ticks: false, ..panel(LANES_PX, 0.0..1.0, None) };
+    let height_px = lane_panel.bottom_px() + BOTTOM_LABELS_PX + 4.0;
+    let canvas = (units(WIDTH_PX) as u32, units(height_px) as u32);
+
+    let extent = (rotation_panel.top_px, rotation_panel.height_px);
+    write_flywheels(&mut body, &rotation_panel, extent, (&trace.time, &trace.engaged), FLYWHEEL_TINTS);
+    for panel in [&ground_panel, &rotation_panel, &velocity_panel, &push_panel] {
+        panel.write_axes(&mut body, canvas, None)?;
+    }
+    write_lanes(&mut body, &lane_panel, trace);
+    lane_panel.write_frame(&mut body, canvas, Some("time (s)"))?;
+    write_faults(&mut body, &marks, (first_px, lane_panel.bottom_px()), &places);
+
+    let curves: [(&Panel<'_>, &[f64], Stroke); 6] = [
+        (&ground_panel, &trace.ground_g, Stroke::solid(GROUND)),
+        (&rotation_panel, &trace.rotation, true_stroke()),
+        (&velocity_panel, &trace.velocity_estimated, estimated_stroke()),
+        (&velocity_panel, &trace.velocity, true_stroke()),
+        (&push_panel, &trace.push_estimated, estimated_stroke()),
+        (&push_panel, &trace.push, true_stroke()),
+    ];
+    for (panel, values, stroke) in curves {
+        let points: Vec<(f64, f64)> = trace.time.iter().copied().zip(values.iter().copied()).collect();
+        write_curve(&mut body, canvas, panel, &points, stroke)?;
+    }
+    write_curve(&mut body, canvas, &rotation_panel, &ideal, ideal_stroke())?;
+    Ok(document(title, (WIDTH_PX, height_px), &body))
+}
+
+fn true_stroke() -> Stroke {
+    device_look(0).stroke()
+}
+
+fn ideal_stroke() -> Stroke {
+    Stroke { dashes: "60 30", ..Stroke::solid(device_look(2).colour) }
+}
+
+/// Wider than the true motion on top of it, so that both show where they agree.
+fn estimated_stroke() -> Stroke {
+    Stroke { width_px: 2.2, ..Stroke::solid(device_look(1).colour) }
+}
+
+/// Refuses vectors of different lengths, numbers that cannot be drawn and times out of order.
+fn check(trace: &LoopTrace) -> Result<(), PlotError> {
+    let expected = trace.time.len();
+    let lengths = [
+        ("ground_g", trace.ground_g.len()),
+        ("rotation", trace.rotation.len()),
+        ("velocity", trace.velocity.len()),
+        ("velocity_estimated", trace.velocity_estimated.len()),
+        ("push", trace.push.len()),
+        ("push_estimated", trace.push_estimated.len()),
+        ("engaged", trace.engaged.len()),
+        ("commanded", trace.commanded.len()),
+        ("ideal", trace.ideal.len()),
+    ];
+    if let Some(&(name, found)) = lengths.iter().find(|(_, found)| *found != expected) {
+        return Err(PlotError::WrongLength { name: name.to_owned(), found, expected });
+    }
+    // The square root keeps differences finite too.
+    let finite = |value: f64| value.abs() < f64::MAX.sqrt();
+    let values =
+        [&trace.ground_g, &trace.rotation, &trace.velocity, &trace.velocity_estimated, &trace.push, &trace.push_estimated];
+    for (index, &time_s) in trace.time.iter().enumerate() {
+        if !finite(time_s) || values.iter().any(|values| !finite(values[index])) {
+            return Err(PlotError::NotFinite { device: NAME.to_owned(), time_s });
+        }
+    }
+    if let Some(&(time_s, _)) = trace.rotation_ideal.iter().find(|(time, rotation)| !finite(*time) || !finite(*rotation)) {
+        return Err(PlotError::NotFinite { device: IDEAL.to_owned(), time_s });
+    }
+    if let Some(&(time_s, _)) = trace.faults.iter().find(|(time, _)| !finite(*time)) {
+        return Err(PlotError::NotFinite { device: NAME.to_owned(), time_s });
+    }
+    if let Some(pair) = trace.time.windows(2).find(|pair| pair[1] < pair[0]) {
+        return Err(PlotError::TimeGoesBack { device: NAME.to_owned(), time_s: pair[1] });
+    }
+    match trace.rotation_ideal.windows(2).find(|pair| pair[1].0 < pair[0].0) {
+        Some(pair) => Err(PlotError::TimeGoesBack { device: IDEAL.to_owned(), time_s: pair[1].0 }),
+        None => Ok(()),
+    }
+}
+
+/// Legend entries of what the figure shows.
+fn keys(trace: &LoopTrace, has_ideal: bool, has_faults: bool) -> [Vec<Key>; 2] {
+    let key = |swatch, name: &str| (swatch, name.to_owned());
+    let mut lines = vec![key(Swatch::Line(true_stroke()), "closed loop, true motion")];
+    lines.push(key(Swatch::Line(estimated_stroke()), "estimate"));
+    if has_ideal {
+        lines.push(key(Swatch::Line(ideal_stroke()), "ideal pair"));
+    }
+    let mut colours = Vec::new();
+    for (bit, name) in ["first flywheel", "second flywheel"].into_iter().enumerate() {
+        if trace.engaged.iter().chain(&trace.commanded).any(|state| state & (1 << bit) != 0) {
+            colours.push(key(Swatch::Tints(FLYWHEEL_TINTS[bit], FLYWHEEL_BARS[bit]), name));
+        }
+    }
+    if trace.ideal.contains(&true) {
+        colours.push(key(Swatch::Tint(LAW), "wanted by the law"));
+    }
+    if has_faults {
+        colours.push(key(Swatch::Line(fault_stroke()), "fault"));
+    }
+    [lines, colours]
+}
+
+/// A scale around zero and the true values; of the estimate, what does not go far beyond them.
+fn scale_with_estimate(values: &[f64], estimated: &[f64]) -> Range<f64> {
+    let peak = values.iter().fold(0.0_f64, |peak, value| peak.max(value.abs()));
+    let reach = if peak > 1e-9 { ESTIMATE_REACH * peak } else { f64::INFINITY };
+    let estimated = estimated.iter().map(|value| value.clamp(-reach, reach));
+    scale_around_zero(values.iter().copied().chain(estimated), 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::synthetic::assert_well_formed;
+
+    /// Two seconds at `count` samples; no dynamics behind them.
+    fn trace(count: usize) -> LoopTrace {
+        let time: Vec<f64> = (0..count).map(|index| 2.0 * index as f64 / (count.max(2) - 1) as f64).collect();
+        let wave: Vec<f64> = time.iter().map(|time| (3.0 * time).fract() - 0.5).collect();
+        LoopTrace {
+            ground_g: wave.clone(),
+            rotation: wave.clone(),
+            rotation_ideal: vec![(-1.0, 9.0), (0.0, 0.0), (0.7, 0.4), (5.0, 9.0)],
+            velocity: wave.clone(),
+            velocity_estimated: wave.iter().enumerate().map(|(index, wave)| wave + 0.1 * (index % 3) as f64).collect(),
+            push: wave.clone(),
+            push_estimated: wave.iter().map(|wave| 40.0 * wave).collect(),
+            engaged: (0..count).map(|index| (4 * index / count) as u8).collect(),
+            commanded: (0..count).map(|index| (index % 2) as u8).collect(),
+            ideal: wave.iter().map(|wave| *wave > 0.0).collect(),
+            faults: vec![(0.5, "no <pulses> & more".to_owned()), (0.5, "second".to_owned()), (7.0, "later".to_owned())],
+            time,
+        }
+    }
+
+    #[test]
+    fn a_loop_is_well_formed_and_repeats_to_the_byte() {
+        let svg = loop_figure("A <title> & more", &trace(4000)).unwrap();
+        assert_well_formed(&svg);
+        assert!(svg.contains("A &lt;title&gt; &amp; more") && svg.contains("no &lt;pulses&gt; &amp; more"));
+        for name in ["true motion", "command", "clutches", "ideal pair", "second flywheel", "wanted by the law"] {
+            assert!(svg.contains(name), "{name}");
+        }
+        assert!(!svg.contains("later"));
+        assert_eq!(svg.matches("rotate(-90 ").count(), 4);
+        assert_eq!(svg, loop_figure("A <title> & more", &trace(4000)).unwrap());
+    }
+
+    #[test]
+    fn long_and_short_traces_draw() {
+        let long = loop_figure("", &trace(200_000)).unwrap();
+        assert_well_formed(&long);
+        assert!(long.len() < 500_000, "{}", long.len());
+        let bare = LoopTrace { rotation_ideal: Vec::new(), faults: Vec::new(), ..trace(2) };
+        let svg = loop_figure("", &bare).unwrap();
+        assert_well_formed(&svg);
+        assert!(!svg.contains("ideal pair") && !svg.contains("fault"));
+    }
+
+    #[test]
+    fn what_cannot_be_drawn_is_refused() {
+        assert_eq!(loop_figure("", &LoopTrace::default()), Err(PlotError::EmptyTimeSpan));
+        assert_eq!(loop_figure("", &trace(1)), Err(PlotError::EmptyTimeSpan));
+        let mut broken = trace(100);
+        broken.commanded.pop();
+        let wrong = PlotError::WrongLength { name: "commanded".to_owned(), found: 99, expected: 100 };
+        assert_eq!(loop_figure("", &broken), Err(wrong));
+        let mut broken = trace(100);
+        broken.push_estimated[5] = f64::NAN;
+        assert!(matches!(loop_figure("", &broken), Err(PlotError::NotFinite { .. })));
+        let mut broken = trace(100);
+        broken.time.swap(3, 30);
+        assert!(matches!(loop_figure("", &broken), Err(PlotError::TimeGoesBack { .. })));
+        let mut broken = trace(100);
+        broken.rotation_ideal.swap(0, 1);
+        assert!(matches!(loop_figure("", &broken), Err(PlotError::TimeGoesBack { .. })));
+        let mut broken = trace(100);
+        broken.faults[0].0 = f64::INFINITY;
+        assert!(matches!(loop_figure("", &broken), Err(PlotError::NotFinite { .. })));
+    }
+}

@@ -1,0 +1,117 @@
+//! `sensors` of `[controller]`: what the controller's sensors are, as parts by name, with single figures of one's own.
+
+mod encoder;
+mod inertial;
+mod name_or;
+mod sampling;
+#[cfg(test)]
+mod tests;
+
+use serde::{Deserialize, Serialize};
+
+use super::error::{Key, SceneError};
+use super::schema::KeyOf;
+use crate::sensor::preset::{self, Preset};
+use crate::sensor::{Inertial, Suite};
+
+pub use encoder::EncoderTable;
+pub use inertial::{AccelerometerTable, GyroscopeTable};
+pub use name_or::NameOr;
+
+/// Seed unless a scene has another.
+const SEED: u64 = 1;
+
+/// `sensors`. Without any key all sensors are ideal.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SensorsTable {
+    /// All sensors by one name; each can be replaced by the keys below.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub suite: Option<String>,
+    /// On the block.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gyroscope: Option<NameOr<GyroscopeTable>>,
+    /// On the block.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub block_accelerometer: Option<NameOr<AccelerometerTable>>,
+    /// On the ground.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ground_accelerometer: Option<NameOr<AccelerometerTable>>,
+    /// On the rack.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub encoder: Option<NameOr<EncoderTable>>,
+    /// Of everything drawn: the specimens and their noise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seed: Option<u64>,
+}
+
+impl SensorsTable {
+    /// The sensors, in SI units. Keys in messages are `sensors.…`.
+    ///
+    /// # Errors
+    /// [`SceneError`] names the key.
+    pub fn resolve(&self, key: &KeyOf<'_>) -> Result<Suite, SceneError> {
+        let suite = match &self.suite {
+            Some(name) => find(preset::SUITES, name, "sensors.suite", key)?,
+            None => Suite::IDEAL,
+        };
+        let gyroscope = part(self.gyroscope.as_ref(), suite.gyroscope, preset::GYROSCOPES, "sensors.gyroscope", key)?;
+        let accelerometer = |table: &Option<NameOr<AccelerometerTable>>, start: Inertial, place: &str| {
+            part(table.as_ref(), start, preset::ACCELEROMETERS, place, key)
+        };
+        Ok(Suite {
+            gyroscope,
+            block_accelerometer: accelerometer(
+                &self.block_accelerometer,
+                suite.block_accelerometer,
+                "sensors.block_accelerometer",
+            )?,
+            ground_accelerometer: accelerometer(
+                &self.ground_accelerometer,
+                suite.ground_accelerometer,
+                "sensors.ground_accelerometer",
+            )?,
+            encoder: part(self.encoder.as_ref(), suite.encoder, preset::ENCODERS, "sensors.encoder", key)?,
+        })
+    }
+
+    /// Seed of everything drawn.
+    pub fn seed(&self) -> u64 {
+        self.seed.unwrap_or(SEED)
+    }
+}
+
+/// A table that changes a preset of kind `P`.
+trait Change<P> {
+    fn preset(&self) -> Option<&str>;
+    /// `start` with the table's keys; `place` is the table's own key.
+    fn change(&self, start: P, place: &str, key: &KeyOf<'_>) -> Result<P, SceneError>;
+}
+
+fn part<P: Copy, T: Change<P>>(
+    given: Option<&NameOr<T>>,
+    start: P,
+    presets: &'static [Preset<P>],
+    place: &str,
+    key: &KeyOf<'_>,
+) -> Result<P, SceneError> {
+    match given {
+        None => Ok(start),
+        Some(NameOr::Name(name)) => find(presets, name, place, key),
+        Some(NameOr::Table(table)) => {
+            let start = match table.preset() {
+                Some(name) => find(presets, name, &format!("{place}.preset"), key)?,
+                None => start,
+            };
+            table.change(start, place, key)
+        }
+    }
+}
+
+fn find<P: Copy>(presets: &'static [Preset<P>], name: &str, place: &str, key: &KeyOf<'_>) -> Result<P, SceneError> {
+    preset::find(presets, name).ok_or_else(|| {
+        let known: Vec<String> = preset::names(presets).map(|name| format!("\"{name}\"")).collect();
+        let Key { origin, key } = key(place);
+        SceneError::Range { origin, key, value: format!("\"{name}\""), range: format!("one of {}", known.join(", ")) }
+    })
+}
