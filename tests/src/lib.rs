@@ -3,6 +3,8 @@
 //!
 //! Numbers that the tests compare with come from closed forms and from the reference cells, never from an earlier run.
 
+pub mod emulation;
+
 use std::path::PathBuf;
 
 use sprag_shared::arc::{Arc, Method, Motion};

@@ -4,8 +4,7 @@
 //! Needs `qemu-system-arm` and the firmware for the board, named by `SPRAG_FIRMWARE_ELF` (`cargo xtask test` does both).
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::path::Path;
 
 use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::carried::Carried;
@@ -14,6 +13,7 @@ use sprag_shared::digest::Digest;
 use sprag_shared::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses, Rack};
 use sprag_shared::ground::Harmonics;
 use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, Restitution, Structure};
+use sprag_tests::emulation::{emulate, firmware, kernels};
 
 const DEVICES: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
 const METHODS: [FixedMethod; 3] = [FixedMethod::SemiImplicitEuler, FixedMethod::RungeKutta4, FixedMethod::Taylor];
@@ -84,34 +84,6 @@ impl Record {
 
 fn workspace() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
-}
-
-/// The firmware, if everything that the emulation needs is there; otherwise says what is not.
-fn firmware() -> Option<PathBuf> {
-    let Some(elf) = std::env::var_os("SPRAG_FIRMWARE_ELF") else {
-        eprintln!("SKIPPED: SPRAG_FIRMWARE_ELF is not set; `cargo xtask test` builds the firmware and sets it");
-        return None;
-    };
-    if Command::new("qemu-system-arm").arg("--version").stdout(Stdio::null()).status().is_err() {
-        eprintln!("SKIPPED: qemu-system-arm is not installed");
-        return None;
-    }
-    Some(elf.into())
-}
-
-/// Runs the firmware in the emulator, in `folder` with a case file or none, and gives its lines.
-fn emulate(elf: &Path, folder: &Path, case: Option<&str>) -> String {
-    let semihosting = match case {
-        Some(case) => format!("enable=on,target=native,arg=sprag,arg={case}"),
-        None => "enable=on,target=native".to_owned(),
-    };
-    let mut command = Command::new("qemu-system-arm");
-    command.args(["-machine", "netduinoplus2", "-nographic", "-icount", "shift=0"]);
-    command.args(["-semihosting-config", &semihosting]).arg("-kernel").arg(elf);
-    let output = command.current_dir(folder).stdin(Stdio::null()).output().unwrap();
-    let (lines, errors) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
-    assert!(output.status.success(), "{:?} {case:?}: {} {lines} {errors}", command, output.status);
-    lines.into_owned()
 }
 
 /// `name value` a line.
@@ -326,11 +298,7 @@ fn a_step_is_cheap_enough() {
     let folder = tempfile::tempdir().unwrap();
     let lines = emulate(&elf, folder.path(), None);
     println!("{lines}");
-    let kernels: BTreeMap<&str, u32> = lines
-        .lines()
-        .filter_map(|line| line.strip_prefix("kernel ")?.split_once(' '))
-        .map(|(name, count)| (name, count.split(' ').next().unwrap().parse().unwrap()))
-        .collect();
+    let kernels = kernels(&lines);
     assert_eq!(kernels["nothing"], 0, "the counter must not count itself");
     let step = kernels["rk4-full-clutched-pair"];
     assert!((100..=250).contains(&step), "{step} instructions");
