@@ -352,9 +352,66 @@ fn bad_input_of_sensitivity_costs_one_line() {
 
 #[test]
 fn every_subcommand_has_help_with_an_example() {
-    for command in ["simulate", "batch", "sensitivity", "record", "synthesize", "effects", "explain"] {
+    for command in ["simulate", "loop", "loop-study", "batch", "sensitivity", "record", "synthesize", "effects", "explain"] {
         let output = sprag(&[command, "--help"]);
         let help = String::from_utf8(output.stdout).unwrap();
         assert!(output.status.success() && help.contains("Example"), "{command}: {help}");
+    }
+}
+
+#[test]
+fn loop_writes_its_files_and_does_not_depend_on_the_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let outs = ["1", "2"].map(|threads| {
+        let out = folder.path().join(threads);
+        let output = sprag(&[
+            "loop",
+            &scene("controller"),
+            "--set",
+            "run.free_time_s=0",
+            "--set",
+            "controller.rate_hz=500",
+            "--monte-carlo",
+            "3",
+            "--threads",
+            threads,
+            "--out",
+            out.to_str().unwrap(),
+        ]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(String::from_utf8_lossy(&output.stdout).contains("ideal pair"));
+        out
+    });
+    for name in ["summary.json", "history.csv", "loop.svg", "monte_carlo.csv"] {
+        let [one, two] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
+        assert!(!one.is_empty() && one == two, "{name}");
+    }
+    let summary: serde_json::Value = serde_json::from_slice(&fs::read(outs[0].join("summary.json")).unwrap()).unwrap();
+    let run = &summary["runs"][0];
+    assert_eq!(
+        (&summary["command"], &run["outcome"], &run["controller_state"]),
+        (&"loop".into(), &"safe".into(), &"armed".into())
+    );
+    assert_eq!(run["monte_carlo"]["specimens"], 3);
+    assert!(run["peak_change"].as_f64().unwrap().abs() < 0.05);
+}
+
+#[test]
+fn bad_input_of_loop_costs_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let place = out.to_str().unwrap();
+    let scene_file = scene("controller");
+    for (set, words) in [
+        ("controller.rate_hz=5", &["controller.rate_hz", "100"][..]),
+        ("controller.law=\"nonsense\"", &["controller.law", "sign-table"][..]),
+        ("controller.sensors.suite=\"nonsense\"", &["controller.sensors.suite", "adis16470"][..]),
+        ("controller.belief.size_factor=0", &["controller.belief.size_factor", "0.1"][..]),
+        ("controller.sign_table=3", &["controller.sign_table"][..]),
+        ("device.0.kind=\"inerter\"", &["clutched-pair"][..]),
+        ("device.0.engagement=\"overrunning\"", &["overrunning"][..]),
+        ("block.initial_rotation_ratio=0.5", &["block.initial_rotation_ratio"][..]),
+    ] {
+        refused(&["loop", &scene_file, "--set", set, "--out", place], &out, words);
     }
 }

@@ -33,7 +33,7 @@ use sprag_shared::structure::DeviceKind;
     sprag loop scenes/controller.toml --monte-carlo 200\n\n\
     Writes summary.json, history.csv and loop.svg; with --monte-carlo also monte_carlo.csv.")]
 pub struct LoopArguments {
-    /// Scene file with a clutched pair and a [controller].
+    /// Scene file with a clutched pair and a controller table.
     #[arg(value_name = "SCENE.toml")]
     pub scene: PathBuf,
     /// Change one value of the scene, such as controller.rate_hz=1000.
