@@ -106,6 +106,10 @@ fn run_or_fail(arguments: &LoopStudyArguments, out: &mut impl Write, interrupt: 
 
 fn write(report: &Report, arguments: &LoopStudyArguments, out: &mut impl Write) -> Result<(), OutputError> {
     let folder = &arguments.out;
+    let names = report.tables.iter().map(|(name, _)| name).chain(report.figures.iter().map(|(name, _)| name));
+    for (inner, _) in names.filter_map(|name| name.rsplit_once('/')) {
+        make_folder(&folder.join(inner))?;
+    }
     let mut results = Results::default();
     results.add(&folder.join(format!("{}.md", report.name)), |file| file.write_all(report.text.as_bytes()))?;
     for (name, table) in &report.tables {

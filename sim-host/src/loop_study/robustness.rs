@@ -1,7 +1,7 @@
 //! Robustness: what delay, noise, rate and wrong beliefs cost, and where the loop breaks.
 
 use super::bench::{Motion, StudyError, Variant, each, grid, run_ideal, run_loop};
-use super::practice::Comparison;
+use super::practice::{COLUMNS, Comparison};
 use super::report::{Report, Table};
 use super::statistics::cell;
 use crate::interrupt::Interrupt;
@@ -13,6 +13,7 @@ struct Sweep {
     heading: &'static str,
     axis: &'static str,
     values: &'static [f64],
+    scale: Scale,
     set: fn(f64) -> Vec<String>,
 }
 
@@ -21,18 +22,21 @@ const SWEEPS: [Sweep; 8] = [
         heading: "Delay from sample to clutch",
         axis: "ms",
         values: &[0.0, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0],
+        scale: Scale::Linear,
         set: |value| vec![format!("controller.latency_s={:?}", 1e-3 * value)],
     },
     Sweep {
         heading: "Delay that the controller does not know of",
         axis: "ms",
         values: &[0.0, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0],
+        scale: Scale::Linear,
         set: |value| vec![format!("controller.latency_s={:?}", 1e-3 * value), "controller.law=\"resisting\"".to_owned()],
     },
     Sweep {
         heading: "Noise of gyroscope and accelerometers, times that of an ICM-42688-P",
         axis: "times",
         values: &[0.1, 1.0, 3.0, 10.0, 30.0, 100.0],
+        scale: Scale::Logarithmic,
         set: |value| {
             vec![
                 format!("controller.sensors.gyroscope={{preset=\"icm-42688-p\", noise_density_deg_s_rthz={:?}}}", 0.0028 * value),
@@ -51,33 +55,48 @@ const SWEEPS: [Sweep; 8] = [
         heading: "Control rate",
         axis: "Hz",
         values: &[100.0, 200.0, 500.0, 1000.0, 2000.0, 4000.0],
+        scale: Scale::Logarithmic,
         set: |value| vec![format!("controller.rate_hz={value:?}")],
     },
     Sweep {
         heading: "Believed α over the true one",
         axis: "-",
         values: &[0.8, 0.9, 0.95, 1.0, 1.05, 1.1, 1.2],
+        scale: Scale::Linear,
         set: |value| vec![format!("controller.belief.slenderness_factor={value:?}")],
     },
     Sweep {
         heading: "Believed R over the true one",
         axis: "-",
         values: &[0.8, 0.9, 0.95, 1.0, 1.05, 1.1, 1.2],
+        scale: Scale::Linear,
         set: |value| vec![format!("controller.belief.size_factor={value:?}")],
     },
     Sweep {
         heading: "Believed σ over the true one",
         axis: "-",
         values: &[0.8, 0.9, 1.0, 1.1, 1.2],
+        scale: Scale::Linear,
         set: |value| vec![format!("controller.belief.mass_ratio_factor={value:?}")],
     },
     Sweep {
         heading: "Believed η over the true one",
         axis: "-",
         values: &[0.8, 0.9, 1.0, 1.1, 1.17],
+        scale: Scale::Linear,
         set: |value| vec![format!("controller.belief.restitution_factor={value:?}")],
     },
 ];
+
+/// Where the 95th percentile leaves 5 %, in words.
+fn breaking(sweep: &Sweep, high: &[(f64, f64)]) -> String {
+    let beyond: Vec<String> = high.iter().filter(|(_, size)| !(*size <= 5.0)).map(|(value, _)| cell(*value, 2)).collect();
+    if beyond.is_empty() {
+        "The 95th percentile stays within 5 % over the whole range.".to_owned()
+    } else {
+        format!("The 95th percentile is beyond 5 % at {} {}.", beyond.join(", "), sweep.axis)
+    }
+}
 
 /// Runs the study over pulses and `records`.
 ///
@@ -94,7 +113,19 @@ pub fn robustness(records: &[Motion], progress: &Progress, interrupt: &Interrupt
          predicted, 2 kHz, 1 ms, ADIS16470, but for the one thing that is swept. Made by `sprag loop-study robustness`.",
         motions.len()
     ));
-    let mut panels = Vec::new();
+    let plain: Vec<Variant> =
+        ["passive", "always-engaged"].iter().map(|law| Variant::new(law, &[&format!("controller.law=\"{law}\"")])).collect();
+    let results = each(&motions, &plain, progress, |motion, variant| run_loop(motion, variant, interrupt))?;
+    report.section("For comparison: what is left without decisions");
+    report.paragraph(
+        "A fault leaves the safe state: both clutches open (passive), or one flywheel engaged for good. Against the ideal pair:",
+    );
+    let mut table = Table::new(&[&["safe state"], &COLUMNS[..]].concat());
+    for (variant, results) in plain.iter().zip(&results) {
+        table.row([vec![variant.name.clone()], Comparison::of(results, &ideals[0]).cells()].concat());
+    }
+    report.table("robustness/safe-states", table);
+    let mut swept = 0;
     for sweep in &SWEEPS {
         let variants: Vec<Variant> = sweep
             .values
@@ -126,24 +157,20 @@ pub fn robustness(records: &[Motion], progress: &Progress, interrupt: &Interrupt
             high.push((value, 100.0 * comparison.size(0.95)));
         }
         report.section(sweep.heading);
-        report.table(&format!("robustness-{}", panels.len() + 1), table);
+        report.paragraph(&breaking(sweep, &high));
+        let name = format!("robustness/{}", swept + 1);
+        report.table(&name, table);
         let line = |name: &str, points: Vec<(f64, f64)>| Line { name: name.to_owned(), points, marks: true, guide: false };
-        panels.push(ChartPanel {
-            title: format!("{} ({})", sweep.heading, sweep.axis),
+        let panel = ChartPanel {
+            title: String::new(),
             y_title: "change (%)".to_owned(),
             y: Scale::Linear,
             lines: vec![line("median size", median), line("95th percentile", high)],
-        });
-    }
-    for (number, panel) in panels.into_iter().enumerate() {
-        let chart = Chart {
-            title: panel.title.clone(),
-            x_title: SWEEPS[number].axis.to_owned(),
-            x: Scale::Linear,
-            panels: vec![ChartPanel { title: String::new(), ..panel }],
-            columns: 1,
         };
-        report.figure(&format!("robustness-{}", number + 1), SWEEPS[number].heading, chart_figure(&chart)?);
+        let (title, x_title, x) = (sweep.heading.to_owned(), sweep.axis.to_owned(), sweep.scale);
+        let chart = Chart { title, x_title, x, panels: vec![panel], columns: 1 };
+        report.figure(&name, sweep.heading, chart_figure(&chart)?);
+        swept += 1;
     }
     Ok(report)
 }
