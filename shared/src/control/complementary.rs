@@ -61,6 +61,7 @@ impl Complementary {
         let ahead = if state.standing.stands { 0.0 } else { state.acceleration };
         let velocity = state.velocity + ahead * period;
         let rotation = state.rotation + 0.5 * (state.velocity + velocity) * period;
+        let (rotation, velocity, _) = bounded(rotation, velocity, 0.0);
         (state.rotation, state.velocity) = (rotation, velocity);
         if let Some(travel) = seen.travel {
             let then = rotation - velocity * instruments.encoder_delay;

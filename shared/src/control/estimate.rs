@@ -53,12 +53,13 @@ impl Deviation {
 /// Largest |θ| that an estimator keeps, rad: a block that lies on the ground has π/2.
 const MOST_ROTATION: f32 = 2.0;
 
-/// Largest |θ̇| and |θ̈|, rad/s and rad/s²: no block reaches them, and squares of them are still numbers.
-const MOST_RATE: f32 = 1e4;
+/// Largest |θ̇|, rad/s, and |θ̈|, rad/s²: no block reaches them.
+const MOST_RATE: f32 = 100.0;
+const MOST_ACCELERATION: f32 = 1e4;
 
 /// θ, θ̇ and θ̈ within what can be, so that no estimator runs away from finite readings.
 #[inline(always)]
 pub(super) fn bounded(rotation: f32, velocity: f32, acceleration: f32) -> (f32, f32, f32) {
     let within = |x: f32, most: f32| x.clamp(-most, most);
-    (within(rotation, MOST_ROTATION), within(velocity, MOST_RATE), within(acceleration, MOST_RATE))
+    (within(rotation, MOST_ROTATION), within(velocity, MOST_RATE), within(acceleration, MOST_ACCELERATION))
 }

@@ -31,6 +31,9 @@ pub struct Instruments {
 /// jump, which does not go on.
 const FASTEST_GROWTH: f32 = 120.0;
 
+/// Largest acceleration of the ground that is tracked, g: beyond any accelerometer's range.
+const MOST_GROUND: f32 = 1e3;
+
 impl Instruments {
     /// With a `period` (s) of 1e-6 to 0.1 s, encoder counts of `travel_per_count` (over R), delays in s (gyroscope, encoder, ground
     /// accelerometer) of 0 to 0.1 s, and the ground's acceleration tracked by a critically damped filter with a time constant of
@@ -97,11 +100,11 @@ impl Instruments {
             let value = if fresh { reading } else { 0.0 };
             *track = Track { value, rate: 0.0, started: fresh };
         } else if !fresh {
-            track.value = ahead;
+            track.value = ahead.clamp(-MOST_GROUND, MOST_GROUND);
         } else {
             let surprise = reading - ahead;
-            track.value = ahead + self.gains[0] * surprise;
-            track.rate += self.gains[1] * surprise * self.period_inverse;
+            track.value = (ahead + self.gains[0] * surprise).clamp(-MOST_GROUND, MOST_GROUND);
+            track.rate = (track.rate + self.gains[1] * surprise * self.period_inverse).clamp(-1e6, 1e6);
         }
     }
 }

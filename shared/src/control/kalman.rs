@@ -72,6 +72,7 @@ impl Kalman {
         let ahead = if state.standing.stands { 0.0 } else { state.acceleration };
         let velocity = state.velocity + ahead * period;
         let rotation = state.rotation + (state.velocity + 0.5 * ahead * period) * period;
+        let (rotation, velocity, ahead) = bounded(rotation, velocity, ahead);
         state.blank = state.blank.saturating_sub(1);
         let believed = state.blank == 0;
         let travel = seen.travel.map_or(0.0, |travel| {

@@ -54,6 +54,7 @@ impl ModelAided {
         };
         let velocity = state.velocity + ahead * period;
         let rotation = state.rotation + 0.5 * (state.velocity + velocity) * period;
+        let (rotation, velocity, _) = bounded(rotation, velocity, 0.0);
         (state.rotation, state.velocity) = (rotation, velocity);
         // Readings are compared with the motion of when they were taken.
         if let Some(travel) = seen.travel {

@@ -1,5 +1,7 @@
 //! Examples that the tests beside the controller's parts share.
 
+mod estimators;
+
 use super::estimate::Estimate;
 use super::law::Situation;
 use super::model::{KnownFull, Model};
