@@ -33,7 +33,7 @@ fn peak_with(law: OutwardOnly, motion: &Motion, variant: &Variant) -> f64 {
 
 #[test]
 fn a_law_of_ones_own_is_tested_as_it_would_be_flashed() {
-    let motion = Motion::Pulse { shape: "sine", frequency: 4.0, amplitude: 3.0 };
+    let motion = Motion::Pulse { shape: "sine", frequency: 4.0, amplitude: 2.0 };
     let real = Variant::new("real", &["controller.sensors.suite=\"adis16470\"", "controller.latency_s=0.001"]);
     let own = peak_with(OutwardOnly, &motion, &real);
     let passive = run_loop(&motion, &real.with("controller.law=\"passive\""), &Interrupt::default()).unwrap();
