@@ -128,7 +128,7 @@ impl<B: KnownBody, L: Law<B>> Controller<B, L> {
         state.signs = if estimate.standing {
             // The way it goes when the ground sets it free: Eq. 10 engages from the start.
             let side = Sign::of(-estimate.ground[0], Sign::Positive);
-            Signs { rotation: side, velocity: side, push: side, ground: side.opposite() }
+            Signs { rotation: side, velocity: side, push: side, ground: side.opposite(), quiet: false }
         } else {
             state.signs.after(&ahead, self.bands)
         };

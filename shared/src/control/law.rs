@@ -101,8 +101,8 @@ impl GatedTable {
 /// Row of a table: 4 [θ·v > 0] + 2 [a·v > 0] + [ü_g·v > 0].
 #[inline(always)]
 pub fn sign_row(signs: &Signs) -> u8 {
-    let Signs { rotation, velocity, push, ground } = *signs;
-    4 * u8::from(rotation == velocity) + 2 * u8::from(push == velocity) + u8::from(ground == velocity)
+    let Signs { rotation, velocity, push, ground, quiet } = *signs;
+    4 * u8::from(rotation == velocity) + 2 * u8::from(push == velocity) + u8::from(ground == velocity && !quiet)
 }
 
 impl<B> Law<B> for Passive {

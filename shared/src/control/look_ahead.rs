@@ -68,7 +68,13 @@ impl LookAhead {
                 engage
             } else {
                 let push = Sign::of(model.body.switching(&posture, velocity, drive), direction);
-                let signs = Signs { rotation: side, velocity: direction, push, ground: Sign::of(ground[0], direction) };
+                let signs = Signs {
+                    rotation: side,
+                    velocity: direction,
+                    push,
+                    ground: Sign::of(ground[0], direction),
+                    quiet: ground[0] == 0.0,
+                };
                 self.base.engages(sign_row(&signs), at.ground_drift, model.uplift)
             };
             let wheel = wheel_for(direction);
@@ -133,7 +139,7 @@ mod tests {
             ground_rate: 0.7 * mirror,
             ..Estimate::default()
         };
-        let signs = Signs { rotation: side, velocity: side, push: side, ground: side.opposite() };
+        let signs = Signs { rotation: side, velocity: side, push: side, ground: side.opposite(), quiet: false };
         LookAhead::default().wish(&Situation { model, estimate, signs, engaged: [false; 2], spins: [0.0; 2], ground_drift: 0.0 })
     }
 

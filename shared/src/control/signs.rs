@@ -17,6 +17,8 @@ pub struct Signs {
     pub push: Sign,
     /// Of ü_g.
     pub ground: Sign,
+    /// ü_g is nothing but noise: it goes neither way.
+    pub quiet: bool,
 }
 
 impl Signs {
@@ -31,6 +33,7 @@ impl Signs {
             velocity: held(self.velocity, estimate.velocity, band.velocity),
             push: held(self.push, estimate.push, band.push),
             ground: held(self.ground, estimate.ground[0], band.ground),
+            quiet: estimate.ground[0].abs() <= band.ground,
         }
     }
 }

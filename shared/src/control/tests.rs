@@ -45,6 +45,6 @@ pub fn spinning_model() -> Model<KnownFull<Paper>> {
 /// A situation with the signs of the four `bits`.
 pub fn situation(model: &Model<KnownFull<Paper>>, bits: u8) -> Situation<'_, KnownFull<Paper>> {
     let sign = |bit: u8| if bits >> bit & 1 == 1 { Sign::Positive } else { Sign::Negative };
-    let signs = Signs { rotation: sign(0), velocity: sign(1), push: sign(2), ground: sign(3) };
+    let signs = Signs { rotation: sign(0), velocity: sign(1), push: sign(2), ground: sign(3), quiet: false };
     Situation { model, estimate: Estimate::default(), signs, engaged: [false; 2], spins: [0.0; 2], ground_drift: 0.0 }
 }

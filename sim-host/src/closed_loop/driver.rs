@@ -60,6 +60,7 @@ impl<B: KnownBody, L: Law<B>> Driver for Shared<B, L> {
             velocity: plant.motion.direction,
             push: plant.motion.drive,
             ground: Sign::of(ground[0], self.signs.ground),
+            quiet: ground[0] == 0.0,
         };
         let elapsed = f64::from(model.frequency) * (plant.time - self.time);
         self.drift = (self.drift + elapsed * plant.ground[0]) * math::exp(-elapsed / f64::from(DRIFT_TIME));
