@@ -90,7 +90,8 @@ const SWEEPS: [Sweep; 8] = [
 
 /// Where the 95th percentile leaves 5 %, in words.
 fn breaking(sweep: &Sweep, high: &[(f64, f64)]) -> String {
-    let beyond: Vec<String> = high.iter().filter(|(_, size)| !(*size <= 5.0)).map(|(value, _)| cell(*value, 2)).collect();
+    let beyond: Vec<String> =
+        high.iter().filter(|(_, size)| *size > 5.0 || size.is_nan()).map(|(value, _)| cell(*value, 2)).collect();
     if beyond.is_empty() {
         "The 95th percentile stays within 5 % over the whole range.".to_owned()
     } else {
@@ -125,8 +126,7 @@ pub fn robustness(records: &[Motion], progress: &Progress, interrupt: &Interrupt
         table.row([vec![variant.name.clone()], Comparison::of(results, &ideals[0]).cells()].concat());
     }
     report.table("robustness/safe-states", table);
-    let mut swept = 0;
-    for sweep in &SWEEPS {
+    for (number, sweep) in SWEEPS.iter().enumerate() {
         let variants: Vec<Variant> = sweep
             .values
             .iter()
@@ -158,7 +158,7 @@ pub fn robustness(records: &[Motion], progress: &Progress, interrupt: &Interrupt
         }
         report.section(sweep.heading);
         report.paragraph(&breaking(sweep, &high));
-        let name = format!("robustness/{}", swept + 1);
+        let name = format!("robustness/{}", number + 1);
         report.table(&name, table);
         let line = |name: &str, points: Vec<(f64, f64)>| Line { name: name.to_owned(), points, marks: true, guide: false };
         let panel = ChartPanel {
@@ -170,7 +170,6 @@ pub fn robustness(records: &[Motion], progress: &Progress, interrupt: &Interrupt
         let (title, x_title, x) = (sweep.heading.to_owned(), sweep.axis.to_owned(), sweep.scale);
         let chart = Chart { title, x_title, x, panels: vec![panel], columns: 1 };
         report.figure(&name, sweep.heading, chart_figure(&chart)?);
-        swept += 1;
     }
     Ok(report)
 }
