@@ -9,9 +9,10 @@
 
 use super::estimate::{Deviation, Estimate, bounded};
 use super::instruments::{Instruments, Measured};
-use super::kalman::measured_acceleration;
+use super::kalman::{kinematic_estimate, measured_acceleration};
 use super::model::{KnownBody, Model};
 use super::standing::{Standing, StandingState};
+use crate::arc::Motion;
 use crate::scalar::Sign;
 
 /// Parameters.
@@ -84,17 +85,7 @@ impl Complementary {
             }
             state.acceleration = model.acceleration(state.side, state.rotation, state.velocity, seen.ground, engaged);
         }
-        let posture = model.body.posture(state.side.unit(), state.rotation);
-        let terminal = model.body.terminal_acceleration(&posture, state.velocity, state.acceleration);
-        Estimate {
-            rotation: state.rotation,
-            velocity: state.velocity,
-            side: state.side,
-            push: model.body.arm(&posture) * terminal,
-            ground: seen.ground,
-            ground_rate: seen.ground_rate,
-            standing: false,
-            deviation: self.deviation,
-        }
+        let motion = Motion { rotation: state.rotation, velocity: state.velocity, acceleration: state.acceleration };
+        kinematic_estimate(model, seen, state.side, &motion, self.deviation)
     }
 }

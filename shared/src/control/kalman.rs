@@ -13,6 +13,7 @@ use super::estimate::{Deviation, Estimate, bounded};
 use super::instruments::{Instruments, Measured};
 use super::model::{KnownBody, Model};
 use super::standing::{Standing, StandingState};
+use crate::arc::Motion;
 use crate::math::sine32;
 use crate::scalar::Sign;
 
@@ -55,6 +56,30 @@ pub fn measured_acceleration<B: KnownBody>(
     let relative = (block[0] * cosine + block[1] * sine - ground) / model.size;
     let (across, along) = model.direction_cosines(side, rotation);
     (relative - along * velocity * velocity) / across
+}
+
+/// The estimate of a filter that has measured θ̈: the sign of the terminals' acceleration is that of the measured one.
+#[inline(always)]
+pub(super) fn kinematic_estimate<B: KnownBody>(
+    model: &Model<B>,
+    seen: &Measured,
+    side: Sign,
+    motion: &Motion<f32>,
+    deviation: Deviation,
+) -> Estimate {
+    let Motion { rotation, velocity, acceleration } = *motion;
+    let posture = model.posture(side, rotation);
+    let terminal = model.body.terminal_acceleration(&posture, velocity, acceleration);
+    Estimate {
+        rotation,
+        velocity,
+        side,
+        push: model.body.arm(&posture) * terminal,
+        ground: seen.ground,
+        ground_rate: seen.ground_rate,
+        standing: false,
+        deviation,
+    }
 }
 
 impl Kalman {
@@ -108,17 +133,7 @@ impl Kalman {
             state.acceleration = model.acceleration(state.side, state.rotation, state.velocity, seen.ground, engaged);
             state.blank = self.blank;
         }
-        let posture = model.body.posture(state.side.unit(), state.rotation);
-        let terminal = model.body.terminal_acceleration(&posture, state.velocity, state.acceleration);
-        Estimate {
-            rotation: state.rotation,
-            velocity: state.velocity,
-            side: state.side,
-            push: model.body.arm(&posture) * terminal,
-            ground: seen.ground,
-            ground_rate: seen.ground_rate,
-            standing: false,
-            deviation: self.deviation,
-        }
+        let motion = Motion { rotation: state.rotation, velocity: state.velocity, acceleration: state.acceleration };
+        kinematic_estimate(model, seen, state.side, &motion, self.deviation)
     }
 }

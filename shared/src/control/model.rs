@@ -5,7 +5,6 @@
 
 use core::marker::PhantomData;
 
-use crate::block::Geometry;
 use crate::body::{Body, FullBody, SlenderBody};
 use crate::drivetrain::{Drivetrain, Engagement};
 use crate::equation::{FullBlock, Kinematics};
@@ -100,10 +99,6 @@ impl<B: KnownBody> Model<B> {
         let flywheel = &drivetrain.flywheel;
         let stops_at_once = !wheels_spin || flywheel.brake_deceleration.is_infinite();
         let brake = if stops_at_once { 0.0 } else { flywheel.brake_deceleration };
-        let uplift = match structure.geometry {
-            Geometry::Full => math::tan(block.slenderness()),
-            Geometry::Slender => block.slenderness(),
-        };
         let standing = body.posture(1.0, 0.0);
         Ok(Model {
             body,
@@ -112,7 +107,7 @@ impl<B: KnownBody> Model<B> {
             slenderness: block.slenderness() as f32,
             size: block.size() as f32,
             restitution: structure.restitution()? as f32,
-            uplift: uplift as f32,
+            uplift: structure.geometry.uplift_threshold(block) as f32,
             coupling: (structure.device.mass_ratio / block.inertia_ratio()) as f32,
             wheels_spin,
             decay: flywheel.viscous_rate as f32,
@@ -187,7 +182,7 @@ impl<B: KnownBody> Model<B> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::block::Block;
+    use crate::block::{Block, Geometry};
     use crate::equation::{Consistent, Paper};
     use crate::lever::Mount;
     use crate::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution};

@@ -216,11 +216,11 @@ impl<'a> LoopTask<'a> {
         };
         let closed = ClosedLoop { clock, suite: self.suite, seed: self.seed, disturbance, interrupt: self.interrupt };
         let next = Running { closed, driver, watcher, observer };
-        self.drivetrain().resolve(&self.structure_of_plant(), self.ground.vertical.is_some(), Build { surroundings, next })?
-    }
-
-    fn structure_of_plant(&self) -> Structure {
-        self.scene.structure(self.index)
+        self.drivetrain().resolve(
+            &self.scene.structure(self.index),
+            self.ground.vertical.is_some(),
+            Build { surroundings, next },
+        )?
     }
 
     /// The same device as the paper has it, without a controller: ideal engagement, nothing lost, nothing late.
