@@ -2,7 +2,7 @@
 //! and the impact included) over plain numbers and over SIMD lanes, and the ways of being generic that were not taken.
 //!
 //! `cargo bench --bench shape` prints nanoseconds, which are noise on a shared machine, and ratios to the first row,
-//! which are not. The instructions of the same step on the target: `cargo run --release -p sprag-firmware --target
+//! which are not. The instructions of the same step on the target: `cargo run --release -p sprag-emulated-core --target
 //! thumbv7em-none-eabihf`.
 
 use std::hint::black_box;

@@ -6,8 +6,8 @@ use std::process::{Command, Stdio};
 
 /// The firmware, if everything that the emulation needs is there; otherwise says what is not.
 pub fn firmware() -> Option<PathBuf> {
-    let Some(elf) = std::env::var_os("SPRAG_FIRMWARE_ELF") else {
-        eprintln!("SKIPPED: SPRAG_FIRMWARE_ELF is not set; `cargo xtask test` builds the firmware and sets it");
+    let Some(elf) = std::env::var_os("SPRAG_EMULATED_CORE_ELF") else {
+        eprintln!("SKIPPED: SPRAG_EMULATED_CORE_ELF is not set; `cargo xtask test` builds the firmware and sets it");
         return None;
     };
     if Command::new("qemu-system-arm").arg("--version").stdout(Stdio::null()).status().is_err() {

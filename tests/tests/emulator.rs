@@ -1,7 +1,7 @@
 //! The same case gives the same bits on the host and on the emulated Cortex-M4F: outcome, every count, and the digest of
 //! all states on the way. And the target's step costs what it may.
 //!
-//! Needs `qemu-system-arm` and the firmware for the board, named by `SPRAG_FIRMWARE_ELF` (`cargo xtask test` does both).
+//! Needs `qemu-system-arm` and the firmware for the board, named by `SPRAG_EMULATED_CORE_ELF` (`cargo xtask test` does both).
 
 use std::collections::BTreeMap;
 use std::path::Path;

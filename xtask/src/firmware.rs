@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 pub const TARGET: &str = "thumbv7em-none-eabihf";
 
 /// The firmware's package.
-pub const PACKAGE: &str = "sprag-firmware";
+pub const PACKAGE: &str = "sprag-emulated-core";
 
 /// How the emulator runs it, as in `.cargo/config.toml`; the firmware follows.
 pub const EMULATOR: [&str; 8] = [
@@ -25,7 +25,7 @@ pub const EMULATOR: [&str; 8] = [
 ];
 
 /// The environment variable through which the emulator tests find the firmware.
-pub const ELF_VARIABLE: &str = "SPRAG_FIRMWARE_ELF";
+pub const ELF_VARIABLE: &str = "SPRAG_EMULATED_CORE_ELF";
 
 /// Builds the firmware with optimisation and gives the path of its ELF file.
 ///

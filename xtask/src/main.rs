@@ -21,7 +21,7 @@ Usage: cargo xtask <task> [options]
 Tasks:
   test      every check, in order; stops at the first that fails
   ci        the same
-  firmware  build the firmware for the board and hold its size against firmware/size.budget
+  firmware  build the firmware for the board and hold its size against tests/emulated-core/size.budget
   effects   measure what each effect costs, on the host under callgrind and on the emulated board, and write
             docs/effects-cost.csv; fails if an effect that is off costs more than 1 %
   fuzz [TARGET]

@@ -5,7 +5,7 @@ use object::{Object as _, ObjectSection as _, SectionFlags, SectionKind, elf};
 use std::{fs, path::Path};
 
 /// The file with the budget, relative to the root of the workspace.
-const BUDGET: &str = "firmware/size.budget";
+const BUDGET: &str = "tests/emulated-core/size.budget";
 
 /// What the program occupies, in bytes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

@@ -41,7 +41,7 @@ const HARMONIC_SUM: u32 = 0x40ef_890a;
 /// # Errors
 /// If a result is not the expected one, or `out` refuses a line.
 pub fn run(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> Result<(), SelfCheckError> {
-    writeln!(out, "sprag-firmware {}: self check", env!("CARGO_PKG_VERSION"))?;
+    writeln!(out, "sprag-emulated-core {}: self check", env!("CARGO_PKG_VERSION"))?;
     check_count::<0>(counter)?;
     check_count::<1>(counter)?;
     check_count::<10>(counter)?;

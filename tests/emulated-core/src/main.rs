@@ -1,4 +1,4 @@
-//! The firmware of Sprag: one program, two worlds. Built for the STM32F405 it is a `no_std` program that talks to its
+//! The core and the controller in the emulator: one program, two worlds. Built for the STM32F405 it is a `no_std` program that talks to its
 //! host through semihosting; built for the host it is an ordinary program that prints the same lines.
 //!
 //! Given the path of a case file it runs the case; without one it checks itself.
