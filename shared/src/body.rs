@@ -7,9 +7,7 @@
 //! where the vertical ground acceleration v̈_g is there only if the scene has one. [`crate::equation`] holds the closed equations of
 //! ideal devices; here the same parts stand apart, so that a device with a memory can put its own forces between them.
 
-use core::marker::PhantomData;
-
-use crate::equation::{FullBlock, Kinematics};
+use crate::equation::{BodyKinematics, FullBlock};
 use crate::lever::{Lever, TyingPoint};
 use crate::scalar::Scalar;
 use crate::value::Value;
@@ -128,7 +126,7 @@ pub struct FullBody<S, K, const VERTICAL: bool> {
     /// ℓ(θ).
     pub lever: TyingPoint<S>,
     /// Paper or consistent.
-    pub kinematics: PhantomData<K>,
+    pub kinematics: K,
 }
 
 /// sin δ, cos δ, ℓ and ℓ'.
@@ -140,14 +138,14 @@ pub struct Turned<V> {
     rate: Option<V>,
 }
 
-impl<S: Scalar, K: Kinematics, const VERTICAL: bool> Body<S> for FullBody<S, K, VERTICAL> {
+impl<S: Scalar, K: BodyKinematics, const VERTICAL: bool> Body<S> for FullBody<S, K, VERTICAL> {
     const VERTICAL: bool = VERTICAL;
     type Posture<V: Value<S>> = Turned<V>;
 
     #[inline(always)]
     fn posture<V: Value<S>>(&self, side: S, rotation: V) -> Turned<V> {
         let (sin, cos) = (-rotation).offset(side * self.block.slenderness).sin_cos();
-        let rate = if K::CONSISTENT { Some(self.lever.arm_rate(side, sin, cos)) } else { None };
+        let rate = if self.kinematics.consistent() { Some(self.lever.arm_rate(side, sin, cos)) } else { None };
         Turned { sin, cos, arm: self.lever.arm(side, sin, cos), rate }
     }
 
@@ -190,7 +188,7 @@ impl<S: Scalar, K: Kinematics, const VERTICAL: bool> Body<S> for FullBody<S, K, 
 
     #[inline(always)]
     fn paper_power(&self, side: S, posture: &Turned<S>, velocity: S, coupling: S) -> S {
-        if K::CONSISTENT {
+        if self.kinematics.consistent() {
             return S::of(0.0);
         }
         let rate = self.lever.arm_rate(side, posture.sin, posture.cos);

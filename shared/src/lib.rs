@@ -14,6 +14,7 @@
 //!   what the motion asks of toe, rack and flywheels; [`gear`]: and of their teeth.
 //! - [`detected`]: the usual scheme, in which nothing is located, as the yardstick of accuracy and cost.
 //! - [`case`]: a scene in words, which a board and its host run to the same bits.
+//! - [`control`]: the controller; [`settings`]: all that it is told, in words, which a board keeps and its host writes.
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -31,6 +32,7 @@ pub mod clutch;
 pub mod control;
 pub mod decay;
 pub mod detected;
+pub mod device;
 pub mod digest;
 pub mod drivetrain;
 pub mod equation;
@@ -43,6 +45,7 @@ pub mod inertance;
 pub mod lanes;
 pub mod ledger;
 pub mod lever;
+pub mod link;
 pub mod locate;
 pub mod math;
 pub mod observer;
@@ -50,9 +53,11 @@ pub mod polynomial;
 pub mod restitution;
 pub mod rocking;
 pub mod scalar;
+pub mod settings;
 pub mod snapshot;
 pub mod structure;
 pub mod tape;
 pub mod taylor;
+pub mod told_body;
 pub mod value;
 pub mod watched;

@@ -5,6 +5,7 @@
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
+use serde::{Deserialize, Serialize};
 
 /// What an equation of motion and a branch-free stepper need of a number.
 pub trait Scalar:
@@ -183,7 +184,7 @@ single_number!(
 
 /// Which way: the sign of a rotation, a velocity or an acceleration, kept as a state of its own so that a value
 /// that is zero to rounding never decides anything.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Sign {
     /// About the right-hand toe (Figure 1).
     #[default]

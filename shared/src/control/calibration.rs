@@ -1,9 +1,10 @@
 //! Biases of the sensors, found while nothing moves.
 
 use super::sample::Sample;
+use serde::{Deserialize, Serialize};
 
 /// What the estimators subtract.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
     /// Gyroscope at rest, rad/s.
     pub gyroscope: f32,

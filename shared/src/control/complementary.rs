@@ -41,6 +41,14 @@ pub struct ComplementaryState {
     standing: StandingState,
 }
 
+impl ComplementaryState {
+    /// Of a block that is met in motion at θ and θ̇.
+    pub(super) fn met(rotation: f32, velocity: f32) -> ComplementaryState {
+        let side = Sign::of(rotation, Sign::of(velocity, Sign::Positive));
+        ComplementaryState { rotation, velocity, side, standing: StandingState::ROCKING, ..ComplementaryState::default() }
+    }
+}
+
 impl Complementary {
     /// One tick, with `engaged` flywheels on the rack.
     #[inline]

@@ -17,6 +17,10 @@ use super::signs::Signs;
 use super::supervisor::{Phase, Requests, Supervisor, SupervisorInput, SupervisorState};
 use super::turns::TurnsState;
 use crate::scalar::Sign;
+use serde::{Deserialize, Serialize};
+
+/// Steps after which a rotation from the rack's travel is exact in single precision.
+const NEWTON_STEPS: u32 = 4;
 
 /// Parameters of a controller for a body `B` by a law `L`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,6 +64,16 @@ impl ControllerState {
     pub fn supervisor(&self) -> &SupervisorState {
         &self.supervisor
     }
+
+    /// The biases that are subtracted.
+    pub fn calibration(&self) -> &Calibration {
+        &self.calibration
+    }
+
+    /// Believed speeds of the flywheels as racks that moved with them, over R, 1/s.
+    pub fn spins(&self) -> [f32; 2] {
+        self.turns.spins
+    }
 }
 
 /// What a tick is told beside the readings.
@@ -72,7 +86,7 @@ pub struct Circumstances {
 }
 
 /// What a tick comes to.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Decision {
     /// Whether each clutch shall be engaged.
     pub command: [bool; 2],
@@ -99,6 +113,32 @@ impl<B: KnownBody, L: Law<B>> Controller<B, L> {
             drift: 0.0,
             supervisor: SupervisorState::default(),
         }
+    }
+
+    /// From the beginning, with the event log of before.
+    // In place: a second state would be most of a microcontroller's stack.
+    pub fn restart(&self, state: &mut ControllerState) {
+        let ControllerState { instruments, estimator, calibration, signs, turns, gate, drift, supervisor } = state;
+        (*instruments, *estimator, *calibration) = (InstrumentsState::default(), self.estimator.start(), Calibration::default());
+        (*signs, *turns, *gate, *drift) = (Signs::default(), TurnsState::default(), GateState::default(), 0.0);
+        supervisor.restart();
+    }
+
+    /// Goes on after a reset in mid-motion, with the `calibration` of before, flywheels that had these `spins`, and the first `sample` after
+    /// it. Whether the block stands or rocks, and where, is what encoder and gyroscope say.
+    pub fn resume(&self, state: &mut ControllerState, calibration: &Calibration, spins: [f32; 2], sample: &Sample) {
+        let counts = sample.encoder.counts.wrapping_sub(calibration.encoder_zero);
+        let travel = counts as f32 * self.instruments.travel_per_count;
+        let rate = sample.gyroscope.value - calibration.gyroscope;
+        let velocity = if rate.is_finite() { rate } else { 0.0 };
+        let side = Sign::of(travel, Sign::of(velocity, Sign::Positive));
+        // Newton's method from upright: the lever changes little over a swing.
+        let rotation = (0..NEWTON_STEPS).fold(0.0, |near, _| self.model.rotation_of_travel(travel, near, side));
+        self.restart(state);
+        state.calibration = *calibration;
+        state.estimator = self.estimator.met(rotation, velocity);
+        state.turns.spins = spins;
+        self.supervisor.resume(&mut state.supervisor, calibration);
     }
 
     /// One tick.
@@ -189,7 +229,7 @@ pub struct Choice {
 }
 
 /// How many flywheels are on the rack.
-#[inline(always)]
+#[inline]
 fn count(engaged: [bool; 2]) -> u8 {
     u8::from(engaged[0]) + u8::from(engaged[1])
 }

@@ -1,9 +1,10 @@
 //! What the controller believes of the motion, whichever estimator found it.
 
 use crate::scalar::Sign;
+use serde::{Deserialize, Serialize};
 
 /// The motion at the instant of a tick.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// θ, rad.
     pub rotation: f32,
@@ -24,7 +25,7 @@ pub struct Estimate {
 }
 
 /// Standard deviations of an estimate.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Deviation {
     /// rad.
     pub rotation: f32,
@@ -38,7 +39,7 @@ pub struct Deviation {
 
 impl Deviation {
     /// All of them `factor` times as large.
-    #[inline(always)]
+    #[inline]
     #[must_use]
     pub fn scaled(self, factor: f32) -> Deviation {
         Deviation {
@@ -58,7 +59,7 @@ const MOST_RATE: f32 = 100.0;
 const MOST_ACCELERATION: f32 = 1e4;
 
 /// θ, θ̇ and θ̈ within what can be, so that no estimator runs away from finite readings.
-#[inline(always)]
+#[inline]
 pub(super) fn bounded(rotation: f32, velocity: f32, acceleration: f32) -> (f32, f32, f32) {
     let within = |x: f32, most: f32| x.clamp(-most, most);
     (within(rotation, MOST_ROTATION), within(velocity, MOST_RATE), within(acceleration, MOST_ACCELERATION))

@@ -40,6 +40,15 @@ impl Estimator {
         }
     }
 
+    /// State of a block that is met in motion at θ (rad) and θ̇ (rad/s), as after a reset in mid-earthquake.
+    pub fn met(&self, rotation: f32, velocity: f32) -> EstimatorState {
+        match self {
+            Estimator::ModelAided(_) => EstimatorState::ModelAided(ModelAidedState::met(rotation, velocity)),
+            Estimator::Kalman(_) => EstimatorState::Kalman(KalmanState::met(rotation, velocity)),
+            Estimator::Complementary(_) => EstimatorState::Complementary(ComplementaryState::met(rotation, velocity)),
+        }
+    }
+
     /// Sensors that it cannot do without.
     pub fn required(&self) -> Required {
         match self {

@@ -2,8 +2,8 @@
 
 use super::fault::{Fault, Wheel};
 use super::supervisor::Phase;
-use heapless::HistoryBuf;
-use heapless::history_buf::OldestOrdered;
+use heapless::Deque;
+use heapless::deque::Iter;
 
 /// What happened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,7 +48,7 @@ pub struct Entry {
 /// The last `N` entries, `N` at least 1.
 #[derive(Clone, Debug)]
 pub struct EventLog<const N: usize> {
-    ring: HistoryBuf<Entry, N>,
+    ring: Deque<Entry, N>,
     count: u32,
 }
 
@@ -59,18 +59,22 @@ impl<const N: usize> EventLog<N> {
     /// An empty one.
     pub const fn new() -> EventLog<N> {
         let () = Self::HOLDS_SOMETHING;
-        EventLog { ring: HistoryBuf::new(), count: 0 }
+        EventLog { ring: Deque::new(), count: 0 }
     }
 
     /// Adds `entry`, in the place of the oldest where the log is full.
     pub fn push(&mut self, entry: Entry) {
-        self.ring.write(entry);
+        if self.ring.is_full() {
+            self.ring.pop_front();
+        }
+        // There is room now, so nothing can be handed back.
+        let _ = self.ring.push_back(entry);
         self.count = self.count.saturating_add(1);
     }
 
     /// From the oldest to the newest.
-    pub fn iter(&self) -> OldestOrdered<'_, Entry> {
-        self.ring.oldest_ordered()
+    pub fn iter(&self) -> Iter<'_, Entry> {
+        self.ring.iter()
     }
 
     /// How many there ever were, saturating: what exceeds the length of [`EventLog::iter`] is lost.
@@ -87,9 +91,9 @@ impl<const N: usize> Default for EventLog<N> {
 
 impl<'a, const N: usize> IntoIterator for &'a EventLog<N> {
     type Item = &'a Entry;
-    type IntoIter = OldestOrdered<'a, Entry>;
+    type IntoIter = Iter<'a, Entry>;
 
-    fn into_iter(self) -> OldestOrdered<'a, Entry> {
+    fn into_iter(self) -> Iter<'a, Entry> {
         self.iter()
     }
 }

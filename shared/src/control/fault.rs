@@ -1,9 +1,11 @@
 //! What can go wrong with the controller's sensors, clutches and timing, as numbers that keep their meaning, and how it is recovered from.
 
 use core::fmt;
+use serde::{Deserialize, Serialize};
 
 /// A sensor of [`Sample`](super::sample::Sample).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Sensor {
     /// θ̇ of the block.
     Gyroscope,
@@ -32,7 +34,8 @@ impl fmt::Display for Sensor {
 }
 
 /// One of the two clutched flywheels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Wheel {
     /// Index 0 in arrays over clutches.
     First,
@@ -58,7 +61,9 @@ impl fmt::Display for Wheel {
 
 /// A fault, or the occasion of a warning. Two witnesses that disagree do not tell which of them lies: the sensor of a contradiction is the
 /// likelier one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(into = "u16", try_from = "u16")]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Fault {
     /// No new reading in time.
     Stale(Sensor),
@@ -86,6 +91,31 @@ pub enum Fault {
     CalibrationAbandoned,
     /// Only a warning: the clutches were not tested, for lack of stillness.
     SelfTestAbandoned,
+}
+
+/// A fault travels as its code.
+impl From<Fault> for u16 {
+    fn from(fault: Fault) -> u16 {
+        fault.code()
+    }
+}
+
+impl TryFrom<u16> for Fault {
+    type Error = NoFault;
+
+    fn try_from(code: u16) -> Result<Fault, NoFault> {
+        Fault::from_code(code).ok_or(NoFault)
+    }
+}
+
+/// A number that is no fault's code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoFault;
+
+impl fmt::Display for NoFault {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("no fault has this code")
+    }
 }
 
 /// How the controller comes back from a fault.

@@ -50,19 +50,32 @@ impl Instruments {
         require("tracking", tracking, (0.0..=1.0).contains(&tracking), "from 0 to 1 s")?;
         // Fading-memory filter of first degree (Morrison 1969): poles both at e^(-T/τ).
         let pole = if tracking > 0.0 { math::exp(-period / tracking) } else { 0.0 };
-        Ok(Instruments {
-            period: period as f32,
-            travel_per_count: travel_per_count as f32,
-            gyroscope_delay: delays[0] as f32,
-            encoder_delay: delays[1] as f32,
-            ground_delay: delays[2] as f32,
-            gains: [(1.0 - pole * pole) as f32, ((1.0 - pole) * (1.0 - pole)) as f32],
-            period_inverse: (1.0 / period) as f32,
-        })
+        let gains = [(1.0 - pole * pole) as f32, ((1.0 - pole) * (1.0 - pole)) as f32];
+        Ok(Instruments::of_gains(period as f32, travel_per_count as f32, delays.map(|delay| delay as f32), gains))
+    }
+
+    /// As [`Instruments::new`], in single precision and with the `gains` of the tracking, each 0 to 1; to the same bits wherever it is
+    /// made.
+    pub fn of_gains(period: f32, travel_per_count: f32, delays: [f32; 3], gains: [f32; 2]) -> Instruments {
+        let [gyroscope_delay, encoder_delay, ground_delay] = delays;
+        Instruments {
+            period,
+            travel_per_count,
+            gyroscope_delay,
+            encoder_delay,
+            ground_delay,
+            gains,
+            period_inverse: 1.0 / period,
+        }
+    }
+
+    /// Gains of the tracking: of the value, and of its growth over the period.
+    pub fn gains(&self) -> [f32; 2] {
+        self.gains
     }
 
     /// The readings of one tick; what has not been read anew since the last tick is marked so.
-    #[inline(always)]
+    #[inline]
     pub fn read(&self, state: &mut InstrumentsState, sample: &Sample, zero: &Calibration) -> Measured {
         let numbers = [
             sample.gyroscope.number,
@@ -93,7 +106,7 @@ impl Instruments {
         }
     }
 
-    #[inline(always)]
+    #[inline]
     fn track(&self, track: &mut Track, reading: f32, fresh: bool) {
         let ahead = track.value + track.rate * self.period;
         if !track.started {
@@ -110,7 +123,7 @@ impl Instruments {
 }
 
 /// A number that a sensor can have read; the supervisor says what is wrong with another.
-#[inline(always)]
+#[inline]
 fn usable(reading: f32) -> bool {
     reading.abs() < 1e6
 }

@@ -45,7 +45,7 @@ pub struct KalmanState {
 }
 
 /// θ̈ from the specific forces of block and ground, rad/s².
-#[inline(always)]
+#[inline]
 pub fn measured_acceleration<B: KnownBody>(
     model: &Model<B>,
     (side, rotation, velocity): (Sign, f32, f32),
@@ -59,7 +59,7 @@ pub fn measured_acceleration<B: KnownBody>(
 }
 
 /// The estimate of a filter that has measured θ̈: the sign of the terminals' acceleration is that of the measured one.
-#[inline(always)]
+#[inline]
 pub(super) fn kinematic_estimate<B: KnownBody>(
     model: &Model<B>,
     seen: &Measured,
@@ -79,6 +79,14 @@ pub(super) fn kinematic_estimate<B: KnownBody>(
         ground_rate: seen.ground_rate,
         standing: false,
         deviation,
+    }
+}
+
+impl KalmanState {
+    /// Of a block that is met in motion at θ and θ̇.
+    pub(super) fn met(rotation: f32, velocity: f32) -> KalmanState {
+        let side = Sign::of(rotation, Sign::of(velocity, Sign::Positive));
+        KalmanState { rotation, velocity, side, standing: StandingState::ROCKING, ..KalmanState::default() }
     }
 }
 

@@ -7,6 +7,7 @@ use super::estimate::Estimate;
 use super::look_ahead::LookAhead;
 use super::model::{KnownBody, Model};
 use super::signs::Signs;
+use serde::{Deserialize, Serialize};
 
 /// What a law can know.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +30,8 @@ pub struct Situation<'a, B> {
 pub const DRIFT_TIME: f32 = 3.0;
 
 /// What a law wants.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Wish {
     /// Both clutches open.
     #[default]
@@ -92,49 +94,49 @@ impl GatedTable {
     pub const DEFAULT: GatedTable = GatedTable { table: 0b0100_1110, row: 5, threshold: 0.8 };
 
     /// Whether a row engages.
-    #[inline(always)]
+    #[inline]
     pub fn engages(&self, row: u8, drift: f32, uplift: f32) -> bool {
         self.table >> row & 1 == 1 || (row == self.row && drift.abs() > self.threshold * uplift)
     }
 }
 
 /// Row of a table: 4 [θ·v > 0] + 2 [a·v > 0] + [ü_g·v > 0].
-#[inline(always)]
+#[inline]
 pub fn sign_row(signs: &Signs) -> u8 {
     let Signs { rotation, velocity, push, ground, quiet } = *signs;
     4 * u8::from(rotation == velocity) + 2 * u8::from(push == velocity) + u8::from(ground == velocity && !quiet)
 }
 
 impl<B> Law<B> for Passive {
-    #[inline(always)]
+    #[inline]
     fn wish(&self, _at: &Situation<'_, B>) -> Wish {
         Wish::Release
     }
 }
 
 impl<B> Law<B> for AlwaysEngaged {
-    #[inline(always)]
+    #[inline]
     fn wish(&self, _at: &Situation<'_, B>) -> Wish {
         Wish::Hold
     }
 }
 
 impl<B> Law<B> for Resisting {
-    #[inline(always)]
+    #[inline]
     fn wish(&self, at: &Situation<'_, B>) -> Wish {
         if at.signs.push == at.signs.velocity { Wish::Resist } else { Wish::Release }
     }
 }
 
 impl<B> Law<B> for SignTable {
-    #[inline(always)]
+    #[inline]
     fn wish(&self, at: &Situation<'_, B>) -> Wish {
         if self.0 >> sign_row(&at.signs) & 1 == 1 { Wish::Resist } else { Wish::Release }
     }
 }
 
 impl<B: KnownBody> Law<B> for GatedTable {
-    #[inline(always)]
+    #[inline]
     fn wish(&self, at: &Situation<'_, B>) -> Wish {
         if self.engages(sign_row(&at.signs), at.ground_drift, at.model.uplift) { Wish::Resist } else { Wish::Release }
     }

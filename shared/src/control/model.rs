@@ -3,16 +3,16 @@
 //! The same bodies that the simulator integrates ([`crate::body`]), in single precision: what the controller knows of the
 //! dynamics is written nowhere else.
 
-use core::marker::PhantomData;
-
+use crate::block::Geometry;
 use crate::body::{Body, FullBody, SlenderBody};
 use crate::drivetrain::{Drivetrain, Engagement};
-use crate::equation::{FullBlock, Kinematics};
+use crate::equation::{BodyKinematics, FullBlock, Told};
 use crate::error::ParameterError;
 use crate::lever::TyingPoint;
 use crate::math;
 use crate::scalar::Sign;
-use crate::structure::Structure;
+use crate::structure::{KinematicsKind, Structure};
+use crate::told_body::ToldBody;
 
 /// A body that a [`Structure`] can be resolved into for the controller. Its vertical ground motion is always looked at.
 pub trait KnownBody: Body<f32> {
@@ -29,6 +29,31 @@ pub type KnownSlender = SlenderBody<f32, true>;
 /// The exact block.
 pub type KnownFull<K> = FullBody<f32, K, true>;
 
+/// Any of them, told at run time.
+pub type KnownAny = ToldBody<true>;
+
+impl From<KnownSlender> for KnownAny {
+    fn from(body: KnownSlender) -> KnownAny {
+        ToldBody::Slender(body)
+    }
+}
+
+impl<K: BodyKinematics> From<KnownFull<K>> for KnownAny {
+    fn from(body: KnownFull<K>) -> KnownAny {
+        let FullBody { block, lever, kinematics } = body;
+        ToldBody::Full(FullBody { block, lever, kinematics: Told::told(kinematics.consistent()) })
+    }
+}
+
+impl KnownBody for KnownAny {
+    fn of(structure: &Structure) -> Result<Self, ParameterError> {
+        Ok(match structure.geometry {
+            Geometry::Slender => KnownSlender::of(structure)?.into(),
+            Geometry::Full => ToldBody::Full(KnownFull::<Told>::of(structure)?),
+        })
+    }
+}
+
 impl KnownBody for KnownSlender {
     fn of(structure: &Structure) -> Result<Self, ParameterError> {
         let block = &structure.block;
@@ -40,7 +65,7 @@ impl KnownBody for KnownSlender {
     }
 }
 
-impl<K: Kinematics> KnownBody for KnownFull<K> {
+impl<K: BodyKinematics> KnownBody for KnownFull<K> {
     fn of(structure: &Structure) -> Result<Self, ParameterError> {
         let block = &structure.block;
         let lever = structure.device.mount.lever(block)?;
@@ -50,7 +75,7 @@ impl<K: Kinematics> KnownBody for KnownFull<K> {
                 slenderness: block.slenderness() as f32,
             },
             lever: TyingPoint { along: lever.along as f32, across: lever.across as f32 },
-            kinematics: PhantomData,
+            kinematics: K::told(structure.device.kinematics == KinematicsKind::Consistent),
         })
     }
 }
@@ -86,7 +111,72 @@ pub struct Model<B> {
     standing_travel: f32,
 }
 
+/// What a [`Model`] knows beside its body; its fields are those of the model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Facts {
+    /// p, 1/s; above 0.
+    pub frequency: f32,
+    /// p², 1/s².
+    pub frequency_squared: f32,
+    /// α, rad; above 0 and below π/2.
+    pub slenderness: f32,
+    /// R, m; above 0.
+    pub size: f32,
+    /// η; 0 to 1.
+    pub restitution: f32,
+    /// Ground acceleration at which the block uplifts, g; above 0.
+    pub uplift: f32,
+    /// k of one flywheel; 0 or more.
+    pub coupling: f32,
+    /// A flywheel goes on spinning when released.
+    pub wheels_spin: bool,
+    /// Rate at which its speed then decays, 1/s; 0 or more.
+    pub decay: f32,
+    /// Its constant deceleration over R, 1/s²; 0 or more.
+    pub drag: f32,
+    /// It stops at once.
+    pub stops_at_once: bool,
+}
+
 impl<B: KnownBody> Model<B> {
+    /// What it knows beside its body.
+    pub fn facts(&self) -> Facts {
+        Facts {
+            frequency: self.frequency,
+            frequency_squared: self.frequency_squared,
+            slenderness: self.slenderness,
+            size: self.size,
+            restitution: self.restitution,
+            uplift: self.uplift,
+            coupling: self.coupling,
+            wheels_spin: self.wheels_spin,
+            decay: self.decay,
+            drag: self.drag,
+            stops_at_once: self.stops_at_once,
+        }
+    }
+
+    /// Of a `body` in single precision, to the same bits wherever it is made.
+    pub fn of(body: B, facts: &Facts) -> Model<B> {
+        let Facts { frequency, frequency_squared, slenderness, size, restitution, uplift, .. } = *facts;
+        let Facts { coupling, wheels_spin, decay, drag, stops_at_once, .. } = *facts;
+        Model {
+            body,
+            frequency,
+            frequency_squared,
+            slenderness,
+            size,
+            restitution,
+            uplift,
+            coupling,
+            wheels_spin,
+            decay,
+            drag,
+            stops_at_once,
+            standing_travel: body.travel(1.0, &body.posture(1.0, 0.0)),
+        }
+    }
+
     /// Of a structure with its drivetrain. What it carries is folded into the block.
     ///
     /// # Errors
@@ -99,9 +189,7 @@ impl<B: KnownBody> Model<B> {
         let flywheel = &drivetrain.flywheel;
         let stops_at_once = !wheels_spin || flywheel.brake_deceleration.is_infinite();
         let brake = if stops_at_once { 0.0 } else { flywheel.brake_deceleration };
-        let standing = body.posture(1.0, 0.0);
-        Ok(Model {
-            body,
+        let facts = Facts {
             frequency: block.frequency_parameter() as f32,
             frequency_squared: block.frequency_parameter_squared() as f32,
             slenderness: block.slenderness() as f32,
@@ -113,50 +201,50 @@ impl<B: KnownBody> Model<B> {
             decay: flywheel.viscous_rate as f32,
             drag: ((flywheel.dry_deceleration + brake) / block.size()) as f32,
             stops_at_once,
-            standing_travel: body.travel(1.0, &standing),
-        })
+        };
+        Ok(Model::of(body, &facts))
     }
 
     /// What θ alone decides, to be worked out once for all that need it.
-    #[inline(always)]
+    #[inline]
     pub fn posture(&self, side: Sign, rotation: f32) -> B::Posture<f32> {
         self.body.posture(side.unit(), rotation)
     }
 
     /// Quantity with the sign of the terminals' acceleration that Eq. 10 compares with the velocity, 1/s²: arm · (arm · D + ℓ'θ̇²), and
     /// D with the paper's kinematics. `ground` in g, horizontal and vertical.
-    #[inline(always)]
+    #[inline]
     pub fn push(&self, side: Sign, rotation: f32, velocity: f32, ground: [f32; 2]) -> f32 {
         self.push_at(&self.posture(side, rotation), velocity, ground)
     }
 
     /// [`Model::push`] in a posture.
-    #[inline(always)]
+    #[inline]
     pub fn push_at(&self, posture: &B::Posture<f32>, velocity: f32, ground: [f32; 2]) -> f32 {
         self.body.switching(posture, velocity, self.body.drive(posture, ground))
     }
 
     /// θ̈ with `engaged` flywheels locked to the rack.
-    #[inline(always)]
+    #[inline]
     pub fn acceleration(&self, side: Sign, rotation: f32, velocity: f32, ground: [f32; 2], engaged: u8) -> f32 {
         self.acceleration_at(&self.posture(side, rotation), velocity, ground, engaged)
     }
 
     /// [`Model::acceleration`] in a posture.
-    #[inline(always)]
+    #[inline]
     pub fn acceleration_at(&self, posture: &B::Posture<f32>, velocity: f32, ground: [f32; 2], engaged: u8) -> f32 {
         let drive = self.body.drive(posture, ground);
         self.body.over_inertia(posture, drive, f32::from(engaged) * self.coupling, velocity)
     }
 
     /// Speed of the rack over R.
-    #[inline(always)]
+    #[inline]
     pub fn rack_speed(&self, side: Sign, rotation: f32, velocity: f32) -> f32 {
         self.body.along(&self.posture(side, rotation), velocity)
     }
 
     /// θ at which the rack has travelled `travel` (over R), by one step of Newton's method from `near`: within ½ ℓ'/ℓ (θ − near)².
-    #[inline(always)]
+    #[inline]
     pub fn rotation_of_travel(&self, travel: f32, near: f32, side: Sign) -> f32 {
         let posture = self.body.posture(side.unit(), near);
         let reached = self.body.travel(side.unit(), &posture) - side.times(self.standing_travel);
@@ -164,14 +252,14 @@ impl<B: KnownBody> Model<B> {
     }
 
     /// cos δ and sin δ (1 and δ for the slender block).
-    #[inline(always)]
+    #[inline]
     pub fn direction_cosines(&self, side: Sign, rotation: f32) -> (f32, f32) {
         let (horizontal, vertical) = self.body.factors(&self.body.posture(side.unit(), rotation));
         (-horizontal / self.frequency_squared, -vertical / self.frequency_squared)
     }
 
     /// Speed of a released flywheel a time `period` (s) later; both over R, 1/s.
-    #[inline(always)]
+    #[inline]
     pub fn coasted(&self, spin: f32, period: f32) -> f32 {
         let slowed = spin.abs() * (1.0 - self.decay * period) - self.drag * period;
         let left = if slowed > 0.0 && !self.stops_at_once { slowed } else { 0.0 };

@@ -35,6 +35,14 @@ pub struct ModelAidedState {
     standing: StandingState,
 }
 
+impl ModelAidedState {
+    /// Of a block that is met in motion at θ and θ̇.
+    pub(super) fn met(rotation: f32, velocity: f32) -> ModelAidedState {
+        let side = Sign::of(rotation, Sign::of(velocity, Sign::Positive));
+        ModelAidedState { rotation, velocity, side, standing: StandingState::ROCKING, ..ModelAidedState::default() }
+    }
+}
+
 impl ModelAided {
     /// One tick, with `engaged` flywheels on the rack.
     #[inline]

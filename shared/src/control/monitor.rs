@@ -6,7 +6,7 @@ mod rest;
 mod watch;
 
 pub(super) use parameters::duration;
-pub use parameters::{EncoderLimits, MonitorParameters, SensorLimits, stuck_time};
+pub use parameters::{EncoderLimits, FEWEST_WINDOW_TICKS, MonitorParameters, SensorLimits, stuck_time};
 
 use super::calibration::{Calibration, off_gravity};
 use super::fault::{Fault, Sensor};
@@ -105,7 +105,7 @@ impl MonitorState {
 impl Monitor {
     /// One tick.
     // Has one caller, and much to hand over.
-    #[inline(always)]
+    #[inline]
     pub fn step(&self, state: &mut MonitorState, sample: &Sample, context: &Context<'_>) -> Findings {
         let rate = sample.gyroscope.value - context.calibration.gyroscope;
         // NaN does not exceed anything.
@@ -155,7 +155,7 @@ impl Monitor {
     }
 
     /// Adds to what each sensor shows by itself what they show together.
-    #[inline(always)]
+    #[inline]
     fn together(&self, state: &mut MonitorState, sample: &Sample, context: &Context<'_>, rate: f32, found: Findings) -> Findings {
         let Findings { mut faults, seen } = found;
         let good = found.good();

@@ -6,13 +6,13 @@ use super::model::{KnownBody, Model};
 /// `now` a time `horizon` (s) later, with `engaged` flywheels on the rack until then: one step of Heun's method with the ground's
 /// acceleration carried on along its tangent, and at most one impact. The terminals' acceleration moves by what the model says that it
 /// moves, so that an estimator's own measure of it keeps its offset.
-#[inline(always)]
+#[inline]
 pub fn predict<B: KnownBody>(model: &Model<B>, now: &Estimate, engaged: u8, horizon: f32) -> Estimate {
     predict_from(model, &model.posture(now.side, now.rotation), now, engaged, horizon)
 }
 
 /// [`predict`] where the `posture` of `now` is known already.
-#[inline(always)]
+#[inline]
 pub fn predict_from<B: KnownBody>(
     model: &Model<B>,
     posture: &B::Posture<f32>,

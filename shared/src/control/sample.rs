@@ -1,7 +1,9 @@
 //! What the sensors tell the controller at one tick, in SI units.
 
+use serde::{Deserialize, Serialize};
+
 /// One reading of one sensor.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Reading {
     /// In the sensor's unit.
     pub value: f32,
@@ -10,7 +12,7 @@ pub struct Reading {
 }
 
 /// A reading of an incremental encoder.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Count {
     /// Counts since the start, wrapping; they grow with the terminals' travel, which has the sign of θ.
     pub counts: i32,
@@ -20,7 +22,7 @@ pub struct Count {
 
 /// Every sensor, as last read. Axes are those of the block or of the ground: the first along the base, in the direction of positive
 /// ground acceleration, the second up along the centre line.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
     /// θ̇ of the block, rad/s.
     pub gyroscope: Reading,

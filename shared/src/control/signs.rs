@@ -39,7 +39,7 @@ impl Signs {
 }
 
 /// The sign of `x` beyond ±`band`, else `last`.
-#[inline(always)]
+#[inline]
 fn held(last: Sign, x: f32, band: f32) -> Sign {
     if last.times(x) < -band { last.opposite() } else { last }
 }

@@ -30,6 +30,11 @@ impl Default for StandingState {
     }
 }
 
+impl StandingState {
+    /// Of a block that rocks.
+    pub(super) const ROCKING: StandingState = StandingState { stands: false, ticks: 0 };
+}
+
 impl Standing {
     /// Looks at θ and θ̇ as an estimator has them at this tick; `true` while the block stands. A standing block is let go when the
     /// ground pushes harder than its weight holds, or when it moves; the side it moves to is written to `side`.

@@ -81,6 +81,38 @@ pub struct SupervisorState {
 }
 
 impl SupervisorState {
+    /// From the beginning, with the event log of before.
+    pub fn restart(&mut self) {
+        let SupervisorState {
+            log: _,
+            phase,
+            tick: _,
+            cause,
+            latched,
+            active,
+            any_active,
+            sent,
+            calibration,
+            calibrated,
+            tested,
+            waiting,
+            clear_before,
+            late,
+            good,
+            monitor,
+            actuator,
+            motion,
+            self_test,
+            averaging,
+        } = self;
+        (*phase, *cause, *latched, *active, *any_active) = (Phase::Boot, None, false, [None; SOURCES], false);
+        (*sent, *calibration, *calibrated, *tested) = ([false; 2], Calibration::default(), false, false);
+        (*waiting, *clear_before, *late, *good) = (0, false, Streak::default(), Streak::default());
+        *monitor = MonitorState::default();
+        (*actuator, *motion) = (ActuatorState::default(), Motion::default());
+        (*self_test, *averaging) = (SelfTest::default(), Averaging::default());
+    }
+
     /// What the last tick left.
     pub fn phase(&self) -> Phase {
         self.phase
@@ -91,19 +123,32 @@ impl Supervisor {
     /// # Errors
     /// Names the first parameter outside its range.
     pub fn new(parameters: &Parameters) -> Result<Supervisor, ParameterError> {
+        parameters.check()?;
+        Ok(parameters.resolve())
+    }
+
+    /// Of parameters that are known to be within their ranges, as [`crate::settings`] has checked them by its own table. Others make a
+    /// supervisor of little use, but no panic.
+    pub fn of_checked(parameters: &Parameters) -> Supervisor {
         parameters.resolve()
+    }
+
+    /// Clutches engaged in the safe state.
+    pub fn safe(&self) -> [bool; 2] {
+        self.safe
     }
 
     /// A state that skips everything before Rocking, for a run that begins with the motion; the estimators' beginning is the caller's.
     pub fn started(&self, calibration: Calibration) -> SupervisorState {
-        SupervisorState {
-            phase: Phase::Rocking,
-            calibration,
-            calibrated: true,
-            tested: true,
-            monitor: MonitorState::expecting(self.required.flags()),
-            ..SupervisorState::default()
-        }
+        let mut state = SupervisorState::default();
+        self.resume(&mut state, &calibration);
+        state
+    }
+
+    /// Makes a state that has just begun skip everything before Rocking.
+    pub fn resume(&self, state: &mut SupervisorState, calibration: &Calibration) {
+        (state.phase, state.calibration, state.calibrated, state.tested) = (Phase::Rocking, *calibration, true, true);
+        state.monitor = MonitorState::expecting(self.required.flags());
     }
 
     /// One tick.

@@ -28,13 +28,13 @@ impl Streak {
     pub const ONE: Streak = Streak(1);
 
     /// To be called once a tick.
-    #[inline(always)]
+    #[inline]
     pub fn note(&mut self, holds: bool) {
         self.0 = if holds { self.0.saturating_add(1) } else { 0 };
     }
 
     /// Whether the condition holds and first did so `ticks` ago or earlier: 0 is at once, [`NEVER`] is never.
-    #[inline(always)]
+    #[inline]
     pub fn lasted(&self, ticks: u32) -> bool {
         self.0 > ticks
     }

@@ -26,7 +26,7 @@ impl TurnsState {
     }
 
     /// [`TurnsState::spin`] where the speed of the `rack` is known already.
-    #[inline(always)]
+    #[inline]
     pub fn spin_at<B: KnownBody>(&mut self, model: &Model<B>, rack: f32, engaged: [bool; 2], period: f32) {
         for (spin, engaged) in self.spins.iter_mut().zip(engaged) {
             *spin = if engaged { rack } else { model.coasted(*spin, period) };

@@ -2,8 +2,6 @@
 //!
 //! As [`Structure::resolve`] for ideal devices, this chooses once, before the loop, among static compositions.
 
-use core::marker::PhantomData;
-
 use super::{Actuator, Machine};
 use crate::block::Geometry;
 use crate::body::{Body, FullBody, SlenderBody};
@@ -123,7 +121,7 @@ impl Parts {
                 slenderness: S::of(block.slenderness()),
             },
             lever: TyingPoint { along: S::of(constants.along), across: S::of(constants.across) },
-            kinematics: PhantomData,
+            kinematics: K::default(),
         })
     }
 

@@ -46,7 +46,7 @@ struct Slot {
 const FARTHEST: u32 = u32::MAX / (2 * SLOTS);
 
 impl Slot {
-    #[inline(always)]
+    #[inline]
     fn and(self, other: Slot) -> Slot {
         let travel = self.travel + other.travel;
         Slot {
@@ -75,7 +75,7 @@ struct Window {
 }
 
 impl Window {
-    #[inline(always)]
+    #[inline]
     fn step(&mut self, limits: &AgreementLimits, rate_tolerance: f32, length: u32, news: Slot) {
         let closed = if length > 1 {
             self.open = self.open.and(news);
@@ -99,7 +99,7 @@ impl Window {
     }
 
     /// From the oldest to the newest.
-    #[inline(always)]
+    #[inline]
     fn oldest_first(&self) -> impl Iterator<Item = &Slot> {
         (1..=SLOTS as usize).map(|age| &self.slots[(self.newest + age) & LAST])
     }
@@ -109,7 +109,7 @@ const LAST: usize = SLOTS as usize - 1;
 const _: () = assert!(SLOTS.is_power_of_two());
 
 impl AgreementLimits {
-    #[inline(always)]
+    #[inline]
     fn judge(&self, window: &Window, rate_tolerance: f32, duration: f32) -> Option<Disagreement> {
         let first = (window.newest & LAST) + 1;
         let in_a_row = window.angles.get(first..first + SLOTS as usize).unwrap_or_default();

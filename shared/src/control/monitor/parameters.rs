@@ -6,6 +6,9 @@ use super::agreement::{AgreementLimits, SLOTS};
 use super::watch::WatchLimits;
 use crate::error::{ParameterError, require};
 
+/// Ticks that a window in which gyroscope and encoder are compared cannot be shorter than: one for each part that it moves on by.
+pub const FEWEST_WINDOW_TICKS: u32 = SLOTS;
+
 /// What a gyroscope or accelerometer is allowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SensorLimits {
@@ -133,15 +136,11 @@ impl MonitorParameters {
         }
     }
 
-    /// The monitor of a controller with a tick every `period` s, above 0; a gyroscope that has not been calibrated may be off by
-    /// `gyroscope_bias` rad/s.
-    pub(in crate::control) fn resolve(&self, period: f32, gyroscope_bias: f32) -> Result<Monitor, ParameterError> {
-        let [gyroscope, block_accelerometer, ground_accelerometer] = [
-            (&self.gyroscope, GYROSCOPE),
-            (&self.block_accelerometer, BLOCK_ACCELEROMETER),
-            (&self.ground_accelerometer, GROUND_ACCELEROMETER),
-        ]
-        .map(|(limits, names)| limits.resolve(period, names));
+    /// Whether all is within its range, for a controller with a tick every `period` s.
+    pub(in crate::control) fn check(&self, period: f32) -> Result<(), ParameterError> {
+        self.gyroscope.check(GYROSCOPE)?;
+        self.block_accelerometer.check(BLOCK_ACCELEROMETER)?;
+        self.ground_accelerometer.check(GROUND_ACCELEROMETER)?;
         duration("encoder.stale_time", self.encoder.stale_time, 10.0)?;
         let scale = self.encoder.counts_per_radian;
         require("encoder.counts_per_radian", scale.into(), scale.abs() <= 1e9, "from -1e9 to 1e9")?;
@@ -149,6 +148,7 @@ impl MonitorParameters {
         duration("contradiction_time", self.contradiction_time, 1.0)?;
         duration("slow_contradiction_time", self.slow_contradiction_time, 1.0)?;
         let (fast, slow) = (self.contradiction_time, self.slow_contradiction_time);
+        require("contradiction_time", fast.into(), ticks(fast, period) >= FEWEST_WINDOW_TICKS, "at least eight ticks")?;
         require("slow_contradiction_time", slow.into(), slow >= fast, "at least contradiction_time")?;
         duration("rest_contradiction_time", self.rest_contradiction_time, 10.0)?;
         positive("rest_tolerance", self.rest_tolerance)?;
@@ -158,15 +158,21 @@ impl MonitorParameters {
         require("sensor_delay", self.sensor_delay.into(), (0.0..=1.0).contains(&self.sensor_delay), "from 0 s to 1 s")?;
         positive("moving_rate", self.moving_rate)?;
         positive("gravity", self.gravity)?;
-        let slots = [fast, slow].map(|time| ticks(time / SLOTS as f32, period).max(1));
-        Ok(Monitor {
-            gyroscope: gyroscope?,
-            accelerometers: [block_accelerometer?, ground_accelerometer?],
+        Ok(())
+    }
+
+    /// The monitor of a controller with a tick every `period` s, above 0; a gyroscope that has not been calibrated may be off by
+    /// `gyroscope_bias` rad/s.
+    pub(in crate::control) fn resolve(&self, period: f32, gyroscope_bias: f32) -> Monitor {
+        let slots = [self.contradiction_time, self.slow_contradiction_time].map(|time| ticks(time / SLOTS as f32, period).max(1));
+        Monitor {
+            gyroscope: self.gyroscope.resolve(period),
+            accelerometers: [self.block_accelerometer.resolve(period), self.ground_accelerometer.resolve(period)],
             encoder_stale: ticks(self.encoder.stale_time, period),
             travel: if self.encoder.travel == 0 { u32::MAX } else { self.encoder.travel.unsigned_abs() },
             agreement: AgreementLimits {
                 period,
-                counts_per_radian: scale,
+                counts_per_radian: self.encoder.counts_per_radian,
                 slots,
                 counts: self.count_tolerance,
                 share: self.lever_tolerance,
@@ -179,7 +185,7 @@ impl MonitorParameters {
             rate_tolerances: [self.rate_tolerance + gyroscope_bias, self.rate_tolerance],
             moving_rate: self.moving_rate,
             gravity: self.gravity,
-        })
+        }
     }
 }
 
@@ -209,24 +215,24 @@ const GROUND_ACCELEROMETER: Names = [
 ];
 
 impl SensorLimits {
-    fn resolve(
-        &self,
-        period: f32,
-        [stale, stuck, stuck_moving, full_scale, saturation]: Names,
-    ) -> Result<WatchLimits, ParameterError> {
+    fn check(&self, [stale, stuck, stuck_moving, full_scale, saturation]: Names) -> Result<(), ParameterError> {
         duration(stale, self.stale_time, 10.0)?;
         for (name, time) in [(stuck, self.stuck_time), (stuck_moving, self.stuck_time_moving), (saturation, self.saturation_time)]
         {
             require(name, time.into(), (0.0..=10.0).contains(&time), "from 0 s to 10 s")?;
         }
         positive(full_scale, self.full_scale)?;
-        Ok(WatchLimits {
+        Ok(())
+    }
+
+    fn resolve(&self, period: f32) -> WatchLimits {
+        WatchLimits {
             stale: ticks(self.stale_time, period),
             stuck: ticks_or_never(self.stuck_time, period),
             stuck_moving: ticks_or_never(self.stuck_time_moving, period),
             full_scale: self.full_scale,
             saturation: ticks(self.saturation_time, period),
-        })
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 use super::*;
 
 fn monitor() -> Monitor {
-    MonitorParameters::default().resolve(0.0005, 0.2).unwrap()
+    MonitorParameters::default().resolve(0.0005, 0.2)
 }
 
 fn still(number: u32) -> Sample {
@@ -69,7 +69,7 @@ fn a_gap_does_not_look_like_a_difference() {
         encoder: EncoderLimits { counts_per_radian: 1e5, ..MonitorParameters::default().encoder },
         ..MonitorParameters::default()
     };
-    let monitor = parameters.resolve(0.0005, 0.2).unwrap();
+    let monitor = parameters.resolve(0.0005, 0.2);
     let mut state = MonitorState::default();
     let turning = |tick: u32, lost: bool| {
         let mut sample = still(1 + tick);

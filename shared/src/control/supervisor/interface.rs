@@ -3,9 +3,11 @@
 use super::super::calibration::Calibration;
 use super::super::fault::Fault;
 use super::super::sample::Sample;
+use serde::{Deserialize, Serialize};
 
 /// Where the controller stands.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Phase {
     /// Waits for the first reading of every required sensor.
     #[default]
@@ -20,6 +22,11 @@ pub enum Phase {
     Rocking,
     /// The safe state, until recovered.
     Fault,
+}
+
+impl Phase {
+    /// Each, in the order of their numbers.
+    pub const ALL: [Phase; 6] = [Phase::Boot, Phase::SelfTest, Phase::Calibrate, Phase::Armed, Phase::Rocking, Phase::Fault];
 }
 
 /// What somebody asks for.

@@ -139,7 +139,7 @@ impl Default for Parameters {
 }
 
 impl Parameters {
-    pub(super) fn resolve(&self) -> Result<Supervisor, ParameterError> {
+    pub(super) fn check(&self) -> Result<(), ParameterError> {
         let period = self.period;
         require("period", period.into(), (1e-5..=0.01).contains(&period), "from 1e-5 s to 0.01 s")?;
         for (name, time) in [
@@ -171,9 +171,15 @@ impl Parameters {
         require("overrun_ticks", self.overrun_ticks.into(), self.overrun_ticks >= 1, "at least 1")?;
         let late = self.overrun_limit;
         require("overrun_limit", late.into(), late > 0.0 && late <= 1.0, "above 0 s, up to 1 s")?;
+        self.monitor.check(period)
+    }
+
+    /// What cannot fail, without the names of what can.
+    pub(super) fn resolve(&self) -> Supervisor {
+        let period = self.period;
         let of = |seconds| ticks(seconds, period);
-        Ok(Supervisor {
-            monitor: self.monitor.resolve(period, self.plausible.gyroscope)?,
+        Supervisor {
+            monitor: self.monitor.resolve(period, self.plausible.gyroscope),
             actuator: ActuatorMonitor {
                 actuator_ticks: of(self.actuator_time),
                 feedback_ticks: of(self.feedback_time),
@@ -192,12 +198,12 @@ impl Parameters {
             boot: of(self.boot_time),
             stillness: of(self.stillness_time),
             calibration: of(self.calibration_time).max(1),
-            patience: of(patience),
+            patience: of(self.calibration_patience),
             quiet: of(self.quiet_time),
             recovery: of(self.recover_after),
             plausible: self.plausible,
             overrun_ticks: self.overrun_ticks,
-            overrun_limit: late,
-        })
+            overrun_limit: self.overrun_limit,
+        }
     }
 }

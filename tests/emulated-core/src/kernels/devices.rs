@@ -6,7 +6,7 @@
 //! kinematics unless the name says otherwise, all others the consistent ones.
 
 use super::{Tally, mean};
-use core::{f32::consts::TAU, fmt, hint::black_box, marker::PhantomData};
+use core::{f32::consts::TAU, fmt, hint::black_box};
 use sprag_shared::{
     block::{Block, RECTANGLE_INERTIA_RATIO},
     body::{Body, FullBody},
@@ -21,7 +21,7 @@ use sprag_shared::{
         overrunning::OverrunningPair,
         rigid::RigidPair,
     },
-    equation::{Consistent, Paper},
+    equation::{Consistent, Kinematics, Paper},
     fixed::RungeKutta4,
     ground::Harmonics,
     hybrid::{
@@ -67,8 +67,8 @@ const ALL: Drivetrain = Drivetrain { rack: RACK, actuation: LATE, ..FRICTION };
 
 const STILL: Shape = Shape::Quiet;
 
-const fn body<K, const VERTICAL: bool>() -> FullBody<f32, K, VERTICAL> {
-    FullBody { block: super::BLOCK, lever: TyingPoint { along: 1.0, across: 0.0 }, kinematics: PhantomData }
+fn body<K: Kinematics, const VERTICAL: bool>() -> FullBody<f32, K, VERTICAL> {
+    FullBody { block: super::BLOCK, lever: TyingPoint { along: 1.0, across: 0.0 }, kinematics: K::default() }
 }
 
 /// A block on its device, with the numbers of the ideal pair's kernel.

@@ -1,0 +1,51 @@
+//! From the numbers that an inertial sensor gives to SI units.
+
+use crate::block::GRAVITY;
+
+/// Standard gravity, m/s².
+const STANDARD_GRAVITY: f32 = GRAVITY as f32;
+
+/// Of the gyroscope at ±500 °/s in 16 bits, LSB/(°/s): ICM-42688-P, DS-000347 rev. 1.7, Table 1, "Sensitivity Scale Factor",
+/// GYRO_FS_SEL = 2.
+pub const GYROSCOPE_COUNTS_PER_DEGREE: f32 = 65.5;
+
+/// Of the accelerometer at ±8 g in 16 bits, LSB/g: the same data sheet, Table 2, "Sensitivity Scale Factor", ACCEL_FS_SEL = 1.
+pub const ACCELEROMETER_COUNTS_PER_GRAVITY: f32 = 4096.0;
+
+/// Largest reading of the gyroscope, rad/s, as its scale factor makes it.
+pub const GYROSCOPE_FULL_SCALE: f32 = i16::MAX as f32 * RATE_PER_COUNT;
+
+/// Largest reading of the accelerometer, m/s².
+pub const ACCELEROMETER_FULL_SCALE: f32 = i16::MAX as f32 * ACCELERATION_PER_COUNT;
+
+const RATE_PER_COUNT: f32 = core::f32::consts::PI / 180.0 / GYROSCOPE_COUNTS_PER_DEGREE;
+const ACCELERATION_PER_COUNT: f32 = STANDARD_GRAVITY / ACCELEROMETER_COUNTS_PER_GRAVITY;
+
+/// Rates, rad/s, of the gyroscope's counts.
+pub fn rates(counts: [i16; 3]) -> [f32; 3] {
+    counts.map(|count| count as f32 * RATE_PER_COUNT)
+}
+
+/// Specific forces, m/s², of the accelerometer's counts.
+pub fn accelerations(counts: [i16; 3]) -> [f32; 3] {
+    counts.map(|count| count as f32 * ACCELERATION_PER_COUNT)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn full_scale_is_that_of_the_data_sheet() {
+        let [rate, none, most] = rates([6550, 0, i16::MIN]);
+        assert!((rate - 100f32.to_radians()).abs() < 1e-6, "{rate}");
+        assert_eq!(none, 0.0);
+        assert!((most + 500f32.to_radians()).abs() < 0.005, "{most}");
+        let [gravity, none, most] = accelerations([4096, 0, i16::MIN]);
+        assert_eq!(gravity, STANDARD_GRAVITY);
+        assert_eq!(none, 0.0);
+        assert_eq!(most, -8.0 * STANDARD_GRAVITY);
+        assert!((GYROSCOPE_FULL_SCALE - 500f32.to_radians()).abs() < 0.005);
+        assert!((ACCELEROMETER_FULL_SCALE - 8.0 * STANDARD_GRAVITY).abs() < 0.003);
+    }
+}

@@ -1,0 +1,125 @@
+//! What the status light shows.
+//!
+//! | phase | pattern |
+//! | --- | --- |
+//! | Boot, SelfTest | one short flash a second |
+//! | Calibrate | two short flashes a second |
+//! | Armed | steady |
+//! | Rocking | five flashes a second |
+//! | Fault | so many blinks as the tens digit of the code, a pause, as the ones digit, a long pause; a digit 0 is one long blink |
+
+use crate::control::supervisor::Phase;
+
+/// Time is counted in slots of 50 ms, so many a second. The product with seconds stays whole numbers for years, where seconds in f32 lose
+/// milliseconds after a day.
+const SLOTS_PER_SECOND: u32 = 20;
+
+/// Slots of a short flash.
+const FLASH: u32 = 2;
+/// Slots of a blink of a code, …
+const BLINK: u32 = 5;
+/// … and of the dark after it.
+const DARK: u32 = 6;
+/// Slots of the blink that means 0.
+const LONG_BLINK: u32 = 20;
+/// Slots of dark between the digits, and …
+const PAUSE: u32 = 20;
+/// … before the code begins anew.
+const LONG_PAUSE: u32 = 50;
+
+/// For how long, s, the light flickers after a start without the crystal.
+const FLICKER: u32 = 3;
+
+/// Whether the light is lit in a phase, with the code of its fault if there is one, `seconds` after the start.
+pub fn lit(phase: Phase, fault_code: Option<u16>, seconds: f32) -> bool {
+    let slot = (seconds * SLOTS_PER_SECOND as f32) as u32;
+    let in_second = slot % SLOTS_PER_SECOND;
+    match phase {
+        Phase::Boot | Phase::SelfTest => in_second < FLASH,
+        Phase::Calibrate => in_second < FLASH || (2 * FLASH..3 * FLASH).contains(&in_second),
+        Phase::Armed => true,
+        Phase::Rocking => slot % (2 * FLASH) < FLASH,
+        Phase::Fault => code_lit(fault_code.unwrap_or(0), slot),
+    }
+}
+
+/// As [`lit`], for a controller that runs without its crystal: flickers for the first seconds, ten times a second.
+pub fn lit_without_crystal(phase: Phase, fault_code: Option<u16>, seconds: f32) -> bool {
+    if seconds < FLICKER as f32 {
+        ((seconds * SLOTS_PER_SECOND as f32) as u32).is_multiple_of(2)
+    } else {
+        lit(phase, fault_code, seconds)
+    }
+}
+
+/// Slots of a digit, with the dark after its last blink.
+fn digit_slots(digit: u32) -> u32 {
+    if digit == 0 { LONG_BLINK + DARK } else { digit * (BLINK + DARK) }
+}
+
+fn digit_lit(digit: u32, slot: u32) -> bool {
+    slot < digit_slots(digit) && if digit == 0 { slot < LONG_BLINK } else { slot % (BLINK + DARK) < BLINK }
+}
+
+fn code_lit(code: u16, slot: u32) -> bool {
+    let (tens, ones) = (u32::from(code) / 10 % 10, u32::from(code) % 10);
+    let second = digit_slots(tens) + PAUSE;
+    let slot = slot % (second + digit_slots(ones) + LONG_PAUSE);
+    if slot < second { digit_lit(tens, slot) } else { digit_lit(ones, slot - second) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::string::String;
+
+    /// A letter a slot, from the middle of the first.
+    fn shown(phase: Phase, code: Option<u16>, slots: usize) -> String {
+        (0..slots).map(|slot| if lit(phase, code, (slot as f32 + 0.5) / 20.0) { '#' } else { '.' }).collect()
+    }
+
+    #[test]
+    fn waiting_flashes_once_and_calibrating_twice_a_second() {
+        let second = "##..................";
+        assert_eq!(shown(Phase::Boot, None, 40), second.repeat(2));
+        assert_eq!(shown(Phase::SelfTest, None, 40), second.repeat(2));
+        assert_eq!(shown(Phase::Calibrate, None, 40), "##..##..............".repeat(2));
+    }
+
+    #[test]
+    fn armed_is_steady_and_rocking_is_five_hertz() {
+        assert_eq!(shown(Phase::Armed, None, 40), "#".repeat(40));
+        assert_eq!(shown(Phase::Rocking, None, 20), "##..".repeat(5));
+    }
+
+    #[test]
+    fn a_fault_is_two_digits() {
+        let expected = ["#####......".repeat(2), ".".repeat(20), "#####......".into(), ".".repeat(50)].concat();
+        assert_eq!(shown(Phase::Fault, Some(21), 2 * expected.len()), expected.repeat(2));
+    }
+
+    #[test]
+    fn a_zero_is_one_long_blink_and_no_code_is_two() {
+        let zero = ["#".repeat(20), ".".repeat(6)].concat();
+        let expected = [zero.clone(), ".".repeat(20), zero, ".".repeat(50)].concat();
+        assert_eq!(shown(Phase::Fault, None, expected.len()), expected);
+        assert_eq!(shown(Phase::Fault, Some(0), expected.len()), expected);
+    }
+
+    #[test]
+    fn without_the_crystal_it_flickers_first() {
+        let flicker: String = (0..64)
+            .map(|slot| if lit_without_crystal(Phase::Armed, None, (slot as f32 + 0.5) / 20.0) { '#' } else { '.' })
+            .collect();
+        assert_eq!(flicker, ["#.".repeat(30), "####".into()].concat());
+    }
+
+    #[test]
+    fn any_time_and_any_code_is_shown() {
+        for seconds in [f32::NAN, -1.0, f32::INFINITY, 1e9] {
+            for code in [None, Some(99), Some(u16::MAX)] {
+                lit(Phase::Fault, code, seconds);
+            }
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! Why a device started.
+
+use serde::{Deserialize, Serialize};
+
+/// Cause of a reset.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Cause {
+    /// The supply came.
+    #[default]
+    PowerOn,
+    /// The supply sagged below what the chip needs.
+    BrownOut,
+    /// The reset pin.
+    Pin,
+    /// The control task missed its deadline for too long.
+    Watchdog,
+    /// The program asked for it.
+    Software,
+    /// The program panicked.
+    Panic,
+    /// The processor met something that it cannot carry out.
+    HardFault,
+}
+
+impl Cause {
+    /// Whether the memory still holds what it held before: a controller may go on where it was.
+    pub fn keeps_memory(self) -> bool {
+        !matches!(self, Cause::PowerOn | Cause::BrownOut)
+    }
+}

@@ -1,0 +1,360 @@
+//! Settings are controllers: there and back without losing a bit, and no word without a meaning.
+
+use super::assemble::{AnyController, SettingsBody};
+use super::kind::{Description, Kind, Use};
+use super::*;
+use crate::block::{Block, Geometry};
+use crate::carried::Carried;
+use crate::control::calibration::Plausible;
+use crate::control::complementary::Complementary;
+use crate::control::controller::{Circumstances, Controller};
+use crate::control::estimate::Deviation;
+use crate::control::estimator::Estimator;
+use crate::control::fault::Wheel;
+use crate::control::gate::Gate;
+use crate::control::instruments::Instruments;
+use crate::control::kalman::Kalman;
+use crate::control::law::{ClutchLaw, GatedTable, SignTable};
+use crate::control::look_ahead::LookAhead;
+use crate::control::model::{KnownFull, KnownSlender, Model};
+use crate::control::model_aided::ModelAided;
+use crate::control::monitor::{EncoderLimits, MonitorParameters};
+use crate::control::sample::{Count, Reading, Sample};
+use crate::control::standing::Standing;
+use crate::control::supervisor::{Parameters, Phase, Required, SafeState, Supervisor};
+use crate::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
+use crate::equation::{Consistent, Paper};
+use crate::lever::Mount;
+use crate::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure};
+use std::collections::BTreeSet;
+use std::string::ToString;
+use std::vec::Vec;
+
+fn structure(mount: Mount) -> Structure {
+    Structure {
+        block: Block::new(2.0, 10_f64.to_radians(), 4.0 / 3.0).unwrap(),
+        geometry: Geometry::Full,
+        device: Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, mount, kinematics: KinematicsKind::Consistent },
+        carried: Carried::NONE,
+        restitution: Restitution::Constant(0.85),
+        rest_speed: REST_SPEED,
+    }
+}
+
+const DEVIATION: Deviation =
+    Deviation { rotation: 4.957_009_3e-7, velocity: 0.000_586_891_1, push: 0.004_892_385_6, ground: 0.001_329_863 };
+const STANDING: Standing = Standing { rotation: 9.482_804e-6, velocity: 0.003_521_347_5, ticks: 40 };
+/// What the host solves for 2 kHz with an ICM-42688-P.
+const MODEL_AIDED: ModelAided = ModelAided {
+    gains: [[0.471_781_28, 7.034_311e-5], [323.346_56, 0.143_869_77]],
+    blank: 5,
+    jump: 0.033_469_82,
+    standing: STANDING,
+    deviation: DEVIATION,
+};
+
+fn estimators() -> [Estimator; 3] {
+    let (standing, deviation) = (Standing { ticks: 41, ..STANDING }, DEVIATION.scaled(1.1));
+    let gains = [[0.168, 6.75e-6, 3.44e-8], [31.0, 2.63e-3, 2.5e-4], [15.6, 2.46e-2, 0.991], [-3.04e-3, 8.54e-6, -2.04e-9]];
+    [
+        Estimator::ModelAided(MODEL_AIDED),
+        Estimator::Kalman(Kalman { gains, blank: 6, jump: 0.03, standing, deviation }),
+        Estimator::Complementary(Complementary { gains: [0.548, 423.0], smoothing: 0.283, blank: 7, standing, deviation }),
+    ]
+}
+
+fn laws() -> [ClutchLaw; 7] {
+    let base = GatedTable { table: 0b1001_0110, row: 3, threshold: 0.7 };
+    [
+        ClutchLaw::Passive,
+        ClutchLaw::AlwaysEngaged,
+        ClutchLaw::Resisting,
+        ClutchLaw::ResistingPredicted,
+        ClutchLaw::SignTable(SignTable::EITHER),
+        ClutchLaw::GatedTable(base),
+        ClutchLaw::LookAhead(LookAhead { step: 0.11, chosen: 4, fading: 0.7, fading_half: 0.8, margin: 0.02, base }),
+    ]
+}
+
+/// As good as the defaults, and different from them in everything.
+fn supervisions() -> [Parameters; 2] {
+    let defaults = Parameters::default();
+    let monitor = MonitorParameters {
+        encoder: EncoderLimits { stale_time: 0.004, counts_per_radian: -398_477.88, travel: 70_000 },
+        contradiction_time: 0.01,
+        slow_contradiction_time: 0.08,
+        rest_contradiction_time: 0.2,
+        rest_tolerance: 0.6,
+        count_tolerance: 5.0,
+        rate_tolerance: 0.03,
+        lever_tolerance: 0.3,
+        sensor_delay: 0.003,
+        moving_rate: 0.03,
+        gravity: 9.806_65,
+        ..MonitorParameters::default().with_noise([20.0, 5.0, 2.0], 0.001)
+    };
+    let other = Parameters {
+        period: 0.001,
+        monitor,
+        required: Required::NONE,
+        safe_state: SafeState::Engaged(Wheel::Second),
+        both_allowed: true,
+        self_test_clutches: false,
+        boot_time: 2.0,
+        actuator_time: 0.05,
+        feedback_time: 0.005,
+        stillness_time: 0.2,
+        calibration_time: 2.0,
+        calibration_patience: 5.0,
+        quiet_time: 3.0,
+        recover_after: 4.0,
+        plausible: Plausible { gyroscope: 0.3, accelerometer: 2.0 },
+        shaking: 0.4,
+        moving_counts: 3,
+        overrun_ticks: 4,
+        overrun_limit: 0.003,
+    };
+    [defaults, other]
+}
+
+fn controller<B: SettingsBody>(mount: Mount, estimator: Estimator, law: ClutchLaw, p: &Parameters) -> Controller<B, ClutchLaw> {
+    let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 5.0 };
+    let drivetrain = Drivetrain { engagement: Engagement::Rigid, flywheel, ..Drivetrain::default() };
+    let delay = 5.324_236_549_240_234e-4;
+    Controller {
+        model: Model::new(&structure(mount), &drivetrain).unwrap(),
+        instruments: Instruments::new(p.period.into(), 5e-6 / 2.0, [delay, 0.0, delay], 0.0015).unwrap(),
+        estimator,
+        law,
+        horizon: (10.5 / (1.0 / f64::from(p.period)).round()) as f32,
+        bands: 1.0,
+        engaged_at_rest: true,
+        gate: Gate::default(),
+        supervisor: Supervisor::new(p).unwrap(),
+    }
+}
+
+/// The defaults, with the sensors that the estimator needs and the encoder's counts at half of the block's α.
+fn example_supervision() -> Parameters {
+    let structure = structure(Mount::CentreOfMass);
+    let block = &structure.block;
+    let lever = structure.device.mount.lever_at(block, structure.geometry, 0.5 * block.slenderness()).unwrap();
+    let monitor = MonitorParameters::default();
+    let encoder = EncoderLimits { counts_per_radian: (lever * block.size() / 5e-6) as f32, ..monitor.encoder };
+    Parameters {
+        required: Estimator::ModelAided(MODEL_AIDED).required(),
+        monitor: MonitorParameters { encoder, ..monitor },
+        ..Parameters::default()
+    }
+}
+
+#[test]
+fn the_default_is_the_controller_of_an_example() {
+    let estimator = Estimator::ModelAided(MODEL_AIDED);
+    let supervision = example_supervision();
+    let example: Controller<KnownFull<Consistent>, _> =
+        controller(Mount::CentreOfMass, estimator, ClutchLaw::ResistingPredicted, &supervision);
+    let settings = Settings::of(&example, &supervision).unwrap();
+    for (item, (&derived, default)) in Item::ALL.into_iter().zip(settings.words().iter().zip(Settings::default().words)) {
+        let description = Description::at(item.index()).unwrap();
+        assert_eq!(derived, default, "{item:?} is {:?}", description.show(derived).to_string());
+    }
+    assert_eq!(AnyController::of(&Settings::default()), Ok(example.told()));
+    let look_ahead = LookAhead::default();
+    let law = ClutchLaw::LookAhead(look_ahead);
+    assert_eq!(
+        Settings::of(&Controller { law, ..example }, &supervision).unwrap().words()[Item::LawStep as usize..][..5].to_vec(),
+        { settings.words()[Item::LawStep as usize..][..5].to_vec() }
+    );
+}
+
+/// Every body by every estimator, law and supervision, and what `check` makes of its settings.
+fn each(mut check: impl FnMut(&Settings, AnyController)) {
+    let mount = Mount::TyingPoint { height: 1.5, pulley_ratio: 2.0 };
+    for supervision in supervisions() {
+        for estimator in estimators() {
+            for law in laws() {
+                let slender = controller::<KnownSlender>(mount, estimator, law, &supervision);
+                check(&Settings::of(&slender, &supervision).unwrap(), slender.told());
+                let paper = controller::<KnownFull<Paper>>(mount, estimator, law, &supervision);
+                check(&Settings::of(&paper, &supervision).unwrap(), paper.told());
+                let consistent = controller::<KnownFull<Consistent>>(mount, estimator, law, &supervision);
+                let consistent =
+                    Controller { horizon: 0.01, bands: 2.0, engaged_at_rest: false, gate: Gate { dwell: 9 }, ..consistent };
+                check(&Settings::of(&consistent, &supervision).unwrap(), consistent.told());
+            }
+        }
+    }
+}
+
+#[test]
+fn there_and_back_without_losing_a_bit() {
+    let mut count = 0;
+    each(|settings, controller| {
+        assert_eq!(AnyController::of(settings), Ok(controller));
+        assert_eq!(Settings::from_words(settings.words()), Ok(*settings));
+        count += 1;
+    });
+    assert_eq!(count, 2 * 3 * 7 * 3);
+}
+
+/// Words that a parameter might have instead, all within its range.
+fn others(description: &Description, word: u32) -> Vec<u32> {
+    let mut candidates = std::vec![word.wrapping_add(1), word.wrapping_sub(1), description.least, description.most];
+    if description.kind == Kind::Real {
+        let value = f32::from_bits(word);
+        candidates.extend([2.0 * value, 0.5 * value, 1.2 * value, value + 1.0, value + 0.01, value - 0.01].map(f32::to_bits));
+    }
+    candidates.retain(|&candidate| candidate != word);
+    candidates
+}
+
+#[test]
+fn every_word_has_its_effect_or_is_said_to_have_none() {
+    each(|settings, controller| {
+        for (index, description) in (0..).zip(Description::all()) {
+            let word = settings.get(index).unwrap();
+            let mut changes = 0;
+            for other in others(description, word) {
+                let mut changed = *settings;
+                if changed.set(index, other).is_ok() {
+                    changes += usize::from(AnyController::of(&changed).is_ok_and(|other| other != controller));
+                }
+            }
+            assert_eq!(changes > 0, description.applies(settings), "{} of {controller:?}", description.name);
+        }
+    });
+}
+
+#[test]
+fn a_word_outside_its_range_is_refused_and_named() {
+    let before = Settings::default();
+    for (index, description) in (0..).zip(Description::all()) {
+        let mut settings = before;
+        for word in [description.least, description.most, description.default] {
+            assert_eq!(settings.set(index, word), Ok(()), "{}", description.name);
+        }
+        assert_eq!(settings, before, "the default");
+        let beyond = match description.kind {
+            Kind::Real => std::vec![
+                f32::NAN.to_bits(),
+                f32::INFINITY.to_bits(),
+                f32::NEG_INFINITY.to_bits(),
+                f32::from_bits(description.most).next_up().to_bits(),
+                f32::from_bits(description.least).next_down().to_bits(),
+            ],
+            _ => [description.most.checked_add(1), description.least.checked_sub(1)].into_iter().flatten().collect(),
+        };
+        for word in beyond {
+            let error = SettingError::OutOfRange { index, word };
+            assert_eq!(settings.set(index, word), Err(error));
+            assert_eq!(settings, before);
+            let mut words = *before.words();
+            words[usize::from(index)] = word;
+            assert_eq!(Settings::from_words(&words), Err(error));
+            let line = error.describe(&settings).to_string();
+            assert!(line.starts_with(description.name) && line.contains("must be"), "{line}");
+        }
+    }
+    let index = COUNT as u16;
+    assert_eq!((before.get(index), before.clone().set(index, 0)), (None, Err(SettingError::NoSuch { index })));
+}
+
+#[test]
+fn names_are_unlike_each_other_and_words_print_as_they_read() {
+    let names: BTreeSet<&str> = Description::all().iter().map(|description| description.name).collect();
+    assert_eq!(names.len(), COUNT);
+    for (index, description) in (0..).zip(Description::all()) {
+        assert_eq!(Description::find(description.name), Some((index, description)));
+        assert!(description.name.bytes().all(|letter| matches!(letter, b'a'..=b'z' | b'_' | b'.')));
+        for word in [description.least, description.most, description.default] {
+            assert_eq!(description.parse(&description.show(word).to_string()), Some(word), "{}", description.name);
+        }
+    }
+    assert_eq!(Description::find("model.colour"), None);
+}
+
+#[test]
+fn contradictions_are_found_and_named() {
+    let cases: [(Item, f32, Item, &str); 5] = [
+        (Item::CalibrationPatience, 1.0, Item::CalibrationTime, "supervisor.calibration_patience is 1, but must be above"),
+        (Item::ContradictionTime, 0.003, Item::Period, "monitor.contradiction_time is 0.003, but must be at least eight"),
+        (Item::SlowContradictionTime, 0.0039, Item::ContradictionTime, "monitor.slow_contradiction_time is 0.0039, but must"),
+        (Item::FrequencySquared, 3.6, Item::Frequency, "model.frequency_squared is 3.6, but must be the square of"),
+        (Item::LeverAcross, -6.0, Item::LeverAlong, "body.lever_across is -6, but must be"),
+    ];
+    for (item, value, other, beginning) in cases {
+        let mut settings = Settings::default();
+        settings.set(item.index(), value.to_bits()).unwrap();
+        let error = AnyController::of(&settings).unwrap_err();
+        assert_eq!(error, SettingError::contradiction(item, other));
+        let line = error.describe(&settings).to_string();
+        assert!(line.starts_with(beginning), "{line}");
+    }
+}
+
+#[test]
+fn a_controller_that_contradicts_itself_cannot_be_recorded() {
+    let p = Parameters::default();
+    let good: Controller<KnownFull<Paper>, _> =
+        controller(Mount::CentreOfMass, Estimator::ModelAided(MODEL_AIDED), ClutchLaw::Passive, &p);
+    assert!(Settings::of(&good, &p).is_ok());
+    assert_eq!(Settings::of(&good, &Parameters { shaking: 0.5, ..p }), Err(SettingError::NotRepresentable));
+    let other_tick = Parameters { period: 0.000_4, ..p };
+    assert_eq!(Settings::of(&good, &other_tick), Err(SettingError::NotRepresentable));
+    let unsound = Controller { bands: f32::NAN, ..good };
+    assert!(matches!(Settings::of(&unsound, &p), Err(SettingError::OutOfRange { index, .. }) if index == Item::Bands.index()));
+    let negative = Parameters { moving_counts: -1, ..p };
+    assert!(matches!(Settings::of(&good, &negative), Err(SettingError::OutOfRange { .. })));
+}
+
+/// Ranges are never wider than what the core accepts, so that a controller of settings is one that it could have made.
+#[test]
+fn what_settings_allow_the_supervisor_accepts() {
+    for (index, description) in (0..).zip(Description::all()) {
+        for word in [description.least, description.most] {
+            let mut settings = Settings::default();
+            settings.set(index, word).unwrap();
+            let accepted = Supervisor::new(&super::assemble::supervision(&settings));
+            if AnyController::of(&settings).is_ok() {
+                assert!(accepted.is_ok(), "{}: {accepted:?}", description.name);
+            }
+        }
+    }
+}
+
+/// The same controller decides the same, whoever made it.
+#[test]
+fn a_controller_of_settings_ticks_as_the_one_that_was_recorded() {
+    let p = example_supervision();
+    let made: Controller<KnownFull<Consistent>, _> =
+        controller(Mount::CentreOfMass, estimators()[0], ClutchLaw::LookAhead(LookAhead::default()), &p);
+    let read = AnyController::of(&Settings::of(&made, &p).unwrap()).unwrap();
+    let (mut first, mut second) = (made.start(), read.start());
+    let (mut rocked, mut engaged) = (false, [false; 2]);
+    for number in 1..12_000_u32 {
+        let rate = if number > 8000 { 0.3 } else { 0.0 };
+        let reading = |value| Reading { value, number };
+        let sample = Sample {
+            gyroscope: reading(rate),
+            block_accelerometer: [reading(0.0), reading(9.806_65)],
+            ground_accelerometer: [reading(0.1 * rate), reading(9.806_65)],
+            encoder: Count { counts: (number.saturating_sub(8000) as f32 * 59.77) as i32, number },
+            engaged,
+        };
+        let (one, other) =
+            (made.tick(&mut first, &sample, Circumstances::default()), read.tick(&mut second, &sample, Circumstances::default()));
+        assert_eq!(one, other, "{number}");
+        engaged = one.command;
+        rocked |= one.phase == Phase::Rocking;
+    }
+    assert!(rocked && first.supervisor() == second.supervisor());
+    assert_eq!(read.instruments.period, 0.0005);
+}
+
+#[test]
+fn only_the_board_reads_its_own() {
+    for description in Description::all() {
+        assert_eq!(description.name.starts_with("board."), description.used == Use::Board, "{}", description.name);
+    }
+}

@@ -1,0 +1,120 @@
+//! What a board is told beside its controller: how its sensors are turned, and how its coils are driven. Taken over when it starts.
+
+use super::{Item, SettingError, Settings};
+
+/// An axis of a sensor, with its direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Axis {
+    word: u8,
+}
+
+impl Axis {
+    fn read(settings: &Settings, item: Item) -> Axis {
+        Axis { word: settings.whole(item) as u8 }
+    }
+
+    /// 0, 1 or 2 for x, y or z.
+    pub fn index(self) -> u8 {
+        self.word >> 1
+    }
+
+    /// It points the other way.
+    pub fn reversed(self) -> bool {
+        self.word & 1 == 1
+    }
+
+    /// The component of a reading (x, y, z) along it.
+    pub fn of(self, [x, y, z]: [f32; 3]) -> f32 {
+        let component = match self.index() {
+            0 => x,
+            1 => y,
+            _ => z,
+        };
+        if self.reversed() { -component } else { component }
+    }
+}
+
+/// How sensors and coils of one device are mounted: what the controller cannot find out by itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wiring {
+    /// For which a coil gets its full voltage, s; 0 to 1.
+    pub coil_pull_in_time: f32,
+    /// Share of the voltage that holds it after that; 0.05 to 1.
+    pub coil_hold_share: f32,
+    /// Current from which a clutch counts as engaged, A; 0 to 20.
+    pub coil_engaged_current: f32,
+    /// Of the block's gyroscope: about it θ is positive.
+    pub block_gyroscope: Axis,
+    /// Of the block's accelerometer, horizontal and vertical at rest.
+    pub block: [Axis; 2],
+    /// Of the ground's accelerometer.
+    pub ground: [Axis; 2],
+    /// Counts fall when θ grows.
+    pub encoder_reversed: bool,
+}
+
+impl Wiring {
+    /// Whether `settings` have a wiring that can be.
+    ///
+    /// # Errors
+    /// [`SettingError::Contradiction`] where two axes of one sensor that must be across each other are not.
+    pub fn check(settings: &Settings) -> Result<(), SettingError> {
+        for (item, other) in [
+            (Item::BlockUpAxis, Item::BlockAlongAxis),
+            (Item::GroundUpAxis, Item::GroundAlongAxis),
+            (Item::BlockGyroscopeAxis, Item::BlockAlongAxis),
+            (Item::BlockGyroscopeAxis, Item::BlockUpAxis),
+        ] {
+            if Axis::read(settings, item).index() == Axis::read(settings, other).index() {
+                return Err(SettingError::contradiction(item, other));
+            }
+        }
+        Ok(())
+    }
+
+    /// Of `settings`.
+    pub fn of(settings: &Settings) -> Wiring {
+        let axis = |item| Axis::read(settings, item);
+        Wiring {
+            coil_pull_in_time: settings.real(Item::CoilPullInTime),
+            coil_hold_share: settings.real(Item::CoilHoldShare),
+            coil_engaged_current: settings.real(Item::CoilEngagedCurrent),
+            block_gyroscope: axis(Item::BlockGyroscopeAxis),
+            block: [axis(Item::BlockAlongAxis), axis(Item::BlockUpAxis)],
+            ground: [axis(Item::GroundAlongAxis), axis(Item::GroundUpAxis)],
+            encoder_reversed: settings.switch(Item::EncoderReversed),
+        }
+    }
+
+    /// Travel of so many counts, with the sign of θ.
+    pub fn travel(&self, counts: i32) -> i32 {
+        if self.encoder_reversed { counts.wrapping_neg() } else { counts }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_axis_takes_its_component() {
+        let mut settings = Settings::default();
+        for (word, expected) in (0..6).zip([1.0, -1.0, 2.0, -2.0, 3.0, -3.0]) {
+            settings.set(Item::GroundAlongAxis.index(), word).unwrap();
+            settings.set(Item::GroundUpAxis.index(), (word + 2) % 6).unwrap();
+            let [along, up] = Wiring::of(&settings).ground;
+            assert_eq!(along.of([1.0, 2.0, 3.0]), expected);
+            assert_ne!(along.index(), up.index());
+        }
+    }
+
+    #[test]
+    fn axes_must_be_across_each_other() {
+        let mut settings = Settings::default();
+        assert!(Wiring::check(&settings).is_ok());
+        settings.set(Item::BlockUpAxis.index(), 1).unwrap();
+        assert_eq!(Wiring::check(&settings), Err(SettingError::contradiction(Item::BlockUpAxis, Item::BlockAlongAxis)));
+        settings.set(Item::BlockUpAxis.index(), 3).unwrap();
+        assert_eq!(Wiring::check(&settings), Err(SettingError::contradiction(Item::BlockGyroscopeAxis, Item::BlockUpAxis)));
+    }
+}
