@@ -135,7 +135,7 @@ struct Measured {
 /// If a tool is missing, a run fails, or an effect that is off is not free.
 pub fn run(root: &Path) -> Result<(), Stop> {
     let bare = off_costs_nothing(root)?;
-    let elf = firmware::build(root)?;
+    let elf = firmware::CORE.build(root)?;
     tools::need_emulator()?;
     let kernels = output(Command::new("qemu-system-arm").args(firmware::EMULATOR).arg(&elf))?;
     let full = sprag(root, &[])?;

@@ -1,18 +1,19 @@
-//! Building the firmware for the board.
+//! The images for the board: what there is, and how they are built.
 
 use crate::{
-    process::{cargo, executables},
+    process::{cargo_in, executables},
     stop::Stop,
 };
-use std::path::{Path, PathBuf};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+};
 
 /// The board's target.
 pub const TARGET: &str = "thumbv7em-none-eabihf";
 
-/// The firmware's package.
-pub const PACKAGE: &str = "sprag-emulated-core";
-
-/// How the emulator runs it, as in `.cargo/config.toml`; the firmware follows.
+/// How the emulator runs an image, as in `.cargo/config.toml`; the image follows.
 pub const EMULATOR: [&str; 8] = [
     "-machine",
     "netduinoplus2",
@@ -24,18 +25,150 @@ pub const EMULATOR: [&str; 8] = [
     "-kernel",
 ];
 
-/// The environment variable through which the emulator tests find the firmware.
-pub const ELF_VARIABLE: &str = "SPRAG_EMULATED_CORE_ELF";
+/// A program for the board.
+#[derive(Debug)]
+pub struct Image {
+    /// What it is called here, and its file in `images` below the target folder.
+    pub name: &'static str,
+    /// The folder of its workspace, from the root; empty for the root's own.
+    pub workspace: &'static str,
+    /// Its package.
+    pub package: &'static str,
+    /// Its features, in place of the default ones.
+    pub features: &'static [&'static str],
+    /// The file with what it may occupy, from the root, if that is limited.
+    pub budget: Option<&'static str>,
+    /// The environment variable through which tests find it, if they need it.
+    pub variable: Option<&'static str>,
+    /// Its log, from this level on.
+    pub log: Option<&'static str>,
+}
 
-/// Builds the firmware with optimisation and gives the path of its ELF file.
-///
-/// # Errors
-/// If the build fails.
-pub fn build(root: &Path) -> Result<PathBuf, Stop> {
-    let args = ["build", "--release", "--package", PACKAGE, "--target", TARGET];
-    let elf = executables(&mut cargo(root, &args))?
-        .pop()
-        .ok_or_else(|| Stop::failed("cargo built the firmware but named no executable"))?;
-    println!("{}", elf.display());
-    Ok(elf)
+/// The core and its own checks, for the emulator.
+pub const CORE: Image = Image {
+    name: "core",
+    workspace: "",
+    package: "sprag-emulated-core",
+    features: &[],
+    budget: Some("tests/emulated-core/size.budget"),
+    variable: Some("SPRAG_EMULATED_CORE_ELF"),
+    log: None,
+};
+
+/// The firmware as it goes to the board.
+pub const BOARD: Image = Image {
+    name: "board",
+    workspace: "firmware",
+    package: "sprag-firmware",
+    features: &["board-f405"],
+    budget: Some("firmware/size.budget"),
+    variable: None,
+    log: None,
+};
+
+/// The firmware for the emulator.
+const IN_EMULATOR: Image =
+    Image { name: "emulator", features: &["board-qemu"], budget: None, variable: Some("SPRAG_FIRMWARE_ELF"), ..BOARD };
+
+/// The firmware for the emulator, with its log.
+const LOGGING: Image = Image {
+    name: "logging",
+    features: &["board-qemu", "log"],
+    budget: None,
+    variable: Some("SPRAG_LOGGING_FIRMWARE_ELF"),
+    log: Some("info"),
+    ..BOARD
+};
+
+/// The firmware for the board with a panic in its control tick, which must not go unseen.
+pub const PANICKING: Image =
+    Image { name: "panicking", features: &["board-f405", "deliberate-panic"], budget: None, variable: None, ..BOARD };
+
+/// Every image that is checked or tested.
+pub const IMAGES: &[Image] = &[CORE, BOARD, IN_EMULATOR, LOGGING];
+
+/// Those of them whose lints cover the code of all.
+pub const LINTED: &[Image] = &[CORE, BOARD, LOGGING];
+
+impl Image {
+    /// A command of cargo on this image, for the board.
+    pub fn cargo(&self, root: &Path, subcommand: &str) -> Command {
+        let mut command = cargo_in(root, self.workspace, &[subcommand, "--package", self.package, "--target", TARGET]);
+        if !self.features.is_empty() {
+            command.args(["--no-default-features", "--features", &self.features.join(",")]);
+        }
+        if let Some(level) = self.log {
+            command.env("DEFMT_LOG", level);
+        }
+        command
+    }
+
+    /// Builds it with optimisation and gives the path of its ELF file, which other features do not overwrite.
+    ///
+    /// # Errors
+    /// If the build fails.
+    pub fn build(&self, root: &Path) -> Result<PathBuf, Stop> {
+        let built = executables(self.cargo(root, "build").arg("--release"))?
+            .pop()
+            .ok_or_else(|| Stop::failed(format!("cargo built {} but named no executable", self.package)))?;
+        // Below the target folder: the target's name, the profile, the file.
+        let target = built.ancestors().nth(3).ok_or_else(|| Stop::failed(format!("{}: too short a path", built.display())))?;
+        let folder = target.join("images");
+        let elf = folder.join(self.name).with_extension("elf");
+        fs::create_dir_all(&folder)
+            .and_then(|()| fs::copy(&built, &elf))
+            .map_err(|error| Stop::failed(format!("{}: {error}", elf.display())))?;
+        println!("{:<10} {}", self.name, elf.display());
+        Ok(elf)
+    }
+}
+
+/// The ELF files of all images.
+#[derive(Debug)]
+pub struct Built(Vec<(&'static Image, PathBuf)>);
+
+impl Built {
+    /// Builds every image.
+    ///
+    /// # Errors
+    /// If a build fails.
+    pub fn all(root: &Path) -> Result<Self, Stop> {
+        IMAGES.iter().map(|image| Ok((image, image.build(root)?))).collect::<Result<_, Stop>>().map(Self)
+    }
+
+    /// The file of an image.
+    ///
+    /// # Errors
+    /// If it is none of those built.
+    pub fn elf(&self, image: &Image) -> Result<&Path, Stop> {
+        let found = self.0.iter().find(|(built, _)| built.name == image.name);
+        found.map(|(_, elf)| elf.as_path()).ok_or_else(|| Stop::failed(format!("the image {} is not built", image.name)))
+    }
+
+    /// The images with a budget, and that.
+    pub fn budgets(&self) -> impl Iterator<Item = (&Image, &Path, &str)> {
+        self.0.iter().filter_map(|(image, elf)| Some((*image, elf.as_path(), image.budget?)))
+    }
+
+    /// The environment variables through which tests find the images.
+    pub fn variables(&self) -> impl Iterator<Item = (&str, &Path)> {
+        self.0.iter().filter_map(|(image, elf)| Some((image.variable?, elf.as_path())))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_images_share_a_file_or_a_variable() {
+        let all: Vec<_> = IMAGES.iter().chain([&PANICKING]).collect();
+        for (index, one) in all.iter().enumerate() {
+            for other in &all[index + 1..] {
+                assert_ne!(one.name, other.name);
+                assert!(one.variable.is_none() || one.variable != other.variable);
+                assert!(one.budget.is_none() || one.budget != other.budget);
+            }
+        }
+    }
 }

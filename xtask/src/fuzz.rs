@@ -2,15 +2,18 @@
 //! flags that cargo-fuzz uses without a sanitizer, so that nothing but a C++ compiler needs installing.
 
 use crate::{
-    process::{cargo, executables, filtered, output},
+    process::{cargo_in, executables, filtered, output},
     stop::Stop,
     tools,
 };
 use std::{
-    env, fs,
+    fs,
     path::{Path, PathBuf},
     process::Command,
 };
+
+/// The folder of the fuzz targets' workspace, from the root.
+const WORKSPACE: &str = "fuzz";
 
 /// The compiler flags that make the program count its branches and show its comparisons to libFuzzer.
 const INSTRUMENTATION: [&str; 9] = [
@@ -31,8 +34,9 @@ const INSTRUMENTATION: [&str; 9] = [
 /// If there is no such target, the build fails, or an input makes a target panic, hang or eat the memory.
 pub fn run(root: &Path, only: Option<&str>, seconds: u32) -> Result<(), Stop> {
     tools::need_cxx()?;
-    let fuzz = root.join("fuzz");
-    let mut targets = build(&fuzz)?;
+    let fuzz = root.join(WORKSPACE);
+    let mut targets = build(root)?;
+    none_forgotten(&fuzz, &targets)?;
     if let Some(only) = only {
         let names: Vec<_> = targets.iter().map(|(name, _)| name.clone()).collect();
         targets.retain(|(name, _)| name == only);
@@ -48,23 +52,34 @@ pub fn run(root: &Path, only: Option<&str>, seconds: u32) -> Result<(), Stop> {
 }
 
 /// Builds all targets and gives their names, in order, and programs.
-fn build(fuzz: &Path) -> Result<Vec<(String, PathBuf)>, Stop> {
-    let about = output(Command::new("rustc").current_dir(fuzz).arg("-vV"))?;
+fn build(root: &Path) -> Result<Vec<(String, PathBuf)>, Stop> {
+    let about = output(Command::new("rustc").current_dir(root).arg("-vV"))?;
     let host =
         about.lines().find_map(|line| line.strip_prefix("host: ")).ok_or_else(|| Stop::failed("rustc does not tell its host"))?;
     // Naming the target keeps the flags away from build scripts, which could not be linked with them.
-    let mut command = cargo(fuzz, &["build", "--release", "--target", host]);
+    let mut command = cargo_in(root, WORKSPACE, &["build", "--release", "--target", host]);
     command.env("CARGO_ENCODED_RUSTFLAGS", INSTRUMENTATION.join("\u{1f}"));
-    // Packages that both workspaces share must not be built by turns with other flags.
-    if let Some(own) = env::var_os("CARGO_TARGET_DIR") {
-        command.env("CARGO_TARGET_DIR", PathBuf::from(own).join("fuzz"));
-    }
     let mut targets: Vec<_> = executables(&mut command)?
         .into_iter()
         .filter_map(|program| Some((program.file_stem()?.to_str()?.to_owned(), program)))
         .collect();
     targets.sort();
     Ok(targets)
+}
+
+/// Makes sure that each file with a target was built: cargo does not look for them in that folder by itself.
+fn none_forgotten(fuzz: &Path, built: &[(String, PathBuf)]) -> Result<(), Stop> {
+    let folder = fuzz.join("targets");
+    let cannot = |error| Stop::failed(format!("{}: {error}", folder.display()));
+    for entry in fs::read_dir(&folder).map_err(cannot)? {
+        let path = entry.map_err(cannot)?.path();
+        if path.extension().is_some_and(|extension| extension == "rs")
+            && built.iter().all(|(name, _)| path.file_stem().is_none_or(|stem| stem != name.as_str()))
+        {
+            return Err(Stop::failed(format!("{} is no [[bin]] of fuzz/Cargo.toml", path.display())));
+        }
+    }
+    Ok(())
 }
 
 fn fuzz_one(fuzz: &Path, target: &str, program: &Path, seconds: u32) -> Result<(), Stop> {

@@ -8,10 +8,20 @@ use std::{
     process::{Command, Stdio},
 };
 
-/// A command of the cargo that runs this task, at the root of the workspace.
-pub fn cargo(root: &Path, args: &[&str]) -> Command {
+/// A command of the cargo that runs this task, in the folder of a workspace.
+pub fn cargo(folder: &Path, args: &[&str]) -> Command {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| OsString::from("cargo")));
-    command.current_dir(root).args(args);
+    command.current_dir(folder).args(args);
+    command
+}
+
+/// The same in a workspace of its own below the root. Packages that workspaces share must not be built by turns with other flags,
+/// so that a target folder of the user's is divided among them.
+pub fn cargo_in(root: &Path, workspace: &str, args: &[&str]) -> Command {
+    let mut command = cargo(&root.join(workspace), args);
+    if let (Some(own), false) = (std::env::var_os("CARGO_TARGET_DIR"), workspace.is_empty()) {
+        command.env("CARGO_TARGET_DIR", PathBuf::from(own).join(workspace));
+    }
     command
 }
 

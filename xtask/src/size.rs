@@ -1,113 +1,141 @@
-//! The firmware's size, held against the committed budget.
+//! An image's size by section, held against its budget.
 
-use crate::stop::Stop;
+use crate::{
+    budget::{Budget, with_sections},
+    stop::Stop,
+};
 use object::{Object as _, ObjectSection as _, SectionFlags, SectionKind, elf};
 use std::{fs, path::Path};
 
-/// The file with the budget, relative to the root of the workspace.
-const BUDGET: &str = "tests/emulated-core/size.budget";
+/// A section may differ from its accepted size by this part of it,
+const TOLERATED_PART: u64 = 50;
 
-/// What the program occupies, in bytes.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-struct Size {
-    /// Code and constants, only in flash.
-    text: u64,
-    /// Variables with a first value: that lies in flash, they in memory.
-    data: u64,
-    /// Variables that start as zero, only in memory.
-    bss: u64,
+/// or by so many bytes if these are more.
+const TOLERATED_BYTES: u64 = 256;
+
+/// What tells how to accept a size.
+const ACCEPT: &str = "run `cargo xtask firmware --overwrite` to accept this";
+
+/// A section that reaches the board.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Section {
+    name: String,
+    bytes: u64,
+    /// Whether it lies in flash, be it only to be copied from there.
+    in_flash: bool,
+    /// Whether it lies in memory.
+    in_ram: bool,
 }
 
-impl Size {
-    fn rows(self) -> [(&'static str, u64); 5] {
-        [
-            ("text", self.text),
-            ("data", self.data),
-            ("bss", self.bss),
-            ("flash", self.text + self.data),
-            ("ram", self.data + self.bss),
-        ]
-    }
-}
-
-/// Prints the size of the firmware and compares it with the budget.
+/// Prints the sections of an image and compares them with its budget; or accepts their sizes, but never more than the limits.
 ///
 /// # Errors
-/// If a file cannot be read or a size exceeds its limit.
-pub fn check(root: &Path, firmware: &Path) -> Result<(), Stop> {
-    let bytes = fs::read(firmware).map_err(|error| Stop::failed(format!("{}: {error}", firmware.display())))?;
-    let size = measure(&bytes).map_err(|error| Stop::failed(format!("{}: {error}", firmware.display())))?;
-    let budget = fs::read_to_string(root.join(BUDGET)).map_err(|error| Stop::failed(format!("{BUDGET}: {error}")))?;
-    let limits = parse_budget(&budget).map_err(|line| Stop::failed(format!("{BUDGET}: {line}")))?;
-    let mut excess = Vec::new();
-    println!("{:<6} {:>8} {:>8}", "", "bytes", "budget");
-    for (name, used) in size.rows() {
-        let limit = limits.iter().find(|(limited, _)| limited == name).map(|(_, limit)| *limit);
-        println!("{name:<6} {used:>8} {:>8}", limit.map_or_else(|| "-".into(), |limit| limit.to_string()));
-        if let Some(limit) = limit.filter(|limit| used > *limit) {
-            excess.push(format!("{name} takes {used} bytes of {limit}"));
-        }
+/// If a file cannot be read or written, a limit is exceeded, or a section's size is not the accepted one.
+pub fn check(elf: &Path, budget: &Path, overwrite: bool) -> Result<(), Stop> {
+    let fault = |path: &Path, error: &dyn std::fmt::Display| Stop::failed(format!("{}: {error}", path.display()));
+    let bytes = fs::read(elf).map_err(|error| fault(elf, &error))?;
+    let sections = measure(&bytes).map_err(|error| fault(elf, &error))?;
+    let mut text = fs::read_to_string(budget).map_err(|error| fault(budget, &error))?;
+    if overwrite {
+        text = with_sections(&text, sections.iter().map(|section| (section.name.as_str(), section.bytes)));
+        fs::write(budget, &text).map_err(|error| fault(budget, &error))?;
     }
-    if excess.is_empty() {
-        Ok(())
-    } else {
-        Err(Stop::failed(format!("the firmware is too big: {}; see {BUDGET}", excess.join(", "))))
-    }
+    let limits = Budget::parse(&text).map_err(|error| fault(budget, &error))?;
+    let excess = compare(&sections, &limits);
+    if excess.is_empty() { Ok(()) } else { Err(fault(budget, &excess.join("; "))) }
 }
 
-/// Adds up the sections that reach the board.
-fn measure(bytes: &[u8]) -> object::Result<Size> {
-    let mut size = Size::default();
+/// Prints the table and gives what exceeds the budget, for people.
+fn compare(sections: &[Section], budget: &Budget) -> Vec<String> {
+    let mut excess = Vec::new();
+    println!("{:<16} {:>8} {:>8} {:>8}", "section", "bytes", "accepted", "change");
+    for (name, now, accepted) in pairs(sections, &budget.sections) {
+        let change = now.cast_signed() - accepted.cast_signed();
+        println!("{name:<16} {now:>8} {accepted:>8} {change:>+8}");
+        if change.unsigned_abs() > (accepted / TOLERATED_PART).max(TOLERATED_BYTES) {
+            excess.push(format!("{name} takes {now} bytes instead of {accepted}"));
+        }
+    }
+    if !excess.is_empty() {
+        excess.push(ACCEPT.to_owned());
+    }
+    println!("{:<16} {:>8} {:>8} {:>8}", "", "bytes", "limit", "left");
+    let in_flash = |section: &&Section| section.in_flash;
+    let in_ram = |section: &&Section| section.in_ram;
+    let flash: u64 = sections.iter().filter(in_flash).map(|section| section.bytes).sum();
+    let ram: u64 = sections.iter().filter(in_ram).map(|section| section.bytes).sum();
+    for (name, used, limit) in [("flash", flash, budget.flash), ("ram", ram, budget.ram)] {
+        println!("{name:<16} {used:>8} {limit:>8} {:>8}", limit.cast_signed() - used.cast_signed());
+        if used > limit {
+            excess.push(format!("{used} bytes of {name} exceed the limit of {limit}"));
+        }
+    }
+    excess
+}
+
+/// The sections of the image and of its budget with both sizes; one that is missing takes nothing.
+fn pairs<'a>(sections: &'a [Section], accepted: &'a [(String, u64)]) -> Vec<(&'a str, u64, u64)> {
+    let size_of = |name: &str| accepted.iter().find(|(known, _)| known == name).map_or(0, |(_, bytes)| *bytes);
+    let here = sections.iter().map(|section| (section.name.as_str(), section.bytes, size_of(&section.name)));
+    let gone = accepted.iter().filter(|(name, _)| sections.iter().all(|section| section.name != *name));
+    here.chain(gone.map(|(name, bytes)| (name.as_str(), 0, *bytes))).collect()
+}
+
+/// The sections that reach the board.
+fn measure(bytes: &[u8]) -> object::Result<Vec<Section>> {
+    let mut sections = Vec::new();
     for section in object::File::parse(bytes)?.sections() {
         let SectionFlags::Elf { sh_flags } = section.flags() else {
             continue;
         };
         let flag = |flag: u32| sh_flags & u64::from(flag) != 0;
-        if !flag(elf::SHF_ALLOC) {
+        if !flag(elf::SHF_ALLOC) || section.size() == 0 {
             continue;
         }
-        let part = match section.kind() {
-            SectionKind::UninitializedData => &mut size.bss,
-            _ if flag(elf::SHF_WRITE) => &mut size.data,
-            _ => &mut size.text,
-        };
-        *part += section.size();
+        let in_flash = section.kind() != SectionKind::UninitializedData;
+        let in_ram = !in_flash || flag(elf::SHF_WRITE);
+        sections.push(Section { name: section.name()?.to_owned(), bytes: section.size(), in_flash, in_ram });
     }
-    Ok(size)
-}
-
-/// Reads lines of a name and a number of bytes; `#` starts a comment.
-fn parse_budget(text: &str) -> Result<Vec<(String, u64)>, String> {
-    let names = Size::default().rows().map(|(name, _)| name);
-    text.lines()
-        .map(|line| line.split('#').next().unwrap_or_default().trim())
-        .filter(|line| !line.is_empty())
-        .map(|line| {
-            let (name, bytes) = line.split_once(char::is_whitespace).ok_or_else(|| format!("no number in \"{line}\""))?;
-            if !names.contains(&name) {
-                return Err(format!("\"{name}\" is none of {}", names.join(", ")));
-            }
-            let bytes = bytes.trim().parse().map_err(|_| format!("\"{}\" is no number of bytes", bytes.trim()))?;
-            Ok((name.to_owned(), bytes))
-        })
-        .collect()
+    Ok(sections)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_budget_has_names_numbers_and_comments() {
-        let budget = parse_budget("# bytes\nflash 1000 # one\n\nram\t20\n");
-        assert_eq!(budget, Ok(vec![("flash".into(), 1000), ("ram".into(), 20)]));
+    fn section(name: &str, bytes: u64, in_flash: bool, in_ram: bool) -> Section {
+        Section { name: name.into(), bytes, in_flash, in_ram }
+    }
+
+    fn excess(text: u64, budget: &str) -> Vec<String> {
+        let sections =
+            [section(".text", text, true, false), section(".data", 300, true, true), section(".bss", 400, false, true)];
+        compare(&sections, &Budget::parse(budget).unwrap())
     }
 
     #[test]
-    fn a_wrong_budget_names_its_fault() {
-        assert_eq!(parse_budget("flash"), Err("no number in \"flash\"".into()));
-        assert_eq!(parse_budget("flash 1k"), Err("\"1k\" is no number of bytes".into()));
-        assert_eq!(parse_budget("heap 1"), Err("\"heap\" is none of text, data, bss, flash, ram".into()));
+    fn data_counts_twice_and_the_rest_once() {
+        assert!(excess(50_000, "flash 50300\nram 700\n.text 50000\n.data 300\n.bss 400").is_empty());
+        let tight = excess(50_000, "flash 50299\nram 699\n.text 50000\n.data 300\n.bss 400");
+        assert_eq!(tight, ["50300 bytes of flash exceed the limit of 50299", "700 bytes of ram exceed the limit of 699"]);
+    }
+
+    #[test]
+    fn a_section_may_change_by_the_larger_tolerance_up_and_down() {
+        let budget = "flash 100000\nram 1000\n.text 50000\n.data 300\n.bss 400";
+        for (text, well) in [(51_000, true), (51_001, false), (49_000, true), (48_999, false)] {
+            assert_eq!(excess(text, budget).is_empty(), well, "{text}");
+        }
+        assert!(excess(50_000, &budget.replace(".bss 400", ".bss 144")).is_empty());
+        assert!(!excess(50_000, &budget.replace(".bss 400", ".bss 143")).is_empty());
+    }
+
+    #[test]
+    fn a_section_that_came_or_went_is_a_change() {
+        let come = excess(50_000, "flash 100000\nram 1000\n.text 50000\n.data 300");
+        assert_eq!(come, [".bss takes 400 bytes instead of 0", ACCEPT]);
+        let gone = excess(50_000, "flash 100000\nram 1000\n.text 50000\n.data 300\n.bss 400\n.uninit 300");
+        assert_eq!(gone, [".uninit takes 0 bytes instead of 300", ACCEPT]);
     }
 
     #[test]

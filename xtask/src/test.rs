@@ -1,8 +1,9 @@
 //! Every check of the project, in the order in which they are cheapest to fail.
 
 use crate::{
-    firmware, fuzz,
-    process::{cargo, run as done},
+    firmware::{BOARD, Built, LINTED},
+    fuzz, panic_check,
+    process::{cargo, cargo_in, run as done},
     size,
     steps::Steps,
     stop::Stop,
@@ -21,16 +22,36 @@ pub fn run(root: &Path, fuzz_seconds: u32) -> Result<(), Stop> {
         tools::need_emulator()?;
         tools::need_cxx()
     })?;
-    steps.step("format", || done(&mut cargo(root, &["fmt", "--all", "--check"])))?;
+    steps.step("format", || {
+        done(&mut cargo(root, &["fmt", "--all", "--check"]))?;
+        done(&mut cargo_in(root, BOARD.workspace, &["fmt", "--all", "--check"]))
+    })?;
     steps.step("lints, host", || done(&mut cargo(root, &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])))?;
     steps.step("lints, board", || {
-        let args = ["clippy", "--package", firmware::PACKAGE, "--target", firmware::TARGET, "--", "-D", "warnings"];
-        done(&mut cargo(root, &args))
+        LINTED.iter().try_for_each(|image| done(image.cargo(root, "clippy").args(["--", "-D", "warnings"])))
     })?;
-    steps.step("documentation", || done(cargo(root, &["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings")))?;
-    let elf = steps.step("firmware build", || firmware::build(root))?;
-    steps.step("firmware size", || size::check(root, &elf))?;
-    // The emulator tests are among them and find the firmware through the variable.
-    steps.step("tests, host and emulator", || done(cargo(root, &["test", "--workspace"]).env(firmware::ELF_VARIABLE, &elf)))?;
+    steps.step("documentation", || {
+        done(cargo(root, &["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))?;
+        done(BOARD.cargo(root, "doc").arg("--no-deps").env("RUSTDOCFLAGS", "-D warnings"))
+    })?;
+    let built = images(root, &mut steps, false)?;
+    // The emulator tests are among them and find the images through the variables.
+    steps.step("tests", || done(cargo(root, &["test", "--workspace"]).envs(built.variables())))?;
     steps.step("fuzzing", || fuzz::run(root, None, fuzz_seconds))
+}
+
+/// Builds the images for the board and checks them; new sizes are accepted if they shall be overwritten.
+///
+/// # Errors
+/// At the first check that fails.
+pub fn images(root: &Path, steps: &mut Steps, overwrite: bool) -> Result<Built, Stop> {
+    let built = steps.step("images", || Built::all(root))?;
+    steps.step("sizes", || {
+        built.budgets().try_for_each(|(image, elf, budget)| {
+            println!("-- {}", image.name);
+            size::check(elf, &root.join(budget), overwrite)
+        })
+    })?;
+    steps.step("panic check", || panic_check::run(root, &built))?;
+    Ok(built)
 }

@@ -1,0 +1,25 @@
+//! Hands the memory map and the linker scripts to the linker, and the program its build's name.
+
+use std::{env, fs, path::PathBuf, process::Command};
+
+fn main() {
+    println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo:rerun-if-changed=../.git/HEAD");
+    let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    let memory = package.join("../memory.x");
+    fs::copy(&memory, out.join("memory.x")).expect("memory.x stands at the root of the project");
+    println!("cargo:rerun-if-changed={}", memory.display());
+    println!("cargo:rustc-link-search={}", out.display());
+    println!("cargo:rustc-link-arg-bins=-Tlink.x");
+    if env::var_os("CARGO_FEATURE_LOG").is_some() {
+        println!("cargo:rustc-link-arg-bins=-Tdefmt.x");
+    }
+    // Without page alignment the sections lie in flash as they will be written.
+    println!("cargo:rustc-link-arg-bins=--nmagic");
+    // What refers to what, for the check that the control path cannot panic. Not loaded.
+    println!("cargo:rustc-link-arg-bins=--emit-relocs");
+    let build = Command::new("git").args(["rev-parse", "--short=8", "HEAD"]).output();
+    let build = build.ok().filter(|build| build.status.success()).and_then(|build| String::from_utf8(build.stdout).ok());
+    println!("cargo:rustc-env=SPRAG_BUILD={}", build.as_deref().map_or("unknown", str::trim));
+}

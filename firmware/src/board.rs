@@ -1,0 +1,128 @@
+//! What a board must offer: the one seam between the application and the hardware.
+//!
+//! To port the firmware, write one module with a type that is a [`Board`] and select it below.
+
+#[cfg(feature = "board-f405")]
+pub mod f405;
+#[cfg(feature = "board-f405")]
+pub use f405::F405 as Selected;
+
+#[cfg(feature = "board-qemu")]
+pub mod qemu;
+#[cfg(feature = "board-qemu")]
+pub use qemu::Qemu as Selected;
+
+#[cfg(not(any(feature = "board-f405", feature = "board-qemu")))]
+compile_error!("select a board: --features board-f405 or --features board-qemu");
+#[cfg(all(feature = "board-f405", feature = "board-qemu"))]
+compile_error!("select one board only: --no-default-features --features board-qemu");
+
+use embedded_storage::nor_flash::NorFlash;
+use sprag_shared::control::sample::Sample;
+use sprag_shared::control::supervisor::Phase;
+use sprag_shared::device::reset::Cause;
+use sprag_shared::settings::Settings;
+use stm32f4xx_hal::pac;
+
+/// The flash of the selected board.
+pub type Flash = <Selected as Board>::Flash;
+
+/// A board. Its parts go to the tasks that own them.
+pub trait Board: Sized {
+    /// Its name, as the link tells it.
+    const NAME: &'static str;
+
+    /// Rate of the counter that [`Board::now`] reads, 1/s.
+    const COUNTER_HZ: u32;
+
+    /// Rate of the processor's clock, by which its SysTick counts, 1/s.
+    const CORE_HZ: u32;
+
+    /// Sensors.
+    type Sensors: Sensors;
+    /// Clutch coils.
+    type Coils: Coils;
+    /// Independent watchdog.
+    type Watchdog: Watchdog;
+    /// Serial link.
+    type Line: Line;
+    /// The two sectors for settings: a capacity of two erase sizes.
+    type Flash: NorFlash;
+    /// Status light.
+    type Light: Light;
+
+    /// Why the chip was reset, and clears the chip's memory of it. To be called once, before [`Board::begin`].
+    fn cause(device: &mut pac::Peripherals) -> Cause;
+
+    /// The flash that holds the settings. Erasing stalls the processor for up to a second, so this comes before the watchdog runs.
+    fn flash(device: &mut pac::Peripherals) -> Self::Flash;
+
+    /// Starts clocks, sensors, coils (released), link and counter. The watchdog is running when this returns.
+    fn begin(core: cortex_m::Peripherals, device: pac::Peripherals, settings: &Settings) -> Parts<Self>;
+
+    /// A counter that never stops and wraps at 2³².
+    fn now() -> u32;
+
+    /// A control period has begun; for boards that want to know.
+    #[inline(always)]
+    fn ticked() {}
+
+    /// Puts the coils in the state `engaged` at once, whatever else holds them: called from panics and faults, with interrupts off.
+    fn force_coils(engaged: [bool; 2]);
+}
+
+/// What [`Board::begin`] hands out.
+pub struct Parts<B: Board> {
+    /// To the control task.
+    pub sensors: B::Sensors,
+    /// To the control task.
+    pub coils: B::Coils,
+    /// To the control task.
+    pub watchdog: B::Watchdog,
+    /// To the link.
+    pub line: B::Line,
+    /// To the control task.
+    pub light: B::Light,
+}
+
+/// The sensors of a board.
+pub trait Sensors {
+    /// Reads what is new into `sample`, in SI units and the axes of [`Sample`], counting up the numbers of what was read: a sensor that
+    /// does not answer keeps its number, and the supervisor notices. Takes a bounded time, a small part of a control period. Leaves
+    /// `sample.engaged` alone.
+    fn read(&mut self, sample: &mut Sample);
+
+    /// Makes the encoder go on from `counts`: a reset has set it to 0 while the rack was somewhere else.
+    fn set_count(&mut self, counts: i32);
+}
+
+/// The coils of the two clutches.
+pub trait Coils {
+    /// What the coils' feedback says: engaged.
+    fn engaged(&mut self) -> [bool; 2];
+
+    /// Carries out a command, once a control period: pulls in with the full current, then holds with less.
+    fn drive(&mut self, command: [bool; 2]);
+}
+
+/// The watchdog: resets the chip unless fed in time.
+pub trait Watchdog {
+    /// Only a control task that met its deadline may call this.
+    fn feed(&mut self);
+}
+
+/// The serial link. Bytes are moved by interrupt or DMA into buffers that both calls only copy from and to, so neither ever waits,
+/// except in the emulator, where time stands while it does.
+pub trait Line {
+    /// Copies bytes that have come into `bytes` and says how many.
+    fn read(&mut self, bytes: &mut [u8]) -> usize;
+
+    /// Takes as many of `bytes` as there is room for and says how many.
+    fn write(&mut self, bytes: &[u8]) -> usize;
+}
+
+/// The status light.
+pub trait Light {
+    /// Shows a state, `seconds` after the start. To be called once a control period.
+    fn show(&mut self, phase: Phase, fault: Option<u16>, seconds: f32);
+}

@@ -1,0 +1,143 @@
+//! The sensor on the block, the sensor on the ground, and the encoder at the rack.
+
+use core::convert::Infallible;
+
+use embedded_hal::delay::DelayNs;
+use embedded_hal::spi::{MODE_3, SpiDevice};
+use embedded_hal_bus::spi::ExclusiveDevice;
+use sprag_drivers::icm42688::Icm42688;
+use sprag_shared::control::sample::{Reading, Sample};
+use sprag_shared::device::counter::Extended;
+use sprag_shared::device::inertial::{accelerations, rates};
+use sprag_shared::settings::wiring::Wiring;
+use stm32f4xx_hal::gpio::{Output, Pin, PinState, Pull, Speed};
+use stm32f4xx_hal::pac;
+use stm32f4xx_hal::qei::Qei;
+use stm32f4xx_hal::rcc::Rcc;
+use stm32f4xx_hal::spi::{self, Spi};
+use stm32f4xx_hal::time::Hertz;
+
+use crate::board::Sensors;
+
+/// Of the bus to the block's sensor, 1/s at most.
+const BLOCK_BUS: Hertz = Hertz::from_raw(10_500_000);
+/// Of the bus to the ground's sensor, 1/s at most: its cable is the longer one.
+const GROUND_BUS: Hertz = Hertz::from_raw(5_250_000);
+
+/// Delays within a transaction. The sensors need none, but without this one the bus would panic at them.
+pub struct Delay;
+
+impl DelayNs for Delay {
+    fn delay_ns(&mut self, nanoseconds: u32) {
+        // Somewhat longer than asked for.
+        cortex_m::asm::delay(nanoseconds / 5);
+    }
+}
+
+/// A bus with one device and its select line.
+pub type Device<SPI, const PORT: char, const SELECT: u8> = ExclusiveDevice<Spi<SPI>, Pin<PORT, SELECT, Output>, Delay>;
+/// The sensor on the block.
+pub type BlockDevice = Device<pac::SPI1, 'A', 4>;
+/// The sensor on the ground.
+pub type GroundDevice = Device<pac::SPI2, 'B', 12>;
+
+/// The bus to the sensor on the block: clock, input, output, select.
+pub fn block(
+    spi: pac::SPI1,
+    clock: Pin<'A', 5>,
+    input: Pin<'A', 6>,
+    output: Pin<'A', 7>,
+    select: Pin<'A', 4>,
+    rcc: &mut Rcc,
+) -> BlockDevice {
+    // Without a sensor the line reads low, which is no new reading.
+    let input = input.into_alternate().internal_resistor(Pull::Down);
+    let pins =
+        (Some(clock.into_alternate().speed(Speed::Medium)), Some(input), Some(output.into_alternate().speed(Speed::Medium)));
+    device(Spi::new(spi, pins, MODE_3, BLOCK_BUS, rcc), select)
+}
+
+/// The bus to the sensor on the ground: clock, input, output, select.
+pub fn ground(
+    spi: pac::SPI2,
+    clock: Pin<'B', 13>,
+    input: Pin<'B', 14>,
+    output: Pin<'B', 15>,
+    select: Pin<'B', 12>,
+    rcc: &mut Rcc,
+) -> GroundDevice {
+    let input = input.into_alternate().internal_resistor(Pull::Down);
+    let pins =
+        (Some(clock.into_alternate().speed(Speed::Medium)), Some(input), Some(output.into_alternate().speed(Speed::Medium)));
+    device(Spi::new(spi, pins, MODE_3, GROUND_BUS, rcc), select)
+}
+
+fn device<SPI: spi::Instance, const PORT: char, const SELECT: u8>(
+    bus: Spi<SPI>,
+    select: Pin<PORT, SELECT>,
+) -> Device<SPI, PORT, SELECT> {
+    let select = select.into_push_pull_output_in_state(PinState::High);
+    let result: Result<_, Infallible> = ExclusiveDevice::new(bus, select, Delay);
+    let Ok(device) = result;
+    device
+}
+
+/// The encoder: A and B.
+pub fn encoder(timer: pac::TIM4, a: Pin<'B', 6>, b: Pin<'B', 7>, rcc: &mut Rcc) -> Qei<pac::TIM4> {
+    let pins = (a.into_alternate().internal_resistor(Pull::Up), b.into_alternate().internal_resistor(Pull::Up));
+    let encoder = Qei::new(timer, pins, rcc);
+    // SAFETY: the timer is this function's; its library sets up all but the filters of the inputs.
+    let registers = unsafe { &*pac::TIM4::ptr() };
+    // Eight samples at 84 MHz alike, 95 ns, to ignore the edges of the coils' drivers.
+    registers.ccmr1_input().modify(|_, w| w.ic1f().fck_int_n8().ic2f().set(3));
+    encoder
+}
+
+/// All of them.
+pub type BoardSensors = MountedSensors<BlockDevice, GroundDevice>;
+
+/// Two inertial sensors and an encoder, mounted in some way.
+pub struct MountedSensors<B, G> {
+    block: Icm42688<B>,
+    ground: Icm42688<G>,
+    encoder: Qei<pac::TIM4>,
+    travel: Extended,
+    wiring: Wiring,
+}
+
+impl<B: SpiDevice, G: SpiDevice> MountedSensors<B, G> {
+    /// At their buses.
+    pub fn new(block: B, ground: G, encoder: Qei<pac::TIM4>, wiring: Wiring) -> MountedSensors<B, G> {
+        let (block, ground) = (Icm42688::new(block), Icm42688::new(ground));
+        MountedSensors { block, ground, encoder, travel: Extended::default(), wiring }
+    }
+}
+
+impl<B: SpiDevice, G: SpiDevice> Sensors for MountedSensors<B, G> {
+    fn read(&mut self, sample: &mut Sample) {
+        let wiring = &self.wiring;
+        if let Some(reading) = self.block.tick() {
+            let (rates, accelerations) = (rates(reading.rate), accelerations(reading.acceleration));
+            note(&mut sample.gyroscope, wiring.block_gyroscope.of(rates));
+            let ([along, up], axes) = (&mut sample.block_accelerometer, wiring.block);
+            note(along, axes[0].of(accelerations));
+            note(up, axes[1].of(accelerations));
+        }
+        if let Some(reading) = self.ground.tick() {
+            let accelerations = accelerations(reading.acceleration);
+            let ([along, up], axes) = (&mut sample.ground_accelerometer, wiring.ground);
+            note(along, axes[0].of(accelerations));
+            note(up, axes[1].of(accelerations));
+        }
+        sample.encoder.counts = wiring.travel(self.travel.read(stm32f4xx_hal::hal_02::Qei::count(&self.encoder)));
+        sample.encoder.number = sample.encoder.number.wrapping_add(1);
+    }
+
+    fn set_count(&mut self, counts: i32) {
+        self.travel = Extended::from(self.wiring.travel(counts));
+    }
+}
+
+fn note(reading: &mut Reading, value: f32) {
+    *reading = Reading { value, number: reading.number.wrapping_add(1) };
+}

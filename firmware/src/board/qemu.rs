@@ -1,0 +1,145 @@
+//! The board of QEMU's machine `netduinoplus2`: an STM32F405 without clocks, sensors, coils, watchdog or flash controller.
+//!
+//! Sensors and clutches are at the other end of the link. It has two ways: the host's standard streams by semihosting, a chunk each way for
+//! every control period, or USART1, byte by byte (with `usart` on the command line). TIM2 counts virtual nanoseconds, which under
+//! `-icount shift=0` are instructions. A watchdog and a flash that can lose power in the middle of a write are played by TIM4 and by memory
+//! that a reset does not clear.
+
+mod flash;
+mod line;
+#[cfg(feature = "log")]
+mod log;
+
+use core::sync::atomic::{AtomicBool, AtomicU8, Ordering};
+
+use super::{Board, Coils, Light, Parts, Sensors, Watchdog};
+use crate::last_words;
+use crate::memory::{self, Lasting};
+use cortex_m::peripheral::NVIC;
+use sprag_shared::control::sample::Sample;
+use sprag_shared::control::supervisor::Phase;
+use sprag_shared::device::reset::Cause;
+use sprag_shared::settings::Settings;
+use stm32f4xx_hal::pac::{self, Interrupt, interrupt};
+
+pub use flash::{Flash, cut_power_after};
+pub use line::Line;
+
+/// Counts of the timers in a second: QEMU clocks them so, whatever the program sets.
+const COUNTER_HZ: u32 = 1_000_000_000;
+
+/// For how long the watchdog waits, counts: 20 ms.
+const WATCHDOG: u32 = COUNTER_HZ / 50;
+
+/// Memory holds this from the first start on.
+const ALIVE: u32 = 0xA11F_E000;
+
+#[unsafe(link_section = ".uninit.ALIVE")]
+static MARK: Lasting<u32> = Lasting::new();
+
+/// A control period has passed: the line may exchange a chunk.
+static TICKED: AtomicBool = AtomicBool::new(false);
+
+/// What the coils were last told.
+static COILS: AtomicU8 = AtomicU8::new(0);
+
+/// The board.
+pub struct Qemu;
+
+impl Board for Qemu {
+    const NAME: &'static str = "qemu";
+    const COUNTER_HZ: u32 = COUNTER_HZ;
+    const CORE_HZ: u32 = 84_000_000;
+    type Sensors = Elsewhere;
+    type Coils = Elsewhere;
+    type Watchdog = Elsewhere;
+    type Line = Line;
+    type Flash = Flash;
+    type Light = Elsewhere;
+
+    fn cause(_device: &mut pac::Peripherals) -> Cause {
+        // SAFETY: a word holds any bits.
+        let alive = unsafe { MARK.read() } == ALIVE;
+        MARK.write(ALIVE);
+        if alive { Cause::Pin } else { Cause::PowerOn }
+    }
+
+    fn flash(_device: &mut pac::Peripherals) -> Flash {
+        Flash::new()
+    }
+
+    fn begin(mut core: cortex_m::Peripherals, device: pac::Peripherals, _settings: &Settings) -> Parts<Qemu> {
+        device.RCC.apb1enr().modify(|_, w| w.tim2en().enabled().tim4en().enabled());
+        // SAFETY: every value of these registers is a period.
+        unsafe {
+            device.TIM2.arr().write(|w| w.bits(u32::MAX));
+            device.TIM2.cr1().write(|w| w.cen().set_bit());
+            device.TIM4.arr().write(|w| w.bits(WATCHDOG));
+            // The watchdog is above everything.
+            core.NVIC.set_priority(Interrupt::TIM4, 0);
+            NVIC::unmask(Interrupt::TIM4);
+        }
+        device.TIM4.dier().write(|w| w.uie().set_bit());
+        device.TIM4.egr().write(|w| w.ug().set_bit());
+        device.TIM4.cr1().write(|w| w.cen().set_bit());
+        Parts { sensors: Elsewhere, coils: Elsewhere, watchdog: Elsewhere, line: Line::new(device.USART1), light: Elsewhere }
+    }
+
+    #[inline(always)]
+    fn now() -> u32 {
+        // SAFETY: reading a counter has no side effect.
+        unsafe { (*pac::TIM2::ptr()).cnt().read().bits() }
+    }
+
+    fn ticked() {
+        TICKED.store(true, Ordering::Relaxed);
+    }
+
+    fn force_coils(engaged: [bool; 2]) {
+        COILS.store(u8::from(engaged[0]) | u8::from(engaged[1]) << 1, Ordering::Relaxed);
+    }
+}
+
+/// What a real board has and this one finds at the other end of the link.
+pub struct Elsewhere;
+
+impl Sensors for Elsewhere {
+    fn read(&mut self, _sample: &mut Sample) {}
+
+    fn set_count(&mut self, _counts: i32) {}
+}
+
+impl Coils for Elsewhere {
+    fn engaged(&mut self) -> [bool; 2] {
+        let coils = COILS.load(Ordering::Relaxed);
+        [coils & 1 != 0, coils & 2 != 0]
+    }
+
+    fn drive(&mut self, command: [bool; 2]) {
+        Qemu::force_coils(command);
+    }
+}
+
+impl Watchdog for Elsewhere {
+    fn feed(&mut self) {
+        // SAFETY: starting the count over is all that this register is used for.
+        unsafe { (*pac::TIM4::ptr()).egr().write(|w| w.ug().set_bit()) };
+    }
+}
+
+impl Light for Elsewhere {
+    fn show(&mut self, _phase: Phase, _fault: Option<u16>, _seconds: f32) {}
+}
+
+/// The watchdog has not been fed.
+#[interrupt]
+fn TIM4() {
+    last_words::leave(Cause::Watchdog, 0, &[]);
+}
+
+/// As the supply fails: memory is lost, flash is not.
+fn lose_power() -> ! {
+    memory::forget();
+    MARK.write(0);
+    cortex_m::peripheral::SCB::sys_reset()
+}

@@ -1,0 +1,130 @@
+//! The control task: one tick, in time or noticed to be late.
+
+use core::sync::atomic::{AtomicU8, Ordering};
+
+use crate::board::{Board, Coils, Light, Selected, Sensors, Watchdog};
+use crate::link::Outbox;
+use crate::memory;
+use sprag_shared::device::Device;
+use sprag_shared::link::Pace;
+
+/// The part of a period by which a tick may come later than one period after the last and still be in time.
+const GRACE: u32 = 8;
+
+/// Periods without a sample from the link after which a device that is paced by samples ticks without them: the link is dead.
+const SILENCE_PERIODS: u32 = 2000;
+
+/// What the coils do when the program stops: bit 0 the first, bit 1 the second.
+static SAFE_STATE: AtomicU8 = AtomicU8::new(0);
+
+/// What is added to the next tick in a rehearsal, counts.
+#[cfg(feature = "board-qemu")]
+pub static DAWDLE: core::sync::atomic::AtomicU32 = core::sync::atomic::AtomicU32::new(0);
+
+/// Sets what the coils do when the program stops.
+pub fn set_safe_state(engaged: [bool; 2]) {
+    SAFE_STATE.store(u8::from(engaged[0]) | u8::from(engaged[1]) << 1, Ordering::Relaxed);
+}
+
+/// What the coils do when the program stops.
+pub fn safe_state() -> [bool; 2] {
+    let bits = SAFE_STATE.load(Ordering::Relaxed);
+    [bits & 1 != 0, bits & 2 != 0]
+}
+
+/// Period of the control task in counts of the board's counter.
+pub fn period_counts(device: &Device) -> u32 {
+    device.period_counts(Selected::COUNTER_HZ)
+}
+
+/// What the control task owns.
+pub struct Control {
+    sensors: <Selected as Board>::Sensors,
+    coils: <Selected as Board>::Coils,
+    watchdog: <Selected as Board>::Watchdog,
+    light: <Selected as Board>::Light,
+    last: Option<u32>,
+    silence: u32,
+}
+
+impl Control {
+    /// Before the first tick.
+    pub fn new(
+        sensors: <Selected as Board>::Sensors,
+        coils: <Selected as Board>::Coils,
+        watchdog: <Selected as Board>::Watchdog,
+        light: <Selected as Board>::Light,
+    ) -> Control {
+        Control { sensors, coils, watchdog, light, last: None, silence: 0 }
+    }
+}
+
+/// The interrupt of the control task, by the `timer` or because a sample has come. Reaches no panic: `cargo xtask firmware` shows it.
+#[inline(never)]
+pub fn control_tick(control: &mut Control, device: &mut Device, outbox: &mut Outbox, timer: bool) {
+    if device.attached() == Some(Pace::Sample) {
+        // The clock is the sender's, so nothing is ever late; only the end of the link is noticed.
+        control.last = None;
+        control.watchdog.feed();
+        if device.has_sample() {
+            control.silence = 0;
+        } else if timer {
+            control.silence = control.silence.saturating_add(1);
+        }
+        if device.has_sample() || control.silence > SILENCE_PERIODS {
+            tick(control, device, outbox, 0);
+        }
+    } else if timer {
+        let begun = Selected::now();
+        let period = period_counts(device);
+        let late = control.last.map_or(0, |last| begun.wrapping_sub(last).saturating_sub(period));
+        let late = if late > period / GRACE { late } else { 0 };
+        control.last = Some(begun);
+        tick(control, device, outbox, late);
+        if Selected::now().wrapping_sub(begun) < period {
+            control.watchdog.feed();
+        }
+    }
+}
+
+/// Sensors, controller, coils.
+fn tick(control: &mut Control, device: &mut Device, outbox: &mut Outbox, late: u32) {
+    let begun = Selected::now();
+    let Control { sensors, coils, .. } = control;
+    #[cfg(feature = "log")]
+    let before = *device.decision();
+    device.tick(
+        |sample| {
+            sensors.read(sample);
+            sample.engaged = coils.engaged();
+        },
+        late as f32 / Selected::COUNTER_HZ as f32,
+    );
+    let decision = device.decision();
+    // With samples from the link the clutches are somewhere else.
+    let command = if device.attached().is_some() { device.safe_command() } else { decision.command };
+    coils.drive(command);
+    control.light.show(decision.phase, decision.fault.map(|fault| fault.code()), device.seconds());
+    #[cfg(feature = "log")]
+    crate::log::decision(&before, decision);
+    memory::save(&device.kept());
+    #[cfg(feature = "deliberate-panic")]
+    deliberate_panic(device);
+    #[cfg(feature = "board-qemu")]
+    while Selected::now().wrapping_sub(begun) < DAWDLE.load(Ordering::Relaxed) {}
+    #[cfg(feature = "board-qemu")]
+    DAWDLE.store(0, Ordering::Relaxed);
+    let cost = Selected::now().wrapping_sub(begun);
+    if let Some(report) = device.report(cost, late) {
+        outbox.put(report);
+    }
+}
+
+/// Shows that the check for panics in the control path sees one.
+#[cfg(feature = "deliberate-panic")]
+#[inline(never)]
+fn deliberate_panic(device: &Device) {
+    let words = device.settings().words();
+    let index = device.safe_command()[0] as usize * 1000;
+    core::hint::black_box(words[index]);
+}

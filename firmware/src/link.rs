@@ -1,0 +1,177 @@
+//! The link task: frames in, answers and reports out.
+
+use core::sync::atomic::{AtomicU32, Ordering};
+
+use crate::board::{Board, Flash, Line, Selected};
+use crate::identity::{BOARD, BUILD, VERSION};
+use crate::last_words::{self, LastWords};
+use crate::log::{info, warn};
+use crate::{stack, tick};
+use heapless::Deque;
+use sprag_shared::device::reset::Cause;
+use sprag_shared::device::{Answer, Device, Surroundings};
+use sprag_shared::link::{Deframer, MAX_FRAME, Mishap, Pace, Reply, Request, Started, TickReport, encode};
+use sprag_shared::settings::store::Store;
+
+/// Reports that wait for the link at most.
+const REPORTS: usize = 4;
+
+static LOST_REPORTS: AtomicU32 = AtomicU32::new(0);
+
+/// Reports from the control task to the link.
+pub struct Outbox {
+    reports: Deque<TickReport, REPORTS>,
+}
+
+impl Outbox {
+    /// An empty one.
+    pub const fn new() -> Outbox {
+        Outbox { reports: Deque::new() }
+    }
+
+    /// Adds a report; where the link is too slow the new one is lost, and counted.
+    pub fn put(&mut self, report: TickReport) {
+        if self.reports.push_back(report).is_err() {
+            LOST_REPORTS.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+
+    /// The oldest one.
+    pub fn take(&mut self) -> Option<TickReport> {
+        self.reports.pop_front()
+    }
+}
+
+/// What the link task owns.
+pub struct Link {
+    line: <Selected as Board>::Line,
+    store: &'static mut Store<Flash>,
+    around: Surroundings,
+    deframer: Deframer,
+    /// The frame on its way out and how much of it is gone.
+    frame: [u8; MAX_FRAME],
+    length: usize,
+    gone: usize,
+    /// What is to be said before anything else.
+    next: Option<(u8, Reply)>,
+}
+
+impl Link {
+    /// With what is to be said about the start.
+    pub fn new(
+        line: <Selected as Board>::Line,
+        store: &'static mut Store<Flash>,
+        words: LastWords,
+        device: &Device,
+        stored: bool,
+    ) -> Link {
+        let LastWords { cause, place, length, file } = words;
+        let started = Started { cause, resumed: device.resumes(), stored, restarts: device.restarts(), length, place, file };
+        let around = Surroundings {
+            version: VERSION,
+            build: BUILD,
+            board: BOARD,
+            counter_hz: Selected::COUNTER_HZ,
+            rehearsal: cfg!(feature = "board-qemu"),
+            cause,
+            bad_frames: 0,
+            lost_reports: 0,
+            stack: 0,
+        };
+        let next = Some((0, Reply::Started(started)));
+        Link { line, store, around, deframer: Deframer::new(), frame: [0; MAX_FRAME], length: 0, gone: 0, next }
+    }
+
+    /// Whether a report can be sent now.
+    pub fn has_room(&self) -> bool {
+        self.length == 0 && self.next.is_none()
+    }
+
+    /// Moves what can be moved: a `report` (only while there [is room](Link::has_room)), the last answer, what has come. `ask` hands a request to the device. Whether anything moved.
+    pub fn pump(
+        &mut self,
+        report: Option<TickReport>,
+        mut ask: impl FnMut(&Request, &mut Store<Flash>, &Surroundings) -> (Answer, Option<Pace>),
+    ) -> bool {
+        let mut moved = self.send();
+        if let Some(report) = report {
+            self.pack(0, &Reply::Tick(report));
+            moved = true;
+        }
+        if self.length == 0
+            && let Some((tag, reply)) = self.next.take()
+        {
+            self.pack(tag, &reply);
+            moved = true;
+        }
+        moved |= self.send();
+        // An answer that waits must go before the next request is heard.
+        while self.next.is_none() {
+            let mut byte = [0];
+            if self.line.read(&mut byte) == 0 {
+                break;
+            }
+            moved = true;
+            match self.deframer.feed::<Request>(byte[0]) {
+                None => {}
+                Some(Err(_)) => {
+                    warn!("a bad frame");
+                    self.around.bad_frames = self.around.bad_frames.saturating_add(1);
+                }
+                Some(Ok(received)) => {
+                    self.around.lost_reports = LOST_REPORTS.load(Ordering::Relaxed);
+                    self.around.stack = stack::deepest();
+                    let (answer, pace) = ask(&received.message, self.store, &self.around);
+                    self.act(received.tag, answer, pace);
+                }
+            }
+        }
+        moved
+    }
+
+    fn act(&mut self, tag: u8, answer: Answer, pace: Option<Pace>) {
+        match answer {
+            Answer::Reply(reply) | Answer::Restarted(reply) => self.next = Some((tag, reply)),
+            Answer::Sample if pace == Some(Pace::Sample) => tick::pend(),
+            Answer::Sample => {}
+            Answer::Rehearse(mishap) => rehearse(mishap),
+        }
+    }
+
+    fn pack(&mut self, tag: u8, reply: &Reply) {
+        // Every reply fits; the tests of the link encode the longest.
+        self.length = encode(tag, reply, &mut self.frame).unwrap_or(0);
+        self.gone = 0;
+    }
+
+    fn send(&mut self) -> bool {
+        let left = self.frame.get(self.gone..self.length).unwrap_or_default();
+        if left.is_empty() {
+            return false;
+        }
+        let sent = self.line.write(left);
+        self.gone += sent;
+        if self.gone >= self.length {
+            (self.length, self.gone) = (0, 0);
+        }
+        sent > 0
+    }
+}
+
+/// Makes something go wrong on purpose, in images that are for that.
+fn rehearse(mishap: Mishap) {
+    info!("a rehearsal");
+    match mishap {
+        Mishap::Reset => last_words::leave(Cause::Software, 0, &[]),
+        #[cfg(feature = "board-qemu")]
+        Mishap::Panic => panic!("rehearsed"),
+        #[cfg(feature = "board-qemu")]
+        Mishap::HardFault => cortex_m::asm::udf(),
+        #[cfg(feature = "board-qemu")]
+        Mishap::Dawdle(counts) => crate::control::DAWDLE.store(counts, Ordering::Relaxed),
+        #[cfg(feature = "board-qemu")]
+        Mishap::PowerCut(bytes) => crate::board::qemu::cut_power_after(bytes),
+        #[cfg(not(feature = "board-qemu"))]
+        _ => {}
+    }
+}

@@ -1,0 +1,34 @@
+//! No panic in the firmware's control tick, and proof that the check would see one.
+
+use crate::{
+    firmware::{BOARD, Built, PANICKING},
+    reach,
+    stop::Stop,
+};
+use std::path::Path;
+
+/// The functions from which no panic may be reached.
+const ROOTS: &[&str] = &["control_tick"];
+
+/// The functions that may call by an address that only the running program knows.
+const ALLOWED_INDIRECT: &[&str] = &[];
+
+/// The function that the feature `deliberate-panic` adds below a root.
+const DELIBERATE: &str = "deliberate_panic";
+
+/// Checks the firmware for the board, then one with a panic added.
+///
+/// # Errors
+/// If a panic can be reached in the first, or none through the added function in the second.
+pub fn run(root: &Path, built: &Built) -> Result<(), Stop> {
+    reach::check(built.elf(&BOARD)?, ROOTS, ALLOWED_INDIRECT)?;
+    let found = reach::examine(&PANICKING.build(root)?, ROOTS, ALLOWED_INDIRECT)?;
+    let seen = found.panics.iter().find(|way| way.iter().any(|name| name.rsplit("::").next() == Some(DELIBERATE)));
+    match seen {
+        Some(way) => println!("the deliberate panic is seen:\n  {}", way.join("\n  ")),
+        None => {
+            return Err(Stop::failed(format!("the panic check sees nothing of {DELIBERATE} in the image {}", PANICKING.name)));
+        }
+    }
+    Ok(())
+}
