@@ -3,12 +3,15 @@
 //! - [`scene`], [`record`], [`ground_motion`], [`synthesis`]: what is simulated.
 //! - [`simulation`]: one scene, every device; [`batch`]: many dimensionless cases.
 //! - [`history`], [`outcome`], [`plot`], [`summary_table`], [`output`]: what comes out.
+//! - [`closed_loop`], [`device`]: the controller on the host, and the firmware in its place.
 //! - [`effect`]: what a scene may ask for, and what follows from it; [`command`]: the subcommands of `sprag`.
 
 pub mod batch;
 #[cfg(feature = "effects")]
 pub mod closed_loop;
 pub mod command;
+#[cfg(feature = "effects")]
+pub mod device;
 pub mod effect;
 pub mod ground_motion;
 pub mod history;

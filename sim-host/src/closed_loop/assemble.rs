@@ -6,11 +6,14 @@ use sprag_shared::control::gate::Gate;
 use sprag_shared::control::law::{ClutchLaw, GatedTable, Law, SignTable};
 use sprag_shared::control::look_ahead::LookAhead;
 use sprag_shared::control::model::{KnownBody, KnownFull, KnownSlender, Model};
-use sprag_shared::control::supervisor::Supervisor;
+use sprag_shared::control::supervisor::{Parameters, Supervisor};
 use sprag_shared::drivetrain::{Drivetrain, Engagement};
 use sprag_shared::equation::{Consistent, Paper};
 use sprag_shared::error::ParameterError;
 use sprag_shared::restitution::Restitution;
+use sprag_shared::settings::assemble::SettingsBody;
+use sprag_shared::settings::kind::{Description, Kind};
+use sprag_shared::settings::{SettingError, Settings};
 use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
 
 use super::design::SensorDesign;
@@ -135,12 +138,17 @@ impl<'a> LoopTask<'a> {
     /// # Errors
     /// [`ParameterError`] names the first parameter outside its range.
     pub fn controller<B: KnownBody, L: Law<B>>(&self, law: L) -> Result<Controller<B, L>, ParameterError> {
+        Ok(self.supervised(law)?.0)
+    }
+
+    /// The controller, and what its supervisor is made from.
+    fn supervised<B: KnownBody, L: Law<B>>(&self, law: L) -> Result<(Controller<B, L>, Parameters), ParameterError> {
         let structure = self.believed()?;
         let table = self.controller;
         let period = 1.0 / table.rate_hz;
         let design = SensorDesign::new(&structure, self.suite, table.estimator, period, table.shock_s)?;
         let supervision = supervision(&structure, self.suite, &design, table, self.actuation());
-        Ok(Controller {
+        let controller = Controller {
             model: Model::new(&structure, &self.drivetrain())?,
             instruments: design.instruments,
             estimator: design.estimator,
@@ -150,7 +158,26 @@ impl<'a> LoopTask<'a> {
             engaged_at_rest: table.engaged_at_rest,
             gate: Gate { dwell: (table.dwell_s / period).round() as u16 },
             supervisor: Supervisor::new(&supervision)?,
-        })
+        };
+        Ok((controller, supervision))
+    }
+
+    /// The same controller by the law of its table, as the words that a board is given.
+    ///
+    /// # Errors
+    /// As [`LoopTask::controller`], and for what a board's settings cannot be.
+    pub fn settings(&self) -> Result<Settings, ParameterError> {
+        let structure = self.structure();
+        match (structure.geometry, structure.device.kinematics) {
+            (Geometry::Slender, _) => self.settings_for::<KnownSlender>(),
+            (Geometry::Full, KinematicsKind::Paper) => self.settings_for::<KnownFull<Paper>>(),
+            (Geometry::Full, KinematicsKind::Consistent) => self.settings_for::<KnownFull<Consistent>>(),
+        }
+    }
+
+    fn settings_for<B: SettingsBody>(&self) -> Result<Settings, ParameterError> {
+        let (controller, supervision) = self.supervised::<B, _>(self.controller.clutch_law())?;
+        Settings::of(&controller, &supervision).map_err(unfit)
     }
 
     /// The controller at power-on, for the body that the scene calls for.
@@ -235,6 +262,24 @@ impl<'a> LoopTask<'a> {
         let task = self.task();
         let interval = (task.end() / 2000.0).max(1e-6);
         Ok(Task { scene: &scene, interval, ..task }.run()?)
+    }
+}
+
+/// A setting that a board refuses, as the parameter that it was made from.
+fn unfit(error: SettingError) -> ParameterError {
+    let name = |index| Description::at(index).map_or("settings", |description| description.name);
+    match error {
+        SettingError::OutOfRange { index, word } => {
+            let real = Description::at(index).is_some_and(|description| description.kind == Kind::Real);
+            let value = if real { f32::from_bits(word).into() } else { word.into() };
+            ParameterError { parameter: name(index), value, range: "within what a board's settings allow" }
+        }
+        SettingError::Contradiction { index, .. } => {
+            ParameterError { parameter: name(index), value: f64::NAN, range: "as its companion among a board's settings allows" }
+        }
+        SettingError::NoSuch { .. } | SettingError::NotRepresentable => {
+            ParameterError { parameter: "settings", value: f64::NAN, range: "such that they make the same controller again" }
+        }
     }
 }
 

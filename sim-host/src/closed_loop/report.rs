@@ -208,6 +208,7 @@ pub fn loop_trace(report: &LoopReport, block: &Block) -> LoopTrace {
         ground_g: each(&|tick| tick.plant.ground[0]),
         rotation: each(&|tick| tick.plant.motion.rotation / alpha),
         rotation_ideal: report.ideal.history.samples.iter().map(|sample| (sample.time_s, sample.rotation_rad / alpha)).collect(),
+        rotation_host: Vec::new(),
         velocity: each(&|tick| tick.plant.motion.velocity / (p * alpha)),
         velocity_estimated: each(&|tick| f64::from(tick.decision.estimate.velocity) / (p * alpha)),
         push: each(&|tick| tick.plant.push / (p * p * alpha)),

@@ -2,29 +2,25 @@
 
 use std::io::Write;
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::BAD_INPUT;
+use super::loop_scene::{LoopScene, LoopSceneError};
+use crate::closed_loop::LoopFailure;
 use crate::closed_loop::plant::Extremes;
 use crate::closed_loop::report::{LoopReport, LoopSummary, loop_trace, write_history};
 use crate::closed_loop::run::{LoopError, Tick};
-use crate::closed_loop::{LoopFailure, LoopTask};
 use crate::interrupt::{self, Interrupt};
 use crate::loop_study::statistics::quantile;
 use crate::output::{OutputError, Results, make_folder};
 use crate::plot::{PlotError, loop_figure};
 use crate::progress::Progress;
-use crate::scene::controller::ControllerTable;
-use crate::scene::ground::GroundError;
-use crate::scene::motions::GroundMotions;
+use crate::scene::Scene;
 use crate::scene::schema::SceneFile;
-use crate::scene::{Scene, SceneError};
-use crate::sensor::Suite;
-use sprag_shared::structure::DeviceKind;
 
 /// Run the controller of a scene in closed loop.
 #[derive(Args, Clone, Debug)]
@@ -56,19 +52,9 @@ pub struct LoopArguments {
 #[derive(Debug, thiserror::Error)]
 enum Failure {
     #[error("{0}")]
-    Scene(#[from] SceneError),
-    #[error("{0}")]
-    Ground(#[from] GroundError),
+    Scene(#[from] LoopSceneError),
     #[error("{device}: {failure}")]
     Loop { device: String, failure: LoopFailure },
-    #[error("{scene}: a closed loop needs a [[device]] of kind \"clutched-pair\"")]
-    NoPair { scene: String },
-    #[error(
-        "{scene}: block.initial_rotation_ratio and block.initial_velocity_ratio must be 0: the controller calibrates itself at rest"
-    )]
-    NotAtRest { scene: String },
-    #[error("{scene}: device {device}: an overrunning clutch takes no commands")]
-    Uncommanded { scene: String, device: String },
     #[error("the picture cannot be drawn: {0}")]
     Plot(#[from] PlotError),
     #[error("{0}")]
@@ -102,73 +88,28 @@ pub fn run(arguments: &LoopArguments, out: &mut impl Write, err: &mut impl Write
     }
 }
 
-/// What every loop of a scene shares.
-struct Desk<'a> {
-    scene: &'a Scene,
-    ground: &'a GroundMotions,
-    controller: &'a ControllerTable,
-    suite: &'a Suite,
-    interrupt: &'a Interrupt,
-}
-
-impl Desk<'_> {
-    fn task(&self, index: usize, seed: u64) -> LoopTask<'_> {
-        let Desk { scene, ground, controller, suite, interrupt } = *self;
-        LoopTask { scene, ground, index, controller, suite, seed, interrupt }
-    }
-}
-
 fn run_or_fail(arguments: &LoopArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
-    let mut scene = Scene::load(&arguments.scene, &arguments.set)?;
-    if let Some(record) = &arguments.record {
-        scene.use_record(record)?;
-    }
-    let name = || arguments.scene.display().to_string();
-    let pairs: Vec<usize> =
-        (0..scene.devices.len()).filter(|&index| scene.devices[index].device.kind == DeviceKind::ClutchedPair).collect();
-    if pairs.is_empty() {
-        return Err(Failure::NoPair { scene: name() });
-    }
-    if scene.file.block.initial_rotation_ratio != 0.0 || scene.file.block.initial_velocity_ratio != 0.0 {
-        return Err(Failure::NotAtRest { scene: name() });
-    }
-    for &index in &pairs {
-        if scene.devices[index].drivetrain.engagement == sprag_shared::drivetrain::Engagement::Overrunning {
-            return Err(Failure::Uncommanded { scene: name(), device: scene.devices[index].name.clone() });
-        }
-    }
-    let ground = scene.ground_motions()?;
-    let controller = scene.file.controller.clone().unwrap_or_default();
-    let suite = controller.suite(&scene.origin)?;
-    let folder = arguments.out.clone().unwrap_or_else(|| {
-        let stem = arguments.scene.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy().into_owned());
-        Path::new("out").join(format!("{stem}-loop"))
-    });
+    let desk = LoopScene::load(&arguments.scene, &arguments.set, arguments.record.as_ref())?;
+    let LoopScene { scene, controller, pairs, .. } = &desk;
+    let folder = LoopScene::folder(&arguments.scene, arguments.out.as_ref(), "loop");
     make_folder(&folder)?;
-    let desk = Desk { scene: &scene, ground: &ground, controller: &controller, suite: &suite, interrupt };
     let mut reports: Vec<LoopReport> = Vec::new();
-    for &index in &pairs {
+    for &index in pairs {
         let failed = |failure| Failure::Loop { device: scene.devices[index].name.clone(), failure };
         let mut ticks: Vec<Tick> = Vec::new();
         let mut extremes = Extremes::default();
-        let task = desk.task(index, controller.sensors.seed());
+        let task = desk.task(index, controller.sensors.seed(), interrupt);
         let ending = task.run(&mut extremes, &mut ticks).map_err(failed)?;
         let ideal = task.ideal().map_err(failed)?;
         reports.push(LoopReport::new(&task, ending, &extremes.peaks, ideal, ticks));
     }
     let mut results = Results::default();
     if let Some(count) = arguments.monte_carlo {
-        let table = monte_carlo(arguments, &desk, &mut reports, &pairs, count)?;
+        let table = monte_carlo(arguments, &desk, &mut reports, count, interrupt)?;
         results.add(&folder.join("monte_carlo.csv"), |file| file.write_all(table.as_bytes()))?;
     }
     let summaries: Vec<LoopSummary> = reports.iter().map(|report| report.summary.clone()).collect();
-    let mut file = scene.file.clone();
-    if let (Some(table), Some(record)) =
-        (file.ground.iter_mut().find(|table| table.motion == crate::scene::ground::Motion::Record), &arguments.record)
-    {
-        table.file = Some(record.clone());
-    }
-    file.controller = Some(controller.clone());
+    let file = desk.resolved(arguments.record.as_ref());
     let summary = Summary { command: "loop", version: env!("CARGO_PKG_VERSION"), scene: &file, runs: &summaries };
     results.add(&folder.join("summary.json"), |file| {
         serde_json::to_writer_pretty(&mut *file, &summary).map_err(std::io::Error::other)?;
@@ -176,7 +117,7 @@ fn run_or_fail(arguments: &LoopArguments, out: &mut impl Write, interrupt: &Inte
     })?;
     results.add(&folder.join("history.csv"), |file| write_history(&reports, file).map_err(std::io::Error::other))?;
     for (number, report) in reports.iter().enumerate() {
-        let picture = loop_figure(&heading(&scene, report), &loop_trace(report, &scene.block))?;
+        let picture = loop_figure(&heading(scene, report), &loop_trace(report, &scene.block))?;
         let name = if number == 0 { "loop.svg".to_owned() } else { format!("loop-{}.svg", number + 1) };
         results.add(&folder.join(name), |file| file.write_all(picture.as_bytes()))?;
     }
@@ -191,7 +132,7 @@ fn run_or_fail(arguments: &LoopArguments, out: &mut impl Write, interrupt: &Inte
     Ok(())
 }
 
-fn heading(scene: &Scene, report: &LoopReport) -> String {
+pub(super) fn heading(scene: &Scene, report: &LoopReport) -> String {
     let title = if scene.file.title.is_empty() { "Closed loop" } else { &scene.file.title };
     format!("{title}: {}, {}, {}", report.summary.device, report.summary.law, report.summary.estimator)
 }
@@ -199,12 +140,13 @@ fn heading(scene: &Scene, report: &LoopReport) -> String {
 /// Runs `count` specimens of the sensors, puts quantiles into the reports, and returns the table of all.
 fn monte_carlo(
     arguments: &LoopArguments,
-    desk: &Desk<'_>,
+    desk: &LoopScene,
     reports: &mut [LoopReport],
-    pairs: &[usize],
     count: NonZeroUsize,
+    interrupt: &Interrupt,
 ) -> Result<String, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
+    let pairs = &desk.pairs;
     let progress = Progress::new("specimens");
     progress.begin((count.get() * pairs.len()) as u64);
     let mut table = String::from("device,seed,outcome,peak_rotation,wrong_share,switches,chatter,faults\n");
@@ -216,7 +158,7 @@ fn monte_carlo(
                 .map(|specimen| {
                     let seed = desk.controller.sensors.seed().wrapping_add(specimen);
                     let mut extremes = Extremes::default();
-                    let ending = desk.task(index, seed).run(&mut extremes, &mut ());
+                    let ending = desk.task(index, seed, interrupt).run(&mut extremes, &mut ());
                     progress.step();
                     ending.map(|ending| {
                         (

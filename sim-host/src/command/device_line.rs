@@ -1,0 +1,66 @@
+//! Where a device is: in the emulator, which is built and started, or on a port.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use sprag_shared::link::Identity;
+
+use crate::device::emulator::{Emulator, Way};
+use crate::device::image;
+use crate::device::line::{DeviceError, Line};
+use crate::device::log::Log;
+use crate::device::serial::Serial;
+
+/// Where the device is.
+#[derive(Args, Clone, Debug)]
+#[group(id = "device", required = true, multiple = true)]
+pub struct LineArguments {
+    /// In the emulator: builds the firmware and runs it in QEMU.
+    #[arg(long, group = "where_it_is", conflicts_with = "port")]
+    pub qemu: bool,
+    /// On a serial port.
+    #[arg(long, value_name = "DEV", group = "where_it_is")]
+    pub port: Option<String>,
+    /// Do not build: run this image in the emulator.
+    #[arg(long, value_name = "ELF", requires = "qemu")]
+    pub firmware: Option<PathBuf>,
+    /// How bytes get into the emulator.
+    #[arg(long, value_enum, default_value_t, requires = "qemu")]
+    pub way: Way,
+    /// Build the firmware with logs from this level on, and show them.
+    #[arg(long, value_name = "LEVEL", value_parser = ["trace", "debug", "info", "warn", "error"], requires = "qemu")]
+    pub log: Option<String>,
+}
+
+/// A device that has been found.
+pub struct Connected {
+    /// The way to it.
+    pub line: Box<dyn Line>,
+    /// What it logs, once it has stopped.
+    pub log: Option<Log>,
+}
+
+/// Finds the device, or builds and starts one.
+///
+/// # Errors
+/// [`DeviceError`].
+pub fn connect(arguments: &LineArguments) -> Result<Connected, DeviceError> {
+    if let Some(port) = &arguments.port {
+        return Ok(Connected { line: Box::new(Serial::open(port)?), log: None });
+    }
+    let image = match &arguments.firmware {
+        Some(image) if image.is_file() => image.clone(),
+        Some(image) => return Err(DeviceError::Emulator(format!("{}: there is no such file", image.display()))),
+        None => image::build(arguments.log.as_deref())?,
+    };
+    let log = arguments.log.as_ref().map(|_| Log::new(&image)).transpose()?;
+    let emulator = Emulator::start(&image, arguments.way, log.as_ref().map(Log::path).as_deref())?;
+    Ok(Connected { line: Box::new(emulator), log })
+}
+
+/// A firmware in words.
+pub fn firmware(identity: &Identity) -> String {
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).trim_end_matches('\0').to_owned();
+    let [major, minor, patch] = identity.version;
+    format!("{} {major}.{minor}.{patch} ({})", text(&identity.board), text(&identity.build))
+}

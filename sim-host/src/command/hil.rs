@@ -1,0 +1,182 @@
+//! `sprag hil`: the firmware in closed loop with the simulator's plant and sensors.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::Args;
+use serde::Serialize;
+
+use super::BAD_INPUT;
+use super::closed_loop::heading;
+use super::device_line::{LineArguments, connect};
+use super::loop_scene::{LoopScene, LoopSceneError};
+use crate::closed_loop::LoopFailure;
+use crate::closed_loop::plant::Extremes;
+use crate::closed_loop::report::{LoopReport, loop_trace, write_history};
+use crate::closed_loop::run::{LoopError, Tick};
+use crate::device::driver::{DeviceDriver, DeviceTick};
+use crate::device::line::DeviceError;
+use crate::device::report::{DeviceSummary, costs, write_device_ticks};
+use crate::device::session::Session;
+use crate::interrupt::{self, Interrupt};
+use crate::output::{OutputError, Results, make_folder};
+use crate::plot::{PlotError, loop_figure};
+use crate::scene::schema::SceneFile;
+
+/// Run the controller of a scene on a device: the firmware, in the emulator or on a board, in closed loop with the simulated plant.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag hil scenes/controller.toml --qemu\n  \
+    sprag hil scenes/controller.toml --qemu --log info --set controller.law=sign-table\n  \
+    sprag hil scenes/controller.toml --port /dev/ttyUSB0\n\n\
+    --qemu builds the firmware and starts the emulator itself. The device gets its settings from the scene. Writes what `sprag loop`\n\
+    writes, the host's own loop as the dashed line, and device.csv with every tick of the device.")]
+pub struct HilArguments {
+    /// Scene file with a clutched pair and a controller table.
+    #[arg(value_name = "SCENE.toml")]
+    pub scene: PathBuf,
+    /// Change one value of the scene, such as controller.rate_hz=1000.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Ground motion record, in the place of the scene's.
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    /// Folder for the results; out/NAME-hil of the scene by default.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Where the device is.
+    #[command(flatten)]
+    pub line: LineArguments,
+}
+
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error("{0}")]
+    Scene(#[from] LoopSceneError),
+    #[error("{device}: {failure}")]
+    Loop { device: String, failure: LoopFailure },
+    #[error("{0}")]
+    Device(#[from] DeviceError),
+    #[error("the picture cannot be drawn: {0}")]
+    Plot(#[from] PlotError),
+    #[error("{0}")]
+    Output(#[from] OutputError),
+    #[error("interrupted")]
+    Interrupted,
+}
+
+#[derive(Serialize)]
+struct Summary<'a> {
+    command: &'static str,
+    version: &'static str,
+    scene: &'a SceneFile,
+    runs: &'a [DeviceSummary],
+}
+
+/// Runs the command; a table goes to `out`, errors go to `err`.
+pub fn run(arguments: &HilArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
+    match run_or_fail(arguments, out, interrupt) {
+        Ok(()) => 0,
+        Err(Failure::Interrupted | Failure::Loop { failure: LoopFailure::Loop(LoopError::Interrupted), .. }) => {
+            let _ = writeln!(err, "sprag: interrupted; nothing was written");
+            interrupt::EXIT_CODE
+        }
+        Err(failure) => {
+            let _ = writeln!(err, "sprag: {failure}");
+            BAD_INPUT
+        }
+    }
+}
+
+fn run_or_fail(arguments: &HilArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+    let desk = LoopScene::load(&arguments.scene, &arguments.set, arguments.record.as_ref())?;
+    let folder = LoopScene::folder(&arguments.scene, arguments.out.as_ref(), "hil");
+    make_folder(&folder)?;
+    let mut results = Results::default();
+    let (mut reports, mut summaries, mut ticks) = (Vec::new(), Vec::new(), Vec::new());
+    for (number, &index) in desk.pairs.iter().enumerate() {
+        let run = one(arguments, &desk, index, interrupt)?;
+        let mut trace = loop_trace(&run.report, &desk.scene.block);
+        let alpha = desk.scene.block.slenderness();
+        trace.rotation_host = run.host.iter().map(|tick| (tick.plant.time, tick.plant.motion.rotation / alpha)).collect();
+        let picture = loop_figure(&heading(&desk.scene, &run.report), &trace)?;
+        let name = if number == 0 { "loop.svg".to_owned() } else { format!("loop-{}.svg", number + 1) };
+        results.add(&folder.join(name), |file| file.write_all(picture.as_bytes()))?;
+        ticks.push((run.report.summary.device.clone(), run.ticks));
+        reports.push(run.report);
+        if let Some(log) = run.log {
+            let name = if number == 0 { "log.txt".to_owned() } else { format!("log-{}.txt", number + 1) };
+            results.add(&folder.join(name), |file| log.iter().try_for_each(|line| writeln!(file, "{line}")))?;
+        }
+        summaries.push(run.summary);
+    }
+    let file = desk.resolved(arguments.record.as_ref());
+    let summary = Summary { command: "hil", version: env!("CARGO_PKG_VERSION"), scene: &file, runs: &summaries };
+    results.add(&folder.join("summary.json"), |file| {
+        serde_json::to_writer_pretty(&mut *file, &summary).map_err(std::io::Error::other)?;
+        file.write_all(b"\n")
+    })?;
+    results.add(&folder.join("history.csv"), |file| write_history(&reports, file).map_err(std::io::Error::other))?;
+    results.add(&folder.join("device.csv"), |file| write_device_ticks(&ticks, file))?;
+    if interrupt.is_set() {
+        return Err(Failure::Interrupted);
+    }
+    results.commit()?;
+    for summary in &summaries {
+        let _ = write!(out, "{summary}");
+    }
+    let _ = writeln!(out, "results in {}", folder.display());
+    Ok(())
+}
+
+/// One device of the scene.
+struct Run {
+    report: LoopReport,
+    summary: DeviceSummary,
+    ticks: Vec<DeviceTick>,
+    host: Vec<Tick>,
+    log: Option<Vec<String>>,
+}
+
+fn one(arguments: &HilArguments, desk: &LoopScene, index: usize, interrupt: &Interrupt) -> Result<Run, Failure> {
+    let failed = |failure: LoopFailure| Failure::Loop { device: desk.scene.devices[index].name.clone(), failure };
+    let task = desk.task(index, desk.controller.sensors.seed(), interrupt);
+    let (mut host, mut host_extremes) = (Vec::new(), Extremes::default());
+    let host_ending = task.run(&mut host_extremes, &mut host).map_err(failed)?;
+    let ideal = task.ideal().map_err(failed)?;
+    let host_report = LoopReport::new(&task, host_ending, &host_extremes.peaks, ideal.clone(), Vec::new());
+
+    let settings = task.settings().map_err(|error| failed(error.into()))?;
+    let own = task.driver(task.controller.clutch_law()).map_err(|error| failed(error.into()))?;
+    let device = connect(&arguments.line)?;
+    let mut session = Session::new(device.line);
+    let identity = session.identify()?;
+    let mut driver = DeviceDriver::attach(session, &settings, own)?;
+    let (mut seen, mut extremes) = (Vec::new(), Extremes::default());
+    let begun = Instant::now();
+    let ending = task.run_with(&mut driver, &mut (), &mut extremes, &mut seen);
+    let seconds = begun.elapsed().as_secs_f64();
+    // A device that has gone explains whatever became of the loop.
+    let (mut session, ticks) = driver.finish()?;
+    let ending = ending.map_err(failed)?;
+    let report = LoopReport::new(&task, ending, &extremes.peaks, ideal, seen);
+    let state = session.state()?;
+    let ticks_per_second = ticks.len() as f64 / seconds;
+    let cost = costs(&ticks);
+    let summary = DeviceSummary {
+        closed: report.summary.clone(),
+        host_outcome: host_report.summary.outcome,
+        host_peak_rotation: host_report.summary.peak_rotation,
+        device_ticks: ticks.len(),
+        ticks_differing: ticks.iter().filter(|tick| tick.differs).count(),
+        ticks_per_second,
+        times_real_time: ticks_per_second / desk.controller.rate_hz,
+        instructions_per_tick: cost.map(|cost| cost.0),
+        instructions_per_tick_worst: cost.map(|cost| cost.1),
+        stack_bytes: state.stack,
+        firmware: super::device_line::firmware(&identity),
+    };
+    drop(session);
+    let log = device.log.map(|log| log.read()).transpose()?;
+    Ok(Run { report, summary, ticks, host, log })
+}

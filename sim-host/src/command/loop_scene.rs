@@ -1,0 +1,119 @@
+//! What every command that closes a loop needs of a scene.
+
+use std::path::{Path, PathBuf};
+
+use sprag_shared::drivetrain::Engagement;
+use sprag_shared::structure::DeviceKind;
+
+use crate::closed_loop::LoopTask;
+use crate::interrupt::Interrupt;
+use crate::scene::controller::ControllerTable;
+use crate::scene::ground::GroundError;
+use crate::scene::motions::GroundMotions;
+use crate::scene::schema::SceneFile;
+use crate::scene::{Scene, SceneError};
+use crate::sensor::Suite;
+
+/// Why a loop cannot be closed over a scene.
+#[derive(Debug, thiserror::Error)]
+pub enum LoopSceneError {
+    /// The scene.
+    #[error("{0}")]
+    Scene(#[from] SceneError),
+    /// Its ground motion.
+    #[error("{0}")]
+    Ground(#[from] GroundError),
+    /// Nothing to be commanded.
+    #[error("{scene}: a closed loop needs a [[device]] of kind \"clutched-pair\"")]
+    NoPair {
+        /// The scene.
+        scene: String,
+    },
+    /// It begins in motion.
+    #[error(
+        "{scene}: block.initial_rotation_ratio and block.initial_velocity_ratio must be 0: the controller calibrates itself at rest"
+    )]
+    NotAtRest {
+        /// The scene.
+        scene: String,
+    },
+    /// A clutch without a coil.
+    #[error("{scene}: device {device}: an overrunning clutch takes no commands")]
+    Uncommanded {
+        /// The scene.
+        scene: String,
+        /// The device.
+        device: String,
+    },
+}
+
+/// A scene over which loops can be closed.
+pub struct LoopScene {
+    /// The scene.
+    pub scene: Scene,
+    /// Its ground motion.
+    pub ground: GroundMotions,
+    /// Its controller, the default one where it has none.
+    pub controller: ControllerTable,
+    /// Its sensors.
+    pub suite: Suite,
+    /// Devices that can be commanded, by their index.
+    pub pairs: Vec<usize>,
+}
+
+impl LoopScene {
+    /// Reads a scene with changes, and with another record where there is one.
+    ///
+    /// # Errors
+    /// [`LoopSceneError`].
+    pub fn load(path: &Path, set: &[String], record: Option<&PathBuf>) -> Result<LoopScene, LoopSceneError> {
+        let mut scene = Scene::load(path, set)?;
+        if let Some(record) = record {
+            scene.use_record(record)?;
+        }
+        let name = || path.display().to_string();
+        let pairs: Vec<usize> =
+            (0..scene.devices.len()).filter(|&index| scene.devices[index].device.kind == DeviceKind::ClutchedPair).collect();
+        if pairs.is_empty() {
+            return Err(LoopSceneError::NoPair { scene: name() });
+        }
+        if scene.file.block.initial_rotation_ratio != 0.0 || scene.file.block.initial_velocity_ratio != 0.0 {
+            return Err(LoopSceneError::NotAtRest { scene: name() });
+        }
+        for &index in &pairs {
+            if scene.devices[index].drivetrain.engagement == Engagement::Overrunning {
+                return Err(LoopSceneError::Uncommanded { scene: name(), device: scene.devices[index].name.clone() });
+            }
+        }
+        let ground = scene.ground_motions()?;
+        let controller = scene.file.controller.clone().unwrap_or_default();
+        let suite = controller.suite(&scene.origin)?;
+        Ok(LoopScene { scene, ground, controller, suite, pairs })
+    }
+
+    /// The loop over device `index` with sensors of this `seed`.
+    pub fn task<'a>(&'a self, index: usize, seed: u64, interrupt: &'a Interrupt) -> LoopTask<'a> {
+        let LoopScene { scene, ground, controller, suite, .. } = self;
+        LoopTask { scene, ground, index, controller, suite, seed, interrupt }
+    }
+
+    /// The scene as it was run, for a summary.
+    pub fn resolved(&self, record: Option<&PathBuf>) -> SceneFile {
+        let mut file = self.scene.file.clone();
+        if let (Some(table), Some(record)) =
+            (file.ground.iter_mut().find(|table| table.motion == crate::scene::ground::Motion::Record), record)
+        {
+            table.file = Some(record.clone());
+        }
+        file.controller = Some(self.controller.clone());
+        file
+    }
+
+    /// Where results go: `given`, or a folder called after scene and command.
+    pub fn folder(path: &Path, given: Option<&PathBuf>, command: &str) -> PathBuf {
+        given.cloned().unwrap_or_else(|| {
+            let stem = path.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy().into_owned());
+            Path::new("out").join(format!("{stem}-{command}"))
+        })
+    }
+}

@@ -1,0 +1,51 @@
+//! Building the firmware for the emulator.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use super::line::DeviceError;
+
+/// The firmware's folder, where this program was built.
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../firmware")
+}
+
+/// Builds the firmware for the emulator, with logs from `log` (`trace`, `debug`, `info`, `warn`, `error`) on if there is one, and gives the
+/// path of its ELF file. Cargo's own progress goes to the standard error stream.
+///
+/// # Errors
+/// [`DeviceError::Build`] where there is no source, no cargo, or the build fails.
+pub fn build(log: Option<&str>) -> Result<PathBuf, DeviceError> {
+    let failed = |reason: String| DeviceError::Build(reason);
+    let folder = folder();
+    if !folder.join("Cargo.toml").is_file() {
+        return Err(failed(format!("{} is not there; name an image by --firmware", folder.display())));
+    }
+    let features = if log.is_some() { "board-qemu,log" } else { "board-qemu" };
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.current_dir(&folder).args(["build", "--release", "--no-default-features", "--features", features]);
+    cargo.arg("--message-format=json-render-diagnostics").stdin(Stdio::null()).stderr(Stdio::inherit());
+    // What is set for the build of the host is not meant for the target.
+    for (name, _) in std::env::vars_os() {
+        let name = name.to_string_lossy().into_owned();
+        if name.starts_with("CARGO_PROFILE_") || name.starts_with("CARGO_BUILD_") || name.contains("RUSTFLAGS") {
+            cargo.env_remove(name);
+        }
+    }
+    if let Some(target) = std::env::var_os("CARGO_TARGET_DIR") {
+        cargo.env("CARGO_TARGET_DIR", PathBuf::from(target).join("firmware"));
+    }
+    if let Some(level) = log {
+        cargo.env("DEFMT_LOG", level);
+    }
+    let output = cargo.output().map_err(|error| failed(format!("cargo: {error}")))?;
+    if !output.status.success() {
+        return Err(failed(format!("cargo ended with {}", output.status)));
+    }
+    let messages = String::from_utf8_lossy(&output.stdout);
+    let executable = messages.lines().filter_map(|line| {
+        let message: serde_json::Value = serde_json::from_str(line).ok()?;
+        Some(PathBuf::from(message.get("executable")?.as_str()?))
+    });
+    executable.last().ok_or_else(|| failed("cargo named no executable".to_owned()))
+}

@@ -1,0 +1,56 @@
+//! A board on a serial port.
+
+use std::io::ErrorKind;
+use std::time::Duration;
+
+use serialport::SerialPort;
+use sprag_shared::link::Pace;
+
+use super::line::{DeviceError, Line};
+
+/// Bits a second of the board's link.
+pub const BAUD: u32 = 921_600;
+
+/// An open port.
+pub struct Serial {
+    port: Box<dyn SerialPort>,
+    name: String,
+}
+
+impl Serial {
+    /// Opens a port by the system's name for it.
+    ///
+    /// # Errors
+    /// [`DeviceError::Port`].
+    pub fn open(name: &str) -> Result<Serial, DeviceError> {
+        let port = serialport::new(name, BAUD).open();
+        let port = port.map_err(|error| DeviceError::Port { port: name.to_owned(), reason: error.to_string() })?;
+        Ok(Serial { port, name: name.to_owned() })
+    }
+
+    fn failed(&self, reason: &dyn std::fmt::Display) -> DeviceError {
+        DeviceError::Port { port: self.name.clone(), reason: reason.to_string() }
+    }
+}
+
+impl Line for Serial {
+    fn send(&mut self, bytes: &[u8]) -> Result<(), DeviceError> {
+        std::io::Write::write_all(&mut self.port, bytes).map_err(|error| self.failed(&error))
+    }
+
+    fn receive(&mut self, patience: Duration) -> Result<Vec<u8>, DeviceError> {
+        self.port.set_timeout(patience).map_err(|error| self.failed(&error))?;
+        let mut bytes = [0; 1024];
+        match std::io::Read::read(&mut self.port, &mut bytes) {
+            Ok(count) => Ok(bytes[..count].to_vec()),
+            Err(error) if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock | ErrorKind::Interrupted) => {
+                Ok(Vec::new())
+            }
+            Err(error) => Err(self.failed(&error)),
+        }
+    }
+
+    fn pace(&self) -> Pace {
+        Pace::Sample
+    }
+}

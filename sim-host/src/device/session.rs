@@ -1,0 +1,184 @@
+//! Requests to a device and its replies.
+
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+use sprag_shared::control::event_log::Entry;
+use sprag_shared::link::{
+    Deframer, Done, Identity, MAX_FRAME, Mishap, Reply, Request, Started, State, TickReport, TickSample, encode,
+};
+
+use super::line::{DeviceError, Line, RefusalText};
+
+/// For how long one reply is waited for.
+const PATIENCE: Duration = Duration::from_millis(300);
+
+/// How often a request is made before the device is taken to be silent.
+const ATTEMPTS: u32 = 6;
+
+/// Control periods for which a reply is waited for on a line that the device's timer paces.
+const PERIODS: u32 = 400;
+
+/// A line to a device, and what has come over it.
+pub struct Session<L> {
+    line: L,
+    deframer: Deframer,
+    tag: u8,
+    /// Reports that nobody has taken yet.
+    ticks: VecDeque<TickReport>,
+    started: Option<Started>,
+    bad_frames: u64,
+}
+
+impl<L: Line> Session<L> {
+    /// On a line.
+    pub fn new(line: L) -> Session<L> {
+        Session { line, deframer: Deframer::new(), tag: 0, ticks: VecDeque::new(), started: None, bad_frames: 0 }
+    }
+
+    /// The line.
+    pub fn line(&mut self) -> &mut L {
+        &mut self.line
+    }
+
+    /// Frames from the device that were not whole.
+    pub fn bad_frames(&self) -> u64 {
+        self.bad_frames
+    }
+
+    /// That the device has started since the last time this was asked.
+    pub fn take_started(&mut self) -> Option<Started> {
+        self.started.take()
+    }
+
+    /// Sends a request and does not wait for a reply; returns its tag.
+    ///
+    /// # Errors
+    /// As the line.
+    pub fn send(&mut self, request: &Request) -> Result<u8, DeviceError> {
+        self.tag = self.tag.checked_add(1).unwrap_or(1);
+        let mut frame = [0; MAX_FRAME];
+        let length = encode(self.tag, request, &mut frame)?;
+        self.line.send(&frame[..length])?;
+        Ok(self.tag)
+    }
+
+    /// Takes in what comes within `patience`; the replies among it that were asked for, with their tags.
+    ///
+    /// # Errors
+    /// As the line.
+    pub fn receive(&mut self, patience: Duration) -> Result<Vec<(u8, Reply)>, DeviceError> {
+        let mut replies = Vec::new();
+        for byte in self.line.receive(patience)? {
+            match self.deframer.feed::<Reply>(byte) {
+                None => {}
+                Some(Err(sprag_shared::link::FrameError::Version(version))) => {
+                    return Err(sprag_shared::link::FrameError::Version(version).into());
+                }
+                Some(Err(_)) => self.bad_frames += 1,
+                Some(Ok(received)) => match received.message {
+                    Reply::Tick(report) => self.ticks.push_back(report),
+                    Reply::Started(started) => self.started = Some(started),
+                    reply => replies.push((received.tag, reply)),
+                },
+            }
+        }
+        Ok(replies)
+    }
+
+    /// Makes a request until it is answered.
+    ///
+    /// # Errors
+    /// [`DeviceError::Silent`], [`DeviceError::Refused`], or as the line.
+    pub fn ask(&mut self, request: &Request) -> Result<Reply, DeviceError> {
+        for _ in 0..ATTEMPTS {
+            let tag = self.send(request)?;
+            let (asked, mut periods) = (Instant::now(), 0);
+            while asked.elapsed() < PATIENCE && periods < PERIODS {
+                let replies = self.receive(PATIENCE)?;
+                periods += 1;
+                for (of, reply) in replies {
+                    match reply {
+                        _ if of != tag => {}
+                        Reply::Refused(refusal) => return Err(DeviceError::Refused(RefusalText(refusal))),
+                        reply => return Ok(reply),
+                    }
+                }
+            }
+        }
+        Err(DeviceError::Silent(String::new()))
+    }
+
+    /// Who it is.
+    ///
+    /// # Errors
+    /// As [`Session::ask`].
+    pub fn identify(&mut self) -> Result<Identity, DeviceError> {
+        match self.ask(&Request::Identify)? {
+            Reply::Identity(identity) => Ok(identity),
+            _ => Err(DeviceError::Confused("who it is")),
+        }
+    }
+
+    /// How it is.
+    ///
+    /// # Errors
+    /// As [`Session::ask`].
+    pub fn state(&mut self) -> Result<State, DeviceError> {
+        match self.ask(&Request::State)? {
+            Reply::State(state) => Ok(state),
+            _ => Err(DeviceError::Confused("how it is")),
+        }
+    }
+
+    /// Asks for something that only has to be done.
+    ///
+    /// # Errors
+    /// As [`Session::ask`].
+    pub fn order(&mut self, request: &Request) -> Result<Done, DeviceError> {
+        match self.ask(request)? {
+            Reply::Done(done) => Ok(done),
+            _ => Err(DeviceError::Confused("an order")),
+        }
+    }
+
+    /// The event log, oldest first, and how many entries there have ever been.
+    ///
+    /// # Errors
+    /// As [`Session::ask`].
+    pub fn log(&mut self) -> Result<(Vec<Entry>, u32), DeviceError> {
+        let (mut entries, mut from) = (Vec::new(), 0);
+        loop {
+            let Reply::Log(block) = self.ask(&Request::Log { from })? else {
+                return Err(DeviceError::Confused("its log"));
+            };
+            let count = usize::from(block.count).min(block.entries.len());
+            entries.extend(block.entries[..count].iter().filter_map(|entry| entry.entry()));
+            from = block.from + count as u32;
+            if count == 0 || from >= block.total {
+                return Ok((entries, block.total));
+            }
+        }
+    }
+
+    /// Sends a sample.
+    ///
+    /// # Errors
+    /// As the line.
+    pub fn sample(&mut self, sample: &TickSample) -> Result<(), DeviceError> {
+        self.send(&Request::Sample(*sample)).map(|_| ())
+    }
+
+    /// The oldest report that nobody has taken yet.
+    pub fn take_tick(&mut self) -> Option<TickReport> {
+        self.ticks.pop_front()
+    }
+
+    /// Makes something go wrong; the device does not answer.
+    ///
+    /// # Errors
+    /// As the line.
+    pub fn rehearse(&mut self, mishap: Mishap) -> Result<(), DeviceError> {
+        self.send(&Request::Rehearse(mishap)).map(|_| ())
+    }
+}
