@@ -54,6 +54,8 @@ pub struct Link {
     gone: usize,
     /// What is to be said before anything else.
     next: Option<(u8, Reply)>,
+    /// Who says when a tick is, as of the last request.
+    pace: Option<Pace>,
 }
 
 impl Link {
@@ -79,7 +81,22 @@ impl Link {
             stack: 0,
         };
         let next = Some((0, Reply::Started(started)));
-        Link { line, store, around, deframer: Deframer::new(), frame: [0; MAX_FRAME], length: 0, gone: 0, next }
+        Link {
+            line,
+            store,
+            around,
+            deframer: Deframer::new(),
+            frame: [0; MAX_FRAME],
+            length: 0,
+            gone: 0,
+            next,
+            pace: device.attached(),
+        }
+    }
+
+    /// Whether the processor may sleep until the next interrupt: bytes that come raise none, and where they make the ticks each counts.
+    pub fn may_sleep(&self) -> bool {
+        self.pace != Some(Pace::Sample)
     }
 
     /// Whether a report can be sent now.
@@ -122,17 +139,18 @@ impl Link {
                     self.around.lost_reports = LOST_REPORTS.load(Ordering::Relaxed);
                     self.around.stack = stack::deepest();
                     let (answer, pace) = ask(&received.message, self.store, &self.around);
-                    self.act(received.tag, answer, pace);
+                    self.pace = pace;
+                    self.act(received.tag, answer);
                 }
             }
         }
         moved
     }
 
-    fn act(&mut self, tag: u8, answer: Answer, pace: Option<Pace>) {
+    fn act(&mut self, tag: u8, answer: Answer) {
         match answer {
             Answer::Reply(reply) | Answer::Restarted(reply) => self.next = Some((tag, reply)),
-            Answer::Sample if pace == Some(Pace::Sample) => tick::pend(),
+            Answer::Sample if self.pace == Some(Pace::Sample) => tick::pend(),
             Answer::Sample => {}
             Answer::Rehearse(mishap) => rehearse(mishap),
         }

@@ -114,7 +114,7 @@ mod app {
                     (answer, device.attached())
                 })
             });
-            if !moved {
+            if !moved && context.local.link.may_sleep() {
                 cortex_m::asm::wfi();
             }
         }

@@ -111,6 +111,9 @@ const _: () = assert!(SLOTS.is_power_of_two());
 impl AgreementLimits {
     #[inline]
     fn judge(&self, window: &Window, rate_tolerance: f32, duration: f32) -> Option<Disagreement> {
+        if self.counts_per_radian == 0.0 {
+            return None;
+        }
         let first = (window.newest & LAST) + 1;
         let in_a_row = window.angles.get(first..first + SLOTS as usize).unwrap_or_default();
         let angle = in_a_row.iter().fold(0.0, |sum, angle| sum + angle);
@@ -236,6 +239,16 @@ mod tests {
         // A count that jumps is wrong at once.
         let jump = |tick: u32| travelled(0.3, tick) + if tick < 1000 { 0 } else { 5000 };
         assert_eq!(found(|_| 0.3, jump), Some((1000, Disagreement::EncoderAhead)));
+    }
+
+    #[test]
+    fn without_counts_to_a_radian_nothing_is_compared() {
+        let limits = AgreementLimits { counts_per_radian: 0.0, ..LIMITS };
+        let mut agreement = Agreement::default();
+        for tick in 0..2000 {
+            agreement.step(&limits, 0.02, 0.0, 1000 * tick);
+            assert_eq!(agreement.found(), None);
+        }
     }
 
     #[test]
