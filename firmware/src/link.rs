@@ -151,7 +151,8 @@ impl Link {
         match answer {
             Answer::Reply(reply) | Answer::Restarted(reply) => self.next = Some((tag, reply)),
             Answer::Sample if self.pace == Some(Pace::Sample) => tick::pend(),
-            Answer::Sample => {}
+            // Has been done before this is told.
+            Answer::Sample | Answer::Store => {}
             Answer::Rehearse(mishap) => rehearse(mishap),
         }
     }

@@ -23,8 +23,8 @@ mod app {
     use crate::log::info;
     use crate::{last_words, memory, stack, tick};
     use core::mem::MaybeUninit;
-    use sprag_shared::device::Device;
     use sprag_shared::device::kept::Kept;
+    use sprag_shared::device::{Answer, Device};
     use sprag_shared::settings::Settings;
     use sprag_shared::settings::assemble::AnyController;
     use sprag_shared::settings::store::Store;
@@ -105,9 +105,18 @@ mod app {
         loop {
             let report = if context.local.link.has_room() { context.shared.outbox.lock(Outbox::take) } else { None };
             let moved = context.local.link.pump(report, |request, store, around| {
+                // Programming the flash takes longer than a control period, so the device is not held meanwhile.
+                let draft = context.shared.device.lock(|device| match device.answer(request, around) {
+                    Answer::Store => Err(*device.draft()),
+                    answer => Ok(answer),
+                });
+                let result = draft.map_err(|draft| store.store(&draft));
                 context.shared.device.lock(|device| {
-                    let answer = device.answer(request, store, around);
-                    if matches!(answer, sprag_shared::device::Answer::Restarted(_)) {
+                    let answer = match result {
+                        Ok(answer) => answer,
+                        Err(stored) => device.stored(stored),
+                    };
+                    if matches!(answer, Answer::Restarted(_)) {
                         crate::control::set_safe_state(device.safe_command());
                         tick::set_period(device.period_counts(Selected::CORE_HZ));
                     }

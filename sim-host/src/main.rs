@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use sprag_sim_host::command::{batch, effects, explain, record, sensitivity, simulate, synthesize};
 #[cfg(feature = "effects")]
-use sprag_sim_host::command::{closed_loop, hil, loop_study};
+use sprag_sim_host::command::{closed_loop, device, hil, loop_study};
 use sprag_sim_host::interrupt::Interrupt;
 
 /// Rocking structures with inerters and clutches: simulate, and get the numbers to decide with.
@@ -27,6 +27,8 @@ enum Command {
     #[cfg(feature = "effects")]
     Hil(hil::HilArguments),
     #[cfg(feature = "effects")]
+    Device(device::DeviceArguments),
+    #[cfg(feature = "effects")]
     LoopStudy(loop_study::LoopStudyArguments),
     Record(record::RecordArguments),
     Synthesize(synthesize::SynthesizeArguments),
@@ -46,6 +48,8 @@ fn main() -> ExitCode {
         Command::Loop(arguments) => closed_loop::run(arguments, &mut out, &mut err, &interrupt),
         #[cfg(feature = "effects")]
         Command::Hil(arguments) => hil::run(arguments, &mut out, &mut err, &interrupt),
+        #[cfg(feature = "effects")]
+        Command::Device(arguments) => device::run(arguments, &mut out, &mut err, &interrupt),
         #[cfg(feature = "effects")]
         Command::LoopStudy(arguments) => loop_study::run(arguments, &mut out, &mut err, &interrupt),
         Command::Record(arguments) => record::run(arguments, &mut out, &mut err),

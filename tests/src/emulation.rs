@@ -4,10 +4,19 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// The firmware, if everything that the emulation needs is there; otherwise says what is not.
+/// The core with its own checks, if everything that the emulation needs is there; otherwise says what is not.
 pub fn firmware() -> Option<PathBuf> {
-    let Some(elf) = std::env::var_os("SPRAG_EMULATED_CORE_ELF") else {
-        eprintln!("SKIPPED: SPRAG_EMULATED_CORE_ELF is not set; `cargo xtask test` builds the firmware and sets it");
+    image("SPRAG_EMULATED_CORE_ELF")
+}
+
+/// The controller's firmware, likewise.
+pub fn controller_firmware() -> Option<PathBuf> {
+    image("SPRAG_FIRMWARE_ELF")
+}
+
+fn image(variable: &str) -> Option<PathBuf> {
+    let Some(elf) = std::env::var_os(variable) else {
+        eprintln!("SKIPPED: {variable} is not set; `cargo xtask test` builds the firmware and sets it");
         return None;
     };
     if Command::new("qemu-system-arm").arg("--version").stdout(Stdio::null()).status().is_err() {

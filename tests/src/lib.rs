@@ -3,7 +3,10 @@
 //!
 //! Numbers that the tests compare with come from closed forms and from the reference cells, never from an earlier run.
 
+pub mod device_loop;
+pub mod dice;
 pub mod emulation;
+pub mod flash;
 
 use std::path::PathBuf;
 

@@ -4,13 +4,16 @@
 //! every control period, or USART1, byte by byte (with `usart` on the command line). TIM2 counts virtual nanoseconds, which under
 //! `-icount shift=0` are instructions. A watchdog and a flash that can lose power in the middle of a write are played by TIM4 and by memory
 //! that a reset does not clear.
+//!
+//! QEMU's timers raise their interrupt later than they should, by the time at which their count would have been 0. So the count of TIM4
+//! follows virtual time from its beginning, over resets, and the watchdog is fed by setting its period anew instead of its count to 0.
 
 mod flash;
 mod line;
 #[cfg(feature = "log")]
 mod log;
 
-use core::sync::atomic::{AtomicBool, AtomicU8, Ordering};
+use core::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, Ordering};
 
 use super::{Board, Coils, Light, Parts, Sensors, Watchdog};
 use crate::last_words;
@@ -28,14 +31,34 @@ pub use line::Line;
 /// Counts of the timers in a second: QEMU clocks them so, whatever the program sets.
 const COUNTER_HZ: u32 = 1_000_000_000;
 
-/// For how long the watchdog waits, counts: 20 ms.
-const WATCHDOG: u32 = COUNTER_HZ / 50;
+/// Counts of the board's counter in one of the watchdog's, which is a microsecond.
+const PRESCALER: u32 = COUNTER_HZ / 1_000_000;
+
+/// For how long the watchdog waits, µs.
+const WATCHDOG: u32 = 20_000;
 
 /// Memory holds this from the first start on.
 const ALIVE: u32 = 0xA11F_E000;
 
 #[unsafe(link_section = ".uninit.ALIVE")]
 static MARK: Lasting<u32> = Lasting::new();
+
+/// Virtual time since its beginning, ns: memory begins as zeros here.
+#[unsafe(link_section = ".uninit.ELAPSED")]
+static ELAPSED: Lasting<u64> = Lasting::new();
+
+/// The counter when that was noted.
+static NOTED: AtomicU32 = AtomicU32::new(0);
+
+/// Adds to [`ELAPSED`] what has elapsed. Often enough: the counter wraps after 4 s.
+fn note_time() -> u64 {
+    let now = Qemu::now();
+    let more = now.wrapping_sub(NOTED.swap(now, Ordering::Relaxed));
+    // SAFETY: a number holds any bits.
+    let elapsed = unsafe { ELAPSED.read() }.wrapping_add(more.into());
+    ELAPSED.write(elapsed);
+    elapsed
+}
 
 /// A control period has passed: the line may exchange a chunk.
 static TICKED: AtomicBool = AtomicBool::new(false);
@@ -74,13 +97,14 @@ impl Board for Qemu {
         unsafe {
             device.TIM2.arr().write(|w| w.bits(u32::MAX));
             device.TIM2.cr1().write(|w| w.cen().set_bit());
+            device.TIM4.psc().write(|w| w.bits(PRESCALER - 1));
+            device.TIM4.cnt().write(|w| w.bits((note_time() / u64::from(PRESCALER)) as u32));
             device.TIM4.arr().write(|w| w.bits(WATCHDOG));
             // The watchdog is above everything.
             core.NVIC.set_priority(Interrupt::TIM4, 0);
             NVIC::unmask(Interrupt::TIM4);
         }
         device.TIM4.dier().write(|w| w.uie().set_bit());
-        device.TIM4.egr().write(|w| w.ug().set_bit());
         device.TIM4.cr1().write(|w| w.cen().set_bit());
         Parts { sensors: Elsewhere, coils: Elsewhere, watchdog: Elsewhere, line: Line::new(device.USART1), light: Elsewhere }
     }
@@ -92,6 +116,7 @@ impl Board for Qemu {
     }
 
     fn ticked() {
+        note_time();
         TICKED.store(true, Ordering::Relaxed);
     }
 
@@ -122,8 +147,8 @@ impl Coils for Elsewhere {
 
 impl Watchdog for Elsewhere {
     fn feed(&mut self) {
-        // SAFETY: starting the count over is all that this register is used for.
-        unsafe { (*pac::TIM4::ptr()).egr().write(|w| w.ug().set_bit()) };
+        // SAFETY: nobody else uses this register after the start, and it holds what it held.
+        unsafe { (*pac::TIM4::ptr()).arr().write(|w| w.bits(WATCHDOG)) };
     }
 }
 
@@ -134,6 +159,7 @@ impl Light for Elsewhere {
 /// The watchdog has not been fed.
 #[interrupt]
 fn TIM4() {
+    note_time();
     last_words::leave(Cause::Watchdog, 0, &[]);
 }
 

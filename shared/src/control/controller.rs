@@ -136,7 +136,8 @@ impl<B: KnownBody, L: Law<B>> Controller<B, L> {
         let rotation = (0..NEWTON_STEPS).fold(0.0, |near, _| self.model.rotation_of_travel(travel, near, side));
         self.restart(state);
         state.calibration = *calibration;
-        state.estimator = self.estimator.met(rotation, velocity);
+        // The tick that follows takes the same sample, after moving the estimate on by a period.
+        state.estimator = self.estimator.met(rotation - velocity * self.instruments.period, velocity);
         state.turns.spins = spins;
         self.supervisor.resume(&mut state.supervisor, calibration);
     }

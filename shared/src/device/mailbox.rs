@@ -33,7 +33,7 @@ impl Mailbox {
     }
 
     /// The oldest one.
-    pub fn next(&mut self) -> Option<TickSample> {
+    pub fn oldest(&mut self) -> Option<TickSample> {
         self.waiting.pop_front()
     }
 
@@ -70,7 +70,7 @@ mod tests {
         for number in [u32::MAX, u32::MAX, 0, u32::MAX - 1, 2, 1] {
             mailbox.put(numbered(number));
         }
-        let taken: std::vec::Vec<u32> = core::iter::from_fn(|| mailbox.next()).map(|sample| sample.number).collect();
+        let taken: std::vec::Vec<u32> = core::iter::from_fn(|| mailbox.oldest()).map(|sample| sample.number).collect();
         assert_eq!(taken, [u32::MAX, 0, 2]);
         assert_eq!(mailbox.refused(), 3);
     }

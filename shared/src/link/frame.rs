@@ -13,8 +13,9 @@ const MAX_CONTENT: usize = 124;
 /// Longest frame with the byte that COBS adds to 254 or fewer, and the zero that ends it.
 pub const MAX_FRAME: usize = MAX_CONTENT + 2;
 
-/// CRC-16/IBM-3740: x¹⁶ + x¹² + x⁵ + 1 from 0xFFFF; every error of up to 3 bits and every burst of up to 16 is found in a frame of this
-/// length. Without a table: flash is scarcer than time here.
+/// CRC-16/IBM-3740: x¹⁶ + x¹² + x⁵ + 1 from 0xFFFF; every error of up to 3 bits and every burst of up to 16 in the content is found at this
+/// length. Damage to what COBS put between moves bytes and is found as any other change, but for one in 65,536. Without a table: flash is
+/// scarcer than time here.
 const CHECK: Crc<u16, NoTable> = Crc::<u16, NoTable>::new(&CRC_16_IBM_3740);
 
 /// Why bytes are no message, or a message no frame.

@@ -125,7 +125,6 @@ pub enum Mishap {
 
 /// From the device.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[expect(clippy::large_enum_variant, reason = "there is no heap to put it on, and the large one is the frequent one")]
 pub enum Reply {
     /// It has just started; nobody asked.
     Started(Started),

@@ -13,13 +13,12 @@ use crate::device::serial::Serial;
 
 /// Where the device is.
 #[derive(Args, Clone, Debug)]
-#[group(id = "device", required = true, multiple = true)]
 pub struct LineArguments {
     /// In the emulator: builds the firmware and runs it in QEMU.
-    #[arg(long, group = "where_it_is", conflicts_with = "port")]
+    #[arg(long, required_unless_present = "port", conflicts_with = "port")]
     pub qemu: bool,
     /// On a serial port.
-    #[arg(long, value_name = "DEV", group = "where_it_is")]
+    #[arg(long, value_name = "DEV")]
     pub port: Option<String>,
     /// Do not build: run this image in the emulator.
     #[arg(long, value_name = "ELF", requires = "qemu")]

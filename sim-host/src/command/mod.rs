@@ -5,13 +5,15 @@ pub mod batch;
 #[cfg(feature = "effects")]
 pub mod closed_loop;
 #[cfg(feature = "effects")]
+pub mod device;
+#[cfg(feature = "effects")]
 mod device_line;
 pub mod effects;
 pub mod explain;
 #[cfg(feature = "effects")]
 pub mod hil;
 #[cfg(feature = "effects")]
-mod loop_scene;
+pub mod loop_scene;
 #[cfg(feature = "effects")]
 pub mod loop_study;
 pub mod record;

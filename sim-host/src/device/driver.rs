@@ -1,5 +1,10 @@
 //! A device in the place of the host's controller in a closed loop, tick for tick beside that controller.
+//!
+//! The plant's clutches are driven as a board drives its own: a coil keeps its last command until it gets another. So where a report is lost
+//! on the way the last one stays in force, and while the device is late the plant goes on without it. Only a device that starts anew lets go
+//! by itself: before a reset it puts its coils into the safe state, and there they stay until its first tick.
 
+use std::collections::VecDeque;
 use std::time::Duration;
 
 use sprag_shared::control::controller::{Circumstances, Decision};
@@ -8,8 +13,8 @@ use sprag_shared::control::event_log::Entry;
 use sprag_shared::control::law::Wish;
 use sprag_shared::control::sample::Sample;
 use sprag_shared::control::supervisor::Phase;
-use sprag_shared::digest::Digest;
-use sprag_shared::link::{Mishap, Pace, Request, Started, TickReport, TickSample};
+use sprag_shared::device::reset::Cause;
+use sprag_shared::link::{MAX_FRAME, Mishap, Pace, Request, Started, TickReport, TickSample, encode};
 use sprag_shared::settings::Settings;
 
 use super::line::{DeviceError, Line};
@@ -27,11 +32,18 @@ const ATTEMPTS: u32 = 3;
 /// A device that says nothing for so long is gone.
 const GIVE_UP: Duration = Duration::from_secs(20);
 
+/// For how long a watchdog lets a device that has lost its way go on, s.
+const WATCHDOG: f64 = 0.02;
+
 /// What the device said of one tick.
 #[derive(Clone, Copy, Debug)]
 pub struct DeviceTick {
     /// Its report; `None` where none came.
     pub report: Option<TickReport>,
+    /// What was in force at the plant from then on.
+    pub applied: Decision,
+    /// What the host's controller decided.
+    pub own: Decision,
     /// What it decided is not what the host's controller decided, to the last bit.
     pub differs: bool,
 }
@@ -41,13 +53,21 @@ pub struct DeviceDriver<L> {
     session: Session<L>,
     own: Box<dyn Driver>,
     period: f64,
+    counter_hz: f64,
     number: u32,
     last: Decision,
+    /// Sample and tick of the last report.
+    newest: Option<(u32, u32)>,
+    /// Reports of ticks that came late, each with the number of ticks until then.
+    late: VecDeque<(u32, TickReport)>,
     safe: [bool; 2],
     ticks: Vec<DeviceTick>,
     error: Option<DeviceError>,
     /// For how long a device that has been reset is away, s.
     boot_time: f64,
+    /// Ticks for which the coils still hold what the device told them before it lost its way.
+    stalled: u32,
+    /// Ticks after these for which it is away, its coils in the safe state.
     away: u32,
     starts: Vec<(u32, Started)>,
     mishaps: Vec<(u32, Mishap)>,
@@ -61,6 +81,7 @@ impl<L: Line> DeviceDriver<L> {
     /// Those of talking to it.
     pub fn attach(mut session: Session<L>, settings: &Settings, own: Box<dyn Driver>) -> Result<DeviceDriver<L>, DeviceError> {
         parameters::write(&mut session, settings, false)?;
+        let counter_hz = session.identify()?.counter_hz.into();
         let pace = session.line().pace();
         session.order(&Request::Attach { pace })?;
         while session.take_tick().is_some() {}
@@ -77,12 +98,16 @@ impl<L: Line> DeviceDriver<L> {
             session,
             own,
             period: settings.period().into(),
+            counter_hz,
             number: 0,
             last,
+            newest: None,
+            late: VecDeque::new(),
             safe,
             ticks: Vec::new(),
             error: None,
             boot_time: 0.0,
+            stalled: 0,
             away: 0,
             starts: Vec::new(),
             mishaps: Vec::new(),
@@ -127,13 +152,42 @@ impl<L: Line> DeviceDriver<L> {
 
     /// The report of the tick that is paced by the device's timer: one period, one report.
     fn paced_by_timer(&mut self) -> Result<Option<TickReport>, DeviceError> {
+        let asked = std::time::Instant::now();
         // Replies are to nothing that is still of interest.
         self.session.receive(GIVE_UP)?;
+        if asked.elapsed() >= GIVE_UP {
+            return Err(DeviceError::Silent(String::new()));
+        }
         let mut newest = None;
         while let Some(report) = self.session.take_tick() {
-            newest = Some(report);
+            if !self.is_news(&report) {
+                continue;
+            }
+            let periods = (f64::from(report.lateness) / self.counter_hz / self.period).round() as u32;
+            if periods > 0 {
+                self.late.push_back((periods + u32::from(newest.is_some()), report));
+            } else if !self.late.is_empty() {
+                self.late.push_back((1, report));
+            } else {
+                newest = Some(report);
+            }
         }
         Ok(newest)
+    }
+
+    /// Whether nothing newer has been heard: frames may overtake each other.
+    fn is_news(&mut self, report: &TickReport) -> bool {
+        let newer = self.newest.is_none_or(|(sample, tick)| {
+            let after = |now: u32, before: u32| now.wrapping_sub(before) as i32;
+            match after(report.sample, sample) {
+                0 => after(report.tick, tick) > 0,
+                ahead => ahead > 0,
+            }
+        });
+        if newer {
+            self.newest = Some((report.sample, report.tick));
+        }
+        newer
     }
 
     /// The report of the tick that the sample itself makes.
@@ -172,43 +226,69 @@ impl<L: Line> DeviceDriver<L> {
         };
         if let Some(started) = self.session.take_started() {
             self.starts.push((self.number, started));
-            self.away = (self.boot_time / self.period).round() as u32;
+            // It counts from the beginning again.
+            self.newest = None;
+            self.late.clear();
+            let ticks = |seconds: f64| (seconds / self.period).round() as u32;
+            self.stalled = if started.cause == Cause::Watchdog { ticks(WATCHDOG) } else { 0 };
+            self.away = ticks(self.boot_time);
         }
         Ok(report)
     }
 }
 
-fn bits(decision: &Decision) -> u64 {
-    let mut digest = Digest::default();
-    digest.decision(decision);
-    digest.hash()
+/// Whether two decisions are the same to the last bit, as they are sent.
+fn same(one: &Decision, other: &Decision) -> bool {
+    let (mut one_frame, mut other_frame) = ([0; MAX_FRAME], [0; MAX_FRAME]);
+    let lengths = (encode(0, one, &mut one_frame), encode(0, other, &mut other_frame));
+    lengths.0.is_ok() && lengths.0 == lengths.1 && one_frame == other_frame
+}
+
+impl<L: Line> DeviceDriver<L> {
+    /// One tick of the device: its report, if there is one, and what is in force from then on.
+    fn answer(&mut self, sample: &Sample, circumstances: Circumstances) -> Option<TickReport> {
+        if self.error.is_some() {
+            return None;
+        }
+        if let Some((left, _)) = self.late.front_mut() {
+            *left = left.saturating_sub(1);
+            return if *left == 0 { self.late.pop_front().map(|(_, report)| report) } else { None };
+        }
+        if self.stalled > 0 {
+            self.stalled -= 1;
+            return None;
+        }
+        if self.away > 0 {
+            self.away -= 1;
+            self.last.command = self.safe;
+            return None;
+        }
+        match self.exchange(sample, circumstances) {
+            Ok(report) => {
+                if self.away > 0 && self.stalled == 0 {
+                    self.last.command = self.safe;
+                }
+                report
+            }
+            Err(error) => {
+                self.error = Some(error);
+                self.last.command = self.safe;
+                None
+            }
+        }
+    }
 }
 
 impl<L: Line> Driver for DeviceDriver<L> {
     fn tick(&mut self, sample: &Sample, circumstances: Circumstances) -> Decision {
         self.number = self.number.wrapping_add(1);
         let own = self.own.tick(sample, circumstances);
-        let report = if self.error.is_some() {
-            None
-        } else if self.away > 0 {
-            self.away -= 1;
-            None
-        } else {
-            match self.exchange(sample, circumstances) {
-                Ok(report) => report,
-                Err(error) => {
-                    self.error = Some(error);
-                    None
-                }
-            }
-        };
-        match &report {
-            Some(report) => self.last = report.decision,
-            None if self.away > 0 || self.error.is_some() => self.last.command = self.safe,
-            None => {}
+        let report = self.answer(sample, circumstances);
+        if let Some(report) = &report {
+            self.last = report.decision;
         }
-        let differs = report.is_none_or(|report| bits(&report.decision) != bits(&own));
-        self.ticks.push(DeviceTick { report, differs });
+        let differs = report.is_none_or(|report| !same(&report.decision, &own));
+        self.ticks.push(DeviceTick { report, applied: self.last, own, differs });
         self.last
     }
 

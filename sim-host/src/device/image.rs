@@ -43,9 +43,9 @@ pub fn build(log: Option<&str>) -> Result<PathBuf, DeviceError> {
         return Err(failed(format!("cargo ended with {}", output.status)));
     }
     let messages = String::from_utf8_lossy(&output.stdout);
-    let executable = messages.lines().filter_map(|line| {
+    let mut executable = messages.lines().filter_map(|line| {
         let message: serde_json::Value = serde_json::from_str(line).ok()?;
         Some(PathBuf::from(message.get("executable")?.as_str()?))
     });
-    executable.last().ok_or_else(|| failed("cargo named no executable".to_owned()))
+    executable.next_back().ok_or_else(|| failed("cargo named no executable".to_owned()))
 }

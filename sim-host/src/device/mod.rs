@@ -2,11 +2,13 @@
 //!
 //! - [`line`]: bytes to and from it; [`emulator`], [`serial`]: the two kinds; [`faulty`]: one that loses and damages frames;
 //! - [`image`]: building what runs in it; [`log`]: what it logs;
-//! - [`session`]: requests and replies; [`parameters`]: its settings;
+//! - [`session`]: requests and replies; [`parameters`]: its settings, [`setting_text`]: as text; [`event_table`]: its event log;
+//! - [`strip_chart`]: its last seconds, drawn in the terminal;
 //! - [`driver`]: it in the place of the host's controller, compared with it at every tick; [`report`]: what that comes to.
 
 pub mod driver;
 pub mod emulator;
+pub mod event_table;
 pub mod faulty;
 pub mod image;
 pub mod line;
@@ -15,3 +17,5 @@ pub mod parameters;
 pub mod report;
 pub mod serial;
 pub mod session;
+pub mod setting_text;
+pub mod strip_chart;

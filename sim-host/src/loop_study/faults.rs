@@ -82,10 +82,18 @@ pub enum Instant {
 pub const INSTANTS: [Instant; 4] = [Instant::Rest, Instant::Uplift, Instant::MidSwing, Instant::Impact];
 
 /// A fault from an instant on.
-struct Injected {
+#[derive(Clone, Copy, Debug)]
+pub struct Injected {
     failing: Failing,
     from: f64,
     held: Option<Sample>,
+}
+
+impl Injected {
+    /// `failing` begins at `from` (s).
+    pub fn new(failing: Failing, from: f64) -> Injected {
+        Injected { failing, from, held: None }
+    }
 }
 
 impl Disturbance for Injected {
@@ -198,7 +206,7 @@ fn instants(variant: &Variant, interrupt: &Interrupt) -> Result<[f64; 4], StudyE
 fn inject(variant: &Variant, failing: Failing, from: f64, interrupt: &Interrupt) -> Result<FaultResult, StudyError> {
     with_loop(&MOTION, variant, interrupt, |task| {
         let mut driver = task.driver(task.controller.clutch_law())?;
-        let mut disturbance = Injected { failing, from, held: None };
+        let mut disturbance = Injected::new(failing, from);
         let (mut extremes, mut seen) = (Extremes::default(), Seen { from, ..Seen::default() });
         let ending = task.run_with(&mut *driver, &mut disturbance, &mut extremes, &mut seen)?;
         Ok(FaultResult {

@@ -1,25 +1,30 @@
-//! The device: settings, controller and state, ticks, and answers to requests.
+//! The device around the controller: what it is told over the link, what it keeps over a reset, what it shows.
 //!
 //! Two tasks share it. The control task ticks it and never waits; the link asks it for answers in between.
 
-use embedded_storage::nor_flash::NorFlash;
+mod answers;
+pub mod coil;
+pub mod counter;
+pub mod inertial;
+pub mod kept;
+pub mod light;
+mod mailbox;
+pub mod reset;
+#[cfg(test)]
+mod tests;
 
-use super::Mailbox;
-use super::kept::{Kept, MOST_RESTARTS};
-use super::reset::Cause;
+pub use mailbox::Mailbox;
+
+use self::kept::{Kept, MOST_RESTARTS};
+use self::reset::Cause;
 use crate::control::controller::{Circumstances, ControllerState, Decision};
 use crate::control::estimate::Estimate;
 use crate::control::law::Wish;
 use crate::control::sample::Sample;
 use crate::control::supervisor::Phase;
-use crate::link::{
-    Done, Identity, LOG_BLOCK, LogBlock, LogEntry, Mishap, Pace, Refusal, Reply, Request, State, TickReport, TickSample,
-    WORD_BLOCK, Words,
-};
+use crate::link::{Mishap, Pace, Reply, TickReport};
+use crate::settings::Settings;
 use crate::settings::assemble::AnyController;
-use crate::settings::store::{Store, StoreError};
-use crate::settings::wiring::Wiring;
-use crate::settings::{COUNT, SettingError, Settings};
 
 /// For how many ticks the first sample after a reset is waited for, before the controller starts from the beginning.
 const RESUME_PATIENCE: u32 = 100;
@@ -27,7 +32,7 @@ const RESUME_PATIENCE: u32 = 100;
 /// For how long a device must have worked well before its restarts are forgotten, s.
 const GOOD_TIME: f32 = 1.0;
 
-/// What a device is told about what surrounds it, for [`State`] and [`Identity`].
+/// What a device is told about what surrounds it, for [`State`](crate::link::State) and [`Identity`](crate::link::Identity).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Surroundings {
     /// Version of the firmware.
@@ -52,12 +57,13 @@ pub struct Surroundings {
 
 /// What a request comes to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "there is no heap to put it on")]
 pub enum Answer {
     /// To be sent.
     Reply(Reply),
     /// A sample has come: where samples say when a tick is, now is one.
     Sample,
+    /// The draft is to be stored, while the control task goes on, and then [`Device::stored`] called.
+    Store,
     /// To be made to happen.
     Rehearse(Mishap),
     /// The period may be another now: to be answered, and the timer set.
@@ -69,6 +75,8 @@ pub enum Answer {
 pub struct Device {
     settings: Settings,
     draft: Settings,
+    /// The settings in force are those that a reset would find.
+    lasting: bool,
     controller: AnyController,
     state: ControllerState,
     resuming: Option<Kept>,
@@ -99,6 +107,7 @@ impl Device {
         Device {
             settings: *settings,
             draft: *settings,
+            lasting: true,
             resuming: kept.filter(|kept| kept.deciding && restarts <= MOST_RESTARTS).copied(),
             waited: 0,
             decision: safe(controller),
@@ -171,7 +180,7 @@ impl Device {
                 None
             }
             Some(Pace::Timer) => self.mailbox.newest(),
-            Some(Pace::Sample) => self.mailbox.next(),
+            Some(Pace::Sample) => self.mailbox.oldest(),
         };
         if let Some(told) = &told {
             (self.sample, self.number, self.heard) = (told.sample, told.number, true);
@@ -179,6 +188,9 @@ impl Device {
             if lateness > circumstances.lateness {
                 circumstances.lateness = lateness;
             }
+        } else if self.attached.is_some() && self.decision.phase == Phase::Fault {
+            // While nobody says what the clutches do they cannot be blamed for it.
+            self.sample.engaged = self.decision.command;
         }
         if self.attached.is_some() && !self.heard && self.resuming.is_none() {
             // The controller starts with the first sample, on the device as on the desk.
@@ -235,7 +247,8 @@ impl Device {
                 calibration: *self.state.calibration(),
                 spins: self.state.spins(),
                 counts: self.sample.encoder.counts,
-                deciding: matches!(self.decision.phase, Phase::Armed | Phase::Rocking),
+                // By other settings it must not go on.
+                deciding: self.lasting && matches!(self.decision.phase, Phase::Armed | Phase::Rocking),
                 attached: self.attached,
                 restarts: self.restarts,
             },
@@ -245,175 +258,6 @@ impl Device {
     /// Whether a sample from the link waits.
     pub fn has_sample(&self) -> bool {
         !self.mailbox.is_empty()
-    }
-
-    /// Answers a request.
-    pub fn answer<F: NorFlash>(&mut self, request: &Request, store: &mut Store<F>, around: &Surroundings) -> Answer {
-        let reply = match *request {
-            Request::Identify => Reply::Identity(self.identity(around)),
-            Request::State => Reply::State(self.report_state(around)),
-            Request::Read { first } => self.read(first),
-            Request::Write(words) => self.write(&words),
-            Request::Apply { check, store: keep } => return self.apply(check, keep, store),
-            Request::Discard => {
-                self.draft = self.settings;
-                Reply::Done(Done::AsAsked)
-            }
-            Request::Log { from } => Reply::Log(self.log(from)),
-            Request::Clear => {
-                self.clear = true;
-                Reply::Done(Done::AsAsked)
-            }
-            Request::SelfTest => match self.decision.phase {
-                Phase::Armed => {
-                    self.restart();
-                    Reply::Done(Done::AsAsked)
-                }
-                phase => Reply::Refused(Refusal::Busy(phase)),
-            },
-            Request::Stream { every } => {
-                (self.stream, self.until_report) = (every, every);
-                Reply::Done(Done::AsAsked)
-            }
-            Request::Attach { pace } => return self.attach(Some(pace)),
-            Request::Detach => return self.attach(None),
-            Request::Sample(sample) => return self.take(sample),
-            Request::Rehearse(mishap) if around.rehearsal => return Answer::Rehearse(mishap),
-            Request::Rehearse(_) => Reply::Refused(Refusal::NotHere),
-        };
-        Answer::Reply(reply)
-    }
-
-    /// In motion nothing may change but the clutches.
-    fn busy(&self) -> Option<Reply> {
-        let rests = match self.decision.phase {
-            Phase::Boot | Phase::SelfTest | Phase::Calibrate | Phase::Armed => true,
-            Phase::Rocking => false,
-            // A device that stands still with wrong settings must be able to get others.
-            Phase::Fault => self.decision.estimate.standing,
-        };
-        if rests && self.resuming.is_none() { None } else { Some(Reply::Refused(Refusal::Busy(self.decision.phase))) }
-    }
-
-    fn take(&mut self, sample: TickSample) -> Answer {
-        if self.attached.is_none() {
-            return Answer::Reply(Reply::Refused(Refusal::NotHere));
-        }
-        self.mailbox.put(sample);
-        Answer::Sample
-    }
-
-    fn attach(&mut self, pace: Option<Pace>) -> Answer {
-        if let Some(busy) = self.busy() {
-            return Answer::Reply(busy);
-        }
-        self.attached = pace;
-        self.mailbox = Mailbox::new();
-        (self.sample, self.number, self.heard) = (Sample::default(), 0, false);
-        self.restart();
-        Answer::Restarted(Reply::Done(Done::AsAsked))
-    }
-
-    /// From the beginning, with the event log of before.
-    fn restart(&mut self) {
-        self.controller.restart(&mut self.state);
-        self.decision = safe(&self.controller);
-    }
-
-    fn read(&self, first: u16) -> Reply {
-        let mut words = Words { first, count: 0, words: [0; WORD_BLOCK] };
-        for (place, index) in words.words.iter_mut().zip(first..) {
-            let Some(word) = self.settings.get(index) else { break };
-            *place = word;
-            words.count += 1;
-        }
-        if words.count == 0 { Reply::Refused(Refusal::NoSuchSetting(first)) } else { Reply::Words(words) }
-    }
-
-    fn write(&mut self, words: &Words) -> Reply {
-        if let Some(busy) = self.busy() {
-            return busy;
-        }
-        if usize::from(words.count) > WORD_BLOCK {
-            return Reply::Refused(Refusal::NoSuchSetting(words.first));
-        }
-        for (&word, index) in words.words.iter().zip(words.first..).take(usize::from(words.count)) {
-            if let Err(error) = self.draft.set(index, word) {
-                return Reply::Refused(refusal(error));
-            }
-        }
-        Reply::Done(Done::AsAsked)
-    }
-
-    fn apply<F: NorFlash>(&mut self, check: u32, keep: bool, store: &mut Store<F>) -> Answer {
-        let refused = |refusal| Answer::Reply(Reply::Refused(refusal));
-        if let Some(busy) = self.busy() {
-            return Answer::Reply(busy);
-        }
-        let own = self.draft.check();
-        if check != own {
-            return refused(Refusal::Check(own));
-        }
-        let controller = match Wiring::check(&self.draft).and_then(|()| AnyController::of(&self.draft)) {
-            Ok(controller) => controller,
-            Err(error) => return refused(refusal(error)),
-        };
-        if keep {
-            match store.store(&self.draft) {
-                Ok(()) => {}
-                Err(StoreError::Full) => return refused(Refusal::FlashFull),
-                Err(StoreError::Flash) => return refused(Refusal::FlashFailed),
-            }
-        }
-        let done = Reply::Done(if keep { Done::Stored } else { Done::AsAsked });
-        if self.settings == self.draft {
-            // Asked twice, or nothing new: the controller goes on.
-            return Answer::Reply(done);
-        }
-        (self.settings, self.controller) = (self.draft, controller);
-        self.restart();
-        Answer::Restarted(done)
-    }
-
-    fn identity(&self, around: &Surroundings) -> Identity {
-        Identity {
-            version: around.version,
-            build: around.build,
-            board: around.board,
-            counter_hz: around.counter_hz,
-            settings: COUNT as u16,
-            check: self.settings.check(),
-            rehearsal: around.rehearsal,
-        }
-    }
-
-    fn report_state(&self, around: &Surroundings) -> State {
-        State {
-            phase: self.decision.phase,
-            fault: self.decision.fault,
-            ticks: self.ticks,
-            calibration: *self.state.calibration(),
-            log_count: self.state.supervisor().log.count(),
-            worst_cost: self.worst_cost,
-            worst_lateness: self.worst_lateness,
-            bad_frames: around.bad_frames,
-            lost_reports: around.lost_reports,
-            stack: around.stack,
-            cause: around.cause,
-        }
-    }
-
-    fn log(&self, from: u32) -> LogBlock {
-        let log = &self.state.supervisor().log;
-        let total = log.count();
-        let oldest = total.saturating_sub(log.iter().count() as u32);
-        let from = from.clamp(oldest, total);
-        let mut block = LogBlock { from, count: 0, total, entries: [LogEntry::default(); LOG_BLOCK] };
-        for (place, entry) in block.entries.iter_mut().zip(log.iter().skip((from - oldest) as usize)) {
-            *place = LogEntry::from(entry);
-            block.count += 1;
-        }
-        block
     }
 }
 
@@ -425,15 +269,5 @@ fn safe(controller: &AnyController) -> Decision {
         wish: Wish::Release,
         phase: Phase::Boot,
         fault: None,
-    }
-}
-
-fn refusal(error: SettingError) -> Refusal {
-    match error {
-        SettingError::NoSuch { index } => Refusal::NoSuchSetting(index),
-        SettingError::OutOfRange { index, .. } => Refusal::OutOfRange(index),
-        SettingError::Contradiction { index, other } => Refusal::Contradiction(index, other),
-        // Of a controller made into settings, which is not done here.
-        SettingError::NotRepresentable => Refusal::NotHere,
     }
 }

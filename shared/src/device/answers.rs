@@ -1,0 +1,241 @@
+//! What a device answers.
+
+use embedded_storage::nor_flash::NorFlash;
+
+use super::{Answer, Device, Mailbox, Surroundings, safe};
+use crate::control::sample::Sample;
+use crate::control::supervisor::Phase;
+use crate::link::{
+    Done, Identity, LOG_BLOCK, LogBlock, LogEntry, Pace, Refusal, Reply, Request, State, TickSample, WORD_BLOCK, Words,
+};
+use crate::settings::assemble::AnyController;
+use crate::settings::store::{Store, StoreError};
+use crate::settings::wiring::Wiring;
+use crate::settings::{COUNT, SettingError, Settings};
+
+impl Device {
+    /// Answers a request, and stores what it asks to store: for those that have no task that must go on meanwhile.
+    pub fn answer_storing<F: NorFlash>(&mut self, request: &Request, store: &mut Store<F>, around: &Surroundings) -> Answer {
+        match self.answer(request, around) {
+            Answer::Store => {
+                let settings = *self.draft();
+                self.stored(store.store(&settings))
+            }
+            answer => answer,
+        }
+    }
+
+    /// Answers a request.
+    pub fn answer(&mut self, request: &Request, around: &Surroundings) -> Answer {
+        let reply = match *request {
+            Request::Identify => Reply::Identity(self.identity(around)),
+            Request::State => Reply::State(self.report_state(around)),
+            Request::Read { first } => self.read(first),
+            Request::Write(words) => self.write(&words),
+            Request::Apply { check, store: keep } => return self.apply(check, keep),
+            Request::Discard => {
+                self.draft = self.settings;
+                Reply::Done(Done::AsAsked)
+            }
+            Request::Log { from } => Reply::Log(self.log(from)),
+            Request::Clear => {
+                self.clear = true;
+                Reply::Done(Done::AsAsked)
+            }
+            Request::SelfTest => match self.decision.phase {
+                Phase::Armed => {
+                    self.restart();
+                    Reply::Done(Done::AsAsked)
+                }
+                phase => Reply::Refused(Refusal::Busy(phase)),
+            },
+            Request::Stream { every } => {
+                (self.stream, self.until_report) = (every, every);
+                Reply::Done(Done::AsAsked)
+            }
+            Request::Attach { pace } => return self.attach(Some(pace)),
+            Request::Detach => return self.attach(None),
+            Request::Sample(sample) => return self.take(sample),
+            Request::Rehearse(mishap) if around.rehearsal => return Answer::Rehearse(mishap),
+            Request::Rehearse(_) => Reply::Refused(Refusal::NotHere),
+        };
+        Answer::Reply(reply)
+    }
+
+    /// In motion nothing may change but the clutches.
+    fn busy(&self) -> Option<Reply> {
+        let rests = match self.decision.phase {
+            Phase::Boot | Phase::SelfTest | Phase::Calibrate | Phase::Armed => true,
+            Phase::Rocking => false,
+            // A device that stands still with wrong settings must be able to get others.
+            Phase::Fault => self.decision.estimate.standing,
+        };
+        if rests && self.resuming.is_none() { None } else { Some(Reply::Refused(Refusal::Busy(self.decision.phase))) }
+    }
+
+    fn take(&mut self, sample: TickSample) -> Answer {
+        if self.attached.is_none() {
+            return Answer::Reply(Reply::Refused(Refusal::NotHere));
+        }
+        self.mailbox.put(sample);
+        Answer::Sample
+    }
+
+    fn attach(&mut self, pace: Option<Pace>) -> Answer {
+        if let Some(busy) = self.busy() {
+            return Answer::Reply(busy);
+        }
+        self.attached = pace;
+        self.mailbox = Mailbox::new();
+        (self.sample, self.number, self.heard) = (Sample::default(), 0, false);
+        self.restart();
+        Answer::Restarted(Reply::Done(Done::AsAsked))
+    }
+
+    /// From the beginning, with the event log of before.
+    fn restart(&mut self) {
+        self.controller.restart(&mut self.state);
+        self.decision = safe(&self.controller);
+    }
+
+    fn read(&self, first: u16) -> Reply {
+        let mut words = Words { first, count: 0, words: [0; WORD_BLOCK] };
+        for (place, index) in words.words.iter_mut().zip(first..=u16::MAX) {
+            let Some(word) = self.settings.get(index) else { break };
+            *place = word;
+            words.count += 1;
+        }
+        if words.count == 0 { Reply::Refused(Refusal::NoSuchSetting(first)) } else { Reply::Words(words) }
+    }
+
+    fn write(&mut self, words: &Words) -> Reply {
+        if let Some(busy) = self.busy() {
+            return busy;
+        }
+        if usize::from(words.count) > WORD_BLOCK {
+            return Reply::Refused(Refusal::NoSuchSetting(words.first));
+        }
+        for (&word, index) in words.words.iter().zip(words.first..=u16::MAX).take(usize::from(words.count)) {
+            if let Err(error) = self.draft.set(index, word) {
+                return Reply::Refused(refusal(error));
+            }
+        }
+        Reply::Done(Done::AsAsked)
+    }
+
+    /// What the settings shall be.
+    pub fn draft(&self) -> &Settings {
+        &self.draft
+    }
+
+    /// Goes on after [`Answer::Store`], with what became of storing the draft.
+    pub fn stored(&mut self, result: Result<(), StoreError>) -> Answer {
+        let refused = |refusal| Answer::Reply(Reply::Refused(refusal));
+        match result {
+            Err(StoreError::Full) => refused(Refusal::FlashFull),
+            Err(StoreError::Flash) => {
+                // The flash may hold the draft now, or what it held before.
+                self.lasting = false;
+                refused(Refusal::FlashFailed)
+            }
+            Ok(()) => {
+                self.lasting = true;
+                match self.busy() {
+                    // It began to rock meanwhile: the next start will find them.
+                    Some(busy) if self.settings != self.draft => {
+                        self.lasting = false;
+                        Answer::Reply(busy)
+                    }
+                    _ => self.install(Done::Stored),
+                }
+            }
+        }
+    }
+
+    fn apply(&mut self, check: u32, keep: bool) -> Answer {
+        let refused = |refusal| Answer::Reply(Reply::Refused(refusal));
+        if let Some(busy) = self.busy() {
+            return Answer::Reply(busy);
+        }
+        let own = self.draft.check();
+        if check != own {
+            return refused(Refusal::Check(own));
+        }
+        if let Err(error) = Wiring::check(&self.draft).and_then(|()| AnyController::of(&self.draft).map(|_| ())) {
+            return refused(refusal(error));
+        }
+        if keep {
+            return Answer::Store;
+        }
+        if self.settings != self.draft {
+            self.lasting = false;
+        }
+        self.install(Done::AsAsked)
+    }
+
+    /// Makes the draft the settings.
+    fn install(&mut self, done: Done) -> Answer {
+        let done = Reply::Done(done);
+        if self.settings == self.draft {
+            // Asked twice, or nothing new: the controller goes on.
+            return Answer::Reply(done);
+        }
+        match AnyController::of(&self.draft) {
+            Ok(controller) => (self.settings, self.controller) = (self.draft, controller),
+            Err(error) => return Answer::Reply(Reply::Refused(refusal(error))),
+        }
+        self.restart();
+        Answer::Restarted(done)
+    }
+
+    fn identity(&self, around: &Surroundings) -> Identity {
+        Identity {
+            version: around.version,
+            build: around.build,
+            board: around.board,
+            counter_hz: around.counter_hz,
+            settings: COUNT as u16,
+            check: self.settings.check(),
+            rehearsal: around.rehearsal,
+        }
+    }
+
+    fn report_state(&self, around: &Surroundings) -> State {
+        State {
+            phase: self.decision.phase,
+            fault: self.decision.fault,
+            ticks: self.ticks,
+            calibration: *self.state.calibration(),
+            log_count: self.state.supervisor().log.count(),
+            worst_cost: self.worst_cost,
+            worst_lateness: self.worst_lateness,
+            bad_frames: around.bad_frames,
+            lost_reports: around.lost_reports,
+            stack: around.stack,
+            cause: around.cause,
+        }
+    }
+
+    fn log(&self, from: u32) -> LogBlock {
+        let log = &self.state.supervisor().log;
+        let total = log.count();
+        let oldest = total.saturating_sub(log.iter().count() as u32);
+        let from = from.clamp(oldest, total);
+        let mut block = LogBlock { from, count: 0, total, entries: [LogEntry::default(); LOG_BLOCK] };
+        for (place, entry) in block.entries.iter_mut().zip(log.iter().skip((from - oldest) as usize)) {
+            *place = LogEntry::from(entry);
+            block.count += 1;
+        }
+        block
+    }
+}
+
+fn refusal(error: SettingError) -> Refusal {
+    match error {
+        SettingError::NoSuch { index } => Refusal::NoSuchSetting(index),
+        SettingError::OutOfRange { index, .. } => Refusal::OutOfRange(index),
+        SettingError::Contradiction { index, other } => Refusal::Contradiction(index, other),
+        // Of a controller made into settings, which is not done here.
+        SettingError::NotRepresentable => Refusal::NotHere,
+    }
+}

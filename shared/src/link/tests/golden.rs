@@ -1,0 +1,97 @@
+//! The bytes of a frame of every kind. A change of any of them is a change of the protocol: raise [`VERSION`] with it.
+
+use super::framed;
+use super::message_maker::{CAUSES, REPLIES, REQUESTS, Source, WISHES, reply, request};
+use crate::control::fault::Fault;
+use crate::control::supervisor::Phase;
+use crate::link::*;
+use crate::scalar::Sign;
+use serde::Serialize;
+use std::format;
+use std::string::String;
+use std::vec::Vec;
+
+/// Words of which no two are alike, and which choose each variant of the smaller choices somewhere.
+const WORDS: [u32; 5] = [1, 0x4049_0FDB, 300, 0xBF80_0000, 70_000];
+
+/// By the number of the request and then by the number of the reply, as [`super::message_maker`] has them.
+const GOLDEN: [&str; REQUESTS + REPLIES] = [
+    "02010103acfb00",
+    "06010101bcd800",
+    "070102020157ea00",
+    "3a01030301dbac02808080fc0bf0a20401db9fa48204ac02808080fc0bf0a20401db9fa48204ac02808080fc0bf0a20401db9fa48204ac021c5000",
+    "0801040401017c8e00",
+    "06010505fc5400",
+    "070106060153fa00",
+    "06010707dc1200",
+    "060108080df300",
+    "07010909015cc600",
+    "07010a0a015fca00",
+    "06010b0b3d9600",
+    "0b010c0c01db0f4940ac02010780bff0a20401010108db9fa482042c010109808080fc0b7011010901c9c0b7fb07ac0201020101010401e69700",
+    "07010d0d0158d600",
+    "02010103010101057001db2c057001db2c057001db2c057001db2c057001db2c057001db2c077001db2c198a00",
+    "0e01010101db9fa4820401012c010101010380bf0470110101010680bf701101020101010801db0f49402c010101010680bf70110102020107f0a20401845300",
+    "0701020201db2c057001db2c057001db2c057001db2c107001db2c808080fc0bf02201016d4800",
+    "0f010303010134808080fc0b7011010201010107db0f49402c010101011c80bf9fbaf7ff0f01db9fa48204ac02808080fc0bf0a2040106ce6700",
+    "3a01040401dbac02808080fc0bf0a20401db9fa48204ac02808080fc0bf0a20401db9fa48204ac02808080fc0bf0a20401db9fa48204ac02dd2a00",
+    "1001050501dbac02808080fc0b701101020101010bdb2c808080fc0b701101020101010bdb2c808080fc0b7011010201010105db2c863f00",
+    "070106060153fa00",
+    "040107070103e06f00",
+];
+
+fn hexadecimal(frame: &[u8]) -> String {
+    frame.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[test]
+fn frames_are_what_they_were() {
+    let requests = (0..REQUESTS).map(|variant| framed(variant as u8, &request(variant, &mut Source::new(&WORDS))));
+    let replies = (0..REPLIES).map(|variant| framed(variant as u8, &reply(variant, &mut Source::new(&WORDS))));
+    let frames: Vec<String> = requests.chain(replies).map(|frame| hexadecimal(&frame)).collect();
+    assert_eq!(frames[..], GOLDEN, "{frames:#?}");
+}
+
+#[test]
+fn choices_within_messages_are_what_they_were() {
+    let refused = [
+        (Refusal::Busy(Phase::Rocking), "070004"),
+        (Refusal::NoSuchSetting(300), "0701ac02"),
+        (Refusal::OutOfRange(1), "070201"),
+        (Refusal::Contradiction(2, 3), "07030203"),
+        (Refusal::Check(128), "07048001"),
+        (Refusal::FlashFull, "0705"),
+        (Refusal::FlashFailed, "0706"),
+        (Refusal::NotHere, "0707"),
+    ];
+    for (refusal, body) in refused {
+        assert_eq!(contents(&Reply::Refused(refusal)), body);
+    }
+    let mishaps = [
+        (Mishap::Dawdle(127), "0d007f"),
+        (Mishap::Reset, "0d01"),
+        (Mishap::Panic, "0d02"),
+        (Mishap::HardFault, "0d03"),
+        (Mishap::PowerCut(128), "0d048001"),
+    ];
+    for (mishap, body) in mishaps {
+        assert_eq!(contents(&Request::Rehearse(mishap)), body);
+    }
+    assert_eq!([Done::AsAsked, Done::Stored].map(|done| contents(&Reply::Done(done))), ["0600", "0601"]);
+    assert_eq!([Pace::Timer, Pace::Sample].map(|pace| contents(&Request::Attach { pace })), ["0a00", "0a01"]);
+    let numbers = |place: usize| format!("{place:02x}");
+    assert_eq!(Phase::ALL.map(|phase| contents(&phase)), core::array::from_fn(numbers));
+    assert_eq!(CAUSES.map(|cause| contents(&cause)), core::array::from_fn(numbers));
+    assert_eq!(WISHES.map(|wish| contents(&wish)), core::array::from_fn(numbers));
+    assert_eq!([Sign::Positive, Sign::Negative].map(|sign| contents(&sign)), ["00", "01"]);
+    for fault in Fault::ALL {
+        assert_eq!(contents(&fault), numbers(fault.code().into()));
+    }
+}
+
+/// What stands in a frame between tag and check.
+fn contents<T: Serialize>(message: &T) -> String {
+    let mut frame = framed(1, message);
+    let length = cobs::decode_in_place(&mut frame).unwrap();
+    hexadecimal(&frame[2..length - 2])
+}

@@ -1,0 +1,393 @@
+//! `sprag device`: talk to a device.
+
+use std::io::{IsTerminal, Write};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use clap::{Args, Subcommand};
+use sprag_shared::control::fault::Fault;
+use sprag_shared::control::supervisor::Phase;
+use sprag_shared::link::{Identity, Request, State};
+use sprag_shared::settings::{Item, Settings};
+
+use super::BAD_INPUT;
+use super::device_line::{Connected, LineArguments, connect, firmware};
+use super::loop_scene::{LoopScene, LoopSceneError};
+use crate::device::event_table::{what, write_csv, write_table};
+use crate::device::line::{DeviceError, Line};
+use crate::device::session::Session;
+use crate::device::strip_chart::StripChart;
+use crate::device::{parameters, setting_text};
+use crate::interrupt::{self, Interrupt};
+use crate::output::{OutputError, Results};
+
+/// Talk to a device: who it is, its parameters, its self-test, its event log, and what it believes of the motion.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag device info --port /dev/ttyUSB0\n  \
+    sprag device parameters --port /dev/ttyUSB0 --set law=passive --store\n  \
+    sprag device log --port /dev/ttyUSB0 --csv events.csv\n  \
+    sprag device watch --port /dev/ttyUSB0\n\n\
+    With --qemu a new device is started for each command, so nothing is left of what was told to the one before; and since it has no\n\
+    sensors of its own it stays in Boot and then goes into Fault.")]
+pub struct DeviceArguments {
+    #[command(subcommand)]
+    command: DeviceCommand,
+}
+
+#[derive(Subcommand, Clone, Debug)]
+enum DeviceCommand {
+    /// Show who the device is and how it is.
+    Info(InfoArguments),
+    /// Show, change, save and restore its parameters.
+    Parameters(ParameterArguments),
+    /// Make it test its clutches and calibrate its sensors again, and wait for the outcome; it must be Armed.
+    SelfTest(InfoArguments),
+    /// Show its event log.
+    Log(LogArguments),
+    /// Make it leave Fault, once what was wrong has been seen to; it must be at rest.
+    Clear(InfoArguments),
+    /// Plot rotation, velocity and commands as they come; CSV lines where the output is not a terminal. Ends with Ctrl-C.
+    ///
+    /// The emulated device has no sensors of its own: with --qemu there is a device in Boot and then in Fault to be seen.
+    Watch(WatchArguments),
+}
+
+#[derive(Args, Clone, Debug)]
+struct InfoArguments {
+    #[command(flatten)]
+    line: LineArguments,
+}
+
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag device parameters --port /dev/ttyUSB0\n  \
+    sprag device parameters --port /dev/ttyUSB0 --get model.size --get law\n  \
+    sprag device parameters --port /dev/ttyUSB0 --scene scenes/controller.toml --set law=sign-table --store\n  \
+    sprag device parameters --port /dev/ttyUSB0 --out pier.toml\n  \
+    sprag device parameters --port /dev/ttyUSB0 --file pier.toml --store\n\n\
+    Changes are checked as a whole before any is sent: first those of --scene, then those of --file, then those of --set. The device\n\
+    takes them while nothing moves, and starts its controller anew. A scene says nothing of how the board is wired: board.* stays.")]
+struct ParameterArguments {
+    #[command(flatten)]
+    line: LineArguments,
+    /// Show the value of this one only.
+    #[arg(long, value_name = "NAME")]
+    get: Vec<String>,
+    /// Change one, such as model.size=2.5.
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// Take all from the controller of a scene.
+    #[arg(long, value_name = "SCENE.toml")]
+    scene: Option<PathBuf>,
+    /// Take those in this file, as --out writes it.
+    #[arg(long, value_name = "FILE.toml")]
+    file: Option<PathBuf>,
+    /// Also keep them in flash, for the next start.
+    #[arg(long)]
+    store: bool,
+    /// Save all to this file.
+    #[arg(long, value_name = "FILE.toml")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Args, Clone, Debug)]
+struct LogArguments {
+    #[command(flatten)]
+    line: LineArguments,
+    /// Write it to this file, as CSV.
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+}
+
+#[derive(Args, Clone, Debug)]
+struct WatchArguments {
+    #[command(flatten)]
+    line: LineArguments,
+    /// End after this time of the device.
+    #[arg(long, value_name = "N")]
+    seconds: Option<f32>,
+}
+
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error("{0}")]
+    Device(#[from] DeviceError),
+    #[error("{0}")]
+    Scene(#[from] LoopSceneError),
+    #[error("{0}")]
+    Input(String),
+    #[error("{0}")]
+    Output(#[from] OutputError),
+    #[error("the output cannot be written: {0}")]
+    Stream(#[from] std::io::Error),
+    #[error("interrupted")]
+    Interrupted,
+}
+
+type Talk = Session<Box<dyn Line>>;
+
+/// Runs the command; what the device says goes to `out`, errors go to `err`.
+pub fn run(arguments: &DeviceArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
+    let outcome = match &arguments.command {
+        DeviceCommand::Info(info) => with_device(&info.line, out, |session, out| show(session, out)),
+        DeviceCommand::Parameters(given) => change(given, out, interrupt),
+        DeviceCommand::SelfTest(info) => with_device(&info.line, out, |session, out| self_test(session, out, interrupt)),
+        DeviceCommand::Log(given) => with_device(&given.line, out, |session, out| log(session, given, out)),
+        DeviceCommand::Clear(info) => with_device(&info.line, out, clear),
+        DeviceCommand::Watch(given) => with_device(&given.line, out, |session, out| watch(session, given, out, interrupt)),
+    };
+    match outcome {
+        Ok(()) => 0,
+        // Whoever reads has had enough.
+        Err(Failure::Stream(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => 0,
+        Err(Failure::Interrupted) => interrupt::EXIT_CODE,
+        Err(failure) => {
+            let _ = writeln!(err, "sprag: {failure}");
+            BAD_INPUT
+        }
+    }
+}
+
+/// Finds the device and talks to it; then shows what it has logged beside.
+fn with_device<W: Write>(
+    line: &LineArguments,
+    out: &mut W,
+    talk: impl FnOnce(&mut Talk, &mut W) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let Connected { line, log } = connect(line)?;
+    let mut session = Session::new(line);
+    let outcome = talk(&mut session, out);
+    drop(session);
+    if let Some(log) = log {
+        for line in log.read()? {
+            writeln!(out, "{line}")?;
+        }
+    }
+    outcome
+}
+
+fn show(session: &mut Talk, out: &mut impl Write) -> Result<(), Failure> {
+    let identity = session.identify()?;
+    let state = session.state()?;
+    let State { calibration, .. } = state;
+    writeln!(out, "device        {}{}", firmware(&identity), if identity.rehearsal { ", for rehearsals" } else { "" })?;
+    writeln!(out, "state         {}, {} ticks after its start", phase_text(state.phase, state.fault), state.ticks)?;
+    writeln!(out, "start         {:?}", state.cause)?;
+    writeln!(out, "parameters    {}, check {:08x}", identity.settings, identity.check)?;
+    writeln!(out, "calibration   gyroscope {:+.6} rad/s", calibration.gyroscope)?;
+    let [along, up] = calibration.block;
+    writeln!(out, "              block accelerometer {along:+.4}, {up:+.4} m/s²")?;
+    let [along, up] = calibration.ground;
+    writeln!(out, "              ground accelerometer {along:+.4}, {up:+.4} m/s²")?;
+    writeln!(out, "              encoder {} counts", calibration.encoder_zero)?;
+    writeln!(out, "worst tick    {}", duration(state.worst_cost, &identity))?;
+    writeln!(out, "worst delay   {}", duration(state.worst_lateness, &identity))?;
+    writeln!(out, "stack         {} bytes at most", state.stack)?;
+    writeln!(out, "link          {} bad frames, {} reports lost", state.bad_frames, state.lost_reports)?;
+    writeln!(out, "event log     {} entries since the start", state.log_count)?;
+    Ok(())
+}
+
+fn phase_text(phase: Phase, fault: Option<Fault>) -> String {
+    match fault {
+        Some(fault) => format!("{phase:?} ({}, {fault})", fault.code()),
+        None => format!("{phase:?}"),
+    }
+}
+
+fn duration(counts: u32, identity: &Identity) -> String {
+    let microseconds = f64::from(counts) * 1e6 / f64::from(identity.counter_hz.max(1));
+    format!("{counts} counts, {microseconds:.1} µs")
+}
+
+fn change(given: &ParameterArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+    // Whatever can be wrong here is found before the device is looked for.
+    for name in &given.get {
+        setting_text::find(name).map_err(Failure::Input)?;
+    }
+    let mut trial = Settings::default();
+    given.set.iter().try_for_each(|text| setting_text::assign(&mut trial, text)).map_err(Failure::Input)?;
+    let scene = given.scene.as_ref().map(|path| of_scene(path, interrupt)).transpose()?;
+    let file = given.file.as_ref().map(|path| {
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(path).map_err(|error| Failure::Input(format!("{name}: {error}")))?;
+        setting_text::from_toml(&trial, &name, &text).map_err(Failure::Input)?;
+        Ok::<_, Failure>((name, text))
+    });
+    let file = file.transpose()?;
+    with_device(&given.line, out, |session, out| {
+        let before = parameters::read(session)?;
+        let mut wanted = scene.map_or(before, |scene| setting_text::with_board_of(&scene, &before));
+        if let Some((name, text)) = &file {
+            wanted = setting_text::from_toml(&wanted, name, text).map_err(Failure::Input)?;
+        }
+        given.set.iter().try_for_each(|text| setting_text::assign(&mut wanted, text)).map_err(Failure::Input)?;
+        let changes = given.store || wanted != before;
+        if changes {
+            setting_text::check(&wanted).map_err(Failure::Input)?;
+        }
+        // A file that cannot be written is found out before the device is another.
+        let mut results = Results::default();
+        if let Some(path) = &given.out {
+            results.add(path, |file| file.write_all(setting_text::to_toml(&wanted).as_bytes()))?;
+        }
+        if changes {
+            parameters::write(session, &wanted, given.store)?;
+        }
+        results.commit()?;
+        report(given, &before, &wanted, out)?;
+        Ok(())
+    })
+}
+
+/// What was asked for, or what has changed, or where neither is the case everything.
+fn report(given: &ParameterArguments, before: &Settings, now: &Settings, out: &mut impl Write) -> std::io::Result<()> {
+    for name in &given.get {
+        if let Ok((index, description)) = setting_text::find(name) {
+            writeln!(out, "{}", description.show(now.get(index).unwrap_or(description.default)))?;
+        }
+    }
+    let told = given.store || given.scene.is_some() || given.file.is_some() || !given.set.is_empty();
+    if told {
+        let differing = before.words().iter().zip(now.words()).filter(|(before, now)| before != now).count();
+        let until = if given.store { "and kept in flash" } else { "until the next start; --store keeps them" };
+        writeln!(out, "{differing} parameters changed; in force {until}")?;
+    }
+    if let Some(path) = &given.out {
+        writeln!(out, "saved in {}", path.display())?;
+    }
+    if !told && given.get.is_empty() && given.out.is_none() {
+        write!(out, "{}", setting_text::table(now))?;
+    }
+    Ok(())
+}
+
+fn of_scene(path: &std::path::Path, interrupt: &Interrupt) -> Result<Settings, Failure> {
+    let desk = LoopScene::load(path, &[], None)?;
+    let Some(&index) = desk.pairs.first() else { return Err(Failure::Input(format!("{}: no clutched pair", path.display()))) };
+    let settings = desk.task(index, desk.controller.sensors.seed(), interrupt).settings();
+    settings.map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
+}
+
+/// For how long the outcome of a request is waited for between two questions.
+const PAUSE: Duration = Duration::from_millis(50);
+
+fn self_test(session: &mut Talk, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+    let settings = parameters::read(session)?;
+    let before = session.state()?.log_count;
+    session.order(&Request::SelfTest)?;
+    let time = |item: Item| settings.get(item.index()).map_or(0.0, f32::from_bits);
+    // Each of its two parts may wait as long as this, and a device on a slow line more.
+    let patience = time(Item::BootTime) + 2.0 * time(Item::CalibrationPatience) + 5.0;
+    let begun = Instant::now();
+    let state = loop {
+        let state = session.state()?;
+        if !matches!(state.phase, Phase::Boot | Phase::SelfTest | Phase::Calibrate) {
+            break state;
+        }
+        if interrupt.is_set() {
+            return Err(Failure::Interrupted);
+        }
+        if begun.elapsed().as_secs_f32() > patience {
+            return Err(Failure::Input(format!("the self-test has not ended after {patience:.0} s: {:?}", state.phase)));
+        }
+        std::thread::sleep(PAUSE);
+    };
+    let (entries, total) = session.log()?;
+    let new = entries.len().min(total.saturating_sub(before) as usize);
+    for entry in &entries[entries.len() - new..] {
+        writeln!(out, "{:9.3} s  {}", f64::from(entry.tick) * f64::from(settings.period()), what(entry.kind))?;
+    }
+    show(session, out)?;
+    match state.fault {
+        Some(fault) => Err(Failure::Input(format!("the self-test failed: {fault}"))),
+        None => Ok(()),
+    }
+}
+
+fn log(session: &mut Talk, given: &LogArguments, out: &mut impl Write) -> Result<(), Failure> {
+    let period = parameters::read(session)?.period();
+    let (entries, total) = session.log()?;
+    if let Some(path) = &given.csv {
+        let mut results = Results::default();
+        results.add(path, |file| write_csv(&entries, period, file))?;
+        results.commit()?;
+        writeln!(out, "{} of {total} entries in {}", entries.len(), path.display())?;
+    } else {
+        write_table(&entries, total, period, out)?;
+    }
+    Ok(())
+}
+
+fn clear<W: Write>(session: &mut Talk, out: &mut W) -> Result<(), Failure> {
+    let before = session.state()?;
+    if before.phase != Phase::Fault {
+        writeln!(out, "it is not in Fault: {:?}", before.phase)?;
+        return Ok(());
+    }
+    session.order(&Request::Clear)?;
+    // The next tick takes it or does not.
+    std::thread::sleep(PAUSE);
+    let after = session.state()?;
+    writeln!(out, "{} -> {}", phase_text(before.phase, before.fault), phase_text(after.phase, after.fault))?;
+    match after.fault {
+        Some(fault) => {
+            Err(Failure::Input(format!("it stays in Fault: {fault}; it leaves only at rest, and while nothing is wrong")))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Time between two reports that are drawn and two that are printed, s, and between two pictures.
+const FINE: f32 = 0.01;
+const REDRAW: Duration = Duration::from_millis(200);
+/// A device that reports nothing for so long has gone.
+const SILENCE: Duration = Duration::from_secs(5);
+
+fn watch(session: &mut Talk, given: &WatchArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+    let period = parameters::read(session)?.period();
+    let every = (FINE / period).round().clamp(1.0, f32::from(u16::MAX)) as u16;
+    session.order(&Request::Stream { every })?;
+    let terminal = std::io::stdout().is_terminal();
+    if !terminal {
+        writeln!(out, "time_s,rotation_rad,velocity_rad_s,engage_first,engage_second,state,fault_code")?;
+    }
+    let mut chart = StripChart::new(period);
+    let (mut height, mut drawn, mut heard, mut time) = (0, None::<Instant>, Instant::now(), 0.0);
+    while !interrupt.is_set() && given.seconds.is_none_or(|seconds| time < seconds) {
+        session.receive(PAUSE)?;
+        while let Some(report) = session.take_tick() {
+            heard = Instant::now();
+            time = chart.add(report);
+            if !terminal {
+                let decision = &report.decision;
+                let (estimate, [first, second]) = (&decision.estimate, decision.command.map(u8::from));
+                let fault = decision.fault.map_or(0, Fault::code);
+                let (rotation, velocity, phase) = (estimate.rotation, estimate.velocity, decision.phase);
+                writeln!(out, "{time},{rotation},{velocity},{first},{second},{phase:?},{fault}")?;
+            }
+        }
+        if heard.elapsed() > SILENCE {
+            return Err(DeviceError::Silent(" any more".to_owned()).into());
+        }
+        if terminal && drawn.is_none_or(|drawn| drawn.elapsed() >= REDRAW) {
+            drawn = Some(Instant::now());
+            height = redraw(&chart.draw(), height, out)?;
+        }
+    }
+    // Not answered, if it has gone meanwhile.
+    let _ = session.send(&Request::Stream { every: 0 });
+    let _ = session.receive(PAUSE);
+    if interrupt.is_set() { Err(Failure::Interrupted) } else { Ok(()) }
+}
+
+/// Draws over a picture of so many lines; gives the lines of the new one.
+fn redraw(picture: &str, height: usize, out: &mut impl Write) -> std::io::Result<usize> {
+    if height > 0 {
+        write!(out, "\x1b[{height}A")?;
+    }
+    for line in picture.lines() {
+        writeln!(out, "{line}\x1b[K")?;
+    }
+    out.flush()?;
+    Ok(picture.lines().count())
+}

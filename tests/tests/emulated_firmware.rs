@@ -1,0 +1,71 @@
+//! One code: the firmware on the emulated Cortex-M4F gives every command and every estimate that the same controller gives on the host, to
+//! the last bit, over whole scenes.
+//!
+//! Needs the image that `cargo xtask test` builds; `-- --nocapture` shows the numbers.
+
+use sprag_shared::control::supervisor::Phase;
+use sprag_sim_host::device::emulator::Way;
+use sprag_sim_host::device::report::costs;
+use sprag_tests::device_loop::{Course, Trial, faithful, on_the_host, pulse, scene};
+use sprag_tests::emulation::controller_firmware;
+
+use sprag_sim_host::command::loop_scene::LoopScene;
+
+/// Runs `scene` on the device and on the host.
+fn one_code(name: &str, scene: &LoopScene, way: Way) {
+    let Some(image) = controller_firmware() else { return };
+    let (host, peak) = on_the_host(scene);
+    let begun = std::time::Instant::now();
+    let course = Trial { way, ..Trial::new(&image, scene) }.run(faithful(), &mut ());
+    let seconds = begun.elapsed().as_secs_f64();
+    // The decisions that the device sent, beside those of the same code on the host, which was told the same.
+    assert_eq!(course.differing(), 0, "{name}");
+    // And so the loop is the one that the host closes by itself.
+    assert_eq!(course.seen.len(), host.len(), "{name}");
+    for (device, host) in course.seen.iter().zip(&host) {
+        assert_eq!(device.decision, host.decision, "{name}: {} s", host.plant.time);
+        assert_eq!(device.plant.motion.rotation.to_bits(), host.plant.motion.rotation.to_bits(), "{name}: {} s", host.plant.time);
+    }
+    assert_eq!(course.peak.to_bits(), peak.to_bits());
+    let commands = commands(&course);
+    // What decides nothing is not compared.
+    assert!(commands >= 4 && course.seen.iter().any(|tick| tick.decision.phase == Phase::Rocking), "{name}: {commands}");
+    let (median, worst) = costs(&course.ticks).unwrap();
+    println!(
+        "| {name} | {} | {} | {commands} | {peak:.4} | {median} | {worst} | {} | {:.0} |",
+        course.ticks.len(),
+        course.differing(),
+        course.state.stack,
+        course.ticks.len() as f64 / seconds
+    );
+}
+
+/// Changes of command.
+fn commands(course: &Course) -> usize {
+    course.ticks.windows(2).filter(|pair| pair[0].applied.command != pair[1].applied.command).count()
+}
+
+#[test]
+fn figure_5_is_the_same_on_the_device() {
+    one_code("Figure 5", &scene("figure05.toml", &[]), Way::Streams);
+}
+
+#[test]
+fn figure_10_is_the_same_on_the_device() {
+    one_code("Figure 10", &scene("figure10.toml", &[]), Way::Streams);
+}
+
+#[test]
+fn the_near_fault_motion_is_the_same_on_the_device() {
+    one_code("near fault", &scene("near_fault.toml", &["run.free_time_s=0.5"]), Way::Streams);
+}
+
+/// Byte by byte through the emulated USART1, each sample a tick.
+#[test]
+fn a_pulse_is_the_same_by_the_serial_line() {
+    one_code(
+        "sine pulse by USART",
+        &pulse(&["run.free_time_s=0.1", "controller.rate_hz=500", "controller.prelude_s=1.6"]),
+        Way::Usart,
+    );
+}
