@@ -106,16 +106,13 @@ mod app {
             let report = if context.local.link.has_room() { context.shared.outbox.lock(Outbox::take) } else { None };
             let moved = context.local.link.pump(report, |request, store, around| {
                 // Programming the flash takes longer than a control period, so the device is not held meanwhile.
-                let draft = context.shared.device.lock(|device| match device.answer(request, around) {
-                    Answer::Store => Err(*device.draft()),
-                    answer => Ok(answer),
+                let answer = context.shared.device.lock(|device| device.answer(request, around));
+                let stored = (answer == Answer::Store).then(|| {
+                    let draft = context.shared.device.lock(|device| *device.draft());
+                    store.store(&draft)
                 });
-                let result = draft.map_err(|draft| store.store(&draft));
                 context.shared.device.lock(|device| {
-                    let answer = match result {
-                        Ok(answer) => answer,
-                        Err(stored) => device.stored(stored),
-                    };
+                    let answer = stored.map_or(answer, |result| device.stored(result));
                     if matches!(answer, Answer::Restarted(_)) {
                         crate::control::set_safe_state(device.safe_command());
                         tick::set_period(device.period_counts(Selected::CORE_HZ));

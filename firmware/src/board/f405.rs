@@ -5,7 +5,7 @@
 //! | [`clock`]: 168 MHz, and the counter | RCC, DWT |
 //! | [`sensors`]: two inertial sensors, the encoder | SPI1, SPI2, TIM4 |
 //! | [`coils`]: two coils and their currents | TIM8, PC8, PC9, ADC1 |
-//! | [`line`]: the link | USART1, streams 2 and 7 of DMA2 |
+//! | [`mod@line`]: the link | USART1, streams 2 and 7 of DMA2 |
 //! | [`storage`]: the settings | sectors 1 and 2 of the flash |
 //! | [`supply`]: what happens when it sags | PWR, EXTI line 16, option bytes |
 //! | [`light`] | PC12 |

@@ -1,6 +1,6 @@
 //! A device with the firmware on it: in the emulator or on a serial port, as a controller for closed loops or to talk to.
 //!
-//! - [`line`]: bytes to and from it; [`emulator`], [`serial`]: the two kinds; [`faulty`]: one that loses and damages frames;
+//! - [`mod@line`]: bytes to and from it; [`emulator`], [`serial`]: the two kinds; [`faulty`]: one that loses and damages frames;
 //! - [`image`]: building what runs in it; [`log`]: what it logs;
 //! - [`session`]: requests and replies; [`parameters`]: its settings, [`setting_text`]: as text; [`event_table`]: its event log;
 //! - [`strip_chart`]: its last seconds, drawn in the terminal;
