@@ -2,7 +2,7 @@
 //! flags that cargo-fuzz uses without a sanitizer, so that nothing but a C++ compiler needs installing.
 
 use crate::{
-    process::{cargo_in, executables, filtered, output},
+    process::{cargo_in, executables, filtered, host},
     stop::Stop,
     tools,
 };
@@ -53,11 +53,9 @@ pub fn run(root: &Path, only: Option<&str>, seconds: u32) -> Result<(), Stop> {
 
 /// Builds all targets and gives their names, in order, and programs.
 fn build(root: &Path) -> Result<Vec<(String, PathBuf)>, Stop> {
-    let about = output(Command::new("rustc").current_dir(root).arg("-vV"))?;
-    let host =
-        about.lines().find_map(|line| line.strip_prefix("host: ")).ok_or_else(|| Stop::failed("rustc does not tell its host"))?;
+    let host = host(root)?;
     // Naming the target keeps the flags away from build scripts, which could not be linked with them.
-    let mut command = cargo_in(root, WORKSPACE, &["build", "--release", "--target", host]);
+    let mut command = cargo_in(root, WORKSPACE, &["build", "--release", "--target", &host]);
     command.env("CARGO_ENCODED_RUSTFLAGS", INSTRUMENTATION.join("\u{1f}"));
     let mut targets: Vec<_> = executables(&mut command)?
         .into_iter()

@@ -25,6 +25,16 @@ pub fn cargo_in(root: &Path, workspace: &str, args: &[&str]) -> Command {
     command
 }
 
+/// The target that programs for this machine are built for.
+///
+/// # Errors
+/// If the compiler does not tell.
+pub fn host(root: &Path) -> Result<String, Stop> {
+    let about = output(Command::new("rustc").current_dir(root).arg("-vV"))?;
+    let host = about.lines().find_map(|line| line.strip_prefix("host: "));
+    host.map(str::to_owned).ok_or_else(|| Stop::failed("rustc does not tell its host"))
+}
+
 /// Runs a command to its end.
 ///
 /// # Errors

@@ -3,7 +3,7 @@
 use crate::{
     firmware::{BOARD, Built, LINTED},
     fuzz, panic_check,
-    process::{cargo, cargo_in, run as done},
+    process::{cargo, cargo_in, host, run as done},
     size,
     steps::Steps,
     stop::Stop,
@@ -35,6 +35,17 @@ pub fn run(root: &Path, fuzz_seconds: u32) -> Result<(), Stop> {
         done(BOARD.cargo(root, "doc").arg("--no-deps").env("RUSTDOCFLAGS", "-D warnings"))
     })?;
     let built = images(root, &mut steps, false)?;
+    steps.step("tests, drivers", || {
+        // The workspace's own target is the board's.
+        let host = host(root)?;
+        let args = ["test", "--package", "sprag-drivers", "--target", &host];
+        done(&mut cargo_in(root, BOARD.workspace, &args))?;
+        done(&mut cargo_in(
+            root,
+            BOARD.workspace,
+            &["clippy", "--package", "sprag-drivers", "--all-targets", "--target", &host, "--", "-D", "warnings"],
+        ))
+    })?;
     // The emulator tests are among them and find the images through the variables.
     steps.step("tests", || done(cargo(root, &["test", "--workspace"]).envs(built.variables())))?;
     steps.step("fuzzing", || fuzz::run(root, None, fuzz_seconds))
