@@ -112,7 +112,7 @@ mod tests {
         for value in [0.0, 1e-30, f32::MAX, -f32::MAX, f32::NAN, f32::INFINITY] {
             let mut chart = StripChart::new(0.01);
             for tick in 0..3 {
-                chart.add(report(u32::MAX - 1 + tick, value, [false; 2]));
+                chart.add(report((u32::MAX - 1).wrapping_add(tick), value, [false; 2]));
             }
             assert!(chart.draw().contains("Rocking"), "{value}");
         }
