@@ -9,8 +9,8 @@ fn main() {
     }
     let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
-    let memory = package.join("memory.x");
-    fs::copy(&memory, out.join("memory.x")).expect("memory.x stands beside this");
+    let memory = package.join("../../memory.x");
+    fs::copy(&memory, out.join("memory.x")).expect("memory.x stands at the root of the workspace");
     println!("cargo:rerun-if-changed={}", memory.display());
     println!("cargo:rustc-link-search={}", out.display());
     println!("cargo:rustc-link-arg-bins=-Tlink.x");
