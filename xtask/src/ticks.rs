@@ -31,7 +31,7 @@ const ROWS: &[(&str, &[&str])] = &[
 ];
 
 /// The logs of a column: none, or from this level on.
-const LOGS: [Option<&str>; 3] = [None, Some("info"), Some("trace")];
+const LOGS: [Option<&str>; 2] = [None, Some("info")];
 
 /// Measures and writes the table.
 ///
