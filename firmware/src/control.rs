@@ -32,11 +32,6 @@ pub fn safe_state() -> [bool; 2] {
     [bits & 1 != 0, bits & 2 != 0]
 }
 
-/// Period of the control task in counts of the board's counter.
-pub fn period_counts(device: &Device) -> u32 {
-    device.period_counts(Selected::COUNTER_HZ)
-}
-
 /// What the control task owns.
 pub struct Control {
     sensors: <Selected as Board>::Sensors,
@@ -76,7 +71,7 @@ pub fn control_tick(control: &mut Control, device: &mut Device, outbox: &mut Out
         }
     } else if timer {
         let begun = Selected::now();
-        let period = period_counts(device);
+        let period = device.period_counts(Selected::COUNTER_HZ);
         let late = control.last.map_or(0, |last| begun.wrapping_sub(last).saturating_sub(period));
         let late = if late > period / GRACE { late } else { 0 };
         control.last = Some(begun);

@@ -18,8 +18,6 @@ pub use mailbox::Mailbox;
 use self::kept::{Kept, MOST_RESTARTS};
 use self::reset::Cause;
 use crate::control::controller::{Circumstances, ControllerState, Decision};
-use crate::control::estimate::Estimate;
-use crate::control::law::Wish;
 use crate::control::sample::Sample;
 use crate::control::supervisor::Phase;
 use crate::link::{Mishap, Pace, Reply, TickReport};
@@ -33,7 +31,7 @@ const RESUME_PATIENCE: u32 = 100;
 const GOOD_TIME: f32 = 1.0;
 
 /// What a device is told about what surrounds it, for [`State`](crate::link::State) and [`Identity`](crate::link::Identity).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Surroundings {
     /// Version of the firmware.
     pub version: [u8; 3],
@@ -110,7 +108,7 @@ impl Device {
             lasting: true,
             resuming: kept.filter(|kept| kept.deciding && restarts <= MOST_RESTARTS).copied(),
             waited: 0,
-            decision: safe(controller),
+            decision: Decision::before(controller.supervisor.safe()),
             controller: *controller,
             state: controller.start(),
             sample: Sample::default(),
@@ -258,16 +256,5 @@ impl Device {
     /// Whether a sample from the link waits.
     pub fn has_sample(&self) -> bool {
         !self.mailbox.is_empty()
-    }
-}
-
-/// Before a controller's first tick.
-fn safe(controller: &AnyController) -> Decision {
-    Decision {
-        command: controller.supervisor.safe(),
-        estimate: Estimate { standing: true, ..Estimate::default() },
-        wish: Wish::Release,
-        phase: Phase::Boot,
-        fault: None,
     }
 }

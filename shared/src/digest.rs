@@ -32,6 +32,15 @@ impl Default for Digest {
     }
 }
 
+/// FNV-1a of 32 bits, a word at a time, from [`FOLD_BASIS`] on. Every step can be undone, so a change of one word
+/// never hides.
+pub(crate) const fn fold(digest: u32, word: u32) -> u32 {
+    (digest ^ word).wrapping_mul(0x0100_0193)
+}
+
+/// Where [`fold`] begins.
+pub(crate) const FOLD_BASIS: u32 = 0x811C_9DC5;
+
 /// FNV's offset basis.
 const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
 

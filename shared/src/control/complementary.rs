@@ -88,7 +88,7 @@ impl Complementary {
         if stood || impact {
             if impact && !stood {
                 state.side = state.side.opposite();
-                state.velocity *= model.restitution;
+                state.velocity *= model.facts.restitution;
                 state.blank = self.blank;
             }
             state.acceleration = model.acceleration(state.side, state.rotation, state.velocity, seen.ground, engaged);

@@ -100,6 +100,14 @@ pub struct Decision {
     pub fault: Option<Fault>,
 }
 
+impl Decision {
+    /// Before a controller's first tick, with this `command` in force.
+    pub fn before(command: [bool; 2]) -> Decision {
+        let estimate = Estimate { standing: true, ..Estimate::default() };
+        Decision { command, estimate, wish: Wish::Release, phase: Phase::Boot, fault: None }
+    }
+}
+
 impl<B: KnownBody, L: Law<B>> Controller<B, L> {
     /// State at power-on.
     pub fn start(&self) -> ControllerState {
@@ -173,7 +181,7 @@ impl<B: KnownBody, L: Law<B>> Controller<B, L> {
         } else {
             state.signs.after(&ahead, self.bands)
         };
-        let elapsed = self.model.frequency * self.instruments.period;
+        let elapsed = self.model.facts.frequency * self.instruments.period;
         state.drift = (state.drift + elapsed * estimate.ground[0]) * (1.0 - elapsed / DRIFT_TIME);
         let situation = Situation {
             model,

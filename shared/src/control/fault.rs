@@ -34,7 +34,7 @@ impl fmt::Display for Sensor {
 }
 
 /// One of the two clutched flywheels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Wheel {
     /// Index 0 in arrays over clutches.

@@ -53,7 +53,7 @@ pub fn measured_acceleration<B: KnownBody>(
     ground: f32,
 ) -> f32 {
     let (sine, cosine) = sine32::sin_cos(rotation);
-    let relative = (block[0] * cosine + block[1] * sine - ground) / model.size;
+    let relative = (block[0] * cosine + block[1] * sine - ground) / model.facts.size;
     let (across, along) = model.direction_cosines(side, rotation);
     (relative - along * velocity * velocity) / across
 }
@@ -136,7 +136,7 @@ impl Kalman {
         } else if state.side.times(state.rotation) < 0.0 && state.side.times(state.velocity) < 0.0 {
             state.side = state.side.opposite();
             if self.blank > 0 {
-                state.velocity *= model.restitution;
+                state.velocity *= model.facts.restitution;
             }
             state.acceleration = model.acceleration(state.side, state.rotation, state.velocity, seen.ground, engaged);
             state.blank = self.blank;

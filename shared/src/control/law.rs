@@ -138,7 +138,7 @@ impl<B> Law<B> for SignTable {
 impl<B: KnownBody> Law<B> for GatedTable {
     #[inline]
     fn wish(&self, at: &Situation<'_, B>) -> Wish {
-        if self.engages(sign_row(&at.signs), at.ground_drift, at.model.uplift) { Wish::Resist } else { Wish::Release }
+        if self.engages(sign_row(&at.signs), at.ground_drift, at.model.facts.uplift) { Wish::Resist } else { Wish::Release }
     }
 }
 

@@ -52,7 +52,7 @@ impl LookAhead {
     #[inline]
     fn cost<B: KnownBody>(&self, at: &Situation<'_, B>, engage: bool) -> f32 {
         let model = at.model;
-        let step = self.step / model.frequency;
+        let step = self.step / model.facts.frequency;
         let (mut rotation, mut velocity, mut side) = (at.estimate.rotation, at.estimate.velocity, at.estimate.side);
         let (mut spins, mut locked) = (at.spins, at.engaged);
         let mut fading = self.fading_half;
@@ -75,7 +75,7 @@ impl LookAhead {
                     ground: Sign::of(ground[0], direction),
                     quiet: ground[0] == 0.0,
                 };
-                self.base.engages(sign_row(&signs), at.ground_drift, model.uplift)
+                self.base.engages(sign_row(&signs), at.ground_drift, model.facts.uplift)
             };
             let wheel = wheel_for(direction);
             for (index, (spin, locked)) in spins.iter_mut().zip(&mut locked).enumerate() {
@@ -83,11 +83,11 @@ impl LookAhead {
                 if *locked {
                     *spin = rack;
                 }
-                let ahead = direction.times(*spin) > direction.times(rack) + AHEAD * model.slenderness;
+                let ahead = direction.times(*spin) > direction.times(rack) + AHEAD * model.facts.slenderness;
                 let wanted = resists && index == wheel && (*locked || !ahead);
-                if wanted && !*locked && model.wheels_spin {
-                    let after = 1.0 + model.coupling * arm * arm;
-                    velocity = (velocity + model.coupling * arm * *spin) / after;
+                if wanted && !*locked && model.facts.wheels_spin {
+                    let after = 1.0 + model.facts.coupling * arm * arm;
+                    velocity = (velocity + model.facts.coupling * arm * *spin) / after;
                 }
                 *locked = wanted;
                 if !wanted {
@@ -95,18 +95,18 @@ impl LookAhead {
                 }
             }
             let engaged = u8::from(locked[0]) + u8::from(locked[1]);
-            velocity += step * model.body.over_inertia(&posture, drive, f32::from(engaged) * model.coupling, velocity);
+            velocity += step * model.body.over_inertia(&posture, drive, f32::from(engaged) * model.facts.coupling, velocity);
             rotation += step * velocity;
             if side.times(rotation) < 0.0 {
-                velocity *= model.restitution;
+                velocity *= model.facts.restitution;
                 side = Sign::of(velocity, side);
             }
         }
-        let (size, speed) = (rotation.abs(), velocity.abs() / model.frequency);
+        let (size, speed) = (rotation.abs(), velocity.abs() / model.facts.frequency);
         if side.times(velocity) > 0.0 {
             size + speed
         } else {
-            let beyond = if size > model.slenderness { size - model.slenderness } else { 0.0 };
+            let beyond = if size > model.facts.slenderness { size - model.facts.slenderness } else { 0.0 };
             2.0 * beyond + 0.5 * speed
         }
     }
@@ -119,7 +119,7 @@ impl<B: KnownBody> Law<B> for LookAhead {
             return self.base.wish(at);
         }
         let gain = self.cost(at, false) - self.cost(at, true);
-        if gain > self.margin * at.model.slenderness { Wish::Resist } else { Wish::Release }
+        if gain > self.margin * at.model.facts.slenderness { Wish::Resist } else { Wish::Release }
     }
 }
 

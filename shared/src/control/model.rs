@@ -80,38 +80,7 @@ impl<K: BodyKinematics> KnownBody for KnownFull<K> {
     }
 }
 
-/// What the controller knows of the structure.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Model<B> {
-    /// The block.
-    pub body: B,
-    /// p, 1/s.
-    pub frequency: f32,
-    /// p², 1/s².
-    pub frequency_squared: f32,
-    /// α, rad.
-    pub slenderness: f32,
-    /// R, m.
-    pub size: f32,
-    /// η.
-    pub restitution: f32,
-    /// Ground acceleration (in g) at which it uplifts.
-    pub uplift: f32,
-    /// k = σ/λ of one flywheel.
-    pub coupling: f32,
-    /// A flywheel that is engaged exchanges momentum with the block and goes on spinning when released.
-    pub wheels_spin: bool,
-    /// Rate at which the speed of a released flywheel decays, 1/s, …
-    pub decay: f32,
-    /// … and its constant deceleration (bearing and brake), over R, 1/s².
-    pub drag: f32,
-    /// A flywheel stops at once when released.
-    pub stops_at_once: bool,
-    /// Travel over R of each side's toe at θ = 0, by [`Body::travel`], for s = +1.
-    standing_travel: f32,
-}
-
-/// What a [`Model`] knows beside its body; its fields are those of the model.
+/// What the controller knows of the structure beside its body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Facts {
     /// p, 1/s; above 0.
@@ -126,55 +95,33 @@ pub struct Facts {
     pub restitution: f32,
     /// Ground acceleration at which the block uplifts, g; above 0.
     pub uplift: f32,
-    /// k of one flywheel; 0 or more.
+    /// k = σ/λ of one flywheel; 0 or more.
     pub coupling: f32,
-    /// A flywheel goes on spinning when released.
+    /// A flywheel that is engaged exchanges momentum with the block and goes on spinning when released.
     pub wheels_spin: bool,
-    /// Rate at which its speed then decays, 1/s; 0 or more.
+    /// Rate at which the speed of a released flywheel decays, 1/s; 0 or more, …
     pub decay: f32,
-    /// Its constant deceleration over R, 1/s²; 0 or more.
+    /// … and its constant deceleration (bearing and brake), over R, 1/s²; 0 or more.
     pub drag: f32,
-    /// It stops at once.
+    /// A flywheel stops at once when released.
     pub stops_at_once: bool,
 }
 
-impl<B: KnownBody> Model<B> {
-    /// What it knows beside its body.
-    pub fn facts(&self) -> Facts {
-        Facts {
-            frequency: self.frequency,
-            frequency_squared: self.frequency_squared,
-            slenderness: self.slenderness,
-            size: self.size,
-            restitution: self.restitution,
-            uplift: self.uplift,
-            coupling: self.coupling,
-            wheels_spin: self.wheels_spin,
-            decay: self.decay,
-            drag: self.drag,
-            stops_at_once: self.stops_at_once,
-        }
-    }
+/// What the controller knows of the structure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Model<B> {
+    /// The block.
+    pub body: B,
+    /// The rest.
+    pub facts: Facts,
+    /// Travel over R of each side's toe at θ = 0, by [`Body::travel`], for s = +1.
+    standing_travel: f32,
+}
 
+impl<B: KnownBody> Model<B> {
     /// Of a `body` in single precision, to the same bits wherever it is made.
-    pub fn of(body: B, facts: &Facts) -> Model<B> {
-        let Facts { frequency, frequency_squared, slenderness, size, restitution, uplift, .. } = *facts;
-        let Facts { coupling, wheels_spin, decay, drag, stops_at_once, .. } = *facts;
-        Model {
-            body,
-            frequency,
-            frequency_squared,
-            slenderness,
-            size,
-            restitution,
-            uplift,
-            coupling,
-            wheels_spin,
-            decay,
-            drag,
-            stops_at_once,
-            standing_travel: body.travel(1.0, &body.posture(1.0, 0.0)),
-        }
+    pub fn of(body: B, facts: Facts) -> Model<B> {
+        Model { body, facts, standing_travel: body.travel(1.0, &body.posture(1.0, 0.0)) }
     }
 
     /// Of a structure with its drivetrain. What it carries is folded into the block.
@@ -202,7 +149,7 @@ impl<B: KnownBody> Model<B> {
             drag: ((flywheel.dry_deceleration + brake) / block.size()) as f32,
             stops_at_once,
         };
-        Ok(Model::of(body, &facts))
+        Ok(Model::of(body, facts))
     }
 
     /// What θ alone decides, to be worked out once for all that need it.
@@ -234,7 +181,7 @@ impl<B: KnownBody> Model<B> {
     #[inline]
     pub fn acceleration_at(&self, posture: &B::Posture<f32>, velocity: f32, ground: [f32; 2], engaged: u8) -> f32 {
         let drive = self.body.drive(posture, ground);
-        self.body.over_inertia(posture, drive, f32::from(engaged) * self.coupling, velocity)
+        self.body.over_inertia(posture, drive, f32::from(engaged) * self.facts.coupling, velocity)
     }
 
     /// Speed of the rack over R.
@@ -255,14 +202,14 @@ impl<B: KnownBody> Model<B> {
     #[inline]
     pub fn direction_cosines(&self, side: Sign, rotation: f32) -> (f32, f32) {
         let (horizontal, vertical) = self.body.factors(&self.body.posture(side.unit(), rotation));
-        (-horizontal / self.frequency_squared, -vertical / self.frequency_squared)
+        (-horizontal / self.facts.frequency_squared, -vertical / self.facts.frequency_squared)
     }
 
     /// Speed of a released flywheel a time `period` (s) later; both over R, 1/s.
     #[inline]
     pub fn coasted(&self, spin: f32, period: f32) -> f32 {
-        let slowed = spin.abs() * (1.0 - self.decay * period) - self.drag * period;
-        let left = if slowed > 0.0 && !self.stops_at_once { slowed } else { 0.0 };
+        let slowed = spin.abs() * (1.0 - self.facts.decay * period) - self.facts.drag * period;
+        let left = if slowed > 0.0 && !self.facts.stops_at_once { slowed } else { 0.0 };
         if spin < 0.0 { -left } else { left }
     }
 }

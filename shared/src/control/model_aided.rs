@@ -90,7 +90,7 @@ impl ModelAided {
             state.side = state.side.opposite();
             if self.blank > 0 {
                 // With a gyroscope that is believed again at once the jump is already in its reading.
-                state.velocity *= model.restitution;
+                state.velocity *= model.facts.restitution;
             }
             state.blank = self.blank;
         }

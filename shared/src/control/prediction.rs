@@ -28,7 +28,7 @@ pub fn predict_from<B: KnownBody>(
     let rotation = now.rotation + (now.velocity + 0.5 * first * horizon) * horizon;
     let hits = now.side.times(rotation) < 0.0;
     let side = if hits { now.side.opposite() } else { now.side };
-    let kept = if hits { model.restitution } else { 1.0 };
+    let kept = if hits { model.facts.restitution } else { 1.0 };
     let reached = kept * (now.velocity + first * horizon);
     let ahead = model.posture(side, rotation);
     let last = model.acceleration_at(&ahead, reached, ground, engaged);
@@ -82,7 +82,7 @@ mod tests {
         let model = example_model();
         let ahead = predict(&model, &at(0.0005, -0.3), 0, 0.004);
         assert_eq!(ahead.side, Sign::Negative);
-        assert!((ahead.velocity / (-0.3 * model.restitution) - 1.0).abs() < 0.02);
+        assert!((ahead.velocity / (-0.3 * model.facts.restitution) - 1.0).abs() < 0.02);
         assert!(ahead.push > 0.0, "the weight brakes the rise on the other toe");
     }
 

@@ -47,7 +47,7 @@ impl Standing {
         (rotation, velocity): (f32, f32),
         side: &mut Sign,
     ) -> bool {
-        let holds = model.uplift * (1.0 + seen.ground[1]);
+        let holds = model.facts.uplift * (1.0 + seen.ground[1]);
         let pushed = seen.ground[0].abs() > holds;
         let moves = rotation.abs() > self.rotation || velocity.abs() > self.velocity;
         if state.stands {

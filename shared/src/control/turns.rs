@@ -45,7 +45,7 @@ impl TurnsState {
             Wish::Resist => self.turn.or_else(|| {
                 let rack = direction.times(model.rack_speed(now.side, now.rotation, now.velocity));
                 let own = wheel_for(direction);
-                let most = rack + AHEAD * model.slenderness;
+                let most = rack + AHEAD * model.facts.slenderness;
                 let behind = self.spins.map(|spin| direction.times(spin) <= most);
                 let [first, second] = behind;
                 match (own, first, second) {
@@ -103,7 +103,7 @@ mod tests {
             turns.spin(&model, &moving(0.0), [false, false], 5e-4);
         }
         // ẇ = −c w − d.
-        let (c, d) = (f64::from(model.decay), f64::from(model.drag));
+        let (c, d) = (f64::from(model.facts.decay), f64::from(model.facts.drag));
         let exact = -((f64::from(-fast) + d / c) * crate::math::exp(-c) - d / c).max(0.0);
         assert!((f64::from(turns.spins[1]) - exact).abs() < 1e-4, "{} {exact}", turns.spins[1]);
     }

@@ -2,7 +2,8 @@
 
 use embedded_storage::nor_flash::NorFlash;
 
-use super::{Answer, Device, Mailbox, Surroundings, safe};
+use super::{Answer, Device, Mailbox, Surroundings};
+use crate::control::controller::Decision;
 use crate::control::sample::Sample;
 use crate::control::supervisor::Phase;
 use crate::link::{
@@ -95,7 +96,7 @@ impl Device {
     /// From the beginning, with the event log of before.
     fn restart(&mut self) {
         self.controller.restart(&mut self.state);
-        self.decision = safe(&self.controller);
+        self.decision = Decision::before(self.safe_command());
     }
 
     fn read(&self, first: u16) -> Reply {

@@ -1,6 +1,7 @@
 //! What a device keeps over a reset, so that it goes on where it was in the middle of an earthquake.
 
 use crate::control::calibration::Calibration;
+use crate::digest::{FOLD_BASIS, fold};
 use crate::link::Pace;
 
 /// Words that it takes.
@@ -100,10 +101,9 @@ impl Kept {
     }
 }
 
-/// Of all words but the last, by FNV-1a on words. It is taken at every tick, and no CRC is as quick; a change of one word never hides,
-/// since every step can be undone.
+/// Of all words but the last. It is taken at every tick, and no CRC is as quick.
 fn check(words: &[u32; KEPT_WORDS]) -> u32 {
-    words.iter().take(KEPT_WORDS - 1).fold(0x811C_9DC5, |hash, word| (hash ^ word).wrapping_mul(0x0100_0193))
+    words.iter().take(KEPT_WORDS - 1).fold(FOLD_BASIS, |digest, word| fold(digest, *word))
 }
 
 #[cfg(test)]

@@ -37,7 +37,7 @@ impl<B: Into<KnownAny> + KnownBody> Controller<B, ClutchLaw> {
     /// The same to the last bit, its body told at run time.
     pub fn told(self) -> AnyController {
         let Controller { model, instruments, estimator, law, horizon, bands, engaged_at_rest, gate, supervisor } = self;
-        let model = Model::of(model.body.into(), &model.facts());
+        let model = Model::of(model.body.into(), model.facts);
         Controller { model, instruments, estimator, law, horizon, bands, engaged_at_rest, gate, supervisor }
     }
 }
@@ -133,8 +133,8 @@ const ROUNDING: f32 = 1e-6;
 /// The controller for a body `B`, whatever body the settings name.
 pub(super) fn controller<B: SettingsBody>(settings: &Settings) -> Result<Controller<B, ClutchLaw>, SettingError> {
     let model: Model<B> = model(settings);
-    let square = model.frequency * model.frequency;
-    if (square - model.frequency_squared).abs() > ROUNDING * square {
+    let square = model.facts.frequency * model.facts.frequency;
+    if (square - model.facts.frequency_squared).abs() > ROUNDING * square {
         return Err(SettingError::contradiction(Item::FrequencySquared, Item::Frequency));
     }
     // Where the rack does not move with the block the encoder says nothing.
@@ -173,7 +173,7 @@ fn model<B: SettingsBody>(settings: &Settings) -> Model<B> {
         drag: settings.real(Item::Drag),
         stops_at_once: settings.switch(Item::StopsAtOnce),
     };
-    Model::of(B::of_settings(settings), &facts)
+    Model::of(B::of_settings(settings), facts)
 }
 
 /// The rows of gains, of which an estimator takes as many numbers as it has.

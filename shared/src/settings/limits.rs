@@ -2,6 +2,7 @@
 
 use super::kind::{Description, Kind};
 use super::table::{COUNT, TABLE};
+use crate::digest::{FOLD_BASIS, fold};
 
 /// A range of words.
 #[derive(Clone, Copy)]
@@ -88,7 +89,7 @@ const VERSION: u32 = 1;
 
 /// Tells words of this build from those of another: a digest of the names, kinds and order of the parameters.
 pub const LAYOUT: u32 = {
-    let mut digest = fold(fold(0x811c_9dc5, VERSION), COUNT as u32);
+    let mut digest = fold(fold(FOLD_BASIS, VERSION), COUNT as u32);
     let mut item = 0;
     while item < COUNT {
         let name = TABLE[item].name.as_bytes();
@@ -107,8 +108,3 @@ pub const LAYOUT: u32 = {
     }
     digest
 };
-
-/// One step of FNV-1a, a word at a time.
-const fn fold(digest: u32, word: u32) -> u32 {
-    (digest ^ word).wrapping_mul(0x0100_0193)
-}

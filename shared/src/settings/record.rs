@@ -79,18 +79,18 @@ impl Settings {
 fn put_model<B: SettingsBody>(draft: &mut Draft, model: &Model<B>) {
     model.body.put(draft);
     draft.reals(&[
-        (Item::Frequency, model.frequency),
-        (Item::FrequencySquared, model.frequency_squared),
-        (Item::Slenderness, model.slenderness),
-        (Item::Size, model.size),
-        (Item::Restitution, model.restitution),
-        (Item::Uplift, model.uplift),
-        (Item::Coupling, model.coupling),
-        (Item::Decay, model.decay),
-        (Item::Drag, model.drag),
+        (Item::Frequency, model.facts.frequency),
+        (Item::FrequencySquared, model.facts.frequency_squared),
+        (Item::Slenderness, model.facts.slenderness),
+        (Item::Size, model.facts.size),
+        (Item::Restitution, model.facts.restitution),
+        (Item::Uplift, model.facts.uplift),
+        (Item::Coupling, model.facts.coupling),
+        (Item::Decay, model.facts.decay),
+        (Item::Drag, model.facts.drag),
     ]);
-    draft.switch(Item::WheelsSpin, model.wheels_spin);
-    draft.switch(Item::StopsAtOnce, model.stops_at_once);
+    draft.switch(Item::WheelsSpin, model.facts.wheels_spin);
+    draft.switch(Item::StopsAtOnce, model.facts.stops_at_once);
 }
 
 fn put_instruments(draft: &mut Draft, instruments: &Instruments) {

@@ -62,7 +62,7 @@ impl<B: KnownBody, L: Law<B>> Driver for Shared<B, L> {
             ground: Sign::of(ground[0], self.signs.ground),
             quiet: ground[0] == 0.0,
         };
-        let elapsed = f64::from(model.frequency) * (plant.time - self.time);
+        let elapsed = f64::from(model.facts.frequency) * (plant.time - self.time);
         self.drift = (self.drift + elapsed * plant.ground[0]) * math::exp(-elapsed / f64::from(DRIFT_TIME));
         self.time = plant.time;
         self.controller.law.wish(&Situation {

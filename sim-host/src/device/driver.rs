@@ -8,11 +8,9 @@ use std::collections::VecDeque;
 use std::time::Duration;
 
 use sprag_shared::control::controller::{Circumstances, Decision};
-use sprag_shared::control::estimate::Estimate;
 use sprag_shared::control::event_log::Entry;
 use sprag_shared::control::law::Wish;
 use sprag_shared::control::sample::Sample;
-use sprag_shared::control::supervisor::Phase;
 use sprag_shared::device::reset::Cause;
 use sprag_shared::link::{MAX_FRAME, Mishap, Pace, Request, Started, TickReport, TickSample, encode};
 use sprag_shared::settings::Settings;
@@ -87,13 +85,7 @@ impl<L: Line> DeviceDriver<L> {
         while session.take_tick().is_some() {}
         session.take_started();
         let safe = settings.safe_command();
-        let last = Decision {
-            command: safe,
-            estimate: Estimate { standing: true, ..Estimate::default() },
-            wish: Wish::Release,
-            phase: Phase::Boot,
-            fault: None,
-        };
+        let last = Decision::before(safe);
         Ok(DeviceDriver {
             session,
             own,

@@ -10,8 +10,7 @@ use candidates::{ideal, spinning};
 use core::{fmt, hint::black_box};
 use rig::Rig;
 use sprag_shared::control::controller::{Choice, Circumstances, Controller, ControllerState, Decision};
-use sprag_shared::control::estimate::Estimate;
-use sprag_shared::control::law::{ClutchLaw, Wish};
+use sprag_shared::control::law::ClutchLaw;
 use sprag_shared::control::model::KnownBody;
 use sprag_shared::control::sample::Sample;
 use sprag_shared::control::supervisor::Phase;
@@ -128,12 +127,6 @@ fn run<B: KnownBody>(
     (digest, commands)
 }
 
-/// What is there before the first tick.
-fn nothing() -> Decision {
-    let (estimate, wish, phase) = (Estimate::default(), Wish::Release, Phase::Boot);
-    Decision { command: [false; 2], estimate, wish, phase, fault: None }
-}
-
 fn whole<B: KnownBody>(
     name: &str,
     controller: &Controller<B, ClutchLaw>,
@@ -141,7 +134,7 @@ fn whole<B: KnownBody>(
     out: &mut impl fmt::Write,
 ) -> fmt::Result {
     let mut counts = Counts::<SIZES>::NONE;
-    let mut decision = nothing();
+    let mut decision = Decision::before([false; 2]);
     let (digest, commands) = run(black_box(controller), |state, sample, armed| {
         let before = counter();
         tick(controller, state, sample, &mut decision);
@@ -161,7 +154,7 @@ fn parts<B: KnownBody>(
     out: &mut impl fmt::Write,
 ) -> fmt::Result {
     let mut counts = [Counts::<{ SIZES / 4 }>::NONE; 3];
-    let mut decision = nothing();
+    let mut decision = Decision::before([false; 2]);
     let mut choice = Choice { estimate: decision.estimate, wish: decision.wish, wanted: decision.command };
     let (digest, commands) = run(black_box(controller), |state, sample, armed| {
         let start = counter();

@@ -79,7 +79,7 @@ impl<'a, B: KnownBody> Rig<'a, B> {
         self.tick += 1;
         let shaken = f32::from(self.tick.saturating_sub(STILL_TICKS)) * PERIOD;
         let ground = GROUND.0 * sine32::sin_cos_of_phase(GROUND.1 * shaken).0;
-        if self.stands && ground.abs() > self.model.uplift {
+        if self.stands && ground.abs() > self.model.facts.uplift {
             (self.stands, self.side) = (false, Sign::of(-ground, Sign::Positive));
         }
         let locked = u8::from(self.engaged[0]) + u8::from(self.engaged[1]);
@@ -92,8 +92,8 @@ impl<'a, B: KnownBody> Rig<'a, B> {
         if !self.stands {
             // The centre of mass about the toe, R (−sin δ, cos δ), twice derived.
             let (cosine, sine) = self.model.direction_cosines(self.side, rotation);
-            along += self.model.size * (cosine * self.acceleration + sine * velocity * velocity);
-            up += self.model.size * (sine * self.acceleration - cosine * velocity * velocity);
+            along += self.model.facts.size * (cosine * self.acceleration + sine * velocity * velocity);
+            up += self.model.facts.size * (sine * self.acceleration - cosine * velocity * velocity);
         }
         let (sine, cosine) = sine32::sin_cos(rotation);
         let posture = self.model.body.posture(self.side.unit(), rotation);
@@ -127,7 +127,7 @@ impl<'a, B: KnownBody> Rig<'a, B> {
             self.velocity += self.acceleration * PERIOD;
             self.rotation += self.velocity * PERIOD;
             if self.side.times(self.rotation) < 0.0 {
-                self.velocity *= model.restitution;
+                self.velocity *= model.facts.restitution;
                 self.side = self.side.opposite();
                 if self.velocity.abs() < REST_SPEED {
                     (self.rotation, self.velocity, self.stands) = (0.0, 0.0, true);
@@ -139,8 +139,8 @@ impl<'a, B: KnownBody> Rig<'a, B> {
         for (((commands, engaged), spin), command) in clutches.zip(command) {
             *commands = *commands << 1 | u32::from(command);
             let closes = *commands >> CLUTCH_TICKS & 1 == 1;
-            if closes && !*engaged && model.wheels_spin && !self.stands {
-                self.velocity = (self.velocity + model.coupling * arm * *spin) / (1.0 + model.coupling * arm * arm);
+            if closes && !*engaged && model.facts.wheels_spin && !self.stands {
+                self.velocity = (self.velocity + model.facts.coupling * arm * *spin) / (1.0 + model.facts.coupling * arm * arm);
             }
             *engaged = closes;
             *spin = if closes { arm * self.velocity } else { model.coasted(*spin, PERIOD) };
