@@ -123,6 +123,6 @@ pub trait Line {
 
 /// The status light.
 pub trait Light {
-    /// Shows a state, `seconds` after the start. To be called once a control period.
-    fn show(&mut self, phase: Phase, fault: Option<u16>, seconds: f32);
+    /// Shows a state in a slot of the light's time ([`sprag_shared::device::light`]). To be called once a control period.
+    fn show(&mut self, phase: Phase, fault: Option<u16>, slot: u32);
 }

@@ -99,7 +99,7 @@ fn tick(control: &mut Control, device: &mut Device, outbox: &mut Outbox, late: u
     // With samples from the link the clutches are somewhere else.
     let command = if device.attached().is_some() { device.safe_command() } else { decision.command };
     coils.drive(command);
-    control.light.show(decision.phase, decision.fault.map(|fault| fault.code()), device.seconds());
+    control.light.show(decision.phase, decision.fault.map(|fault| fault.code()), device.light_slot());
     #[cfg(feature = "log")]
     crate::log::decision(&before, decision);
     memory::save(&device.kept());

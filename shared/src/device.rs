@@ -152,9 +152,9 @@ impl Device {
         (self.controller.instruments.period * counter_hz as f32 + 0.5) as u32
     }
 
-    /// Since the start, s.
-    pub fn seconds(&self) -> f32 {
-        self.ticks as f32 * self.controller.instruments.period
+    /// Slots of the light since the start, counted in whole ticks; they begin anew when the count of ticks does.
+    pub fn light_slot(&self) -> u32 {
+        self.ticks / light::slot_ticks(self.controller.instruments.period)
     }
 
     /// What the last tick came to.

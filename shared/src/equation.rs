@@ -33,6 +33,12 @@ pub trait Equation<S: Scalar>: Copy {
     /// (1 + κ k ℓ²): inertia about the toe over that of the bare block.
     fn inertia(&self, side: S, rotation: S) -> S;
 
+    /// The equation as that of the slender block, if it is one: linear, so that its motion has a closed form.
+    #[inline(always)]
+    fn slender(&self) -> Option<&SlenderBlock<S>> {
+        None
+    }
+
     /// Power that the paper's kinematics take without a cause, per λmR² (1/s³): −κ k ℓ ℓ' θ̇³, which is what the energy
     /// ½(1 + κ k ℓ²)θ̇² of block and flywheel misses of the work done on them; 0 where energy is conserved.
     fn paper_power(&self, side: S, rotation: S, velocity: S) -> S;
@@ -258,6 +264,11 @@ impl<S: Scalar> Equation<S> for SlenderBlock<S> {
     #[inline(always)]
     fn inertia(&self, _side: S, _rotation: S) -> S {
         self.inertia
+    }
+
+    #[inline(always)]
+    fn slender(&self) -> Option<&SlenderBlock<S>> {
+        Some(self)
     }
 
     #[inline(always)]

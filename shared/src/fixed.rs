@@ -89,6 +89,19 @@ pub struct FixedArc<'a, S, E, P, A> {
     method: core::marker::PhantomData<A>,
 }
 
+impl<'a, S: Real, E: Equation<S>, P: Piece<S>, A> FixedArc<'a, S, E, P, A> {
+    #[inline(always)]
+    pub(crate) fn new(start: Start<'a, S, E, P>) -> Self {
+        let first = if start.acceleration_is_zero {
+            S::ZERO
+        } else {
+            let push = start.piece.acceleration(start.time);
+            start.equation.acceleration(start.side.unit(), start.rotation, start.velocity, push)
+        };
+        FixedArc { start, first, method: core::marker::PhantomData }
+    }
+}
+
 impl<S: Real, E: Equation<S>, P: Piece<S>, A: Advance<S>> Arc<S> for FixedArc<'_, S, E, P, A> {
     #[inline(always)]
     fn length(&self) -> S {
@@ -124,13 +137,7 @@ macro_rules! fixed_step_method {
 
             #[inline(always)]
             fn arc<'a, E: Equation<S>, P: Piece<S>>(&'a self, start: Start<'a, S, E, P>) -> Self::Arc<'a, E, P> {
-                let first = if start.acceleration_is_zero {
-                    S::ZERO
-                } else {
-                    let push = start.piece.acceleration(start.time);
-                    start.equation.acceleration(start.side.unit(), start.rotation, start.velocity, push)
-                };
-                FixedArc { start, first, method: core::marker::PhantomData }
+                FixedArc::new(start)
             }
 
             #[inline(always)]

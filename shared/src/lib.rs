@@ -7,7 +7,7 @@
 //! - [`block`], [`carried`], [`inertance`], [`lever`], [`clutch`], [`restitution`]: the structure and its device; [`ground`]: what
 //!   shakes it.
 //! - [`equation`]: the equations of motion.
-//! - [`arc`], [`fixed`], [`tape`], [`taylor`]: methods; [`decay`]: free motion summed to its end; [`polynomial`], [`locate`]: where a smooth motion crosses zero.
+//! - [`arc`], [`fixed`], [`grid`], [`tape`], [`taylor`], [`closed_form`]: methods; [`decay`]: free motion summed to its end; [`polynomial`], [`locate`]: where a smooth motion crosses zero.
 //! - [`structure`]: from parameters to the equations that they need.
 //! - [`rocking`]: the block from event to event; [`observer`]: who watches; [`digest`]: whether two runs are the same.
 //! - [`snapshot`]: block and device at an instant; [`watched`]: of an ideal device; [`ledger`]: where the energy goes; [`checks`]:
@@ -28,6 +28,7 @@ pub mod body;
 pub mod carried;
 pub mod case;
 pub mod checks;
+pub mod closed_form;
 pub mod clutch;
 pub mod control;
 pub mod decay;
@@ -39,6 +40,7 @@ pub mod equation;
 pub mod error;
 pub mod fixed;
 pub mod gear;
+pub mod grid;
 pub mod ground;
 pub mod hybrid;
 pub mod inertance;

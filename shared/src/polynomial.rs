@@ -134,20 +134,62 @@ pub fn first_zero_of<S: Real>(
     (sign.times(end) < S::ZERO).then(|| locate(left, to, sign, S::HALF * (left + to), function))
 }
 
-/// Largest |p(t)| on [`from`, `to`], if above `floor`; else `floor`. Interior extremes are found where the slope changes
-/// sign between the ends of a stretch that the bound `curvature` of the second derivative does not rule out.
-pub fn largest_magnitude<S: Real>(coefficients: &[S], curvature: S, (from, left): (S, S), (to, right): (S, S), floor: S) -> S {
+/// A smooth function of time whose extremes are sought.
+pub trait Curve<S> {
+    /// Its value.
+    fn value(&self, time: S) -> S;
+
+    /// Its value and derivative.
+    fn value_and_slope(&self, time: S) -> (S, S);
+
+    /// Its second derivative.
+    fn second_derivative(&self, time: S) -> S;
+}
+
+/// A polynomial.
+impl<S: Real> Curve<S> for &[S] {
+    #[inline(always)]
+    fn value(&self, time: S) -> S {
+        value(self, time)
+    }
+
+    #[inline(always)]
+    fn value_and_slope(&self, time: S) -> (S, S) {
+        value_and_slope(self, time)
+    }
+
+    #[inline(always)]
+    fn second_derivative(&self, time: S) -> S {
+        second_derivative(self, time)
+    }
+}
+
+/// Largest |p(t)| of a polynomial on [`from`, `to`], if above `floor`; else `floor`.
+pub fn largest_magnitude<S: Real>(coefficients: &[S], curvature: S, from: (S, S), to: (S, S), floor: S) -> S {
+    largest_magnitude_of(&coefficients, curvature, from, to, floor)
+}
+
+/// Largest magnitude of a curve on [`from`, `to`], where its values are `left` and `right`, if above `floor`; else `floor`.
+/// Interior extremes are found where the slope changes sign between the ends of a stretch that the bound `curvature` of the
+/// second derivative does not rule out.
+pub fn largest_magnitude_of<S: Real, F: Curve<S>>(
+    curve: &F,
+    curvature: S,
+    (from, left): (S, S),
+    (to, right): (S, S),
+    floor: S,
+) -> S {
     let w = to - from;
     let ends = floor.larger(left.abs()).larger(right.abs());
     if left.abs().larger(right.abs()) + curvature * (w * w) * S::of(0.125) <= floor {
         return ends;
     }
-    let left_slope = value_and_slope(coefficients, from).1;
-    let right_slope = value_and_slope(coefficients, to).1;
-    largest_within(coefficients, [(from, left, left_slope), (to, right, right_slope)], ends, curvature, w * S::of(1.0 / 16.0))
+    let left_slope = curve.value_and_slope(from).1;
+    let right_slope = curve.value_and_slope(to).1;
+    largest_within(curve, [(from, left, left_slope), (to, right, right_slope)], ends, curvature, w * S::of(1.0 / 16.0))
 }
 
-fn largest_within<S: Real>(coefficients: &[S], ends: [(S, S, S); 2], floor: S, curvature: S, smallest: S) -> S {
+fn largest_within<S: Real, F: Curve<S>>(curve: &F, ends: [(S, S, S); 2], floor: S, curvature: S, smallest: S) -> S {
     let [(from, left, left_slope), (to, right, right_slope)] = ends;
     let w = to - from;
     let ceiling = left.abs().larger(right.abs()) + curvature * (w * w) * S::of(0.125);
@@ -161,19 +203,19 @@ fn largest_within<S: Real>(coefficients: &[S], ends: [(S, S, S); 2], floor: S, c
     }
     if w > smallest && !(peaks && left_slope.abs() + right_slope.abs() > S::of(1.8) * curvature * w) {
         let middle = S::HALF * (from + to);
-        let (value, slope) = value_and_slope(coefficients, middle);
+        let (value, slope) = curve.value_and_slope(middle);
         let floor = floor.larger(value.abs());
-        let floor = largest_within(coefficients, [ends[0], (middle, value, slope)], floor, curvature, smallest);
-        return largest_within(coefficients, [(middle, value, slope), ends[1]], floor, curvature, smallest);
+        let floor = largest_within(curve, [ends[0], (middle, value, slope)], floor, curvature, smallest);
+        return largest_within(curve, [(middle, value, slope), ends[1]], floor, curvature, smallest);
     }
     if !peaks {
         return floor;
     }
     let sign = Sign::of(left_slope, Sign::Positive);
     let at = locate(from, to, sign, from + w * left_slope.abs() / (left_slope.abs() + right_slope.abs()), |t| {
-        (value_and_slope(coefficients, t).1, second_derivative(coefficients, t))
+        (curve.value_and_slope(t).1, curve.second_derivative(t))
     });
-    floor.larger(value(coefficients, at).abs())
+    floor.larger(curve.value(at).abs())
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 //! sign, so it cannot be found a second time.
 
 mod impact;
+mod signs;
 mod uplift;
 
 use core::marker::PhantomData;
@@ -13,6 +14,7 @@ use core::marker::PhantomData;
 use crate::arc::{Arc, Method, Start};
 use crate::clutch::Clutch;
 use crate::equation::Equation;
+use crate::grid::next_stop;
 use crate::ground::Piece;
 use crate::locate::locate;
 use crate::observer::{Event, Observer, Stretch};
@@ -111,6 +113,8 @@ enum End {
     Reached,
     /// A clutch switched, or the block turned about and its clutch with it.
     Switched,
+    /// Rounding leaves open to which side a block at a turn moves off.
+    Undecided,
     /// θ = 0.
     Impact,
     /// |θ| passed the limit.
@@ -160,6 +164,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
         let mut tick = 0_u32;
         let mut events = 0_u32;
         let mut swings = None;
+        let mut undecided = None;
         state.push_is_zero = false;
         while time < duration && state.phase != Phase::Overturned {
             if state.phase == Phase::Rest {
@@ -179,12 +184,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
                 return Ok(());
             }
             let stop = match method.step() {
-                Some(step) => {
-                    while S::count(tick) * step <= time {
-                        tick += 1;
-                    }
-                    (S::count(tick) * step).smaller(duration)
-                }
+                Some(step) => next_stop(&mut tick, step, time, duration),
                 None => duration,
             };
             let end = if self.is_engaged(state) {
@@ -195,6 +195,13 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
             match end {
                 End::Reached => {}
                 End::Switched => observer.event(Event::Switch, time, state),
+                End::Undecided => {
+                    // Neither way: it stands there for the rest of the step.
+                    if undecided == Some(time) && method.step().is_some() {
+                        time = stop;
+                    }
+                    undecided = Some(time);
+                }
                 End::Impact => {
                     time = self.impact(state, piece, time, duration, observer);
                     if P::QUIET && !O::EVERY_SWING && R::SWITCHES_WITH_ACCELERATION && E::SWITCHES_WITH_ACCELERATION {
@@ -245,16 +252,33 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
         });
         let length = arc.length();
         let separate_drive = C::FOLLOWS_SIGNS && !Q::SWITCHES_WITH_ACCELERATION;
-        if *time == S::ZERO && self.jumped(state, &arc, separate_drive) {
-            return End::Switched;
+        if *time == S::ZERO {
+            let before = state.direction;
+            let switched = self.jumped(equation, state, &arc, separate_drive);
+            if state.direction != before && state.rotation != S::ZERO {
+                observer.event(Event::Turn, *time, state);
+            }
+            if switched {
+                return End::Switched;
+            }
         }
         let mut from = S::ZERO;
         let mut first = arc.at(S::ZERO);
         let mut push_is_zero = state.push_is_zero;
         loop {
             let push_zero = arc.acceleration_zero(from, length, state.push, push_is_zero);
-            let drive_zero = if separate_drive {
-                arc.switching_zero(from, push_zero.unwrap_or(length), state.drive, push_is_zero)
+            // What the clock cannot tell from the end of the step is left to the next one.
+            let drive_zero = if separate_drive && length > stop * S::EPSILON * S::of(4.0) {
+                let bound = push_zero.unwrap_or(length);
+                let zero = arc.switching_zero(from, bound, state.drive, push_is_zero);
+                // Just after a switch rounding may show the old sign as far as a zero of θ̈ that follows at once: only a longer look
+                // tells that from a switch back.
+                let at_once = push_zero.is_some() && zero.is_some_and(|zero| zero <= (*time + length) * S::EPSILON);
+                if at_once {
+                    arc.switching_zero(from, length, state.drive, push_is_zero).filter(|&zero| zero <= bound)
+                } else {
+                    zero
+                }
             } else {
                 None
             };
@@ -308,10 +332,27 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
                 *time = *time + over;
                 return End::Overturned;
             }
+            if turns && C::FOLLOWS_SIGNS && from == S::ZERO && first.velocity == S::ZERO && turn <= stop * S::EPSILON {
+                // It has just turned: back at once would go on without end. The motion shows where it goes.
+                state.direction = state.direction.opposite();
+                state.push = state.direction;
+                if !separate_drive {
+                    state.drive = state.push;
+                }
+                return End::Undecided;
+            }
             if turns {
                 (stretch.to, stretch.last) = (turn, at_turn);
                 observer.stretch(&arc, &stretch);
-                state.direction = state.push;
+                // Not the sign of θ̈: in a long Euler step θ̇ does not follow it, and a turn back would be found without end.
+                state.direction = state.direction.opposite();
+                if method.step().is_none() {
+                    // A block let go in balance, with θ̈ = 0, may not have known which way it is pushed; its turn tells.
+                    state.push = state.direction;
+                    if !separate_drive {
+                        state.drive = state.push;
+                    }
+                }
                 observer.event(Event::Turn, *time + turn, &State { rotation: at_turn.rotation, velocity: S::ZERO, ..*state });
                 if C::FOLLOWS_SIGNS {
                     state.rotation = at_turn.rotation;
@@ -355,37 +396,5 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
             *time = if length == stop - *time { stop } else { *time + length };
             return End::Reached;
         }
-    }
-
-    /// At the start of a piece the ground may have jumped, and the signs with it. True when the clutch follows, so that
-    /// another equation is in force.
-    #[inline]
-    fn jumped<A: Arc<S>>(&self, state: &mut State<S>, arc: &A, separate_drive: bool) -> bool {
-        let start = arc.at(S::ZERO);
-        let before = C::engaged(state.direction, state.drive);
-        state.push = Sign::of(start.acceleration, state.push);
-        state.drive = if separate_drive { Sign::of(arc.switching(S::ZERO), state.drive) } else { state.push };
-        if start.velocity == S::ZERO {
-            state.direction = state.push;
-        }
-        C::FOLLOWS_SIGNS && before != C::engaged(state.direction, state.drive)
-    }
-
-    /// Signs of θ̈ and of the terminals' acceleration from the equations.
-    fn read_push(&self, state: &mut State<S>, ground: S) {
-        let inward = state.side.opposite();
-        state.drive = Sign::of(self.engaged.switching(state.side.unit(), state.rotation, state.velocity, ground), inward);
-        self.read_push_only(state, ground);
-        state.push_is_zero = false;
-    }
-
-    fn read_push_only(&self, state: &mut State<S>, ground: S) {
-        let side = state.side.unit();
-        let acceleration = if C::engaged(state.direction, state.drive) {
-            self.engaged.acceleration(side, state.rotation, state.velocity, ground)
-        } else {
-            self.released.acceleration(side, state.rotation, state.velocity, ground)
-        };
-        state.push = Sign::of(acceleration, state.side.opposite());
     }
 }

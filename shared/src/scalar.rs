@@ -40,6 +40,8 @@ pub trait Real: Scalar<Mask = bool> + PartialOrd + Default {
     const HALF: Self;
     /// Distance from 1 to the next number.
     const EPSILON: Self;
+    /// Smallest number with all its digits (below it they are denormal).
+    const SMALLEST: Self;
 
     /// Sine and cosine of any phase (rad); accurate to rounding for |x| up to a few thousand turns.
     fn sin_cos_of_phase(self) -> (Self, Self);
@@ -49,6 +51,9 @@ pub trait Real: Scalar<Mask = bool> + PartialOrd + Default {
 
     /// Square root; NaN below 0.
     fn square_root(self) -> Self;
+
+    /// Stumpff's c₂ and c₃ ([`crate::math::stumpff`]) of z with |z| ≤ 1.
+    fn stumpff_series(self) -> (Self, Self);
 
     /// The whole number `count` (exact up to 2²⁴ in f32, 2⁵³ in f64).
     fn count(count: u32) -> Self;
@@ -79,7 +84,7 @@ pub trait Real: Scalar<Mask = bool> + PartialOrd + Default {
 }
 
 macro_rules! single_number {
-    ($number:ty, $bits:ty, $signed:ty, $one_bits:expr, $sin_cos:path, $phase:path, $exp:path, $sqrt:path) => {
+    ($number:ty, $bits:ty, $signed:ty, $one_bits:expr, $sin_cos:path, $phase:path, $exp:path, $sqrt:path, $stumpff:path) => {
         impl Scalar for $number {
             type Mask = bool;
 
@@ -114,6 +119,7 @@ macro_rules! single_number {
             const ONE: Self = 1.0;
             const HALF: Self = 0.5;
             const EPSILON: Self = <$number>::EPSILON;
+            const SMALLEST: Self = <$number>::MIN_POSITIVE;
 
             #[inline]
             fn sin_cos_of_phase(self) -> (Self, Self) {
@@ -128,6 +134,11 @@ macro_rules! single_number {
             #[inline]
             fn square_root(self) -> Self {
                 $sqrt(self)
+            }
+
+            #[inline]
+            fn stumpff_series(self) -> (Self, Self) {
+                $stumpff(self)
             }
 
             #[inline(always)]
@@ -169,7 +180,8 @@ single_number!(
     crate::math::sine32::sin_cos,
     crate::math::sine32::sin_cos_of_phase,
     crate::math::exp32,
-    crate::math::square_root32
+    crate::math::square_root32,
+    crate::math::stumpff::series32
 );
 single_number!(
     f64,
@@ -179,7 +191,8 @@ single_number!(
     crate::math::sin_cos,
     crate::math::sin_cos,
     crate::math::exp,
-    crate::math::square_root
+    crate::math::square_root,
+    crate::math::stumpff::series
 );
 
 /// Which way: the sign of a rotation, a velocity or an acceleration, kept as a state of its own so that a value

@@ -146,7 +146,7 @@ impl<S: Real, const N: usize> Taylor<S, N> {
         for (order, coefficient) in [(N - 2, arc.rotation[N - 2]), (N - 1, arc.rotation[N - 1])] {
             if coefficient != S::ZERO {
                 let exponent = S::of(RECIPROCALS[order & 63]);
-                let ratio = (tolerance / coefficient.abs()).larger(S::EPSILON * S::EPSILON * S::EPSILON);
+                let ratio = (tolerance / coefficient.abs()).larger(S::SMALLEST);
                 reach = reach.smaller(ratio.rough_power(exponent) * S::of(0.95));
             }
         }

@@ -273,7 +273,7 @@ pub fn decides(decision: &Decision) -> bool {
 }
 
 /// The ways of `docs/controller.md`; a device that goes on after a reset skips what is before Rocking.
-fn is_way(from: Phase, to: Phase, resumed: bool) -> bool {
+pub fn is_way(from: Phase, to: Phase, resumed: bool) -> bool {
     use Phase::{Armed, Boot, Calibrate, Fault, Rocking, SelfTest};
     match (from, to) {
         (Boot, Rocking) => resumed,

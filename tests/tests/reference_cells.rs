@@ -1,45 +1,11 @@
 //! The 1,260 reference cells, computed independently in 113-bit arithmetic.
 
-use std::fs::{File, read_to_string};
-
 use sprag_shared::taylor::Taylor;
 use sprag_sim_host::batch::case::{Case, CaseResult, TERMS, TIGHT};
-use sprag_sim_host::batch::table::read_cases;
-use sprag_tests::shared_file;
+use sprag_tests::reference::cells;
 
 /// Limits of the relative error: median, 95th percentile and maximum.
 const LIMITS: [f64; 3] = [1e-13, 1e-11, 1e-6];
-
-/// A row of `expected.csv`.
-struct Expected {
-    id: String,
-    outcome: String,
-    peak_rotation: Option<f64>,
-    peak_acceleration: Option<f64>,
-    first_impact_time: Option<f64>,
-}
-
-fn expected(text: &str) -> Vec<Expected> {
-    let mut lines = text.lines();
-    let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
-    let column = |name: &str| header.iter().position(|known| *known == name).expect("a known column");
-    let (id, outcome) = (column("id"), column("outcome"));
-    let numbers = ["peak_rotation", "peak_acceleration", "first_impact_time"].map(column);
-    lines
-        .map(|line| {
-            let fields: Vec<&str> = line.split(',').collect();
-            let [peak_rotation, peak_acceleration, first_impact_time] =
-                numbers.map(|at| (!fields[at].is_empty()).then(|| fields[at].parse().expect("a number")));
-            Expected {
-                id: fields[id].to_owned(),
-                outcome: fields[outcome].to_owned(),
-                peak_rotation,
-                peak_acceleration,
-                first_impact_time,
-            }
-        })
-        .collect()
-}
 
 /// Relative errors and the cells that they belong to.
 #[derive(Default)]
@@ -61,21 +27,15 @@ impl Errors {
 
 #[test]
 fn every_cell() {
-    let (Some(cases), Some(answers)) = (shared_file("reference/cases.csv"), shared_file("reference/expected.csv")) else {
-        return;
-    };
-    let cases = read_cases(File::open(cases).expect("a readable file")).expect("a table of cases");
-    let answers = expected(&read_to_string(answers).expect("a readable file"));
-    assert_eq!((cases.len(), answers.len()), (1260, 1260));
-
+    let Some(cells) = cells() else { return };
     let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
     let (mut rotation, mut acceleration, mut impact) = (Errors::default(), Errors::default(), Errors::default());
     let mut wrong = Vec::new();
-    for ((id, case), answer) in cases.iter().zip(&answers) {
-        assert_eq!(*id, answer.id);
+    for answer in &cells {
+        let (id, case) = (&answer.id, &answer.case);
         let result = case.run(&method).expect("a case that can be run");
         if result.outcome.name() != answer.outcome || result.first_impact_time.is_some() != answer.first_impact_time.is_some() {
-            wrong.push((id, result.outcome.name(), &answer.outcome));
+            wrong.push((id.clone(), result.outcome.name(), answer.outcome.clone()));
             continue;
         }
         if let Some(exact) = answer.peak_rotation {

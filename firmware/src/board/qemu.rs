@@ -153,7 +153,7 @@ impl Watchdog for Elsewhere {
 }
 
 impl Light for Elsewhere {
-    fn show(&mut self, _phase: Phase, _fault: Option<u16>, _seconds: f32) {}
+    fn show(&mut self, _phase: Phase, _fault: Option<u16>, _slot: u32) {}
 }
 
 /// The watchdog has not been fed.

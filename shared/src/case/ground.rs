@@ -2,7 +2,7 @@
 
 use super::{CaseError, MOST_PIECES};
 use crate::error::{ParameterError, require};
-use crate::ground::{Harmonics, Linear, Piece, Quiet, Ricker};
+use crate::ground::{Elementary, Harmonics, Linear, Piece, Quiet, Ricker};
 
 /// One shape of ground acceleration, in g, over local time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,13 +106,27 @@ impl Ground<'_> {
         }
     }
 
-    /// Every piece that lasts, with its vertical shape and its duration, in order, for as long as `follow` has no error.
-    pub(super) fn try_for_each<E>(&self, mut follow: impl FnMut(&Shape, &Shape, f32) -> Result<(), E>) -> Result<(), E> {
+    /// When it ends, s.
+    pub(super) fn duration(&self) -> f32 {
+        match self {
+            Ground::Pieces { horizontal, .. } => horizontal.iter().map(|piece| piece.duration).sum(),
+            Ground::Record { interval, samples, .. } => samples.len().saturating_sub(1) as f32 * interval,
+        }
+    }
+
+    /// Every piece that lasts, with its vertical shape, when it starts and its duration, in order, for as long as `follow` has no
+    /// error. In a record the time is counted: a sum of its intervals would drift.
+    pub(super) fn try_for_each<E>(&self, mut follow: impl FnMut(&Shape, &Shape, f32, f32) -> Result<(), E>) -> Result<(), E> {
         match self {
             Ground::Pieces { horizontal, vertical } => {
                 let vertical = vertical.as_ref().unwrap_or(&[Shape::Quiet; MOST_PIECES]);
                 let mut pieces = horizontal.iter().zip(vertical).filter(|(piece, _)| piece.duration > 0.0);
-                pieces.try_for_each(|(piece, vertical)| follow(&piece.shape, vertical, piece.duration))
+                let mut start = 0.0;
+                pieces.try_for_each(|(piece, vertical)| {
+                    let done = follow(&piece.shape, vertical, start, piece.duration);
+                    start += piece.duration;
+                    done
+                })
             }
             Ground::Record { interval, samples, vertical } => {
                 let line = |pair: &[u32]| match *pair {
@@ -120,7 +134,9 @@ impl Ground<'_> {
                     _ => Shape::Quiet,
                 };
                 let mut verticals = vertical.unwrap_or(&[]).windows(2);
-                samples.windows(2).try_for_each(|pair| follow(&line(pair), &line(verticals.next().unwrap_or(&[])), *interval))
+                samples.windows(2).enumerate().try_for_each(|(index, pair)| {
+                    follow(&line(pair), &line(verticals.next().unwrap_or(&[])), index as f32 * interval, *interval)
+                })
             }
         }
     }
@@ -239,6 +255,16 @@ impl Piece<f32> for Shape {
             Shape::Sine(piece) => piece.series(time, coefficients),
             Shape::ThreeSines(piece) => piece.series(time, coefficients),
             Shape::Ricker(piece) => piece.series(time, coefficients),
+        }
+    }
+
+    fn elementary(&self, time: f32) -> Option<Elementary<f32>> {
+        match self {
+            Shape::Quiet => Quiet.elementary(time),
+            Shape::Linear(piece) => piece.elementary(time),
+            Shape::Sine(piece) => piece.elementary(time),
+            Shape::ThreeSines(piece) => piece.elementary(time),
+            Shape::Ricker(piece) => piece.elementary(time),
         }
     }
 }

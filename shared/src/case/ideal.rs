@@ -75,14 +75,13 @@ impl<O: Observer<f32>> Runner<'_, '_, '_, O> {
         let block = structure.loaded()?.block;
         let no_return = |bound: f32| structure.geometry.point_of_no_return(&block, f64::from(bound)) as f32;
         let overturned = no_return(ground.bound());
-        let mut follow = |shape: &Shape, duration: f32, overturned: f32| -> Result<(), Stopped> {
+        let mut follow = |shape: &Shape, start: f32, duration: f32, overturned: f32| -> Result<(), Stopped> {
             let limits = Limits { overturned, events: most_events(duration, *step) };
-            let done = system.advance(method, &mut state, shape, duration, &limits, &mut watch);
-            watch.peaks.origin += duration;
-            done
+            watch.peaks.origin = start;
+            system.advance(method, &mut state, shape, duration, &limits, &mut watch)
         };
-        ground.try_for_each(|shape, _, duration| follow(shape, duration, overturned))?;
-        follow(&Shape::Quiet, *free_time, no_return(0.0))?;
+        ground.try_for_each(|shape, _, start, duration| follow(shape, start, duration, overturned))?;
+        follow(&Shape::Quiet, ground.duration(), *free_time, no_return(0.0))?;
         let Watch { peaks, steps, .. } = watch;
         Ok(RunEnd { ending: Ending::of(&state, &peaks), state, peaks, steps, missed: 0 })
     }

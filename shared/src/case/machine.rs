@@ -93,16 +93,15 @@ impl Runner<'_, '_, '_> {
             Initially::Released { rotation, velocity } => machine.released_at(rotation, velocity, ground.first()),
         };
         watch.peaks.rocked = state.motion.phase == Phase::Rocking;
-        let mut follow = |horizontal: &Shape, vertical: &Shape, duration: f32| -> Result<(), Stopped> {
+        let mut follow = |horizontal: &Shape, vertical: &Shape, start: f32, duration: f32| -> Result<(), Stopped> {
             let limits = Limits { overturned: OVERTURNED, events: most_events(duration, *step) };
             let shaking = Shaking { horizontal, vertical };
-            let done = machine.advance(tracer, &mut state, shaking, duration, &limits, &mut watch);
-            watch.peaks.origin += duration;
-            done
+            watch.peaks.origin = start;
+            machine.advance(tracer, &mut state, shaking, duration, &limits, &mut watch)
         };
         ground.try_for_each(&mut follow)?;
         if *free_time > 0.0 {
-            follow(&Shape::Quiet, &Shape::Quiet, *free_time)?;
+            follow(&Shape::Quiet, &Shape::Quiet, ground.duration(), *free_time)?;
         }
         let Watch { peaks, steps, .. } = watch;
         let ending = Ending::of(&state.motion, &peaks);

@@ -31,19 +31,24 @@ pub struct Plausible {
     pub accelerometer: f32,
 }
 
-/// The mean of a reading, as its mean difference from the first: small numbers, so that a sum of f32 loses nothing.
+/// The mean of a reading, as its mean difference from the first, summed with Kahan's compensation: an hour of ticks is more than f32 counts to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Mean {
     first: f32,
     sum: f32,
+    /// By how much the sum is too large.
+    excess: f32,
 }
 
 impl Mean {
     fn add(&mut self, ticks: u32, value: f32) {
         if ticks == 0 {
-            *self = Mean { first: value, sum: 0.0 };
+            *self = Mean { first: value, sum: 0.0, excess: 0.0 };
         } else {
-            self.sum += value - self.first;
+            let news = value - self.first - self.excess;
+            let sum = self.sum + news;
+            self.excess = (sum - self.sum) - news;
+            self.sum = sum;
         }
     }
 
@@ -173,6 +178,24 @@ mod tests {
         }
         let (found, _) = averaging.finish(&LAST, &PLAUSIBLE, 9.81);
         assert!((found.gyroscope - 0.05).abs() < 1e-5 && (found.block[1] - 0.1).abs() < 1e-5, "{found:?}");
+    }
+
+    #[test]
+    fn the_longest_mean_loses_nothing() {
+        // Beyond 2^24 ticks, from where on a bare sum of f32 stays where it is.
+        let mut averaging = Averaging::default();
+        averaging.add(&sample(0.0, [0.0, 9.81], [0.0, 9.81], 7), [true; 4]);
+        for _ in 0..20_000_000 {
+            averaging.add(&sample(0.05, [0.1, 9.91], [-0.1, 9.71], 10), [true; 4]);
+        }
+        let (found, bad) = averaging.finish(&LAST, &PLAUSIBLE, 9.81);
+        assert_eq!((bad, found.encoder_zero), ([false; 4], 10));
+        let close = |value: f32, expected: f32| assert!((value - expected).abs() < 2e-6, "{found:?}");
+        close(found.gyroscope, 0.05);
+        close(found.block[0], 0.1);
+        close(found.block[1], 0.1);
+        close(found.ground[0], -0.1);
+        close(found.ground[1], -0.1);
     }
 
     #[test]

@@ -127,6 +127,18 @@ mod tests {
     }
 
     #[test]
+    fn a_count_at_its_end_stays_and_the_log_goes_on() {
+        let mut log = EventLog::<4>::new();
+        log.count = u32::MAX - 2;
+        for tick in u32::MAX - 5..u32::MAX {
+            log.push(entry(tick));
+        }
+        assert_eq!(log.count(), u32::MAX);
+        let ticks: Vec<u32> = log.iter().map(|entry| entry.tick).collect();
+        assert_eq!(ticks, (u32::MAX - 4..u32::MAX).collect::<Vec<u32>>());
+    }
+
+    #[test]
     fn equal_where_they_hold_the_same() {
         let (mut first, mut second) = (EventLog::<2>::new(), EventLog::<2>::new());
         first.push(entry(1));

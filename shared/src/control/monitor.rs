@@ -98,7 +98,8 @@ impl MonitorState {
 
     /// To be called when the biases change: what was seen with the old ones must not be held against the new.
     pub fn recalibrated(&mut self) {
-        (self.agreement, self.rest) = (Agreement::default(), Rest::default());
+        self.agreement = Agreement::default();
+        self.rest.recalibrated();
     }
 }
 

@@ -33,4 +33,21 @@ mod tests {
         let counts = counters.map(|counter| extended.read(counter));
         assert_eq!(counts, [0, 5, -1, -536, -25_536, -536, 20_000, 50_000, 75_536]);
     }
+
+    #[test]
+    fn days_of_rocking_are_counted_one_by_one_through_every_wrap() {
+        // Counts to and fro, never coming back to where it began, through both ends of 32 bits.
+        for start in [0, i32::MAX - 5, i32::MIN + 5] {
+            let (mut extended, mut truth) = (Extended::from(start), i64::from(start));
+            let mut word = 1_u32;
+            for step in 0..1_000_000_i64 {
+                word = word.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                let moved = i64::from((word >> 16) as i16) + if step % 7 == 0 { 900 } else { 0 };
+                truth += moved.clamp(i64::from(i16::MIN), i64::from(i16::MAX));
+                let counter = truth.wrapping_sub(i64::from(start)) as u16;
+                assert_eq!(extended.read(counter), truth as i32);
+            }
+            assert!((truth - i64::from(start)).abs() > 50_000_000, "{truth}");
+        }
+    }
 }

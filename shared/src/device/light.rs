@@ -10,8 +10,7 @@
 
 use crate::control::supervisor::Phase;
 
-/// Time is counted in slots of 50 ms, so many a second. The product with seconds stays whole numbers for years, where seconds in f32 lose
-/// milliseconds after a day.
+/// Time is counted in slots of 50 ms, so many a second: whole numbers, because seconds in f32 no longer tell two slots apart after ten days.
 const SLOTS_PER_SECOND: u32 = 20;
 
 /// Slots of a short flash.
@@ -30,9 +29,13 @@ const LONG_PAUSE: u32 = 50;
 /// For how long, s, the light flickers after a start without the crystal.
 const FLICKER: u32 = 3;
 
-/// Whether the light is lit in a phase, with the code of its fault if there is one, `seconds` after the start.
-pub fn lit(phase: Phase, fault_code: Option<u16>, seconds: f32) -> bool {
-    let slot = (seconds * SLOTS_PER_SECOND as f32) as u32;
+/// Ticks of a slot where a tick lasts `period` s; at least 1.
+pub fn slot_ticks(period: f32) -> u32 {
+    ((1.0 / (SLOTS_PER_SECOND as f32 * period) + 0.5) as u32).max(1)
+}
+
+/// Whether the light is lit in a phase, with the code of its fault if there is one, in a slot.
+pub fn lit(phase: Phase, fault_code: Option<u16>, slot: u32) -> bool {
     let in_second = slot % SLOTS_PER_SECOND;
     match phase {
         Phase::Boot | Phase::SelfTest => in_second < FLASH,
@@ -44,12 +47,8 @@ pub fn lit(phase: Phase, fault_code: Option<u16>, seconds: f32) -> bool {
 }
 
 /// As [`lit`], for a controller that runs without its crystal: flickers for the first seconds, ten times a second.
-pub fn lit_without_crystal(phase: Phase, fault_code: Option<u16>, seconds: f32) -> bool {
-    if seconds < FLICKER as f32 {
-        ((seconds * SLOTS_PER_SECOND as f32) as u32).is_multiple_of(2)
-    } else {
-        lit(phase, fault_code, seconds)
-    }
+pub fn lit_without_crystal(phase: Phase, fault_code: Option<u16>, slot: u32) -> bool {
+    if slot < FLICKER * SLOTS_PER_SECOND { slot.is_multiple_of(2) } else { lit(phase, fault_code, slot) }
 }
 
 /// Slots of a digit, with the dark after its last blink.
@@ -73,9 +72,9 @@ mod tests {
     use super::*;
     use std::string::String;
 
-    /// A letter a slot, from the middle of the first.
+    /// A letter a slot.
     fn shown(phase: Phase, code: Option<u16>, slots: usize) -> String {
-        (0..slots).map(|slot| if lit(phase, code, (slot as f32 + 0.5) / 20.0) { '#' } else { '.' }).collect()
+        (0..slots as u32).map(|slot| if lit(phase, code, slot) { '#' } else { '.' }).collect()
     }
 
     #[test]
@@ -108,18 +107,23 @@ mod tests {
 
     #[test]
     fn without_the_crystal_it_flickers_first() {
-        let flicker: String = (0..64)
-            .map(|slot| if lit_without_crystal(Phase::Armed, None, (slot as f32 + 0.5) / 20.0) { '#' } else { '.' })
-            .collect();
+        let flicker: String = (0..64).map(|slot| if lit_without_crystal(Phase::Armed, None, slot) { '#' } else { '.' }).collect();
         assert_eq!(flicker, ["#.".repeat(30), "####".into()].concat());
     }
 
     #[test]
     fn any_time_and_any_code_is_shown() {
-        for seconds in [f32::NAN, -1.0, f32::INFINITY, 1e9] {
+        for slot in [0, 1 << 24, u32::MAX] {
             for code in [None, Some(99), Some(u16::MAX)] {
-                lit(Phase::Fault, code, seconds);
+                lit(Phase::Fault, code, slot);
             }
+        }
+    }
+
+    #[test]
+    fn a_slot_is_50_ms_at_every_rate_of_ticks() {
+        for (period, ticks) in [(0.0005, 100), (1e-5, 5000), (0.01, 5), (0.001, 50), (0.1, 1), (f32::NAN, 1)] {
+            assert_eq!(slot_ticks(period), ticks, "{period} s");
         }
     }
 }

@@ -16,6 +16,7 @@ use std::vec::Vec;
 mod flash;
 mod resume;
 mod rig;
+mod wraps;
 
 const AROUND: Surroundings = Surroundings {
     version: [1, 2, 3],

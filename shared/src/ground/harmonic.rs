@@ -1,7 +1,8 @@
 //! Sines: the one-cycle sine and cosine pulses, the half sine, and the Mavroeidis-Papageorgiou wavelet, which is a sum
 //! of three.
 
-use super::Piece;
+use super::elementary::Wave;
+use super::{Elementary, Piece};
 use crate::math;
 use crate::scalar::Real;
 
@@ -111,6 +112,14 @@ impl<S: Real, const M: usize> Piece<S> for Harmonics<S, M> {
                 }
             }
         }
+    }
+
+    #[inline]
+    fn elementary(&self, time: S) -> Option<Elementary<S>> {
+        self.terms.iter().try_fold(Elementary::line(S::ZERO), |sum, term| {
+            let (sine, cosine) = (term.frequency * time + term.phase).sin_cos_of_phase();
+            sum.with(Wave { frequency: term.frequency, sine: term.amplitude * sine, cosine: term.amplitude * cosine })
+        })
     }
 }
 

@@ -1,6 +1,6 @@
 //! A straight line: between two samples of a record, a rectangular pulse, or quiet ground seen by a controller's tick.
 
-use super::Piece;
+use super::{Elementary, Piece};
 use crate::scalar::Real;
 
 /// ü_g/g = start + slope τ.
@@ -49,6 +49,11 @@ impl<S: Real> Piece<S> for Linear<S> {
             *first = self.acceleration(time);
             *second = self.slope;
         }
+    }
+
+    #[inline(always)]
+    fn elementary(&self, _time: S) -> Option<Elementary<S>> {
+        Some(Elementary::line(self.slope))
     }
 }
 

@@ -3,10 +3,12 @@
 //! A ground motion is a row of pieces, each smooth in its own local time from 0, with every kink and jump at a boundary
 //! between two. Accelerations are in g. Steppers see one piece at a time, so no step ever crosses a kink.
 
+pub mod elementary;
 pub mod harmonic;
 pub mod linear;
 pub mod ricker;
 
+pub use elementary::Elementary;
 pub use harmonic::Harmonics;
 pub use linear::Linear;
 pub use ricker::Ricker;
@@ -29,6 +31,13 @@ pub trait Piece<S: Real> {
 
     /// Taylor coefficients of ü_g/g about τ, as many as `coefficients` holds.
     fn series(&self, time: S, coefficients: &mut [S]);
+
+    /// How ü_g/g goes on from τ, if it is made of a line and a few sines; the same answer, yes or no, for every τ.
+    #[inline(always)]
+    fn elementary(&self, time: S) -> Option<Elementary<S>> {
+        let _ = time;
+        None
+    }
 }
 
 /// Ground that does not move.
@@ -56,6 +65,11 @@ impl<S: Real> Piece<S> for Quiet {
     #[inline(always)]
     fn series(&self, _time: S, coefficients: &mut [S]) {
         coefficients.fill(S::ZERO);
+    }
+
+    #[inline(always)]
+    fn elementary(&self, _time: S) -> Option<Elementary<S>> {
+        Some(Elementary::line(S::ZERO))
     }
 }
 
@@ -88,6 +102,10 @@ impl<S: Real, A: Piece<S>, B: Piece<S>> Piece<S> for Sum<A, B> {
         for (sum, &other) in coefficients.iter_mut().zip(&others) {
             *sum = *sum + other;
         }
+    }
+
+    fn elementary(&self, time: S) -> Option<Elementary<S>> {
+        self.0.elementary(time)?.and(&self.1.elementary(time)?)
     }
 }
 

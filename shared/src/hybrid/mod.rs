@@ -22,6 +22,7 @@ use crate::arc::{Arc, Motion};
 use crate::body::Body;
 use crate::drivetrain::device::{Coupling, Device, Law, Watch};
 use crate::drivetrain::drive::{Drive, Instant, Moment, MomentOf};
+use crate::grid::next_stop;
 use crate::ground::Piece;
 use crate::locate::locate;
 use crate::observer::{Event, Stretch};
@@ -137,12 +138,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 break;
             }
             let mut stop = match tracer.step() {
-                Some(step) => {
-                    while S::count(tick) * step <= time {
-                        tick += 1;
-                    }
-                    (S::count(tick) * step).smaller(duration)
-                }
+                Some(step) => next_stop(&mut tick, step, time, duration),
                 None => duration,
             };
             if let Some(due) = self.next_due(state) {

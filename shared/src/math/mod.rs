@@ -4,11 +4,16 @@
 //! - f32: [`sine32`], an own polynomial in single precision. libm's `sinf` computes in double, which on a Cortex-M4F
 //!   (single-precision FPU) takes some 1,200 instructions.
 //! - lanes: [`wide_sine`], a branch-free f64 polynomial that fills SIMD registers.
+//! - [`tier`], [`tiered`]: any of these and others in the place of a number's own sine, to compare them; [`stumpff`]: what is left of
+//!   sines and cosines in short steps.
 //!
 //! `clippy.toml` forbids the methods of `std`: which implementation they use depends on the platform and on cargo's
 //! feature unification.
 
 pub mod sine32;
+pub mod stumpff;
+pub mod tier;
+pub mod tiered;
 pub mod wide_sine;
 
 pub use libm::{

@@ -35,7 +35,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
         self.read_push(state, ground);
         observer.event(Event::Impact, time, state);
         // A push beyond the threshold ends impacts too weak for the clock to tell apart: the block uplifts to the other side.
-        if ground.abs() > self.uplift {
+        if self.lifts(ground) {
             let rate = self.released.acceleration(state.side.unit(), S::ZERO, S::ZERO, ground);
             let unresolved = state.side.times(rate) < S::ZERO && time + state.velocity.abs() / rate.abs() == time;
             if state.velocity == S::ZERO || unresolved {
@@ -43,7 +43,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
             }
             return time;
         }
-        if state.velocity.abs() <= self.rest_speed && ground.abs() <= self.uplift {
+        if state.velocity.abs() <= self.rest_speed {
             let tail = self.accumulation(state.side, state.velocity.abs(), ground);
             let ends = time + tail.duration;
             let holds = ends <= duration && piece.acceleration(ends).abs() < self.uplift;

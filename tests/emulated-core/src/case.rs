@@ -1,5 +1,6 @@
 //! Running one case: words in, lines out.
 
+use crate::watcher::Watcher;
 use core::fmt;
 use sprag_shared::{
     case::{self, CaseError},
@@ -45,10 +46,11 @@ impl From<fmt::Error> for RunError {
 /// # Errors
 /// If the words are no case, or `out` refuses a line.
 pub fn run_case(words: &[u32], counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> Result<(), RunError> {
-    let mut digest = Digest::default();
+    let mut watcher = Watcher { digest: Some(Digest::default()) };
     let before = counter();
-    let end = case::run(words, &mut digest)?;
+    let end = case::run(words, &mut watcher)?;
     let instructions = counter().wrapping_sub(before);
+    let digest = watcher.digest.unwrap_or_default();
     writeln!(out, "outcome {}", end.ending.name())?;
     writeln!(out, "impacts {}", end.state.impacts)?;
     writeln!(out, "peak_rotation_rad {}", end.peaks.rotation)?;

@@ -3,6 +3,7 @@
 //! Every kernel is a function of its own that is not inlined, with inputs and outputs in memory, so that a count includes
 //! the call and can be compared with a call from anywhere.
 
+mod accuracy;
 mod controller;
 mod devices;
 
@@ -194,6 +195,7 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
     located("located-euler-step", &SemiImplicitEuler { step: STEP }, (&pair, &pulse), counter, out)?;
     located("located-rk4-step", &RungeKutta4 { step: STEP }, (&pair, &pulse), counter, out)?;
     located("located-taylor12-step", &Taylor::<f32, 12>::fixed(10.0 * STEP), (&pair, &pulse), counter, out)?;
+    accuracy::report(counter, out)?;
     devices::report(counter, out)?;
     controller::report(counter, out)
 }

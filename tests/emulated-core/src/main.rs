@@ -11,6 +11,7 @@ mod failure;
 mod instruction_counter;
 mod kernels;
 mod self_check;
+mod watcher;
 
 #[cfg_attr(target_os = "none", path = "board.rs")]
 #[cfg_attr(not(target_os = "none"), path = "host.rs")]

@@ -20,8 +20,8 @@ impl BoardLight {
 }
 
 impl Light for BoardLight {
-    fn show(&mut self, phase: Phase, fault: Option<u16>, seconds: f32) {
+    fn show(&mut self, phase: Phase, fault: Option<u16>, slot: u32) {
         let pattern = if self.crystal { lit } else { lit_without_crystal };
-        self.pin.set_state(PinState::from(!pattern(phase, fault, seconds)));
+        self.pin.set_state(PinState::from(!pattern(phase, fault, slot)));
     }
 }

@@ -26,6 +26,11 @@ impl Rest {
         self.quiet.note(block.is_some_and(|off| off <= tolerance));
     }
 
+    /// The biases are new. Who has been quiet for long still is: the two that can contradict each other at once need this witness.
+    pub fn recalibrated(&mut self) {
+        *self = Rest { quiet: self.quiet, ..Rest::default() };
+    }
+
     /// The block's contradicts gravity.
     pub fn block(&self, ticks: u32) -> bool {
         self.block.lasted(ticks)

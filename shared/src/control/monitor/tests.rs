@@ -87,6 +87,36 @@ fn a_gap_does_not_look_like_a_difference() {
     }
 }
 
+/// A gyroscope whose bias no calibration takes turns beside an encoder that stands: it is the one that is wrong, from the first tick on.
+#[test]
+fn after_a_calibration_the_third_witness_is_still_there() {
+    let parameters = MonitorParameters {
+        encoder: EncoderLimits { counts_per_radian: 1e5, ..MonitorParameters::default().encoder },
+        ..MonitorParameters::default()
+    };
+    let monitor = parameters.resolve(0.0005, 0.2);
+    let mut state = MonitorState::default();
+    let turning = |tick: u32| {
+        let mut sample = still(1 + tick);
+        // In noise too small to count.
+        sample.gyroscope.value = 0.21 + 1e-6 * tick as f32;
+        sample.block_accelerometer[0].value = 1e-5 * tick as f32;
+        sample
+    };
+    for tick in 0..1000 {
+        let found = monitor.step(&mut state, &turning(tick), &Context { calibrated: false, ..CONTEXT });
+        assert_eq!(found.faults, [None; 4], "{tick}");
+    }
+    state.recalibrated();
+    let mut seen = false;
+    for tick in 1000..1100 {
+        let [gyroscope, others @ ..] = monitor.step(&mut state, &turning(tick), &CONTEXT).faults;
+        assert_eq!(others, [None; 3], "{tick}");
+        seen |= gyroscope == Some(Fault::Contradiction(Sensor::Gyroscope));
+    }
+    assert!(seen);
+}
+
 #[test]
 fn the_stuck_time_follows_the_noise() {
     assert_eq!(stuck_time(0.0, 0.001), 0.0);

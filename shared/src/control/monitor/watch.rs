@@ -164,6 +164,22 @@ mod tests {
     }
 
     #[test]
+    fn an_age_that_has_grown_for_years_stays_and_ends_with_the_next_reading() {
+        let reading = |number| Reading { value: 0.5 * number as f32, number };
+        let mut watch = Watch { number: 7, seen: true, due: true, age: u32::MAX - 3, ..Watch::default() };
+        for _ in 0..10 {
+            watch.step(reading(7), &LIMITS, false);
+            assert!(watch.stale(&LIMITS));
+        }
+        assert!(watch.step(reading(8), &LIMITS, false) && !watch.stale(&LIMITS));
+        let mut arrival = Watch { age: u32::MAX - 3, ..watch };
+        for _ in 0..10 {
+            assert!(!arrival.arrival(8, &LIMITS) && arrival.stale(&LIMITS));
+        }
+        assert!(arrival.arrival(0, &LIMITS) && !arrival.stale(&LIMITS));
+    }
+
+    #[test]
     fn stuck_only_where_it_must_change() {
         let mut watch = Watch::default();
         feed(&mut watch, 1..500, false, |_| 0.3);

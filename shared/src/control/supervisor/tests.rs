@@ -7,6 +7,7 @@ mod faults;
 mod garbage;
 mod recovery;
 mod rig;
+mod wraps;
 
 #[test]
 fn from_boot_to_rocking_and_back() {

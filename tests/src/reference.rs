@@ -1,0 +1,49 @@
+//! The reference cells: 1,260 cases and their results in 113-bit arithmetic.
+
+use std::fs::{File, read_to_string};
+
+use sprag_sim_host::batch::case::Case;
+use sprag_sim_host::batch::table::read_cases;
+
+use crate::shared_file;
+
+/// A reference cell.
+pub struct Cell {
+    /// Its number.
+    pub id: String,
+    /// The case.
+    pub case: Case,
+    /// Its outcome.
+    pub outcome: String,
+    /// max |θ|/α, of a block that rocks and stands.
+    pub peak_rotation: Option<f64>,
+    /// max |θ̈|/(p²α), likewise.
+    pub peak_acceleration: Option<f64>,
+    /// The first impact, in 1/p from the pulse's start.
+    pub first_impact_time: Option<f64>,
+}
+
+/// All cells; none, with one line on stderr, where the shared folder is absent.
+pub fn cells() -> Option<Vec<Cell>> {
+    let (cases, answers) = (shared_file("reference/cases.csv")?, shared_file("reference/expected.csv")?);
+    let cases = read_cases(File::open(cases).expect("a readable file")).expect("a table of cases");
+    let text = read_to_string(answers).expect("a readable file");
+    let mut lines = text.lines();
+    let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
+    let column = |name: &str| header.iter().position(|known| *known == name).expect("a known column");
+    let (id, outcome) = (column("id"), column("outcome"));
+    let numbers = ["peak_rotation", "peak_acceleration", "first_impact_time"].map(column);
+    let cells: Vec<Cell> = cases
+        .into_iter()
+        .zip(lines)
+        .map(|((own_id, case), line)| {
+            let fields: Vec<&str> = line.split(',').collect();
+            assert_eq!(own_id, fields[id], "cells and their results are in one order");
+            let [peak_rotation, peak_acceleration, first_impact_time] =
+                numbers.map(|at| (!fields[at].is_empty()).then(|| fields[at].parse().expect("a number")));
+            Cell { id: own_id, case, outcome: fields[outcome].to_owned(), peak_rotation, peak_acceleration, first_impact_time }
+        })
+        .collect();
+    assert_eq!(cells.len(), 1260);
+    Some(cells)
+}

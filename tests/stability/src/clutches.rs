@@ -1,0 +1,121 @@
+//! A block with elastic clutches, whatever their stiffness, by fixed exponential midpoint steps.
+
+use sprag_shared::body::Body;
+use sprag_shared::drivetrain::drive::Drive;
+use sprag_shared::drivetrain::elastic::ElasticPair;
+use sprag_shared::drivetrain::{Drivetrain, Engagement};
+use sprag_shared::ground::{Harmonics, Quiet};
+use sprag_shared::hybrid::Machine;
+use sprag_shared::hybrid::exponential::ExponentialMidpoint;
+use sprag_shared::hybrid::path::Shaking;
+use sprag_shared::hybrid::resolve::WithMachine;
+use sprag_shared::observer::{Event, Stretch};
+use sprag_shared::rocking::{Limits, State, Stopped};
+use sprag_shared::scalar::Real;
+use sprag_shared::snapshot::{DeviceArc, DeviceObserver};
+use sprag_shared::structure::Structure;
+
+use crate::energy::Energy;
+
+/// How a block with elastic clutches comes out of a sine pulse and the time after it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElasticEnd<S> {
+    /// The last state, or why there is none.
+    pub state: Result<State<S>, Stopped>,
+    /// Largest |θ|, rad.
+    pub peak: f64,
+    /// Steps begun.
+    pub steps: u64,
+    /// Events told.
+    pub events: u64,
+    /// Deepest |θ| below the floor, rad.
+    pub depth: f64,
+    /// Largest gain of energy (of block, flywheels and springs) over its least so far while the ground is quiet, over the barrier.
+    pub gain: f64,
+}
+
+/// Follows `structure` with elastic clutches of `stiffness` K (N/m per kg of block) and `damping_ratio` from rest through one
+/// cycle of a sine of `amplitude` (g) and `frequency` (rad/s) and for `free_time` (s) after it, in fixed steps of `step` (s).
+pub fn elastic_run<S: Real>(
+    structure: &Structure,
+    (stiffness, damping_ratio): (f64, f64),
+    (amplitude, frequency): (f64, f64),
+    free_time: f64,
+    step: f64,
+) -> ElasticEnd<S> {
+    let damping = 2.0 * damping_ratio * sprag_shared::math::square_root(stiffness * structure.device.mass_ratio);
+    let engagement = Engagement::Elastic { stiffness, damping, backlash: 0.0, capacity_ratio: f64::INFINITY };
+    let drivetrain = Drivetrain { engagement, ..Drivetrain::default() };
+    let run = Run { structure, pulse: (S::of(amplitude), S::of(frequency)), free_time: S::of(free_time), step: S::of(step) };
+    drivetrain.resolve(structure, false, run).expect("parameters within range")
+}
+
+struct Run<'a, S> {
+    structure: &'a Structure,
+    pulse: (S, S),
+    free_time: S,
+    step: S,
+}
+
+struct Watch {
+    energy: Energy,
+    quiet: bool,
+    least: f64,
+    peak: f64,
+    steps: u64,
+    events: u64,
+    depth: f64,
+    gain: f64,
+}
+
+impl<S: Real> DeviceObserver<S> for Watch {
+    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        self.steps += 1;
+        self.depth = self.depth.max(-stretch.side.times(stretch.last.rotation).to_f64());
+        self.peak = self.peak.max(stretch.last.rotation.abs().to_f64());
+        if self.quiet {
+            let p2 = self.energy.frequency * self.energy.frequency;
+            let stored = arc.snapshot(stretch.to).stored.to_f64() / p2;
+            // What moves with the block is counted by the device.
+            let energy = self.energy.at(&stretch.last, stretch.side, false) + stored;
+            self.gain = self.gain.max((energy - self.least) / self.energy.barrier());
+            self.least = self.least.min(energy);
+        }
+    }
+
+    fn device_event(&mut self, _event: Event, _time: S, _state: &State<S>) {
+        self.events += 1;
+    }
+}
+
+impl<S: Real> WithMachine<S> for Run<'_, S> {
+    type Output = ElasticEnd<S>;
+
+    fn with<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+        self,
+        _machine: Machine<S, B, D, X, G>,
+    ) -> ElasticEnd<S> {
+        unreachable!("the drivetrain has elastic clutches")
+    }
+
+    fn with_elastic<B: Body<S>>(self, machine: Machine<S, B, ElasticPair<S>, 4, 3>) -> ElasticEnd<S> {
+        let Run { structure, pulse: (amplitude, frequency), free_time, step } = self;
+        let energy = Energy::of(structure);
+        let mut watch =
+            Watch { energy, quiet: false, least: f64::INFINITY, peak: 0.0, steps: 0, events: 0, depth: 0.0, gain: 0.0 };
+        let mut state = machine.at_rest();
+        let method = ExponentialMidpoint { step };
+        let limits = Limits { overturned: S::of(core::f64::consts::FRAC_PI_2), events: 10_000_000 };
+        let duration = S::of(core::f64::consts::TAU) / frequency;
+        let sine = Harmonics::sine(amplitude, frequency);
+        let shaking = Shaking { horizontal: &sine, vertical: &Quiet };
+        let mut done = machine.advance(&method, &mut state, shaking, duration, &limits, &mut watch);
+        if done.is_ok() {
+            watch.quiet = true;
+            let shaking = Shaking { horizontal: &Quiet, vertical: &Quiet };
+            done = machine.advance(&method, &mut state, shaking, free_time, &limits, &mut watch);
+        }
+        let Watch { peak, steps, events, depth, gain, .. } = watch;
+        ElasticEnd { state: done.map(|()| state.motion), peak, steps, events, depth, gain }
+    }
+}

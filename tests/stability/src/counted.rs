@@ -1,0 +1,84 @@
+//! A method that counts its work.
+
+use std::cell::Cell;
+
+use sprag_shared::arc::{Arc, Method, Motion, Start};
+use sprag_shared::equation::Equation;
+use sprag_shared::ground::Piece;
+use sprag_shared::scalar::{Real, Sign};
+
+/// Another method, counted: work is bounded by numbers of arcs and of looks at them, never by a clock.
+#[derive(Debug, Default)]
+pub struct Counted<M> {
+    method: M,
+    arcs: Cell<u64>,
+    looks: Cell<u64>,
+}
+
+impl<M> Counted<M> {
+    /// `method`, nothing counted yet.
+    pub fn new(method: M) -> Counted<M> {
+        Counted { method, arcs: Cell::new(0), looks: Cell::new(0) }
+    }
+
+    /// Arcs begun so far.
+    pub fn arcs(&self) -> u64 {
+        self.arcs.get()
+    }
+
+    /// Motions and switching functions asked for so far; of a fixed-step method each is a step taken.
+    pub fn looks(&self) -> u64 {
+        self.looks.get()
+    }
+}
+
+/// The arc of a [`Counted`] method.
+#[derive(Debug)]
+pub struct CountedArc<'c, A> {
+    arc: A,
+    looks: &'c Cell<u64>,
+}
+
+impl<S: Real, A: Arc<S>> Arc<S> for CountedArc<'_, A> {
+    fn length(&self) -> S {
+        self.arc.length()
+    }
+
+    fn at(&self, time: S) -> Motion<S> {
+        self.looks.set(self.looks.get() + 1);
+        self.arc.at(time)
+    }
+
+    fn switching(&self, time: S) -> S {
+        self.looks.set(self.looks.get() + 1);
+        self.arc.switching(time)
+    }
+
+    fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        self.arc.acceleration_zero(from, to, sign, from_zero)
+    }
+
+    fn switching_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        self.arc.switching_zero(from, to, sign, from_zero)
+    }
+
+    fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
+        self.arc.largest_acceleration(from, to, floor)
+    }
+}
+
+impl<S: Real, M: Method<S>> Method<S> for Counted<M> {
+    type Arc<'a, E: Equation<S> + 'a, P: Piece<S> + 'a>
+        = CountedArc<'a, M::Arc<'a, E, P>>
+    where
+        Self: 'a;
+
+    fn arc<'a, E: Equation<S>, P: Piece<S>>(&'a self, start: Start<'a, S, E, P>) -> Self::Arc<'a, E, P> {
+        self.arcs.set(self.arcs.get() + 1);
+        CountedArc { arc: self.method.arc(start), looks: &self.looks }
+    }
+
+    fn step(&self) -> Option<S> {
+        self.method.step()
+    }
+}

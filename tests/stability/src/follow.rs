@@ -1,0 +1,103 @@
+//! A structure, followed through a ground motion.
+
+use sprag_shared::arc::Method;
+use sprag_shared::clutch::Clutch;
+use sprag_shared::equation::Equation;
+use sprag_shared::ground::Quiet;
+use sprag_shared::observer::Observer;
+use sprag_shared::rocking::{Limits, Phase, State, Stopped, System};
+use sprag_shared::scalar::Real;
+use sprag_shared::structure::{Structure, WithSystem};
+use sprag_shared::taylor::Taylor;
+
+use crate::log::FullLog;
+use crate::segment::{Ground, Segment};
+
+/// How a motion starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Start<S> {
+    /// Standing still.
+    Rest,
+    /// At θ (rad) with θ̇ (rad/s).
+    Released(S, S),
+}
+
+/// The Taylor method as tight as f64 allows.
+pub fn tight() -> Taylor<f64, 20> {
+    Taylor::adaptive(1e-17)
+}
+
+/// An observer of a motion over several segments.
+pub trait Watcher<S: Real>: Observer<S> {
+    /// A segment of `duration` (s) is over; the times of the next one start anew.
+    fn passed(&mut self, duration: S);
+}
+
+/// Follows `structure` from `start` over all `segments`, or until it overturns.
+///
+/// # Errors
+/// [`Stopped`] when the motion takes more than a million arcs in one segment, or is no longer finite.
+pub fn follow<S: Real, M: Method<S>, W: Watcher<S>>(
+    structure: &Structure,
+    method: &M,
+    start: Start<S>,
+    segments: &[Segment<S>],
+    watcher: &mut W,
+) -> Result<State<S>, Stopped> {
+    let run = Run { structure, method, start, segments, watcher };
+    structure.resolve(run).expect("parameters within range")
+}
+
+/// [`follow`] from rest by the tight Taylor method, with every swing integrated.
+pub fn shake(structure: &Structure, segments: &[Segment<f64>]) -> (State<f64>, FullLog) {
+    let mut log = FullLog::default();
+    let state = follow(structure, &tight(), Start::Rest, segments, &mut log).expect("a motion that can be followed");
+    (state, log)
+}
+
+/// [`follow`] on quiet ground by the tight Taylor method, with every swing integrated.
+pub fn release(structure: &Structure, rotation: f64, velocity: f64, duration: f64, log: &mut FullLog) -> State<f64> {
+    follow(structure, &tight(), Start::Released(rotation, velocity), &[Segment::quiet(duration)], log)
+        .expect("a motion that can be followed")
+}
+
+/// The block has overturned, and before that no impact.
+pub fn overturned_without_impact(state: &State<f64>) -> bool {
+    state.phase == Phase::Overturned && state.impacts == 0
+}
+
+struct Run<'a, S, M, W> {
+    structure: &'a Structure,
+    method: &'a M,
+    start: Start<S>,
+    segments: &'a [Segment<S>],
+    watcher: &'a mut W,
+}
+
+impl<S: Real, M: Method<S>, W: Watcher<S>> WithSystem<S> for Run<'_, S, M, W> {
+    type Output = Result<State<S>, Stopped>;
+
+    fn with<R: Equation<S>, E: Equation<S>, C: Clutch>(self, system: System<S, R, E, C>) -> Self::Output {
+        let mut state = match self.start {
+            Start::Rest => State::default(),
+            Start::Released(rotation, velocity) => {
+                let ground = self.segments.first().map_or(S::ZERO, |segment| segment.ground.at_start());
+                system.released_at(rotation, velocity, ground)
+            }
+        };
+        for (index, segment) in self.segments.iter().enumerate() {
+            // The ground may yet push back as hard as its strongest segment still to come.
+            let bound = self.segments[index..].iter().fold(S::ZERO, |bound, later| bound.larger(later.bound()));
+            let limit = self.structure.geometry.point_of_no_return(&self.structure.block, bound.to_f64());
+            let limits = Limits { overturned: S::of(limit), events: 1_000_000 };
+            let watcher = &mut *self.watcher;
+            // Only quiet ground is told apart: one loop for all others builds in half the time.
+            match &segment.ground {
+                Ground::Quiet => system.advance(self.method, &mut state, &Quiet, segment.duration, &limits, watcher)?,
+                ground => system.advance(self.method, &mut state, ground, segment.duration, &limits, watcher)?,
+            }
+            watcher.passed(segment.duration);
+        }
+        Ok(state)
+    }
+}

@@ -1,0 +1,123 @@
+//! An observer that remembers.
+
+use sprag_shared::arc::{Arc, Motion};
+use sprag_shared::decay::Decay;
+use sprag_shared::observer::{Event, Observer, Peaks, Stretch};
+use sprag_shared::rocking::State;
+use sprag_shared::scalar::{Real, Sign};
+
+use crate::follow::Watcher;
+
+/// An event, the time from the start of the motion (s), and the state after it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Logged<S> {
+    /// What happened.
+    pub event: Event,
+    /// When, s.
+    pub time: S,
+    /// The state after it.
+    pub state: State<S>,
+}
+
+/// Some motions of one stretch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sampled<S> {
+    /// When the stretch begins, s from the start of the motion.
+    pub time: S,
+    /// The inerter is engaged.
+    pub engaged: bool,
+    /// s.
+    pub side: Sign,
+    /// Sign of θ̇.
+    pub direction: Sign,
+    /// The motion at instants spread evenly, the first and the last included.
+    pub motions: Vec<Motion<S>>,
+}
+
+/// An observer that remembers peaks, events and, if asked, samples of every stretch. With `EVERY` it wants every swing of
+/// a free motion; without, the closed form may take over.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Log<S, const EVERY: bool> {
+    /// Peaks.
+    pub peaks: Peaks<S>,
+    /// Events, in order.
+    pub events: Vec<Logged<S>>,
+    /// Samples of each stretch.
+    pub stretches: Vec<Sampled<S>>,
+    /// How many intervals each stretch is sampled in; 0 for none.
+    pub intervals: u32,
+    /// How often a closed form took over.
+    pub decays: u32,
+}
+
+/// A log of a motion whose every swing is integrated.
+pub type FullLog = Log<f64, true>;
+
+impl<S: Real, const EVERY: bool> Log<S, EVERY> {
+    /// An empty log that samples every stretch in `intervals` intervals.
+    pub fn sampling(intervals: u32) -> Self {
+        Log { intervals, ..Log::default() }
+    }
+
+    /// The times of all events of one kind, s.
+    pub fn times(&self, event: Event) -> Vec<S> {
+        self.events.iter().filter(|logged| logged.event == event).map(|logged| logged.time).collect()
+    }
+
+    /// The states after all events of one kind.
+    pub fn states(&self, event: Event) -> Vec<State<S>> {
+        self.events.iter().filter(|logged| logged.event == event).map(|logged| logged.state).collect()
+    }
+}
+
+impl<S: Real, const EVERY: bool> Observer<S> for Log<S, EVERY> {
+    const EVERY_SWING: bool = EVERY;
+
+    fn stretch<A: Arc<S>>(&mut self, arc: &A, stretch: &Stretch<S>) {
+        self.peaks.stretch(arc, stretch);
+        if self.intervals > 0 {
+            let width = stretch.to - stretch.from;
+            let at = |k: u32| match k {
+                0 => stretch.first,
+                k if k == self.intervals => stretch.last,
+                k => arc.at(stretch.from + width * S::count(k) / S::count(self.intervals)),
+            };
+            self.stretches.push(Sampled {
+                time: self.peaks.origin + stretch.start + stretch.from,
+                engaged: stretch.engaged,
+                side: stretch.side,
+                direction: stretch.direction,
+                motions: (0..=self.intervals).map(at).collect(),
+            });
+        }
+    }
+
+    fn event(&mut self, event: Event, time: S, state: &State<S>) {
+        self.peaks.event(event, time, state);
+        self.events.push(Logged { event, time: self.peaks.origin + time, state: *state });
+    }
+
+    fn decay(&mut self, decay: &Decay<S>) {
+        self.peaks.decay(decay);
+        self.decays += 1;
+    }
+}
+
+impl<S: Real, const EVERY: bool> Watcher<S> for Log<S, EVERY> {
+    fn passed(&mut self, duration: S) {
+        self.peaks.origin = self.peaks.origin + duration;
+    }
+}
+
+/// Asserts what holds for every motion: time runs forward, the block stays above its floor, and events are finite in number.
+pub fn sane<S: Real, const EVERY: bool>(log: &Log<S, EVERY>) {
+    assert!(log.events.is_sorted_by(|a, b| a.time <= b.time), "time runs forward");
+    let floor = -64.0 * S::EPSILON.to_f64();
+    for stretch in &log.stretches {
+        for motion in &stretch.motions {
+            let above = stretch.side.times(motion.rotation).to_f64();
+            assert!(above >= floor, "through the floor: {motion:?} on {:?}", stretch.side);
+        }
+    }
+    assert!(log.events.len() < 20_000, "{} events", log.events.len());
+}

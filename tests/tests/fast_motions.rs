@@ -1,0 +1,99 @@
+//! Time has no unit: what is a thousand times as fast is followed as well.
+
+use sprag_shared::block::Geometry;
+use sprag_shared::math;
+use sprag_shared::taylor::Taylor;
+use sprag_sim_host::batch::case::{Case, PulseShape, TERMS, TIGHT};
+use sprag_sim_host::interrupt::Interrupt;
+use sprag_sim_host::outcome::Outcome;
+use sprag_sim_host::scene::Scene;
+use sprag_sim_host::simulation::{DeviceRun, simulate};
+
+const DEVICES: &str = r#"
+[[device]]
+kind = "none"
+[[device]]
+kind = "inerter"
+mass_ratio = 0.5
+[[device]]
+kind = "clutched-pair"
+mass_ratio = 0.5
+[[device]]
+kind = "clutched-pair"
+name = "rigid pair"
+mass_ratio = 0.5
+engagement = "rigid"
+"#;
+
+/// Runs that in units of 1/p are the same for every `p` (1/s).
+fn runs(geometry: &str, p: f64) -> Vec<DeviceRun> {
+    let text = format!(
+        "[block]\nfrequency_parameter_1_s = {p:?}\nslenderness_deg = 10.0\ngeometry = \"{geometry}\"\n{DEVICES}\
+         [[ground]]\nmotion = \"sine\"\namplitude_ratio = 2.0\nfrequency_ratio = 4.0\n[run]\nfree_time_ratio = 20.0\n"
+    );
+    let scene = Scene::parse(&text, "scene.toml").unwrap();
+    simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap()
+}
+
+/// Blocks of 7 km, 0.7 m and 7 µm under pulses of the same ratios.
+#[test]
+fn self_similar_blocks_move_alike_however_fast() {
+    for geometry in ["full", "slender"] {
+        let expected = runs(geometry, 1.0);
+        assert!(expected.iter().filter(|run| run.outcome == Outcome::Safe && run.impacts > 3).count() >= 2);
+        for p in [0.03, 100.0, 1000.0] {
+            for (run, expected) in runs(geometry, p).iter().zip(&expected) {
+                assert_eq!(
+                    (run.outcome, run.impacts),
+                    (expected.outcome, expected.impacts),
+                    "{geometry} {}: p = {p}",
+                    run.device
+                );
+                let peaks = [(run.peak_rotation, expected.peak_rotation), (run.peak_acceleration, expected.peak_acceleration)];
+                for (found, expected) in peaks.into_iter().filter_map(|(found, expected)| found.zip(expected)) {
+                    assert!((found / expected - 1.0).abs() < 1e-10, "{geometry} {}: p = {p}: {found} {expected}", run.device);
+                }
+            }
+        }
+    }
+}
+
+/// The slender block under a sine pulse is linear: with x = |θ|/α and time in 1/p, ẍ = x − 1 + a sin ωt from the instant at which
+/// a sin ωt = 1.
+#[test]
+fn pulses_of_any_frequency_are_those_of_the_closed_form() {
+    let tau = core::f64::consts::TAU;
+    for (frequency, amplitude) in [(100.0, 500.0), (1000.0, 1e4), (3000.0, 1e5), (10_000.0, 1e6)] {
+        let (w, a): (f64, f64) = (frequency, amplitude);
+        let uplift = math::asin(1.0 / a) / w;
+        let gain = a / (1.0 + w * w);
+        let (first, second) = (gain * math::sin(w * uplift) - 1.0, gain * w * math::cos(w * uplift));
+        let at = |time: f64| {
+            let free = time - uplift;
+            let (sinh, cosh) = (math::sinh(free), math::cosh(free));
+            let position = 1.0 - gain * math::sin(w * time) + first * cosh + second * sinh;
+            let velocity = -gain * w * math::cos(w * time) + first * sinh + second * cosh;
+            (position, velocity)
+        };
+        // The velocity is above 0 in mid-pulse and below at its end, where gravity has had the last word.
+        let (mut low, mut high) = (0.5 * tau / w, tau / w);
+        assert!(at(low).1 > 0.0 && at(high).1 < 0.0, "{frequency}");
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            if at(middle).1 > 0.0 { low = middle } else { high = middle }
+        }
+        let expected = at(low).0;
+        assert!(expected > 0.01 && expected < 0.9, "{frequency}: {expected}");
+        let case = Case {
+            geometry: Geometry::Slender,
+            pulse: PulseShape::Sine,
+            frequency_ratio: frequency,
+            amplitude_ratio: amplitude,
+            free_time: 10.0,
+            ..Case::default()
+        };
+        let result = case.run(&Taylor::<f64, TERMS>::adaptive(TIGHT)).unwrap();
+        let found = result.peak_rotation;
+        assert!((found / expected - 1.0).abs() < 1e-9, "ω/p = {frequency}: {found}, not {expected}");
+    }
+}
