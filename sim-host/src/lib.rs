@@ -1,11 +1,14 @@
 //! The host side of Sprag: scenes and records in, simulations through the shared core, tables and pictures out.
 //!
 //! - [`scene`], [`record`], [`ground_motion`], [`synthesis`]: what is simulated.
-//! - [`simulation`]: one scene, every device; [`batch`]: many dimensionless cases.
+//! - [`simulation`]: one scene, every device; [`batch`]: many dimensionless cases; [`accuracy`]: as accurate as asked, and how accurate that is.
 //! - [`history`], [`outcome`], [`plot`], [`summary_table`], [`output`]: what comes out.
 //! - [`closed_loop`], [`device`]: the controller on the host, and the firmware in its place.
 //! - [`effect`]: what a scene may ask for, and what follows from it; [`command`]: the subcommands of `sprag`.
 
+pub mod accuracy;
+#[cfg(feature = "effects")]
+pub mod accuracy_study;
 pub mod batch;
 #[cfg(feature = "effects")]
 pub mod closed_loop;

@@ -4,9 +4,9 @@ use std::io::{stderr, stdout};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use sprag_sim_host::command::{batch, effects, explain, record, sensitivity, simulate, synthesize};
 #[cfg(feature = "effects")]
-use sprag_sim_host::command::{closed_loop, device, hil, loop_study};
+use sprag_sim_host::command::{accuracy, closed_loop, device, hil, loop_study};
+use sprag_sim_host::command::{batch, effects, explain, record, sensitivity, simulate, synthesize};
 use sprag_sim_host::interrupt::Interrupt;
 
 /// Rocking structures with inerters and clutches: simulate, and get the numbers to decide with.
@@ -22,6 +22,8 @@ enum Command {
     Simulate(simulate::SimulateArguments),
     Batch(batch::BatchArguments),
     Sensitivity(sensitivity::SensitivityArguments),
+    #[cfg(feature = "effects")]
+    Accuracy(accuracy::AccuracyCommandArguments),
     #[cfg(feature = "effects")]
     Loop(closed_loop::LoopArguments),
     #[cfg(feature = "effects")]
@@ -44,6 +46,8 @@ fn main() -> ExitCode {
         Command::Simulate(arguments) => simulate::run(arguments, &mut out, &mut err, &interrupt),
         Command::Batch(arguments) => batch::run(arguments, &mut err, &interrupt),
         Command::Sensitivity(arguments) => sensitivity::run(arguments, &mut out, &mut err, &interrupt),
+        #[cfg(feature = "effects")]
+        Command::Accuracy(arguments) => accuracy::run(arguments, &mut out, &mut err, &interrupt),
         #[cfg(feature = "effects")]
         Command::Loop(arguments) => closed_loop::run(arguments, &mut out, &mut err, &interrupt),
         #[cfg(feature = "effects")]

@@ -3,6 +3,7 @@
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
 use tempfile::NamedTempFile;
 
 /// A result that could not be written.
@@ -56,6 +57,17 @@ impl Results {
         file.as_file().sync_all().map_err(failed)?;
         self.files.push((file, path.to_owned()));
         Ok(())
+    }
+
+    /// Writes `value` to `path` as JSON for people, as [`Results::add`] does.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn add_json(&mut self, path: &Path, value: &impl Serialize) -> Result<(), OutputError> {
+        self.add(path, |file| {
+            serde_json::to_writer_pretty(&mut *file, value).map_err(io::Error::other)?;
+            file.write_all(b"\n")
+        })
     }
 
     /// Puts every file in its place.

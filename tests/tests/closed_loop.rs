@@ -1,7 +1,7 @@
 //! The controller in closed loop: its limit, its worth with real sensors, its faults.
 
 use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::loop_study::bench::{Motion, Variant, each, run_ideal, run_loop};
+use sprag_sim_host::loop_study::bench::{Conditions, Motion, Variant, each, run_ideal, run_loop};
 use sprag_sim_host::loop_study::faults::{self, Failing, INSTANTS, Instant, Part};
 use sprag_sim_host::loop_study::ideal_limit;
 use sprag_sim_host::loop_study::practice::Comparison;
@@ -17,13 +17,14 @@ fn quiet() -> (Progress, Interrupt) {
 #[test]
 fn the_loop_converges_to_the_ideal_pair_at_first_order() {
     let (progress, interrupt) = quiet();
-    let motions = ideal_limit::standing(&interrupt).unwrap();
+    let conditions = Conditions::new(None, &interrupt);
+    let motions = ideal_limit::standing(&conditions).unwrap();
     assert!(motions.len() >= 5);
-    let ideals = each(&motions, &[Variant::new("ideal", &[])], &progress, |m, v| run_ideal(m, v, &interrupt)).unwrap();
+    let ideals = each(&motions, &[Variant::new("ideal", &[])], &progress, |m, v| run_ideal(m, v, &conditions)).unwrap();
     for estimator in EstimatorName::ALL {
         let rates = [500.0, 2000.0, 8000.0];
         let variants = rates.map(|rate| ideal_limit::variant(estimator, rate));
-        let loops = each(&motions, &variants, &progress, |m, v| run_loop(m, v, &interrupt)).unwrap();
+        let loops = each(&motions, &variants, &progress, |m, v| run_loop(m, v, &conditions)).unwrap();
         let points: Vec<(f64, f64)> =
             rates.iter().zip(&loops).map(|(rate, loops)| (1.0 / rate, ideal_limit::error(loops, &ideals[0]))).collect();
         let order = ideal_limit::order(&points);
@@ -36,6 +37,7 @@ fn the_loop_converges_to_the_ideal_pair_at_first_order() {
 #[test]
 fn with_real_sensors_the_loop_is_as_good_as_the_ideal_pair() {
     let (progress, interrupt) = quiet();
+    let conditions = Conditions::new(None, &interrupt);
     let mut motions = Vec::new();
     for shape in ["sine", "cosine"] {
         for (frequency, amplitude) in
@@ -44,7 +46,7 @@ fn with_real_sensors_the_loop_is_as_good_as_the_ideal_pair() {
             motions.push(Motion::Pulse { shape, frequency, amplitude });
         }
     }
-    let ideals = each(&motions, &[Variant::new("ideal", &[])], &progress, |m, v| run_ideal(m, v, &interrupt)).unwrap();
+    let ideals = each(&motions, &[Variant::new("ideal", &[])], &progress, |m, v| run_ideal(m, v, &conditions)).unwrap();
     for estimator in EstimatorName::ALL {
         let real = Variant::new(
             estimator.name(),
@@ -54,7 +56,7 @@ fn with_real_sensors_the_loop_is_as_good_as_the_ideal_pair() {
                 "controller.latency_s=0.001",
             ],
         );
-        let loops = each(&motions, &[real], &progress, |m, v| run_loop(m, v, &interrupt)).unwrap();
+        let loops = each(&motions, &[real], &progress, |m, v| run_loop(m, v, &conditions)).unwrap();
         let comparison = Comparison::of(&loops[0], &ideals[0]);
         assert!(comparison.changes.len() >= 8, "{comparison:?}");
         assert!(comparison.size(0.5) < 0.01 && comparison.size(0.95) < 0.05, "{}: {comparison:?}", estimator.name());
@@ -69,12 +71,13 @@ fn with_real_sensors_the_loop_is_as_good_as_the_ideal_pair() {
 #[test]
 fn a_run_is_its_seed() {
     let (progress, interrupt) = quiet();
+    let conditions = Conditions::new(None, &interrupt);
     let motion = [Motion::Pulse { shape: "sine", frequency: 4.0, amplitude: 3.0 }];
     let variant = |seed| Variant { seed, ..Variant::new("real", &["controller.sensors.suite=\"icm-42688-p\""]) };
     let variants = [variant(1), variant(2), variant(1)];
     let run = |threads| {
         let pool = rayon_pool(threads);
-        pool.install(|| each(&motion, &variants, &progress, |m, v| run_loop(m, v, &interrupt)).unwrap())
+        pool.install(|| each(&motion, &variants, &progress, |m, v| run_loop(m, v, &conditions)).unwrap())
     };
     let (one, two) = (run(1), run(2));
     let bits = |results: &[Vec<_>], index: usize| -> u64 {
@@ -96,7 +99,8 @@ fn rayon_pool(threads: usize) -> rayon::ThreadPool {
 #[test]
 fn faults_are_detected_and_do_no_harm() {
     let (progress, interrupt) = quiet();
-    let results = faults::results(&progress, &interrupt).unwrap();
+    let conditions = Conditions::new(None, &interrupt);
+    let results = faults::results(&progress, &conditions).unwrap();
     for (failing, row) in faults::ALL.iter().zip(&results) {
         for (instant, result) in INSTANTS.iter().zip(row) {
             assert_eq!(result.harm, [false; 3], "{failing:?} {instant:?}: {result:?}");
@@ -123,6 +127,7 @@ fn faults_are_detected_and_do_no_harm() {
 #[test]
 fn there_are_better_laws_than_eq_10_under_sine_pulses() {
     let (progress, interrupt) = quiet();
+    let conditions = Conditions::new(None, &interrupt);
     let motions = sprag_sim_host::loop_study::bench::grid("sine", 10, (0.5, 7.5), (1.5, 9.5));
     let variants = [LawName::Resisting, LawName::AlwaysEngaged, LawName::GatedTable, LawName::LookAhead].map(|law| {
         Variant::new(
@@ -136,7 +141,7 @@ fn there_are_better_laws_than_eq_10_under_sine_pulses() {
             ],
         )
     });
-    let results = each(&motions, &variants, &progress, |m, v| run_loop(m, v, &interrupt)).unwrap();
+    let results = each(&motions, &variants, &progress, |m, v| run_loop(m, v, &conditions)).unwrap();
     let overturned: Vec<usize> =
         results.iter().map(|results| results.iter().filter(|result| result.outcome.overturned()).count()).collect();
     let best_known = overturned[0].min(overturned[1]);

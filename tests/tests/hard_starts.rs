@@ -10,7 +10,7 @@ use sprag_shared::rocking::Phase;
 use sprag_shared::scalar::Sign;
 use sprag_shared::structure::{DeviceKind, KinematicsKind};
 use sprag_shared::taylor::Taylor;
-use sprag_sim_host::batch::case::{Case, PulseShape, TIGHT};
+use sprag_sim_host::batch::case::{Case, PulseShape, TERMS, TIGHT};
 use sprag_sim_host::outcome::Outcome;
 use sprag_tests::{
     DEVICES, Dice, FullLog, GEOMETRIES, Log, Segment, Start, boundary, follow, relative, release, sane, shake, tight, unit_block,
@@ -152,14 +152,15 @@ fn uplift_at_the_threshold_and_just_above() {
                     let case = Case { geometry, device, pulse, frequency_ratio, ..Case::default() };
                     for sign in [1.0, -1.0] {
                         for still in [0.0, 0.5, 1.0 - 1e-12, 1.0] {
-                            let result =
-                                Case { amplitude_ratio: sign * still, ..case }.run(&Taylor::adaptive(TIGHT)).expect("a result");
+                            let result = Case { amplitude_ratio: sign * still, ..case }
+                                .run(&Taylor::<f64, TERMS>::adaptive(TIGHT))
+                                .expect("a result");
                             assert_eq!((result.outcome, result.impacts), (Outcome::NoRocking, 0), "at {still}");
                             assert_eq!((result.peak_rotation, result.peak_acceleration), (0.0, 0.0));
                         }
                         for above in [1e-12, 1e-9, 1e-6] {
                             let result = Case { amplitude_ratio: sign * (1.0 + above), ..case }
-                                .run(&Taylor::adaptive(TIGHT))
+                                .run(&Taylor::<f64, TERMS>::adaptive(TIGHT))
                                 .expect("a result");
                             assert_eq!(
                                 result.outcome,

@@ -6,7 +6,7 @@
 use sprag_shared::control::law::{Law, Situation, Wish};
 use sprag_sim_host::closed_loop::plant::Extremes;
 use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::loop_study::bench::{Motion, Variant, run_loop, with_loop};
+use sprag_sim_host::loop_study::bench::{Conditions, Motion, Variant, run_loop, with_loop};
 
 /// Resists only a block that moves outward.
 #[derive(Clone, Copy)]
@@ -22,7 +22,7 @@ impl<B> Law<B> for OutwardOnly {
 
 /// Peak |θ|/α in closed loop with `law`.
 fn peak_with(law: OutwardOnly, motion: &Motion, variant: &Variant) -> f64 {
-    with_loop(motion, variant, &Interrupt::default(), |task| {
+    with_loop(motion, variant, &Conditions::new(None, &Interrupt::default()), |task| {
         let mut driver = task.driver(law)?;
         let mut extremes = Extremes::default();
         task.run_with(&mut *driver, &mut (), &mut extremes, &mut ())?;
@@ -36,8 +36,11 @@ fn a_law_of_ones_own_is_tested_as_it_would_be_flashed() {
     let motion = Motion::Pulse { shape: "sine", frequency: 4.0, amplitude: 2.0 };
     let real = Variant::new("real", &["controller.sensors.suite=\"adis16470\"", "controller.latency_s=0.001"]);
     let own = peak_with(OutwardOnly, &motion, &real);
-    let passive = run_loop(&motion, &real.with("controller.law=\"passive\""), &Interrupt::default()).unwrap();
-    let resisting = run_loop(&motion, &real.with("controller.law=\"resisting-predicted\""), &Interrupt::default()).unwrap();
+    let passive =
+        run_loop(&motion, &real.with("controller.law=\"passive\""), &Conditions::new(None, &Interrupt::default())).unwrap();
+    let resisting =
+        run_loop(&motion, &real.with("controller.law=\"resisting-predicted\""), &Conditions::new(None, &Interrupt::default()))
+            .unwrap();
     // Half of Eq. 10 is worth something, and less than all of it.
     assert!(own < passive.peak, "{own} without, {}", passive.peak);
     assert!(resisting.peak < own, "{own} outward only, {}", resisting.peak);

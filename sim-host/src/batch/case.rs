@@ -12,6 +12,8 @@ use sprag_shared::rocking::{Limits, State, Stopped, System};
 use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure, WithSystem};
 use sprag_shared::taylor::Taylor;
 
+use crate::accuracy::answer::{Answer, Comparable, answer};
+use crate::accuracy::{Accuracy, Compared};
 use crate::outcome::Outcome;
 
 /// Coefficients of the series that bulk work uses: the fastest at tight accuracy (`cargo bench`).
@@ -124,19 +126,42 @@ impl Case {
     ///
     /// # Errors
     /// [`CaseError`] for a parameter outside its range, or a motion that cannot be followed.
-    pub fn run(&self, method: &Taylor<f64, TERMS>) -> Result<CaseResult, CaseError> {
+    pub fn run<const N: usize>(&self, method: &Taylor<f64, N>) -> Result<CaseResult, CaseError> {
         let structure = self.structure()?;
         structure.resolve(Run { case: self, structure: &structure, method })?
     }
+
+    /// Runs the case as accurately as asked, and tells the error.
+    ///
+    /// # Errors
+    /// Those of [`Case::run`].
+    pub fn answer(&self, accuracy: Accuracy) -> Result<Answer<CaseResult>, CaseError> {
+        answer(accuracy, |closeness| self.run(&Taylor::<f64, TERMS>::adaptive(closeness.tolerance)))
+    }
 }
 
-struct Run<'a> {
+impl Comparable for CaseResult {
+    type Outcome = Outcome;
+
+    fn compared(&self) -> Compared<Outcome> {
+        // The peaks of a block that overturns end with the proof that it does.
+        let peak = |value: f64| (!self.outcome.overturned()).then_some(value);
+        Compared {
+            outcome: self.outcome,
+            peak_rotation: peak(self.peak_rotation),
+            peak_acceleration: peak(self.peak_acceleration),
+            first_impact_time: self.first_impact_time,
+        }
+    }
+}
+
+struct Run<'a, const N: usize> {
     case: &'a Case,
     structure: &'a Structure,
-    method: &'a Taylor<f64, TERMS>,
+    method: &'a Taylor<f64, N>,
 }
 
-impl WithSystem<f64> for Run<'_> {
+impl<const N: usize> WithSystem<f64> for Run<'_, N> {
     type Output = Result<CaseResult, CaseError>;
 
     fn with<R: Equation<f64>, E: Equation<f64>, C: Clutch>(self, system: System<f64, R, E, C>) -> Self::Output {

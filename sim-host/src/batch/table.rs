@@ -7,6 +7,7 @@ use sprag_shared::block::Geometry;
 use sprag_shared::structure::{DeviceKind, REST_SPEED};
 
 use super::case::{Case, CaseResult, PulseShape};
+use crate::accuracy::ErrorEstimate;
 
 /// The header of a case file.
 pub const CASE_COLUMNS: &str =
@@ -14,6 +15,9 @@ pub const CASE_COLUMNS: &str =
 
 /// The header of a result file.
 pub const RESULT_COLUMNS: &str = "id,outcome,peak_rotation,peak_acceleration,impacts,first_impact_time,end_time";
+
+/// What follows [`RESULT_COLUMNS`] where errors are asked for: whether the outcome is beyond doubt, and absolute errors.
+pub const ERROR_COLUMNS: &str = "outcome_certain,peak_rotation_error,peak_acceleration_error,first_impact_time_error";
 
 /// A row that cannot be a case, or a file that cannot be a table of them.
 #[derive(Debug, thiserror::Error)]
@@ -25,13 +29,13 @@ pub enum TableError {
         column: &'static str,
     },
     /// A column nobody knows.
-    #[error("unknown column `{column}`; the header must be {CASE_COLUMNS}")]
+    #[error("unknown column `{}`; the header must be {CASE_COLUMNS}", shown(.column))]
     UnknownColumn {
         /// Its name.
         column: String,
     },
     /// A value that is not of the column's kind or not in its range.
-    #[error("line {line}: {column} is `{value}`, but must be {range}")]
+    #[error("line {line}: {column} is `{}`, but must be {range}", shown(.value))]
     Value {
         /// Line in the file, from 1.
         line: u64,
@@ -53,6 +57,18 @@ pub enum TableError {
     /// No row.
     #[error("the file has no cases")]
     Empty,
+}
+
+/// Characters of a value that a message shows.
+const LONGEST_SHOWN: usize = 60;
+
+/// A field as a message of one line shows it: a quoted one may hold any characters, line ends among them.
+pub fn shown(field: &str) -> String {
+    let mut shown: String = field.chars().take(LONGEST_SHOWN).map(|c| if c.is_control() { ' ' } else { c }).collect();
+    if field.chars().nth(LONGEST_SHOWN).is_some() {
+        shown.push('…');
+    }
+    shown
 }
 
 #[derive(Deserialize)]
@@ -175,24 +191,55 @@ impl Row<'_> {
     }
 }
 
-/// Writes one result as a row of [`RESULT_COLUMNS`]. Numbers read back to the same f64; the peaks of an overturned block
-/// and the impact of one that had none are empty.
+/// Writes one result as a row of [`RESULT_COLUMNS`], with its error as in [`ERROR_COLUMNS`] if there is one. Numbers read back to the
+/// same f64; the peaks of an overturned block and the impact of one that had none are empty, and so are their errors.
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_result(out: &mut impl Write, id: &str, result: &CaseResult) -> std::io::Result<()> {
+pub fn write_result(out: &mut impl Write, id: &str, result: &CaseResult, error: Option<&ErrorEstimate>) -> std::io::Result<()> {
     let mut row = csv::Writer::from_writer(Vec::new());
     let number = |value: f64| format!("{value:?}");
     let peak = |value: f64| if result.outcome.overturned() { String::new() } else { number(value) };
-    row.write_record([
-        id,
-        result.outcome.name(),
-        &peak(result.peak_rotation),
-        &peak(result.peak_acceleration),
-        &result.impacts.to_string(),
-        &result.first_impact_time.map_or_else(String::new, number),
-        &number(result.end_time),
-    ])
-    .map_err(std::io::Error::other)?;
+    let impact = |value: f64| result.first_impact_time.map_or_else(String::new, |_| number(value));
+    let mut fields = vec![
+        id.to_owned(),
+        result.outcome.name().to_owned(),
+        peak(result.peak_rotation),
+        peak(result.peak_acceleration),
+        result.impacts.to_string(),
+        result.first_impact_time.map_or_else(String::new, number),
+        number(result.end_time),
+    ];
+    if let Some(error) = error {
+        fields.extend([
+            error.outcome_certain.to_string(),
+            peak(error.peak_rotation),
+            peak(error.peak_acceleration),
+            impact(error.first_impact_time),
+        ]);
+    }
+    row.write_record(fields).map_err(std::io::Error::other)?;
     out.write_all(&row.into_inner().map_err(|error| error.into_error())?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whatever_a_field_holds_a_message_is_one_line() {
+        let row = "1,full,20,none,0.5,0.85,sine,2,2";
+        let long = "x".repeat(100_000);
+        for (column, value, expected) in [
+            ("free_time", "\"a\r\nb\u{85}\u{2028}c\"", "`a  b"),
+            ("free_time", &long, "x…`"),
+            ("\"free\ntime\"", "20", "missing"),
+            ("free_time,\"new\nline\"", "20,1", "`new line`"),
+        ] {
+            let header = CASE_COLUMNS.replace("free_time", column);
+            let error = read_cases(format!("{header}\n{row},{value}\n").as_bytes()).unwrap_err().to_string();
+            assert!(error.contains(expected), "{error}");
+            assert!(error.lines().count() == 1 && !error.contains('\r') && error.len() < 400, "{error}");
+        }
+    }
 }

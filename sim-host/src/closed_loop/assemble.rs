@@ -22,6 +22,7 @@ use super::driver::{Driver, Shared};
 use super::plant::{Build, Plant, Surroundings, Watcher, WithPlant};
 use super::run::{Clock, ClosedLoop, Ending, LoopError, TickObserver};
 use super::supervision::supervision;
+use crate::accuracy::Closeness;
 use crate::interrupt::Interrupt;
 use crate::scene::Scene;
 use crate::scene::accuracy::MethodName;
@@ -72,6 +73,8 @@ pub struct LoopTask<'a> {
     pub suite: &'a Suite,
     /// Of the sensors' specimens and noise.
     pub seed: u64,
+    /// How closely the plant is followed; without it by a step a tick.
+    pub closeness: Option<Closeness>,
     /// Ctrl-C.
     pub interrupt: &'a Interrupt,
 }
@@ -238,8 +241,9 @@ impl<'a> LoopTask<'a> {
             ground_at_start: task.ground_at_start(),
             shock: self.controller.shock_s,
             latency: self.controller.latency_s,
-            step: clock.period,
-            exponential: self.scene.file.accuracy.method == MethodName::ExponentialMidpoint,
+            step: clock.period / f64::from(self.closeness.map_or(1, Closeness::steps_per_tick)),
+            // A level leaves the method to the program: the one for stiff clutches, where there are any.
+            exponential: self.scene.file.accuracy.method == MethodName::ExponentialMidpoint || self.closeness.is_some(),
         };
         let closed = ClosedLoop { clock, suite: self.suite, seed: self.seed, disturbance, interrupt: self.interrupt };
         let next = Running { closed, driver, watcher, observer };

@@ -1,5 +1,6 @@
 //! The closed loop: a plant with any effects, sensors as they are, and the controller that is flashed.
 
+pub mod answered;
 pub mod assemble;
 pub mod decisions;
 mod design;

@@ -12,7 +12,7 @@ use super::decisions::DecisionReport;
 use super::run::{Ending, Tick};
 use crate::outcome::Outcome;
 use crate::plot::LoopTrace;
-use crate::simulation::DeviceRun;
+use crate::simulation::{DeviceRun, ErrorReport};
 
 /// A fault as a summary has it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -71,6 +71,9 @@ pub struct LoopSummary {
     pub controller_state: String,
     /// Faults.
     pub faults: Vec<FaultEntry>,
+    /// How accurate it is, where that was asked for.
+    #[serde(rename = "error_estimate", skip_serializing_if = "Option::is_none")]
+    pub error: Option<ErrorReport>,
     /// Of a Monte-Carlo run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub monte_carlo: Option<Scatter>,
@@ -109,6 +112,7 @@ impl LoopReport {
             missed_engagements: ending.missed,
             controller_state: format!("{:?}", ending.phase).to_lowercase(),
             faults: faults.collect(),
+            error: None,
             monte_carlo: None,
         };
         LoopReport { summary, ticks, ideal }
@@ -139,6 +143,9 @@ impl fmt::Display for LoopSummary {
         writeln!(out, "  controller   {} after {} ticks", self.controller_state, self.ticks)?;
         for fault in &self.faults {
             writeln!(out, "  fault {}     at {:.4} s: {}", fault.code, fault.time_s, fault.fault)?;
+        }
+        if let Some(error) = &self.error {
+            writeln!(out, "  accuracy     {}", error.words(self.peak_rotation))?;
         }
         if let Some(scatter) = &self.monte_carlo {
             writeln!(

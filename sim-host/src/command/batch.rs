@@ -2,22 +2,26 @@
 
 use std::io::{BufReader, Write};
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::Args;
 use rayon::prelude::*;
 use sprag_shared::taylor::Taylor;
 
-use super::BAD_INPUT;
-use crate::batch::case::{CaseError, CaseResult, TERMS, TIGHT};
-use crate::batch::table::{CASE_COLUMNS, RESULT_COLUMNS, TableError, read_cases, write_result};
-use crate::interrupt::{self, Interrupt};
+use super::ended;
+use crate::accuracy::answer::Comparable;
+use crate::accuracy::{Accuracy, AccuracyArguments, ErrorEstimate, budget};
+use crate::batch::case::{Case, CaseError, CaseResult, TERMS, TIGHT};
+use crate::batch::table::{CASE_COLUMNS, ERROR_COLUMNS, RESULT_COLUMNS, TableError, read_cases, shown, write_result};
+use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results};
 use crate::progress::Progress;
 
 /// Run many independent cases: dimensionless blocks under one-cycle pulses.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = format!("Example:\n  sprag batch cases.csv --out results.csv\n\nA case file has the columns\n  {CASE_COLUMNS}\n\
-    and the result file\n  {RESULT_COLUMNS}\nwith times in 1/p from the pulse's start. Rows keep their order, whatever the number of threads."))]
+    and the result file\n  {RESULT_COLUMNS}\nwith times in 1/p from the pulse's start; with --accuracy or --time-budget also\n  {ERROR_COLUMNS}\n\
+    Rows keep their order, whatever the number of threads."))]
 pub struct BatchArguments {
     /// Case file.
     #[arg(value_name = "CASES.csv")]
@@ -28,9 +32,12 @@ pub struct BatchArguments {
     /// Threads; all cores by default. The result does not depend on it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Size of the last terms of the series over the rotation that matters, 1e-20 to 0.01.
-    #[arg(long, value_name = "T", default_value_t = TIGHT, value_parser = tolerance)]
+    /// Size of the last terms of the series over the rotation that matters, 1e-20 to 0.01; without errors.
+    #[arg(long, value_name = "T", default_value_t = TIGHT, value_parser = tolerance, conflicts_with_all = ["accuracy", "time_budget"])]
     pub tolerance: f64,
+    /// How accurate.
+    #[command(flatten)]
+    pub accuracy: AccuracyArguments,
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
@@ -48,10 +55,12 @@ enum Failure {
     TooLarge { path: PathBuf },
     #[error("{}: {error}", path.display())]
     Table { path: PathBuf, error: TableError },
-    #[error("{}: case `{id}`: {error}", path.display())]
+    #[error("{}: case `{}`: {error}", path.display(), shown(.id))]
     Case { path: PathBuf, id: String, error: CaseError },
     #[error("{0}")]
     Output(#[from] OutputError),
+    #[error("{0}")]
+    Budget(#[from] budget::TooLittleTime),
     #[error("the threads cannot be started: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
     #[error("interrupted")]
@@ -64,22 +73,35 @@ const LARGEST_FILE: u64 = 1 << 30;
 /// Cases that one task works on before it looks up.
 const CHUNK: usize = 256;
 
-/// Runs the command; errors go to `err`.
-pub fn run(arguments: &BatchArguments, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    match run_or_fail(arguments, interrupt) {
-        Ok(()) => 0,
-        Err(Failure::Interrupted) => {
-            let _ = writeln!(err, "sprag: interrupted; nothing was written");
-            interrupt::EXIT_CODE
-        }
-        Err(failure) => {
-            let _ = writeln!(err, "sprag: {failure}");
-            BAD_INPUT
-        }
-    }
+/// Cases that are tried to learn what a level of accuracy costs.
+const SAMPLE: usize = 512;
+
+/// A result, with its error where that is asked for.
+type Row = (CaseResult, Option<ErrorEstimate>);
+
+/// What `seconds` afford, found by trying some of the cases, evenly spread.
+fn plan(seconds: Duration, accuracy: Option<Accuracy>, cases: &[(String, Case)]) -> Result<budget::Plan, budget::TooLittleTime> {
+    let sample: Vec<&Case> = cases.iter().step_by(cases.len().div_ceil(SAMPLE)).map(|(_, case)| case).collect();
+    let share = cases.len() as f64 / sample.len() as f64;
+    budget::plan(seconds, accuracy, share, |accuracy| {
+        // A case that cannot be run is reported when all are.
+        let mut errors: Vec<f64> = sample
+            .par_iter()
+            .filter_map(|case| case.answer(accuracy).ok())
+            .map(|answer| answer.error.relative(answer.result.compared().peak_rotation))
+            .collect();
+        errors.sort_by(f64::total_cmp);
+        errors.get(errors.len() * 95 / 100).copied().unwrap_or(0.0)
+    })
 }
 
-fn run_or_fail(arguments: &BatchArguments, interrupt: &Interrupt) -> Result<(), Failure> {
+/// Runs the command; errors go to `err`.
+pub fn run(arguments: &BatchArguments, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
+    let result = run_or_fail(arguments, err, interrupt);
+    ended(result, |failure| matches!(failure, Failure::Interrupted), err)
+}
+
+fn run_or_fail(arguments: &BatchArguments, err: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
     let path = &arguments.cases;
     let file = std::fs::File::open(path).map_err(|error| Failure::Unreadable { path: path.clone(), error })?;
     if !file.metadata().is_ok_and(|data| data.len() <= LARGEST_FILE) {
@@ -91,15 +113,25 @@ fn run_or_fail(arguments: &BatchArguments, interrupt: &Interrupt) -> Result<(), 
     results.add(&arguments.out, |_| Ok(()))?;
     drop(results);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
+    let AccuracyArguments { mut accuracy, time_budget } = arguments.accuracy;
+    if let Some(seconds) = time_budget {
+        let plan = pool.install(|| plan(seconds, accuracy, &cases))?;
+        let _ = writeln!(err, "sprag: {plan}");
+        accuracy = Some(plan.accuracy);
+    }
     let progress = Progress::new("cases");
     progress.begin(cases.len() as u64);
-    let answers: Vec<Result<CaseResult, CaseError>> = pool.install(|| {
+    let answers: Vec<Result<Row, CaseError>> = pool.install(|| {
         cases
             .par_chunks(CHUNK)
             .flat_map_iter(|chunk| {
                 let method = Taylor::<f64, TERMS>::adaptive(arguments.tolerance);
+                let row = |case: &Case| match accuracy {
+                    Some(accuracy) => case.answer(accuracy).map(|answer| (answer.result, Some(answer.error))),
+                    None => case.run(&method).map(|result| (result, None)),
+                };
                 let stop = interrupt.is_set();
-                let answers: Vec<_> = if stop { Vec::new() } else { chunk.iter().map(|(_, case)| case.run(&method)).collect() };
+                let answers: Vec<_> = if stop { Vec::new() } else { chunk.iter().map(|(_, case)| row(case)).collect() };
                 progress.advance(chunk.len() as u64);
                 answers
             })
@@ -114,10 +146,13 @@ fn run_or_fail(arguments: &BatchArguments, interrupt: &Interrupt) -> Result<(), 
     }
     let mut results = Results::default();
     results.add(&arguments.out, |out| {
-        writeln!(out, "{RESULT_COLUMNS}")?;
+        match accuracy {
+            Some(_) => writeln!(out, "{RESULT_COLUMNS},{ERROR_COLUMNS}")?,
+            None => writeln!(out, "{RESULT_COLUMNS}")?,
+        }
         for ((id, _), answer) in cases.iter().zip(&answers) {
-            if let Ok(answer) = answer {
-                write_result(out, id, answer)?;
+            if let Ok((result, error)) = answer {
+                write_result(out, id, result, error.as_ref())?;
             }
         }
         Ok(())

@@ -2,19 +2,21 @@
 
 use std::io::Write;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::BAD_INPUT;
+use super::ended;
 use super::loop_scene::{LoopScene, LoopSceneError};
+use crate::accuracy::AccuracyArguments;
 use crate::closed_loop::LoopFailure;
+use crate::closed_loop::answered::Looped;
 use crate::closed_loop::plant::Extremes;
 use crate::closed_loop::report::{LoopReport, LoopSummary, loop_trace, write_history};
 use crate::closed_loop::run::{LoopError, Tick};
-use crate::interrupt::{self, Interrupt};
+use crate::interrupt::Interrupt;
 use crate::loop_study::statistics::quantile;
 use crate::output::{OutputError, Results, make_folder};
 use crate::plot::{PlotError, loop_figure};
@@ -47,6 +49,9 @@ pub struct LoopArguments {
     /// Folder for the results; out/NAME-loop of the scene by default.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// How accurate.
+    #[command(flatten)]
+    pub accuracy: AccuracyArguments,
 }
 
 #[derive(Debug, thiserror::Error)]
@@ -75,34 +80,26 @@ struct Summary<'a> {
 
 /// Runs the command; a table goes to `out`, errors go to `err`.
 pub fn run(arguments: &LoopArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    match run_or_fail(arguments, out, interrupt) {
-        Ok(()) => 0,
-        Err(Failure::Interrupted | Failure::Loop { failure: LoopFailure::Loop(LoopError::Interrupted), .. }) => {
-            let _ = writeln!(err, "sprag: interrupted; nothing was written");
-            interrupt::EXIT_CODE
-        }
-        Err(failure) => {
-            let _ = writeln!(err, "sprag: {failure}");
-            BAD_INPUT
-        }
-    }
+    let result = run_or_fail(arguments, out, err, interrupt);
+    ended(
+        result,
+        |failure| {
+            matches!(failure, Failure::Interrupted | Failure::Loop { failure: LoopFailure::Loop(LoopError::Interrupted), .. })
+        },
+        err,
+    )
 }
 
-fn run_or_fail(arguments: &LoopArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
-    let desk = LoopScene::load(&arguments.scene, &arguments.set, arguments.record.as_ref())?;
-    let LoopScene { scene, controller, pairs, .. } = &desk;
+fn run_or_fail(
+    arguments: &LoopArguments,
+    out: &mut impl Write,
+    err: &mut impl Write,
+    interrupt: &Interrupt,
+) -> Result<(), Failure> {
     let folder = LoopScene::folder(&arguments.scene, arguments.out.as_ref(), "loop");
-    make_folder(&folder)?;
-    let mut reports: Vec<LoopReport> = Vec::new();
-    for &index in pairs {
-        let failed = |failure| Failure::Loop { device: scene.devices[index].name.clone(), failure };
-        let mut ticks: Vec<Tick> = Vec::new();
-        let mut extremes = Extremes::default();
-        let task = desk.task(index, controller.sensors.seed(), interrupt);
-        let ending = task.run(&mut extremes, &mut ticks).map_err(failed)?;
-        let ideal = task.ideal().map_err(failed)?;
-        reports.push(LoopReport::new(&task, ending, &extremes.peaks, ideal, ticks));
-    }
+    let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
+    let (desk, mut reports) = arguments.accuracy.run(|change| looped(arguments, change, &folder, interrupt), tell)?;
+    let scene = &desk.scene;
     let mut results = Results::default();
     if let Some(count) = arguments.monte_carlo {
         let table = monte_carlo(arguments, &desk, &mut reports, count, interrupt)?;
@@ -111,10 +108,7 @@ fn run_or_fail(arguments: &LoopArguments, out: &mut impl Write, interrupt: &Inte
     let summaries: Vec<LoopSummary> = reports.iter().map(|report| report.summary.clone()).collect();
     let file = desk.resolved(arguments.record.as_ref());
     let summary = Summary { command: "loop", version: env!("CARGO_PKG_VERSION"), scene: &file, runs: &summaries };
-    results.add(&folder.join("summary.json"), |file| {
-        serde_json::to_writer_pretty(&mut *file, &summary).map_err(std::io::Error::other)?;
-        file.write_all(b"\n")
-    })?;
+    results.add_json(&folder.join("summary.json"), &summary)?;
     results.add(&folder.join("history.csv"), |file| write_history(&reports, file).map_err(std::io::Error::other))?;
     for (number, report) in reports.iter().enumerate() {
         let picture = loop_figure(&heading(scene, report), &loop_trace(report, &scene.block))?;
@@ -130,6 +124,30 @@ fn run_or_fail(arguments: &LoopArguments, out: &mut impl Write, interrupt: &Inte
     }
     let _ = writeln!(out, "results in {}", folder.display());
     Ok(())
+}
+
+/// The scene with `change`, and a loop for each of its pairs.
+fn looped(
+    arguments: &LoopArguments,
+    change: Option<String>,
+    folder: &Path,
+    interrupt: &Interrupt,
+) -> Result<(LoopScene, Vec<LoopReport>), Failure> {
+    let mut changes = arguments.set.clone();
+    changes.extend(change);
+    let desk = LoopScene::load(&arguments.scene, &changes, arguments.record.as_ref())?;
+    make_folder(folder)?;
+    let mut reports: Vec<LoopReport> = Vec::new();
+    for &index in &desk.pairs {
+        let failed = |failure| Failure::Loop { device: desk.scene.devices[index].name.clone(), failure };
+        let task = desk.task(index, desk.controller.sensors.seed(), interrupt);
+        let (task, error, Looped { ending, extremes, ticks, .. }) = task.answered::<Vec<Tick>>().map_err(failed)?;
+        let ideal = task.ideal().map_err(failed)?;
+        let mut report = LoopReport::new(&task, ending, &extremes.peaks, ideal, ticks);
+        report.summary.error = error;
+        reports.push(report);
+    }
+    Ok((desk, reports))
 }
 
 pub(super) fn heading(scene: &Scene, report: &LoopReport) -> String {

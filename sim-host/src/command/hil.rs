@@ -1,28 +1,31 @@
 //! `sprag hil`: the firmware in closed loop with the simulator's plant and sensors.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
 use serde::Serialize;
 
-use super::BAD_INPUT;
 use super::closed_loop::heading;
 use super::device_line::{LineArguments, connect};
+use super::ended;
 use super::loop_scene::{LoopScene, LoopSceneError};
-use crate::closed_loop::LoopFailure;
+use crate::accuracy::{AccuracyArguments, Closeness};
+use crate::closed_loop::answered::Looped;
 use crate::closed_loop::plant::Extremes;
 use crate::closed_loop::report::{LoopReport, loop_trace, write_history};
 use crate::closed_loop::run::{LoopError, Tick};
+use crate::closed_loop::{LoopFailure, LoopTask};
 use crate::device::driver::{DeviceDriver, DeviceTick};
 use crate::device::line::DeviceError;
 use crate::device::report::{DeviceSummary, costs, write_device_ticks};
 use crate::device::session::Session;
-use crate::interrupt::{self, Interrupt};
+use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, make_folder};
 use crate::plot::{PlotError, loop_figure};
 use crate::scene::schema::SceneFile;
+use crate::simulation::ErrorReport;
 
 /// Run the controller of a scene on a device: the firmware, in the emulator or on a board, in closed loop with the simulated plant.
 #[derive(Args, Clone, Debug)]
@@ -44,6 +47,9 @@ pub struct HilArguments {
     /// Folder for the results; out/NAME-hil of the scene by default.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// How accurate the plant is; found by the host's own loop.
+    #[command(flatten)]
+    pub accuracy: AccuracyArguments,
     /// Where the device is.
     #[command(flatten)]
     pub line: LineArguments,
@@ -75,27 +81,29 @@ struct Summary<'a> {
 
 /// Runs the command; a table goes to `out`, errors go to `err`.
 pub fn run(arguments: &HilArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    match run_or_fail(arguments, out, interrupt) {
-        Ok(()) => 0,
-        Err(Failure::Interrupted | Failure::Loop { failure: LoopFailure::Loop(LoopError::Interrupted), .. }) => {
-            let _ = writeln!(err, "sprag: interrupted; nothing was written");
-            interrupt::EXIT_CODE
-        }
-        Err(failure) => {
-            let _ = writeln!(err, "sprag: {failure}");
-            BAD_INPUT
-        }
-    }
+    let result = run_or_fail(arguments, out, err, interrupt);
+    ended(
+        result,
+        |failure| {
+            matches!(failure, Failure::Interrupted | Failure::Loop { failure: LoopFailure::Loop(LoopError::Interrupted), .. })
+        },
+        err,
+    )
 }
 
-fn run_or_fail(arguments: &HilArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
-    let desk = LoopScene::load(&arguments.scene, &arguments.set, arguments.record.as_ref())?;
+fn run_or_fail(
+    arguments: &HilArguments,
+    out: &mut impl Write,
+    err: &mut impl Write,
+    interrupt: &Interrupt,
+) -> Result<(), Failure> {
     let folder = LoopScene::folder(&arguments.scene, arguments.out.as_ref(), "hil");
-    make_folder(&folder)?;
+    let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
+    let (desk, hosts) = arguments.accuracy.run(|change| on_host(arguments, change, &folder, interrupt), tell)?;
     let mut results = Results::default();
     let (mut reports, mut summaries, mut ticks) = (Vec::new(), Vec::new(), Vec::new());
-    for (number, &index) in desk.pairs.iter().enumerate() {
-        let run = one(arguments, &desk, index, interrupt)?;
+    for (number, (&index, host)) in desk.pairs.iter().zip(hosts).enumerate() {
+        let run = one(arguments, &desk, index, host, interrupt)?;
         let mut trace = loop_trace(&run.report, &desk.scene.block);
         let alpha = desk.scene.block.slenderness();
         trace.rotation_host = run.host.iter().map(|tick| (tick.plant.time, tick.plant.motion.rotation / alpha)).collect();
@@ -112,10 +120,7 @@ fn run_or_fail(arguments: &HilArguments, out: &mut impl Write, interrupt: &Inter
     }
     let file = desk.resolved(arguments.record.as_ref());
     let summary = Summary { command: "hil", version: env!("CARGO_PKG_VERSION"), scene: &file, runs: &summaries };
-    results.add(&folder.join("summary.json"), |file| {
-        serde_json::to_writer_pretty(&mut *file, &summary).map_err(std::io::Error::other)?;
-        file.write_all(b"\n")
-    })?;
+    results.add_json(&folder.join("summary.json"), &summary)?;
     results.add(&folder.join("history.csv"), |file| write_history(&reports, file).map_err(std::io::Error::other))?;
     results.add(&folder.join("device.csv"), |file| write_device_ticks(&ticks, file))?;
     if interrupt.is_set() {
@@ -138,13 +143,40 @@ struct Run {
     log: Option<Vec<String>>,
 }
 
-fn one(arguments: &HilArguments, desk: &LoopScene, index: usize, interrupt: &Interrupt) -> Result<Run, Failure> {
+/// A loop as the host's own controller closes it.
+struct Host {
+    closeness: Option<Closeness>,
+    error: Option<ErrorReport>,
+    looped: Looped<Vec<Tick>>,
+}
+
+/// The scene with `change`, and the host's own loops.
+fn on_host(
+    arguments: &HilArguments,
+    change: Option<String>,
+    folder: &Path,
+    interrupt: &Interrupt,
+) -> Result<(LoopScene, Vec<Host>), Failure> {
+    let mut changes = arguments.set.clone();
+    changes.extend(change);
+    let desk = LoopScene::load(&arguments.scene, &changes, arguments.record.as_ref())?;
+    make_folder(folder)?;
+    let host = |&index: &usize| {
+        let task = desk.task(index, desk.controller.sensors.seed(), interrupt);
+        let failed = |failure| Failure::Loop { device: desk.scene.devices[index].name.clone(), failure };
+        let (task, error, looped) = task.answered().map_err(failed)?;
+        Ok(Host { closeness: task.closeness, error, looped })
+    };
+    let hosts = desk.pairs.iter().map(host).collect::<Result<_, Failure>>()?;
+    Ok((desk, hosts))
+}
+
+fn one(arguments: &HilArguments, desk: &LoopScene, index: usize, host: Host, interrupt: &Interrupt) -> Result<Run, Failure> {
     let failed = |failure: LoopFailure| Failure::Loop { device: desk.scene.devices[index].name.clone(), failure };
-    let task = desk.task(index, desk.controller.sensors.seed(), interrupt);
-    let (mut host, mut host_extremes) = (Vec::new(), Extremes::default());
-    let host_ending = task.run(&mut host_extremes, &mut host).map_err(failed)?;
+    let Host { closeness, error, looped } = host;
+    let task = LoopTask { closeness, ..desk.task(index, desk.controller.sensors.seed(), interrupt) };
     let ideal = task.ideal().map_err(failed)?;
-    let host_report = LoopReport::new(&task, host_ending, &host_extremes.peaks, ideal.clone(), Vec::new());
+    let host_report = LoopReport::new(&task, looped.ending, &looped.extremes.peaks, ideal.clone(), Vec::new());
 
     let settings = task.settings().map_err(|error| failed(error.into()))?;
     let own = task.driver(task.controller.clutch_law()).map_err(|error| failed(error.into()))?;
@@ -159,7 +191,8 @@ fn one(arguments: &HilArguments, desk: &LoopScene, index: usize, interrupt: &Int
     // A device that has gone explains whatever became of the loop.
     let (mut session, ticks) = driver.finish()?;
     let ending = ending.map_err(failed)?;
-    let report = LoopReport::new(&task, ending, &extremes.peaks, ideal, seen);
+    let mut report = LoopReport::new(&task, ending, &extremes.peaks, ideal, seen);
+    report.summary.error = error;
     let state = session.state()?;
     let ticks_per_second = ticks.len() as f64 / seconds;
     let cost = costs(&ticks);
@@ -178,5 +211,5 @@ fn one(arguments: &HilArguments, desk: &LoopScene, index: usize, interrupt: &Int
     };
     drop(session);
     let log = device.log.map(|log| log.read()).transpose()?;
-    Ok(Run { report, summary, ticks, host, log })
+    Ok(Run { report, summary, ticks, host: looped.ticks, log })
 }

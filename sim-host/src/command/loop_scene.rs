@@ -94,7 +94,7 @@ impl LoopScene {
     /// The loop over device `index` with sensors of this `seed`.
     pub fn task<'a>(&'a self, index: usize, seed: u64, interrupt: &'a Interrupt) -> LoopTask<'a> {
         let LoopScene { scene, ground, controller, suite, .. } = self;
-        LoopTask { scene, ground, index, controller, suite, seed, interrupt }
+        LoopTask { scene, ground, index, controller, suite, seed, closeness: None, interrupt }
     }
 
     /// The scene as it was run, for a summary.

@@ -6,9 +6,10 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::BAD_INPUT;
-use crate::interrupt::{self, Interrupt};
-use crate::loop_study::bench::{Motion, StudyError};
+use super::ended;
+use crate::accuracy::{Accuracy, AccuracyArguments};
+use crate::interrupt::Interrupt;
+use crate::loop_study::bench::{Conditions, Motion, StudyError};
 use crate::loop_study::decisions::decisions;
 use crate::loop_study::faults::faults;
 use crate::loop_study::ideal_limit::ideal_limit;
@@ -54,6 +55,9 @@ pub struct LoopStudyArguments {
     /// Threads; all processors by default. Results do not depend on it.
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
+    /// How accurate.
+    #[command(flatten)]
+    pub accuracy: AccuracyArguments,
 }
 
 #[derive(Debug, thiserror::Error)]
@@ -68,20 +72,16 @@ enum Failure {
 
 /// Runs the command; the page goes to `out`, errors go to `err`.
 pub fn run(arguments: &LoopStudyArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    match run_or_fail(arguments, out, interrupt) {
-        Ok(()) => 0,
-        Err(Failure::Study(StudyError::Interrupted)) => {
-            let _ = writeln!(err, "sprag: interrupted; nothing was written");
-            interrupt::EXIT_CODE
-        }
-        Err(failure) => {
-            let _ = writeln!(err, "sprag: {failure}");
-            BAD_INPUT
-        }
-    }
+    let result = run_or_fail(arguments, out, err, interrupt);
+    ended(result, |failure| matches!(failure, Failure::Study(StudyError::Interrupted)), err)
 }
 
-fn run_or_fail(arguments: &LoopStudyArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+fn run_or_fail(
+    arguments: &LoopStudyArguments,
+    out: &mut impl Write,
+    err: &mut impl Write,
+    interrupt: &Interrupt,
+) -> Result<(), Failure> {
     make_folder(&arguments.out)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
     let progress = Progress::new("runs");
@@ -90,17 +90,26 @@ fn run_or_fail(arguments: &LoopStudyArguments, out: &mut impl Write, interrupt: 
         .iter()
         .map(|file| Motion::Record { file: std::path::absolute(file).unwrap_or_else(|_| file.clone()), scale: 1.0 })
         .collect();
-    let report = pool.install(|| match arguments.study {
-        Study::IdealLimit => ideal_limit(&progress, interrupt),
-        Study::Practice => practice(&records, &progress, interrupt),
-        Study::Laws => laws(&records, &progress, interrupt),
-        Study::Decisions => decisions(&records, &progress, interrupt),
-        Study::Robustness => robustness(&records, &progress, interrupt),
-        Study::Faults => faults(&progress, interrupt),
-    });
+    let study = |accuracy: Option<Accuracy>| {
+        let conditions = Conditions::new(accuracy, interrupt);
+        let report = pool.install(|| match arguments.study {
+            Study::IdealLimit => ideal_limit(&progress, &conditions),
+            Study::Practice => practice(&records, &progress, &conditions),
+            Study::Laws => laws(&records, &progress, &conditions),
+            Study::Decisions => decisions(&records, &progress, &conditions),
+            Study::Robustness => robustness(&records, &progress, &conditions),
+            Study::Faults => faults(&progress, &conditions),
+        })?;
+        Ok::<_, StudyError>((report, accuracy.map(|_| conditions.worst())))
+    };
+    let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
+    let found = arguments.accuracy.levels(study, tell);
     progress.finish();
-    let report = report?;
+    let (report, worst) = found?;
     write(&report, arguments, out)?;
+    if let Some(worst) = worst {
+        let _ = writeln!(out, "accuracy: {worst}");
+    }
     Ok(())
 }
 

@@ -1,6 +1,8 @@
 //! The subcommands of `sprag`. Each has its arguments and a `run` that returns the exit code: 0 well, 2 bad input or
 //! output, 130 interrupted.
 
+#[cfg(feature = "effects")]
+pub mod accuracy;
 pub mod batch;
 #[cfg(feature = "effects")]
 pub mod closed_loop;
@@ -21,5 +23,25 @@ pub mod sensitivity;
 pub mod simulate;
 pub mod synthesize;
 
+use std::fmt::Display;
+use std::io::Write;
+
+use crate::interrupt;
+
 /// Exit code for bad input, and for output that cannot be written.
 pub const BAD_INPUT: i32 = 2;
+
+/// The exit code of a command that wrote nothing unless it ended well; why it did not goes to `err` in one line.
+fn ended<E: Display>(result: Result<(), E>, interrupted: impl FnOnce(&E) -> bool, err: &mut impl Write) -> i32 {
+    match result {
+        Ok(()) => 0,
+        Err(failure) if interrupted(&failure) => {
+            let _ = writeln!(err, "sprag: interrupted; nothing was written");
+            interrupt::EXIT_CODE
+        }
+        Err(failure) => {
+            let _ = writeln!(err, "sprag: {failure}");
+            BAD_INPUT
+        }
+    }
+}

@@ -7,6 +7,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::BAD_INPUT;
+use crate::accuracy::{AccuracyArguments, Worst};
 use crate::interrupt::{self, Interrupt};
 use crate::output::{OutputError, Results, make_folder};
 use crate::plot::{OwnMark, PlotError, SensitivityLane, SensitivityRow, sensitivity_figure};
@@ -47,6 +48,9 @@ pub struct SensitivityArguments {
     /// Threads; all cores by default. The result does not depend on it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
+    /// How accurate.
+    #[command(flatten)]
+    pub accuracy: AccuracyArguments,
 }
 
 #[derive(Debug, thiserror::Error)]
@@ -80,6 +84,8 @@ struct Document<'a> {
     records: Vec<&'a str>,
     runs: &'a [Summary],
     left_out: &'a [String],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    accuracy: Option<Worst>,
 }
 
 /// Runs the command; a table goes to `out`, errors go to `err`.
@@ -105,7 +111,35 @@ fn run_or_fail(
     err: &mut impl Write,
     interrupt: &Interrupt,
 ) -> Result<bool, Failure> {
-    let (scene, study) = Study::load(&arguments.scene, &arguments.set)?;
+    let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
+    let Studied { scene, study, motions, errors, folder, findings } =
+        arguments.accuracy.run(|change| studied(arguments, change, interrupt), tell)?;
+    for error in &errors {
+        let _ = writeln!(err, "sprag: {error}");
+    }
+    write(arguments, &scene, &study, &motions, &findings, &folder, out)?;
+    for error in &findings.failed {
+        let _ = writeln!(err, "sprag: {error}");
+    }
+    Ok(errors.is_empty() && findings.failed.is_empty())
+}
+
+/// A study that was run.
+struct Studied {
+    scene: Scene,
+    study: Study,
+    motions: Vec<StudyMotion>,
+    /// Records that could not be read, in a line each.
+    errors: Vec<String>,
+    folder: PathBuf,
+    findings: Findings,
+}
+
+/// The study of the scene with `change`.
+fn studied(arguments: &SensitivityArguments, change: Option<String>, interrupt: &Interrupt) -> Result<Studied, Failure> {
+    let mut changes = arguments.set.clone();
+    changes.extend(change);
+    let (scene, study) = Study::load(&arguments.scene, &changes)?;
     let records = records(arguments, &scene)?;
     let mut motions: Vec<StudyMotion> = Vec::new();
     let mut errors: Vec<String> = Vec::new();
@@ -121,9 +155,6 @@ fn run_or_fail(
         // What the scene lacks, in the words of a simulation.
         scene.ground_motions()?;
     }
-    for error in &errors {
-        let _ = writeln!(err, "sprag: {error}");
-    }
     if motions.is_empty() {
         return Err(Failure::NoMotion { scene: arguments.scene.clone() });
     }
@@ -138,12 +169,7 @@ fn run_or_fail(
     progress.begin((study.runs() * motions.len()) as u64);
     let findings = pool.install(|| study.run(&motions, interrupt, &|| progress.step()));
     progress.finish();
-    let findings = findings?;
-    write(arguments, &scene, &study, &motions, &findings, &folder, out)?;
-    for error in &findings.failed {
-        let _ = writeln!(err, "sprag: {error}");
-    }
-    Ok(errors.is_empty() && findings.failed.is_empty())
+    Ok(Studied { findings: findings?, scene, study, motions, errors, folder })
 }
 
 /// The records, each with its vertical component.
@@ -185,12 +211,10 @@ fn write(
         records: records.clone(),
         runs: &runs,
         left_out: &left_out,
+        accuracy: findings.worst,
     };
     let mut results = Results::default();
-    results.add(&folder.join("summary.json"), |file| {
-        serde_json::to_writer_pretty(&mut *file, &document).map_err(std::io::Error::other)?;
-        file.write_all(b"\n")
-    })?;
+    results.add_json(&folder.join("summary.json"), &document)?;
     results.add(&folder.join("sensitivity.csv"), |file| {
         write_csv(findings, motions, &study.devices, file).map_err(std::io::Error::other)
     })?;
@@ -201,6 +225,9 @@ fn write(
     let _ = write!(out, "{}", table(&runs));
     for line in &left_out {
         let _ = writeln!(out, "left out: {line}");
+    }
+    if let Some(worst) = findings.worst {
+        let _ = writeln!(out, "accuracy: {worst}");
     }
     let _ = writeln!(out, "results of {} in {}", arguments.scene.display(), folder.display());
     Ok(())

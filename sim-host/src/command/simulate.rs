@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::Serialize;
 
-use super::BAD_INPUT;
+use super::ended;
+use crate::accuracy::AccuracyArguments;
 use crate::history::{History, write_csv};
-use crate::interrupt::{self, Interrupt};
+use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, make_folder};
 use crate::plot::{PlotError, TimeAxis, energy_figure, history_figure};
 use crate::scene::ground::{GroundError, Motion};
@@ -40,6 +41,9 @@ pub struct SimulateArguments {
     /// Folder for the results; out/NAME of the scene by default.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// How accurate.
+    #[command(flatten)]
+    pub accuracy: AccuracyArguments,
     /// Show the picture.
     #[arg(long)]
     pub open: bool,
@@ -70,17 +74,8 @@ struct Summary<'a> {
 
 /// Runs the command; a table goes to `out`, errors go to `err`.
 pub fn run(arguments: &SimulateArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    match run_or_fail(arguments, out, err, interrupt) {
-        Ok(()) => 0,
-        Err(Failure::Run(RunError::Interrupted)) => {
-            let _ = writeln!(err, "sprag: interrupted; nothing was written");
-            interrupt::EXIT_CODE
-        }
-        Err(failure) => {
-            let _ = writeln!(err, "sprag: {failure}");
-            BAD_INPUT
-        }
-    }
+    let result = run_or_fail(arguments, out, err, interrupt);
+    ended(result, |failure| matches!(failure, Failure::Run(RunError::Interrupted)), err)
 }
 
 fn run_or_fail(
@@ -89,21 +84,12 @@ fn run_or_fail(
     err: &mut impl Write,
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
-    let mut scene = Scene::load(&arguments.scene, &arguments.set)?;
-    if let Some(record) = &arguments.record {
-        scene.use_record(record)?;
-    }
-    if let Some(record) = &arguments.record_vertical {
-        scene.use_vertical_record(record)?;
-    }
-    let ground = scene.ground_motions()?;
     let folder = arguments.out.clone().unwrap_or_else(|| {
         let name = arguments.scene.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_os_string());
         Path::new("out").join(name)
     });
-    // Where the results go is tried before the work, not after it.
-    make_folder(&folder)?;
-    let mut runs = simulate(&scene, &ground, interrupt)?;
+    let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
+    let (scene, mut runs) = arguments.accuracy.run(|change| simulated(arguments, change, &folder, interrupt), tell)?;
     let rows: Vec<SummaryRow> = runs.iter().map(row).collect();
     let axis = match scene.file.output.time_axis {
         TimeAxisName::Seconds => TimeAxis::Seconds,
@@ -121,10 +107,7 @@ fn run_or_fail(
     let summary = Summary { command: "simulate", version: env!("CARGO_PKG_VERSION"), scene: &file, runs: &runs };
     let picture = folder.join("history.svg");
     let mut results = Results::default();
-    results.add(&folder.join("summary.json"), |file| {
-        serde_json::to_writer_pretty(&mut *file, &summary).map_err(std::io::Error::other)?;
-        file.write_all(b"\n")
-    })?;
+    results.add_json(&folder.join("summary.json"), &summary)?;
     results.add(&folder.join("history.csv"), |file| write_csv(&histories, file).map_err(std::io::Error::other))?;
     results.add(&picture, |file| file.write_all(figure.as_bytes()))?;
     if scene.file.output.energy {
@@ -138,6 +121,11 @@ fn run_or_fail(
     results.commit()?;
     let _ = write!(out, "{}", summary_table(&rows));
     for run in &runs {
+        if let Some(error) = &run.error {
+            let _ = writeln!(out, "{}: {}", run.device, error.words(run.peak_rotation));
+        }
+    }
+    for run in &runs {
         for warning in run.checks.iter().flat_map(|checks| &checks.warnings) {
             let _ = writeln!(err, "sprag: warning: {}: {warning}", run.device);
         }
@@ -149,6 +137,29 @@ fn run_or_fail(
         let _ = writeln!(err, "sprag: the picture cannot be shown: {error}");
     }
     Ok(())
+}
+
+/// The scene with `change`, and its runs.
+fn simulated(
+    arguments: &SimulateArguments,
+    change: Option<String>,
+    folder: &Path,
+    interrupt: &Interrupt,
+) -> Result<(Scene, Vec<DeviceRun>), Failure> {
+    let mut changes = arguments.set.clone();
+    changes.extend(change);
+    let mut scene = Scene::load(&arguments.scene, &changes)?;
+    if let Some(record) = &arguments.record {
+        scene.use_record(record)?;
+    }
+    if let Some(record) = &arguments.record_vertical {
+        scene.use_vertical_record(record)?;
+    }
+    let ground = scene.ground_motions()?;
+    // Where the results go is tried before the work, not after it.
+    make_folder(folder)?;
+    let runs = simulate(&scene, &ground, interrupt)?;
+    Ok((scene, runs))
 }
 
 fn row(run: &DeviceRun) -> SummaryRow {

@@ -1,7 +1,7 @@
 //! A segment's shape in the precision of a run, as the core's steppers see it.
 
 use sprag_shared::ground::harmonic::Harmonic;
-use sprag_shared::ground::{Harmonics, Linear, Piece, Ricker};
+use sprag_shared::ground::{Elementary, Harmonics, Linear, Piece, Ricker};
 use sprag_shared::scalar::Real;
 
 use super::{Shape, Smooth};
@@ -73,6 +73,13 @@ impl<S: Real> Piece<S> for ShapePiece<S> {
         match self {
             ShapePiece::Linear(line) => line.series(time, coefficients),
             ShapePiece::Mixture(mixture) => mixture.series(time, coefficients),
+        }
+    }
+
+    fn elementary(&self, time: S) -> Option<Elementary<S>> {
+        match self {
+            ShapePiece::Linear(line) => line.elementary(time),
+            ShapePiece::Mixture(mixture) => mixture.elementary(time),
         }
     }
 }
@@ -150,5 +157,11 @@ impl<S: Real> Piece<S> for MixturePiece<S> {
                 *sum = *sum + *other;
             }
         }
+    }
+
+    fn elementary(&self, time: S) -> Option<Elementary<S>> {
+        self.parts.iter().try_fold(Elementary::line(S::ZERO), |sum, (offset, piece)| {
+            sum.and(&each!(piece, p => p.elementary(*offset + time))?)
+        })
     }
 }

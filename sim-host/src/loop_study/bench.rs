@@ -1,10 +1,11 @@
 //! Many closed loops in parallel: motions by variants.
 
 use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 
-use crate::closed_loop::plant::Extremes;
+use crate::accuracy::{Accuracy, Closeness, Worst};
 use crate::closed_loop::run::Ending;
 use crate::closed_loop::{LoopFailure, LoopTask};
 use crate::interrupt::Interrupt;
@@ -13,6 +14,7 @@ use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::ground::GroundError;
+use crate::simulation::ErrorReport;
 
 /// A ground motion of a study.
 #[derive(Clone, Debug, PartialEq)]
@@ -137,6 +139,31 @@ pub fn scene_of(motion: &Motion, variant: &Variant) -> Result<Scene, StudyError>
     Ok(scene)
 }
 
+/// Under what the loops of a study are run.
+pub struct Conditions<'a> {
+    /// How accurately the plant is followed; without it by a step a tick.
+    pub accuracy: Option<Accuracy>,
+    /// Ctrl-C.
+    pub interrupt: &'a Interrupt,
+    worst: Mutex<Worst>,
+}
+
+impl<'a> Conditions<'a> {
+    /// Of a study that begins.
+    pub fn new(accuracy: Option<Accuracy>, interrupt: &'a Interrupt) -> Conditions<'a> {
+        Conditions { accuracy, interrupt, worst: Mutex::default() }
+    }
+
+    /// The least accurate loop so far.
+    pub fn worst(&self) -> Worst {
+        *self.worst.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn note(&self, error: &ErrorReport, peak: Option<f64>) {
+        self.worst.lock().unwrap_or_else(PoisonError::into_inner).note(&error.estimate, peak);
+    }
+}
+
 /// Gives `work` the closed loop of a motion and a variant.
 ///
 /// # Errors
@@ -144,10 +171,11 @@ pub fn scene_of(motion: &Motion, variant: &Variant) -> Result<Scene, StudyError>
 pub fn with_loop<R>(
     motion: &Motion,
     variant: &Variant,
-    interrupt: &Interrupt,
+    conditions: &Conditions<'_>,
     work: impl FnOnce(&LoopTask<'_>) -> Result<R, LoopFailure>,
 ) -> Result<R, StudyError> {
-    let scene = scene_of(motion, variant)?;
+    let mut scene = scene_of(motion, variant)?;
+    scene.file.accuracy.level = conditions.accuracy;
     let ground = scene.ground_motions()?;
     let controller = scene.file.controller.clone().unwrap_or_default();
     let suite = controller.suite("study")?;
@@ -158,7 +186,8 @@ pub fn with_loop<R>(
         controller: &controller,
         suite: &suite,
         seed: variant.seed,
-        interrupt,
+        closeness: conditions.accuracy.map(|accuracy| Closeness { tolerance: accuracy.tolerance() }),
+        interrupt: conditions.interrupt,
     };
     work(&task).map_err(|failure| match failure {
         LoopFailure::Loop(crate::closed_loop::run::LoopError::Interrupted) => StudyError::Interrupted,
@@ -170,12 +199,14 @@ pub fn with_loop<R>(
 ///
 /// # Errors
 /// [`StudyError`].
-pub fn run_loop(motion: &Motion, variant: &Variant, interrupt: &Interrupt) -> Result<LoopResult, StudyError> {
-    with_loop(motion, variant, interrupt, |task| {
-        let mut extremes = Extremes::default();
-        let ending = task.run(&mut extremes, &mut ())?;
-        let outcome = Outcome::of(&ending.motion, &extremes.peaks);
-        Ok(LoopResult { outcome, peak: extremes.peaks.rotation / task.scene.block.slenderness(), ending })
+pub fn run_loop(motion: &Motion, variant: &Variant, conditions: &Conditions<'_>) -> Result<LoopResult, StudyError> {
+    with_loop(motion, variant, conditions, |task| {
+        let (_, error, looped) = task.answered::<()>()?;
+        let (outcome, peak) = (looped.outcome(), looped.extremes.peaks.rotation / task.scene.block.slenderness());
+        if let Some(error) = error {
+            conditions.note(&error, (!outcome.overturned()).then_some(peak));
+        }
+        Ok(LoopResult { outcome, peak, ending: looped.ending })
     })
 }
 
@@ -183,8 +214,8 @@ pub fn run_loop(motion: &Motion, variant: &Variant, interrupt: &Interrupt) -> Re
 ///
 /// # Errors
 /// [`StudyError`].
-pub fn run_ideal(motion: &Motion, variant: &Variant, interrupt: &Interrupt) -> Result<(Outcome, f64), StudyError> {
-    with_loop(motion, variant, interrupt, |task| {
+pub fn run_ideal(motion: &Motion, variant: &Variant, conditions: &Conditions<'_>) -> Result<(Outcome, f64), StudyError> {
+    with_loop(motion, variant, conditions, |task| {
         let run = task.ideal()?;
         Ok((run.outcome, run.peak_rotation.unwrap_or(f64::INFINITY)))
     })

@@ -1,9 +1,8 @@
 //! Decision quality: estimators by sensors by delays.
 
-use super::bench::{Motion, StudyError, Variant, each, grid, run_loop};
+use super::bench::{Conditions, Motion, StudyError, Variant, each, grid, run_loop};
 use super::report::{Report, Table};
 use super::statistics::{cell, quantile};
-use crate::interrupt::Interrupt;
 use crate::progress::Progress;
 use crate::scene::controller::EstimatorName;
 
@@ -14,7 +13,7 @@ const DELAYS: [f64; 3] = [0.0, 1.0, 5.0];
 ///
 /// # Errors
 /// [`StudyError`].
-pub fn decisions(records: &[Motion], progress: &Progress, interrupt: &Interrupt) -> Result<Report, StudyError> {
+pub fn decisions(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>) -> Result<Report, StudyError> {
     let mut motions = [grid("sine", 4, (1.5, 6.0), (1.5, 4.0)), grid("cosine", 4, (1.5, 6.0), (1.5, 4.0))].concat();
     motions.extend_from_slice(records);
     let mut variants = Vec::new();
@@ -34,7 +33,7 @@ pub fn decisions(records: &[Motion], progress: &Progress, interrupt: &Interrupt)
             }
         }
     }
-    let results = each(&motions, &variants, progress, |motion, variant| run_loop(motion, variant, interrupt))?;
+    let results = each(&motions, &variants, progress, |motion, variant| run_loop(motion, variant, conditions))?;
     let mut report = Report::new("decisions", "Decision quality");
     report.paragraph(&format!(
         "Eq. 10 predicted at 2 kHz over {} motions (R = 2 m, α = 10°, σ = 0.5), among blocks that stand, against Eq. 10 on the true motion. Wrong: share of the rocking \

@@ -3,13 +3,12 @@
 use sprag_shared::control::controller::Circumstances;
 use sprag_shared::control::sample::Sample;
 
-use super::bench::{Motion, StudyError, Variant, each, with_loop};
+use super::bench::{Conditions, Motion, StudyError, Variant, each, with_loop};
 use super::report::{Report, Table};
 use super::statistics::cell;
 use crate::closed_loop::disturbance::Disturbance;
 use crate::closed_loop::plant::Extremes;
 use crate::closed_loop::run::{Tick, TickObserver};
-use crate::interrupt::Interrupt;
 use crate::outcome::Outcome;
 use crate::progress::Progress;
 
@@ -188,8 +187,8 @@ const MOTION: Motion = Motion::Pulse { shape: "sine", frequency: 4.0, amplitude:
 const START: &str = "ground.0.start_s=1.0";
 
 /// Instants of the loop without a fault, s.
-fn instants(variant: &Variant, interrupt: &Interrupt) -> Result<[f64; 4], StudyError> {
-    with_loop(&MOTION, variant, interrupt, |task| {
+fn instants(variant: &Variant, conditions: &Conditions<'_>) -> Result<[f64; 4], StudyError> {
+    with_loop(&MOTION, variant, conditions, |task| {
         let mut ticks: Vec<Tick> = Vec::new();
         task.run(&mut Extremes::default(), &mut ticks)?;
         let uplift = ticks.iter().find(|tick| tick.plant.motion.velocity != 0.0).map_or(0.0, |tick| tick.plant.time);
@@ -203,8 +202,8 @@ fn instants(variant: &Variant, interrupt: &Interrupt) -> Result<[f64; 4], StudyE
 }
 
 /// One loop with one fault.
-fn inject(variant: &Variant, failing: Failing, from: f64, interrupt: &Interrupt) -> Result<FaultResult, StudyError> {
-    with_loop(&MOTION, variant, interrupt, |task| {
+fn inject(variant: &Variant, failing: Failing, from: f64, conditions: &Conditions<'_>) -> Result<FaultResult, StudyError> {
+    with_loop(&MOTION, variant, conditions, |task| {
         let mut driver = task.driver(task.controller.clutch_law())?;
         let mut disturbance = Injected::new(failing, from);
         let (mut extremes, mut seen) = (Extremes::default(), Seen { from, ..Seen::default() });
@@ -221,17 +220,17 @@ fn inject(variant: &Variant, failing: Failing, from: f64, interrupt: &Interrupt)
 ///
 /// # Errors
 /// [`StudyError`].
-pub fn results(progress: &Progress, interrupt: &Interrupt) -> Result<Vec<Vec<FaultResult>>, StudyError> {
+pub fn results(progress: &Progress, conditions: &Conditions<'_>) -> Result<Vec<Vec<FaultResult>>, StudyError> {
     let variant = Variant::new(
         "faults",
         &["controller.sensors.suite=\"icm-42688-p\"", "controller.latency_s=0.001", "controller.prelude_s=6.0", START],
     );
-    let starts = instants(&variant, interrupt)?;
+    let starts = instants(&variant, conditions)?;
     let motions = vec![MOTION; ALL.len() * INSTANTS.len()];
     let numbers: Vec<Variant> = (0..motions.len()).map(|number| Variant { seed: number as u64, ..variant.clone() }).collect();
     let flat = each(&motions[..1], &numbers, progress, |_, number| {
         let index = number.seed as usize;
-        inject(&variant, ALL[index / INSTANTS.len()], starts[index % INSTANTS.len()], interrupt)
+        inject(&variant, ALL[index / INSTANTS.len()], starts[index % INSTANTS.len()], conditions)
     })?;
     let flat: Vec<FaultResult> = flat.into_iter().flatten().collect();
     Ok(flat.chunks(INSTANTS.len()).map(<[FaultResult]>::to_vec).collect())
@@ -241,8 +240,8 @@ pub fn results(progress: &Progress, interrupt: &Interrupt) -> Result<Vec<Vec<Fau
 ///
 /// # Errors
 /// [`StudyError`].
-pub fn faults(progress: &Progress, interrupt: &Interrupt) -> Result<Report, StudyError> {
-    let results = results(progress, interrupt)?;
+pub fn faults(progress: &Progress, conditions: &Conditions<'_>) -> Result<Report, StudyError> {
+    let results = results(progress, conditions)?;
     let mut report = Report::new("faults", "Faults in the closed loop");
     report.paragraph(
         "A sine pulse (ω/p = 4, 3 thresholds), ICM-42688-P, 2 kHz, model-aided, safe state: released. Time from the beginning of the fault \

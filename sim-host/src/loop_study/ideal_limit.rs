@@ -1,8 +1,7 @@
 //! The ideal limit: with ideal sensors and no delay the loop becomes the ideal pair as its rate grows.
 
-use super::bench::{Motion, StudyError, Variant, each, run_ideal, run_loop};
+use super::bench::{Conditions, Motion, StudyError, Variant, each, run_ideal, run_loop};
 use super::report::{Report, Table};
-use crate::interrupt::Interrupt;
 use crate::plot::{Chart, ChartPanel, Line, Scale, chart_figure};
 use crate::progress::Progress;
 use crate::scene::controller::EstimatorName;
@@ -25,10 +24,10 @@ pub fn motions() -> Vec<Motion> {
 ///
 /// # Errors
 /// [`StudyError`].
-pub fn standing(interrupt: &Interrupt) -> Result<Vec<Motion>, StudyError> {
+pub fn standing(conditions: &Conditions<'_>) -> Result<Vec<Motion>, StudyError> {
     let mut kept = Vec::new();
     for motion in motions() {
-        if !run_ideal(&motion, &Variant::new("ideal", &[]), interrupt)?.0.overturned() {
+        if !run_ideal(&motion, &Variant::new("ideal", &[]), conditions)?.0.overturned() {
             kept.push(motion);
         }
     }
@@ -71,10 +70,10 @@ pub fn order(points: &[(f64, f64)]) -> f64 {
 ///
 /// # Errors
 /// [`StudyError`].
-pub fn ideal_limit(progress: &Progress, interrupt: &Interrupt) -> Result<Report, StudyError> {
-    let motions = standing(interrupt)?;
+pub fn ideal_limit(progress: &Progress, conditions: &Conditions<'_>) -> Result<Report, StudyError> {
+    let motions = standing(conditions)?;
     let ideals =
-        each(&motions, &[Variant::new("ideal", &[])], progress, |motion, variant| run_ideal(motion, variant, interrupt))?;
+        each(&motions, &[Variant::new("ideal", &[])], progress, |motion, variant| run_ideal(motion, variant, conditions))?;
     let mut report = Report::new("ideal-limit", "The ideal limit");
     report.paragraph(&format!(
         "Ideal sensors, no delay, no hysteresis, Eq. 10: mean error of the peak rotation of {} pulses (R = 2 m, α = 10°, σ = 0.5) \
@@ -90,7 +89,7 @@ pub fn ideal_limit(progress: &Progress, interrupt: &Interrupt) -> Result<Report,
         ChartPanel { title: String::new(), y_title: "mean error of the peak".to_owned(), y: Scale::Logarithmic, lines: vec![] };
     for estimator in EstimatorName::ALL {
         let variants: Vec<Variant> = RATES.iter().map(|&rate| variant(estimator, rate)).collect();
-        let loops = each(&motions, &variants, progress, |motion, variant| run_loop(motion, variant, interrupt))?;
+        let loops = each(&motions, &variants, progress, |motion, variant| run_loop(motion, variant, conditions))?;
         let errors: Vec<f64> = loops.iter().map(|loops| error(loops, &ideals[0])).collect();
         let points: Vec<(f64, f64)> = RATES.iter().map(|rate| 1.0 / rate).zip(errors.iter().copied()).collect();
         let mut row = vec![estimator.name().to_owned()];

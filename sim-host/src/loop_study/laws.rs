@@ -1,8 +1,7 @@
 //! Beyond Eq. 10: what each law overturns, in the ideal model and with the clutch and sensors as they are.
 
-use super::bench::{LoopResult, Motion, StudyError, Variant, each, grid, run_loop};
+use super::bench::{Conditions, LoopResult, Motion, StudyError, Variant, each, grid, run_loop};
 use super::report::{Report, Table};
-use crate::interrupt::Interrupt;
 use crate::plot::{Cell, CellMap, CellMaps, cell_map_figure};
 use crate::progress::Progress;
 use crate::scene::controller::LawName;
@@ -73,7 +72,7 @@ fn scaled(records: &[Motion]) -> Vec<Motion> {
 ///
 /// # Errors
 /// [`StudyError`].
-pub fn laws(records: &[Motion], progress: &Progress, interrupt: &Interrupt) -> Result<Report, StudyError> {
+pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>) -> Result<Report, StudyError> {
     let mut report = Report::new("laws", "Beyond Eq. 10: clutch laws");
     report.paragraph(&format!(
         "Overturned cells of a {CELLS} x {CELLS} grid (α = 20°, R = 2 m, σ = 0.5, η = 0.85, ω/p {} to {}, a/(g tan α) {} to {}), and of \
@@ -96,7 +95,7 @@ pub fn laws(records: &[Motion], progress: &Progress, interrupt: &Interrupt) -> R
             .iter()
             .map(|law| Variant { name: law.name().to_owned(), ..base.with(&format!("controller.law=\"{}\"", law.name())) })
             .collect();
-        let results = each(&motions, &variants, progress, |motion, variant| run_loop(motion, variant, interrupt))?;
+        let results = each(&motions, &variants, progress, |motion, variant| run_loop(motion, variant, conditions))?;
         let mut table = Table::new(&["law", "sine", "cosine", "records", "records: median peak |θ|/α", "engagements a run"]);
         let mut maps = Vec::new();
         let mut cosine_maps = Vec::new();

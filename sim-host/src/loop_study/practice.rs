@@ -1,9 +1,8 @@
 //! As good as the ideal pair in practice: real sensors, a real rate, a real delay.
 
-use super::bench::{Motion, StudyError, Variant, each, run_ideal, run_loop};
+use super::bench::{Conditions, Motion, StudyError, Variant, each, run_ideal, run_loop};
 use super::report::{Report, Table};
 use super::statistics::{cell, quantile};
-use crate::interrupt::Interrupt;
 use crate::progress::Progress;
 use crate::scene::controller::EstimatorName;
 
@@ -78,7 +77,7 @@ pub const COLUMNS: [&str; 7] = [
 ///
 /// # Errors
 /// [`StudyError`].
-pub fn practice(records: &[Motion], progress: &Progress, interrupt: &Interrupt) -> Result<Report, StudyError> {
+pub fn practice(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>) -> Result<Report, StudyError> {
     let pulses = pulses();
     let mut report = Report::new("practice", "As good as ideal in practice");
     report.paragraph(
@@ -105,8 +104,8 @@ pub fn practice(records: &[Motion], progress: &Progress, interrupt: &Interrupt) 
             }
         }
         let ideals =
-            each(motions, &[Variant::new("ideal", &[])], progress, |motion, variant| run_ideal(motion, variant, interrupt))?;
-        let loops = each(motions, &variants, progress, |motion, variant| run_loop(motion, variant, interrupt))?;
+            each(motions, &[Variant::new("ideal", &[])], progress, |motion, variant| run_ideal(motion, variant, conditions))?;
+        let loops = each(motions, &variants, progress, |motion, variant| run_loop(motion, variant, conditions))?;
         let mut table = Table::new(&[&["sensors, estimator"], &COLUMNS[..], &["faults among blocks that stand"]].concat());
         for (variant, loops) in variants.iter().zip(&loops) {
             let comparison = Comparison::of(loops, &ideals[0]);

@@ -1,10 +1,9 @@
 //! Robustness: what delay, noise, rate and wrong beliefs cost, and where the loop breaks.
 
-use super::bench::{Motion, StudyError, Variant, each, grid, run_ideal, run_loop};
+use super::bench::{Conditions, Motion, StudyError, Variant, each, grid, run_ideal, run_loop};
 use super::practice::{COLUMNS, Comparison};
 use super::report::{Report, Table};
 use super::statistics::cell;
-use crate::interrupt::Interrupt;
 use crate::plot::{Chart, ChartPanel, Line, Scale, chart_figure};
 use crate::progress::Progress;
 
@@ -103,11 +102,11 @@ fn breaking(sweep: &Sweep, high: &[(f64, f64)]) -> String {
 ///
 /// # Errors
 /// [`StudyError`].
-pub fn robustness(records: &[Motion], progress: &Progress, interrupt: &Interrupt) -> Result<Report, StudyError> {
+pub fn robustness(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>) -> Result<Report, StudyError> {
     let mut motions = [grid("sine", 6, (1.0, 6.0), (1.5, 5.2)), grid("cosine", 6, (1.0, 6.0), (1.5, 5.2))].concat();
     motions.extend_from_slice(records);
     let ideals =
-        each(&motions, &[Variant::new("ideal", &[])], progress, |motion, variant| run_ideal(motion, variant, interrupt))?;
+        each(&motions, &[Variant::new("ideal", &[])], progress, |motion, variant| run_ideal(motion, variant, conditions))?;
     let mut report = Report::new("robustness", "Robustness of the closed loop");
     report.paragraph(&format!(
         "Peak rotation against the ideal pair, R = 2 m, α = 10°, σ = 0.5, η = 0.85, over {} motions: model-aided estimator, Eq. 10 \
@@ -116,7 +115,7 @@ pub fn robustness(records: &[Motion], progress: &Progress, interrupt: &Interrupt
     ));
     let plain: Vec<Variant> =
         ["passive", "always-engaged"].iter().map(|law| Variant::new(law, &[&format!("controller.law=\"{law}\"")])).collect();
-    let results = each(&motions, &plain, progress, |motion, variant| run_loop(motion, variant, interrupt))?;
+    let results = each(&motions, &plain, progress, |motion, variant| run_loop(motion, variant, conditions))?;
     report.section("For comparison: what is left without decisions");
     report.paragraph(
         "A fault leaves the safe state: both clutches open (passive), or one flywheel engaged for good. Against the ideal pair:",
@@ -137,7 +136,7 @@ pub fn robustness(records: &[Motion], progress: &Progress, interrupt: &Interrupt
                 variant
             })
             .collect();
-        let results = each(&motions, &variants, progress, |motion, variant| run_loop(motion, variant, interrupt))?;
+        let results = each(&motions, &variants, progress, |motion, variant| run_loop(motion, variant, conditions))?;
         let mut table = Table::new(&[
             sweep.axis,
             "median change %",

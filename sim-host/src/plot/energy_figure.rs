@@ -287,6 +287,7 @@ mod tests {
             peak_force_ratio: 0.0,
             checks: None,
             energy: Some(EnergyReport { entries, history }),
+            error: None,
             history: History::default(),
         }
     }

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::SceneError;
 use super::schema::KeyOf;
+use crate::accuracy::{Accuracy, Closeness};
 
 /// How a scene is integrated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -56,9 +57,12 @@ pub enum EventTreatment {
 }
 
 /// `[accuracy]`.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AccuracyTable {
+    /// How accurate, in place of a method and its parameters; then errors are reported.
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "level")]
+    pub level: Option<Accuracy>,
     /// The method.
     #[serde(default)]
     pub method: MethodName,
@@ -83,9 +87,40 @@ fn tight() -> f64 {
     crate::batch::case::TIGHT
 }
 
+/// A level is a word or a number.
+mod level {
+    use serde::{Deserialize, Deserializer, Serializer, de::Error};
+
+    use crate::accuracy::Accuracy;
+
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Written {
+        Word(String),
+        Number(f64),
+    }
+
+    pub fn serialize<S: Serializer>(level: &Option<Accuracy>, serializer: S) -> Result<S::Ok, S::Error> {
+        match level {
+            None => serializer.serialize_none(),
+            Some(Accuracy::Error(error)) => serializer.serialize_f64(*error),
+            Some(word) => serializer.serialize_str(&word.to_string()),
+        }
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Accuracy>, D::Error> {
+        let text = match Written::deserialize(deserializer)? {
+            Written::Word(word) => word,
+            Written::Number(number) => format!("{number:e}"),
+        };
+        text.parse().map(Some).map_err(D::Error::custom)
+    }
+}
+
 impl Default for AccuracyTable {
     fn default() -> Self {
         AccuracyTable {
+            level: None,
             method: MethodName::Taylor,
             precision: Precision::F64,
             events: EventTreatment::Located,
@@ -100,6 +135,10 @@ impl AccuracyTable {
     /// # Errors
     /// [`SceneError`] names the key.
     pub(super) fn check(&self, key: &KeyOf<'_>) -> Result<(), SceneError> {
+        let own = AccuracyTable { level: None, ..self.clone() };
+        if self.level.is_some() && own != AccuracyTable::default() {
+            return Err(key("accuracy.level").conflict("give a level, or a method and its parameters"));
+        }
         key("accuracy.tolerance").require(self.tolerance, (1e-20..=1e-2).contains(&self.tolerance), "from 1e-20 to 0.01")?;
         if self.step_s.is_some() && self.step_ratio.is_some() {
             return Err(key("accuracy.step_s").conflict("give only one of step_s and step_ratio"));
@@ -148,6 +187,11 @@ impl AccuracyTable {
             return Err(key("accuracy.method").conflict(reason));
         }
         Ok(())
+    }
+
+    /// By the series, as closely as told.
+    pub fn as_close(closeness: Closeness) -> AccuracyTable {
+        AccuracyTable { tolerance: closeness.tolerance, ..AccuracyTable::default() }
     }
 
     /// The fixed step for a block of frequency parameter `p`, s.

@@ -158,6 +158,11 @@ impl Scene {
         self.file.block.geometry.into()
     }
 
+    /// The first key of the scene that takes a device or the ground beyond what an ideal device is followed under, if any.
+    pub fn first_beyond_ideal(&self) -> Option<String> {
+        first_beyond_ideal(&self.file, &self.devices)
+    }
+
     /// g tan α, or gα for the slender model, in g.
     pub fn uplift_threshold(&self) -> f64 {
         self.geometry().uplift_threshold(&self.block)

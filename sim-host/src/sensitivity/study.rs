@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::motion::{StudyMotion, with_vertical};
 use super::variants::{VARIANTS, Variant};
+use crate::accuracy::{ErrorEstimate, Worst};
 use crate::interrupt::Interrupt;
 use crate::outcome::Outcome;
 use crate::scene::{Scene, SceneError};
@@ -21,6 +22,8 @@ pub struct Answer {
     pub outcome: Outcome,
     /// max |θ|/α; `None` when overturned.
     pub peak: Option<f64>,
+    /// How accurate that is, where it was asked for.
+    pub error: Option<ErrorEstimate>,
 }
 
 /// A variant against the scene as it is.
@@ -91,6 +94,8 @@ pub struct Findings {
     pub left_out: Vec<String>,
     /// Runs that failed, in a line each.
     pub failed: Vec<String>,
+    /// The least accurate of them, where that was asked for.
+    pub worst: Option<Worst>,
 }
 
 impl Study {
@@ -149,6 +154,9 @@ impl Study {
         if interrupt.is_set() || answers.contains(&Err(Missing::Interrupted)) {
             return Err(RunError::Interrupted);
         }
+        for (answer, error) in answers.iter().flatten().filter_map(|answer| Some((answer, answer.error.as_ref()?))) {
+            findings.worst.get_or_insert_default().note(error, answer.peak);
+        }
         for (setup, of_setup) in self.setups.iter().zip(answers.chunks(motions.len().max(1))) {
             for (index, (motion, answer)) in motions.iter().zip(of_setup).enumerate() {
                 let what = setup.variant.map_or_else(|| "as it is".to_owned(), |variant| VARIANTS[variant].label());
@@ -194,7 +202,10 @@ impl Setup {
             error => Missing::Failed(error.to_string()),
         })?;
         match runs.first() {
-            Some(run) => Ok(Answer { outcome: run.outcome, peak: run.peak_rotation }),
+            Some(run) => {
+                let error = run.error.map(|report| report.estimate);
+                Ok(Answer { outcome: run.outcome, peak: run.peak_rotation, error })
+            }
             None => Err(Missing::Failed("no device".to_owned())),
         }
     }
@@ -272,8 +283,8 @@ mod tests {
 
     #[test]
     fn a_change_needs_two_blocks_that_stand_and_one_that_rocks() {
-        let standing = |peak| Answer { outcome: Outcome::Safe, peak: Some(peak) };
-        let lying = Answer { outcome: Outcome::OverturnedAfterImpact, peak: None };
+        let standing = |peak| Answer { outcome: Outcome::Safe, peak: Some(peak), error: None };
+        let lying = Answer { outcome: Outcome::OverturnedAfterImpact, peak: None, error: None };
         let of = |base, answer| Comparison { motion: 0, device: 0, variant: 0, base, answer };
         assert_eq!(of(standing(0.5), standing(0.25)).change(), Some(-0.5));
         assert_eq!(of(standing(0.5), lying).change(), None);

@@ -10,6 +10,8 @@ use super::energy::EnergyReport;
 use super::run::Task;
 use super::step_end::Trace;
 use super::watchers::Watchers;
+use crate::accuracy::answer::Comparable;
+use crate::accuracy::{Answer, Compared, ErrorEstimate};
 use crate::history::{History, Sample};
 use crate::outcome::Outcome;
 
@@ -43,9 +45,60 @@ pub struct DeviceRun {
     /// Where the energy went, where the scene keeps a ledger.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy: Option<EnergyReport>,
+    /// How accurate it is, where that was asked for.
+    #[serde(rename = "error_estimate", skip_serializing_if = "Option::is_none")]
+    pub error: Option<ErrorReport>,
     /// The history.
     #[serde(skip)]
     pub history: History,
+}
+
+/// How accurate a run is.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ErrorReport {
+    /// Size of the last terms of the series over the rotation that matters.
+    pub tolerance: f64,
+    /// False where the error that was asked for cannot be had.
+    pub as_wanted: bool,
+    /// Absolute errors; the time's in s.
+    #[serde(flatten)]
+    pub estimate: ErrorEstimate,
+}
+
+impl ErrorReport {
+    /// Of an answer.
+    pub fn of<R>(answer: &Answer<R>) -> ErrorReport {
+        ErrorReport { tolerance: answer.closeness.tolerance, as_wanted: answer.as_wanted, estimate: answer.error }
+    }
+
+    /// In words, of a run whose peak is `peak`.
+    pub fn words(&self, peak: Option<f64>) -> String {
+        let enough = if self.as_wanted { "" } else { ", more than was asked for" };
+        match (self.estimate.outcome_certain, peak) {
+            (false, _) => "the outcome is in doubt: the motion comes too close to a boundary".to_owned(),
+            (true, None) => "the outcome is certain".to_owned(),
+            (true, Some(_)) => {
+                format!(
+                    "peak θ/α within {:.1e} ({:.1e} of it){enough}",
+                    self.estimate.peak_rotation,
+                    self.estimate.relative(peak)
+                )
+            }
+        }
+    }
+}
+
+impl Comparable for DeviceRun {
+    type Outcome = Outcome;
+
+    fn compared(&self) -> Compared<Outcome> {
+        Compared {
+            outcome: self.outcome,
+            peak_rotation: self.peak_rotation,
+            peak_acceleration: self.peak_acceleration,
+            first_impact_time: self.first_impact_time_s,
+        }
+    }
 }
 
 fn is_zero(count: &u32) -> bool {
@@ -113,6 +166,7 @@ impl DeviceRun {
             peak_force_ratio: found.peak_force_ratio,
             checks: found.checks,
             energy: found.energy,
+            error: None,
             history: History {
                 device,
                 outcome: outcome.name().to_owned(),

@@ -15,7 +15,7 @@ pub mod run;
 pub mod step_end;
 pub mod watchers;
 
-pub use device_run::DeviceRun;
+pub use device_run::{DeviceRun, ErrorReport};
 pub use run::{RunError, simulate};
 
 /// Terms of the series in f32: more would only add rounding.

@@ -10,14 +10,16 @@ use sprag_shared::scalar::Real;
 use sprag_shared::structure::{DeviceKind, Structure};
 
 use super::asked::Asked;
-use super::device_run::DeviceRun;
+use super::device_run::{DeviceRun, ErrorReport};
 use super::drive::{Course, Overturning};
 use super::recorder::Recorder;
 use super::watchers::Watchers;
 use super::{ideal, machine};
+use crate::accuracy::{Accuracy, answer};
 use crate::ground_motion::GroundMotion;
 use crate::interrupt::Interrupt;
 use crate::scene::Scene;
+use crate::scene::accuracy::AccuracyTable;
 use crate::scene::device::SceneDevice;
 use crate::scene::motions::GroundMotions;
 
@@ -78,7 +80,11 @@ pub fn simulate(scene: &Scene, ground: &GroundMotions, interrupt: &Interrupt) ->
     let run = |index: usize| {
         let device = &scene.devices[index].name;
         let task = Task { scene, ground, index, interval, interrupt };
-        task.run().map_err(|failure| match failure {
+        let run = match scene.file.accuracy.level {
+            Some(level) => task.answer(level),
+            None => task.run(),
+        };
+        run.map_err(|failure| match failure {
             Failure::NoEffects => RunError::NoEffects { device: device.clone() },
             Failure::Parameter(error) => RunError::Parameter { device: device.clone(), error },
             Failure::Stopped(error) => RunError::Stopped { device: device.clone(), error },
@@ -123,6 +129,16 @@ impl<'a> Task<'a> {
     /// Its run.
     pub fn run(&self) -> Result<DeviceRun, Failure> {
         if self.is_ideal() { ideal::run(self) } else { machine::run(self) }
+    }
+
+    /// Its run as accurately as `level` asks, with its error.
+    fn answer(&self, level: Accuracy) -> Result<DeviceRun, Failure> {
+        let mut scene = self.scene.clone();
+        let found = answer(level, |closeness| {
+            scene.file.accuracy = AccuracyTable::as_close(closeness);
+            Task { scene: &scene, ..*self }.run()
+        })?;
+        Ok(DeviceRun { error: Some(ErrorReport::of(&found)), ..found.result })
     }
 
     /// The device.

@@ -1,0 +1,134 @@
+//! A result with its error, made as accurate as asked.
+
+use sprag_shared::math;
+
+use super::estimate::{Checks, Compared, ErrorEstimate};
+use super::level::{Accuracy, FAST, TIGHT};
+
+/// How closely a motion is followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closeness {
+    /// Size of the last terms of the series over the rotation that matters.
+    pub tolerance: f64,
+}
+
+impl Closeness {
+    /// Steps of a fourth-order method to a control tick that follow a plant so closely; one at the tolerance of [`Accuracy::Fast`].
+    pub fn steps_per_tick(self) -> u32 {
+        let steps = math::pow(FAST / self.tolerance, 0.25).round();
+        steps.clamp(1.0, 1000.0) as u32
+    }
+}
+
+/// A result that says what of it can be compared.
+pub trait Comparable {
+    /// How it may end.
+    type Outcome: PartialEq;
+
+    /// What is compared.
+    fn compared(&self) -> Compared<Self::Outcome>;
+}
+
+/// A result and its error.
+#[derive(Clone, Debug)]
+pub struct Answer<R> {
+    /// The result.
+    pub result: R,
+    /// Its error.
+    pub error: ErrorEstimate,
+    /// How closely it was followed.
+    pub closeness: Closeness,
+    /// False where an error was asked for that rounding, or the motion's own sensitivity, does not allow.
+    pub as_wanted: bool,
+}
+
+/// Tolerance of a check over that of the result.
+const CLOSER: f64 = 1e-3;
+
+/// The largest tolerance of a check: with more, outcomes near a boundary may be wrong, and wrongly taken for certain.
+const LARGEST_CHECK: f64 = 1e-10;
+
+/// Tolerances of the checks of a result that is as close as rounding allows: they change nothing but where steps end.
+const AS_CLOSE: [f64; 2] = [0.1 * TIGHT, 0.01 * TIGHT];
+
+/// What a tolerance shrinks to when the error was too large.
+const NEXT: f64 = 1e-3;
+
+/// Follows a motion by `run`, and again to learn the error, until that is as small as `accuracy` asks.
+///
+/// # Errors
+/// Those of `run`.
+pub fn answer<R: Comparable, F>(accuracy: Accuracy, mut run: impl FnMut(Closeness) -> Result<R, F>) -> Result<Answer<R>, F> {
+    let mut tolerance = accuracy.tolerance();
+    loop {
+        let closeness = Closeness { tolerance };
+        let result = run(closeness)?;
+        let (how, tolerances) = if tolerance > 100.0 * TIGHT {
+            let check = (CLOSER * tolerance).clamp(AS_CLOSE[0], LARGEST_CHECK);
+            (Checks::Closer(check), vec![check])
+        } else {
+            (Checks::AsClose, AS_CLOSE.to_vec())
+        };
+        let checks = tolerances.into_iter().map(|tolerance| Ok(run(Closeness { tolerance })?.compared()));
+        let checks = checks.collect::<Result<Vec<_>, F>>()?;
+        let found = result.compared();
+        let error = ErrorEstimate::of(&found, &checks, how);
+        let as_wanted = accuracy.wanted().is_none_or(|wanted| error.relative(found.peak_rotation) <= wanted);
+        if as_wanted || tolerance <= TIGHT {
+            return Ok(Answer { result, error, closeness, as_wanted });
+        }
+        tolerance = (NEXT * tolerance).max(TIGHT);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 1/3 with an error of a thousand times the tolerance, and another outcome where that is more than `margin`.
+    struct Third {
+        error: f64,
+        margin: f64,
+    }
+
+    impl Comparable for Third {
+        type Outcome = bool;
+
+        fn compared(&self) -> Compared<bool> {
+            let value = Some(1.0 / 3.0 + self.error);
+            Compared {
+                outcome: self.error > self.margin,
+                peak_rotation: value,
+                peak_acceleration: value,
+                first_impact_time: None,
+            }
+        }
+    }
+
+    fn third(accuracy: Accuracy, margin: f64) -> Answer<Third> {
+        answer::<_, ()>(accuracy, |closeness| Ok(Third { error: 1e3 * closeness.tolerance, margin })).unwrap()
+    }
+
+    #[test]
+    fn an_error_that_is_too_large_is_not_given() {
+        for wanted in [1e-2, 1e-6, 1e-10] {
+            let found = third(Accuracy::Error(wanted), 1.0);
+            assert!(found.as_wanted && found.result.error * 3.0 <= wanted, "{wanted}: {found:?}", found = found.result.error);
+            assert!(found.error.peak_rotation >= found.result.error && found.error.peak_rotation < 5.0 * found.result.error);
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_had_is_said() {
+        let found = third(Accuracy::Error(1e-15), 1.0);
+        assert!(!found.as_wanted && found.closeness.tolerance == TIGHT);
+        assert!(third(Accuracy::Fast, 1.0).as_wanted, "a level asks for no error");
+    }
+
+    #[test]
+    fn a_doubtful_outcome_is_looked_at_again() {
+        assert!(!third(Accuracy::Fast, 1e-4).error.outcome_certain);
+        let found = third(Accuracy::Error(1e-1), 1e-4);
+        assert!(found.error.outcome_certain && found.result.error < 1e-4);
+    }
+}

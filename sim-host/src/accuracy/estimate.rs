@@ -1,0 +1,114 @@
+//! The error of a result, from the same motion followed more closely.
+//!
+//! A motion is followed again with a smaller tolerance. Whatever separates the two, be it truncation or rounding, the impacts and the
+//! nearness of a boundary enlarge alike, so their difference says how far the first is from the truth. Where it is as close as rounding
+//! allows, two more runs that lay their steps otherwise tell how much rounding matters, and the differences are taken larger.
+
+use serde::Serialize;
+
+/// Absolute errors of a result, in its own units.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ErrorEstimate {
+    /// All runs end alike, and no closer look changed that.
+    pub outcome_certain: bool,
+    /// Of the peak rotation, max |θ|/α.
+    pub peak_rotation: f64,
+    /// Of the peak acceleration, max |θ̈|/(p²α).
+    pub peak_acceleration: f64,
+    /// Of the time of the first impact, in the unit of the result's times.
+    pub first_impact_time: f64,
+}
+
+/// What of a result is compared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compared<O> {
+    /// How it ended.
+    pub outcome: O,
+    /// max |θ|/α.
+    pub peak_rotation: Option<f64>,
+    /// max |θ̈|/(p²α).
+    pub peak_acceleration: Option<f64>,
+    /// First impact.
+    pub first_impact_time: Option<f64>,
+}
+
+/// How the checks were followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Checks {
+    /// With a tolerance so much smaller that their own errors, some times this tolerance, do not count.
+    Closer(f64),
+    /// As closely as rounding allows, like the result itself.
+    AsClose,
+}
+
+impl Checks {
+    /// By how much differences are enlarged, and the relative error that no comparison can exclude.
+    fn margins(self) -> (f64, f64) {
+        match self {
+            // Runs whose steps are not limited by the tolerance are the same, and err alike.
+            Checks::Closer(tolerance) => (1.5, 1e-14 + 100.0 * tolerance),
+            Checks::AsClose => (6.0, 4e-15),
+        }
+    }
+}
+
+impl ErrorEstimate {
+    /// Of `found`, from the same motion followed as in `checks`.
+    pub fn of<O: PartialEq>(found: &Compared<O>, checks: &[Compared<O>], how: Checks) -> ErrorEstimate {
+        let (factor, floor) = how.margins();
+        let error = |value: fn(&Compared<O>) -> Option<f64>| {
+            let Some(own) = value(found) else { return 0.0 };
+            // The checks among themselves too: two of three may agree by chance.
+            let all = checks.iter().filter_map(value).chain([own]);
+            let (low, high) = all.fold((own, own), |(low, high), other| (low.min(other), high.max(other)));
+            factor * (high - low) + floor * own.abs()
+        };
+        ErrorEstimate {
+            outcome_certain: checks.iter().all(|check| check.outcome == found.outcome),
+            peak_rotation: error(|of| of.peak_rotation),
+            peak_acceleration: error(|of| of.peak_acceleration),
+            first_impact_time: error(|of| of.first_impact_time),
+        }
+    }
+
+    /// The relative error of the peak rotation `peak`; infinite where the outcome itself is in doubt.
+    pub fn relative(&self, peak: Option<f64>) -> f64 {
+        match peak {
+            _ if !self.outcome_certain => f64::INFINITY,
+            Some(peak) if peak != 0.0 => self.peak_rotation / peak.abs(),
+            _ => 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ended(outcome: u8, peak: f64) -> Compared<u8> {
+        Compared { outcome, peak_rotation: Some(peak), peak_acceleration: Some(2.0 * peak), first_impact_time: None }
+    }
+
+    #[test]
+    fn the_largest_difference_counts() {
+        let estimate = ErrorEstimate::of(&ended(1, 0.5), &[ended(1, 0.51), ended(1, 0.49)], Checks::Closer(1e-9));
+        assert!(estimate.outcome_certain);
+        assert!(estimate.peak_rotation >= 0.02 && estimate.peak_rotation < 0.1, "{estimate:?}");
+        assert!((estimate.peak_acceleration / estimate.peak_rotation - 2.0).abs() < 1e-6);
+        assert_eq!(estimate.first_impact_time, 0.0);
+        assert!((estimate.relative(Some(0.5)) - 2.0 * estimate.peak_rotation).abs() < 1e-15);
+    }
+
+    #[test]
+    fn another_ending_is_no_certainty() {
+        let estimate = ErrorEstimate::of(&ended(1, 0.5), &[ended(1, 0.5), ended(2, 0.5)], Checks::Closer(1e-9));
+        assert!(!estimate.outcome_certain);
+        assert_eq!(estimate.relative(Some(0.5)), f64::INFINITY);
+    }
+
+    #[test]
+    fn runs_that_agree_are_not_exact() {
+        let estimate = ErrorEstimate::of(&ended(1, 0.5), &[ended(1, 0.5)], Checks::AsClose);
+        assert!(estimate.peak_rotation > 0.0);
+    }
+}

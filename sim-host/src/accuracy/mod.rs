@@ -1,0 +1,18 @@
+//! How accurate a result is asked to be, and how accurate it is.
+//!
+//! - [`level`]: the user's words for it; [`arguments`]: the same on the command line.
+//! - [`estimate`]: the error of a result, from the same motion followed more closely; [`answer`]: a result with its error, made as accurate as
+//!   asked; [`budget`]: as accurate as a time affords.
+
+pub mod answer;
+pub mod arguments;
+pub mod budget;
+pub mod estimate;
+pub mod level;
+pub mod worst;
+
+pub use answer::{Answer, Closeness, answer};
+pub use arguments::AccuracyArguments;
+pub use estimate::{Compared, ErrorEstimate};
+pub use level::Accuracy;
+pub use worst::Worst;

@@ -1,0 +1,255 @@
+//! One motion, followed in one way.
+
+use core::marker::PhantomData;
+
+use sprag_shared::arc::{Arc, Method};
+use sprag_shared::closed_form::ClosedForm;
+use sprag_shared::clutch::Clutch;
+use sprag_shared::detected::{Detected, DetectedState, Switched};
+use sprag_shared::equation::Equation;
+use sprag_shared::fixed::{RungeKutta4, SemiImplicitEuler};
+use sprag_shared::ground::{Linear, Piece};
+use sprag_shared::math::tier::{Libm, Micromath, OwnPolynomial};
+use sprag_shared::math::tiered::Tiered;
+use sprag_shared::observer::{Event, Observer, Peaks, Stretch};
+use sprag_shared::rocking::{Phase, State, System};
+use sprag_shared::scalar::Real;
+use sprag_shared::structure::WithSystem;
+use sprag_shared::taylor::Taylor;
+
+use super::subject::Subject;
+use super::variant::{self, Number, Setting, Variant};
+use crate::batch::case::TERMS;
+use crate::ground_motion::{Segment, ShapePiece};
+use crate::outcome::Outcome;
+use crate::scene::accuracy::EventTreatment;
+use crate::simulation::drive::{Course, Segmented};
+
+/// Terms of the series in f32: more would only add rounding.
+const TERMS_F32: usize = 12;
+
+/// What became of a motion.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reading {
+    /// How it ended; `None` where it could not be followed to the end.
+    pub outcome: Option<Outcome>,
+    /// max |θ|/α.
+    pub peak: f64,
+    /// Steps begun.
+    pub steps: u64,
+    /// Instants (s) and θ/α, one at each of the times asked for or, without located events, at the end of the step after it.
+    pub samples: Vec<(f64, f64)>,
+}
+
+/// Follows `subject` as `variant` says, and looks at θ at the `times` (s, ascending).
+pub fn read(subject: &Subject, variant: &Variant, times: &[f64]) -> Reading {
+    match variant.number {
+        Number::F64Libm => with_any_method::<f64>(subject, variant, times),
+        Number::F32Own => with_any_method::<f32>(subject, variant, times),
+        Number::F64Own => step_end::<Tiered<f64, OwnPolynomial>>(subject, variant, times),
+        Number::F32Libm => step_end::<Tiered<f32, Libm>>(subject, variant, times),
+        Number::F32Micromath => step_end::<Tiered<f32, Micromath>>(subject, variant, times),
+    }
+}
+
+fn with_any_method<S: Real>(subject: &Subject, variant: &Variant, times: &[f64]) -> Reading {
+    if variant.events == EventTreatment::StepEnd {
+        return step_end::<S>(subject, variant, times);
+    }
+    let step = || S::of(step_of(subject, variant));
+    match (variant.method, variant.setting) {
+        (variant::Method::SemiImplicitEuler, _) => located(subject, times, &SemiImplicitEuler { step: step() }),
+        (variant::Method::RungeKutta4, _) => located(subject, times, &RungeKutta4 { step: step() }),
+        (variant::Method::ClosedForm, _) => located(subject, times, &ClosedForm { step: step() }),
+        (variant::Method::Taylor, Setting::Step(_)) => located(subject, times, &Taylor::<S, TERMS_F32>::fixed(step())),
+        (variant::Method::Taylor, Setting::Tolerance(tolerance)) => {
+            located(subject, times, &Taylor::<S, TERMS>::adaptive(S::of(tolerance)))
+        }
+    }
+}
+
+/// The fixed step, s.
+fn step_of(subject: &Subject, variant: &Variant) -> f64 {
+    variant.setting.value() / subject.block().frequency_parameter()
+}
+
+fn located<S: Real, M: Method<S>>(subject: &Subject, times: &[f64], method: &M) -> Reading {
+    let next = Located { subject, times, method, precision: PhantomData };
+    // A structure of a scene has been resolved before.
+    subject.structure.resolve(next).unwrap_or_default()
+}
+
+struct Located<'a, S, M> {
+    subject: &'a Subject,
+    times: &'a [f64],
+    method: &'a M,
+    precision: PhantomData<S>,
+}
+
+impl<S: Real, M: Method<S>> WithSystem<S> for Located<'_, S, M> {
+    type Output = Reading;
+
+    fn with<R: Equation<S>, E: Switched<S>, C: Clutch>(self, system: System<S, R, E, C>) -> Reading {
+        let subject = self.subject;
+        let mut state = match subject.released {
+            Some((rotation, velocity, ground)) => system.released_at(S::of(rotation), S::of(velocity), S::of(ground)),
+            None => State::default(),
+        };
+        let alpha = subject.block().slenderness();
+        let mut watch = Watch::<S> {
+            peaks: Peaks { rocked: subject.released.is_some(), ..Peaks::default() },
+            steps: 0,
+            origin: 0.0,
+            alpha,
+            times: self.times,
+            samples: Vec::with_capacity(self.times.len()),
+        };
+        let done = subject.course().follow(&system, self.method, &mut state, &mut watch, || true);
+        watch.stand_until(f64::INFINITY, if state.phase == Phase::Rocking { state.rotation.to_f64() } else { 0.0 });
+        Reading {
+            outcome: done.ok().map(|()| Outcome::of(&state, &watch.peaks)),
+            peak: watch.peaks.rotation.to_f64() / alpha,
+            steps: watch.steps,
+            samples: watch.samples,
+        }
+    }
+}
+
+/// Peaks, steps, and θ at the times asked for.
+struct Watch<'a, S> {
+    peaks: Peaks<S>,
+    steps: u64,
+    origin: f64,
+    alpha: f64,
+    times: &'a [f64],
+    samples: Vec<(f64, f64)>,
+}
+
+impl<S: Real> Watch<'_, S> {
+    /// θ (rad) at the times up to `time` (s).
+    #[inline]
+    fn stand_until(&mut self, time: f64, rotation: f64) {
+        while let Some(&at) = self.times.get(self.samples.len()).filter(|at| **at <= time) {
+            self.samples.push((at, rotation / self.alpha));
+        }
+    }
+}
+
+impl<S: Real> Observer<S> for Watch<'_, S> {
+    #[inline]
+    fn stretch<A: Arc<S>>(&mut self, arc: &A, stretch: &Stretch<S>) {
+        self.steps += u64::from(stretch.from == S::ZERO);
+        // θ is monotone here, so its largest value lies at an end.
+        let (first, last) = (stretch.first.rotation.abs(), stretch.last.rotation.abs());
+        self.peaks.rotation = self.peaks.rotation.larger(first).larger(last);
+        let start = self.origin + stretch.start.to_f64();
+        let to = start + stretch.to.to_f64();
+        while let Some(&at) = self.times.get(self.samples.len()).filter(|at| **at <= to) {
+            let local = S::of(at - start).larger(stretch.from).smaller(stretch.to);
+            self.samples.push((at, arc.at(local).rotation.to_f64() / self.alpha));
+        }
+    }
+
+    #[inline]
+    fn event(&mut self, event: Event, time: S, state: &State<S>) {
+        self.peaks.event(event, time, state);
+        if event == Event::Uplift {
+            self.stand_until(self.origin + time.to_f64(), 0.0);
+        }
+    }
+}
+
+impl<S: Real> Segmented for Watch<'_, S> {
+    fn segment(&mut self, start: f64, _segment: Option<&Segment>) {
+        self.origin = start;
+        self.peaks.origin = S::of(start);
+    }
+}
+
+fn step_end<S: Real>(subject: &Subject, variant: &Variant, times: &[f64]) -> Reading {
+    let method = variant.method;
+    let next = StepEnd { subject, times, method, step: S::of(step_of(subject, variant)) };
+    subject.structure.resolve(next).unwrap_or_default()
+}
+
+struct StepEnd<'a, S> {
+    subject: &'a Subject,
+    times: &'a [f64],
+    method: variant::Method,
+    step: S,
+}
+
+impl<S: Real> WithSystem<S> for StepEnd<'_, S> {
+    type Output = Reading;
+
+    fn with<R: Equation<S>, E: Switched<S>, C: Clutch>(self, system: System<S, R, E, C>) -> Reading {
+        let released = if C::FOLLOWS_SIGNS { system.engaged.without_inerter() } else { system.engaged };
+        let block = Detected { released, engaged: system.engaged, restitution: system.restitution, uplift: system.uplift };
+        match self.method {
+            variant::Method::SemiImplicitEuler => {
+                self.follow(|state, piece, time, end| block.semi_implicit_euler(state, piece.acceleration(time), end - time))
+            }
+            _ => self.follow(|state, piece, time, end| {
+                let middle = piece.acceleration(S::HALF * (time + end));
+                block.runge_kutta_4(state, [piece.acceleration(time), middle, piece.acceleration(end)], end - time)
+            }),
+        }
+    }
+}
+
+impl<S: Real> StepEnd<'_, S> {
+    /// Steps to the end, looking at impacts and overturning after each.
+    fn follow(&self, step: impl Fn(DetectedState<S>, &ShapePiece<S>, S, S) -> DetectedState<S>) -> Reading {
+        let subject = self.subject;
+        let course: Course<'_> = subject.course();
+        let alpha = subject.block().slenderness();
+        let mut reading = Reading::default();
+        let mut state = DetectedState::at_rest();
+        if let Some((rotation, velocity, _)) = subject.released {
+            (state.rotation, state.velocity) = (S::of(rotation), S::of(velocity));
+            state.side = if rotation < 0.0 || (rotation == 0.0 && velocity < 0.0) { -S::ONE } else { S::ONE };
+        }
+        let (mut rocked, mut peak, mut hit, mut fallen) = (subject.released.is_some(), S::ZERO, false, false);
+        let quiet = (course.ground.duration(), course.free_time, None);
+        let segments =
+            course.ground.segments().iter().map(|segment| (segment.start, segment.duration, Some(segment))).chain([quiet]);
+        'all: for (origin, duration, segment) in segments {
+            let piece = segment.map_or(ShapePiece::Linear(Linear::constant(S::ZERO)), |s| ShapePiece::of(&s.shape));
+            let overturned: S = course.angle(segment.map_or(0.0, |segment| segment.bound));
+            let duration = S::of(duration);
+            let (mut time, mut tick) = (S::ZERO, 0);
+            while time < duration {
+                tick += 1;
+                let end = (S::count(tick) * self.step).smaller(duration);
+                let (side, moving) = (state.side, state != DetectedState::at_rest());
+                state = step(state, &piece, time, end);
+                time = end;
+                reading.steps += 1;
+                rocked |= state != DetectedState::at_rest();
+                hit |= moving && side != state.side;
+                peak = peak.larger(state.rotation.abs());
+                if reading.samples.len() < self.times.len() {
+                    let at = origin + time.to_f64();
+                    if at >= self.times[reading.samples.len()] {
+                        reading.samples.push((at, state.rotation.to_f64() / alpha));
+                    }
+                }
+                if !state.rotation.is_finite() {
+                    return reading;
+                }
+                if state.rotation.abs() >= overturned && state.rotation * state.velocity > S::ZERO {
+                    fallen = true;
+                    break 'all;
+                }
+            }
+        }
+        reading.peak = peak.to_f64() / alpha;
+        reading.outcome = Some(match (fallen, hit, rocked) {
+            (true, false, _) => Outcome::OverturnedWithoutImpact,
+            (true, true, _) => Outcome::OverturnedAfterImpact,
+            (_, _, false) => Outcome::NoRocking,
+            _ => Outcome::Safe,
+        });
+        reading
+    }
+}

@@ -1,0 +1,139 @@
+//! `sprag accuracy`: what accuracy costs in time, for one scene.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde::Serialize;
+
+use super::ended;
+use crate::accuracy_study::board::{Board, BoardError};
+use crate::accuracy_study::figure::figures;
+use crate::accuracy_study::report::{page, write_csv};
+use crate::accuracy_study::row::RowText;
+use crate::accuracy_study::study::{Extent, StudyError, study};
+use crate::interrupt::Interrupt;
+use crate::output::{OutputError, Results, make_folder};
+use crate::plot::PlotError;
+use crate::progress::Progress;
+use crate::scene::ground::GroundError;
+use crate::scene::schema::SceneFile;
+use crate::scene::{Scene, SceneError};
+
+/// Follow a scene by every method, step, precision and source of sines: errors, wrong outcomes, and what they cost in time.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag accuracy scenes/figure10.toml\n  \
+    sprag accuracy scenes/near_fault.toml --smallest-step 1e-3 --qemu\n\n\
+    Writes accuracy.csv, accuracy.md, summary.json and the pictures work_precision.svg, order.svg, sines.svg, wrong_outcomes.svg and,\n\
+    with --qemu, board.svg. Times are of this machine; everything else is the same on any.")]
+pub struct AccuracyCommandArguments {
+    /// Scene file, of ideal devices over horizontal ground.
+    #[arg(value_name = "SCENE.toml")]
+    pub scene: PathBuf,
+    /// Change one value of the scene, such as block.size_m=2 or device.1.mass_ratio=0.5.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Ground motion record, in the place of the scene's.
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    /// Cells along each side of the grid of one-cycle pulses that wrong outcomes are counted over, by steps from 1e-3/p on; 0 to 64.
+    #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u8).range(0..=64))]
+    pub cells: u8,
+    /// Smallest fixed step, in 1/p; 3e-5 to 0.1.
+    #[arg(long, value_name = "STEP", default_value_t = 1e-4, value_parser = smallest_step)]
+    pub smallest_step: f64,
+    /// Also count instructions a step on the microcontroller, in QEMU.
+    #[arg(long)]
+    pub qemu: bool,
+    /// The image for --qemu; it is built by default.
+    #[arg(long, value_name = "ELF", requires = "qemu")]
+    pub image: Option<PathBuf>,
+    /// Folder for the results; out/NAME-accuracy of the scene by default.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+fn smallest_step(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(step) if (3e-5..=0.1).contains(&step) => Ok(step),
+        _ => Err("must be a number from 3e-5 to 0.1".to_owned()),
+    }
+}
+
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error("{0}")]
+    Scene(#[from] SceneError),
+    #[error("{0}")]
+    Ground(#[from] GroundError),
+    #[error("{scene}: accuracy is for ideal devices over horizontal ground, and {what} goes beyond them")]
+    BeyondIdeal { scene: String, what: String },
+    #[error("{0}")]
+    Board(#[from] BoardError),
+    #[error("{0}")]
+    Study(#[from] StudyError),
+    #[error("the picture cannot be drawn: {0}")]
+    Plot(#[from] PlotError),
+    #[error("{0}")]
+    Output(#[from] OutputError),
+}
+
+/// `summary.json`.
+#[derive(Serialize)]
+struct Summary<'a> {
+    command: &'static str,
+    version: &'static str,
+    scene: &'a SceneFile,
+    cells: u32,
+    runs: Vec<RowText<'a>>,
+}
+
+/// Runs the command; a table goes to `out`, errors go to `err`.
+pub fn run(arguments: &AccuracyCommandArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
+    let result = run_or_fail(arguments, out, interrupt);
+    ended(result, |failure| matches!(failure, Failure::Study(StudyError::Interrupted)), err)
+}
+
+fn run_or_fail(arguments: &AccuracyCommandArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+    let mut scene = Scene::load(&arguments.scene, &arguments.set)?;
+    if let Some(record) = &arguments.record {
+        scene.use_record(record)?;
+    }
+    if let Some(what) = scene.first_beyond_ideal() {
+        return Err(Failure::BeyondIdeal { scene: scene.origin.clone(), what });
+    }
+    let ground = scene.ground_motions()?;
+    let folder = arguments.out.clone().unwrap_or_else(|| {
+        let name = arguments.scene.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Path::new("out").join(format!("{name}-accuracy"))
+    });
+    // Where the results go is tried before the work, not after it.
+    make_folder(&folder)?;
+    let board = if arguments.qemu { Some(Board::measure(arguments.image.as_deref())?) } else { None };
+    let progress = Progress::new("runs");
+    let extent = Extent { cells: arguments.cells.into(), smallest_step: arguments.smallest_step };
+    let rows = study(&scene, &ground, extent, board.as_ref(), &progress, interrupt);
+    progress.finish();
+    let rows = rows?;
+    let devices: Vec<String> = scene.devices.iter().map(|device| device.name.clone()).collect();
+    let title = if scene.file.title.is_empty() { "Scene" } else { &scene.file.title };
+    let page = page(title, &rows, &devices);
+    let summary = Summary {
+        command: "accuracy",
+        version: env!("CARGO_PKG_VERSION"),
+        scene: &scene.file,
+        cells: u32::from(arguments.cells) * u32::from(arguments.cells),
+        runs: rows.iter().map(|row| row.text(&devices[row.device])).collect(),
+    };
+    let mut results = Results::default();
+    results.add_json(&folder.join("summary.json"), &summary)?;
+    results.add(&folder.join("accuracy.csv"), |file| write_csv(&rows, &devices, file))?;
+    results.add(&folder.join("accuracy.md"), |file| file.write_all(page.as_bytes()))?;
+    for (name, figure) in figures(title, &rows, &devices)? {
+        results.add(&folder.join(name), |file| file.write_all(figure.as_bytes()))?;
+    }
+    results.commit()?;
+    let _ = write!(out, "{page}");
+    let _ = writeln!(out, "results in {}", folder.display());
+    Ok(())
+}

@@ -1,0 +1,166 @@
+//! `--accuracy` and `--time-budget` as a user meets them.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
+const HEADER: &str =
+    "id,geometry,slenderness_deg,device,mass_ratio,restitution,pulse,frequency_ratio,amplitude_ratio,free_time\n";
+
+fn sprag(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_sprag")).args(arguments).output().expect("sprag starts")
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn summary(folder: &Path) -> serde_json::Value {
+    serde_json::from_slice(&fs::read(folder.join("summary.json")).unwrap()).unwrap()
+}
+
+/// Peak and error of the first run.
+fn peak_and_error(command: &str, scene: &str, level: &str) -> (f64, f64) {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let output = sprag(&[command, &format!("{SCENES}/{scene}.toml"), "--accuracy", level, "--out", out]);
+    assert!(output.status.success(), "{}", said(&output));
+    let summary = summary(folder.path());
+    let run = &summary["runs"].as_array().unwrap()[0];
+    assert_eq!(run["error_estimate"]["outcome_certain"], true, "{run}");
+    (run["peak_rotation"].as_f64().unwrap(), run["error_estimate"]["peak_rotation"].as_f64().unwrap())
+}
+
+#[test]
+fn closer_levels_have_smaller_errors_and_lie_within_those_of_the_coarser() {
+    for (command, scene, largest) in [("simulate", "figure05", 1e-3), ("loop", "controller", 1e-2)] {
+        let (tight, smallest) = peak_and_error(command, scene, "tight");
+        let mut before = largest;
+        for level in ["fast", "1e-6", "normal"] {
+            let (peak, error) = peak_and_error(command, scene, level);
+            assert!(
+                (peak - tight).abs() <= error + smallest,
+                "{command} {level}: {peak} and {tight} differ by more than {error:e}"
+            );
+            assert!(error <= before, "{command} {level}: {error:e} after {before:e}");
+            before = error;
+        }
+        assert!(smallest <= before, "{command}: {smallest:e} after {before:e}");
+    }
+}
+
+#[test]
+fn an_error_that_is_asked_for_is_kept() {
+    for wanted in [1e-3, 1e-9] {
+        let (peak, error) = peak_and_error("simulate", "near_fault", &format!("{wanted:e}"));
+        assert!(error <= wanted * peak, "{wanted:e}: {error:e} of {peak}");
+    }
+}
+
+#[test]
+fn batch_gives_errors_beside_its_results_and_without_them_the_columns_of_old() {
+    let folder = tempfile::tempdir().unwrap();
+    let [cases, plain, closer, again] =
+        ["cases.csv", "plain.csv", "closer.csv", "again.csv"].map(|name| folder.path().join(name));
+    let mut text = HEADER.to_owned();
+    for index in 0..200 {
+        text += &format!(
+            "{index},full,15,clutched-pair,0.5,0.85,sine,{},{},20\n",
+            1.0 + 0.02 * f64::from(index),
+            1.5 + f64::from(index % 7)
+        );
+    }
+    fs::write(&cases, text).unwrap();
+    let run = |out: &Path, more: &[&str]| {
+        let output = sprag(&[&["batch", cases.to_str().unwrap(), "--out", out.to_str().unwrap()], more].concat());
+        assert!(output.status.success(), "{}", said(&output));
+        (fs::read_to_string(out).unwrap(), said(&output))
+    };
+    let (plain, _) = run(&plain, &[]);
+    let (tight, _) = run(&closer, &["--accuracy", "tight", "--threads", "1"]);
+    assert_eq!(run(&again, &["--accuracy", "tight", "--threads", "2"]).0, tight, "errors do not depend on the number of threads");
+    let columns = "id,outcome,peak_rotation,peak_acceleration,impacts,first_impact_time,end_time";
+    assert_eq!(plain.lines().next(), Some(columns));
+    let with = format!("{columns},outcome_certain,peak_rotation_error,peak_acceleration_error,first_impact_time_error");
+    assert_eq!(tight.lines().next(), Some(&*with));
+    for (without, with) in plain.lines().zip(tight.lines()).skip(1) {
+        assert!(with.starts_with(without), "the result itself is the same: {with}");
+        let fields: Vec<&str> = with.split(',').collect();
+        assert_eq!(fields.len(), 11);
+        assert_eq!(fields[2].is_empty(), fields[8].is_empty(), "{with}");
+        if !fields[8].is_empty() {
+            let (peak, error): (f64, f64) = (fields[2].parse().unwrap(), fields[8].parse().unwrap());
+            assert!(error > 0.0 && error < 1e-9 * peak.max(1.0), "{with}");
+        }
+    }
+    // Plenty of time buys everything, and says so.
+    let (most, line) = run(&again, &["--time-budget", "3600"]);
+    assert!(line.contains("--accuracy tight"), "{line}");
+    assert_eq!(most, tight);
+}
+
+#[test]
+fn too_little_time_is_said_with_what_it_affords() {
+    let folder = tempfile::tempdir().unwrap();
+    let (cases, out) = (folder.path().join("cases.csv"), folder.path().join("out.csv"));
+    let row = ",full,15,clutched-pair,0.5,0.85,sine,2.5,3,20\n";
+    fs::write(&cases, (0..60_000).fold(HEADER.to_owned(), |text, index| text + &index.to_string() + row)).unwrap();
+    let output = sprag(&[
+        "batch",
+        cases.to_str().unwrap(),
+        "--out",
+        out.to_str().unwrap(),
+        "--time-budget",
+        "0.001",
+        "--accuracy",
+        "1e-12",
+    ]);
+    assert_eq!(output.status.code(), Some(2));
+    let line = said(&output);
+    assert_eq!(line.trim_end().lines().count(), 1, "{line}");
+    assert!(line.contains("--time-budget") && line.contains(" s "), "{line}");
+    assert!(!out.exists());
+}
+
+#[test]
+fn levels_that_make_no_sense_are_refused() {
+    let scene = format!("{SCENES}/figure05.toml");
+    for (arguments, word) in [
+        (&["simulate", &scene, "--accuracy", "loose"] as &[&str], "fast, normal, tight"),
+        (&["simulate", &scene, "--accuracy", "-1"], "--accuracy"),
+        (&["simulate", &scene, "--time-budget", "0"], "0.001"),
+        (&["simulate", &scene, "--time-budget", "nan"], "0.001"),
+        (&["batch", "cases.csv", "--out", "x.csv", "--accuracy", "fast", "--tolerance", "1e-9"], "cannot be used with"),
+        (&["simulate", &scene, "--set", "accuracy.level=\"fast\"", "--set", "accuracy.tolerance=1e-9"], "accuracy.level"),
+        (&["accuracy", &scene, "--smallest-step", "1"], "3e-5"),
+    ] {
+        let output = sprag(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", said(&output));
+        assert!(said(&output).contains(word), "{arguments:?}: {}", said(&output));
+    }
+}
+
+#[test]
+fn the_study_writes_its_tables_and_pictures() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("study");
+    let scene = format!("{SCENES}/figure05.toml");
+    let output = sprag(&["accuracy", &scene, "--cells", "2", "--smallest-step", "0.03", "--out", out.to_str().unwrap()]);
+    assert!(output.status.success(), "{}", said(&output));
+    let mut files: Vec<_> = fs::read_dir(&out).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
+    files.sort();
+    for file in ["accuracy.csv", "accuracy.md", "order.svg", "sines.svg", "summary.json", "work_precision.svg"] {
+        assert!(files.iter().any(|known| known == file), "{file} among {files:?}");
+    }
+    let summary = summary(&out);
+    assert_eq!((&summary["command"], &summary["cells"]), (&"accuracy".into(), &4.into()));
+    let runs = summary["runs"].as_array().unwrap();
+    assert!(runs.iter().any(|run| run["on_pareto_front"] == true));
+    for method in ["semi-implicit-euler", "runge-kutta-4", "taylor", "closed-form"] {
+        assert!(runs.iter().any(|run| run["method"] == method && run["nanoseconds_per_s"].as_f64().unwrap() > 0.0), "{method}");
+    }
+    let beyond = sprag(&["accuracy", &scene, "--set", "device.2.engagement=\"rigid\"", "--out", out.to_str().unwrap()]);
+    assert_eq!(beyond.status.code(), Some(2));
+    assert!(said(&beyond).contains("device.2"), "{}", said(&beyond));
+}
