@@ -1,5 +1,6 @@
 //! Sprag's own tasks, run as `cargo xtask <task>`.
 
+mod accuracy;
 mod budget;
 mod effects;
 mod firmware;
@@ -33,19 +34,21 @@ Tasks:
             firmware/size.budget, and prove that no panic can be reached from the firmware's control tick
   effects   measure what each effect costs, on the host under callgrind and on the emulated board, and write
             docs/effects-cost.csv; fails if an effect that is off costs more than 1 %
+  accuracy  measure what accuracy costs in time, on the host, in the emulator and against SciPy, and write docs/accuracy.md with
+            its tables and pictures; needs python3 with venv
   ticks     measure what a control tick of the firmware costs in the emulator, with and without logs, and write docs/ticks.csv
   fuzz [TARGET]
             feed random input to one fuzz target, or to each of them in turn
 
 Options:
-  --seconds N  how long each fuzz target runs (default 20; 0 only tries the committed seeds)
+  --seconds N  how long each fuzz target runs (default 12; 0 only tries the committed seeds)
   --overwrite  with `firmware`: accept the sizes of the sections as they are; limits stay
   -h, --help   this text
 
 Exit codes: 0 all well, 1 a check failed, 2 wrong usage or a tool is missing.";
 
-/// Seconds for each of three fuzz targets: a minute in all.
-const FUZZ_SECONDS: u32 = 20;
+/// Seconds for each of five fuzz targets: a minute in all.
+const FUZZ_SECONDS: u32 = 12;
 
 fn main() -> ExitCode {
     match run(std::env::args().skip(1)) {
@@ -91,6 +94,10 @@ fn run(mut args: impl Iterator<Item = String>) -> Result<(), Stop> {
         ["effects"] => {
             tools::need_board_target(&root)?;
             effects::run(&root)
+        }
+        ["accuracy"] => {
+            tools::need_board_target(&root)?;
+            accuracy::run(&root)
         }
         ["ticks"] => {
             tools::need_board_target(&root)?;
