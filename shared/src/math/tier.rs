@@ -6,7 +6,7 @@
 //! | [`OwnPolynomial`] | [`sine32`] | [`wide_sine`] | 5.7e-7, 1e-15 |
 //! | [`Micromath`] | micromath's parabola | none | 1.1e-3 |
 //!
-//! A tier is a type, so a run with one has no trace of the others in its loop. [`Tiered`] makes a number of it.
+//! A tier is a type, so a run with one has no trace of the others in its loop. [`Tiered`](super::tiered::Tiered) makes a number of it.
 
 use core::fmt::Debug;
 

@@ -1,7 +1,7 @@
 //! How accurate a result is asked to be, and how accurate it is.
 //!
 //! - [`level`]: the user's words for it; [`arguments`]: the same on the command line.
-//! - [`estimate`]: the error of a result, from the same motion followed more closely; [`answer`]: a result with its error, made as accurate as
+//! - [`estimate`]: the error of a result, from the same motion followed more closely; [`mod@answer`]: a result with its error, made as accurate as
 //!   asked; [`budget`]: as accurate as a time affords.
 
 pub mod answer;
