@@ -270,15 +270,16 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
             // What the clock cannot tell from the end of the step is left to the next one.
             let drive_zero = if separate_drive && length > stop * S::EPSILON * S::of(4.0) {
                 let bound = push_zero.unwrap_or(length);
-                let zero = arc.switching_zero(from, bound, state.drive, push_is_zero);
-                // Just after a switch rounding may show the old sign as far as a zero of θ̈ that follows at once: only a longer look
-                // tells that from a switch back.
-                let at_once = push_zero.is_some() && zero.is_some_and(|zero| zero <= (*time + length) * S::EPSILON);
-                if at_once {
-                    arc.switching_zero(from, length, state.drive, push_is_zero).filter(|&zero| zero <= bound)
-                } else {
-                    zero
+                let mut zero = None;
+                for to in [bound, length] {
+                    zero = arc.switching_zero(from, to, state.drive, push_is_zero).filter(|&zero| zero <= bound);
+                    // Just after a switch rounding may show the old sign as far as a zero of θ̈ that follows at once: only a longer look
+                    // tells that from a switch back.
+                    if push_zero.is_none() || zero.is_none_or(|zero| zero > (*time + length) * S::EPSILON) {
+                        break;
+                    }
                 }
+                zero
             } else {
                 None
             };

@@ -8,8 +8,8 @@ use crate::scalar::{Real, Sign};
 
 impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
     /// At the start of a piece the ground may have jumped, and the signs with it. True when the clutch follows, so that
-    /// another equation is in force.
-    #[inline]
+    /// another equation is in force. Rare enough not to be copied into every loop.
+    #[inline(never)]
     pub(super) fn jumped<Q: Equation<S>, A: Arc<S>>(
         &self,
         equation: &Q,
@@ -33,6 +33,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
     }
 
     /// Signs of θ̈ and of the terminals' acceleration from the equations.
+    #[inline(never)]
     pub(super) fn read_push(&self, state: &mut State<S>, ground: S) {
         let inward = state.side.opposite();
         state.drive = Sign::of(self.engaged.switching(state.side.unit(), state.rotation, state.velocity, ground), inward);
@@ -40,6 +41,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
         state.push_is_zero = false;
     }
 
+    #[inline(never)]
     pub(super) fn read_push_only(&self, state: &mut State<S>, ground: S) {
         let side = state.side.unit();
         let acceleration = if C::engaged(state.direction, state.drive) {

@@ -10,6 +10,7 @@ use crate::scalar::{Real, Sign};
 impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
     /// First instant in [`from`, `to`) at which the ground pushes harder than the weight holds, and whether it gets
     /// there by crossing the threshold (so that the bracket is zero) or by a jump.
+    #[inline(never)]
     pub(super) fn uplift_time<P: Piece<S>>(&self, piece: &P, from: S, to: S) -> Option<(S, bool)> {
         let start = piece.acceleration(from);
         if self.lifts(start) {
@@ -43,6 +44,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
 
     /// Whether a push of `ground` (in g) lifts the block: beyond the threshold by so little that the equation, as it rounds, still
     /// pushes back, it does not, or uplift and impact would follow each other without end.
+    #[inline(never)]
     pub(super) fn lifts(&self, ground: S) -> bool {
         let side = Sign::of(ground, Sign::Positive).opposite();
         ground.abs() > self.uplift && side.times(self.released.acceleration(side.unit(), S::ZERO, S::ZERO, ground)) > S::ZERO
@@ -65,6 +67,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
 }
 
 /// By how much a push of `start` (in g) at the start of a stretch of `length` (s) grows there, as far as its slope and curvature bound tell.
+#[inline(never)]
 fn rises<S: Real, P: Piece<S>>(piece: &P, from: S, start: S, length: S) -> S {
     let slope = Sign::of(start, Sign::Positive).times(piece.slope(from));
     if slope <= S::ZERO {
