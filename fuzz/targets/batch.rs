@@ -46,7 +46,7 @@ fn one_line(message: &str) {
 
 fn row(id: &str, result: &CaseResult) -> Vec<u8> {
     let mut bytes = Vec::new();
-    write_result(&mut bytes, id, result).expect("memory takes everything");
+    write_result(&mut bytes, id, result, None).expect("memory takes everything");
     bytes
 }
 

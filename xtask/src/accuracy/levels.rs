@@ -75,7 +75,11 @@ pub fn table(root: &Path, sprag: &Path) -> Result<String, Stop> {
         let reference = std::ptr::eq(results, tight);
         let bounded = 100.0 * ratios.iter().filter(|ratio| **ratio >= 1.0).count() as f64 / ratios.len().max(1) as f64;
         let [median, high, largest] = [0.5, 0.95, 1.0].map(|share| quantile(&errors, share));
-        let error = |value: f64| if reference { "–".to_owned() } else { format!("{value:.0e}") };
+        let error = |value: f64| match value {
+            _ if reference => "–".to_owned(),
+            0.0 => "0".to_owned(),
+            _ => format!("{value:.0e}"),
+        };
         let estimated = !ratios.is_empty() && !reference;
         let (bounds, factor) = if estimated {
             (format!("{bounded:.1} %"), format!("{:.1}", quantile(&ratios, 0.5)))
