@@ -194,3 +194,40 @@ impl<S: Real, const N: usize> Arc<S> for TaylorArc<S, N> {
         polynomial::largest_magnitude(&self.acceleration[..self.terms.min(N) - 2], self.curvature, from, to, floor)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::equation::FullBlock;
+    use crate::ground::Harmonics;
+
+    /// The bound that the search for zeros rests on holds, and uses every coefficient of the step: it is that of the whole series.
+    #[test]
+    fn the_curvature_bound_covers_the_whole_series() {
+        let equation = FullBlock { frequency_squared: 1.0, slenderness: 0.3 };
+        let piece = Harmonics::sine(2.0, 5.0);
+        for time in [0.1, 0.5, 1.0] {
+            let start = Start {
+                equation: &equation,
+                piece: &piece,
+                side: Sign::Positive,
+                rotation: 0.1,
+                velocity: 0.2,
+                time,
+                length: 10.0,
+                acceleration_is_zero: false,
+                scale: 0.3,
+            };
+            let arc = Taylor::<f64, 20>::adaptive(1e-15).arc(start);
+            let (length, step) = (arc.length(), 1e-3 * arc.length());
+            let rate = |time: f64| arc.at(time).acceleration;
+            let mut largest = 0.0_f64;
+            for k in 1..1000 {
+                let t = f64::from(k) * step;
+                largest = largest.max(((rate(t + step) - 2.0 * rate(t) + rate(t - step)) / (step * step)).abs());
+            }
+            assert!(arc.curvature >= largest * (1.0 - 1e-6), "{} < {largest}", arc.curvature);
+            assert_eq!(arc.curvature, polynomial::curvature_bound(&arc.acceleration, length));
+        }
+    }
+}

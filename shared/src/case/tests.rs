@@ -200,3 +200,17 @@ fn single_precision_is_close_to_double() {
         }
     }
 }
+
+/// A scene asks for a method by the name that an error gives it back.
+#[test]
+fn methods_have_names_of_their_own() {
+    let names = [
+        (FixedMethod::SemiImplicitEuler, "semi-implicit-euler"),
+        (FixedMethod::RungeKutta4, "runge-kutta-4"),
+        (FixedMethod::Taylor, "taylor"),
+        (FixedMethod::ExponentialMidpoint, "exponential-midpoint"),
+    ];
+    for (method, name) in names {
+        assert_eq!(method.name(), name);
+    }
+}

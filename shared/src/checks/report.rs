@@ -70,3 +70,22 @@ impl<S: Real> Report<S> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_of_equal_extremes_stays() {
+        let mut extreme = None;
+        for (value, time) in [(1.0, 0.5), (2.0, 1.0), (2.0, 1.5), (1.9, 2.0)] {
+            Extreme::raise(&mut extreme, value, time);
+        }
+        assert_eq!(extreme, Some(Extreme { value: 2.0, time: 1.0 }));
+        let both = |positive: f64, negative: f64| {
+            let travel = [Some(Extreme { value: positive, time: 1.0 }), Some(Extreme { value: negative, time: 2.0 })];
+            Report { travel, ..Report::default() }.stroke().map(|extreme| extreme.time)
+        };
+        assert_eq!((both(3.0, 2.0), both(2.0, 3.0), both(2.0, 2.0)), (Some(1.0), Some(2.0), Some(1.0)));
+    }
+}

@@ -139,3 +139,21 @@ fn a_flywheel_that_still_spins_costs_less() {
     assert!(stopped < slow && slow < free, "{stopped} {slow} {free}");
     assert!((braked(1e6) / stopped - 1.0).abs() < 1e-6, "the infinite brake is the limit of strong ones");
 }
+
+/// Flywheels that coast while the block has come to rest do so for as long as it rests: e^(−rate t), from any instant of it.
+#[test]
+fn flywheels_coast_while_the_block_rests() {
+    let losses = FlywheelLosses { viscous_rate: 0.2, ..FlywheelLosses::default() };
+    let spins = |free_time: f64| {
+        let shake = super::Shake { free_time, ..pair(Geometry::Slender, 1.5, 4.0) };
+        let seen = shake.machine(&of(Engagement::Overrunning, losses), &tight());
+        (seen.spins, seen.ended.expect("it comes to rest") - shake.pieces[0].1)
+    };
+    let (long, rest) = spins(40.0);
+    let (short, _) = spins(rest + 1.0);
+    assert!(rest < 30.0 && short.iter().all(|spin| spin.abs() > 1e-4), "{rest} {short:?}");
+    for (long, short) in long.iter().zip(short) {
+        let expected = short * crate::math::exp(-0.2 * (39.0 - rest));
+        assert!((long / expected - 1.0).abs() < 1e-9, "{long} and {expected}");
+    }
+}
