@@ -7,7 +7,7 @@ use core::cell::Cell;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::math::RECIPROCALS;
-use crate::scalar::Real;
+use crate::scalar::Scalar;
 use crate::value::Value;
 
 /// Largest number of coefficients that a tape may hold.
@@ -25,13 +25,13 @@ pub struct Tape<S, const N: usize, const SLOTS: usize = { self::SLOTS }> {
     orders: [Order<S, SLOTS>; N],
 }
 
-impl<S: Real, const N: usize, const SLOTS: usize> Default for Tape<S, N, SLOTS> {
+impl<S: Scalar, const N: usize, const SLOTS: usize> Default for Tape<S, N, SLOTS> {
     fn default() -> Self {
-        Tape { orders: core::array::from_fn(|_| core::array::from_fn(|_| Cell::new(S::ZERO))) }
+        Tape { orders: core::array::from_fn(|_| core::array::from_fn(|_| Cell::new(S::of(0.0)))) }
     }
 }
 
-impl<S: Real, const N: usize, const SLOTS: usize> Tape<S, N, SLOTS> {
+impl<S: Scalar, const N: usize, const SLOTS: usize> Tape<S, N, SLOTS> {
     /// Sets coefficient `order` of the given quantity `slot`.
     #[inline(always)]
     pub fn set(&self, slot: usize, order: usize, coefficient: S) {
@@ -63,7 +63,7 @@ impl<S, const N: usize, const SLOTS: usize> Clone for Node<'_, S, N, SLOTS> {
 
 impl<S, const N: usize, const SLOTS: usize> Copy for Node<'_, S, N, SLOTS> {}
 
-impl<'t, S: Real, const N: usize, const SLOTS: usize> Node<'t, S, N, SLOTS> {
+impl<'t, S: Scalar, const N: usize, const SLOTS: usize> Node<'t, S, N, SLOTS> {
     /// Coefficients `from` up to and without `to`; `to` at most order + 1.
     #[inline(always)]
     fn run(&self, from: usize, to: usize) -> Run<'t, S, SLOTS> {
@@ -116,8 +116,8 @@ impl<S, const SLOTS: usize> Copy for Run<'_, S, SLOTS> {}
 
 /// Σ a_j b_{n−1−j} over two runs of the same length n: one coefficient of a product.
 #[inline(always)]
-fn convolve<S: Real, const SLOTS: usize>(a: Run<'_, S, SLOTS>, b: Run<'_, S, SLOTS>) -> S {
-    let mut sums = [S::ZERO; 4];
+fn convolve<S: Scalar, const SLOTS: usize>(a: Run<'_, S, SLOTS>, b: Run<'_, S, SLOTS>) -> S {
+    let mut sums = [S::of(0.0); 4];
     let (quads, rest) = a.orders.as_chunks::<4>();
     let (rest_b, quads_b) = b.orders.as_rchunks::<4>();
     for (x, y) in quads.iter().zip(quads_b.iter().rev()) {
@@ -134,8 +134,8 @@ fn convolve<S: Real, const SLOTS: usize>(a: Run<'_, S, SLOTS>, b: Run<'_, S, SLO
 
 /// [`convolve`] of one run with two others at once.
 #[inline(always)]
-fn convolve_both<S: Real, const SLOTS: usize>(a: Run<'_, S, SLOTS>, b: Run<'_, S, SLOTS>, c: Run<'_, S, SLOTS>) -> (S, S) {
-    let (mut first, mut second) = ([S::ZERO; 2], [S::ZERO; 2]);
+fn convolve_both<S: Scalar, const SLOTS: usize>(a: Run<'_, S, SLOTS>, b: Run<'_, S, SLOTS>, c: Run<'_, S, SLOTS>) -> (S, S) {
+    let (mut first, mut second) = ([S::of(0.0); 2], [S::of(0.0); 2]);
     let (pairs, rest) = a.orders.as_chunks::<2>();
     let (rest_b, pairs_b) = b.orders.as_rchunks::<2>();
     let (rest_c, pairs_c) = c.orders.as_rchunks::<2>();
@@ -155,7 +155,7 @@ fn convolve_both<S: Real, const SLOTS: usize>(a: Run<'_, S, SLOTS>, b: Run<'_, S
 
 macro_rules! termwise {
     ($operator:ident, $method:ident) => {
-        impl<S: Real, const N: usize, const SLOTS: usize> $operator for Node<'_, S, N, SLOTS> {
+        impl<S: Scalar, const N: usize, const SLOTS: usize> $operator for Node<'_, S, N, SLOTS> {
             type Output = Self;
 
             #[inline(always)]
@@ -169,7 +169,7 @@ macro_rules! termwise {
 termwise!(Add, add);
 termwise!(Sub, sub);
 
-impl<S: Real, const N: usize, const SLOTS: usize> Neg for Node<'_, S, N, SLOTS> {
+impl<S: Scalar, const N: usize, const SLOTS: usize> Neg for Node<'_, S, N, SLOTS> {
     type Output = Self;
 
     #[inline(always)]
@@ -178,7 +178,7 @@ impl<S: Real, const N: usize, const SLOTS: usize> Neg for Node<'_, S, N, SLOTS> 
     }
 }
 
-impl<S: Real, const N: usize, const SLOTS: usize> Mul for Node<'_, S, N, SLOTS> {
+impl<S: Scalar, const N: usize, const SLOTS: usize> Mul for Node<'_, S, N, SLOTS> {
     type Output = Self;
 
     #[inline(always)]
@@ -187,7 +187,7 @@ impl<S: Real, const N: usize, const SLOTS: usize> Mul for Node<'_, S, N, SLOTS> 
     }
 }
 
-impl<S: Real, const N: usize, const SLOTS: usize> Div for Node<'_, S, N, SLOTS> {
+impl<S: Scalar, const N: usize, const SLOTS: usize> Div for Node<'_, S, N, SLOTS> {
     type Output = Self;
 
     /// q_k = (a_k − Σ_{j=1..k} b_j q_{k−j}) / b_0.
@@ -197,7 +197,7 @@ impl<S: Real, const N: usize, const SLOTS: usize> Div for Node<'_, S, N, SLOTS> 
         let reciprocal = self.fresh();
         let k = self.order;
         if k == 0 {
-            reciprocal.tape[0][reciprocal.slot].set(S::ONE / other.last());
+            reciprocal.tape[0][reciprocal.slot].set(S::of(1.0) / other.last());
             quotient.tape[0][quotient.slot].set(self.last() / other.last());
         } else {
             let done = convolve(other.run(1, k + 1), quotient.run(0, k));
@@ -208,7 +208,7 @@ impl<S: Real, const N: usize, const SLOTS: usize> Div for Node<'_, S, N, SLOTS> 
     }
 }
 
-impl<S: Real, const N: usize, const SLOTS: usize> Value<S> for Node<'_, S, N, SLOTS> {
+impl<S: Scalar, const N: usize, const SLOTS: usize> Value<S> for Node<'_, S, N, SLOTS> {
     #[inline(always)]
     fn scale(self, factor: S) -> Self {
         self.node(self.last() * factor)
@@ -239,7 +239,7 @@ impl<S: Real, const N: usize, const SLOTS: usize> Value<S> for Node<'_, S, N, SL
             sine.tape[0][sine.slot].set(s);
             cosine.tape[0][cosine.slot].set(c);
         } else {
-            rate.tape[k][rate.slot].set(self.last() * S::count(k as u32));
+            rate.tape[k][rate.slot].set(self.last() * S::of(k as f64));
             let reciprocal = S::of(RECIPROCALS[k & 63]);
             let (s, c) = convolve_both(rate.run(1, k + 1), cosine.run(0, k), sine.run(0, k));
             sine.tape[k][sine.slot].set(s * reciprocal);

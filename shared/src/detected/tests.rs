@@ -179,7 +179,10 @@ fn full_pair<S: Scalar, K: Kinematics>() -> Detected<S, FullInerter<S, CentreOfM
 }
 
 /// `N` lanes with amplitudes of their own, each against the same run alone.
-fn lanes_equal_singles<const N: usize, K: Kinematics>() {
+fn lanes_equal_singles<const N: usize, K: Kinematics>()
+where
+    Lanes<f64, N>: Scalar,
+{
     let amplitude = |lane: usize| 0.2 + 0.35 * lane as f64;
     let push = |lane: usize, time: f64| amplitude(lane) * crate::math::sin(4.0 * time.min(TAU / 4.0));
     let (wide, single) = (full_pair::<Lanes<f64, N>, K>(), full_pair::<Single, K>());

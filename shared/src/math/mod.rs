@@ -17,8 +17,8 @@ pub mod tiered;
 pub mod wide_sine;
 
 pub use libm::{
-    acos, acosh, asin, atan, atan2, atanh, cos, cosh, exp, expf as exp32, expm1, hypot, log as ln, log1p, log10, pow, sin,
-    sincos as sin_cos, sinh, sqrt as square_root, sqrtf as square_root32, tan, tanh,
+    acos, acosh, asin, atan, atan2, atanh, cos, cosh, erf, erfc, exp, expf as exp32, expm1, hypot, log as ln, log1p, log10, pow,
+    sin, sincos as sin_cos, sinh, sqrt as square_root, sqrtf as square_root32, tan, tanh,
 };
 
 /// 1/k for k = 1 to 63; entry 0 is 0.

@@ -27,17 +27,22 @@ const COSINE: [f64; 9] = [
     -5.786_577_975_182_008e-22,
 ];
 
+/// `low` + `high` y.
+#[inline(always)]
+fn pair<S: Scalar>(y: S, low: f64, high: f64) -> S {
+    S::of(low) + y * S::of(high)
+}
+
 /// sin x and cos x for |x| ≤ π, each lane to 1e-15.
 #[inline(always)]
 pub fn sin_cos<S: Scalar>(x: S) -> (S, S) {
     let y = x * x;
     // Pairs shorten the chain of dependent operations.
     let y2 = y * y;
-    let pair = |low: f64, high: f64| S::of(low) + y * S::of(high);
-    let sine = pair(SINE[2], SINE[3]) + y2 * (pair(SINE[4], SINE[5]) + y2 * pair(SINE[6], SINE[7]));
+    let sine = pair(y, SINE[2], SINE[3]) + y2 * (pair(y, SINE[4], SINE[5]) + y2 * pair(y, SINE[6], SINE[7]));
     let sine = S::of(SINE[0]) + y * (S::of(SINE[1]) + y * sine);
-    let cosine = pair(COSINE[6], COSINE[7]) + y2 * S::of(COSINE[8]);
-    let cosine = pair(COSINE[2], COSINE[3]) + y2 * (pair(COSINE[4], COSINE[5]) + y2 * cosine);
+    let cosine = pair(y, COSINE[6], COSINE[7]) + y2 * S::of(COSINE[8]);
+    let cosine = pair(y, COSINE[2], COSINE[3]) + y2 * (pair(y, COSINE[4], COSINE[5]) + y2 * cosine);
     let cosine = S::of(COSINE[0]) + y * (S::of(COSINE[1]) + y * cosine);
     let twice_half_sine = x + x * (y * sine);
     let half_cosine = S::of(1.0) + y * cosine;
