@@ -2,6 +2,7 @@
 //!
 //! - [`scene`], [`record`], [`ground_motion`], [`synthesis`]: what is simulated.
 //! - [`simulation`]: one scene, every device; [`batch`]: many dimensionless cases; [`accuracy`]: as accurate as asked, and how accurate that is.
+//! - [`cloud`], [`statistics`]: demands and fragilities over many records; [`sensitivity`]: what each effect changes.
 //! - [`history`], [`outcome`], [`plot`], [`summary_table`], [`output`]: what comes out.
 //! - [`closed_loop`], [`device`]: the controller on the host, and the firmware in its place.
 //! - [`effect`]: what a scene may ask for, and what follows from it; [`command`]: the subcommands of `sprag`.
@@ -12,15 +13,18 @@ pub mod accuracy_study;
 pub mod batch;
 #[cfg(feature = "effects")]
 pub mod closed_loop;
+pub mod cloud;
 pub mod command;
 #[cfg(feature = "effects")]
 pub mod device;
 pub mod effect;
+pub mod ensemble;
 pub mod ground_motion;
 pub mod history;
 pub mod interrupt;
 #[cfg(feature = "effects")]
 pub mod loop_study;
+pub mod map;
 pub mod outcome;
 pub mod output;
 pub mod plot;
@@ -30,5 +34,6 @@ pub mod scene;
 pub mod sensitivity;
 pub mod sensor;
 pub mod simulation;
+pub mod statistics;
 pub mod summary_table;
 pub mod synthesis;

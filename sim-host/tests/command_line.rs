@@ -351,8 +351,60 @@ fn bad_input_of_sensitivity_costs_one_line() {
 }
 
 #[test]
+fn cloud_does_not_depend_on_the_number_of_threads_and_names_a_bad_record() {
+    let folder = tempfile::tempdir().unwrap();
+    let records = folder.path().join("records");
+    fs::create_dir_all(&records).unwrap();
+    for (number, peak) in [0.2, 0.25, -0.3, 0.35, 0.4, -0.5, 0.7].into_iter().enumerate() {
+        fs::write(records.join(format!("{number}.csv")), pulse(peak)).unwrap();
+    }
+    fs::write(records.join("bad.csv"), "# time_s,acc_g\n0,0\n0.01,NaN\n").unwrap();
+    let outs = ["1", "3"].map(|threads| {
+        let out = folder.path().join(threads);
+        let line = ["cloud", &scene("cloud"), "--threads", threads, "--out", out.to_str().unwrap(), "--records"];
+        let output = sprag(&[&line[..], &[records.to_str().unwrap()]].concat());
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains("bad.csv") && message.trim_end().lines().count() == 1, "{message}");
+        out
+    });
+    let names = ["summary.json", "runs.csv", "demand.csv", "demand.md", "demand.svg", "fragility.csv", "fragility.md"];
+    for name in names.into_iter().chain(["fragility.svg", "ranking.csv", "ranking.md"]) {
+        let [one, other] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
+        assert!(one == other && !one.is_empty(), "{name}");
+    }
+    let summary: serde_json::Value = serde_json::from_slice(&fs::read(outs[0].join("summary.json")).unwrap()).unwrap();
+    assert_eq!((&summary["command"], &summary["structures"][1]["scene"]["block"]["size_m"]), (&"cloud".into(), &1.0.into()));
+    assert_eq!(summary["records"].as_array().unwrap().len(), 7);
+    assert_eq!(summary["runs"].as_array().unwrap().len(), 3 * 3);
+    let table = fs::read_to_string(outs[0].join("runs.csv")).unwrap();
+    assert_eq!(table.lines().count(), 1 + 7 * 3 * 3);
+    assert!(table.starts_with("record,structure,device,scale,level,uniform_duration,pgv,"), "{table}");
+}
+
+#[test]
+fn bad_input_of_cloud_costs_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let study = folder.path().join("study.toml");
+    let line = |text: &str, more: &[&str], words: &[&str]| {
+        fs::write(&study, text).unwrap();
+        refused(&[&["cloud", study.to_str().unwrap(), "--out", out.to_str().unwrap()], more].concat(), &out, words);
+    };
+    line("", &[], &["study.toml: records is missing", "--records"]);
+    line("records = 'a.csv'", &[], &["study.toml:1", "records"]);
+    line("record = ['a.csv']", &[], &["study.toml:1", "record"]);
+    line("records = ['a.csv']", &[], &["no record could be read", "a.csv"]);
+    line("records = [\"a.csv\"]\nscene = \"nowhere.toml\"", &[], &["nowhere.toml"]);
+    line("scale = [-1]", &["--records", "a.csv"], &["scale.0 is -1", "above 0"]);
+    line("", &["--records", "a.csv", "--set", "block.colour=red"], &["colour"]);
+}
+
+#[test]
 fn every_subcommand_has_help_with_an_example() {
-    for command in ["simulate", "loop", "loop-study", "batch", "sensitivity", "record", "synthesize", "effects", "explain"] {
+    for command in
+        ["simulate", "loop", "loop-study", "batch", "cloud", "sensitivity", "record", "synthesize", "effects", "explain"]
+    {
         let output = sprag(&[command, "--help"]);
         let help = String::from_utf8(output.stdout).unwrap();
         assert!(output.status.success() && help.contains("Example"), "{command}: {help}");

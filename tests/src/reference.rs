@@ -47,3 +47,34 @@ pub fn cells() -> Option<Vec<Cell>> {
     assert_eq!(cells.len(), 1260);
     Some(cells)
 }
+
+/// Limits of the relative error over the cells that stand: median, 95th percentile and maximum.
+const LIMITS: [f64; 3] = [1e-13, 1e-11, 1e-6];
+
+/// Relative errors of one quantity and the cells that they belong to.
+#[derive(Debug, Default)]
+pub struct RelativeErrors(Vec<(f64, String)>);
+
+impl RelativeErrors {
+    /// That of `found` in cell `id`.
+    pub fn add(&mut self, found: f64, exact: f64, id: &str) {
+        self.0.push(((found / exact - 1.0).abs(), id.to_owned()));
+    }
+
+    /// Asserts that there are `count` of them and that they are within what the project promises; prints them.
+    ///
+    /// # Panics
+    /// If not.
+    pub fn hold(&mut self, name: &str, count: usize) {
+        assert_eq!(self.0.len(), count, "cells with a {name}");
+        assert!(self.0.iter().all(|(error, _)| error.is_finite()));
+        self.0.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let at = |share: f64| self.0[((share * count as f64) as usize).min(count - 1)].0;
+        let figures = [at(0.5), at(0.95), at(1.0)];
+        let [p50, p95, maximum] = figures;
+        println!("{name}: p50 {p50:.1e}, p95 {p95:.1e}, max {maximum:.1e} (cell {})", self.0[count - 1].1);
+        for (figure, limit) in figures.into_iter().zip(LIMITS) {
+            assert!(figure <= limit, "{name}: {figure:e} is above {limit:e}");
+        }
+    }
+}

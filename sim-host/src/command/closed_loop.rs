@@ -17,12 +17,12 @@ use crate::closed_loop::plant::Extremes;
 use crate::closed_loop::report::{LoopReport, LoopSummary, loop_trace, write_history};
 use crate::closed_loop::run::{LoopError, Tick};
 use crate::interrupt::Interrupt;
-use crate::loop_study::statistics::quantile;
 use crate::output::{OutputError, Results, make_folder};
 use crate::plot::{PlotError, loop_figure};
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::scene::schema::SceneFile;
+use crate::statistics::quantile;
 
 /// Run the controller of a scene in closed loop.
 #[derive(Args, Clone, Debug)]
@@ -208,7 +208,7 @@ fn monte_carlo(
                 ending.faults.len()
             ));
         }
-        let at = |share: f64| Some(quantile(&peaks, share)).filter(|value| value.is_finite());
+        let at = |share: f64| quantile(&peaks, share).filter(|value| value.is_finite());
         report.summary.monte_carlo = Some(crate::closed_loop::report::Scatter {
             specimens: count.get(),
             overturned,

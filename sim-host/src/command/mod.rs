@@ -6,6 +6,7 @@ pub mod accuracy;
 pub mod batch;
 #[cfg(feature = "effects")]
 pub mod closed_loop;
+pub mod cloud;
 #[cfg(feature = "effects")]
 pub mod device;
 #[cfg(feature = "effects")]
@@ -18,6 +19,7 @@ pub mod hil;
 pub mod loop_scene;
 #[cfg(feature = "effects")]
 pub mod loop_study;
+pub mod map;
 pub mod record;
 pub mod sensitivity;
 pub mod simulate;

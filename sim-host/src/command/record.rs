@@ -47,7 +47,7 @@ fn slenderness(text: &str) -> Result<f64, String> {
     if value > 0.0 && value < 90.0 { Ok(value) } else { Err("above 0 and below 90 degrees are allowed".to_owned()) }
 }
 
-fn time_step(text: &str) -> Result<f64, String> {
+pub(super) fn time_step(text: &str) -> Result<f64, String> {
     let (lowest, highest) = crate::record::TIME_STEP_RANGE_S;
     let value = text.parse::<f64>().map_err(|_| "a number is due".to_owned())?;
     if (lowest..=highest).contains(&value) { Ok(value) } else { Err(format!("{lowest} to {highest} s are allowed")) }

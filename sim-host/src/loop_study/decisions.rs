@@ -2,9 +2,10 @@
 
 use super::bench::{Conditions, Motion, StudyError, Variant, each, grid, run_loop};
 use super::report::{Report, Table};
-use super::statistics::{cell, quantile};
+use super::statistics::cell;
 use crate::progress::Progress;
 use crate::scene::controller::EstimatorName;
+use crate::statistics::quantile;
 
 /// From sample to clutch, ms.
 const DELAYS: [f64; 3] = [0.0, 1.0, 5.0];

@@ -2,7 +2,7 @@
 
 use super::bench::{Conditions, LoopResult, Motion, StudyError, Variant, each, grid, run_loop};
 use super::report::{Report, Table};
-use crate::plot::{Cell, CellMap, CellMaps, cell_map_figure};
+use crate::plot::{Cell, CellMap, CellMaps, Class, Scale, cell_map_figure};
 use crate::progress::Progress;
 use crate::scene::controller::LawName;
 
@@ -42,16 +42,6 @@ const SETTINGS: [(&str, &[&str]); 3] = [
         ],
     ),
 ];
-
-fn cell(result: &LoopResult) -> Cell {
-    use crate::outcome::Outcome;
-    match result.outcome {
-        Outcome::NoRocking => Cell::NoRocking,
-        Outcome::Safe => Cell::Stands,
-        Outcome::OverturnedWithoutImpact => Cell::Overturns,
-        Outcome::OverturnedAfterImpact => Cell::OverturnsAfterImpact,
-    }
-}
 
 fn overturned(results: &[LoopResult]) -> usize {
     results.iter().filter(|result| result.outcome.overturned()).count()
@@ -109,7 +99,7 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
                 overturned(sine).to_string(),
                 overturned(cosine).to_string(),
                 format!("{} of {}", overturned(recorded), recorded.len()),
-                super::statistics::cell(super::statistics::quantile(&peaks, 0.5), 3),
+                super::statistics::cell(crate::statistics::quantile(&peaks, 0.5), 3),
                 format!("{:.1}", 0.5 * switches / results.len() as f64),
             ]);
             for (shape, results, maps) in [("sine", sine, &mut maps), ("cosine", cosine, &mut cosine_maps)] {
@@ -118,7 +108,7 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
                     note: format!("{} of {cells}", overturned(results)),
                     columns: CELLS,
                     rows: CELLS,
-                    cells: results.iter().map(cell).collect(),
+                    cells: results.iter().map(|result| Cell::from(result.outcome).class()).collect(),
                 });
             }
         }
@@ -127,6 +117,8 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
         report.table(&format!("laws-{}", number + 1), table);
         let maps = CellMaps {
             title: format!("Overturning by clutch law, {name}"),
+            classes: Class::outcomes(),
+            scales: (Scale::Linear, Scale::Linear),
             x_title: "ω_g/*p*".to_owned(),
             x: FREQUENCIES,
             y_title: "*a*_g/(*g* tan α)".to_owned(),

@@ -2,9 +2,10 @@
 
 use super::bench::{Conditions, Motion, StudyError, Variant, each, run_ideal, run_loop};
 use super::report::{Report, Table};
-use super::statistics::{cell, quantile};
+use super::statistics::cell;
 use crate::progress::Progress;
 use crate::scene::controller::EstimatorName;
+use crate::statistics::quantile;
 
 /// A hundred pulses of each shape: ω/p 1 to 6, amplitudes 1.2 to 5.2.
 pub fn pulses() -> Vec<Motion> {
@@ -43,15 +44,15 @@ impl Comparison {
         comparison
     }
 
-    /// |change| at a quantile.
+    /// |change| at a quantile; NaN without changes.
     pub fn size(&self, share: f64) -> f64 {
-        quantile(&self.changes.iter().map(|change| change.abs()).collect::<Vec<f64>>(), share)
+        quantile(&self.changes.iter().map(|change| change.abs()).collect::<Vec<f64>>(), share).unwrap_or(f64::NAN)
     }
 
     /// As cells of a table.
     pub fn cells(&self) -> Vec<String> {
         vec![
-            cell(100.0 * quantile(&self.changes, 0.5), 3),
+            cell(quantile(&self.changes, 0.5).map(|change| 100.0 * change), 3),
             cell(100.0 * self.size(0.5), 3),
             cell(100.0 * self.size(0.95), 2),
             self.overturned.to_string(),

@@ -1,19 +1,11 @@
-//! Quantiles of what a study measured.
+//! Numbers of a study as its tables print them.
 
-/// The `share` quantile of `values` by linear interpolation between order statistics (Hyndman and Fan's type 7); NaN of none.
-pub fn quantile(values: &[f64], share: f64) -> f64 {
-    let mut sorted: Vec<f64> = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
-    let place = share.clamp(0.0, 1.0) * last as f64;
-    let below = place.floor() as usize;
-    let above = (below + 1).min(last);
-    sorted[below] + (place - below as f64) * (sorted[above] - sorted[below])
-}
-
-/// A number for a table: four significant digits, or a dash.
-pub fn cell(value: f64, digits: usize) -> String {
-    if value.is_finite() { format!("{value:.digits$}") } else { "-".to_owned() }
+/// A number for a table with `digits` decimals; a dash for none and for one that is not finite.
+pub fn cell(value: impl Into<Option<f64>>, digits: usize) -> String {
+    match value.into() {
+        Some(value) if value.is_finite() => format!("{value:.digits$}"),
+        _ => "-".to_owned(),
+    }
 }
 
 #[cfg(test)]
@@ -21,12 +13,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn quantiles_interpolate() {
-        let values = [3.0, 1.0, 2.0, 4.0];
-        assert_eq!(quantile(&values, 0.0), 1.0);
-        assert_eq!(quantile(&values, 0.5), 2.5);
-        assert_eq!(quantile(&values, 1.0), 4.0);
-        assert!((quantile(&values, 0.95) - 3.85).abs() < 1e-12);
-        assert!(quantile(&[], 0.5).is_nan());
+    fn what_is_no_number_is_a_dash() {
+        assert_eq!([cell(1.25, 1), cell(Some(-2.0), 2)], ["1.2", "-2.00"]);
+        assert_eq!([cell(None, 1), cell(f64::NAN, 1), cell(f64::INFINITY, 1)], ["-", "-", "-"]);
     }
 }

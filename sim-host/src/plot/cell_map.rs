@@ -1,11 +1,12 @@
-//! Small multiples of maps: outcomes over a grid of two parameters.
+//! Small multiples of maps: classes of cells over a grid of two parameters.
 
 use super::PlotError;
-use super::cell::Cell;
+use super::cell::Class;
 use super::layer::{Text, document, escape, units, write_rect};
 use super::legend::{BOLD_WIDTH, Key, Swatch, wrapped, write_heading};
 use super::palette::{GROUND, hex};
 use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
+use super::ticks::Scale;
 
 const MARGIN_PX: f64 = 10.0;
 /// Wider on the right, where half of the last tick label sticks out.
@@ -30,8 +31,8 @@ pub struct CellMap {
     pub columns: usize,
     /// Rows of cells.
     pub rows: usize,
-    /// Outcomes, row by row from the lowest, each from the left.
-    pub cells: Vec<Cell>,
+    /// Numbers of classes, row by row from the lowest, each from the left.
+    pub cells: Vec<usize>,
 }
 
 /// A figure of maps over the same two axes.
@@ -39,14 +40,18 @@ pub struct CellMap {
 pub struct CellMaps {
     /// Heading of the figure.
     pub title: String,
+    /// What cells may be, in the order of the legend.
+    pub classes: Vec<Class>,
+    /// How the two axes are divided.
+    pub scales: (Scale, Scale),
     /// Title of the horizontal axis. In axis titles `*x*` is italic, `_x` one subscript character, `'` a dot and `''` two dots over
     /// the symbol before.
     pub x_title: String,
-    /// Values at the centres of the first and the last column of cells.
+    /// Values at the centres of the first and the last column of cells; their decimal logarithms on a logarithmic axis.
     pub x: (f64, f64),
     /// Title of the vertical axis.
     pub y_title: String,
-    /// Values at the centres of the lowest and the highest row of cells.
+    /// Values at the centres of the lowest and the highest row of cells; their decimal logarithms on a logarithmic axis.
     pub y: (f64, f64),
     /// Maps, row by row.
     pub maps: Vec<CellMap>,
@@ -54,7 +59,7 @@ pub struct CellMaps {
     pub columns: usize,
 }
 
-/// Draws `maps` as an SVG document; the legend has the outcomes that occur.
+/// Draws `maps` as an SVG document; the legend has the classes that occur.
 ///
 /// Only maps at the left and at the lower edge have labelled axes. Runs of equal cells in a row are one rectangle. The text is the
 /// same for the same input.
@@ -76,9 +81,10 @@ pub fn cell_map_figure(maps: &CellMaps) -> Result<String, PlotError> {
     // Room for title and legend over a single small map.
     let width_px = left_px + row_px.max(LARGEST_MAP_PX) + RIGHT_MARGIN_PX;
 
-    let used = |cell: &Cell| maps.maps.iter().any(|map| map.cells.contains(cell));
+    let used = |class: usize| maps.maps.iter().any(|map| map.cells.contains(&class));
+    let numbered = maps.classes.iter().enumerate();
     let keys: Vec<Key> =
-        Cell::ALL.into_iter().filter(used).map(|cell| (Swatch::Framed(cell.colour()), cell.name().to_owned())).collect();
+        numbered.filter(|(class, _)| used(*class)).map(|(_, class)| (Swatch::Framed(class.colour), class.name.clone())).collect();
     let mut body = String::new();
     let mut top_px = write_heading(&mut body, &maps.title, &[keys], (left_px, width_px - left_px - RIGHT_MARGIN_PX), MARGIN_PX);
 
@@ -111,8 +117,8 @@ pub fn cell_map_figure(maps: &CellMaps) -> Result<String, PlotError> {
             }
             let (x, y) = (edges(maps.x, map.columns), edges(maps.y, map.rows));
             let panel = Panel::new((left_px, top_px), (map_px, map_px), x.0..x.1, y.0..y.1);
-            let panel = Panel { title: (column == 0).then_some(&maps.y_title), ..panel };
-            write_cells(&mut body, &panel, map);
+            let panel = Panel { title: (column == 0).then_some(&maps.y_title), scales: maps.scales, ..panel };
+            write_cells(&mut body, &panel, map, &maps.classes);
             let last = index + columns >= maps.maps.len();
             panel.write_frame(&mut body, canvas, last.then_some(&maps.x_title))?;
         }
@@ -127,7 +133,7 @@ fn check(map: &CellMap, maps: &CellMaps) -> Result<(), PlotError> {
     if map.cells.len() != expected {
         return Err(PlotError::WrongLength { name: map.title.clone(), found: map.cells.len(), expected });
     }
-    if expected == 0 {
+    if expected == 0 || map.cells.iter().any(|class| *class >= maps.classes.len()) {
         return Err(PlotError::NothingToDraw { title: map.title.clone() });
     }
     for (title, (first, last), count) in [(&maps.x_title, maps.x, map.columns), (&maps.y_title, maps.y, map.rows)] {
@@ -156,8 +162,8 @@ fn edges((first, last): (f64, f64), count: usize) -> (f64, f64) {
 }
 
 /// Runs of equal cells in a row: first cell, number of cells, what they are.
-fn runs(row: &[Cell]) -> Vec<(usize, usize, Cell)> {
-    let mut runs: Vec<(usize, usize, Cell)> = Vec::new();
+fn runs(row: &[usize]) -> Vec<(usize, usize, usize)> {
+    let mut runs: Vec<(usize, usize, usize)> = Vec::new();
     for (column, &cell) in row.iter().enumerate() {
         match runs.last_mut() {
             Some(run) if run.2 == cell => run.1 += 1,
@@ -167,27 +173,30 @@ fn runs(row: &[Cell]) -> Vec<(usize, usize, Cell)> {
     runs
 }
 
-/// Appends the cells: the commonest outcome as the ground, the others as one path each.
-fn write_cells(svg: &mut String, panel: &Panel<'_>, map: &CellMap) {
-    let count = |cell: &Cell| map.cells.iter().filter(|other| *other == cell).count();
-    let Some(commonest) = Cell::ALL.into_iter().max_by_key(count) else {
+/// Appends the cells: the commonest class as the ground, the others as one path each.
+fn write_cells(svg: &mut String, panel: &Panel<'_>, map: &CellMap, classes: &[Class]) {
+    let count = |class: &usize| map.cells.iter().filter(|other| *other == class).count();
+    let Some(commonest) = (0..classes.len()).max_by_key(count) else {
         return;
     };
     let corner = (units(panel.left_px), units(panel.top_px));
-    write_rect(svg, corner, (units(panel.width_px), units(panel.height_px)), commonest.colour());
+    write_rect(svg, corner, (units(panel.width_px), units(panel.height_px)), classes[commonest].colour);
     let across = |column: usize| units(panel.left_px + panel.width_px * column as f64 / map.columns as f64);
     let up = |row: usize| units(panel.bottom_px() - panel.height_px * row as f64 / map.rows as f64);
-    for cell in Cell::ALL.into_iter().filter(|cell| *cell != commonest) {
+    for class in (0..classes.len()).filter(|class| *class != commonest) {
         let mut path = String::new();
         for (row, cells) in map.cells.chunks(map.columns).enumerate() {
-            for (first, length, _) in runs(cells).into_iter().filter(|run| run.2 == cell) {
+            for (first, length, _) in runs(cells).into_iter().filter(|run| run.2 == class) {
                 let (left, width) = (across(first), across(first + length) - across(first));
                 path.push_str(&format!("M{left} {}h{width}V{}h{}z", up(row), up(row + 1), -width));
             }
         }
         if !path.is_empty() {
             // Crisp edges leave no seams between rows.
-            svg.push_str(&format!("<path d=\"{path}\" fill=\"{}\" shape-rendering=\"crispEdges\"/>\n", hex(cell.colour())));
+            svg.push_str(&format!(
+                "<path d=\"{path}\" fill=\"{}\" shape-rendering=\"crispEdges\"/>\n",
+                hex(classes[class].colour)
+            ));
         }
     }
 }
@@ -195,6 +204,7 @@ fn write_cells(svg: &mut String, panel: &Panel<'_>, map: &CellMap) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plot::Cell;
     use crate::plot::synthetic::assert_well_formed;
 
     fn map(title: &str, columns: usize, rows: usize) -> CellMap {
@@ -204,13 +214,15 @@ mod tests {
             (_, 0..6) => Cell::OverturnsAfterImpact,
             _ => Cell::Overturns,
         };
-        let cells = (0..columns * rows).map(cell).collect();
+        let cells = (0..columns * rows).map(|index| cell(index).class()).collect();
         CellMap { title: title.to_owned(), note: "1 of <2>".to_owned(), columns, rows, cells }
     }
 
     fn maps(count: usize, columns: usize) -> CellMaps {
         CellMaps {
             title: "A & B".to_owned(),
+            classes: Class::outcomes(),
+            scales: (Scale::Linear, Scale::Linear),
             x_title: "ω/*p*".to_owned(),
             x: (0.5, 6.0),
             y_title: "*a*_p (g)".to_owned(),
@@ -231,18 +243,17 @@ mod tests {
             assert_eq!(svg, cell_map_figure(&maps(count, columns)).unwrap());
         }
         let mut one = maps(1, 1);
-        one.maps[0].cells.fill(Cell::Stands);
+        one.maps[0].cells.fill(Cell::Stands.class());
         let svg = cell_map_figure(&one).unwrap();
         assert!(svg.contains("rocks and stands") && !svg.contains("overturns"));
     }
 
     #[test]
     fn equal_neighbours_merge() {
-        use Cell::{NoRocking, Overturns, Stands};
-        assert_eq!(runs(&[Stands, Stands, Overturns, Stands]), vec![(0, 2, Stands), (2, 1, Overturns), (3, 1, Stands)]);
+        assert_eq!(runs(&[1, 1, 3, 1]), vec![(0, 2, 1), (2, 1, 3), (3, 1, 1)]);
         assert!(runs(&[]).is_empty());
         let mut large = maps(1, 1);
-        let cells: Vec<Cell> = (0..1024).map(|index| if index % 32 < 20 { NoRocking } else { Overturns }).collect();
+        let cells: Vec<usize> = (0..1024).map(|index| if index % 32 < 20 { 0 } else { 3 }).collect();
         large.maps = vec![CellMap { columns: 32, rows: 32, cells, ..map("large", 1, 1) }];
         let svg = cell_map_figure(&large).unwrap();
         let path = svg.split("<path d=\"").find(|path| path.contains("crispEdges")).unwrap();

@@ -77,7 +77,7 @@ const UP_AND_ON_FROM_SUBSCRIPT: &str = " dx=\"0.3em\" dy=\"-0.19em\"";
 const BACK_FROM_DOT: &str = " dx=\"0.14em\" dy=\"0.8em\"";
 const BACK_FROM_TWO_DOTS: &str = " dx=\"0.02em\" dy=\"0.8em\"";
 
-/// A formula from plain markup: `*x*` italic, `_x` one subscript character, `'` a dot and `''` two dots
+/// A formula from plain markup: `*x*` italic, `_x` one subscript character, `_{xyz}` several, `'` a dot and `''` two dots
 /// over the symbol before them.
 ///
 /// The dot is a full stop moved back and up by fractions of the font size, because fonts place combining dots badly.
@@ -93,7 +93,11 @@ pub(super) fn formula(markup: &str) -> String {
                 italic = !italic;
             }
             '_' => {
-                let subscript = escape(&characters.next().unwrap_or(' ').to_string());
+                let subscript: String = match characters.next() {
+                    Some('{') => characters.by_ref().take_while(|character| *character != '}').collect(),
+                    other => other.unwrap_or(' ').to_string(),
+                };
+                let subscript = escape(&subscript);
                 svg.push_str(&format!("<tspan dy=\"0.25em\" font-size=\"75%\">{subscript}</tspan>"));
                 return_shift = UP_FROM_SUBSCRIPT;
             }
@@ -185,6 +189,15 @@ pub(super) fn write_rect(svg: &mut String, corner: (i32, i32), size: (i32, i32),
     ));
 }
 
+/// Appends a filled area with `corners` in pixels; nothing for fewer than three.
+pub(super) fn write_area(svg: &mut String, corners: &[(f64, f64)], fill: RGBColor, opacity: f64) {
+    if corners.len() < 3 {
+        return;
+    }
+    let corners: Vec<String> = corners.iter().map(|(x_px, y_px)| format!("{},{}", units(*x_px), units(*y_px))).collect();
+    svg.push_str(&format!("<polygon points=\"{}\" fill=\"{}\" fill-opacity=\"{opacity}\"/>\n", corners.join(" "), hex(fill)));
+}
+
 /// Appends a disc around a position in pixels; `attributes` have a leading space.
 pub(super) fn write_disc(svg: &mut String, (x_px, y_px): (f64, f64), radius_px: f64, colour: RGBColor, attributes: &str) {
     svg.push_str(&format!(
@@ -207,13 +220,15 @@ mod tests {
 
     #[test]
     fn formulas_balance_their_tags() {
-        for markup in ["*a*_g (g)", "θ'/(*p*α)", "θ''/(*p*²α)", "*F*/(*mg*)", "plain", "*open", "_"] {
+        for markup in ["*a*_g (g)", "*t*_{uni} (s)", "_{open", "θ'/(*p*α)", "θ''/(*p*²α)", "*F*/(*mg*)", "plain", "*open", "_"]
+        {
             let svg = formula(markup);
             assert_eq!(svg.matches("<tspan").count(), svg.matches("</tspan>").count(), "{svg}");
         }
         assert_eq!(formula("time (s)"), "time (s)");
         assert!(formula("θ''").contains(">..<") && formula("θ'").contains(">.<"));
         assert!(formula("a_<").contains("&lt;"));
+        assert!(formula("*t*_{u<i}").ends_with(">u&lt;i</tspan>"));
     }
 
     #[test]

@@ -3,8 +3,9 @@
 use plotters::style::RGBColor;
 
 use super::device_trace::DeviceTrace;
-use super::layer::{Text, escape, text_width_px, units, write_disc, write_rect};
-use super::palette::{FLYWHEEL_TINTS, INK, Stroke, hex};
+use super::layer::{Text, escape, text_width_px, units, write_area, write_disc, write_rect};
+use super::marker::Marker;
+use super::palette::{DeviceLook, FLYWHEEL_TINTS, INK, Stroke, hex};
 
 const TITLE_FONT_PX: f64 = 14.0;
 const FONT_PX: f64 = 11.0;
@@ -28,6 +29,14 @@ pub(super) enum Swatch {
     Line(Stroke),
     /// A piece of a curve with a disc at its points.
     MarkedLine(Stroke),
+    /// A piece of a fitted line on its band, with the mark of what it was fitted to.
+    Fitted(DeviceLook, Option<Marker>),
+    /// A mark of any device.
+    Mark(Marker),
+    /// A band of this opacity.
+    Band(f64),
+    /// Ticks of a rug.
+    Ticks,
     /// A tint.
     Tint(RGBColor),
     /// A tint and the colour that stands for the same where it is alone.
@@ -135,6 +144,22 @@ fn write_swatch(svg: &mut String, swatch: Swatch, x_px: f64, middle_px: f64) {
         Swatch::MarkedLine(stroke) => {
             write_swatch(svg, Swatch::Line(stroke), x_px, middle_px);
             write_disc(svg, (x_px + 0.5 * SWATCH_PX, middle_px), MARK_PX, stroke.colour, "");
+        }
+        Swatch::Fitted(look, marker) => {
+            write_swatch(svg, Swatch::Line(look.stroke()), x_px, middle_px);
+            if let Some(marker) = marker {
+                marker.write(svg, (x_px + 0.5 * SWATCH_PX, middle_px), look.colour);
+            }
+        }
+        Swatch::Mark(marker) => marker.write(svg, (x_px + 0.5 * SWATCH_PX, middle_px), INK),
+        Swatch::Band(opacity) => {
+            let [left, right, top, bottom] = [x_px, x_px + SWATCH_PX, middle_px - 5.0, middle_px + 5.0];
+            write_area(svg, &[(left, top), (right, top), (right, bottom), (left, bottom)], INK, opacity);
+        }
+        Swatch::Ticks => {
+            let ticks: String =
+                [6.0, 11.0, 13.0, 18.0, 24.0].map(|at| format!("M{} {}v{}", x + units(at), y - units(4.0), units(8.0))).concat();
+            svg.push_str(&format!("<path d=\"{ticks}\" stroke=\"{}\" stroke-width=\"8\"/>\n", hex(INK)));
         }
         Swatch::Tint(colour) => {
             write_rect(svg, (x, y - units(5.0)), (width, units(10.0)), colour);

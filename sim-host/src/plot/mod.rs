@@ -1,10 +1,11 @@
-//! Figures as SVG text: responses, energies, sensitivities, closed loops, maps of outcomes, charts of lines.
+//! Figures as SVG text: responses, energies, sensitivities, closed loops, maps of outcomes, clouds of runs, charts of lines.
 //!
 //! plotters draws axes and curves; clip, dash patterns, tints and formula labels are SVG around its output.
 
 mod cell;
 mod cell_map;
 mod chart;
+mod cloud_figure;
 mod curve;
 mod decimate;
 mod device_trace;
@@ -17,21 +18,26 @@ mod lane;
 mod layer;
 mod legend;
 mod loop_figure;
+mod marker;
 mod palette;
 mod panel;
+mod panel_heading;
 mod round_scale;
+mod rug;
 mod sensitivity_figure;
 #[cfg(test)]
 mod synthetic;
 mod ticks;
 mod time_axis;
 
-pub use cell::Cell;
+pub use cell::{Cell, Class, band};
 pub use cell_map::{CellMap, CellMaps, cell_map_figure};
 pub use chart::{Chart, ChartPanel, Line, chart_figure};
+pub use cloud_figure::{BandPoint, CloudFigure, CloudPanel, CloudSeries, cloud_figure};
 pub use energy_figure::energy_figure;
 pub use history_figure::history_figure;
 pub use loop_figure::{LoopTrace, loop_figure};
+pub use rug::Rug;
 pub use sensitivity_figure::{OwnMark, SensitivityLane, SensitivityRow, sensitivity_figure};
 pub use ticks::Scale;
 pub use time_axis::TimeAxis;

@@ -9,7 +9,7 @@ use super::PlotError;
 use super::layer::{Anchor, Text, formula, plotters_layer, text_of, units};
 use super::palette::{GUIDE, INK, hex};
 use super::round_scale::RoundScale;
-use super::ticks::{Scale, decade_ticks, power_of_ten, round_ticks, tick_text};
+use super::ticks::{Scale, decade_texts, decade_ticks, round_ticks, tick_text};
 
 /// Space left of a panel for tick labels and the axis title (px).
 pub(super) const LEFT_LABELS_PX: f64 = 62.0;
@@ -209,10 +209,10 @@ impl Panel<'_> {
                 (x, y + TICK_PX + LABEL_GAP_PX.1 + 0.36 * TICK_FONT_PX)
             };
             minor.into_iter().for_each(|power| _ = tick(power, MINOR_TICK_PX));
-            for power in labelled {
-                let at = tick(power, TICK_PX);
+            for (power, text) in labelled.iter().zip(decade_texts(&labelled)) {
+                let at = tick(*power, TICK_PX);
                 if labels_x {
-                    Text { anchor: Anchor::Middle, ..Text::new(&power_of_ten(power), at, TICK_FONT_PX) }.write(svg, false);
+                    Text { anchor: Anchor::Middle, ..Text::new(&text, at, TICK_FONT_PX) }.write(svg, false);
                 }
             }
         }
@@ -225,10 +225,10 @@ impl Panel<'_> {
                 (x - TICK_PX - LABEL_GAP_PX.0, y + 0.36 * TICK_FONT_PX)
             };
             minor.into_iter().for_each(|power| _ = tick(power, MINOR_TICK_PX));
-            for power in labelled {
-                let at = tick(power, TICK_PX);
+            for (power, text) in labelled.iter().zip(decade_texts(&labelled)) {
+                let at = tick(*power, TICK_PX);
                 if self.title.is_some() {
-                    Text { anchor: Anchor::End, ..Text::new(&power_of_ten(power), at, TICK_FONT_PX) }.write(svg, false);
+                    Text { anchor: Anchor::End, ..Text::new(&text, at, TICK_FONT_PX) }.write(svg, false);
                 }
             }
         }

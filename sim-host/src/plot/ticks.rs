@@ -22,6 +22,9 @@ const ZERO_WITHIN: f64 = 0.35;
 /// Distances between labelled powers of ten, the last for all that doubles hold.
 const POWER_STRIDES: [f64; 8] = [1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0];
 
+/// Narrowest logarithmic axis: a factor of ten, which holds three of the labels 1, 2 and 5.
+const LEAST_CLOSE: f64 = 1.0;
+
 /// Narrowest decade that has ticks inside, and narrowest one that has a tick at all (px).
 const LEAST_DECADE_PX: (f64, f64) = (20.0, 3.0);
 
@@ -55,6 +58,17 @@ pub(super) fn axis_range(values: impl Iterator<Item = f64>, scale: Scale) -> Opt
     Some(from..to)
 }
 
+/// The range of a logarithmic axis that shows `powers` closely, where the powers of ten inside may be fewer than two; `None` without
+/// any.
+pub(super) fn close_range(powers: impl Iterator<Item = f64>) -> Option<Range<f64>> {
+    let (low, high) = powers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), power| (low.min(power), high.max(power)));
+    if low > high {
+        return None;
+    }
+    let air = (AIR * (high - low)).max(0.5 * (LEAST_CLOSE - (high - low)));
+    Some(low - air..high + air)
+}
+
 /// Labelled and minor ticks of a logarithmic axis over the powers of ten in `range`, `length_px` long: about `target` labels.
 pub(super) fn decade_ticks(range: &Range<f64>, target: usize, length_px: f64) -> (Vec<f64>, Vec<f64>) {
     let width = range.end - range.start;
@@ -65,22 +79,36 @@ pub(super) fn decade_ticks(range: &Range<f64>, target: usize, length_px: f64) ->
         let last = (range.end / stride + 1e-9).floor() as i32;
         (first..=last).map(move |multiple| f64::from(multiple) * stride)
     };
-    let labelled: Vec<f64> = multiples(stride).collect();
+    let mut labelled: Vec<f64> = multiples(stride).collect();
+    if labelled.len() < 2 {
+        let decades = (range.start.floor() as i32)..=(range.end.ceil() as i32);
+        let round = [1.0, 2.0, 5.0].map(math::log10);
+        labelled =
+            decades.flat_map(|power| round.map(|digit| f64::from(power) + digit)).filter(|power| range.contains(power)).collect();
+    }
     let decade_px = length_px / width;
     let minor = if stride > 1.0 && decade_px >= LEAST_DECADE_PX.1 {
         multiples(1.0).filter(|power| !labelled.contains(power)).collect()
     } else if stride == 1.0 && decade_px >= LEAST_DECADE_PX.0 {
         let decades = (range.start.floor() as i32)..=(range.end.ceil() as i32);
         let inside = decades.flat_map(|power| (2..10).map(move |digit| f64::from(power) + math::log10(f64::from(digit))));
-        inside.filter(|power| range.contains(power)).collect()
+        inside.filter(|power| range.contains(power) && !labelled.contains(power)).collect()
     } else {
         Vec::new()
     };
     (labelled, minor)
 }
 
+/// Texts of the labelled ticks of a logarithmic axis: powers of ten, or numbers where some of them are none.
+pub(super) fn decade_texts(labelled: &[f64]) -> Vec<String> {
+    if labelled.iter().all(|power| *power == power.round()) {
+        return labelled.iter().map(|power| power_of_ten(*power)).collect();
+    }
+    labelled.iter().map(|power| tick_text(math::pow(10.0, *power), math::pow(10.0, (power + 1e-9).floor()))).collect()
+}
+
 /// Ten to the whole number `power`, with a raised exponent and a true minus sign, as SVG content.
-pub(super) fn power_of_ten(power: f64) -> String {
+fn power_of_ten(power: f64) -> String {
     let sign = if power < 0.0 { "\u{2212}" } else { "" };
     format!("10<tspan dy=\"-0.45em\" font-size=\"75%\">{sign}{:.0}</tspan>", power.abs())
 }
@@ -192,6 +220,13 @@ mod tests {
         assert_eq!(minor.len(), 8);
         let (labelled, minor) = decade_ticks(&(-323.0..308.0), 5, 200.0);
         assert!(labelled.len() >= 3 && labelled.len() <= 8 && minor.is_empty());
+        // From 0.7 to 7: 1, 2 and 5 are labelled.
+        let close = close_range([-0.15, 0.85].into_iter()).unwrap();
+        let (labelled, minor) = decade_ticks(&close, 5, 200.0);
+        assert_eq!(decade_texts(&labelled), ["1", "2", "5"]);
+        assert_eq!(minor.len(), 7, "{minor:?}");
+        assert_eq!(decade_texts(&[math::log10(0.2), math::log10(0.5), 0.0]), ["0.2", "0.5", "1"]);
+        assert_eq!(close_range(std::iter::empty()), None);
         assert_eq!(power_of_ten(-3.0), "10<tspan dy=\"-0.45em\" font-size=\"75%\">\u{2212}3</tspan>");
     }
 

@@ -109,6 +109,11 @@ pub fn significant_duration_s(acceleration_m_s2: &[f64], step_s: f64, from: f64,
     (instant(to) - instant(from)).max(0.0)
 }
 
+/// Cumulative absolute velocity (m/s): CAV = ∫|a| dt, by trapezoids of |a| (m/s²).
+pub fn cumulative_absolute_velocity_m_s(acceleration_m_s2: &[f64], step_s: f64) -> f64 {
+    acceleration_m_s2.windows(2).map(|pair| 0.5 * (pair[0].abs() + pair[1].abs())).sum::<f64>() * step_s
+}
+
 /// Uniform duration t_uni (s), the paper's Figure 14: the total time during which |a| exceeds a threshold, there
 /// g tan α (9.80665 tan α m/s², the uplift acceleration of a block of slenderness α), so that p t_uni is dimensionless.
 ///

@@ -7,6 +7,7 @@ pub mod device;
 pub mod drivetrain;
 pub mod error;
 pub mod ground;
+pub mod map;
 pub mod motions;
 pub mod overrides;
 pub mod schema;
@@ -55,17 +56,7 @@ impl Scene {
     /// [`SceneError`] names the file, the key and what it may be.
     pub fn load(path: &Path, overrides: &[String]) -> Result<Scene, SceneError> {
         let origin = path.display().to_string();
-        let unreadable = |error: std::io::Error| SceneError::Unreadable { origin: origin.clone(), message: error.to_string() };
-        let data = std::fs::metadata(path).map_err(unreadable)?;
-        if !data.is_file() {
-            return Err(SceneError::Unreadable { origin, message: "not a file".to_owned() });
-        }
-        if data.len() > LARGEST_FILE {
-            return Err(SceneError::TooLarge { origin, bytes: data.len() });
-        }
-        let bytes = std::fs::read(path).map_err(unreadable)?;
-        let text = String::from_utf8(bytes)
-            .map_err(|_| SceneError::Unreadable { origin: origin.clone(), message: "not UTF-8 text".to_owned() })?;
+        let text = text_of(path)?;
         let mut scene = Scene::parse_with(&text, &origin, overrides)?;
         scene.folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
         Ok(scene)
@@ -84,19 +75,34 @@ impl Scene {
     /// # Errors
     /// As [`Scene::parse`], and for an override that names no key.
     pub fn parse_with(text: &str, origin: &str, overrides: &[String]) -> Result<Scene, SceneError> {
-        let file: SceneFile = if overrides.is_empty() {
+        if overrides.is_empty() {
             let document = toml::Deserializer::parse(text).map_err(|error| SceneError::syntax(origin, text, "", &error))?;
-            serde_path_to_error::deserialize(document)
-                .map_err(|error| SceneError::syntax(origin, text, &error.path().to_string(), error.inner()))?
-        } else {
-            let mut table: toml::Table = toml::from_str(text).map_err(|error| SceneError::syntax(origin, text, "", &error))?;
-            for item in overrides {
-                overrides::apply(&mut table, item, origin)?;
-            }
-            // The lines of the file are no longer those of the scene, so only the key is named.
-            serde_path_to_error::deserialize(toml::Value::Table(table))
-                .map_err(|error| SceneError::syntax(origin, "", &error.path().to_string(), error.inner()))?
-        };
+            let file = serde_path_to_error::deserialize(document)
+                .map_err(|error| SceneError::syntax(origin, text, &error.path().to_string(), error.inner()))?;
+            return Scene::check(file, origin);
+        }
+        Scene::of_table(Scene::table(text, origin)?, origin, overrides)
+    }
+
+    /// The TOML table of `text`.
+    ///
+    /// # Errors
+    /// [`SceneError::Syntax`].
+    pub fn table(text: &str, origin: &str) -> Result<toml::Table, SceneError> {
+        toml::from_str(text).map_err(|error| SceneError::syntax(origin, text, "", &error))
+    }
+
+    /// The scene in `table` with overrides (`KEY=VALUE`).
+    ///
+    /// # Errors
+    /// As [`Scene::parse_with`].
+    pub fn of_table(mut table: toml::Table, origin: &str, overrides: &[String]) -> Result<Scene, SceneError> {
+        for item in overrides {
+            overrides::apply(&mut table, item, origin)?;
+        }
+        // The lines of the file are no longer those of the scene, so only the key is named.
+        let file = serde_path_to_error::deserialize(toml::Value::Table(table))
+            .map_err(|error| SceneError::syntax(origin, "", &error.path().to_string(), error.inner()))?;
         Scene::check(file, origin)
     }
 
@@ -141,6 +147,9 @@ impl Scene {
         if let Some(controller) = &file.controller {
             controller.check(&key)?;
         }
+        if let Some(map) = &file.map {
+            map.check(&key)?;
+        }
         file.output.check(&key)?;
         if file.ground.is_empty() && file.block.initial_rotation_ratio == 0.0 && file.block.initial_velocity_ratio == 0.0 {
             return Err(key("ground").missing("a [[ground]] table, or block.initial_rotation_ratio for free rocking"));
@@ -151,6 +160,19 @@ impl Scene {
     /// The block with device number `index` (below the number of devices).
     pub fn structure(&self, index: usize) -> Structure {
         structure(&self.file, self.block, self.restitution, &self.devices[index])
+    }
+
+    /// With only device number `index` (below the number of devices), and with nothing to write down: for studies that keep
+    /// peaks and outcomes alone.
+    pub fn only(&self, index: usize) -> Scene {
+        let mut scene = self.clone();
+        scene.devices = vec![scene.devices.swap_remove(index)];
+        scene.file.device = vec![scene.file.device.swap_remove(index)];
+        // Histories are not kept, so that they should cost nothing.
+        scene.file.output.interval_s = Some(10.0);
+        scene.file.output.energy = false;
+        scene.file.checks = None;
+        scene
     }
 
     /// Full or slender.
@@ -175,6 +197,24 @@ impl Scene {
             (None, ratio) => ratio.unwrap_or(schema::FREE_TIME_RATIO) / self.block.frequency_parameter(),
         }
     }
+}
+
+/// The text of the scene or study at `path`.
+///
+/// # Errors
+/// [`SceneError`] for what is not a file, is larger than [`LARGEST_FILE`], or is not UTF-8.
+pub fn text_of(path: &Path) -> Result<String, SceneError> {
+    let origin = path.display().to_string();
+    let unreadable = |error: std::io::Error| SceneError::Unreadable { origin: origin.clone(), message: error.to_string() };
+    let data = std::fs::metadata(path).map_err(unreadable)?;
+    if !data.is_file() {
+        return Err(SceneError::Unreadable { origin, message: "not a file".to_owned() });
+    }
+    if data.len() > LARGEST_FILE {
+        return Err(SceneError::TooLarge { origin, bytes: data.len() });
+    }
+    let bytes = std::fs::read(path).map_err(unreadable)?;
+    String::from_utf8(bytes).map_err(|_| SceneError::Unreadable { origin, message: "not UTF-8 text".to_owned() })
 }
 
 fn structure(file: &SceneFile, block: Block, restitution: Restitution, device: &SceneDevice) -> Structure {

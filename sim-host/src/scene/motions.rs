@@ -7,6 +7,8 @@ use super::error::{Key, SceneError};
 use super::ground::{GroundError, GroundTable, Motion};
 use crate::ground_motion::{Component, GroundMotion};
 
+const NEEDS_RECORD: &str = "--record needs a [[ground]] table with motion = \"record\"";
+
 /// How the ground moves, in both directions.
 #[derive(Clone, Debug)]
 pub struct GroundMotions {
@@ -53,8 +55,17 @@ impl Scene {
     /// # Errors
     /// [`SceneError::Missing`] when the scene has no `[[ground]]` table of motion "record".
     pub fn use_record(&mut self, file: &Path) -> Result<(), SceneError> {
-        let missing = self.key("ground").missing("--record needs a [[ground]] table with motion = \"record\"");
+        let missing = self.key("ground").missing(NEEDS_RECORD);
         replace_record(&mut self.file.ground, file).ok_or(missing)
+    }
+
+    /// Number of the `[[ground]]` table that takes a record.
+    ///
+    /// # Errors
+    /// [`SceneError::Missing`] when the scene has none.
+    pub fn record_table(&self) -> Result<usize, SceneError> {
+        let place = self.file.ground.iter().position(|table| table.motion == Motion::Record);
+        place.ok_or_else(|| self.key("ground").missing(NEEDS_RECORD))
     }
 
     /// Puts `file` in the place of the scene's vertical record.

@@ -10,6 +10,7 @@ use super::controller::ControllerTable;
 pub use super::device::{DeviceTable, Kind, KinematicsName, MountName};
 use super::error::{Key, SceneError};
 use super::ground::GroundTable;
+use super::map::MapTable;
 
 /// Default of `run.free_time_ratio`, in 1/p.
 pub const FREE_TIME_RATIO: f64 = 20.0;
@@ -47,6 +48,9 @@ pub struct SceneFile {
     /// `[controller]`, for closed loops.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub controller: Option<ControllerTable>,
+    /// `[map]`, for overturning maps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub map: Option<MapTable>,
     /// `[output]`.
     #[serde(default)]
     pub output: OutputTable,

@@ -3,6 +3,7 @@ use sprag_shared::lever::Mount;
 use sprag_shared::structure::KinematicsKind;
 
 use super::*;
+use crate::cloud::study::Study;
 
 const SCENE: &str = r#"
 title = "a test"
@@ -107,7 +108,10 @@ fn every_scene_of_the_repository_is_read() {
     let mut count = 0;
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
-        if path.extension().is_some_and(|extension| extension == "toml") {
+        if path.ends_with("cloud.toml") {
+            // A study, whose structures are scenes.
+            Study::load(&path, &[], &[folder.to_owned()]).unwrap_or_else(|error| panic!("{error}"));
+        } else if path.extension().is_some_and(|extension| extension == "toml") {
             let scene = Scene::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
             assert!(!scene.file.title.is_empty(), "{}", path.display());
             count += 1;

@@ -90,18 +90,9 @@ fn summary(comparisons: &[Comparison], motions: &[StudyMotion], devices: &[Strin
     }
 }
 
-/// Those of `values`, interpolated linearly between order statistics; `None` without values.
+/// Those of `values`; `None` without values.
 pub fn quantiles(values: &[f64]) -> Option<Quantiles> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let last = sorted.len().checked_sub(1)?;
-    let at = |part: f64| {
-        let place = part * last as f64;
-        let below = place.floor() as usize;
-        let above = (below + 1).min(last);
-        sorted[below] + (place - below as f64) * (sorted[above] - sorted[below])
-    };
-    Some(Quantiles { p16: at(0.16), median: at(0.5), p84: at(0.84) })
+    crate::statistics::quantiles(values, [0.16, 0.5, 0.84]).map(|[p16, median, p84]| Quantiles { p16, median, p84 })
 }
 
 #[cfg(test)]

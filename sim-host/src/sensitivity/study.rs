@@ -111,7 +111,7 @@ impl Study {
             setups: Vec::new(),
         };
         for device in 0..base.devices.len() {
-            study.setups.push(Setup { device, variant: None, scene: alone(&base, device) });
+            study.setups.push(Setup { device, variant: None, scene: base.only(device) });
         }
         for (number, variant) in VARIANTS.iter().enumerate() {
             for (device, table) in base.file.device.iter().enumerate() {
@@ -211,18 +211,6 @@ impl Setup {
     }
 }
 
-/// `scene` with only device number `index`, and with nothing to write down.
-fn alone(scene: &Scene, index: usize) -> Scene {
-    let mut scene = scene.clone();
-    scene.devices = vec![scene.devices.swap_remove(index)];
-    scene.file.device = vec![scene.file.device.swap_remove(index)];
-    // Histories are not kept, so that they should cost nothing.
-    scene.file.output.interval_s = Some(10.0);
-    scene.file.output.energy = false;
-    scene.file.checks = None;
-    scene
-}
-
 /// The scene with `changes`, and with only device number `index`; or why the variant makes no sense there.
 fn changed(
     path: &Path,
@@ -249,7 +237,7 @@ fn changed(
     if same && !variant.vertical {
         return Err("the scene has it already".to_owned());
     }
-    Ok(alone(&scene, index))
+    Ok(scene.only(index))
 }
 
 #[cfg(test)]

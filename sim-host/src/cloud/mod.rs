@@ -1,0 +1,25 @@
+//! Cloud and multi-stripe analyses: many records by structures by devices (Thiers-Moggia and Málaga-Chuquitaype 2019, Section 6).
+//!
+//! - [`study_file`], [`study`], [`structures`]: what a study asks for; [`records`]: its ground motions; [`measure`]: how intense they are.
+//! - [`runs`]: what the blocks do.
+//! - [`demand`], [`comparison`], [`overturning`], [`ranking`], [`findings`]: what the runs say.
+//! - [`csv_tables`], [`table`], [`pages`], [`figures`]: tables and pictures of it.
+
+pub mod comparison;
+pub mod csv_tables;
+pub mod demand;
+pub mod figures;
+pub mod findings;
+pub mod measure;
+pub mod overturning;
+pub mod pages;
+pub mod ranking;
+pub mod records;
+pub mod runs;
+pub mod structures;
+pub mod study;
+pub mod study_file;
+pub mod table;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,186 @@
+//! The records of a study: files named one by one, and those of folders.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+
+use super::measure::MeasuredRecord;
+use super::study::{Study, check_record};
+use super::study_file::{DescribedRecord, RecordEntry};
+use crate::record::{Component, ReadOptions, Record};
+use crate::scene::SceneError;
+use crate::scene::error::Key;
+
+/// Endings of the files that a folder is searched for. A file that is named is read whatever its ending.
+pub const ENDINGS: [&str; 8] = ["acc", "at2", "csv", "dat", "g3", "json", "smc", "txt"];
+
+/// Folders within folders that are searched.
+const DEEPEST: usize = 16;
+
+/// A record of a study.
+#[derive(Clone, Debug)]
+pub struct StudyRecord {
+    /// As tables print it: its path below the folder that was named, or the name of the file; its whole path where others are
+    /// called so too.
+    pub name: String,
+    /// The record and its measures.
+    pub motion: MeasuredRecord,
+}
+
+/// The records of a study, and what could not be read.
+#[derive(Clone, Debug, Default)]
+pub struct StudyRecords {
+    /// By the order in the study, within a folder by path.
+    pub records: Vec<StudyRecord>,
+    /// One line for each file or folder without a record; names the file.
+    pub unreadable: Vec<String>,
+}
+
+/// A file to be read.
+struct Source {
+    name: String,
+    path: PathBuf,
+    options: ReadOptions,
+}
+
+impl StudyRecords {
+    /// Reads the records of `study`, on rayon's threads. A file that is named twice counts once.
+    ///
+    /// # Errors
+    /// [`SceneError`] for units or a time step of an entry outside their range; a file that cannot be read is among
+    /// [`StudyRecords::unreadable`].
+    pub fn read(study: &Study) -> Result<StudyRecords, SceneError> {
+        let mut found = StudyRecords::default();
+        let mut sources = sources(study, &mut found.unreadable)?;
+        let mut seen = BTreeSet::new();
+        sources.retain(|source| seen.insert(std::fs::canonicalize(&source.path).unwrap_or_else(|_| source.path.clone())));
+        let same = |name: &str| sources.iter().filter(|source| source.name == name).count() > 1;
+        let named = |source: &Source| if same(&source.name) { shown(&source.path) } else { source.name.clone() };
+        let names: Vec<String> = sources.iter().map(named).collect();
+        let read: Vec<_> = sources.par_iter().map(|source| Record::read(&source.path, &source.options)).collect();
+        for (name, record) in names.into_iter().zip(read) {
+            match record {
+                Ok(record) => found.records.push(StudyRecord { name, motion: record.into() }),
+                Err(error) => found.unreadable.push(error.to_string()),
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// The files of `study`; folders without any go to `unreadable`.
+fn sources(study: &Study, unreadable: &mut Vec<String>) -> Result<Vec<Source>, SceneError> {
+    let mut sources = Vec::new();
+    for (index, entry) in study.file.records.iter().enumerate() {
+        let mut options = study.reading.clone();
+        let path = match entry {
+            RecordEntry::Path(path) => path,
+            RecordEntry::Described(DescribedRecord { file, units, time_step_s, component }) => {
+                let key = |key: &str| Key { origin: study.origin.clone(), key: key.to_owned() };
+                check_record(units.as_deref(), *time_step_s, &format!("records.{index}"), &key)?;
+                options.units = units.as_ref().and_then(|units| units.parse().ok()).or(options.units);
+                options.time_step_s = time_step_s.or(options.time_step_s);
+                options.component = component.as_deref().map(Component::from).or(options.component);
+                file
+            }
+        };
+        let path = study.folder.join(path);
+        if !path.is_dir() {
+            let name = path.file_name().map_or_else(|| shown(&path), |name| name.to_string_lossy().into_owned());
+            sources.push(Source { name, path, options });
+            continue;
+        }
+        let mut files = Vec::new();
+        if let Err(error) = search(&path, DEEPEST, &mut files) {
+            unreadable.push(format!("{}: {error}", path.display()));
+        } else if files.is_empty() {
+            unreadable.push(format!("{}: no file in it ends in {}", path.display(), ENDINGS.join(", ")));
+        }
+        files.sort();
+        for file in files {
+            let name = shown(file.strip_prefix(&path).unwrap_or(&file));
+            sources.push(Source { name, path: file, options: options.clone() });
+        }
+    }
+    Ok(sources)
+}
+
+/// Adds the files of `folder` and of those below it that may be records. Links to folders are not followed.
+fn search(folder: &Path, deepest: usize, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
+    for entry in std::fs::read_dir(folder)? {
+        let entry = entry?;
+        let (path, kind) = (entry.path(), entry.file_type()?);
+        if entry.file_name().as_encoded_bytes().starts_with(b".") {
+            continue;
+        }
+        if kind.is_dir() && deepest > 0 {
+            search(&path, deepest - 1, files)?;
+        }
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        if ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str())) && path.is_file() {
+            files.push(path);
+        }
+    }
+    Ok(())
+}
+
+/// A path with `/` between its parts, the same on every system.
+fn shown(path: &Path) -> String {
+    path.to_string_lossy().replace('\\', "/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cloud::study_file::RecordTable;
+
+    fn study(folder: &Path, records: &str) -> Study {
+        Study::parse(&format!("records = {records}"), "study.toml", folder, &[], &[]).unwrap()
+    }
+
+    fn names(found: &StudyRecords) -> Vec<&str> {
+        found.records.iter().map(|record| record.name.as_str()).collect()
+    }
+
+    #[test]
+    fn folders_are_searched_and_files_are_read_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        std::fs::create_dir_all(at("a/deeper")).unwrap();
+        std::fs::create_dir_all(at("empty")).unwrap();
+        for name in ["a/2.csv", "a/1.csv", "a/deeper/1.csv", "b.csv", "a/.hidden.csv"] {
+            std::fs::write(at(name), "time_s,acc_g\n0,0\n0.01,0.1\n0.02,0.2\n").unwrap();
+        }
+        std::fs::write(at("a/README.md"), "not a record").unwrap();
+        std::fs::write(at("a/broken.csv"), "no numbers").unwrap();
+        let found = StudyRecords::read(&study(folder.path(), "['a', 'b.csv', 'a/1.csv', 'empty', 'gone.csv']")).unwrap();
+        assert_eq!(names(&found), ["1.csv", "2.csv", "deeper/1.csv", "b.csv"]);
+        assert_eq!(found.unreadable.len(), 3, "{:?}", found.unreadable);
+        for part in ["empty: no file in it", "broken.csv", "gone.csv"] {
+            assert!(found.unreadable.iter().any(|line| line.contains(part) && !line.contains('\n')), "{part}");
+        }
+        // Two of one name are told apart.
+        let found = StudyRecords::read(&study(folder.path(), "['a/1.csv', 'a/deeper/1.csv']")).unwrap();
+        assert!(names(&found)[0].ends_with("/a/1.csv") && names(&found)[1].ends_with("/a/deeper/1.csv"));
+    }
+
+    #[test]
+    fn what_a_file_does_not_say_comes_from_its_entry_or_the_study() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("plain.g3"), "0 1 2 1 0").unwrap();
+        let of = |records: &str| StudyRecords::read(&study(folder.path(), records)).unwrap();
+        assert_eq!(of("['plain.g3']").records.len(), 0);
+        let described = of("[{ file = 'plain.g3', units = 'm/s2', time_step_s = 0.02 }]");
+        assert_eq!(described.records[0].motion.record.time_step_s, 0.02);
+        let mut told = study(folder.path(), "['plain.g3']");
+        let units = Some("m/s2".to_owned());
+        told.apply_record_options(&RecordTable { units, time_step_s: Some(0.02), ..RecordTable::default() });
+        assert_eq!(StudyRecords::read(&told).unwrap().records[0].motion.record, described.records[0].motion.record);
+        let of_all = of("['plain.g3']\n[record]\nunits = 'm/s2'\ntime_step_s = 0.02");
+        assert_eq!(of_all.records[0].motion.record, described.records[0].motion.record);
+        let study = study(folder.path(), "[{ file = 'plain.g3', units = 'furlongs' }]");
+        let error = StudyRecords::read(&study).unwrap_err().to_string();
+        assert_eq!(error, "study.toml: records.0.units is \"furlongs\", but must be g, m/s2, cm/s2 or in/s2");
+    }
+}

@@ -1,0 +1,237 @@
+//! `sprag cloud`: demand regressions and fragilities over many records.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde::Serialize;
+
+use super::BAD_INPUT;
+use super::record::time_step;
+use crate::accuracy::{AccuracyArguments, Worst};
+use crate::cloud::csv_tables::{write_demand, write_fragility, write_ranking, write_runs};
+use crate::cloud::figures::{demand_picture, fragility_picture};
+use crate::cloud::findings::Findings;
+use crate::cloud::overturning::OverturningError;
+use crate::cloud::pages::{demand_page, demand_table, fragility_notes, fragility_page, fragility_table, ranking_page};
+use crate::cloud::records::StudyRecords;
+use crate::cloud::runs::Runs;
+use crate::cloud::structures::StudyStructure;
+use crate::cloud::study::{Study, StudyError};
+use crate::cloud::study_file::{RecordTable, StudyFile};
+use crate::interrupt::{self, Interrupt};
+use crate::output::{OutputError, Results, make_folder};
+use crate::plot::PlotError;
+use crate::progress::Progress;
+use crate::record::Units;
+use crate::scene::SceneError;
+use crate::simulation::RunError;
+
+/// Demand regressions and overturning fragilities over many records (Figures 15 and 16).
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag cloud scenes/cloud.toml --records records/\n  \
+    sprag cloud study.toml --records near_fault/*.AT2 --out out/near_fault\n\n\
+    Runs every structure of the study under every record, scaled as it says, with every device. Writes runs.csv, demand.csv,\n\
+    demand.md, demand.svg, fragility.csv, fragility.md, fragility.svg, ranking.csv, ranking.md and summary.json. A record\n\
+    that cannot be read and a run that fails are named, the others are still done, and the exit code is 2.")]
+pub struct CloudArguments {
+    /// Study file.
+    #[arg(value_name = "STUDY.toml")]
+    pub study: PathBuf,
+    /// Records and folders of them, in the place of the study's.
+    #[arg(long, value_name = "PATH", num_args = 1..)]
+    pub records: Vec<PathBuf>,
+    /// Units of files that do not state theirs: g, m/s2, cm/s2 (gal) or in/s2.
+    #[arg(long, value_name = "U")]
+    pub units: Option<Units>,
+    /// Time step in s of files that do not state theirs, or a stated one with more digits.
+    #[arg(long, value_name = "S", value_parser = time_step)]
+    pub dt: Option<f64>,
+    /// Component of files with several: a name such as x or y, or a number from 1.
+    #[arg(long, value_name = "C")]
+    pub component: Option<String>,
+    /// Resample linearly to this time step in s, also from unequal steps.
+    #[arg(long, value_name = "S", value_parser = time_step)]
+    pub resample: Option<f64>,
+    /// Change one value of the study's scene, such as block.size_m=2 or device.1.mass_ratio=0.5.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Folder for the results; out/NAME of the study by default.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Threads; all cores by default. The result does not depend on it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// How accurate.
+    #[command(flatten)]
+    pub accuracy: AccuracyArguments,
+}
+
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error("{0}")]
+    Study(#[from] StudyError),
+    #[error("{0}")]
+    Record(#[from] SceneError),
+    #[error("{}: no record could be read{}", study.display(), first.as_ref().map_or_else(String::new, |line| format!("; {line}")))]
+    NoRecord { study: PathBuf, first: Option<String> },
+    #[error("{0}")]
+    Run(#[from] RunError),
+    #[error("{0}")]
+    Fragility(#[from] OverturningError),
+    #[error("the picture cannot be drawn: {0}")]
+    Plot(#[from] PlotError),
+    #[error("{0}")]
+    Output(#[from] OutputError),
+    #[error("the threads cannot be started: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+/// `summary.json`.
+#[derive(Serialize)]
+struct Document<'a> {
+    command: &'static str,
+    version: &'static str,
+    study: &'a StudyFile,
+    structures: &'a [StudyStructure],
+    records: Vec<&'a str>,
+    unreadable: &'a [String],
+    #[serde(flatten)]
+    findings: &'a Findings,
+    left_out: &'a [String],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    accuracy: Option<Worst>,
+}
+
+/// Runs the command; tables go to `out`, errors go to `err`.
+pub fn run(arguments: &CloudArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
+    match run_or_fail(arguments, out, err, interrupt) {
+        Ok(true) => 0,
+        Ok(false) => BAD_INPUT,
+        Err(Failure::Run(RunError::Interrupted)) => {
+            let _ = writeln!(err, "sprag: interrupted; nothing was written");
+            interrupt::EXIT_CODE
+        }
+        Err(failure) => {
+            let _ = writeln!(err, "sprag: {failure}");
+            BAD_INPUT
+        }
+    }
+}
+
+/// A study that was run.
+struct Studied {
+    study: Study,
+    records: StudyRecords,
+    runs: Runs,
+}
+
+/// Whether everything could be read and run.
+fn run_or_fail(
+    arguments: &CloudArguments,
+    out: &mut impl Write,
+    err: &mut impl Write,
+    interrupt: &Interrupt,
+) -> Result<bool, Failure> {
+    let folder = arguments.out.clone().unwrap_or_else(|| {
+        Path::new("out").join(arguments.study.file_stem().map_or_else(|| "study".into(), |stem| stem.to_os_string()))
+    });
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
+    let progress = Progress::new("runs");
+    let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
+    let Studied { study, records, runs } =
+        arguments.accuracy.run(|change| pool.install(|| studied(arguments, change, &folder, &progress, interrupt)), tell)?;
+    progress.finish();
+    for line in &records.unreadable {
+        let _ = writeln!(err, "sprag: {line}");
+    }
+    let findings = pool.install(|| Findings::of(&study, &runs))?;
+    if interrupt.is_set() {
+        return Err(RunError::Interrupted.into());
+    }
+    let complete = write(&Studied { study, records, runs }, &findings, &folder, out, err)?;
+    let _ = writeln!(out, "results of {} in {}", arguments.study.display(), folder.display());
+    Ok(complete)
+}
+
+fn studied(
+    arguments: &CloudArguments,
+    change: Option<String>,
+    folder: &Path,
+    progress: &Progress,
+    interrupt: &Interrupt,
+) -> Result<Studied, Failure> {
+    let mut changes = arguments.set.clone();
+    changes.extend(change);
+    let mut study = Study::load(&arguments.study, &changes, &arguments.records)?;
+    study.apply_record_options(&RecordTable {
+        units: arguments.units.map(|units| units.to_string()),
+        time_step_s: arguments.dt,
+        component: arguments.component.clone(),
+        resample_to_s: arguments.resample,
+    });
+    let records = StudyRecords::read(&study)?;
+    if records.records.is_empty() {
+        return Err(Failure::NoRecord { study: arguments.study.clone(), first: records.unreadable.first().cloned() });
+    }
+    // Where the results go is tried before the work, not after it.
+    make_folder(folder)?;
+    let runs = Runs::of(&study, &records.records, interrupt, |runs| progress.begin(runs), &|| progress.step())?;
+    Ok(Studied { study, records, runs })
+}
+
+/// Writes the results; returns whether everything was read and run.
+fn write(
+    studied: &Studied,
+    findings: &Findings,
+    folder: &Path,
+    out: &mut impl Write,
+    err: &mut impl Write,
+) -> Result<bool, Failure> {
+    let Studied { study, records, runs } = studied;
+    let document = Document {
+        command: "cloud",
+        version: env!("CARGO_PKG_VERSION"),
+        study: &study.file,
+        structures: &study.structures,
+        records: records.records.iter().map(|record| record.name.as_str()).collect(),
+        unreadable: &records.unreadable,
+        findings,
+        left_out: &runs.left_out,
+        accuracy: runs.worst,
+    };
+    let mut results = Results::default();
+    let in_csv = std::io::Error::other::<csv::Error>;
+    results.add_json(&folder.join("summary.json"), &document)?;
+    results.add(&folder.join("runs.csv"), |file| write_runs(study, &records.records, runs, file).map_err(in_csv))?;
+    results.add(&folder.join("demand.csv"), |file| write_demand(findings, file).map_err(in_csv))?;
+    results.add(&folder.join("fragility.csv"), |file| write_fragility(findings, file).map_err(in_csv))?;
+    results.add(&folder.join("ranking.csv"), |file| write_ranking(findings, file).map_err(in_csv))?;
+    let pages = [
+        ("demand.md", demand_page(study, findings)),
+        ("fragility.md", fragility_page(study, findings)),
+        ("ranking.md", ranking_page(study, findings)),
+    ];
+    for (name, page) in pages {
+        results.add(&folder.join(name), |file| file.write_all(page.as_bytes()))?;
+    }
+    let pictures = [("demand.svg", demand_picture(study, findings)?), ("fragility.svg", fragility_picture(study, findings)?)];
+    for (name, picture) in pictures {
+        match picture {
+            Some(picture) => results.add(&folder.join(name), |file| file.write_all(picture.as_bytes()))?,
+            None => _ = writeln!(err, "sprag: {name} is not drawn: there are no points for it"),
+        }
+    }
+    results.commit()?;
+    let _ = writeln!(out, "{}\n{}", demand_table(findings).markdown(), fragility_table(findings).markdown());
+    for line in fragility_notes(&findings.fragility) {
+        let _ = writeln!(out, "{line}");
+    }
+    for line in &runs.left_out {
+        let _ = writeln!(err, "sprag: left out: {line}");
+    }
+    if let Some(worst) = runs.worst {
+        let _ = writeln!(out, "accuracy: {worst}");
+    }
+    Ok(records.unreadable.is_empty() && !runs.failed)
+}

@@ -1,0 +1,201 @@
+//! `sprag map`: overturning maps and rocking spectra over two keys of a scene.
+
+use std::io::Write;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde::Serialize;
+
+use super::ended;
+use crate::interrupt::Interrupt;
+use crate::map::figures::figures;
+use crate::map::grid::Grid;
+use crate::map::study::{Counts, DeviceMap, MapError, study};
+use crate::map::table::write_csv;
+use crate::output::{OutputError, Results, make_folder};
+use crate::plot::PlotError;
+use crate::progress::Progress;
+use crate::scene::map::AxisTable;
+use crate::scene::schema::SceneFile;
+use crate::scene::{Scene, SceneError, text_of};
+
+/// Map a scene over two of its keys: regions of overturning, peaks as spectra.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag map scenes/figure08.toml\n  \
+    sprag map scenes/figure08.toml --set map.x.cells=512 --set map.y.cells=512\n  \
+    sprag map scenes/figure08.toml --x device.2.mass_ratio=0.01:10:200:log --y block.slenderness_deg=5:40:200\n\n\
+    Writes summary.json, map.csv, map.svg (outcomes), rotation.svg and acceleration.svg (peaks); without an axis y summary.json, \
+    map.csv and cut.svg.")]
+pub struct MapArguments {
+    /// Scene file.
+    #[arg(value_name = "SCENE.toml")]
+    pub scene: PathBuf,
+    /// Change one value of the scene, such as block.restitution=0.9 or map.x.cells=256.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Axis across, in the place of the scene's: any numeric key; with :log in equal factors.
+    #[arg(long, value_name = "KEY=FROM:TO:CELLS")]
+    pub x: Option<AxisTable>,
+    /// Axis up.
+    #[arg(long, value_name = "KEY=FROM:TO:CELLS")]
+    pub y: Option<AxisTable>,
+    /// Leave out the axis up: a cut along x.
+    #[arg(long, conflicts_with = "y")]
+    pub cut: bool,
+    /// Ground motion record, in the place of the scene's.
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    /// Folder for the results; out/NAME-map of the scene by default.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Threads; as many as the machine has by default.
+    #[arg(long, value_name = "N")]
+    pub threads: Option<NonZeroUsize>,
+}
+
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error("{0}")]
+    Map(#[from] MapError),
+    #[error("the picture cannot be drawn: {0}")]
+    Plot(#[from] PlotError),
+    #[error("{0}")]
+    Output(#[from] OutputError),
+    #[error("the threads cannot be started: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Failure {
+        Failure::Map(MapError::Scene(error))
+    }
+}
+
+/// `summary.json`.
+#[derive(Serialize)]
+struct Summary<'a> {
+    command: &'static str,
+    version: &'static str,
+    scene: &'a SceneFile,
+    runs: Vec<DeviceSummary<'a>>,
+}
+
+#[derive(Serialize)]
+struct DeviceSummary<'a> {
+    device: &'a str,
+    cells: usize,
+    #[serde(flatten)]
+    counts: Counts,
+    seconds: f64,
+}
+
+impl<'a> DeviceSummary<'a> {
+    fn of(map: &'a DeviceMap) -> DeviceSummary<'a> {
+        let counts = Counts::of(&map.results);
+        DeviceSummary { device: &map.device, cells: map.results.len(), counts, seconds: map.seconds }
+    }
+}
+
+/// Runs the command; a table goes to `out`, errors go to `err`.
+pub fn run(arguments: &MapArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
+    let result = run_or_fail(arguments, out, interrupt);
+    ended(result, |failure| matches!(failure, Failure::Map(MapError::Interrupted)), err)
+}
+
+fn run_or_fail(arguments: &MapArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+    let grid = grid(arguments)?;
+    let folder = arguments.out.clone().unwrap_or_else(|| {
+        let stem = arguments.scene.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
+        Path::new("out").join(format!("{stem}-map"))
+    });
+    make_folder(&folder)?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
+    let progress = Progress::new("cells");
+    let maps = pool.install(|| study(&grid, &progress, interrupt));
+    progress.finish();
+    let maps = maps?;
+    let pictures = figures(&grid, &maps)?;
+    let mut file = grid.scene.file.clone();
+    if let (Some(record), Some(table)) = (&arguments.record, file.ground.iter_mut().find(|table| table.file.is_some())) {
+        // As the user wrote it, so that the summary does not depend on where it was made.
+        table.file = Some(record.clone());
+    }
+    let runs = maps.iter().map(DeviceSummary::of).collect();
+    let summary = Summary { command: "map", version: env!("CARGO_PKG_VERSION"), scene: &file, runs };
+    let mut results = Results::default();
+    results.add_json(&folder.join("summary.json"), &summary)?;
+    results.add(&folder.join("map.csv"), |file| write_csv(&grid, &maps, file))?;
+    for (name, picture) in &pictures {
+        results.add(&folder.join(name), |file| file.write_all(picture.as_bytes()))?;
+    }
+    if interrupt.is_set() {
+        return Err(MapError::Interrupted.into());
+    }
+    results.commit()?;
+    let _ = write_table(out, &maps);
+    let _ = writeln!(out, "\n{}", folder.join(pictures.first().map_or("map.csv", |picture| picture.0)).display());
+    Ok(())
+}
+
+/// The scene with its overrides and axes.
+fn grid(arguments: &MapArguments) -> Result<Grid, SceneError> {
+    let origin = arguments.scene.display().to_string();
+    let text = text_of(&arguments.scene)?;
+    let mut table = Scene::table(&text, &origin)?;
+    let mut changes = arguments.set.clone();
+    let axes = [("x", &arguments.x), ("y", &arguments.y)];
+    for (name, axis) in axes {
+        if let Some(axis) = axis {
+            let scale = serde_json::to_value(axis.scale).unwrap_or_default();
+            changes.push(format!(
+                "map.{name}={{ key = {:?}, from = {:?}, to = {:?}, cells = {}, scale = {scale} }}",
+                axis.key, axis.from, axis.to, axis.cells
+            ));
+        }
+    }
+    if let Some(record) = &arguments.record {
+        let place = Scene::of_table(table.clone(), &origin, &changes)?;
+        let index = place.record_table()?;
+        let file = std::path::absolute(record).unwrap_or_else(|_| record.clone());
+        changes.push(format!("ground.{index}.file={:?}", file.display().to_string()));
+    }
+    for change in &changes {
+        crate::scene::overrides::apply(&mut table, change, &origin)?;
+    }
+    if let (true, Some(toml::Value::Table(map))) = (arguments.cut, table.get_mut("map")) {
+        map.remove("y");
+    }
+    // A scene whose file has no line for its keys any more is told from one that was read as it is.
+    let mut scene = if changes.is_empty() && !arguments.cut {
+        Scene::parse(&text, &origin)?
+    } else {
+        Scene::of_table(table.clone(), &origin, &[])?
+    };
+    scene.folder = arguments.scene.parent().map(Path::to_path_buf).unwrap_or_default();
+    Grid::new(scene, table)
+}
+
+fn write_table(out: &mut impl Write, maps: &[DeviceMap]) -> std::io::Result<()> {
+    let width = maps.iter().map(|map| map.device.chars().count()).max().unwrap_or(0).max(6);
+    writeln!(
+        out,
+        "{:width$} {:>10} {:>10} {:>10} {:>16} {:>14} {:>12}",
+        "device", "cells", "no rocking", "safe", "over, no impact", "over, impact", "cells/s"
+    )?;
+    for map in maps {
+        let counts = Counts::of(&map.results);
+        writeln!(
+            out,
+            "{:width$} {:>10} {:>10} {:>10} {:>16} {:>14} {:>12.0}",
+            map.device,
+            map.results.len(),
+            counts.no_rocking,
+            counts.safe,
+            counts.overturned_without_impact,
+            counts.overturned_after_impact,
+            map.results.len() as f64 / map.seconds,
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,76 @@
+//! Impacts that accumulate to rest under a pulse, and the push that lifts the block again.
+
+use std::f64::consts::PI;
+
+use sprag_shared::accumulation::Accumulation;
+use sprag_shared::math;
+use sprag_shared::structure::{COUNTED_SPEED, REST_SPEED};
+
+use super::model::Model;
+
+/// θ̇/(pα) after an impact below which the next ones are summed.
+pub const WEAK_IMPACT: f64 = REST_SPEED;
+
+/// A sine A sin(ωt + φ), in units of the uplift threshold, as long as it lasts.
+#[derive(Clone, Copy, Debug)]
+pub struct Sine {
+    /// |A|, above 1.
+    pub amplitude: f64,
+    /// ω.
+    pub frequency: f64,
+    /// φ, rad.
+    pub phase: f64,
+    /// When it ends.
+    pub duration: f64,
+}
+
+/// What follows a weak impact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AfterWeakImpact {
+    /// It rests until the pulse is over.
+    Rests,
+    /// It rests, and uplifts at `time`, to the side on which the pulse first lifted it or to the other.
+    Uplifts {
+        /// From the start of the pulse.
+        time: f64,
+        /// The side of the first uplift of a sine.
+        first_side: bool,
+    },
+    /// The push does not let it rest.
+    Unsettled,
+}
+
+impl Sine {
+    /// What follows an impact at `time` that leaves a block of slenderness `alpha` (rad) with `speed` (rad; p = 1) on a side where the
+    /// push is `push` (in units of the threshold, positive inward), under couplings κ k of the clutch while it moves outward and inward.
+    pub fn after_weak_impact<M: Model>(
+        &self,
+        time: f64,
+        push: f64,
+        (speed, restitution, alpha): (f64, f64, f64),
+        (outward, inward): (f64, f64),
+    ) -> AfterWeakImpact {
+        // Just as a block at rest, one that hardly moves is held by the rest of the threshold: |θ̈| is linear in the push.
+        let rates = |push: f64| {
+            let held = 1.0 + push;
+            (held * M::rate(alpha, outward), held * M::rate(alpha, inward))
+        };
+        if push.abs() >= 1.0 {
+            return AfterWeakImpact::Unsettled;
+        }
+        let tail = Accumulation::of(rates(push), rates(-push), restitution, speed, COUNTED_SPEED * alpha);
+        let rested = time + tail.duration;
+        let angle = self.frequency * rested + self.phase;
+        if rested > self.duration || (self.amplitude * math::sin(angle)).abs() >= 1.0 {
+            return AfterWeakImpact::Unsettled;
+        }
+        let first = math::asin(1.0 / self.amplitude);
+        let half_cycles = ((angle - first) / PI).ceil().max(0.0);
+        let time = (first + half_cycles * PI - self.phase) / self.frequency;
+        if time >= self.duration {
+            AfterWeakImpact::Rests
+        } else {
+            AfterWeakImpact::Uplifts { time, first_side: half_cycles % 2.0 == 0.0 }
+        }
+    }
+}

@@ -1,0 +1,105 @@
+use sprag_shared::block::Geometry;
+use sprag_shared::structure::DeviceKind;
+use sprag_shared::taylor::Taylor;
+
+use super::machine::{Registers, run};
+use super::pulses::{PulseResult, PulsedBlock};
+use crate::batch::case::{Case, PulseShape, TERMS, TIGHT};
+use crate::outcome::Outcome;
+
+const DEVICES: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
+
+/// A coarse grid of everything, dense enough that every kind of event occurs.
+fn cases(geometry: Geometry, device: DeviceKind, side: u32) -> Vec<Case> {
+    let along = |index: u32, low: f64, high: f64| low + (high - low) * f64::from(index) / f64::from(side - 1);
+    let mut cases = Vec::new();
+    for (slenderness, restitution, mass_ratio) in [(0.35, 0.85, 0.5), (0.1, 0.6, 3.0), (0.6, 0.99, 0.1)] {
+        for pulse in [PulseShape::Sine, PulseShape::Cosine] {
+            for row in 0..side {
+                for column in 0..side {
+                    let (frequency_ratio, amplitude_ratio) = (along(column, 0.2, 8.0), along(row, 1.0, 10.0));
+                    let case = Case { geometry, device, slenderness, restitution, mass_ratio, pulse, ..Case::default() };
+                    cases.push(Case { frequency_ratio, amplitude_ratio, ..case });
+                }
+            }
+        }
+    }
+    cases
+}
+
+/// The lanes against the core, whose free motions are followed for 60/p.
+#[test]
+fn blocks_in_lanes_do_what_they_do_alone() {
+    let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
+    for geometry in [Geometry::Full, Geometry::Slender] {
+        for device in DEVICES {
+            let cases = cases(geometry, device, 17);
+            let pulsed: Vec<PulsedBlock> = cases.iter().map(PulsedBlock::from).collect();
+            let results = run(&pulsed, Registers::Widest).unwrap();
+            let mut seen = [0; 4];
+            for (case, found) in cases.iter().zip(&results) {
+                let alone = case.run(&method).unwrap();
+                assert_eq!(found.outcome, alone.outcome, "{case:?}");
+                seen[found.outcome as usize] += 1;
+                if !alone.outcome.overturned() {
+                    for (found, alone) in
+                        [(found.peak_rotation, alone.peak_rotation), (found.peak_acceleration, alone.peak_acceleration)]
+                    {
+                        assert!((found - alone).abs() <= 1e-9 * alone, "{case:?}: {found} {alone}");
+                    }
+                }
+            }
+            assert!(seen.iter().all(|&count| count > 20), "{geometry:?} {device:?}: {seen:?}");
+        }
+    }
+}
+
+#[test]
+fn bits_depend_neither_on_registers_nor_on_neighbours() {
+    for geometry in [Geometry::Full, Geometry::Slender] {
+        let mut pulsed: Vec<PulsedBlock> = Vec::new();
+        for device in DEVICES {
+            pulsed.extend(cases(geometry, device, 9).iter().map(PulsedBlock::from));
+        }
+        let bits = |results: &[PulseResult]| -> Vec<(Outcome, u64, u64)> {
+            results.iter().map(|r| (r.outcome, r.peak_rotation.to_bits(), r.peak_acceleration.to_bits())).collect()
+        };
+        let results = bits(&run(&pulsed, Registers::Widest).unwrap());
+        assert_eq!(results, bits(&run(&pulsed, Registers::Baseline).unwrap()));
+        let alone: Vec<PulseResult> =
+            pulsed.iter().map(|block| run(std::slice::from_ref(block), Registers::Widest).unwrap()[0]).collect();
+        assert_eq!(results, bits(&alone));
+        pulsed.reverse();
+        let mut reversed = bits(&run(&pulsed, Registers::Widest).unwrap());
+        reversed.reverse();
+        assert_eq!(results, reversed);
+    }
+}
+
+#[test]
+fn a_pulse_turned_about_gives_the_mirrored_motion() {
+    let pulsed: Vec<PulsedBlock> = cases(Geometry::Full, DeviceKind::ClutchedPair, 7).iter().map(PulsedBlock::from).collect();
+    let mirrored: Vec<PulsedBlock> =
+        pulsed.iter().map(|block| PulsedBlock { amplitude_ratio: -block.amplitude_ratio, ..*block }).collect();
+    let (results, others) = (run(&pulsed, Registers::Widest).unwrap(), run(&mirrored, Registers::Widest).unwrap());
+    for (result, other) in results.iter().zip(&others) {
+        assert_eq!(result.outcome, other.outcome);
+        assert!(result.peak_rotation == other.peak_rotation || result.outcome.overturned());
+    }
+}
+
+/// On the threshold, just beyond it, with parameters at the ends of their ranges: the core has them.
+#[test]
+fn what_is_not_plain_is_left_to_the_core() {
+    let plain = PulsedBlock::from(&Case { amplitude_ratio: 3.0, ..Case::default() });
+    let result = |block: PulsedBlock| run(&[block, plain], Registers::Widest).map(|results| results[0].outcome);
+    assert_eq!(result(PulsedBlock { amplitude_ratio: 1.0, ..plain }).unwrap(), Outcome::NoRocking);
+    assert_eq!(result(PulsedBlock { amplitude_ratio: 0.5, ..plain }).unwrap(), Outcome::NoRocking);
+    assert_eq!(result(PulsedBlock { amplitude_ratio: 1.0 + 1e-10, ..plain }).unwrap(), Outcome::Safe);
+    assert_eq!(result(PulsedBlock { restitution: 0.0, amplitude_ratio: 1.2, ..plain }).unwrap(), Outcome::Safe);
+    assert!(result(PulsedBlock { slenderness: 1.6, ..plain }).is_err());
+    assert!(result(PulsedBlock { slenderness: f64::NAN, ..plain }).is_err());
+    assert!(result(PulsedBlock { restitution: 1.5, ..plain }).is_err());
+    let second = run(&[plain, PulsedBlock { coupling: -1.0, device: DeviceKind::Inerter, ..plain }], Registers::Widest);
+    assert_eq!(second.unwrap_err().0, 1);
+}

@@ -1,0 +1,159 @@
+//! A map as pictures: regions of outcomes, spectra of peaks in bands, and cuts along one axis.
+
+use sprag_shared::math;
+
+use super::axis::title;
+use super::grid::Grid;
+use super::study::{Counts, DeviceMap};
+use crate::ensemble::pulses::PulseResult;
+use crate::plot::{
+    Cell, CellMap, CellMaps, Chart, ChartPanel, Class, Line, PlotError, Scale, band, cell_map_figure, chart_figure,
+};
+use crate::scene::map::{AxisTable, ScaleName};
+
+/// A peak of a cell.
+type Peak = fn(&PulseResult) -> f64;
+
+/// Bands of a spectrum, at most.
+const BANDS: f64 = 12.0;
+
+/// What the spectra show.
+const ROTATION: &str = "peak rotation max |θ|/α";
+const ACCELERATION: &str = "peak angular acceleration max |θ̈|/(p²α)";
+
+/// The files of pictures of a map: name, SVG text.
+///
+/// # Errors
+/// [`PlotError`].
+pub fn figures(grid: &Grid, maps: &[DeviceMap]) -> Result<Vec<(&'static str, String)>, PlotError> {
+    let Some(y) = &grid.map.y else {
+        return Ok(vec![("cut.svg", cut(grid, maps)?)]);
+    };
+    let outcomes = small_multiples(grid, y, maps, "", Class::outcomes(), |result| Cell::from(result.outcome).class());
+    let mut files = vec![("map.svg", cell_map_figure(&outcomes)?)];
+    let spectra: [(&str, &str, Peak); 2] = [
+        ("rotation.svg", ROTATION, |result| result.peak_rotation),
+        ("acceleration.svg", ACCELERATION, |result| result.peak_acceleration),
+    ];
+    for (file, name, peak) in spectra {
+        let safe = maps.iter().flat_map(|map| &map.results).filter(|result| !result.outcome.overturned()).map(peak);
+        let limits = limits(safe.fold(0.0, f64::max));
+        let classes = Class::bands(&limits);
+        let overturned = classes.len() - 1;
+        let class = |result: &PulseResult| {
+            if result.outcome.overturned() {
+                return overturned;
+            }
+            let rocks = result.outcome != crate::outcome::Outcome::NoRocking;
+            band(&limits, rocks.then(|| peak(result)))
+        };
+        files.push((file, cell_map_figure(&small_multiples(grid, y, maps, name, classes, class))?));
+    }
+    Ok(files)
+}
+
+/// Round limits of bands from 0 up to `largest`.
+fn limits(largest: f64) -> Vec<f64> {
+    let rough = (largest / BANDS).max(1e-12);
+    let decade = math::pow(10.0, math::log10(rough).floor());
+    let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|factor| factor * decade).find(|step| *step >= rough).unwrap_or(rough);
+    (0..=(largest / step) as usize).map(|index| index as f64 * step).collect()
+}
+
+/// One map a device, side by side.
+fn small_multiples(
+    grid: &Grid,
+    y: &AxisTable,
+    maps: &[DeviceMap],
+    what: &str,
+    classes: Vec<Class>,
+    class: impl Fn(&PulseResult) -> usize,
+) -> CellMaps {
+    let heading = [grid.scene.file.title.as_str(), what];
+    let cells = grid.columns() * grid.rows();
+    let note = |map: &DeviceMap| format!("{} of {cells} overturn", Counts::of(&map.results).overturned());
+    CellMaps {
+        title: heading.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(": "),
+        classes,
+        scales: (scale(&grid.map.x), scale(y)),
+        x_title: title(&grid.scene, &grid.map.x.key),
+        x: ends(&grid.map.x),
+        y_title: title(&grid.scene, &y.key),
+        y: ends(y),
+        maps: maps
+            .iter()
+            .map(|map| CellMap {
+                title: map.device.clone(),
+                note: note(map),
+                columns: grid.columns(),
+                rows: grid.rows(),
+                cells: map.results.iter().map(&class).collect(),
+            })
+            .collect(),
+        columns: maps.len().min(3),
+    }
+}
+
+/// Peaks along the only axis, a line a device, broken where the block overturns.
+fn cut(grid: &Grid, maps: &[DeviceMap]) -> Result<String, PlotError> {
+    let peaks: [(&str, Peak); 2] =
+        [("max |*θ*|/α", |result| result.peak_rotation), ("max |*θ*''|/(*p*²α)", |result| result.peak_acceleration)];
+    let lines = |peak: Peak| {
+        let mut lines = Vec::new();
+        for map in maps {
+            let runs = map.results.chunk_by(|a, b| a.outcome.overturned() == b.outcome.overturned());
+            let mut first = 0;
+            for run in runs {
+                let at = |index: usize| grid.map.x.value(first + index);
+                let points: Vec<(f64, f64)> = run.iter().enumerate().map(|(index, result)| (at(index), peak(result))).collect();
+                first += run.len();
+                if !run[0].outcome.overturned() {
+                    lines.push(Line { name: map.device.clone(), points, ..Line::default() });
+                }
+            }
+        }
+        lines
+    };
+    let panels = peaks
+        .into_iter()
+        .map(|(y_title, peak)| ChartPanel { y_title: y_title.to_owned(), lines: lines(peak), ..ChartPanel::default() })
+        .collect();
+    chart_figure(&Chart {
+        title: grid.scene.file.title.clone(),
+        x_title: title(&grid.scene, &grid.map.x.key),
+        x: scale(&grid.map.x),
+        panels,
+        columns: 1,
+    })
+}
+
+fn scale(axis: &AxisTable) -> Scale {
+    match axis.scale {
+        ScaleName::Linear => Scale::Linear,
+        ScaleName::Logarithmic => Scale::Logarithmic,
+    }
+}
+
+/// The ends of an axis, as its scale is divided.
+fn ends(axis: &AxisTable) -> (f64, f64) {
+    match axis.scale {
+        ScaleName::Linear => (axis.from, axis.to),
+        ScaleName::Logarithmic => (math::log10(axis.from), math::log10(axis.to)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_are_round_and_few() {
+        assert_eq!(limits(1.0).len(), 11);
+        for largest in [0.003, 0.9, 1.07, 4.4, 12.0, 99.0, 3e5] {
+            let limits = limits(largest);
+            assert!(limits.len() <= 13 && limits.len() >= 5, "{largest}: {limits:?}");
+            assert!(limits[limits.len() - 1] <= largest);
+        }
+        assert_eq!(limits(0.0), vec![0.0]);
+    }
+}
