@@ -33,6 +33,7 @@ pub mod record;
 pub mod scene;
 pub mod sensitivity;
 pub mod sensor;
+pub mod similarity;
 pub mod simulation;
 pub mod statistics;
 pub mod summary_table;

@@ -22,6 +22,7 @@ pub mod loop_study;
 pub mod map;
 pub mod record;
 pub mod sensitivity;
+pub mod similar;
 pub mod simulate;
 pub mod synthesize;
 

@@ -1,0 +1,218 @@
+//! `sprag similar`: responses of blocks with equal dimensionless groups, overlaid.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde::Serialize;
+use sprag_shared::error::ParameterError;
+
+use super::ended;
+use crate::interrupt::Interrupt;
+use crate::output::{OutputError, Results, make_folder};
+use crate::plot::{Chart, ChartPanel, Line, PlotError, Scale, chart_figure};
+use crate::scene::ground::GroundError;
+use crate::scene::schema::SceneFile;
+use crate::scene::{Scene, SceneError};
+use crate::similarity::compare::{Departure, INSTANTS, Response};
+use crate::similarity::groups::{Group, groups};
+use crate::simulation::{DeviceRun, RunError, simulate};
+
+/// Compare a block with others of equal dimensionless groups: θ/α over p t, and how far the responses depart.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag similar scenes/figure06.toml --with block.size_m=5,block.slenderness_deg=5\n  \
+    sprag similar scenes/figure07.toml --with block.size_m=5,block.slenderness_deg=20 --with block.size_m=2,block.slenderness_deg=15\n\n\
+    Writes summary.json, similar.csv and similar.svg. Groups that are not equal are named: amplitudes and frequencies\n\
+    should be ratios (amplitude_ratio, frequency_ratio).")]
+pub struct SimilarArguments {
+    /// Scene file: the first block.
+    #[arg(value_name = "SCENE.toml")]
+    pub scene: PathBuf,
+    /// Another block: the scene with these values changed, separated by commas.
+    #[arg(long, value_name = "KEY=VALUE,…", required = true)]
+    pub with: Vec<String>,
+    /// Change one value of the scene for all blocks.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Folder for the results; out/NAME-similar of the scene by default.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error("{0}")]
+    Scene(#[from] SceneError),
+    #[error("{0}")]
+    Ground(#[from] GroundError),
+    #[error("{0}")]
+    Parameter(#[from] ParameterError),
+    #[error("{0}")]
+    Run(#[from] RunError),
+    #[error("--with {0}: the block has another number of devices than the first")]
+    Devices(String),
+    #[error("the picture cannot be drawn: {0}")]
+    Plot(#[from] PlotError),
+    #[error("{0}")]
+    Output(#[from] OutputError),
+}
+
+/// A block with its responses.
+struct Block {
+    name: String,
+    scene: Scene,
+    groups: Vec<Group>,
+    runs: Vec<DeviceRun>,
+    responses: Vec<Response>,
+}
+
+/// `summary.json`.
+#[derive(Serialize)]
+struct Summary<'a> {
+    command: &'static str,
+    version: &'static str,
+    scene: &'a SceneFile,
+    blocks: Vec<BlockSummary<'a>>,
+}
+
+#[derive(Serialize)]
+struct BlockSummary<'a> {
+    block: &'a str,
+    groups: &'a [Group],
+    unequal_groups: Vec<&'a str>,
+    runs: Vec<RunSummary<'a>>,
+}
+
+#[derive(Serialize)]
+struct RunSummary<'a> {
+    #[serde(flatten)]
+    run: &'a DeviceRun,
+    /// From the first block; none of the first itself.
+    departure: Option<Departure>,
+}
+
+/// Runs the command; a table goes to `out`, errors go to `err`.
+pub fn run(arguments: &SimilarArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
+    let result = run_or_fail(arguments, out, err, interrupt);
+    ended(result, |failure| matches!(failure, Failure::Run(RunError::Interrupted)), err)
+}
+
+fn run_or_fail(
+    arguments: &SimilarArguments,
+    out: &mut impl Write,
+    err: &mut impl Write,
+    interrupt: &Interrupt,
+) -> Result<(), Failure> {
+    let folder = arguments.out.clone().unwrap_or_else(|| {
+        let stem = arguments.scene.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
+        Path::new("out").join(format!("{stem}-similar"))
+    });
+    let mut blocks = vec![block(arguments, "", None, interrupt)?];
+    for changes in &arguments.with {
+        let other = block(arguments, changes, Some(&blocks[0]), interrupt)?;
+        for name in unequal(&blocks[0], &other) {
+            let _ = writeln!(err, "sprag: --with {changes}: {name} is not that of the first block");
+        }
+        blocks.push(other);
+    }
+    let figure = figure(&blocks)?;
+    make_folder(&folder)?;
+    let first = &blocks[0];
+    let of = |block: &'_ Block, device: usize| {
+        (!std::ptr::eq(block, first)).then(|| Departure::between(&first.responses[device], &block.responses[device]))
+    };
+    let summaries = blocks.iter().map(|block| BlockSummary {
+        block: &block.name,
+        groups: &block.groups,
+        unequal_groups: unequal(first, block),
+        runs: block.runs.iter().enumerate().map(|(device, run)| RunSummary { run, departure: of(block, device) }).collect(),
+    });
+    let version = env!("CARGO_PKG_VERSION");
+    let summary = Summary { command: "similar", version, scene: &first.scene.file, blocks: summaries.collect() };
+    let mut results = Results::default();
+    results.add_json(&folder.join("summary.json"), &summary)?;
+    results.add(&folder.join("similar.csv"), |file| write_csv(&blocks, file))?;
+    let picture = folder.join("similar.svg");
+    results.add(&picture, |file| file.write_all(figure.as_bytes()))?;
+    if interrupt.is_set() {
+        return Err(RunError::Interrupted.into());
+    }
+    results.commit()?;
+    let _ = writeln!(out, "largest departure of θ/α from the first block");
+    for block in &blocks[1..] {
+        for (device, run) in block.runs.iter().enumerate() {
+            let Departure { largest, at_frequency_parameter_time, relative } =
+                Departure::between(&first.responses[device], &block.responses[device]);
+            let share = relative.map_or_else(String::new, |share| format!(" ({:.2} % of the peak)", 100.0 * share));
+            let _ =
+                writeln!(out, "{}, {}: {largest:.3e} at p t = {at_frequency_parameter_time:.2}{share}", block.name, run.device);
+        }
+    }
+    let _ = writeln!(out, "{}", picture.display());
+    Ok(())
+}
+
+/// The scene with `changes`, simulated; `first` is the block that it is compared with.
+fn block(arguments: &SimilarArguments, changes: &str, first: Option<&Block>, interrupt: &Interrupt) -> Result<Block, Failure> {
+    let mut overrides = arguments.set.clone();
+    overrides.extend(changes.split(',').map(str::trim).filter(|change| !change.is_empty()).map(str::to_owned));
+    let mut scene = Scene::load(&arguments.scene, &overrides)?;
+    if first.is_some_and(|first| first.scene.devices.len() != scene.devices.len()) {
+        return Err(Failure::Devices(changes.to_owned()));
+    }
+    let ground = scene.ground_motions()?;
+    let p = scene.block.frequency_parameter();
+    let duration = p * (ground.horizontal.duration() + scene.free_time_s());
+    let step = first.map_or(duration / (INSTANTS - 1) as f64, |first| first.responses[0].step);
+    scene.file.output.interval_s = Some(step / p);
+    let runs = simulate(&scene, &ground, interrupt)?;
+    let responses = runs.iter().map(|run| Response::of(&run.history, step)).collect();
+    let name = if changes.is_empty() { "first block".to_owned() } else { changes.replace(',', ", ") };
+    Ok(Block { name, groups: groups(&scene)?, scene, runs, responses })
+}
+
+/// Names of the groups of `other` that are not those of `first`.
+fn unequal<'a>(first: &Block, other: &'a Block) -> Vec<&'a str> {
+    let same = |group: &Group| first.groups.iter().any(|known| known.equals(group));
+    other.groups.iter().filter(|group| !same(group)).map(|group| group.name.as_str()).collect()
+}
+
+fn figure(blocks: &[Block]) -> Result<String, PlotError> {
+    let first = &blocks[0];
+    let points = |response: &Response| -> Vec<(f64, f64)> {
+        response.rotations.iter().enumerate().map(|(index, rotation)| (index as f64 * response.step, *rotation)).collect()
+    };
+    let panel = |device: usize| ChartPanel {
+        title: first.runs[device].device.clone(),
+        y_title: "*θ*/α".to_owned(),
+        y: Scale::Linear,
+        lines: blocks
+            .iter()
+            .map(|block| Line { name: block.name.clone(), points: points(&block.responses[device]), ..Line::default() })
+            .collect(),
+    };
+    chart_figure(&Chart {
+        title: first.scene.file.title.clone(),
+        x_title: "*p t*".to_owned(),
+        x: Scale::Linear,
+        panels: (0..first.runs.len()).map(panel).collect(),
+        columns: 1,
+    })
+}
+
+/// `device,frequency_parameter_time` and θ/α of every block; empty where a block has overturned.
+fn write_csv(blocks: &[Block], out: &mut impl Write) -> std::io::Result<()> {
+    let mut table = csv::Writer::from_writer(out);
+    let names = ["device", "frequency_parameter_time"].into_iter().chain(blocks.iter().map(|block| block.name.as_str()));
+    table.write_record(names)?;
+    for (device, run) in blocks[0].runs.iter().enumerate() {
+        for instant in 0..INSTANTS {
+            let time = instant as f64 * blocks[0].responses[device].step;
+            let mut row = vec![run.device.clone(), format!("{time:?}")];
+            let rotation = |block: &Block| block.responses[device].rotations.get(instant).map(|rotation| format!("{rotation:?}"));
+            row.extend(blocks.iter().map(|block| rotation(block).unwrap_or_default()));
+            table.write_record(row)?;
+        }
+    }
+    table.flush()
+}
