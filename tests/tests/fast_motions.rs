@@ -97,3 +97,35 @@ fn pulses_of_any_frequency_are_those_of_the_closed_form() {
         assert!((found / expected - 1.0).abs() < 1e-9, "ω/p = {frequency}: {found}, not {expected}");
     }
 }
+
+/// A coarse step of the scheme that looks at events at its end may throw a block over in one go, by thousands of radians: it lies where
+/// its fall is decided, with finite numbers.
+#[test]
+fn a_block_thrown_over_within_one_step_lies_where_it_falls() {
+    for method in ["semi-implicit-euler", "runge-kutta-4"] {
+        for precision in ["f32", "f64"] {
+            for step_s in [0.07, 2.0, 20.0, 206.713_944] {
+                let text = format!(
+                    "block = {{ frequency_parameter_1_s = 0.14255538702010995, slenderness_deg = 89.999999, restitution = 0.18 }}\n\
+                     device = [{{ kind = 'clutched-pair', mass_ratio = 6.7, mount = 'tying-point', mount_height_m = 59.0 }}]\n\
+                     ground = [{{ motion = 'sine', amplitude_ratio = 3.46, frequency_ratio = 0.01 }}]\n\
+                     accuracy = {{ method = '{method}', step_s = 1.0, precision = '{precision}', events = 'step-end' }}\n\
+                     run = {{ free_time_ratio = 0.001 }}"
+                );
+                let mut scene = Scene::parse(&text, "scene").expect("a scene");
+                // Longer than a scene may ask for.
+                scene.file.accuracy.step_s = Some(step_s);
+                let ground = scene.ground_motions().expect("a pulse");
+                let runs = simulate(&scene, &ground, &Interrupt::default()).expect("a run");
+                let run = &runs[0];
+                assert!(run.outcome.overturned() && run.end_time_s.is_finite(), "{text}\n{step_s} {run:?}");
+                for sample in &run.history.samples {
+                    assert!(
+                        sample.rotation_rad.abs() < 1.6 && sample.acceleration_rad_s2.is_finite(),
+                        "{text}\n{step_s} {sample:?}"
+                    );
+                }
+            }
+        }
+    }
+}

@@ -7,7 +7,7 @@ use sprag_shared::detected::{Detected, DetectedState, Switched};
 use sprag_shared::ground::{Linear, Piece};
 use sprag_shared::observer::Peaks;
 use sprag_shared::rocking::{Phase, State, System};
-use sprag_shared::scalar::Real;
+use sprag_shared::scalar::{Real, Sign};
 
 use super::drive::Course;
 use crate::ground_motion::ShapePiece;
@@ -87,6 +87,14 @@ pub fn follow<S: Real, R, E: Switched<S>, C: Clutch>(
                 trace.impacts.push(at);
                 trace.peaks.first_impact = trace.peaks.first_impact.or(Some(S::of(at)));
             }
+            let followed = state.rotation.is_finite() && state.velocity.is_finite();
+            let falls = !followed || (state.rotation.abs() >= overturned && state.rotation * state.velocity > S::ZERO);
+            if falls {
+                // It lies where its fall is decided; a long step may have turned it further than any sine is good for.
+                let side = if followed { Sign::of(state.rotation, Sign::Positive) } else { Sign::of(before, Sign::Positive) };
+                state.rotation = side.times(overturned);
+                state.velocity = if followed { state.velocity } else { S::ZERO };
+            }
             let equation = block.engagement(&state, state.side, push_at_end);
             let acceleration =
                 if moving { equation.acceleration(state.side, state.rotation, state.velocity, push_at_end) } else { S::ZERO };
@@ -99,7 +107,6 @@ pub fn follow<S: Real, R, E: Switched<S>, C: Clutch>(
             let force = if works { terminal.to_f64() * steps.force_scale } else { 0.0 };
             trace.peak_force = trace.peak_force.max(force.abs());
             let second = C::FOLLOWS_SIGNS && state.velocity < S::ZERO;
-            let falls = state.rotation.abs() >= overturned && state.rotation * state.velocity > S::ZERO;
             if at >= next || falls {
                 next = (at / steps.interval).floor() * steps.interval + steps.interval;
                 trace.samples.push(Sample {
