@@ -7,6 +7,9 @@ use super::records::StudyRecord;
 use super::structures::StudyStructure;
 use super::study::{Scaling, Study};
 use crate::accuracy::{ErrorEstimate, Worst};
+use crate::ensemble::machine::{Registers, shake};
+use crate::ensemble::plain::PlainBlock;
+use crate::ensemble::records::{Samples, Shaken, ShakenBlock};
 use crate::ground_motion::{Component, GroundMotion};
 use crate::interrupt::Interrupt;
 use crate::outcome::Outcome;
@@ -72,6 +75,7 @@ pub struct Runs {
 }
 
 /// A scaled record under a structure.
+#[derive(Clone, Copy)]
 struct Shaking<'a> {
     structure: usize,
     record: usize,
@@ -79,6 +83,9 @@ struct Shaking<'a> {
     factor: f64,
     level: Option<f64>,
 }
+
+/// Shakings that one task takes, at most: enough to keep lanes full, and a twentieth of a small study.
+const MOST_TOGETHER: usize = 256;
 
 impl Runs {
     /// Runs `study` under `records` on rayon's threads. `begin` is told how many runs there will be, `done` is called after
@@ -102,11 +109,14 @@ impl Runs {
                 }
             }
         }
-        let scenes: Vec<Vec<Scene>> = study.structures.iter().map(|structure| devices(&structure.scene)).collect();
+        let subjects: Vec<Subject<'_>> = study.structures.iter().map(Subject::new).collect();
+        let samples: Vec<Samples> = records.par_iter().map(samples).collect();
         begin((shakings.len() * study.devices.len()) as u64);
+        let together = (shakings.len() / 20).clamp(1, MOST_TOGETHER);
         let found: Vec<Vec<Run>> = shakings
-            .par_iter()
-            .map(|shaking| shaking.run(&study.structures[shaking.structure], &scenes[shaking.structure], interrupt, done))
+            .par_chunks(together)
+            .flat_map_iter(|shakings| shakings.chunk_by(|a, b| a.structure == b.structure))
+            .map(|shakings| subjects[shakings[0].structure].runs(shakings, &samples, interrupt, done))
             .collect();
         if interrupt.is_set() {
             return Err(RunError::Interrupted);
@@ -157,36 +167,114 @@ fn scales(
     }
 }
 
-/// A scene for each device, so that the failure of one is not that of the others.
-fn devices(scene: &Scene) -> Vec<Scene> {
-    (0..scene.devices.len()).map(|device| scene.only(device)).collect()
+/// ü_g/g of a record.
+fn samples(record: &StudyRecord) -> Samples {
+    let record = &record.motion.record;
+    let values = record.acceleration_m_s2.iter().map(|a| a / STANDARD_GRAVITY_M_S2).collect();
+    Samples::new(record.time_step_s, values)
 }
 
-impl Shaking<'_> {
-    /// With every device; fewer once interrupted.
-    fn run(&self, structure: &StudyStructure, scenes: &[Scene], interrupt: &Interrupt, done: &(dyn Fn() + Sync)) -> Vec<Run> {
-        let motion = &self.motion.motion;
-        let samples = motion.record.acceleration_m_s2.iter().map(|a| self.factor * a / STANDARD_GRAVITY_M_S2);
-        let start = structure.scene.file.ground[0].start_s;
-        let component = Component::record(start, motion.record.time_step_s, samples);
-        let ground = GroundMotions { horizontal: GroundMotion::sum(&[component]), vertical: None };
-        let measures = Measure::ALL.map(|measure| measure.of(motion, self.factor, structure.scales));
-        let mut runs = Vec::new();
-        for (device, scene) in scenes.iter().enumerate() {
-            if interrupt.is_set() {
-                break;
+/// A structure, ready to be shaken.
+struct Subject<'a> {
+    structure: &'a StudyStructure,
+    /// A scene for each device, so that the failure of one is not that of the others.
+    scenes: Vec<Scene>,
+    /// Those of its devices that the lanes know.
+    plain: Vec<Option<PlainBlock>>,
+}
+
+impl Subject<'_> {
+    fn new(structure: &StudyStructure) -> Subject<'_> {
+        let scene = &structure.scene;
+        let devices = 0..scene.devices.len();
+        let plain = devices.clone().map(|device| PlainBlock::of(scene, device)).collect();
+        Subject { structure, scenes: devices.map(|device| scene.only(device)).collect(), plain }
+    }
+
+    /// Each of `shakings` with every device; fewer once interrupted.
+    fn runs(&self, shakings: &[Shaking<'_>], samples: &[Samples], interrupt: &Interrupt, done: &(dyn Fn() + Sync)) -> Vec<Run> {
+        let devices = 0..self.scenes.len();
+        let answers: Vec<Vec<Option<Answer>>> =
+            devices.map(|device| self.in_lanes(device, shakings, samples, interrupt)).collect();
+        let mut runs = Vec::with_capacity(shakings.len() * self.scenes.len());
+        for (index, shaking) in shakings.iter().enumerate() {
+            let Shaking { structure, record, factor, level, motion } = *shaking;
+            let measures = Measure::ALL.map(|measure| measure.of(&motion.motion, factor, self.structure.scales));
+            let mut ground = None;
+            for (device, answers) in answers.iter().enumerate() {
+                if interrupt.is_set() {
+                    return runs;
+                }
+                let answer = match answers[index] {
+                    Some(answer) => Ok(answer),
+                    None => self.alone(device, ground.get_or_insert_with(|| self.ground(shaking)), interrupt),
+                };
+                runs.push(Run { structure, record, device, factor, level, measures, answer });
+                done();
             }
-            let answer = simulate(scene, &ground, interrupt).map_err(|error| error.to_string());
-            let answer = answer.and_then(|runs| runs.first().map(Answer::of).ok_or_else(|| "no device".to_owned()));
-            let Shaking { structure, record, factor, level, .. } = *self;
-            runs.push(Run { structure, record, device, factor, level, measures, answer });
-            done();
         }
         runs
+    }
+
+    /// What becomes of the block under each of `shakings` with device number `device`, where the lanes can tell.
+    fn in_lanes(
+        &self,
+        device: usize,
+        shakings: &[Shaking<'_>],
+        samples: &[Samples],
+        interrupt: &Interrupt,
+    ) -> Vec<Option<Answer>> {
+        let scene = &self.scenes[device];
+        let (Some(plain), false) = (self.plain[device], interrupt.is_set()) else { return vec![None; shakings.len()] };
+        let block = |shaking: &Shaking<'_>| ShakenBlock {
+            plain,
+            frequency_parameter: scene.block.frequency_parameter(),
+            samples: &samples[shaking.record],
+            factor: shaking.factor,
+        };
+        let blocks: Vec<ShakenBlock<'_>> = shakings.iter().map(block).collect();
+        let structure = scene.structure(0);
+        let after = |(block, found): (&ShakenBlock<'_>, Option<Shaken>)| {
+            let shaken = found?.after(&structure, "", block.samples.duration(), scene.free_time_s()).ok()?;
+            Some(Answer::shaken(&shaken, scene, block.samples.duration()))
+        };
+        blocks.iter().zip(shake(&blocks, Registers::Widest)).map(after).collect()
+    }
+
+    /// The motion of the ground.
+    fn ground(&self, shaking: &Shaking<'_>) -> GroundMotions {
+        let record = &shaking.motion.motion.record;
+        let samples = record.acceleration_m_s2.iter().map(|a| shaking.factor * a / STANDARD_GRAVITY_M_S2);
+        let start = self.structure.scene.file.ground[0].start_s;
+        let component = Component::record(start, record.time_step_s, samples);
+        GroundMotions { horizontal: GroundMotion::sum(&[component]), vertical: None }
+    }
+
+    /// The run of one device by itself.
+    fn alone(&self, device: usize, ground: &GroundMotions, interrupt: &Interrupt) -> Result<Answer, String> {
+        let runs = simulate(&self.scenes[device], ground, interrupt).map_err(|error| error.to_string())?;
+        runs.first().map(Answer::of).ok_or_else(|| "no device".to_owned())
     }
 }
 
 impl Answer {
+    /// Of a motion that has come to its end after a record of `duration` (s).
+    fn shaken(shaken: &Shaken, scene: &Scene, duration: f64) -> Answer {
+        let (alpha, p) = (scene.block.slenderness(), scene.block.frequency_parameter());
+        let Shaken { peaks, impacts, .. } = shaken;
+        let outcome = shaken.outcome();
+        let safe = |value: f64| (!outcome.overturned()).then_some(value);
+        let from_start = peaks.ended.unwrap_or(duration + scene.free_time_s());
+        Answer {
+            outcome,
+            peak_rotation: safe(peaks.rotation / alpha),
+            peak_acceleration: safe(peaks.acceleration / (p * p * alpha)),
+            impacts: *impacts,
+            end_time_s: scene.file.ground[0].start_s + from_start,
+            error: None,
+        }
+    }
+
     fn of(run: &crate::simulation::DeviceRun) -> Answer {
         Answer {
             outcome: run.outcome,

@@ -12,8 +12,8 @@ use sprag_shared::detected::Switched;
 use sprag_shared::polynomial as core_polynomial;
 use sprag_shared::scalar::Scalar;
 
-use super::polynomial::{Shape, deflated, extreme, shape, value, value_and_slope, zero};
-use super::series::{RATES, Series};
+use super::polynomial::{Shape, extreme, shape, value, value_and_slope, zero};
+use super::series::Series;
 use super::{Mask, Number, WIDTH, number};
 
 /// Halvings of a step that a block may ask for.
@@ -42,6 +42,8 @@ pub struct Blocks {
     pub peak_acceleration: Number,
     /// Has passed θ = 0.
     pub impact: Mask,
+    /// Has just passed it with more than [`Bounds::counted`].
+    pub counted: Mask,
     /// Has passed the point of no return.
     pub overturned: Mask,
     /// Has just passed it so slowly that impacts accumulate.
@@ -59,6 +61,8 @@ pub struct Bounds {
     pub no_return: Number,
     /// θ̇ after an impact below which impacts accumulate, rad.
     pub weak: Number,
+    /// θ̇ with which an impact must come in to be counted, rad.
+    pub counted: Number,
     /// Size of the last terms of θ, rad, where |θ| is below 1 rad.
     pub tolerance: Number,
 }
@@ -87,6 +91,7 @@ impl Default for Blocks {
             peak_rotation: zero,
             peak_acceleration: zero,
             impact: Mask::NONE,
+            counted: Mask::NONE,
             overturned: Mask::NONE,
             weak: Mask::NONE,
             hard: Mask::NONE,
@@ -117,11 +122,11 @@ impl Blocks {
 
     /// One step of every block, at most `longest`; returns how far each went. `series.ground` is ü_g/g in each block's mirror.
     #[inline(always)]
-    pub fn step<E: Switched<Number>, C: Clutch>(
+    pub fn step<E: Switched<Number>, C: Clutch, const TERMS: usize>(
         &mut self,
         modes: &Modes<E>,
         bounds: &Bounds,
-        series: &mut Series,
+        series: &mut Series<TERMS>,
         longest: Number,
     ) -> Number {
         let nothing = number(0.0);
@@ -142,15 +147,15 @@ impl Blocks {
         let reach = series.reach(bounds.tolerance * one.larger(self.rotation));
         let (mut length, end, changed) = self.plain_stretch(series, push, reach.smaller(longest));
         if changed.any() {
-            let rates = deflated(&series.acceleration, self.at_zero);
-            length = zero(&rates[..RATES - 1], push, end, length, changed);
+            let rates = series.acceleration_off_zero(self.at_zero);
+            length = zero(&rates[..TERMS - 3], push, end, length, changed);
         }
         // θ̇ is monotone up to here.
         let direction = self.outward.sign();
-        let mut velocity = value(&series.velocity, length);
+        let mut velocity = value(series.velocity(), length);
         let turned = nothing.exceeds(velocity * direction);
         if turned.any() {
-            length = zero(&series.velocity, direction, velocity, length, turned);
+            length = zero(series.velocity(), direction, velocity, length, turned);
             velocity = turned.choose(nothing, velocity);
         }
         // θ is monotone up to here.
@@ -159,7 +164,7 @@ impl Blocks {
         if hit.any() {
             self.hard = self.hard | (hit & self.outward);
             length = zero(&series.rotation, one, rotation, length, hit);
-            velocity = hit.choose(value(&series.velocity, length), velocity);
+            velocity = hit.choose(value(series.velocity(), length), velocity);
             rotation = hit.choose(nothing, rotation);
         }
         self.peak_rotation = self.peak_rotation.larger(rotation);
@@ -168,6 +173,7 @@ impl Blocks {
 
         let rate_zero = changed & !turned & !hit;
         let after = velocity * bounds.restitution;
+        self.counted = hit & !bounds.counted.exceeds(velocity.abs());
         self.weak = hit & bounds.weak.exceeds(after.abs());
         self.rotation = rotation;
         self.velocity = hit.choose(-after, velocity);
@@ -183,11 +189,16 @@ impl Blocks {
     /// A length, at most `longest`, over which each θ̈ has one zero or none: the length, the value at its end of θ̈ (over t where that is
     /// zero at the start), and where there is a zero.
     #[inline(always)]
-    fn plain_stretch(&mut self, series: &Series, push: Number, longest: Number) -> (Number, Number, Mask) {
+    fn plain_stretch<const TERMS: usize>(
+        &mut self,
+        series: &Series<TERMS>,
+        push: Number,
+        longest: Number,
+    ) -> (Number, Number, Mask) {
         let nothing = number(0.0);
-        let rates = deflated(&series.acceleration, self.at_zero);
+        let rates = series.acceleration_off_zero(self.at_zero);
         // The shifted series has a term less.
-        let rates = &rates[..RATES - 1];
+        let rates = &rates[..TERMS - 3];
         let start = rates[0] * push;
         self.hard = self.hard | !start.exceeds(nothing);
         let mut length = longest;
@@ -212,9 +223,9 @@ impl Blocks {
 
     /// Takes into account the largest |θ̈| of a step of the given length, over which θ̈ has the sign of `push`.
     #[inline(always)]
-    fn widen(&mut self, series: &Series, length: Number, push: Number) {
+    fn widen<const TERMS: usize>(&mut self, series: &Series<TERMS>, length: Number, push: Number) {
         let nothing = number(0.0);
-        let rates = &series.acceleration;
+        let rates = series.acceleration();
         let Shape { end, sag, monotone, bent, twisted } = shape(rates, length);
         let ends = rates[0].abs().larger(end.abs());
         let open = (ends + sag).exceeds(self.peak_acceleration) & !monotone & !self.hard;
@@ -247,8 +258,9 @@ impl Blocks {
 
     /// The largest |θ̈| of one block's step, up to `end` (time, θ̈), by the core's search.
     #[inline(never)]
-    fn look_inside(&mut self, series: &Series, lane: usize, end: (f64, f64)) {
-        let rates: [f64; RATES] = from_fn(|k| series.acceleration[k].0[lane]);
+    fn look_inside<const TERMS: usize>(&mut self, series: &Series<TERMS>, lane: usize, end: (f64, f64)) {
+        let rates = series.acceleration();
+        let rates: [f64; TERMS] = from_fn(|k| rates.get(k).map_or(0.0, |rate| rate.0[lane]));
         let curvature = core_polynomial::curvature_bound(&rates, end.0);
         let peak = &mut self.peak_acceleration.0[lane];
         *peak = core_polynomial::largest_magnitude(&rates, curvature, (0.0, rates[0]), end, *peak);

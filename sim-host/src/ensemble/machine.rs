@@ -11,6 +11,7 @@ use sprag_shared::structure::DeviceKind;
 
 use super::model::{FullAlone, FullWithInerter, Model, Slender};
 use super::pulses::{self, PulseResult, PulsedBlock};
+use super::records::{self, Shaken, ShakenBlock};
 use crate::batch::case::CaseError;
 
 /// Which registers the lanes are in.
@@ -23,19 +24,70 @@ pub enum Registers {
     Baseline,
 }
 
-/// Blocks of one model and device.
-struct Work<'a, M, C> {
-    pulsed: &'a [PulsedBlock],
-    results: &'a mut [PulseResult],
-    kind: std::marker::PhantomData<(M, C)>,
+/// Work on blocks of one model and device.
+trait Work {
+    type Output;
+
+    /// Does it; to be inlined, so that it is built for the registers of its caller.
+    fn with<M: Model, C: Clutch>(self) -> Self::Output;
 }
 
-impl<M: Model, C: Clutch> NullaryFnOnce for Work<'_, M, C> {
-    type Output = Result<(), (usize, CaseError)>;
+/// Work for a model and a clutch.
+struct Resolved<W, M, C>(W, std::marker::PhantomData<(M, C)>);
+
+impl<W: Work, M: Model, C: Clutch> NullaryFnOnce for Resolved<W, M, C> {
+    type Output = W::Output;
 
     #[inline(always)]
     fn call(self) -> Self::Output {
+        self.0.with::<M, C>()
+    }
+}
+
+/// Does `work` on blocks of this geometry and device.
+fn resolve<W: Work>((geometry, device): (Geometry, DeviceKind), registers: Registers, work: W) -> W::Output {
+    match (geometry, device) {
+        (Geometry::Full, DeviceKind::None) => go::<W, FullAlone, NoInerter>(work, registers),
+        (Geometry::Full, DeviceKind::Inerter) => go::<W, FullWithInerter, SingleInerter>(work, registers),
+        (Geometry::Full, DeviceKind::ClutchedPair) => go::<W, FullWithInerter, ClutchedPair>(work, registers),
+        (Geometry::Slender, DeviceKind::ClutchedPair) => go::<W, Slender, ClutchedPair>(work, registers),
+        (Geometry::Slender, _) => go::<W, Slender, SingleInerter>(work, registers),
+    }
+}
+
+fn go<W: Work, M: Model, C: Clutch>(work: W, registers: Registers) -> W::Output {
+    let resolved = Resolved(work, std::marker::PhantomData::<(M, C)>);
+    match registers {
+        Registers::Widest => Arch::new().dispatch(resolved),
+        Registers::Baseline => resolved.call(),
+    }
+}
+
+struct UnderPulses<'a> {
+    pulsed: &'a [PulsedBlock],
+    results: &'a mut [PulseResult],
+}
+
+impl Work for UnderPulses<'_> {
+    type Output = Result<(), (usize, CaseError)>;
+
+    #[inline(always)]
+    fn with<M: Model, C: Clutch>(self) -> Self::Output {
         pulses::run::<M, C>(self.pulsed, self.results)
+    }
+}
+
+struct UnderRecords<'a, 'b> {
+    shaken: &'a [ShakenBlock<'b>],
+    results: &'a mut [Option<Shaken>],
+}
+
+impl Work for UnderRecords<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with<M: Model, C: Clutch>(self) -> Self::Output {
+        records::run::<M, C>(self.shaken, self.results);
     }
 }
 
@@ -50,27 +102,22 @@ pub fn run(pulsed: &[PulsedBlock], registers: Registers) -> Result<Vec<PulseResu
     let mut start = 0;
     for group in pulsed.chunk_by(|a, b| kind(a) == kind(b)) {
         let found = &mut results[start..start + group.len()];
-        let ended = match kind(&group[0]) {
-            (Geometry::Full, DeviceKind::None) => go::<FullAlone, NoInerter>(group, found, registers),
-            (Geometry::Full, DeviceKind::Inerter) => go::<FullWithInerter, SingleInerter>(group, found, registers),
-            (Geometry::Full, DeviceKind::ClutchedPair) => go::<FullWithInerter, ClutchedPair>(group, found, registers),
-            (Geometry::Slender, DeviceKind::ClutchedPair) => go::<Slender, ClutchedPair>(group, found, registers),
-            (Geometry::Slender, _) => go::<Slender, SingleInerter>(group, found, registers),
-        };
-        ended.map_err(|(index, error)| (start + index, error))?;
+        let work = UnderPulses { pulsed: group, results: found };
+        resolve(kind(&group[0]), registers, work).map_err(|(index, error)| (start + index, error))?;
         start += group.len();
     }
     Ok(results)
 }
 
-fn go<M: Model, C: Clutch>(
-    pulsed: &[PulsedBlock],
-    results: &mut [PulseResult],
-    registers: Registers,
-) -> Result<(), (usize, CaseError)> {
-    let work = Work { pulsed, results, kind: std::marker::PhantomData::<(M, C)> };
-    match registers {
-        Registers::Widest => Arch::new().dispatch(work),
-        Registers::Baseline => work.call(),
+/// What their records do to each of `shaken`, in their order; `None` for those that are left to the core.
+pub fn shake(shaken: &[ShakenBlock<'_>], registers: Registers) -> Vec<Option<Shaken>> {
+    let mut results = vec![None; shaken.len()];
+    let kind = |block: &ShakenBlock<'_>| (block.plain.geometry, block.plain.device);
+    let mut start = 0;
+    for group in shaken.chunk_by(|a, b| kind(a) == kind(b)) {
+        let found = &mut results[start..start + group.len()];
+        resolve(kind(&group[0]), registers, UnderRecords { shaken: group, results: found });
+        start += group.len();
     }
+    results
 }

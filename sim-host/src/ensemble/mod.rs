@@ -2,14 +2,18 @@
 //!
 //! [`blocks`] steps several blocks side by side, in lanes, by the equations of motion and the series that every other part uses;
 //! [`pulses`] keeps the lanes filled, decides what becomes of each block after its pulse by the first integral of its free motion, and
-//! hands the few that the lanes cannot settle to the core. [`machine`] picks the widest registers of the machine that runs it: the
+//! hands the few that the lanes cannot settle to the core. [`records`] does the same for blocks under records, and
+//! [`after_record`] goes on from there. [`machine`] picks the widest registers of the machine that runs it: the
 //! bits of a result do not depend on them, nor on a block's neighbours.
 
+pub mod after_record;
 pub mod blocks;
 pub mod machine;
 pub mod model;
+pub mod plain;
 pub mod polynomial;
 pub mod pulses;
+pub mod records;
 pub mod rest;
 pub mod series;
 
@@ -32,3 +36,6 @@ pub(crate) fn number(value: f64) -> Number {
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+mod record_tests;

@@ -19,10 +19,13 @@ use sprag_shared::taylor::Taylor;
 use super::blocks::{Blocks, Bounds};
 use super::model::Model;
 use super::rest::{AfterWeakImpact, Sine, WEAK_IMPACT};
-use super::series::{RATES, Series};
+use super::series::Series;
 use super::{Mask, Number, WIDTH, number};
 use crate::batch::case::{Case, CaseError, PulseShape, TERMS, TIGHT};
 use crate::outcome::Outcome;
+
+/// Coefficients of θ: with more, steps hardly get longer, because events cut them.
+const SERIES_TERMS: usize = 18;
 
 /// Size of the last terms of a step's series over α.
 pub const TOLERANCE: f64 = 3e-15;
@@ -196,7 +199,7 @@ impl Pulses {
 
     /// ü_g/g about the present time: c_{k+2} = −ω² c_k/((k+1)(k+2)).
     #[inline(always)]
-    fn series(&self, side: Number, coefficients: &mut [Number; RATES]) {
+    fn series(&self, side: Number, coefficients: &mut [Number]) {
         let angle = self.frequency * self.time + self.phase;
         let angle = angle.exceeds(number(PI)).choose(angle - number(TAU), angle);
         let (sine, cosine) = Scalar::sin_cos(angle);
@@ -220,12 +223,12 @@ pub(super) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [Pu
     let zero = number(0.0);
     let one = number(1.0);
     let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
-    let mut series = Series::default();
+    let mut series = Series::<SERIES_TERMS>::default();
     let mut blocks = Blocks::default();
     // Idle lanes go through the motions of a harmless block.
     let (mut slenderness, mut coupling) = (one, zero);
     let mut pulses = Pulses { amplitude: zero, frequency: one, phase: zero, time: zero, duration: one };
-    let mut bounds = Bounds { restitution: zero, no_return: one, weak: zero, tolerance: one };
+    let mut bounds = Bounds { restitution: zero, no_return: one, weak: zero, counted: zero, tolerance: one };
     let mut at = [None; WIDTH];
     let mut steps = [0_u32; WIDTH];
     let mut rests = Mask::NONE;
@@ -297,9 +300,9 @@ pub(super) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [Pu
                 return Ok(());
             }
         }
-        pulses.series(blocks.side, &mut series.ground);
+        pulses.series(blocks.side, &mut series.ground[..SERIES_TERMS - 2]);
         let left = pulses.duration - pulses.time;
-        let went = blocks.step::<M::Equation, C>(&M::modes(slenderness, coupling), &bounds, &mut series, left);
+        let went = blocks.step::<M::Equation, C, SERIES_TERMS>(&M::modes(slenderness, coupling), &bounds, &mut series, left);
         pulses.time = pulses.time + went;
         for (lane, count) in steps.iter_mut().enumerate() {
             *count += 1;

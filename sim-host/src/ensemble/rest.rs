@@ -40,9 +40,23 @@ pub enum AfterWeakImpact {
     Unsettled,
 }
 
+/// The impacts that follow a weak one, which leaves a block of slenderness `alpha` (rad) with `speed` (rad; p = 1) on a side where the
+/// push is `push` (in units of the threshold, positive inward, below 1), under couplings κ k of the clutch while it moves outward and inward.
+pub fn tail<M: Model>(
+    push: f64,
+    (speed, restitution, alpha): (f64, f64, f64),
+    (outward, inward): (f64, f64),
+) -> Accumulation<f64> {
+    // Just as a block at rest, one that hardly moves is held by the rest of the threshold: |θ̈| is linear in the push.
+    let rates = |push: f64| {
+        let held = 1.0 + push;
+        (held * M::rate(alpha, outward), held * M::rate(alpha, inward))
+    };
+    Accumulation::of(rates(push), rates(-push), restitution, speed, COUNTED_SPEED * alpha)
+}
+
 impl Sine {
-    /// What follows an impact at `time` that leaves a block of slenderness `alpha` (rad) with `speed` (rad; p = 1) on a side where the
-    /// push is `push` (in units of the threshold, positive inward), under couplings κ k of the clutch while it moves outward and inward.
+    /// What follows an impact at `time`; the rest is that of [`tail`].
     pub fn after_weak_impact<M: Model>(
         &self,
         time: f64,
@@ -50,15 +64,10 @@ impl Sine {
         (speed, restitution, alpha): (f64, f64, f64),
         (outward, inward): (f64, f64),
     ) -> AfterWeakImpact {
-        // Just as a block at rest, one that hardly moves is held by the rest of the threshold: |θ̈| is linear in the push.
-        let rates = |push: f64| {
-            let held = 1.0 + push;
-            (held * M::rate(alpha, outward), held * M::rate(alpha, inward))
-        };
         if push.abs() >= 1.0 {
             return AfterWeakImpact::Unsettled;
         }
-        let tail = Accumulation::of(rates(push), rates(-push), restitution, speed, COUNTED_SPEED * alpha);
+        let tail = tail::<M>(push, (speed, restitution, alpha), (outward, inward));
         let rested = time + tail.duration;
         let angle = self.frequency * rested + self.phase;
         if rested > self.duration || (self.amplitude * math::sin(angle)).abs() >= 1.0 {

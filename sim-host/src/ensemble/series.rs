@@ -7,50 +7,59 @@ use sprag_shared::math::RECIPROCALS;
 use sprag_shared::scalar::Scalar;
 use sprag_shared::tape::Tape;
 
+use super::polynomial::deflated;
 use super::{Mask, Number, number};
-
-/// Coefficients of θ: with more, steps hardly get longer, because events cut them.
-pub const TERMS: usize = 18;
-
-/// Coefficients of θ̈ and of the ground motion.
-pub const RATES: usize = TERMS - 2;
 
 /// Quantities of an equation of motion on the tape.
 const SLOTS: usize = 18;
 
-/// The series of one step: scratch space, not state.
-pub struct Series {
+/// The series of one step: scratch space, not state. θ has `TERMS` coefficients, θ̇ one less, θ̈ and the ground motion two less; what
+/// their arrays have beyond is zero.
+pub struct Series<const TERMS: usize> {
     tape: Tape<Number, TERMS, SLOTS>,
     /// Of ü_g/g about the start of the step; the caller sets it.
-    pub ground: [Number; RATES],
+    pub ground: [Number; TERMS],
     /// Of θ.
     pub rotation: [Number; TERMS],
-    /// Of θ̇.
-    pub velocity: [Number; TERMS - 1],
-    /// Of θ̈.
-    pub acceleration: [Number; RATES],
+    velocity: [Number; TERMS],
+    acceleration: [Number; TERMS],
 }
 
-impl Default for Series {
-    fn default() -> Series {
-        let zero = number(0.0);
-        Series {
-            tape: Tape::default(),
-            ground: [zero; RATES],
-            rotation: [zero; TERMS],
-            velocity: [zero; TERMS - 1],
-            acceleration: [zero; RATES],
-        }
+impl<const TERMS: usize> Default for Series<TERMS> {
+    fn default() -> Self {
+        let zero = [number(0.0); TERMS];
+        Series { tape: Tape::default(), ground: zero, rotation: zero, velocity: zero, acceleration: zero }
     }
 }
 
-impl std::fmt::Debug for Series {
+impl<const TERMS: usize> std::fmt::Debug for Series<TERMS> {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter.debug_struct("Series").field("rotation", &self.rotation).finish_non_exhaustive()
     }
 }
 
-impl Series {
+impl<const TERMS: usize> Series<TERMS> {
+    /// Coefficients of θ̈ and of the ground motion.
+    pub const RATES: usize = TERMS - 2;
+
+    /// Of θ̇.
+    #[inline(always)]
+    pub fn velocity(&self) -> &[Number] {
+        &self.velocity[..TERMS - 1]
+    }
+
+    /// Of θ̈.
+    #[inline(always)]
+    pub fn acceleration(&self) -> &[Number] {
+        &self.acceleration[..Self::RATES]
+    }
+
+    /// Of θ̈, divided by t where it is zero at the start; one coefficient less.
+    #[inline(always)]
+    pub fn acceleration_off_zero(&self, at_zero: Mask) -> [Number; TERMS] {
+        deflated(&self.acceleration, at_zero)
+    }
+
     /// The series about θ (`rotation`, rad) and θ̇ (`velocity`) of blocks on the positive side; where `at_zero`, θ̈ is zero now because
     /// an event was located on it. The recurrences are those of [`sprag_shared::taylor`].
     #[inline(always)]
@@ -64,7 +73,7 @@ impl Series {
         self.tape.set(0, 0, rotation);
         self.tape.set(0, 1, velocity);
         self.tape.set(1, 0, velocity);
-        for k in 0..RATES {
+        for k in 0..Self::RATES {
             self.tape.set(2, k, self.ground[k]);
             next.set(GIVEN);
             let tape = &self.tape;
