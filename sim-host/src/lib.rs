@@ -4,6 +4,7 @@
 //! - [`simulation`]: one scene, every device; [`batch`]: many dimensionless cases; [`accuracy`]: as accurate as asked, and how accurate that is.
 //! - [`cloud`], [`statistics`]: demands and fragilities over many records; [`sensitivity`]: what each effect changes.
 //! - [`history`], [`outcome`], [`plot`], [`summary_table`], [`output`]: what comes out.
+//! - [`long_run`]: work that is split, interrupted and resumed.
 //! - [`closed_loop`], [`device`]: the controller on the host, and the firmware in its place.
 //! - [`effect`]: what a scene may ask for, and what follows from it; [`command`]: the subcommands of `sprag`.
 
@@ -22,6 +23,7 @@ pub mod ensemble;
 pub mod ground_motion;
 pub mod history;
 pub mod interrupt;
+pub mod long_run;
 #[cfg(feature = "effects")]
 pub mod loop_study;
 pub mod map;

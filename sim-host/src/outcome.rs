@@ -40,6 +40,13 @@ impl Outcome {
         }
     }
 
+    /// The outcome that is printed as `name`.
+    pub fn from_name(name: &str) -> Option<Outcome> {
+        const ALL: [Outcome; 4] =
+            [Outcome::NoRocking, Outcome::Safe, Outcome::OverturnedWithoutImpact, Outcome::OverturnedAfterImpact];
+        ALL.into_iter().find(|outcome| outcome.name() == name)
+    }
+
     /// The block lies on the ground.
     pub fn overturned(self) -> bool {
         matches!(self, Outcome::OverturnedWithoutImpact | Outcome::OverturnedAfterImpact)

@@ -26,6 +26,12 @@ impl Progress {
         self.0.inc_length(length);
     }
 
+    /// `count` were done before: they tell nothing of how long the rest takes.
+    pub fn resume(&self, count: u64) {
+        self.0.inc(count);
+        self.0.reset_eta();
+    }
+
     /// One is done.
     pub fn step(&self) {
         self.advance(1);

@@ -1,5 +1,6 @@
 //! `sprag map`: overturning maps and rocking spectra over two keys of a scene.
 
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -7,12 +8,18 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::Serialize;
 
-use super::ended;
-use crate::interrupt::Interrupt;
+use super::BAD_INPUT;
+use crate::interrupt::{self, Interrupt};
+use crate::long_run::arguments::LongRunArguments;
+use crate::long_run::error::LongRunError;
+use crate::long_run::origin::{Digest, Origin};
+use crate::long_run::rows::{Plan, Rows};
+use crate::long_run::shard::Shard;
 use crate::map::figures::figures;
 use crate::map::grid::Grid;
-use crate::map::study::{Counts, DeviceMap, MapError, study};
-use crate::map::table::write_csv;
+use crate::map::study::{MapError, study_to};
+use crate::map::table::{Labels, columns};
+use crate::map::tally::{Counts, DeviceMap, Tally};
 use crate::output::{OutputError, Results, make_folder};
 use crate::plot::PlotError;
 use crate::progress::Progress;
@@ -25,8 +32,10 @@ use crate::scene::{Scene, SceneError, text_of};
 #[command(after_help = "Examples:\n  sprag map scenes/figure08.toml\n  \
     sprag map scenes/figure08.toml --set map.x.cells=512 --set map.y.cells=512\n  \
     sprag map scenes/figure08.toml --x device.2.mass_ratio=0.01:10:200:log --y block.slenderness_deg=5:40:200\n\n\
+    sprag map scenes/figure08.toml --shard 1/2; sprag map scenes/figure08.toml --shard 2/2; sprag map scenes/figure08.toml --merge 2\n\n\
     Writes summary.json, map.csv, map.svg (outcomes), rotation.svg and acceleration.svg (peaks); without an axis y summary.json, \
-    map.csv and cut.svg.")]
+    map.csv and cut.svg; map.run.json says what the rows of map.csv come from. Rows go to the disk as they are made, and \
+    Ctrl-C leaves them there for --resume.")]
 pub struct MapArguments {
     /// Scene file.
     #[arg(value_name = "SCENE.toml")]
@@ -52,6 +61,9 @@ pub struct MapArguments {
     /// Threads; as many as the machine has by default.
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
+    /// Which of the cells, and whether some are there.
+    #[command(flatten)]
+    pub long_run: LongRunArguments,
 }
 
 #[derive(Debug, thiserror::Error)]
@@ -64,6 +76,16 @@ enum Failure {
     Output(#[from] OutputError),
     #[error("the threads cannot be started: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
+    #[error("the scene cannot be told in JSON: {0}")]
+    Json(#[from] serde_json::Error),
+    #[error("interrupted after {done} of {rows} rows; the same command with --resume goes on")]
+    Interrupted { done: usize, rows: usize },
+}
+
+impl From<LongRunError> for Failure {
+    fn from(error: LongRunError) -> Failure {
+        Failure::Map(MapError::Rows(error))
+    }
 }
 
 impl From<SceneError> for Failure {
@@ -92,15 +114,15 @@ struct DeviceSummary<'a> {
 
 impl<'a> DeviceSummary<'a> {
     fn of(map: &'a DeviceMap) -> DeviceSummary<'a> {
-        let counts = Counts::of(&map.results);
-        DeviceSummary { device: &map.device, cells: map.results.len(), counts, seconds: map.seconds }
+        DeviceSummary { device: &map.device, cells: map.counts.cells(), counts: map.counts, seconds: map.seconds }
     }
 }
 
 /// Runs the command; a table goes to `out`, errors go to `err`.
 pub fn run(arguments: &MapArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    let result = run_or_fail(arguments, out, interrupt);
-    ended(result, |failure| matches!(failure, Failure::Map(MapError::Interrupted)), err)
+    let Err(failure) = run_or_fail(arguments, out, interrupt) else { return 0 };
+    let _ = writeln!(err, "sprag: {failure}");
+    if matches!(failure, Failure::Interrupted { .. }) { interrupt::EXIT_CODE } else { BAD_INPUT }
 }
 
 fn run_or_fail(arguments: &MapArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
@@ -110,32 +132,53 @@ fn run_or_fail(arguments: &MapArguments, out: &mut impl Write, interrupt: &Inter
         Path::new("out").join(format!("{stem}-map"))
     });
     make_folder(&folder)?;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
-    let progress = Progress::new("cells");
-    let maps = pool.install(|| study(&grid, &progress, interrupt));
-    progress.finish();
-    let maps = maps?;
-    let pictures = figures(&grid, &maps)?;
     let mut file = grid.scene.file.clone();
     if let (Some(record), Some(table)) = (&arguments.record, file.ground.iter_mut().find(|table| table.file.is_some())) {
         // As the user wrote it, so that the summary does not depend on where it was made.
         table.file = Some(record.clone());
     }
-    let runs = maps.iter().map(DeviceSummary::of).collect();
+    let (labels, mut tally) = (Labels::new(&grid), Tally::new(&grid));
+    let origin = Origin::new("map", &file, files(&grid, &file), grid.table_rows())?;
+    let shard = arguments.long_run.shard();
+    let plan = Plan { folder: &folder, name: "map", columns: columns(&grid), together: 1, shard, origin };
+    let mut rows = Rows::begin(&plan, arguments.long_run.start(), |row, record| {
+        tally.add(row, labels.read(row, record)?);
+        Ok(())
+    })?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
+    let progress = Progress::new("cells");
+    let whole = pool.install(|| study_to(&mut rows, &grid, &labels, &mut tally, &progress, interrupt));
+    progress.finish();
+    if !whole? {
+        return Err(Failure::Interrupted { done: rows.done(), rows: rows.done() + rows.left().len() });
+    }
+    let path = rows.finish()?;
+    if shard != Shard::WHOLE {
+        let _ = writeln!(out, "shard {shard}: {}", path.display());
+        return Ok(());
+    }
+    let pictures = figures(&grid, &tally)?;
+    let runs = tally.maps.iter().map(DeviceSummary::of).collect();
     let summary = Summary { command: "map", version: env!("CARGO_PKG_VERSION"), scene: &file, runs };
     let mut results = Results::default();
     results.add_json(&folder.join("summary.json"), &summary)?;
-    results.add(&folder.join("map.csv"), |file| write_csv(&grid, &maps, file))?;
     for (name, picture) in &pictures {
         results.add(&folder.join(name), |file| file.write_all(picture.as_bytes()))?;
     }
-    if interrupt.is_set() {
-        return Err(MapError::Interrupted.into());
-    }
     results.commit()?;
-    let _ = write_table(out, &maps);
+    let _ = write_table(out, &tally.maps);
     let _ = writeln!(out, "\n{}", folder.join(pictures.first().map_or("map.csv", |picture| picture.0)).display());
     Ok(())
+}
+
+/// The files that the scene reads, by the names that `file`, as the user wrote it, has for them.
+fn files(grid: &Grid, file: &SceneFile) -> BTreeMap<String, Digest> {
+    let tables = |file: &SceneFile| file.ground.iter().chain(&file.vertical).map(|table| table.file.clone()).collect::<Vec<_>>();
+    let of = |(name, path): (Option<PathBuf>, Option<PathBuf>)| {
+        // A file that cannot be read is refused when its motion is.
+        Some((name?.display().to_string(), Digest::of(&grid.scene.folder.join(path?)).ok()?))
+    };
+    tables(file).into_iter().zip(tables(&grid.scene.file)).filter_map(of).collect()
 }
 
 /// The scene with its overrides and axes.
@@ -184,17 +227,17 @@ fn write_table(out: &mut impl Write, maps: &[DeviceMap]) -> std::io::Result<()> 
         "device", "cells", "no rocking", "safe", "over, no impact", "over, impact", "cells/s"
     )?;
     for map in maps {
-        let counts = Counts::of(&map.results);
+        let counts = &map.counts;
+        let speed = if map.worked_out > 0 { format!("{:.0}", map.worked_out as f64 / map.seconds) } else { "-".to_owned() };
         writeln!(
             out,
-            "{:width$} {:>10} {:>10} {:>10} {:>16} {:>14} {:>12.0}",
+            "{:width$} {:>10} {:>10} {:>10} {:>16} {:>14} {speed:>12}",
             map.device,
-            map.results.len(),
+            counts.cells(),
             counts.no_rocking,
             counts.safe,
             counts.overturned_without_impact,
             counts.overturned_after_impact,
-            map.results.len() as f64 / map.seconds,
         )?;
     }
     Ok(())

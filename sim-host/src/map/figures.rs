@@ -4,7 +4,7 @@ use sprag_shared::math;
 
 use super::axis::title;
 use super::grid::Grid;
-use super::study::{Counts, DeviceMap};
+use super::tally::{DeviceMap, Shown, Tally};
 use crate::ensemble::pulses::PulseResult;
 use crate::plot::{
     Cell, CellMap, CellMaps, Chart, ChartPanel, Class, Line, PlotError, Scale, band, cell_map_figure, chart_figure,
@@ -25,18 +25,18 @@ const ACCELERATION: &str = "peak angular acceleration max |θ̈|/(p²α)";
 ///
 /// # Errors
 /// [`PlotError`].
-pub fn figures(grid: &Grid, maps: &[DeviceMap]) -> Result<Vec<(&'static str, String)>, PlotError> {
+pub fn figures(grid: &Grid, tally: &Tally) -> Result<Vec<(&'static str, String)>, PlotError> {
     let Some(y) = &grid.map.y else {
-        return Ok(vec![("cut.svg", cut(grid, maps)?)]);
+        return Ok(vec![("cut.svg", cut(grid, tally)?)]);
     };
-    let outcomes = small_multiples(grid, y, maps, "", Class::outcomes(), |result| Cell::from(result.outcome).class());
+    let outcomes = small_multiples(grid, y, tally, "", Class::outcomes(), |result| Cell::from(result.outcome).class());
     let mut files = vec![("map.svg", cell_map_figure(&outcomes)?)];
     let spectra: [(&str, &str, Peak); 2] = [
         ("rotation.svg", ROTATION, |result| result.peak_rotation),
         ("acceleration.svg", ACCELERATION, |result| result.peak_acceleration),
     ];
     for (file, name, peak) in spectra {
-        let safe = maps.iter().flat_map(|map| &map.results).filter(|result| !result.outcome.overturned()).map(peak);
+        let safe = tally.maps.iter().flat_map(|map| &map.shown).filter(|result| !result.outcome.overturned()).map(peak);
         let limits = limits(safe.fold(0.0, f64::max));
         let classes = Class::bands(&limits);
         let overturned = classes.len() - 1;
@@ -47,7 +47,7 @@ pub fn figures(grid: &Grid, maps: &[DeviceMap]) -> Result<Vec<(&'static str, Str
             let rocks = result.outcome != crate::outcome::Outcome::NoRocking;
             band(&limits, rocks.then(|| peak(result)))
         };
-        files.push((file, cell_map_figure(&small_multiples(grid, y, maps, name, classes, class))?));
+        files.push((file, cell_map_figure(&small_multiples(grid, y, tally, name, classes, class))?));
     }
     Ok(files)
 }
@@ -64,44 +64,45 @@ fn limits(largest: f64) -> Vec<f64> {
 fn small_multiples(
     grid: &Grid,
     y: &AxisTable,
-    maps: &[DeviceMap],
+    tally: &Tally,
     what: &str,
     classes: Vec<Class>,
     class: impl Fn(&PulseResult) -> usize,
 ) -> CellMaps {
     let heading = [grid.scene.file.title.as_str(), what];
     let cells = grid.columns() * grid.rows();
-    let note = |map: &DeviceMap| format!("{} of {cells} overturn", Counts::of(&map.results).overturned());
+    let note = |map: &DeviceMap| format!("{} of {cells} overturn", map.counts.overturned());
     CellMaps {
         title: heading.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(": "),
         classes,
         scales: (scale(&grid.map.x), scale(y)),
         x_title: title(&grid.scene, &grid.map.x.key),
-        x: ends(&grid.map.x),
+        x: ends(&grid.map.x, &tally.columns),
         y_title: title(&grid.scene, &y.key),
-        y: ends(y),
-        maps: maps
+        y: ends(y, &tally.rows),
+        maps: tally
+            .maps
             .iter()
             .map(|map| CellMap {
                 title: map.device.clone(),
                 note: note(map),
-                columns: grid.columns(),
-                rows: grid.rows(),
-                cells: map.results.iter().map(&class).collect(),
+                columns: tally.columns.len(),
+                rows: tally.rows.len(),
+                cells: map.shown.iter().map(&class).collect(),
             })
             .collect(),
-        columns: maps.len().min(3),
+        columns: tally.maps.len().min(3),
     }
 }
 
 /// Peaks along the only axis, a line a device, broken where the block overturns.
-fn cut(grid: &Grid, maps: &[DeviceMap]) -> Result<String, PlotError> {
+fn cut(grid: &Grid, tally: &Tally) -> Result<String, PlotError> {
     let peaks: [(&str, Peak); 2] =
         [("max |*θ*|/α", |result| result.peak_rotation), ("max |*θ*''|/(*p*²α)", |result| result.peak_acceleration)];
     let lines = |peak: Peak| {
         let mut lines = Vec::new();
-        for map in maps {
-            let runs = map.results.chunk_by(|a, b| a.outcome.overturned() == b.outcome.overturned());
+        for map in &tally.maps {
+            let runs = map.shown.chunk_by(|a, b| a.outcome.overturned() == b.outcome.overturned());
             let mut first = 0;
             for run in runs {
                 let at = |index: usize| grid.map.x.value(first + index);
@@ -134,11 +135,12 @@ fn scale(axis: &AxisTable) -> Scale {
     }
 }
 
-/// The ends of an axis, as its scale is divided.
-fn ends(axis: &AxisTable) -> (f64, f64) {
+/// The first and the last of the cells that are shown, as the scale of their axis is divided.
+fn ends(axis: &AxisTable, shown: &Shown) -> (f64, f64) {
+    let [first, last] = [0, shown.len() - 1].map(|place| axis.value(shown.cell(place)));
     match axis.scale {
-        ScaleName::Linear => (axis.from, axis.to),
-        ScaleName::Logarithmic => (math::log10(axis.from), math::log10(axis.to)),
+        ScaleName::Linear => (first, last),
+        ScaleName::Logarithmic => (math::log10(first), math::log10(last)),
     }
 }
 

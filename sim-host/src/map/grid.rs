@@ -2,14 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use sprag_shared::block::{GRAVITY, Geometry};
+use sprag_shared::block::GRAVITY;
 use sprag_shared::lever::Mount;
-use sprag_shared::structure::{DeviceKind, KinematicsKind};
 use toml::Table;
 
 use crate::batch::case::PulseShape;
+use crate::ensemble::plain::PlainBlock;
 use crate::ensemble::pulses::PulsedBlock;
-use crate::scene::accuracy::{AccuracyTable, MethodName};
 use crate::scene::ground::Motion;
 use crate::scene::map::{AxisTable, MapTable};
 use crate::scene::schema::RestitutionValue;
@@ -84,6 +83,20 @@ impl Grid {
     /// Cells up; 1 for a cut.
     pub fn rows(&self) -> usize {
         self.map.y.as_ref().map_or(1, |y| y.cells)
+    }
+
+    /// Rows of the map's table: a cell of a device each.
+    pub fn table_rows(&self) -> usize {
+        self.columns() * self.rows() * self.scene.devices.len()
+    }
+
+    /// Cells of device `device` that one task works on: so many that their lanes are full, or one where each is a simulation.
+    pub(super) fn task(&self, device: usize) -> usize {
+        match (&self.direct[device], pulsed(&self.scene, device)) {
+            (Some(_), _) => 2048,
+            (None, Some(_)) => 256,
+            (None, None) => 1,
+        }
     }
 
     /// The block with device `device` in a cell, if its scene is a dimensionless block under a one-cycle pulse.
@@ -171,37 +184,21 @@ pub fn pulsed(scene: &Scene, device: usize) -> Option<PulsedBlock> {
         Motion::Cosine => PulseShape::Cosine,
         _ => return None,
     };
-    let carrier = &scene.devices[device];
-    let AccuracyTable { level, method, step_s, step_ratio, precision, .. } = &file.accuracy;
-    let as_it_is = level.is_none() && *method == MethodName::Taylor && step_s.is_none() && step_ratio.is_none();
-    let plain = as_it_is
-        && *precision == Default::default()
-        && ground.start_s == 0.0
-        && file.vertical.is_empty()
-        && file.block.initial_rotation_ratio == 0.0
-        && file.block.initial_velocity_ratio == 0.0
-        && carrier.is_ideal()
-        && carrier.carried.is_none();
-    let (geometry, p) = (scene.geometry(), scene.block.frequency_parameter());
-    let device = carrier.device;
-    let k = device.mass_ratio / scene.block.inertia_ratio();
-    let coupling = match (geometry, device.kind, device.mount, device.kinematics) {
-        (_, DeviceKind::None, ..) => 0.0,
-        (Geometry::Slender, _, mount, _) => k * mount.slender_lever_squared(&scene.block).ok()?,
-        (Geometry::Full, _, Mount::CentreOfMass, KinematicsKind::Paper) => k,
-        _ => return None,
-    };
+    if ground.start_s != 0.0 {
+        return None;
+    }
+    let PlainBlock { geometry, device, slenderness, coupling, restitution } = PlainBlock::of(scene, device)?;
+    let p = scene.block.frequency_parameter();
     let amplitude = match (ground.amplitude_ratio, ground.amplitude_g, ground.amplitude_m_s2) {
         (Some(ratio), ..) => ratio,
         (_, Some(g), _) => g / scene.uplift_threshold(),
         (.., m_s2) => m_s2? / GRAVITY / scene.uplift_threshold(),
     };
     let frequency_ratio = ground.frequency_ratio.or(ground.frequency_hz.map(|hertz| hertz * TAU / p))?;
-    let restitution = scene.restitution.evaluate(&scene.block, geometry, &device).ok()?;
-    plain.then_some(PulsedBlock {
+    Some(PulsedBlock {
         geometry,
-        device: device.kind,
-        slenderness: scene.block.slenderness(),
+        device,
+        slenderness,
         coupling,
         restitution,
         pulse,

@@ -1,10 +1,12 @@
 //! Overturning maps and rocking spectra (Figures 8, 11-13): every device of a scene over a grid of two of its keys.
 //!
 //! [`grid`] turns a cell into a dimensionless block under a pulse where the scene is one, and those go through the lanes of
-//! [`crate::ensemble`]; any other scene is simulated cell by cell. [`study`] runs them, [`table`] and [`figures`] show them.
+//! [`crate::ensemble`]; any other scene is simulated cell by cell. [`study`] runs them, [`tally`] is what is kept of them in memory, [`table`] and
+//! [`figures`] show them.
 
 pub mod axis;
 pub mod figures;
 pub mod grid;
 pub mod study;
 pub mod table;
+pub mod tally;

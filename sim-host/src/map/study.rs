@@ -1,23 +1,22 @@
 //! Runs a map: every cell with every device.
 
+use std::ops::Range;
 use std::time::Instant;
 
-use rayon::prelude::*;
-use serde::Serialize;
-
 use super::grid::Grid;
+use super::table::Labels;
+use super::tally::{DeviceMap, Tally};
 use crate::batch::case::CaseError;
 use crate::ensemble::machine::{Registers, run};
 use crate::ensemble::pulses::{PulseResult, PulsedBlock};
 use crate::interrupt::Interrupt;
-use crate::outcome::Outcome;
+use crate::long_run::error::LongRunError;
+use crate::long_run::in_order::in_order;
+use crate::long_run::rows::Rows;
 use crate::progress::Progress;
 use crate::scene::SceneError;
 use crate::scene::ground::GroundError;
 use crate::simulation::{RunError, simulate};
-
-/// Cells that one task works on before it looks up.
-const CHUNK: usize = 2048;
 
 /// Why a map could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -50,55 +49,19 @@ pub enum MapError {
         /// Why.
         error: CaseError,
     },
+    /// Rows that cannot be kept, or gone on with.
+    #[error("{0}")]
+    Rows(#[from] LongRunError),
     /// Ctrl-C.
     #[error("interrupted")]
     Interrupted,
 }
 
-/// How many cells have each outcome.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub struct Counts {
-    /// The block never uplifts.
-    pub no_rocking: usize,
-    /// It rocks and stays up.
-    pub safe: usize,
-    /// It overturns before any impact.
-    pub overturned_without_impact: usize,
-    /// It overturns after one impact or more.
-    pub overturned_after_impact: usize,
-}
-
-impl Counts {
-    /// Of `results`.
-    pub fn of(results: &[PulseResult]) -> Counts {
-        let mut counts = Counts::default();
-        for result in results {
-            *match result.outcome {
-                Outcome::NoRocking => &mut counts.no_rocking,
-                Outcome::Safe => &mut counts.safe,
-                Outcome::OverturnedWithoutImpact => &mut counts.overturned_without_impact,
-                Outcome::OverturnedAfterImpact => &mut counts.overturned_after_impact,
-            } += 1;
-        }
-        counts
-    }
-
-    /// That overturn.
-    pub fn overturned(&self) -> usize {
-        self.overturned_without_impact + self.overturned_after_impact
-    }
-}
-
-/// The map of one device.
-#[derive(Clone, Debug)]
-pub struct DeviceMap {
-    /// Its name.
-    pub device: String,
-    /// Cells row by row from the lowest, each from the left.
-    pub results: Vec<PulseResult>,
-    /// Time that it took, s.
-    pub seconds: f64,
+/// A part of a device's cells, worked out.
+struct Part {
+    rows: Range<usize>,
+    results: Vec<PulseResult>,
+    text: Vec<u8>,
 }
 
 /// Runs `grid` with every device, on rayon's threads; results do not depend on how many there are.
@@ -106,27 +69,79 @@ pub struct DeviceMap {
 /// # Errors
 /// [`MapError`] names the cell.
 pub fn study(grid: &Grid, progress: &Progress, interrupt: &Interrupt) -> Result<Vec<DeviceMap>, MapError> {
+    let mut tally = Tally::new(grid);
+    progress.begin(grid.table_rows() as u64);
+    let whole = run_rows(grid, 0..grid.table_rows(), None, &mut tally, progress, interrupt, |_| Ok(()))?;
+    if whole { Ok(tally.maps) } else { Err(MapError::Interrupted) }
+}
+
+/// Works out what is left of `rows`, adds it there and to `tally`; `false` when it was interrupted.
+///
+/// # Errors
+/// [`MapError`] names the cell.
+pub fn study_to(
+    rows: &mut Rows,
+    grid: &Grid,
+    labels: &Labels,
+    tally: &mut Tally,
+    progress: &Progress,
+    interrupt: &Interrupt,
+) -> Result<bool, MapError> {
+    let left = rows.left();
+    progress.begin((rows.done() + left.len()) as u64);
+    progress.resume(rows.done() as u64);
+    run_rows(grid, left, Some(labels), tally, progress, interrupt, |part| Ok(rows.append(&part.text, part.rows.len())?))
+}
+
+/// Rows of the map's table, device by device.
+fn run_rows(
+    grid: &Grid,
+    rows: Range<usize>,
+    labels: Option<&Labels>,
+    tally: &mut Tally,
+    progress: &Progress,
+    interrupt: &Interrupt,
+    mut keep: impl FnMut(&Part) -> Result<(), MapError>,
+) -> Result<bool, MapError> {
     let cells = grid.columns() * grid.rows();
-    progress.begin((cells * grid.scene.devices.len()) as u64);
-    let map = |device: usize| {
+    for device in 0..grid.scene.devices.len() {
+        let first = device * cells;
+        let own = rows.start.max(first)..rows.end.min(first + cells);
+        if own.is_empty() {
+            continue;
+        }
         let start = Instant::now();
-        let chunks = (0..cells).into_par_iter().step_by(CHUNK).map(|first| {
+        let work = |rows: Range<usize>| -> Result<Option<Part>, MapError> {
             if interrupt.is_set() {
-                return Err(MapError::Interrupted);
+                return Ok(None);
             }
-            let part = chunk(grid, device, first..cells.min(first + CHUNK), interrupt);
-            progress.advance(CHUNK.min(cells - first) as u64);
-            part
-        });
-        let results: Vec<Vec<PulseResult>> = chunks.collect::<Result<_, _>>()?;
-        let name = grid.scene.devices[device].name.clone();
-        Ok(DeviceMap { device: name, results: results.concat(), seconds: start.elapsed().as_secs_f64() })
-    };
-    (0..grid.scene.devices.len()).map(map).collect()
+            let results = match chunk(grid, device, rows.start - first..rows.end - first, interrupt) {
+                Err(MapError::Interrupted) => return Ok(None),
+                results => results?,
+            };
+            let mut text = Vec::new();
+            if let Some(labels) = labels {
+                rows.clone().zip(&results).for_each(|(row, result)| labels.write(row, result, &mut text));
+            }
+            progress.advance(rows.len() as u64);
+            Ok(Some(Part { rows, results, text }))
+        };
+        let length = own.len();
+        let whole = in_order(own, grid.task(device), work, |part: Part| {
+            keep(&part)?;
+            part.rows.clone().zip(&part.results).for_each(|(row, result)| tally.add(row, *result));
+            Ok(())
+        })?;
+        tally.time(device, length, start.elapsed().as_secs_f64());
+        if !whole {
+            return Ok(false);
+        }
+    }
+    Ok(true)
 }
 
 /// Neighbouring cells: those that are blocks under a pulse side by side, the others one by one.
-fn chunk(grid: &Grid, device: usize, cells: std::ops::Range<usize>, interrupt: &Interrupt) -> Result<Vec<PulseResult>, MapError> {
+fn chunk(grid: &Grid, device: usize, cells: Range<usize>, interrupt: &Interrupt) -> Result<Vec<PulseResult>, MapError> {
     let place = |cell: usize| (cell % grid.columns(), cell / grid.columns());
     let mut results = vec![PulseResult::NO_ROCKING; cells.len()];
     let mut pulsed: Vec<PulsedBlock> = Vec::with_capacity(cells.len());

@@ -1,0 +1,53 @@
+//! Options of commands whose rows can be split and resumed.
+
+use clap::Args;
+
+use super::shard::{MOST_SHARDS, Shard};
+
+/// Which rows, and what to do with those that are there.
+#[derive(Args, Clone, Debug, Default)]
+pub struct LongRunArguments {
+    /// Only the I-th of N equal parts of the rows, as for array jobs of a cluster; --merge N puts them together.
+    #[arg(long, value_name = "I/N", help_heading = "Long runs")]
+    pub shard: Option<Shard>,
+    /// Go on where an interrupted run has ended.
+    #[arg(long, help_heading = "Long runs")]
+    pub resume: bool,
+    /// Throw away what an interrupted run has left.
+    #[arg(long, conflicts_with = "resume", help_heading = "Long runs")]
+    pub restart: bool,
+    /// Put the N shards in the folder together, to the bytes of a run that was not split.
+    #[arg(long, value_name = "N", conflicts_with_all = ["shard", "resume", "restart"], help_heading = "Long runs",
+        value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SHARDS)))]
+    pub merge: Option<u32>,
+}
+
+/// How a file of rows begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// Empty; refused where an interrupted run has left rows.
+    New,
+    /// Empty, whatever is there.
+    Restart,
+    /// With the rows that are there, if any.
+    Resume,
+    /// With the rows of so many shards.
+    Merge(u32),
+}
+
+impl LongRunArguments {
+    /// How the rows begin.
+    pub fn start(&self) -> Start {
+        match self {
+            LongRunArguments { merge: Some(shards), .. } => Start::Merge(*shards),
+            LongRunArguments { resume: true, .. } => Start::Resume,
+            LongRunArguments { restart: true, .. } => Start::Restart,
+            _ => Start::New,
+        }
+    }
+
+    /// Which rows.
+    pub fn shard(&self) -> Shard {
+        self.shard.unwrap_or(Shard::WHOLE)
+    }
+}

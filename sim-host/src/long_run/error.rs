@@ -1,0 +1,60 @@
+//! Why rows cannot be kept or gone on with.
+
+use std::path::{Path, PathBuf};
+
+use super::shard::Shard;
+
+/// Why rows cannot be kept or gone on with.
+#[derive(Debug, thiserror::Error)]
+pub enum LongRunError {
+    /// A file that cannot be read or written.
+    #[error("{}: {reason}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// Rows of an interrupted run that a new one would overwrite.
+    #[error("{}: an interrupted run is there; --resume goes on with it, --restart throws it away", path.display())]
+    Unfinished {
+        /// Its rows.
+        path: PathBuf,
+    },
+    /// Rows of another scene, study, version or record.
+    #[error("{}: its rows are of another run: {what} differs; give --restart to throw them away, or another --out", path.display())]
+    OtherRun {
+        /// What says so.
+        path: PathBuf,
+        /// The first thing that is not the same.
+        what: String,
+    },
+    /// Rows that are not as they were written.
+    #[error("{}: row {row}: {reason}", path.display())]
+    BadRow {
+        /// The file.
+        path: PathBuf,
+        /// Which, from 1, without the heading.
+        row: usize,
+        /// Why.
+        reason: String,
+    },
+    /// A shard that is not there, or not whole.
+    #[error("shard {shard} is not finished: {} has {have} of {rows} rows", path.display())]
+    Missing {
+        /// Which.
+        shard: Shard,
+        /// Where it should be.
+        path: PathBuf,
+        /// Rows there.
+        have: usize,
+        /// Rows that it should have.
+        rows: usize,
+    },
+}
+
+impl LongRunError {
+    pub(super) fn file(path: &Path, reason: &impl ToString) -> LongRunError {
+        LongRunError::File { path: path.to_owned(), reason: reason.to_string() }
+    }
+}
