@@ -110,7 +110,7 @@ impl Runs {
             }
         }
         let subjects: Vec<Subject<'_>> = study.structures.iter().map(Subject::new).collect();
-        let samples: Vec<Samples> = records.par_iter().map(samples).collect();
+        let samples: Vec<Samples> = records.par_iter().map(|record| Samples::of(&record.motion.record)).collect();
         begin((shakings.len() * study.devices.len()) as u64);
         let together = (shakings.len() / 20).clamp(1, MOST_TOGETHER);
         let found: Vec<Vec<Run>> = shakings
@@ -165,13 +165,6 @@ fn scales(
             found
         }
     }
-}
-
-/// ü_g/g of a record.
-fn samples(record: &StudyRecord) -> Samples {
-    let record = &record.motion.record;
-    let values = record.acceleration_m_s2.iter().map(|a| a / STANDARD_GRAVITY_M_S2).collect();
-    Samples::new(record.time_step_s, values)
 }
 
 /// A structure, ready to be shaken.

@@ -145,10 +145,11 @@ impl Blocks {
         let push = self.pushed.sign();
 
         let reach = series.reach(bounds.tolerance * one.larger(self.rotation));
-        let (mut length, end, changed) = self.plain_stretch(series, push, reach.smaller(longest));
+        let from_zero = self.at_zero;
+        let (mut length, changed, plain) = self.plain_stretch(series, push, reach.smaller(longest));
         if changed.any() {
-            let rates = series.acceleration_off_zero(self.at_zero);
-            length = zero(&rates[..TERMS - 3], push, end, length, changed);
+            let rates = series.acceleration_off_zero(from_zero);
+            length = zero(&rates[..TERMS - 2], push, plain.end, length, changed);
         }
         // θ̇ is monotone up to here.
         let direction = self.outward.sign();
@@ -169,7 +170,9 @@ impl Blocks {
         }
         self.peak_rotation = self.peak_rotation.larger(rotation);
         self.overturned = self.overturned | (self.outward & rotation.exceeds(bounds.no_return));
-        self.widen(series, length, push);
+        let uneventful = !(changed | turned | hit | from_zero).any();
+        let over_step = if uneventful { plain } else { shape(series.acceleration(), length) };
+        self.widen(series, length, push, over_step);
 
         let rate_zero = changed & !turned & !hit;
         let after = velocity * bounds.restitution;
@@ -186,47 +189,47 @@ impl Blocks {
         length
     }
 
-    /// A length, at most `longest`, over which each θ̈ has one zero or none: the length, the value at its end of θ̈ (over t where that is
-    /// zero at the start), and where there is a zero.
+    /// A length, at most `longest`, over which each θ̈ has one zero or none: the length, where there is a zero, and the shape of θ̈ (over t
+    /// where that is zero at the start).
     #[inline(always)]
     fn plain_stretch<const TERMS: usize>(
         &mut self,
         series: &Series<TERMS>,
         push: Number,
         longest: Number,
-    ) -> (Number, Number, Mask) {
+    ) -> (Number, Mask, Shape) {
         let nothing = number(0.0);
         let rates = series.acceleration_off_zero(self.at_zero);
-        // The shifted series has a term less.
-        let rates = &rates[..TERMS - 3];
+        let rates = &rates[..TERMS - 2];
         let start = rates[0] * push;
         self.hard = self.hard | !start.exceeds(nothing);
         let mut length = longest;
         let mut halvings = 0;
         loop {
-            let Shape { end, monotone, bent, sag, .. } = shape(rates, length);
+            let plain = shape(rates, length);
+            let Shape { end, monotone, bent, sag, .. } = plain;
             let last = end * push;
             let changed = nothing.exceeds(last);
             let clear = start.smaller(last).exceeds(sag);
             let unsettled = !(self.hard | monotone | (changed & bent) | (clear & !changed));
             if !unsettled.any() {
-                return (length, end, changed);
+                return (length, changed, plain);
             }
             halvings += 1;
             if halvings > MOST_HALVINGS {
                 self.hard = self.hard | unsettled;
-                return (length, end, changed);
+                return (length, changed, plain);
             }
             length = unsettled.choose(length * number(0.5), length);
         }
     }
 
-    /// Takes into account the largest |θ̈| of a step of the given length, over which θ̈ has the sign of `push`.
+    /// Takes into account the largest |θ̈| of a step of the given length, over which θ̈ has the sign of `push` and the shape `over_step`.
     #[inline(always)]
-    fn widen<const TERMS: usize>(&mut self, series: &Series<TERMS>, length: Number, push: Number) {
+    fn widen<const TERMS: usize>(&mut self, series: &Series<TERMS>, length: Number, push: Number, over_step: Shape) {
         let nothing = number(0.0);
         let rates = series.acceleration();
-        let Shape { end, sag, monotone, bent, twisted } = shape(rates, length);
+        let Shape { end, sag, monotone, bent, twisted } = over_step;
         let ends = rates[0].abs().larger(end.abs());
         let open = (ends + sag).exceeds(self.peak_acceleration) & !monotone & !self.hard;
         self.peak_acceleration = self.peak_acceleration.larger(ends);

@@ -56,6 +56,7 @@ const SAG: [f64; 32] = [
 ];
 
 /// What is known of a polynomial on [0, t] without looking inside.
+#[derive(Clone, Copy, Debug)]
 pub struct Shape {
     /// Its value at t.
     pub end: Number,

@@ -18,6 +18,7 @@ use sprag_shared::taylor::Taylor;
 
 use super::blocks::{Blocks, Bounds};
 use super::model::Model;
+use super::records::Shaken;
 use super::rest::{AfterWeakImpact, Sine, WEAK_IMPACT};
 use super::series::Series;
 use super::{Mask, Number, WIDTH, number};
@@ -71,6 +72,20 @@ pub struct PulseResult {
 impl PulseResult {
     /// Never uplifted.
     pub const NO_ROCKING: PulseResult = PulseResult { outcome: Outcome::NoRocking, peak_rotation: 0.0, peak_acceleration: 0.0 };
+
+    /// Of a block that a record has shaken.
+    pub fn of_shaken(shaken: &Shaken, block: &Block) -> PulseResult {
+        let outcome = shaken.outcome();
+        if outcome.overturned() {
+            return PulseResult { outcome, peak_rotation: f64::NAN, peak_acceleration: f64::NAN };
+        }
+        let alpha = block.slenderness();
+        PulseResult {
+            outcome,
+            peak_rotation: shaken.peaks.rotation / alpha,
+            peak_acceleration: shaken.peaks.acceleration / (block.frequency_parameter_squared() * alpha),
+        }
+    }
 
     fn overturned(impact: bool) -> PulseResult {
         let outcome = if impact { Outcome::OverturnedAfterImpact } else { Outcome::OverturnedWithoutImpact };

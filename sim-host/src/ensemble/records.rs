@@ -19,6 +19,7 @@ use super::rest::{WEAK_IMPACT, tail};
 use super::series::Series;
 use super::{Mask, Number, WIDTH, number};
 use crate::outcome::Outcome;
+use crate::record::{Record, STANDARD_GRAVITY_M_S2};
 
 /// Coefficients of θ: as many as reach from one sample to the next.
 const SERIES_TERMS: usize = 9;
@@ -56,6 +57,12 @@ impl Samples {
             *value = bound;
         }
         Samples { step, values, bounds }
+    }
+
+    /// Those of a record.
+    pub fn of(record: &Record) -> Samples {
+        let values = record.acceleration_m_s2.iter().map(|a| a / STANDARD_GRAVITY_M_S2).collect();
+        Samples::new(record.time_step_s, values)
     }
 
     /// ü_g/g at the samples.
@@ -152,6 +159,7 @@ impl ShakenBlock<'_> {
     }
 
     /// ü_g/g at a sample.
+    #[inline(always)]
     fn at(&self, sample: usize) -> f64 {
         self.factor * self.samples.values[sample]
     }

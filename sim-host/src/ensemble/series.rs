@@ -54,7 +54,7 @@ impl<const TERMS: usize> Series<TERMS> {
         &self.acceleration[..Self::RATES]
     }
 
-    /// Of θ̈, divided by t where it is zero at the start; one coefficient less.
+    /// Of θ̈, divided by t where it is zero at the start; what is beyond [`Self::RATES`] is zero.
     #[inline(always)]
     pub fn acceleration_off_zero(&self, at_zero: Mask) -> [Number; TERMS] {
         deflated(&self.acceleration, at_zero)

@@ -9,6 +9,7 @@ use toml::Table;
 use crate::batch::case::PulseShape;
 use crate::ensemble::plain::PlainBlock;
 use crate::ensemble::pulses::PulsedBlock;
+use crate::ensemble::records::{Samples, ShakenBlock};
 use crate::scene::ground::Motion;
 use crate::scene::map::{AxisTable, MapTable};
 use crate::scene::schema::RestitutionValue;
@@ -24,6 +25,8 @@ pub struct Grid {
     text: Table,
     /// For every device, how a cell's block follows from the scene's own; none where cells are read anew as scenes.
     direct: Vec<Option<Direct>>,
+    /// The record that shakes every cell, if no axis changes more of it than its scale.
+    record: Option<Samples>,
 }
 
 /// A dimensionless block and the quantities of it that the axes set.
@@ -63,7 +66,7 @@ impl Grid {
         let Some(map) = scene.file.map.clone() else {
             return Err(key("map.x").missing("a [map] table with an axis x, or --x KEY=FROM:TO:CELLS"));
         };
-        let mut grid = Grid { direct: Vec::new(), scene, map, text };
+        let mut grid = Grid { direct: Vec::new(), record: None, scene, map, text };
         // Keys that the scene does not know are refused here, as in a file. Ranges are intervals: what holds at the corners holds
         // between them.
         for row in [0, grid.rows() - 1] {
@@ -72,6 +75,11 @@ impl Grid {
             }
         }
         grid.direct = (0..grid.scene.devices.len()).map(|device| grid.direct(device)).collect();
+        let mut keys = std::iter::once(&grid.map.x).chain(&grid.map.y).map(|axis| axis.key.as_str());
+        if keys.all(|key| !key.starts_with("ground.") || key == "ground.0.scale") {
+            // What cannot be read is told by the first cell.
+            grid.record = grid.scene.only_record().ok().flatten().map(|record| Samples::of(&record));
+        }
         Ok(grid)
     }
 
@@ -92,10 +100,11 @@ impl Grid {
 
     /// Cells of device `device` that one task works on: so many that their lanes are full, or one where each is a simulation.
     pub(super) fn task(&self, device: usize) -> usize {
-        match (&self.direct[device], pulsed(&self.scene, device)) {
-            (Some(_), _) => 2048,
-            (None, Some(_)) => 256,
-            (None, None) => 1,
+        match (&self.direct[device], pulsed(&self.scene, device), &self.record) {
+            (Some(_), ..) => 2048,
+            (None, Some(_), _) => 256,
+            (None, None, Some(_)) if PlainBlock::of(&self.scene, device).is_some() => 64,
+            (None, None, _) => 1,
         }
     }
 
@@ -113,6 +122,16 @@ impl Grid {
             direct.set(&mut block, device, quantity, axis.value(row));
         }
         Ok(Some(block))
+    }
+
+    /// The block of a cell's scene with device `device` under the record that shakes all cells, if there is one.
+    pub(super) fn shaken(&self, scene: &Scene, device: usize) -> Option<ShakenBlock<'_>> {
+        Some(ShakenBlock {
+            plain: PlainBlock::of(scene, device)?,
+            frequency_parameter: scene.block.frequency_parameter(),
+            samples: self.record.as_ref()?,
+            factor: scene.file.ground[0].scale,
+        })
     }
 
     /// The scene of a cell.

@@ -7,16 +7,17 @@ use super::grid::Grid;
 use super::table::Labels;
 use super::tally::{DeviceMap, Tally};
 use crate::batch::case::CaseError;
-use crate::ensemble::machine::{Registers, run};
-use crate::ensemble::pulses::{PulseResult, PulsedBlock};
+use crate::ensemble::machine::{Registers, run, shake};
+use crate::ensemble::pulses::PulseResult;
+use crate::ensemble::records::Shaken;
 use crate::interrupt::Interrupt;
 use crate::long_run::error::LongRunError;
 use crate::long_run::in_order::in_order;
 use crate::long_run::rows::Rows;
 use crate::progress::Progress;
-use crate::scene::SceneError;
 use crate::scene::ground::GroundError;
-use crate::simulation::{RunError, simulate};
+use crate::scene::{Scene, SceneError};
+use crate::simulation::{DeviceRun, RunError, simulate};
 
 /// Why a map could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -140,43 +141,56 @@ fn run_rows(
     Ok(true)
 }
 
-/// Neighbouring cells: those that are blocks under a pulse side by side, the others one by one.
+/// Neighbouring cells: those that are blocks under a pulse or a record side by side, the others one by one.
 fn chunk(grid: &Grid, device: usize, cells: Range<usize>, interrupt: &Interrupt) -> Result<Vec<PulseResult>, MapError> {
     let place = |cell: usize| (cell % grid.columns(), cell / grid.columns());
     let mut results = vec![PulseResult::NO_ROCKING; cells.len()];
-    let mut pulsed: Vec<PulsedBlock> = Vec::with_capacity(cells.len());
-    let mut their_cells = Vec::with_capacity(cells.len());
+    let (mut pulsed, mut pulsed_cells) = (Vec::with_capacity(cells.len()), Vec::with_capacity(cells.len()));
+    let (mut shaken, mut shaken_cells) = (Vec::new(), Vec::new());
     for cell in cells.clone() {
         let (column, row) = place(cell);
-        match grid.pulsed(device, column, row)? {
+        if let Some(block) = grid.pulsed(device, column, row)? {
+            pulsed.push(block);
+            pulsed_cells.push(cell);
+            continue;
+        }
+        let scene = grid.scene_of(column, row)?;
+        match grid.shaken(&scene, device) {
             Some(block) => {
-                pulsed.push(block);
-                their_cells.push(cell);
+                shaken.push(block);
+                shaken_cells.push((cell, scene));
             }
-            None => results[cell - cells.start] = simulated(grid, device, (column, row), interrupt)?,
+            None => results[cell - cells.start] = simulated(&scene.only(device), place(cell), interrupt)?,
         }
     }
+    let name = &grid.scene.devices[device].name;
     let found = run(&pulsed, Registers::Widest).map_err(|(index, error)| {
-        let (column, row) = place(their_cells[index]);
-        MapError::Cell { device: grid.scene.devices[device].name.clone(), column: column + 1, row: row + 1, error }
+        let (column, row) = place(pulsed_cells[index]);
+        MapError::Cell { device: name.clone(), column: column + 1, row: row + 1, error }
     })?;
-    for (result, cell) in found.into_iter().zip(their_cells) {
+    for (result, cell) in found.into_iter().zip(pulsed_cells) {
         results[cell - cells.start] = result;
+    }
+    for ((block, found), (cell, scene)) in shaken.iter().zip(shake(&shaken, Registers::Widest)).zip(shaken_cells) {
+        let only = scene.only(device);
+        let after = |found: Shaken| found.after(&only.structure(0), name, block.samples.duration(), only.free_time_s()).ok();
+        results[cell - cells.start] = match found.and_then(after) {
+            Some(found) => PulseResult::of_shaken(&found, &only.block),
+            None => simulated(&only, place(cell), interrupt)?,
+        };
     }
     Ok(results)
 }
 
-/// A cell simulated as the scene that it is.
-fn simulated(grid: &Grid, device: usize, cell: (usize, usize), interrupt: &Interrupt) -> Result<PulseResult, MapError> {
-    let (column, row) = cell;
-    let scene = grid.scene_of(column, row)?.only(device);
+/// A cell simulated as the scene that it is, which has one device.
+fn simulated(scene: &Scene, (column, row): (usize, usize), interrupt: &Interrupt) -> Result<PulseResult, MapError> {
     let ground = scene.ground_motions()?;
-    let runs = simulate(&scene, &ground, interrupt).map_err(|error| match error {
+    let runs = simulate(scene, &ground, interrupt).map_err(|error| match error {
         RunError::Interrupted => MapError::Interrupted,
         error => MapError::Run { column: column + 1, row: row + 1, error },
     })?;
     let found = |peak: Option<f64>| peak.unwrap_or(f64::NAN);
-    let result = |run: &crate::simulation::DeviceRun| PulseResult {
+    let result = |run: &DeviceRun| PulseResult {
         outcome: run.outcome,
         peak_rotation: found(run.peak_rotation),
         peak_acceleration: found(run.peak_acceleration),

@@ -242,14 +242,7 @@ impl GroundTable {
                 one(wavelet.duration(), Smooth::Triple(wavelet.harmonics()))
             }
             Motion::Record => {
-                let file = self.file.as_ref().ok_or_else(|| key("file").missing("a record file here, or --record FILE"))?;
-                let options = ReadOptions {
-                    units: self.units.as_ref().and_then(|units| units.parse().ok()),
-                    time_step_s: self.time_step_s,
-                    component: self.component.as_deref().map(RecordComponent::from),
-                    ..ReadOptions::default()
-                };
-                let record = Record::read(folder.join(file), &options)?;
+                let record = self.record(folder, key)?;
                 Component::record(
                     self.start_s,
                     record.time_step_s,
@@ -257,5 +250,20 @@ impl GroundTable {
                 )
             }
         })
+    }
+
+    /// The record of a motion of kind "record", before it is scaled.
+    ///
+    /// # Errors
+    /// [`GroundError`] when no file is named, or it cannot be read.
+    pub fn record(&self, folder: &Path, key: &KeyOf<'_>) -> Result<Record, GroundError> {
+        let file = self.file.as_ref().ok_or_else(|| key("file").missing("a record file here, or --record FILE"))?;
+        let options = ReadOptions {
+            units: self.units.as_ref().and_then(|units| units.parse().ok()),
+            time_step_s: self.time_step_s,
+            component: self.component.as_deref().map(RecordComponent::from),
+            ..ReadOptions::default()
+        };
+        Ok(Record::read(folder.join(file), &options)?)
     }
 }

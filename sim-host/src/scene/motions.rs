@@ -6,6 +6,7 @@ use super::Scene;
 use super::error::{Key, SceneError};
 use super::ground::{GroundError, GroundTable, Motion};
 use crate::ground_motion::{Component, GroundMotion};
+use crate::record::Record;
 
 const NEEDS_RECORD: &str = "--record needs a [[ground]] table with motion = \"record\"";
 
@@ -40,6 +41,19 @@ impl Scene {
             return Err(self.key("vertical").conflict(&reason).into());
         }
         Ok(GroundMotions { horizontal, vertical: Some(vertical) })
+    }
+
+    /// The only record that shakes the block, before it is scaled; none where anything else does.
+    ///
+    /// # Errors
+    /// As of [`Scene::ground_motions`].
+    pub fn only_record(&self) -> Result<Option<Record>, GroundError> {
+        match (&self.file.ground[..], &self.file.vertical[..]) {
+            ([table], []) if table.motion == Motion::Record => {
+                table.record(&self.folder, &|key| self.key(&format!("ground.0.{key}"))).map(Some)
+            }
+            _ => Ok(None),
+        }
     }
 
     /// The horizontal one of [`Scene::ground_motions`].

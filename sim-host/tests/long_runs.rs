@@ -1,0 +1,105 @@
+//! Runs that are split over processes, interrupted and killed, by the command itself: always the bytes of one run.
+
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/figure08.toml");
+/// Cells that are simulated one by one, so that a run takes a while.
+const SLOW: [&str; 6] = ["--set", "map.x.cells=24", "--set", "map.y.cells=20", "--set", "ground.0.motion=\"half-sine\""];
+
+fn map(out: &Path, more: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
+    command.args(["map", SCENE, "--out", out.to_str().unwrap()]).args(more);
+    command
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn well(output: Output) {
+    assert!(output.status.success(), "{}", said(&output));
+}
+
+/// The files that do not tell the time.
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let read = |name: &str| (name.to_owned(), std::fs::read(folder.join(name)).unwrap());
+    ["map.csv", "map.svg", "rotation.svg", "acceleration.svg"].map(read).to_vec()
+}
+
+fn folders() -> (tempfile::TempDir, PathBuf, PathBuf) {
+    let root = tempfile::tempdir().unwrap();
+    let [one, other] = ["one", "other"].map(|name| root.path().join(name));
+    (root, one, other)
+}
+
+#[test]
+fn two_processes_make_the_bytes_of_one() {
+    let (_root, whole, split) = folders();
+    well(map(&whole, &[]).output().unwrap());
+    let parts: Vec<Child> =
+        ["1/2", "2/2"].map(|shard| map(&split, &["--shard", shard]).stdout(Stdio::null()).spawn().unwrap()).into();
+    for part in parts {
+        well(part.wait_with_output().unwrap());
+    }
+    assert!(!split.join("map.csv").exists() && !split.join("map.svg").exists());
+    well(map(&split, &["--merge", "2"]).output().unwrap());
+    assert_eq!(files(&whole), files(&split));
+    // A part of another scene is not taken.
+    let other = map(&split, &["--merge", "2", "--set", "block.restitution=0.8"]).output().unwrap();
+    assert_eq!(other.status.code(), Some(2));
+    assert!(said(&other).contains("input.block.restitution"), "{}", said(&other));
+    // Nor is one that is not there.
+    std::fs::remove_file(split.join("map-2-of-2.csv")).unwrap();
+    let missing = map(&split, &["--merge", "2"]).output().unwrap();
+    assert!(said(&missing).contains("shard 2/2 is not finished"), "{}", said(&missing));
+}
+
+/// Waits until some rows are written.
+fn begun(folder: &Path) {
+    let start = Instant::now();
+    while std::fs::metadata(folder.join("map.csv.unfinished")).map_or(0, |data| data.len()) < 200 {
+        if folder.join("map.csv").exists() || start.elapsed() > Duration::from_secs(60) {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+#[test]
+fn a_killed_run_goes_on() {
+    let (_root, whole, killed) = folders();
+    well(map(&whole, &SLOW).output().unwrap());
+    let mut process = map(&killed, &SLOW).args(["--threads", "1"]).stdout(Stdio::null()).spawn().unwrap();
+    begun(&killed);
+    process.kill().unwrap();
+    process.wait().unwrap();
+    if killed.join("map.csv.unfinished").exists() {
+        // Nothing is thrown away unasked.
+        let again = map(&killed, &SLOW).output().unwrap();
+        assert_eq!(again.status.code(), Some(2));
+        assert!(said(&again).contains("--resume"), "{}", said(&again));
+    }
+    well(map(&killed, &SLOW).arg("--resume").output().unwrap());
+    assert_eq!(files(&whole), files(&killed));
+    // All there: nothing is worked out again, and pictures are.
+    std::fs::remove_file(killed.join("map.svg")).unwrap();
+    well(map(&killed, &SLOW).arg("--resume").output().unwrap());
+    assert_eq!(files(&whole), files(&killed));
+}
+
+#[cfg(unix)]
+#[test]
+fn control_c_leaves_what_is_finished() {
+    let (_root, folder, _) = folders();
+    let large = ["--set", "map.x.cells=3000", "--set", "map.y.cells=3000"];
+    let process = map(&folder, &large).stderr(Stdio::piped()).spawn().unwrap();
+    begun(&folder);
+    let sent = Command::new("kill").args(["-INT", &process.id().to_string()]).status().unwrap();
+    assert!(sent.success());
+    let ended = process.wait_with_output().unwrap();
+    assert_eq!(ended.status.code(), Some(130));
+    assert!(said(&ended).contains("of 27000000 rows; the same command with --resume goes on"), "{}", said(&ended));
+    assert!(folder.join("map.csv.unfinished").exists() && !folder.join("map.csv").exists());
+}
