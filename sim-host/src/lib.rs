@@ -3,7 +3,7 @@
 //! - [`scene`], [`record`], [`ground_motion`], [`synthesis`]: what is simulated.
 //! - [`simulation`]: one scene, every device; [`batch`]: many dimensionless cases; [`accuracy`]: as accurate as asked, and how accurate that is.
 //! - [`cloud`], [`statistics`]: demands and fragilities over many records; [`sensitivity`]: what each effect changes.
-//! - [`history`], [`outcome`], [`plot`], [`summary_table`], [`output`]: what comes out.
+//! - [`history`], [`outcome`], [`plot`], [`summary_table`], [`columns`], [`output`]: what comes out.
 //! - [`long_run`]: work that is split, interrupted and resumed.
 //! - [`closed_loop`], [`device`]: the controller on the host, and the firmware in its place.
 //! - [`effect`]: what a scene may ask for, and what follows from it; [`command`]: the subcommands of `sprag`.
@@ -15,6 +15,7 @@ pub mod batch;
 #[cfg(feature = "effects")]
 pub mod closed_loop;
 pub mod cloud;
+pub mod columns;
 pub mod command;
 #[cfg(feature = "effects")]
 pub mod device;

@@ -1,0 +1,74 @@
+//! Rows as CSV.
+
+use std::fmt::Write as _;
+use std::io::Write;
+
+use super::column::Column;
+use super::error::TableError;
+use super::table::RowWriter;
+use super::value::Value;
+
+/// Writes rows as CSV: titles first, numbers that read back to the same f64, an empty field for no value.
+pub struct CsvWriter<W: Write> {
+    columns: Vec<Column>,
+    table: csv::Writer<W>,
+    rows: u64,
+    /// A field in the making.
+    field: String,
+}
+
+impl<W: Write> CsvWriter<W> {
+    /// Writes the titles of `columns` to `out`.
+    ///
+    /// # Errors
+    /// When `out` does not take them.
+    pub fn new(columns: Vec<Column>, out: W) -> Result<CsvWriter<W>, TableError> {
+        let mut writer = CsvWriter::resumed(columns, out);
+        writer.table.write_record(writer.columns.iter().map(|column| &column.name))?;
+        Ok(writer)
+    }
+
+    /// Goes on in `out`, which holds the titles and any number of rows.
+    pub fn resumed(columns: Vec<Column>, out: W) -> CsvWriter<W> {
+        CsvWriter { columns, table: csv::Writer::from_writer(out), rows: 0, field: String::new() }
+    }
+
+    /// Hands all rows so far to the writer.
+    ///
+    /// # Errors
+    /// When it does not take them.
+    pub fn flush(&mut self) -> Result<(), TableError> {
+        Ok(self.table.flush()?)
+    }
+
+    /// Writes what is left, and gives the writer back.
+    ///
+    /// # Errors
+    /// When it does not take the rows.
+    pub fn finish(mut self) -> Result<W, TableError> {
+        self.table.flush()?;
+        self.table.into_inner().map_err(|error| error.into_error().into())
+    }
+}
+
+impl<W: Write> RowWriter for CsvWriter<W> {
+    fn row(&mut self, values: &[Value<'_>]) -> Result<(), TableError> {
+        self.rows += 1;
+        if values.len() != self.columns.len() {
+            return Err(TableError::WrongLength { row: self.rows, found: values.len(), expected: self.columns.len() });
+        }
+        for (column, value) in self.columns.iter().zip(values) {
+            self.field.clear();
+            // Writing into a string does not fail.
+            let _ = match column.taken(*value, self.rows)? {
+                Value::Number(number) => write!(self.field, "{number:?}"),
+                Value::Count(count) => write!(self.field, "{count}"),
+                Value::Text(text) => self.field.write_str(text),
+                Value::Nothing => Ok(()),
+            };
+            self.table.write_field(&self.field)?;
+        }
+        // Ends the row.
+        Ok(self.table.write_record(None::<&[u8]>)?)
+    }
+}

@@ -1,0 +1,27 @@
+//! Tables for programs: columns with types, and rows that go to CSV or to Parquet one by one, so that a table of any length takes the
+//! memory of one group of rows.
+//!
+//! Both formats hold the same values to the last bit, and the same rows are the same bytes on every machine: a Parquet file made from
+//! the finished CSV file ([`parquet_of_csv`]) is the one that the rows themselves give.
+
+mod column;
+mod csv_reader;
+mod csv_writer;
+mod error;
+mod fields;
+mod metadata;
+mod parquet_writer;
+mod table;
+#[cfg(test)]
+mod tests;
+mod value;
+
+pub use column::{Column, Kind};
+pub use csv_reader::{parquet_of_csv, read_csv};
+pub use csv_writer::CsvWriter;
+pub use error::TableError;
+pub use fields::Fields;
+pub use metadata::{Metadata, metadata_of};
+pub use parquet_writer::ParquetWriter;
+pub use table::{RowWriter, Table, write_csv, write_parquet};
+pub use value::Value;

@@ -1,0 +1,169 @@
+//! Tables in both formats against each other, to the bits.
+
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
+
+use super::parquet_writer::GROUP;
+use super::*;
+
+/// Rows of all kinds.
+struct Samples(usize);
+
+impl Table for Samples {
+    fn columns(&self) -> Vec<Column> {
+        vec![
+            Column::text("device"),
+            Column::number("ground.0.frequency_ratio"),
+            Column::count("impacts").or_nothing(),
+            Column::number("peak, rotation").or_nothing(),
+            Column::count("of"),
+            Column::text("reason").or_nothing(),
+        ]
+    }
+
+    fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
+        const HARD: [f64; 9] = [0.0, -0.0, 0.1, 5e-324, f64::MAX, f64::MIN_POSITIVE, f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
+        let mut state = 1_u64;
+        for row in 0..self.0 {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let hard = HARD.get(row).copied().unwrap_or_else(|| f64::from_bits(state));
+            let device = ["none", "one, \"inerter\"", "pair (σ = 0.5)\nof two", ""][row % 4];
+            let reason = (row % 7 == 3).then(|| format!("no convergence at {state}"));
+            writer.row(&[
+                device.into(),
+                hard.into(),
+                (row % 3 > 0).then_some(state).into(),
+                (row % 5 > 0).then_some(-hard).into(),
+                Value::Count(if row == 0 { u64::MAX } else { row as u64 }),
+                reason.as_ref().into(),
+            ])?;
+        }
+        Ok(())
+    }
+}
+
+fn metadata() -> Vec<(String, String)> {
+    [("command", "sprag map scene.toml"), ("scene", "{\"title\": \"α\"}")]
+        .map(|(name, text)| (name.to_owned(), text.to_owned()))
+        .to_vec()
+}
+
+fn csv(table: &dyn Table) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    write_csv(table, &mut bytes).unwrap();
+    bytes
+}
+
+fn parquet(table: &dyn Table) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    write_parquet(table, &metadata(), &mut bytes).unwrap();
+    bytes
+}
+
+/// Fields as CSV has them, and rows of the groups.
+fn read(parquet: Vec<u8>) -> (Vec<Vec<String>>, Vec<i64>) {
+    let reader = SerializedFileReader::new(bytes::Bytes::from(parquet)).unwrap();
+    let text = |field: &Field| match field {
+        Field::Null => String::new(),
+        Field::Double(number) => format!("{number:?}"),
+        Field::ULong(count) => count.to_string(),
+        Field::Str(text) => text.clone(),
+        other => panic!("{other:?}"),
+    };
+    let rows = reader.get_row_iter(None).unwrap();
+    let rows = rows.map(|row| row.unwrap().get_column_iter().map(|(_, field)| text(field)).collect()).collect();
+    let groups = reader.metadata().row_groups().iter().map(|group| group.num_rows()).collect();
+    (rows, groups)
+}
+
+fn fields(csv: &[u8]) -> Vec<Vec<String>> {
+    let rows = csv::Reader::from_reader(csv).into_records();
+    rows.map(|row| row.unwrap().iter().map(str::to_owned).collect()).collect()
+}
+
+#[test]
+fn both_formats_hold_the_same_bits() {
+    for rows in [0, 1, 9, GROUP - 1, GROUP, 2 * GROUP + 77] {
+        let csv = csv(&Samples(rows));
+        let (found, groups) = read(parquet(&Samples(rows)));
+        // Equal texts of numbers are equal bits, since CSV has the shortest text of each.
+        assert!(found == fields(&csv), "{rows}");
+        assert_eq!(found.len(), rows);
+        assert_eq!(groups.len(), rows.div_ceil(GROUP));
+        assert!(groups.iter().all(|rows| *rows <= GROUP as i64));
+    }
+}
+
+#[test]
+fn a_finished_csv_file_gives_the_same_bytes() {
+    for rows in [0, 1, 1000, GROUP + 5] {
+        let table = Samples(rows);
+        let mut from_csv = Vec::new();
+        let read = parquet_of_csv(csv(&table).as_slice(), &table.columns(), &metadata(), &mut from_csv).unwrap();
+        assert_eq!(read, rows as u64);
+        assert!(from_csv == parquet(&table), "{rows}");
+        assert!(parquet(&table) == parquet(&table));
+    }
+}
+
+#[test]
+fn a_file_says_what_made_it() {
+    let reader = SerializedFileReader::new(bytes::Bytes::from(parquet(&Samples(3)))).unwrap();
+    let file = reader.metadata().file_metadata();
+    let found = file.key_value_metadata().unwrap().iter();
+    let found: Vec<(String, String)> = found.map(|pair| (pair.key.clone(), pair.value.clone().unwrap())).collect();
+    assert_eq!(found, metadata());
+    assert!(file.created_by().unwrap().starts_with("parquet-rs version"));
+}
+
+#[test]
+fn numbers_in_csv_are_the_shortest_that_read_back() {
+    let text = String::from_utf8(csv(&Samples(4))).unwrap();
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("device,ground.0.frequency_ratio,impacts,\"peak, rotation\",of,reason"));
+    assert_eq!(lines.next(), Some("none,0.0,,,18446744073709551615,"));
+    assert!(
+        lines.next().is_some_and(|line| line.starts_with("\"one, \"\"inerter\"\"\",-0.0,") && line.ends_with(",0.0,1,")),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_csv_file_goes_on_where_it_ended() {
+    let columns = || vec![Column::text("device"), Column::number("peak")];
+    let mut writer = CsvWriter::new(columns(), Vec::new()).unwrap();
+    writer.row(&["none".into(), 0.5.into()]).unwrap();
+    writer.flush().unwrap();
+    let mut writer = CsvWriter::resumed(columns(), writer.finish().unwrap());
+    writer.row(&["pair".into(), 0.25.into()]).unwrap();
+    assert_eq!(writer.finish().unwrap(), b"device,peak\nnone,0.5\npair,0.25\n");
+}
+
+#[test]
+fn rows_of_other_columns_are_refused() {
+    let columns = || vec![Column::text("device"), Column::number("peak").or_nothing()];
+    let refused = |values: &[Value<'_>]| {
+        let mut parquet = ParquetWriter::new(columns(), &[], Vec::new()).unwrap();
+        let one = CsvWriter::new(columns(), Vec::new()).unwrap().row(values).unwrap_err().to_string();
+        assert_eq!(one, parquet.row(values).unwrap_err().to_string());
+        one
+    };
+    assert_eq!(refused(&["none".into()]), "row 1 has 1 values instead of 2");
+    assert_eq!(refused(&["none".into(), 7_usize.into()]), "row 1, column `peak`: Count(7) is not a number");
+    assert_eq!(refused(&[Value::Nothing, 1.0.into()]), "row 1, column `device`: there is no value");
+}
+
+#[test]
+fn bad_files_are_refused_with_their_line() {
+    let columns = [Column::text("device"), Column::number("peak").or_nothing(), Column::count("impacts")];
+    let refused = |csv: &str| parquet_of_csv(csv.as_bytes(), &columns, &[], Vec::new()).unwrap_err().to_string();
+    assert_eq!(
+        refused("device,peak\n"),
+        "line 1: the columns are [\"device\", \"peak\"] instead of [\"device\", \"peak\", \"impacts\"]"
+    );
+    assert_eq!(refused("device,peak,impacts\n\"two\nlines\",,1\nnone,1.5x,3\n"), "line 4, column `peak`: `1.5x` is not a number");
+    assert_eq!(refused("device,peak,impacts\nnone,,\n"), "line 2, column `impacts`: `` is not a whole number from 0 to 2^64 - 1");
+    // Cut off in the middle of a row.
+    let cut = refused("device,peak,impacts\nnone,,1\nnone,0.");
+    assert!(cut.contains("line: 3"), "{cut}");
+}
