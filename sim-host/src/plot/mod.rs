@@ -1,6 +1,6 @@
 //! Figures as SVG text: responses, energies, sensitivities, closed loops, maps of outcomes, clouds of runs, charts of lines.
 //!
-//! plotters draws axes and curves; clip, dash patterns, tints and formula labels are SVG around its output.
+//! plotters draws axes and curves; clip, dash patterns, tints and formula labels are SVG around its output. [`png()`] makes dots of it.
 
 mod cell;
 mod cell_map;
@@ -22,6 +22,7 @@ mod marker;
 mod palette;
 mod panel;
 mod panel_heading;
+mod png;
 mod round_scale;
 mod rug;
 mod sensitivity_figure;
@@ -37,6 +38,7 @@ pub use cloud_figure::{BandPoint, CloudFigure, CloudPanel, CloudSeries, cloud_fi
 pub use energy_figure::energy_figure;
 pub use history_figure::history_figure;
 pub use loop_figure::{LoopTrace, loop_figure};
+pub use png::{Png, PngError, png};
 pub use rug::Rug;
 pub use sensitivity_figure::{OwnMark, SensitivityLane, SensitivityRow, sensitivity_figure};
 pub use ticks::Scale;
