@@ -6,6 +6,12 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use tempfile::NamedTempFile;
 
+mod formats;
+mod picture;
+mod table;
+
+pub use formats::{Formats, FormatsError};
+
 /// A result that could not be written.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {reason}", path.display())]
@@ -26,6 +32,7 @@ impl OutputError {
 #[derive(Debug, Default)]
 pub struct Results {
     files: Vec<(NamedTempFile, PathBuf)>,
+    notes: Vec<String>,
 }
 
 impl Results {
@@ -77,6 +84,19 @@ impl Results {
     pub fn commit(self) -> Result<(), OutputError> {
         for (file, path) in self.files {
             file.persist(&path).map_err(|error| OutputError::new(&path, &error.error))?;
+        }
+        Ok(())
+    }
+
+    /// Puts every file in its place, and tells `err` what the reader of the files should know, in a line each.
+    ///
+    /// # Errors
+    /// As [`Results::commit`].
+    pub fn commit_telling(mut self, err: &mut impl Write) -> Result<(), OutputError> {
+        let notes = std::mem::take(&mut self.notes);
+        self.commit()?;
+        for note in notes {
+            let _ = writeln!(err, "sprag: {note}");
         }
         Ok(())
     }

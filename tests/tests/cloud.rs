@@ -8,7 +8,6 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use sprag_shared::math;
-use sprag_sim_host::cloud::csv_tables::{write_demand, write_fragility, write_ranking, write_runs};
 use sprag_sim_host::cloud::demand::Demand;
 use sprag_sim_host::cloud::figures::{demand_picture, fragility_picture};
 use sprag_sim_host::cloud::findings::Findings;
@@ -16,6 +15,8 @@ use sprag_sim_host::cloud::pages::{demand_page, fragility_page, ranking_page};
 use sprag_sim_host::cloud::records::StudyRecords;
 use sprag_sim_host::cloud::runs::Runs;
 use sprag_sim_host::cloud::study::Study;
+use sprag_sim_host::cloud::typed_tables::{DemandTable, FragilityTable, RankingTable, RunsTable};
+use sprag_sim_host::columns::{Table, write_csv};
 use sprag_sim_host::interrupt::Interrupt;
 use sprag_sim_host::simulation::RunError;
 use sprag_sim_host::statistics::Fragility;
@@ -57,10 +58,11 @@ fn run(study: &Study) -> (StudyRecords, Runs, Findings) {
 /// Everything that a study writes.
 fn written(study: &Study, (records, runs, findings): &(StudyRecords, Runs, Findings)) -> Vec<u8> {
     let mut bytes = Vec::new();
-    write_runs(study, &records.records, runs, &mut bytes).unwrap();
-    write_demand(findings, &mut bytes).unwrap();
-    write_fragility(findings, &mut bytes).unwrap();
-    write_ranking(findings, &mut bytes).unwrap();
+    let runs = RunsTable { study, records: &records.records, runs };
+    let tables: [&dyn Table; 4] = [&runs, &DemandTable(findings), &FragilityTable(findings), &RankingTable(findings)];
+    for table in tables {
+        write_csv(table, &mut bytes).unwrap();
+    }
     for page in [demand_page(study, findings), fragility_page(study, findings), ranking_page(study, findings)] {
         bytes.extend(page.into_bytes());
     }

@@ -73,7 +73,7 @@ fn figure_8_counts() {
 fn csv(grid: &Grid, threads: usize) -> Vec<u8> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     let maps = pool.install(|| study(grid, &Progress::new("cells"), &Interrupt::default())).expect("a map");
-    let labels = Labels::new(grid);
+    let labels = Labels::new(grid).expect("names");
     let mut bytes = Vec::new();
     for (row, result) in maps.iter().flat_map(|map| &map.shown).enumerate() {
         labels.write(row, result, &mut bytes);

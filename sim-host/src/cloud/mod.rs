@@ -3,10 +3,9 @@
 //! - [`study_file`], [`study`], [`structures`]: what a study asks for; [`records`]: its ground motions; [`measure`]: how intense they are.
 //! - [`runs`]: what the blocks do.
 //! - [`demand`], [`comparison`], [`overturning`], [`ranking`], [`findings`]: what the runs say.
-//! - [`csv_tables`], [`table`], [`pages`], [`figures`]: tables and pictures of it.
+//! - [`typed_tables`], [`table`], [`pages`], [`figures`]: tables and pictures of it.
 
 pub mod comparison;
-pub mod csv_tables;
 pub mod demand;
 pub mod figures;
 pub mod findings;
@@ -20,6 +19,7 @@ pub mod structures;
 pub mod study;
 pub mod study_file;
 pub mod table;
+pub mod typed_tables;
 
 #[cfg(test)]
 mod tests;

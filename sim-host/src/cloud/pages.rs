@@ -1,12 +1,12 @@
 //! The tables of a study as Markdown, for people.
 
-use super::csv_tables::ratio_of;
 use super::demand::Demand;
 use super::findings::Findings;
 use super::measure::Measure;
 use super::overturning::DeviceFragility;
 use super::study::Study;
 use super::table::{Table, change, number};
+use super::typed_tables::ratio_of;
 use crate::statistics::{Band, Fragility};
 
 /// The power laws, as a table.

@@ -7,9 +7,9 @@ use clap::Args;
 use serde::Serialize;
 
 use super::BAD_INPUT;
+use super::format_arguments::FormatArguments;
 use super::record::time_step;
 use crate::accuracy::{AccuracyArguments, Worst};
-use crate::cloud::csv_tables::{write_demand, write_fragility, write_ranking, write_runs};
 use crate::cloud::figures::{demand_picture, fragility_picture};
 use crate::cloud::findings::Findings;
 use crate::cloud::overturning::OverturningError;
@@ -19,8 +19,10 @@ use crate::cloud::runs::Runs;
 use crate::cloud::structures::StudyStructure;
 use crate::cloud::study::{Study, StudyError};
 use crate::cloud::study_file::{RecordTable, StudyFile};
+use crate::cloud::typed_tables::{DemandTable, FragilityTable, RankingTable, RunsTable};
+use crate::columns::{Table, TableError, metadata_of};
 use crate::interrupt::{self, Interrupt};
-use crate::output::{OutputError, Results, make_folder};
+use crate::output::{Formats, OutputError, Results, make_folder};
 use crate::plot::PlotError;
 use crate::progress::Progress;
 use crate::record::Units;
@@ -31,9 +33,10 @@ use crate::simulation::RunError;
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag cloud scenes/cloud.toml --records records/\n  \
     sprag cloud study.toml --records near_fault/*.AT2 --out out/near_fault\n\n\
-    Runs every structure of the study under every record, scaled as it says, with every device. Writes runs.csv, demand.csv,\n\
-    demand.md, demand.svg, fragility.csv, fragility.md, fragility.svg, ranking.csv, ranking.md and summary.json. A record\n\
-    that cannot be read and a run that fails are named, the others are still done, and the exit code is 2.")]
+    Runs every structure of the study under every record, scaled as it says, with every device. Writes the tables runs, demand,\n\
+    fragility and ranking as .csv and .parquet, the last three as .md too, the pictures demand and fragility as .svg and .png,\n\
+    and summary.json. A record that cannot be read and a run that fails are named, the others are still done, and the exit\n\
+    code is 2.")]
 pub struct CloudArguments {
     /// Study file.
     #[arg(value_name = "STUDY.toml")]
@@ -62,6 +65,9 @@ pub struct CloudArguments {
     /// Threads; all cores by default. The result does not depend on it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
+    /// What is written.
+    #[command(flatten)]
+    pub formats: FormatArguments,
     /// How accurate.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
@@ -83,6 +89,8 @@ enum Failure {
     Plot(#[from] PlotError),
     #[error("{0}")]
     Output(#[from] OutputError),
+    #[error("{0}")]
+    Table(#[from] TableError),
     #[error("the threads cannot be started: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
@@ -101,6 +109,16 @@ struct Document<'a> {
     left_out: &'a [String],
     #[serde(skip_serializing_if = "Option::is_none")]
     accuracy: Option<Worst>,
+}
+
+/// What the Parquet files say of themselves.
+#[derive(Serialize)]
+struct MadeBy<'a> {
+    command: &'static str,
+    version: &'static str,
+    study: &'a StudyFile,
+    structures: &'a [StudyStructure],
+    seed: u64,
 }
 
 /// Runs the command; tables go to `out`, errors go to `err`.
@@ -149,7 +167,7 @@ fn run_or_fail(
     if interrupt.is_set() {
         return Err(RunError::Interrupted.into());
     }
-    let complete = write(&Studied { study, records, runs }, &findings, &folder, out, err)?;
+    let complete = write(&Studied { study, records, runs }, &findings, &folder, arguments.formats.formats, out, err)?;
     let _ = writeln!(out, "results of {} in {}", arguments.study.display(), folder.display());
     Ok(complete)
 }
@@ -185,15 +203,18 @@ fn write(
     studied: &Studied,
     findings: &Findings,
     folder: &Path,
+    formats: Formats,
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> Result<bool, Failure> {
     let Studied { study, records, runs } = studied;
+    let (command, version) = ("cloud", env!("CARGO_PKG_VERSION"));
+    let (file, structures) = (&study.file, &study.structures[..]);
     let document = Document {
-        command: "cloud",
-        version: env!("CARGO_PKG_VERSION"),
-        study: &study.file,
-        structures: &study.structures,
+        command,
+        version,
+        study: file,
+        structures,
         records: records.records.iter().map(|record| record.name.as_str()).collect(),
         unreadable: &records.unreadable,
         findings,
@@ -201,12 +222,18 @@ fn write(
         accuracy: runs.worst,
     };
     let mut results = Results::default();
-    let in_csv = std::io::Error::other::<csv::Error>;
     results.add_json(&folder.join("summary.json"), &document)?;
-    results.add(&folder.join("runs.csv"), |file| write_runs(study, &records.records, runs, file).map_err(in_csv))?;
-    results.add(&folder.join("demand.csv"), |file| write_demand(findings, file).map_err(in_csv))?;
-    results.add(&folder.join("fragility.csv"), |file| write_fragility(findings, file).map_err(in_csv))?;
-    results.add(&folder.join("ranking.csv"), |file| write_ranking(findings, file).map_err(in_csv))?;
+    let made_by = metadata_of(&MadeBy { command, version, study: file, structures, seed: study.bootstrap.seed })?;
+    let of_runs = RunsTable { study, records: &records.records, runs };
+    let tables: [(&str, &dyn Table); 4] = [
+        ("runs", &of_runs),
+        ("demand", &DemandTable(findings)),
+        ("fragility", &FragilityTable(findings)),
+        ("ranking", &RankingTable(findings)),
+    ];
+    for (name, table) in tables {
+        results.add_table(folder, name, table, &made_by, formats)?;
+    }
     let pages = [
         ("demand.md", demand_page(study, findings)),
         ("fragility.md", fragility_page(study, findings)),
@@ -215,14 +242,14 @@ fn write(
     for (name, page) in pages {
         results.add(&folder.join(name), |file| file.write_all(page.as_bytes()))?;
     }
-    let pictures = [("demand.svg", demand_picture(study, findings)?), ("fragility.svg", fragility_picture(study, findings)?)];
+    let pictures = [("demand", demand_picture(study, findings)?), ("fragility", fragility_picture(study, findings)?)];
     for (name, picture) in pictures {
         match picture {
-            Some(picture) => results.add(&folder.join(name), |file| file.write_all(picture.as_bytes()))?,
-            None => _ = writeln!(err, "sprag: {name} is not drawn: there are no points for it"),
+            Some(picture) => _ = results.add_picture(folder, name, &picture, formats)?,
+            None => _ = writeln!(err, "sprag: there is no picture of the {name}: there are no points for it"),
         }
     }
-    results.commit()?;
+    results.commit_telling(err)?;
     let _ = writeln!(out, "{}\n{}", demand_table(findings).markdown(), fragility_table(findings).markdown());
     for line in fragility_notes(&findings.fragility) {
         let _ = writeln!(out, "{line}");

@@ -9,6 +9,8 @@ use clap::Args;
 use serde::Serialize;
 
 use super::BAD_INPUT;
+use super::format_arguments::FormatArguments;
+use crate::columns::{TableError, metadata_of};
 use crate::interrupt::{self, Interrupt};
 use crate::long_run::arguments::LongRunArguments;
 use crate::long_run::error::LongRunError;
@@ -33,9 +35,9 @@ use crate::scene::{Scene, SceneError, text_of};
     sprag map scenes/figure08.toml --set map.x.cells=512 --set map.y.cells=512\n  \
     sprag map scenes/figure08.toml --x device.2.mass_ratio=0.01:10:200:log --y block.slenderness_deg=5:40:200\n\n\
     sprag map scenes/figure08.toml --shard 1/2; sprag map scenes/figure08.toml --shard 2/2; sprag map scenes/figure08.toml --merge 2\n\n\
-    Writes summary.json, map.csv, map.svg (outcomes), rotation.svg and acceleration.svg (peaks); without an axis y summary.json, \
-    map.csv and cut.svg; map.run.json says what the rows of map.csv come from. Rows go to the disk as they are made, and \
-    Ctrl-C leaves them there for --resume.")]
+    Writes summary.json, the table map.csv and map.parquet, and the pictures map (outcomes), rotation and acceleration (peaks), each \
+    as .svg and .png; without an axis y the picture cut. Rows go to the disk as they are made, map.run.json says what they come \
+    from, and Ctrl-C leaves them there for --resume.")]
 pub struct MapArguments {
     /// Scene file.
     #[arg(value_name = "SCENE.toml")]
@@ -61,6 +63,9 @@ pub struct MapArguments {
     /// Threads; as many as the machine has by default.
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
+    /// What is written.
+    #[command(flatten)]
+    pub formats: FormatArguments,
     /// Which of the cells, and whether some are there.
     #[command(flatten)]
     pub long_run: LongRunArguments,
@@ -74,6 +79,8 @@ enum Failure {
     Plot(#[from] PlotError),
     #[error("{0}")]
     Output(#[from] OutputError),
+    #[error("{0}")]
+    Table(#[from] TableError),
     #[error("the threads cannot be started: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
     #[error("the scene cannot be told in JSON: {0}")]
@@ -92,6 +99,14 @@ impl From<SceneError> for Failure {
     fn from(error: SceneError) -> Failure {
         Failure::Map(MapError::Scene(error))
     }
+}
+
+/// What `map.parquet` says of itself.
+#[derive(Serialize)]
+struct MadeBy<'a> {
+    command: &'static str,
+    version: &'static str,
+    scene: &'a SceneFile,
 }
 
 /// `summary.json`.
@@ -120,12 +135,17 @@ impl<'a> DeviceSummary<'a> {
 
 /// Runs the command; a table goes to `out`, errors go to `err`.
 pub fn run(arguments: &MapArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    let Err(failure) = run_or_fail(arguments, out, interrupt) else { return 0 };
+    let Err(failure) = run_or_fail(arguments, out, err, interrupt) else { return 0 };
     let _ = writeln!(err, "sprag: {failure}");
     if matches!(failure, Failure::Interrupted { .. }) { interrupt::EXIT_CODE } else { BAD_INPUT }
 }
 
-fn run_or_fail(arguments: &MapArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+fn run_or_fail(
+    arguments: &MapArguments,
+    out: &mut impl Write,
+    err: &mut impl Write,
+    interrupt: &Interrupt,
+) -> Result<(), Failure> {
     let grid = grid(arguments)?;
     let folder = arguments.out.clone().unwrap_or_else(|| {
         let stem = arguments.scene.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
@@ -137,10 +157,12 @@ fn run_or_fail(arguments: &MapArguments, out: &mut impl Write, interrupt: &Inter
         // As the user wrote it, so that the summary does not depend on where it was made.
         table.file = Some(record.clone());
     }
-    let (labels, mut tally) = (Labels::new(&grid), Tally::new(&grid));
+    let (labels, mut tally) = (Labels::new(&grid)?, Tally::new(&grid));
     let origin = Origin::new("map", &file, files(&grid, &file), grid.table_rows())?;
     let shard = arguments.long_run.shard();
-    let plan = Plan { folder: &folder, name: "map", columns: columns(&grid), together: 1, shard, origin };
+    let columns = columns(&grid);
+    let titles = columns.iter().map(|column| column.name.clone()).collect();
+    let plan = Plan { folder: &folder, name: "map", columns: titles, together: 1, shard, origin };
     let mut rows = Rows::begin(&plan, arguments.long_run.start(), |row, record| {
         tally.add(row, labels.read(row, record)?);
         Ok(())
@@ -159,15 +181,23 @@ fn run_or_fail(arguments: &MapArguments, out: &mut impl Write, interrupt: &Inter
     }
     let pictures = figures(&grid, &tally)?;
     let runs = tally.maps.iter().map(DeviceSummary::of).collect();
-    let summary = Summary { command: "map", version: env!("CARGO_PKG_VERSION"), scene: &file, runs };
+    let (command, version) = ("map", env!("CARGO_PKG_VERSION"));
+    let summary = Summary { command, version, scene: &file, runs };
+    let formats = arguments.formats.formats;
     let mut results = Results::default();
     results.add_json(&folder.join("summary.json"), &summary)?;
-    for (name, picture) in &pictures {
-        results.add(&folder.join(name), |file| file.write_all(picture.as_bytes()))?;
+    if formats.parquet {
+        let made_by = metadata_of(&MadeBy { command, version, scene: &file })?;
+        results.add_parquet_of(&path, &columns, &made_by)?;
     }
-    results.commit()?;
+    let mut first = None;
+    for (name, picture) in &pictures {
+        let added = results.add_picture(&folder, name, picture, formats)?;
+        first = first.or(added);
+    }
+    results.commit_telling(err)?;
     let _ = write_table(out, &tally.maps);
-    let _ = writeln!(out, "\n{}", folder.join(pictures.first().map_or("map.csv", |picture| picture.0)).display());
+    let _ = writeln!(out, "\n{}", first.unwrap_or(path).display());
     Ok(())
 }
 

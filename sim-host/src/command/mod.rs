@@ -13,6 +13,7 @@ pub mod device;
 mod device_line;
 pub mod effects;
 pub mod explain;
+mod format_arguments;
 #[cfg(feature = "effects")]
 pub mod hil;
 #[cfg(feature = "effects")]

@@ -21,19 +21,19 @@ const BANDS: f64 = 12.0;
 const ROTATION: &str = "peak rotation max |θ|/α";
 const ACCELERATION: &str = "peak angular acceleration max |θ̈|/(p²α)";
 
-/// The files of pictures of a map: name, SVG text.
+/// The pictures of a map: name, SVG text.
 ///
 /// # Errors
 /// [`PlotError`].
 pub fn figures(grid: &Grid, tally: &Tally) -> Result<Vec<(&'static str, String)>, PlotError> {
     let Some(y) = &grid.map.y else {
-        return Ok(vec![("cut.svg", cut(grid, tally)?)]);
+        return Ok(vec![("cut", cut(grid, tally)?)]);
     };
     let outcomes = small_multiples(grid, y, tally, "", Class::outcomes(), |result| Cell::from(result.outcome).class());
-    let mut files = vec![("map.svg", cell_map_figure(&outcomes)?)];
+    let mut files = vec![("map", cell_map_figure(&outcomes)?)];
     let spectra: [(&str, &str, Peak); 2] = [
-        ("rotation.svg", ROTATION, |result| result.peak_rotation),
-        ("acceleration.svg", ACCELERATION, |result| result.peak_acceleration),
+        ("rotation", ROTATION, |result| result.peak_rotation),
+        ("acceleration", ACCELERATION, |result| result.peak_acceleration),
     ];
     for (file, name, peak) in spectra {
         let safe = tally.maps.iter().flat_map(|map| &map.shown).filter(|result| !result.outcome.overturned()).map(peak);
