@@ -47,7 +47,7 @@ fn chart(title: &str, x_title: &str, panels: Vec<ChartPanel>) -> Option<Result<S
     (!chart.panels.is_empty()).then(|| chart_figure(&chart))
 }
 
-/// A figure by its file name.
+/// A figure by the name of its file without the ending.
 pub type Figure = (&'static str, String);
 
 /// All figures of a study; those that nothing can be drawn in are left out.
@@ -73,9 +73,9 @@ pub fn figures(title: &str, rows: &[Row], devices: &[String]) -> Result<Vec<Figu
     let sines = |family: &Family| family.method == Method::RungeKutta4 && family.events == EventTreatment::StepEnd;
     let by_cycles: Point = |row| Some((row.board?.cycles() * row.steps_per_second, row.peak_error?));
     let charts = [
-        ("work_precision.svg", chart(&format!("{title}: error against time"), x_time, precision)),
+        ("work_precision", chart(&format!("{title}: error against time"), x_time, precision)),
         (
-            "order.svg",
+            "order",
             chart(
                 &format!("{title}: error of the history against the step"),
                 "step in 1/*p*",
@@ -83,7 +83,7 @@ pub fn figures(title: &str, rows: &[Row], devices: &[String]) -> Result<Vec<Figu
             ),
         ),
         (
-            "sines.svg",
+            "sines",
             chart(
                 &format!("{title}: precision and source of the sine"),
                 "step in 1/*p*",
@@ -91,11 +91,11 @@ pub fn figures(title: &str, rows: &[Row], devices: &[String]) -> Result<Vec<Figu
             ),
         ),
         (
-            "wrong_outcomes.svg",
+            "wrong_outcomes",
             chart(&format!("{title}: outcomes gone wrong"), x_time, panels(rows, devices, own, by_wrong, "share of cells")),
         ),
         (
-            "board.svg",
+            "board",
             chart(
                 &format!("{title}: error against time on the board"),
                 "Cortex-M4F: cycles to a simulated second",

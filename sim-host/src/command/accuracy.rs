@@ -7,6 +7,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::ended;
+use super::format_arguments::PictureArguments;
 use crate::accuracy_study::board::{Board, BoardError};
 use crate::accuracy_study::figure::figures;
 use crate::accuracy_study::report::{page, write_csv};
@@ -25,7 +26,7 @@ use crate::scene::{Scene, SceneError};
 #[command(after_help = "Examples:\n  sprag accuracy scenes/figure10.toml\n  \
     sprag accuracy scenes/near_fault.toml --smallest-step 1e-3 --qemu\n\n\
     Writes accuracy.csv, accuracy.md, summary.json and the pictures work_precision.svg, order.svg, sines.svg, wrong_outcomes.svg and,\n\
-    with --qemu, board.svg. Times are of this machine; everything else is the same on any.")]
+    with --qemu, board.svg; with --png as .png too. Times are of this machine; everything else is the same on any.")]
 pub struct AccuracyCommandArguments {
     /// Scene file, of ideal devices over horizontal ground.
     #[arg(value_name = "SCENE.toml")]
@@ -48,6 +49,9 @@ pub struct AccuracyCommandArguments {
     /// The image for --qemu; it is built by default.
     #[arg(long, value_name = "ELF", requires = "qemu")]
     pub image: Option<PathBuf>,
+    /// Pictures.
+    #[command(flatten)]
+    pub pictures: PictureArguments,
     /// Folder for the results; out/NAME-accuracy of the scene by default.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -90,11 +94,16 @@ struct Summary<'a> {
 
 /// Runs the command; a table goes to `out`, errors go to `err`.
 pub fn run(arguments: &AccuracyCommandArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    let result = run_or_fail(arguments, out, interrupt);
+    let result = run_or_fail(arguments, out, err, interrupt);
     ended(result, |failure| matches!(failure, Failure::Study(StudyError::Interrupted)), err)
 }
 
-fn run_or_fail(arguments: &AccuracyCommandArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+fn run_or_fail(
+    arguments: &AccuracyCommandArguments,
+    out: &mut impl Write,
+    err: &mut impl Write,
+    interrupt: &Interrupt,
+) -> Result<(), Failure> {
     let mut scene = Scene::load(&arguments.scene, &arguments.set)?;
     if let Some(record) = &arguments.record {
         scene.use_record(record)?;
@@ -130,9 +139,9 @@ fn run_or_fail(arguments: &AccuracyCommandArguments, out: &mut impl Write, inter
     results.add(&folder.join("accuracy.csv"), |file| write_csv(&rows, &devices, file))?;
     results.add(&folder.join("accuracy.md"), |file| file.write_all(page.as_bytes()))?;
     for (name, figure) in figures(title, &rows, &devices)? {
-        results.add(&folder.join(name), |file| file.write_all(figure.as_bytes()))?;
+        results.add_picture(&folder, name, &figure, arguments.pictures.formats())?;
     }
-    results.commit()?;
+    results.commit_telling(err)?;
     let _ = write!(out, "{page}");
     let _ = writeln!(out, "results in {}", folder.display());
     Ok(())

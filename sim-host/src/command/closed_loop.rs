@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::ended;
+use super::format_arguments::PictureArguments;
 use super::loop_scene::{LoopScene, LoopSceneError};
 use crate::accuracy::AccuracyArguments;
 use crate::closed_loop::LoopFailure;
@@ -29,7 +30,7 @@ use crate::statistics::quantile;
 #[command(after_help = "Examples:\n  sprag loop scenes/controller.toml\n  \
     sprag loop scenes/controller.toml --set controller.law=gated-table --out out/gated\n  \
     sprag loop scenes/controller.toml --monte-carlo 200\n\n\
-    Writes summary.json, history.csv and loop.svg; with --monte-carlo also monte_carlo.csv.")]
+    Writes summary.json, history.csv and loop.svg; with --monte-carlo also monte_carlo.csv; with --png loop.png.")]
 pub struct LoopArguments {
     /// Scene file with a clutched pair and a controller table.
     #[arg(value_name = "SCENE.toml")]
@@ -49,6 +50,9 @@ pub struct LoopArguments {
     /// Folder for the results; out/NAME-loop of the scene by default.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Pictures.
+    #[command(flatten)]
+    pub pictures: PictureArguments,
     /// How accurate.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
@@ -112,13 +116,13 @@ fn run_or_fail(
     results.add(&folder.join("history.csv"), |file| write_history(&reports, file).map_err(std::io::Error::other))?;
     for (number, report) in reports.iter().enumerate() {
         let picture = loop_figure(&heading(scene, report), &loop_trace(report, &scene.block))?;
-        let name = if number == 0 { "loop.svg".to_owned() } else { format!("loop-{}.svg", number + 1) };
-        results.add(&folder.join(name), |file| file.write_all(picture.as_bytes()))?;
+        let name = if number == 0 { "loop".to_owned() } else { format!("loop-{}", number + 1) };
+        results.add_picture(&folder, &name, &picture, arguments.pictures.formats())?;
     }
     if interrupt.is_set() {
         return Err(Failure::Interrupted);
     }
-    results.commit()?;
+    results.commit_telling(err)?;
     for summary in &summaries {
         let _ = write!(out, "{summary}");
     }

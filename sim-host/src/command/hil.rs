@@ -10,6 +10,7 @@ use serde::Serialize;
 use super::closed_loop::heading;
 use super::device_line::{LineArguments, connect};
 use super::ended;
+use super::format_arguments::PictureArguments;
 use super::loop_scene::{LoopScene, LoopSceneError};
 use crate::accuracy::{AccuracyArguments, Closeness};
 use crate::closed_loop::answered::Looped;
@@ -50,6 +51,9 @@ pub struct HilArguments {
     /// How accurate the plant is; found by the host's own loop.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
+    /// Pictures.
+    #[command(flatten)]
+    pub pictures: PictureArguments,
     /// Where the device is.
     #[command(flatten)]
     pub line: LineArguments,
@@ -108,8 +112,8 @@ fn run_or_fail(
         let alpha = desk.scene.block.slenderness();
         trace.rotation_host = run.host.iter().map(|tick| (tick.plant.time, tick.plant.motion.rotation / alpha)).collect();
         let picture = loop_figure(&heading(&desk.scene, &run.report), &trace)?;
-        let name = if number == 0 { "loop.svg".to_owned() } else { format!("loop-{}.svg", number + 1) };
-        results.add(&folder.join(name), |file| file.write_all(picture.as_bytes()))?;
+        let name = if number == 0 { "loop".to_owned() } else { format!("loop-{}", number + 1) };
+        results.add_picture(&folder, &name, &picture, arguments.pictures.formats())?;
         ticks.push((run.report.summary.device.clone(), run.ticks));
         reports.push(run.report);
         if let Some(log) = run.log {
@@ -126,7 +130,7 @@ fn run_or_fail(
     if interrupt.is_set() {
         return Err(Failure::Interrupted);
     }
-    results.commit()?;
+    results.commit_telling(err)?;
     for summary in &summaries {
         let _ = write!(out, "{summary}");
     }

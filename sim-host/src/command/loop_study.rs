@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::ended;
+use super::format_arguments::PictureArguments;
 use crate::accuracy::{Accuracy, AccuracyArguments};
 use crate::interrupt::Interrupt;
 use crate::loop_study::bench::{Conditions, Motion, StudyError};
@@ -41,7 +42,7 @@ pub enum Study {
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag loop-study practice --out out/practice\n  \
     sprag loop-study laws --records records/*.AT2 --out out/laws\n\n\
-    Writes a page NAME.md, its tables as CSV and its pictures as SVG.")]
+    Writes a page NAME.md, its tables as CSV and its pictures as SVG, with --png as PNG too.")]
 pub struct LoopStudyArguments {
     /// Which.
     #[arg(value_enum)]
@@ -58,6 +59,9 @@ pub struct LoopStudyArguments {
     /// How accurate.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
+    /// Pictures.
+    #[command(flatten)]
+    pub pictures: PictureArguments,
 }
 
 #[derive(Debug, thiserror::Error)]
@@ -106,14 +110,14 @@ fn run_or_fail(
     let found = arguments.accuracy.levels(study, tell);
     progress.finish();
     let (report, worst) = found?;
-    write(&report, arguments, out)?;
+    write(&report, arguments, out, err)?;
     if let Some(worst) = worst {
         let _ = writeln!(out, "accuracy: {worst}");
     }
     Ok(())
 }
 
-fn write(report: &Report, arguments: &LoopStudyArguments, out: &mut impl Write) -> Result<(), OutputError> {
+fn write(report: &Report, arguments: &LoopStudyArguments, out: &mut impl Write, err: &mut impl Write) -> Result<(), OutputError> {
     let folder = &arguments.out;
     let names = report.tables.iter().map(|(name, _)| name).chain(report.figures.iter().map(|(name, _)| name));
     for (inner, _) in names.filter_map(|name| name.rsplit_once('/')) {
@@ -125,9 +129,9 @@ fn write(report: &Report, arguments: &LoopStudyArguments, out: &mut impl Write) 
         results.add(&folder.join(format!("{name}.csv")), |file| file.write_all(table.csv().as_bytes()))?;
     }
     for (name, svg) in &report.figures {
-        results.add(&folder.join(format!("{name}.svg")), |file| file.write_all(svg.as_bytes()))?;
+        results.add_picture(folder, name, svg, arguments.pictures.formats())?;
     }
-    results.commit()?;
+    results.commit_telling(err)?;
     let _ = write!(out, "{}", report.text);
     let _ = writeln!(out, "results in {}", folder.display());
     Ok(())

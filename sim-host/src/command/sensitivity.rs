@@ -7,6 +7,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::BAD_INPUT;
+use super::format_arguments::PictureArguments;
 use crate::accuracy::{AccuracyArguments, Worst};
 use crate::interrupt::{self, Interrupt};
 use crate::output::{OutputError, Results, make_folder};
@@ -26,7 +27,7 @@ use crate::simulation::RunError;
 #[command(after_help = "Examples:\n  sprag sensitivity scenes/near_fault.toml\n  \
     sprag sensitivity scenes/near_fault.toml --records records/*.AT2 --out out/sensitivity\n\n\
     Runs every device under the scene's ground motion and under each record in its place, as it is and with each variant.\n\
-    Writes sensitivity.csv, sensitivity.md, sensitivity.svg and summary.json. A record that cannot be read and a run that\n\
+    Writes sensitivity.csv, sensitivity.md, sensitivity.svg (with --png sensitivity.png) and summary.json. A record that cannot be read and a run that\n\
     fails are named, the others are still done, and the exit code is 2.")]
 pub struct SensitivityArguments {
     /// Scene file.
@@ -48,6 +49,9 @@ pub struct SensitivityArguments {
     /// Threads; all cores by default. The result does not depend on it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
+    /// Pictures.
+    #[command(flatten)]
+    pub pictures: PictureArguments,
     /// How accurate.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
@@ -117,7 +121,7 @@ fn run_or_fail(
     for error in &errors {
         let _ = writeln!(err, "sprag: {error}");
     }
-    write(arguments, &scene, &study, &motions, &findings, &folder, out)?;
+    write(arguments, &scene, &study, &motions, &findings, &folder, out, err)?;
     for error in &findings.failed {
         let _ = writeln!(err, "sprag: {error}");
     }
@@ -198,6 +202,7 @@ fn write(
     findings: &Findings,
     folder: &Path,
     out: &mut impl Write,
+    err: &mut impl Write,
 ) -> Result<(), Failure> {
     let runs = summaries(findings, motions, &study.devices);
     let records: Vec<&str> = motions.iter().filter(|motion| !motion.own).map(|motion| motion.name.as_str()).collect();
@@ -220,8 +225,8 @@ fn write(
     })?;
     results
         .add(&folder.join("sensitivity.md"), |file| file.write_all(page(title, &runs, records.len(), &left_out).as_bytes()))?;
-    results.add(&folder.join("sensitivity.svg"), |file| file.write_all(figure.as_bytes()))?;
-    results.commit()?;
+    results.add_picture(folder, "sensitivity", &figure, arguments.pictures.formats())?;
+    results.commit_telling(err)?;
     let _ = write!(out, "{}", table(&runs));
     for line in &left_out {
         let _ = writeln!(out, "left out: {line}");

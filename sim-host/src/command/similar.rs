@@ -8,6 +8,7 @@ use serde::Serialize;
 use sprag_shared::error::ParameterError;
 
 use super::ended;
+use super::format_arguments::PictureArguments;
 use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, make_folder};
 use crate::plot::{Chart, ChartPanel, Line, PlotError, Scale, chart_figure};
@@ -22,7 +23,7 @@ use crate::simulation::{DeviceRun, RunError, simulate};
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag similar scenes/figure06.toml --with block.size_m=5,block.slenderness_deg=5\n  \
     sprag similar scenes/figure07.toml --with block.size_m=5,block.slenderness_deg=20 --with block.size_m=2,block.slenderness_deg=15\n\n\
-    Writes summary.json, similar.csv and similar.svg. Groups that are not equal are named: amplitudes and frequencies\n\
+    Writes summary.json, similar.csv and similar.svg, with --png similar.png too. Groups that are not equal are named: amplitudes and frequencies\n\
     should be ratios (amplitude_ratio, frequency_ratio).")]
 pub struct SimilarArguments {
     /// Scene file: the first block.
@@ -37,6 +38,9 @@ pub struct SimilarArguments {
     /// Folder for the results; out/NAME-similar of the scene by default.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Pictures.
+    #[command(flatten)]
+    pub pictures: PictureArguments,
 }
 
 #[derive(Debug, thiserror::Error)]
@@ -132,12 +136,11 @@ fn run_or_fail(
     let mut results = Results::default();
     results.add_json(&folder.join("summary.json"), &summary)?;
     results.add(&folder.join("similar.csv"), |file| write_csv(&blocks, file))?;
-    let picture = folder.join("similar.svg");
-    results.add(&picture, |file| file.write_all(figure.as_bytes()))?;
+    let picture = results.add_picture(&folder, "similar", &figure, arguments.pictures.formats())?;
     if interrupt.is_set() {
         return Err(RunError::Interrupted.into());
     }
-    results.commit()?;
+    results.commit_telling(err)?;
     let _ = writeln!(out, "largest departure of θ/α from the first block");
     for block in &blocks[1..] {
         for (device, run) in block.runs.iter().enumerate() {
@@ -148,7 +151,9 @@ fn run_or_fail(
                 writeln!(out, "{}, {}: {largest:.3e} at p t = {at_frequency_parameter_time:.2}{share}", block.name, run.device);
         }
     }
-    let _ = writeln!(out, "{}", picture.display());
+    if let Some(picture) = picture {
+        let _ = writeln!(out, "{}", picture.display());
+    }
     Ok(())
 }
 

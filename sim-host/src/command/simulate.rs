@@ -7,6 +7,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::ended;
+use super::format_arguments::PictureArguments;
 use crate::accuracy::AccuracyArguments;
 use crate::history::{History, write_csv};
 use crate::interrupt::Interrupt;
@@ -24,7 +25,8 @@ use crate::summary_table::{SummaryRow, summary_table};
 #[command(after_help = "Examples:\n  sprag simulate scenes/near_fault.toml\n  \
     sprag simulate scenes/record.toml --record RSN181_IMPVALL.H_H-E06230.AT2 --out out/imperial\n  \
     sprag simulate scenes/figure10.toml --set accuracy.method=runge-kutta-4 --set accuracy.step_ratio=1e-3\n\n\
-    Writes summary.json, history.csv and history.svg; with output.energy also energy.csv and energy.svg.")]
+    Writes summary.json, history.csv and history.svg; with output.energy also energy.csv and energy.svg; with --png the pictures\n\
+    as .png too.")]
 pub struct SimulateArguments {
     /// Scene file.
     #[arg(value_name = "SCENE.toml")]
@@ -44,6 +46,9 @@ pub struct SimulateArguments {
     /// How accurate.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
+    /// Pictures.
+    #[command(flatten)]
+    pub pictures: PictureArguments,
     /// Show the picture.
     #[arg(long)]
     pub open: bool,
@@ -105,20 +110,20 @@ fn run_or_fail(
         }
     }
     let summary = Summary { command: "simulate", version: env!("CARGO_PKG_VERSION"), scene: &file, runs: &runs };
-    let picture = folder.join("history.svg");
+    let formats = arguments.pictures.formats();
     let mut results = Results::default();
     results.add_json(&folder.join("summary.json"), &summary)?;
     results.add(&folder.join("history.csv"), |file| write_csv(&histories, file).map_err(std::io::Error::other))?;
-    results.add(&picture, |file| file.write_all(figure.as_bytes()))?;
+    let picture = results.add_picture(&folder, "history", &figure, formats)?;
     if scene.file.output.energy {
         let figure = energy_figure(&scene.file.title, &runs)?;
         results.add(&folder.join("energy.csv"), |file| write_energy(&runs, file).map_err(std::io::Error::other))?;
-        results.add(&folder.join("energy.svg"), |file| file.write_all(figure.as_bytes()))?;
+        results.add_picture(&folder, "energy", &figure, formats)?;
     }
     if interrupt.is_set() {
         return Err(RunError::Interrupted.into());
     }
-    results.commit()?;
+    results.commit_telling(err)?;
     let _ = write!(out, "{}", summary_table(&rows));
     for run in &runs {
         if let Some(error) = &run.error {
@@ -132,6 +137,7 @@ fn run_or_fail(
     }
     let _ = writeln!(out, "results in {}", folder.display());
     if arguments.open
+        && let Some(picture) = picture
         && let Err(error) = open::that_detached(&picture)
     {
         let _ = writeln!(err, "sprag: the picture cannot be shown: {error}");
