@@ -14,14 +14,13 @@ from __future__ import annotations
 
 import argparse
 import json
-import subprocess
 import sys
-import venv
 from pathlib import Path
 from typing import Any
 
+from python.packages import ensure_packages
+
 REQUIREMENTS = ("numpy==2.4.6", "scipy==1.17.1", "statsmodels==0.15.0")
-UNAVAILABLE = 3
 LEVEL = 0.9
 
 
@@ -129,33 +128,13 @@ def results(seed: int) -> dict[str, Any]:
     }
 
 
-def ensure_packages(folder: Path) -> None:
-    """Goes on in a virtual environment where this Python lacks a package."""
-    try:
-        import scipy.stats  # noqa: F401
-        import statsmodels.api  # noqa: F401
-    except ImportError:
-        if Path(sys.prefix).resolve() == folder.resolve():
-            raise
-        places = (folder / "bin/python", folder / "Scripts/python.exe")
-        try:
-            if not any(path.exists() for path in places):
-                venv.create(folder, with_pip=True)
-            python = next(path for path in places if path.exists())
-            subprocess.run([python, "-m", "pip", "install", "--quiet", *REQUIREMENTS], check=True)
-        except (OSError, StopIteration, subprocess.CalledProcessError) as error:
-            print(f"{', '.join(REQUIREMENTS)} cannot be installed: {error}", file=sys.stderr)
-            sys.exit(UNAVAILABLE)
-        sys.exit(subprocess.run([python, *sys.argv], check=False).returncode)
-
-
 def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--venv", type=Path, required=True)
     parser.add_argument("--seed", type=int, default=2019)
     options = parser.parse_args()
-    ensure_packages(options.venv)
+    ensure_packages(options.venv, REQUIREMENTS, ("scipy.stats", "statsmodels.api"))
     json.dump(results(options.seed), sys.stdout)
 
 

@@ -1,7 +1,6 @@
 //! The same data by statsmodels and SciPy: see `statistics_against_python.py`.
 
-use std::path::Path;
-use std::process::Command;
+mod python;
 
 use serde_json::Value;
 use sprag_sim_host::statistics::{DemandPoint, Fragility, Level, Observation, PowerLaw, fragility, normal, quantile, student};
@@ -48,25 +47,11 @@ fn statsmodels_and_scipy_agree() {
     assert!(differences.0.len() == 14);
 }
 
-/// What Python finds; `None`, with a line that says so, where there is none or its packages cannot be had.
+/// What Python finds; `None` where that cannot be had.
 fn reference() -> Option<Value> {
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/statistics_against_python.py");
-    let venv = Path::new(env!("CARGO_TARGET_TMPDIR")).join("python");
-    let skipped = |why: &str| eprintln!("SKIPPED: comparison of power laws and fragilities with statsmodels and SciPy: {why}");
-    let output = match Command::new("python3").arg(&script).arg("--venv").arg(&venv).output() {
-        Ok(output) => output,
-        Err(error) => {
-            skipped(&format!("python3: {error}"));
-            return None;
-        }
-    };
-    let errors = String::from_utf8_lossy(&output.stderr);
-    if output.status.code() == Some(3) {
-        skipped(errors.trim().lines().last().unwrap_or_default());
-        return None;
-    }
-    assert!(output.status.success(), "{}: {errors}", script.display());
-    Some(serde_json::from_slice(&output.stdout).unwrap())
+    let what = "power laws and fragilities with statsmodels and SciPy";
+    let printed = python::printed("statistics_against_python.py", "python", &[], what)?;
+    Some(serde_json::from_slice(&printed).unwrap())
 }
 
 fn array(value: &Value) -> &Vec<Value> {
