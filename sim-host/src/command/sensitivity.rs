@@ -116,16 +116,15 @@ fn run_or_fail(
     interrupt: &Interrupt,
 ) -> Result<bool, Failure> {
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
-    let Studied { scene, study, motions, errors, folder, findings } =
-        arguments.accuracy.run(|change| studied(arguments, change, interrupt), tell)?;
-    for error in &errors {
+    let studied = arguments.accuracy.run(|change| studied(arguments, change, interrupt), tell)?;
+    for error in &studied.errors {
         let _ = writeln!(err, "sprag: {error}");
     }
-    write(arguments, &scene, &study, &motions, &findings, &folder, out, err)?;
-    for error in &findings.failed {
+    write(arguments, &studied, out, err)?;
+    for error in &studied.findings.failed {
         let _ = writeln!(err, "sprag: {error}");
     }
-    Ok(errors.is_empty() && findings.failed.is_empty())
+    Ok(studied.errors.is_empty() && studied.findings.failed.is_empty())
 }
 
 /// A study that was run.
@@ -194,16 +193,8 @@ fn records(arguments: &SensitivityArguments, scene: &Scene) -> Result<Vec<Record
 }
 
 /// Writes the results.
-fn write(
-    arguments: &SensitivityArguments,
-    scene: &Scene,
-    study: &Study,
-    motions: &[StudyMotion],
-    findings: &Findings,
-    folder: &Path,
-    out: &mut impl Write,
-    err: &mut impl Write,
-) -> Result<(), Failure> {
+fn write(arguments: &SensitivityArguments, studied: &Studied, out: &mut impl Write, err: &mut impl Write) -> Result<(), Failure> {
+    let Studied { scene, study, motions, folder, findings, .. } = studied;
     let runs = summaries(findings, motions, &study.devices);
     let records: Vec<&str> = motions.iter().filter(|motion| !motion.own).map(|motion| motion.name.as_str()).collect();
     let left_out = [&study.left_out[..], &findings.left_out, &findings.failed].concat();
