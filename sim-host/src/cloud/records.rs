@@ -8,9 +8,11 @@ use rayon::prelude::*;
 use super::measure::MeasuredRecord;
 use super::study::{Study, check_record};
 use super::study_file::{DescribedRecord, RecordEntry};
-use crate::record::{Component, ReadOptions, Record};
+use crate::ground_motion::{self, GroundMotion};
+use crate::record::{Component, ReadOptions, Record, STANDARD_GRAVITY_M_S2};
 use crate::scene::SceneError;
 use crate::scene::error::Key;
+use crate::scene::motions::GroundMotions;
 
 /// Endings of the files that a folder is searched for. A file that is named is read whatever its ending.
 pub const ENDINGS: [&str; 8] = ["acc", "at2", "csv", "dat", "g3", "json", "smc", "txt"];
@@ -26,6 +28,16 @@ pub struct StudyRecord {
     pub name: String,
     /// The record and its measures.
     pub motion: MeasuredRecord,
+}
+
+impl StudyRecord {
+    /// The record times `factor` as a ground motion that starts at `start_s`.
+    pub fn ground(&self, factor: f64, start_s: f64) -> GroundMotions {
+        let Record { acceleration_m_s2, time_step_s, .. } = &self.motion.record;
+        let samples = acceleration_m_s2.iter().map(|a| factor * a / STANDARD_GRAVITY_M_S2);
+        let component = ground_motion::Component::record(start_s, *time_step_s, samples);
+        GroundMotions { horizontal: GroundMotion::sum(&[component]), vertical: None }
+    }
 }
 
 /// The records of a study, and what could not be read.

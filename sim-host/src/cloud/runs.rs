@@ -10,10 +10,8 @@ use crate::accuracy::{ErrorEstimate, Worst};
 use crate::ensemble::machine::{Registers, shake};
 use crate::ensemble::plain::PlainBlock;
 use crate::ensemble::records::{Samples, Shaken, ShakenBlock};
-use crate::ground_motion::{Component, GroundMotion};
 use crate::interrupt::Interrupt;
 use crate::outcome::Outcome;
-use crate::record::STANDARD_GRAVITY_M_S2;
 use crate::scene::Scene;
 use crate::scene::motions::GroundMotions;
 use crate::simulation::{RunError, simulate};
@@ -140,7 +138,7 @@ impl Runs {
 }
 
 /// The factors on `motion`; levels without one go to `left_out`.
-fn scales(
+pub(crate) fn scales(
     study: &Study,
     structure: &StudyStructure,
     motion: &StudyRecord,
@@ -236,11 +234,7 @@ impl Subject<'_> {
 
     /// The motion of the ground.
     fn ground(&self, shaking: &Shaking<'_>) -> GroundMotions {
-        let record = &shaking.motion.motion.record;
-        let samples = record.acceleration_m_s2.iter().map(|a| shaking.factor * a / STANDARD_GRAVITY_M_S2);
-        let start = self.structure.scene.file.ground[0].start_s;
-        let component = Component::record(start, record.time_step_s, samples);
-        GroundMotions { horizontal: GroundMotion::sum(&[component]), vertical: None }
+        shaking.motion.ground(shaking.factor, self.structure.scene.file.ground[0].start_s)
     }
 
     /// The run of one device by itself.

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::BAD_INPUT;
 use super::format_arguments::FormatArguments;
-use super::record::time_step;
+use super::study_input::{StudyArguments, StudyInputError};
 use crate::accuracy::{AccuracyArguments, Worst};
 use crate::cloud::figures::{demand_picture, fragility_picture};
 use crate::cloud::findings::Findings;
@@ -17,16 +17,14 @@ use crate::cloud::pages::{demand_page, demand_table, fragility_notes, fragility_
 use crate::cloud::records::StudyRecords;
 use crate::cloud::runs::Runs;
 use crate::cloud::structures::StudyStructure;
-use crate::cloud::study::{Study, StudyError};
-use crate::cloud::study_file::{RecordTable, StudyFile};
+use crate::cloud::study::Study;
+use crate::cloud::study_file::StudyFile;
 use crate::cloud::typed_tables::{DemandTable, FragilityTable, RankingTable, RunsTable};
 use crate::columns::{Table, TableError, metadata_of};
 use crate::interrupt::{self, Interrupt};
 use crate::output::{Formats, OutputError, Results, make_folder};
 use crate::plot::PlotError;
 use crate::progress::Progress;
-use crate::record::Units;
-use crate::scene::SceneError;
 use crate::simulation::RunError;
 
 /// Demand regressions and overturning fragilities over many records (Figures 15 and 16).
@@ -38,27 +36,9 @@ use crate::simulation::RunError;
     and summary.json. A record that cannot be read and a run that fails are named, the others are still done, and the exit\n\
     code is 2.")]
 pub struct CloudArguments {
-    /// Study file.
-    #[arg(value_name = "STUDY.toml")]
-    pub study: PathBuf,
-    /// Records and folders of them, in the place of the study's.
-    #[arg(long, value_name = "PATH", num_args = 1..)]
-    pub records: Vec<PathBuf>,
-    /// Units of files that do not state theirs: g, m/s2, cm/s2 (gal) or in/s2.
-    #[arg(long, value_name = "U")]
-    pub units: Option<Units>,
-    /// Time step in s of files that do not state theirs, or a stated one with more digits.
-    #[arg(long, value_name = "S", value_parser = time_step)]
-    pub dt: Option<f64>,
-    /// Component of files with several: a name such as x or y, or a number from 1.
-    #[arg(long, value_name = "C")]
-    pub component: Option<String>,
-    /// Resample linearly to this time step in s, also from unequal steps.
-    #[arg(long, value_name = "S", value_parser = time_step)]
-    pub resample: Option<f64>,
-    /// Change one value of the study's scene, such as block.size_m=2 or device.1.mass_ratio=0.5.
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set: Vec<String>,
+    /// The study.
+    #[command(flatten)]
+    pub input: StudyArguments,
     /// Folder for the results; out/NAME of the study by default.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -76,11 +56,7 @@ pub struct CloudArguments {
 #[derive(Debug, thiserror::Error)]
 enum Failure {
     #[error("{0}")]
-    Study(#[from] StudyError),
-    #[error("{0}")]
-    Record(#[from] SceneError),
-    #[error("{}: no record could be read{}", study.display(), first.as_ref().map_or_else(String::new, |line| format!("; {line}")))]
-    NoRecord { study: PathBuf, first: Option<String> },
+    Input(#[from] StudyInputError),
     #[error("{0}")]
     Run(#[from] RunError),
     #[error("{0}")]
@@ -151,9 +127,7 @@ fn run_or_fail(
     err: &mut impl Write,
     interrupt: &Interrupt,
 ) -> Result<bool, Failure> {
-    let folder = arguments.out.clone().unwrap_or_else(|| {
-        Path::new("out").join(arguments.study.file_stem().map_or_else(|| "study".into(), |stem| stem.to_os_string()))
-    });
+    let folder = arguments.out.clone().unwrap_or_else(|| arguments.input.folder());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
     let progress = Progress::new("runs");
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
@@ -168,7 +142,7 @@ fn run_or_fail(
         return Err(RunError::Interrupted.into());
     }
     let complete = write(&Studied { study, records, runs }, &findings, &folder, arguments.formats.formats, out, err)?;
-    let _ = writeln!(out, "results of {} in {}", arguments.study.display(), folder.display());
+    let _ = writeln!(out, "results of {} in {}", arguments.input.study.display(), folder.display());
     Ok(complete)
 }
 
@@ -179,19 +153,8 @@ fn studied(
     progress: &Progress,
     interrupt: &Interrupt,
 ) -> Result<Studied, Failure> {
-    let mut changes = arguments.set.clone();
-    changes.extend(change);
-    let mut study = Study::load(&arguments.study, &changes, &arguments.records)?;
-    study.apply_record_options(&RecordTable {
-        units: arguments.units.map(|units| units.to_string()),
-        time_step_s: arguments.dt,
-        component: arguments.component.clone(),
-        resample_to_s: arguments.resample,
-    });
-    let records = StudyRecords::read(&study)?;
-    if records.records.is_empty() {
-        return Err(Failure::NoRecord { study: arguments.study.clone(), first: records.unreadable.first().cloned() });
-    }
+    let study = arguments.input.load(change)?;
+    let records = arguments.input.read(&study)?;
     // Where the results go is tried before the work, not after it.
     make_folder(folder)?;
     let runs = Runs::of(&study, &records.records, interrupt, |runs| progress.begin(runs), &|| progress.step())?;

@@ -25,6 +25,7 @@ pub mod record;
 pub mod sensitivity;
 pub mod similar;
 pub mod simulate;
+pub mod study_input;
 pub mod synthesize;
 
 use std::fmt::Display;

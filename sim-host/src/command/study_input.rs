@@ -1,0 +1,94 @@
+//! What commands that run a study over records have in common: the study, its records, and what is said of them on the command line.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::record::time_step;
+use crate::cloud::records::StudyRecords;
+use crate::cloud::study::{Study, StudyError};
+use crate::cloud::study_file::RecordTable;
+use crate::record::Units;
+use crate::scene::SceneError;
+
+/// A study and its records.
+#[derive(Args, Clone, Debug)]
+pub struct StudyArguments {
+    /// Study file.
+    #[arg(value_name = "STUDY.toml")]
+    pub study: PathBuf,
+    /// Records and folders of them, in the place of the study's.
+    #[arg(long, value_name = "PATH", num_args = 1..)]
+    pub records: Vec<PathBuf>,
+    /// Units of files that do not state theirs: g, m/s2, cm/s2 (gal) or in/s2.
+    #[arg(long, value_name = "U")]
+    pub units: Option<Units>,
+    /// Time step in s of files that do not state theirs, or a stated one with more digits.
+    #[arg(long, value_name = "S", value_parser = time_step)]
+    pub dt: Option<f64>,
+    /// Component of files with several: a name such as x or y, or a number from 1.
+    #[arg(long, value_name = "C")]
+    pub component: Option<String>,
+    /// Resample linearly to this time step in s, also from unequal steps.
+    #[arg(long, value_name = "S", value_parser = time_step)]
+    pub resample: Option<f64>,
+    /// Change one value of the study's scene, such as block.size_m=2 or device.1.mass_ratio=0.5.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+}
+
+/// A study or records that cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyInputError {
+    /// The study, or its scene.
+    #[error("{0}")]
+    Study(#[from] StudyError),
+    /// What the study says of a record.
+    #[error("{0}")]
+    Record(#[from] SceneError),
+    /// There is no record at all.
+    #[error("{}: no record could be read{}", study.display(), first.as_ref().map_or_else(String::new, |line| format!("; {line}")))]
+    NoRecord {
+        /// The study.
+        study: PathBuf,
+        /// Why the first could not be read.
+        first: Option<String>,
+    },
+}
+
+impl StudyArguments {
+    /// The study, with one more `change` of its scene.
+    ///
+    /// # Errors
+    /// [`StudyInputError::Study`].
+    pub fn load(&self, change: Option<String>) -> Result<Study, StudyInputError> {
+        let mut changes = self.set.clone();
+        changes.extend(change);
+        let mut study = Study::load(&self.study, &changes, &self.records)?;
+        study.apply_record_options(&RecordTable {
+            units: self.units.map(|units| units.to_string()),
+            time_step_s: self.dt,
+            component: self.component.clone(),
+            resample_to_s: self.resample,
+        });
+        Ok(study)
+    }
+
+    /// The records of `study`, one at least.
+    ///
+    /// # Errors
+    /// [`StudyInputError`] for what the study says of them, and where none can be read.
+    pub fn read(&self, study: &Study) -> Result<StudyRecords, StudyInputError> {
+        let records = StudyRecords::read(study)?;
+        if records.records.is_empty() {
+            let first = records.unreadable.first().cloned();
+            return Err(StudyInputError::NoRecord { study: self.study.clone(), first });
+        }
+        Ok(records)
+    }
+
+    /// out/NAME of the study.
+    pub fn folder(&self) -> PathBuf {
+        Path::new("out").join(self.study.file_stem().map_or_else(|| "study".into(), |stem| stem.to_os_string()))
+    }
+}
