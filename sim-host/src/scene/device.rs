@@ -115,6 +115,29 @@ pub struct DeviceTable {
     pub weight: Option<WeightTable>,
 }
 
+impl DeviceTable {
+    /// The ideal device of this kind, at the centre of mass; without a mass ratio yet.
+    pub fn of(kind: Kind) -> DeviceTable {
+        DeviceTable {
+            kind,
+            name: None,
+            mass_ratio: None,
+            inertance_kg: None,
+            flywheels: None,
+            mount: None,
+            mount_height_m: None,
+            pulley_ratio: None,
+            kinematics: None,
+            engagement: None,
+            flywheel: None,
+            clutch: None,
+            rack: None,
+            actuation: None,
+            weight: None,
+        }
+    }
+}
+
 /// Kinds of devices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -178,6 +201,17 @@ pub enum MountName {
     TyingPoint,
     /// Vertical at both base corners.
     BaseCorners,
+}
+
+impl MountName {
+    /// As scenes spell it.
+    pub fn name(self) -> &'static str {
+        match self {
+            MountName::CentreOfMass => "centre-of-mass",
+            MountName::TyingPoint => "tying-point",
+            MountName::BaseCorners => "base-corners",
+        }
+    }
 }
 
 /// Paper or consistent.
@@ -260,19 +294,30 @@ fn resolve_inerter(table: &DeviceTable, block_mass: Option<f64>, key: &KeyOf<'_>
         (None, None, None) => return Err(key("mass_ratio").missing("mass_ratio, inertance_kg or flywheels")),
         _ => return Err(key("mass_ratio").conflict("give only one of mass_ratio, inertance_kg and flywheels")),
     };
-    let pulley_ratio = table.pulley_ratio.unwrap_or(1.0);
-    let mount = match (table.mount.unwrap_or_default(), table.mount_height_m) {
-        (MountName::TyingPoint, Some(height)) => Mount::TyingPoint { height, pulley_ratio },
-        (MountName::TyingPoint, None) => {
-            return Err(key("mount_height_m").missing("the height of the tying point above the base, in m"));
-        }
-        (_, Some(_)) => return Err(key("mount_height_m").conflict("only a mount of kind \"tying-point\" has a height")),
-        (MountName::BaseCorners, None) => Mount::BaseCorners { pulley_ratio },
-        (MountName::CentreOfMass, None) if table.pulley_ratio.is_some() => {
-            return Err(key("pulley_ratio").conflict("a pulley needs a mount of kind \"tying-point\" or \"base-corners\""));
-        }
-        (MountName::CentreOfMass, None) => Mount::CentreOfMass,
-    };
+    let mount = resolve_mount(table.mount.unwrap_or_default(), table.mount_height_m, table.pulley_ratio, key)?;
     let kinematics = table.kinematics.map_or(KinematicsKind::Paper, KinematicsKind::from);
     Ok(Device { kind, mass_ratio, mount, kinematics })
+}
+
+/// The mount of these keys; ranges are left to [`Mount::lever`].
+///
+/// # Errors
+/// [`SceneError`] names the key.
+pub(crate) fn resolve_mount(
+    mount: MountName,
+    height: Option<f64>,
+    pulley_ratio: Option<f64>,
+    key: &KeyOf<'_>,
+) -> Result<Mount, SceneError> {
+    let ratio = pulley_ratio.unwrap_or(1.0);
+    match (mount, height) {
+        (MountName::TyingPoint, Some(height)) => Ok(Mount::TyingPoint { height, pulley_ratio: ratio }),
+        (MountName::TyingPoint, None) => Err(key("mount_height_m").missing("the height of the tying point above the base, in m")),
+        (_, Some(_)) => Err(key("mount_height_m").conflict("only a mount of kind \"tying-point\" has a height")),
+        (MountName::BaseCorners, None) => Ok(Mount::BaseCorners { pulley_ratio: ratio }),
+        (MountName::CentreOfMass, None) if pulley_ratio.is_some() => {
+            Err(key("pulley_ratio").conflict("a pulley needs a mount of kind \"tying-point\" or \"base-corners\""))
+        }
+        (MountName::CentreOfMass, None) => Ok(Mount::CentreOfMass),
+    }
 }

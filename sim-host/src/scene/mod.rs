@@ -24,7 +24,7 @@ use sprag_shared::structure::{Restitution, Structure, WithSystem};
 pub use device::SceneDevice;
 pub use error::SceneError;
 use ground::Direction;
-use schema::SceneFile;
+use schema::{DeviceTable, SceneFile};
 
 /// Largest scene file that is read, bytes.
 pub const LARGEST_FILE: u64 = 1 << 20;
@@ -173,6 +173,15 @@ impl Scene {
         scene.file.output.energy = false;
         scene.file.checks = None;
         scene
+    }
+
+    /// With `device` in the place of its devices.
+    ///
+    /// # Errors
+    /// [`SceneError`] names the key of `device` as that of device 0, and what it may be.
+    pub fn with_device(&self, device: DeviceTable) -> Result<Scene, SceneError> {
+        let scene = Scene::check(SceneFile { device: vec![device], ..self.file.clone() }, &self.origin)?;
+        Ok(Scene { folder: self.folder.clone(), ..scene })
     }
 
     /// Full or slender.
