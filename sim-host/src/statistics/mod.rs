@@ -6,6 +6,7 @@
 //! - [`mod@fragility`]: the lognormal probability of overturning by maximum likelihood; [`fragility_curve`]: what it says at an
 //!   intensity; [`observation`]: the runs that it is fitted to.
 //! - [`bootstrap`]: its bands by resampling.
+//! - [`proportion`]: what a share of a sample says of a probability.
 //! - [`level`], [`mod@quantile`]: confidence levels and bands, quantiles of a sample.
 //! - [`normal`], [`student`]: the distributions behind them.
 //!
@@ -20,6 +21,7 @@ pub mod normal;
 pub mod observation;
 pub mod power_law;
 mod probit;
+pub mod proportion;
 pub mod quantile;
 mod resample;
 pub mod student;
