@@ -9,7 +9,7 @@ use super::curve::write_curve;
 use super::layer::{document, escape, units, write_area};
 use super::legend::{Key, Swatch, write_heading};
 use super::marker::device_marker;
-use super::palette::{Stroke, device_look};
+use super::palette::{INK, Stroke, device_look};
 use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
 use super::panel_heading::Heading;
 use super::rug::{Rug, rugs_px};
@@ -212,7 +212,7 @@ impl CloudFigure {
             others.push((Swatch::Band(BAND_OPACITY), self.band.clone()));
         }
         if marked {
-            others.push((Swatch::Mark(device_marker(0)), self.marks.clone()));
+            others.push((Swatch::Mark(device_marker(0), INK), self.marks.clone()));
         }
         if all().any(|series| series.rug.is_some()) {
             others.push((Swatch::Ticks, "a motion: above when it overturns the block, below when not".to_owned()));

@@ -4,7 +4,7 @@ use plotters::style::RGBColor;
 
 use super::device_trace::DeviceTrace;
 use super::layer::{Text, escape, text_width_px, units, write_area, write_disc, write_rect};
-use super::marker::Marker;
+use super::marker::{Marker, write_chosen};
 use super::palette::{DeviceLook, FLYWHEEL_TINTS, INK, Stroke, hex};
 
 const TITLE_FONT_PX: f64 = 14.0;
@@ -31,10 +31,14 @@ pub(super) enum Swatch {
     MarkedLine(Stroke),
     /// A piece of a fitted line on its band, with the mark of what it was fitted to.
     Fitted(DeviceLook, Option<Marker>),
-    /// A mark of any device.
-    Mark(Marker),
+    /// A mark in a colour of no device.
+    Mark(Marker, RGBColor),
+    /// The mark of a choice, with its band.
+    Chosen,
     /// A band of this opacity.
     Band(f64),
+    /// A line in the middle of its band of this opacity.
+    BandedLine(Stroke, f64),
     /// Ticks of a rug.
     Ticks,
     /// A tint.
@@ -151,10 +155,15 @@ fn write_swatch(svg: &mut String, swatch: Swatch, x_px: f64, middle_px: f64) {
                 marker.write(svg, (x_px + 0.5 * SWATCH_PX, middle_px), look.colour);
             }
         }
-        Swatch::Mark(marker) => marker.write(svg, (x_px + 0.5 * SWATCH_PX, middle_px), INK),
+        Swatch::Mark(marker, colour) => marker.write(svg, (x_px + 0.5 * SWATCH_PX, middle_px), colour),
+        Swatch::Chosen => write_chosen(svg, (x_px + 0.5 * SWATCH_PX, middle_px), (middle_px + 7.0, middle_px - 7.0)),
         Swatch::Band(opacity) => {
             let [left, right, top, bottom] = [x_px, x_px + SWATCH_PX, middle_px - 5.0, middle_px + 5.0];
             write_area(svg, &[(left, top), (right, top), (right, bottom), (left, bottom)], INK, opacity);
+        }
+        Swatch::BandedLine(stroke, opacity) => {
+            write_swatch(svg, Swatch::Band(opacity), x_px, middle_px);
+            write_swatch(svg, Swatch::Line(stroke), x_px, middle_px);
         }
         Swatch::Ticks => {
             let ticks: String =

@@ -3,7 +3,7 @@
 use plotters::style::RGBColor;
 
 use super::layer::units;
-use super::palette::hex;
+use super::palette::{INK, hex};
 
 /// Half of a mark's size (px).
 const HALF_PX: f64 = 2.7;
@@ -45,4 +45,26 @@ impl Marker {
         };
         svg.push_str(&format!("<path d=\"{path}\" {style}/>\n"));
     }
+}
+
+/// Radius of the ring around a choice (px).
+const RING_PX: f64 = 5.6;
+
+/// Appends the mark of a choice around a position in pixels: a ring, with whiskers to the heights of a band's `ends`.
+pub(super) fn write_chosen(svg: &mut String, (x_px, y_px): (f64, f64), ends: (f64, f64)) {
+    let (x, y, ink) = (units(x_px), units(y_px), hex(INK));
+    svg.push_str(&format!(
+        "<circle cx=\"{x}\" cy=\"{y}\" r=\"{}\" fill=\"none\" stroke=\"{ink}\" stroke-width=\"16\"/>\n",
+        units(RING_PX)
+    ));
+    let cap = units(3.5);
+    let whisker = |end_px: f64| {
+        let way = if end_px < y_px { -1.0 } else { 1.0 };
+        let end = units(end_px);
+        // From the ring on, if the band reaches that far.
+        let from = if way * (end_px - y_px) > RING_PX { units(y_px + way * RING_PX) } else { end };
+        format!("M{x} {from}V{end}M{} {end}h{}", x - cap, 2 * cap)
+    };
+    let path = whisker(ends.0) + &whisker(ends.1);
+    svg.push_str(&format!("<path d=\"{path}\" fill=\"none\" stroke=\"{ink}\" stroke-width=\"10\"/>\n"));
 }

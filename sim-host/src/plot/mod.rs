@@ -1,4 +1,4 @@
-//! Figures as SVG text: responses, energies, sensitivities, closed loops, maps of outcomes, clouds of runs, charts of lines.
+//! Figures as SVG text: responses, energies, sensitivities, closed loops, maps of outcomes, clouds of runs, trade-offs, charts of lines.
 //!
 //! plotters draws axes and curves; clip, dash patterns, tints and formula labels are SVG around its output. [`png()`] makes dots of it.
 
@@ -30,6 +30,7 @@ mod sensitivity_figure;
 mod synthetic;
 mod ticks;
 mod time_axis;
+mod trade_off_figure;
 
 pub use cell::{Cell, Class, band};
 pub use cell_map::{CellMap, CellMaps, cell_map_figure};
@@ -43,6 +44,7 @@ pub use rug::Rug;
 pub use sensitivity_figure::{OwnMark, SensitivityLane, SensitivityRow, sensitivity_figure};
 pub use ticks::Scale;
 pub use time_axis::TimeAxis;
+pub use trade_off_figure::{TradeOffFigure, TradeOffMark, TradeOffPanel, TradeOffPoint, trade_off_figure};
 
 /// Why a figure could not be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

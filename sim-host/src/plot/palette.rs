@@ -45,6 +45,9 @@ pub(super) const INK: RGBColor = RGBColor(34, 34, 34);
 /// Reference lines.
 pub(super) const GUIDE: RGBColor = RGBColor(150, 150, 150);
 
+/// A front below lines and marks.
+pub(super) const FRONT: RGBColor = RGBColor(205, 205, 205);
+
 /// The ground motion.
 pub(super) const GROUND: RGBColor = RGBColor(90, 90, 90);
 
