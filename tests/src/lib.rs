@@ -7,6 +7,7 @@ pub mod device_loop;
 pub mod dice;
 pub mod emulation;
 pub mod flash;
+pub mod pulses;
 pub mod reference;
 pub mod sample_tape;
 

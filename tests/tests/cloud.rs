@@ -4,10 +4,8 @@
 //! records is not part of the repository.
 
 use std::collections::BTreeSet;
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use sprag_shared::math;
 use sprag_sim_host::cloud::demand::Demand;
 use sprag_sim_host::cloud::figures::{demand_picture, fragility_picture};
 use sprag_sim_host::cloud::findings::Findings;
@@ -20,29 +18,10 @@ use sprag_sim_host::columns::{Table, write_csv};
 use sprag_sim_host::interrupt::Interrupt;
 use sprag_sim_host::simulation::RunError;
 use sprag_sim_host::statistics::Fragility;
+use sprag_tests::pulses::sine_pulses;
 
 const RECORDS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/records");
 const STUDY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/cloud.toml");
-
-/// Folder of one-cycle sine pulses, amplitude (g) by period (s), every 0.01 s.
-fn pulses(amplitudes: &[f64], periods: &[f64]) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    for amplitude in amplitudes {
-        for period in periods {
-            let mut text = "time_s,acc_g\n".to_owned();
-            let at = |time: f64| match (time - 0.5) / period {
-                cycle @ 0.0..1.0 => amplitude * math::sin(core::f64::consts::TAU * cycle),
-                _ => 0.0,
-            };
-            for sample in 0..400 {
-                let time = 0.01 * f64::from(sample);
-                let _ = writeln!(text, "{time:.2},{:.8}", at(time));
-            }
-            std::fs::write(folder.path().join(format!("a{amplitude}_t{period}.csv")), text).unwrap();
-        }
-    }
-    folder
-}
 
 fn study(text: &str, records: &Path) -> Study {
     Study::parse(text, "study.toml", Path::new(""), &[], &[PathBuf::from(records)]).unwrap()
@@ -74,7 +53,7 @@ fn written(study: &Study, (records, runs, findings): &(StudyRecords, Runs, Findi
 
 #[test]
 fn results_have_the_same_bytes_for_every_number_of_threads() {
-    let folder = pulses(&[0.15, 0.3, 0.45, 0.6], &[0.5, 0.9, 1.4]);
+    let folder = sine_pulses(&[0.15, 0.3, 0.45, 0.6], &[0.5, 0.9, 1.4]);
     let text = "scale = [1.0, 1.7]\n[[structure]]\nname = 'small'\nset = { 'block.size_m' = 1.0 }\n[bootstrap]\nresamples = 100";
     let study = study(text, folder.path());
     let by = |threads: usize| {
@@ -87,7 +66,7 @@ fn results_have_the_same_bytes_for_every_number_of_threads() {
 
 #[test]
 fn runs_are_in_order_and_counted_once() {
-    let folder = pulses(&[0.1, 0.4, 0.8], &[0.6, 1.2]);
+    let folder = sine_pulses(&[0.1, 0.4, 0.8], &[0.6, 1.2]);
     let study = study("scale = [1.0, 2.0]", folder.path());
     let (records, runs, findings) = run(&study);
     assert_eq!((records.records.len(), runs.all.len()), (6, 6 * 2 * 3));
@@ -111,7 +90,7 @@ fn runs_are_in_order_and_counted_once() {
 
 #[test]
 fn a_set_in_which_nothing_overturns_says_so() {
-    let folder = pulses(&[0.2, 0.25, 0.3], &[0.3, 0.4]);
+    let folder = sine_pulses(&[0.2, 0.25, 0.3], &[0.3, 0.4]);
     let study = study("title = 'Weak pulses'", folder.path());
     let results = run(&study);
     assert!(results.2.fragility.iter().all(|found| matches!(found.fragility, Fragility::NeverOverturned { number: 6, .. })));
@@ -125,7 +104,7 @@ fn a_set_in_which_nothing_overturns_says_so() {
 
 #[test]
 fn stripes_have_the_level_that_was_asked_for() {
-    let folder = pulses(&[0.2, 0.4], &[0.5, 1.0]);
+    let folder = sine_pulses(&[0.2, 0.4], &[0.5, 1.0]);
     let study = study("[stripes]\nmeasure = 'pgv'\nlevels = [0.5, 1.0, 1.5, 2.0, 4.0]", folder.path());
     let (_, runs, findings) = run(&study);
     assert_eq!((runs.all.len(), runs.left_out.len()), (4 * 5 * 3, 0));
@@ -138,7 +117,7 @@ fn stripes_have_the_level_that_was_asked_for() {
 
 #[test]
 fn an_interrupted_study_has_no_results() {
-    let folder = pulses(&[0.4], &[0.5, 1.0]);
+    let folder = sine_pulses(&[0.4], &[0.5, 1.0]);
     let study = study("", folder.path());
     let records = StudyRecords::read(&study).unwrap();
     let interrupt = Interrupt::default();
