@@ -2,7 +2,8 @@
 //!
 //! - [`scene`], [`record`], [`ground_motion`], [`synthesis`]: what is simulated.
 //! - [`simulation`]: one scene, every device; [`batch`]: many dimensionless cases; [`accuracy`]: as accurate as asked, and how accurate that is.
-//! - [`cloud`], [`statistics`]: demands and fragilities over many records; [`sensitivity`]: what each effect changes.
+//! - [`cloud`], [`statistics`]: demands and fragilities over many records; [`optimise`]: the device that overturns least;
+//!   [`sensitivity`]: what each effect changes.
 //! - [`history`], [`outcome`], [`plot`], [`summary_table`], [`columns`], [`output`]: what comes out.
 //! - [`long_run`]: work that is split, interrupted and resumed.
 //! - [`closed_loop`], [`device`]: the controller on the host, and the firmware in its place.
@@ -28,6 +29,7 @@ pub mod long_run;
 #[cfg(feature = "effects")]
 pub mod loop_study;
 pub mod map;
+pub mod optimise;
 pub mod outcome;
 pub mod output;
 pub mod plot;

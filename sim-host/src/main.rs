@@ -6,7 +6,9 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 #[cfg(feature = "effects")]
 use sprag_sim_host::command::{accuracy, closed_loop, device, hil, loop_study};
-use sprag_sim_host::command::{batch, cloud, effects, explain, map, record, sensitivity, similar, simulate, synthesize};
+use sprag_sim_host::command::{
+    batch, cloud, effects, explain, map, optimise, record, sensitivity, similar, simulate, synthesize,
+};
 use sprag_sim_host::interrupt::Interrupt;
 
 /// Rocking structures with inerters and clutches: simulate, and get the numbers to decide with.
@@ -23,6 +25,7 @@ enum Command {
     Batch(batch::BatchArguments),
     Map(map::MapArguments),
     Cloud(cloud::CloudArguments),
+    Optimise(optimise::OptimiseArguments),
     Similar(similar::SimilarArguments),
     Sensitivity(sensitivity::SensitivityArguments),
     #[cfg(feature = "effects")]
@@ -50,6 +53,7 @@ fn main() -> ExitCode {
         Command::Batch(arguments) => batch::run(arguments, &mut err, &interrupt),
         Command::Similar(arguments) => similar::run(arguments, &mut out, &mut err, &interrupt),
         Command::Cloud(arguments) => cloud::run(arguments, &mut out, &mut err, &interrupt),
+        Command::Optimise(arguments) => optimise::run(arguments, &mut out, &mut err, &interrupt),
         Command::Map(arguments) => map::run(arguments, &mut out, &mut err, &interrupt),
         Command::Sensitivity(arguments) => sensitivity::run(arguments, &mut out, &mut err, &interrupt),
         #[cfg(feature = "effects")]

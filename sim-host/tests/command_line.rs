@@ -400,11 +400,103 @@ fn bad_input_of_cloud_costs_one_line() {
     line("", &["--records", "a.csv", "--set", "block.colour=red"], &["colour"]);
 }
 
+/// Records of pulses of several amplitudes (g), in a folder of their own.
+fn folder_of_pulses(folder: &Path) -> String {
+    let records = folder.join("records");
+    fs::create_dir_all(&records).unwrap();
+    for (number, peak) in [0.2, -0.3, 0.4, -0.5, 0.7].into_iter().enumerate() {
+        fs::write(records.join(format!("{number}.csv")), pulse(peak)).unwrap();
+    }
+    records.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn optimise_writes_its_five_files_and_does_not_depend_on_the_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let records = folder_of_pulses(folder.path());
+    let outs = ["1", "3"].map(|threads| {
+        let out = folder.path().join(threads);
+        let line = ["optimise", &scene("optimise"), "--threads", threads, "--out", out.to_str().unwrap(), "--records", &records];
+        let output = sprag(&line);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let table = String::from_utf8(output.stdout).unwrap();
+        assert!(table.contains("| bare block") && table.contains("| best") && table.contains("5 motions"), "{table}");
+        out
+    });
+    let mut files: Vec<_> = fs::read_dir(&outs[0]).unwrap().map(|file| file.unwrap().file_name()).collect();
+    files.sort();
+    assert_eq!(files, ["designs.csv", "motions.csv", "optimise.md", "summary.json", "trade_off.svg"]);
+    for name in &files {
+        let [one, other] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
+        assert!(one == other && !one.is_empty(), "{name:?}");
+    }
+    let summary: serde_json::Value = serde_json::from_slice(&fs::read(outs[0].join("summary.json")).unwrap()).unwrap();
+    assert_eq!((&summary["command"], &summary["reference"]["law"]), (&"optimise".into(), &"none".into()));
+    assert_eq!(summary["structure"]["scene"]["block"]["size_m"], 1.0);
+    assert_eq!(summary["study"]["optimise"]["limit_quantile"], 1.0);
+    for key in ["law", "mount", "mass_ratio", "probability", "probability_band", "peak_force_ratio", "stroke_m", "feasible"] {
+        assert!(!summary["best"][key].is_null(), "{key}: {}", summary["best"]);
+    }
+    let table = fs::read_to_string(outs[0].join("designs.csv")).unwrap();
+    assert_eq!(table.lines().count() as u64, 2 + summary["designs"].as_u64().unwrap());
+}
+
+#[test]
+fn an_optimisation_without_a_device_within_the_limit_writes_its_results_and_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let records = folder_of_pulses(folder.path());
+    let study = folder.path().join("study.toml");
+    let keys = "mass_ratio = { from = 0.5, to = 1, cells = 2 }\nlaws = ['rigid', 'inerter']\nmounts = ['base-corners']";
+    fs::write(&study, format!("[optimise]\nlargest_force_ratio = 1e-4\n{keys}")).unwrap();
+    let out = folder.path().join("out");
+    let output = sprag(&["optimise", study.to_str().unwrap(), "--out", out.to_str().unwrap(), "--records", &records]);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(
+        message.contains("study.toml: no device respects max |F|/(mg) ≤ 0.0001 in every motion; results are written"),
+        "{message}"
+    );
+    assert!(message.contains("left out: rigid, base-corners: "), "{message}");
+    assert!(String::from_utf8_lossy(&output.stdout).contains("nearest to the limits"));
+    let summary: serde_json::Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+    assert!(summary["best"].is_null() && summary["nearest"]["demand_over_limit"].as_f64().unwrap() > 1.0);
+}
+
+#[test]
+fn bad_input_of_optimise_costs_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let study = folder.path().join("study.toml");
+    let line = |text: &str, more: &[&str], words: &[&str]| {
+        fs::write(&study, text).unwrap();
+        refused(&[&["optimise", study.to_str().unwrap(), "--out", out.to_str().unwrap()], more].concat(), &out, words);
+    };
+    let records = ["--records", "a.csv"];
+    line("", &[], &["study.toml: records is missing", "--records"]);
+    line("", &records, &["no record could be read", "a.csv"]);
+    line("[optimise]\nlimit = 1", &records, &["study.toml:2", "limit"]);
+    line("[optimise]\nlargest_force_ratio = -0.1", &records, &["study.toml: optimise.largest_force_ratio is -0.1", "above 0"]);
+    line("[optimise]\nlaws = ['magic']", &records, &["optimise.laws.0 is \"magic\"", "\"overrunning\""]);
+    line("", &["--records", "a.csv", "--set", "accuracy.colour=red"], &["colour"]);
+    let step_end = ["--set", "accuracy.step_s=0.01", "--set", "accuracy.events=step-end"];
+    line("", &[&records[..], &step_end].concat(), &["accuracy.events", "located"]);
+}
+
 #[test]
 fn every_subcommand_has_help_with_an_example() {
-    for command in
-        ["simulate", "loop", "loop-study", "batch", "cloud", "sensitivity", "record", "synthesize", "effects", "explain"]
-    {
+    for command in [
+        "simulate",
+        "loop",
+        "loop-study",
+        "batch",
+        "cloud",
+        "optimise",
+        "sensitivity",
+        "record",
+        "synthesize",
+        "effects",
+        "explain",
+    ] {
         let output = sprag(&[command, "--help"]);
         let help = String::from_utf8(output.stdout).unwrap();
         assert!(output.status.success() && help.contains("Example"), "{command}: {help}");

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use serde::{Deserialize, Serialize};
 
 use super::measure::Measure;
+use crate::optimise::table::OptimiseTable;
 
 /// A study file.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -44,6 +45,9 @@ pub struct StudyFile {
     /// `[bootstrap]`.
     #[serde(default)]
     pub bootstrap: BootstrapTable,
+    /// `[optimise]`, for `sprag optimise`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub optimise: Option<OptimiseTable>,
 }
 
 fn all_measures() -> Vec<Measure> {

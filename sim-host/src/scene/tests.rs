@@ -108,7 +108,7 @@ fn every_scene_of_the_repository_is_read() {
     let mut count = 0;
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
-        if path.ends_with("cloud.toml") {
+        if path.ends_with("cloud.toml") || path.ends_with("optimise.toml") {
             // A study, whose structures are scenes.
             Study::load(&path, &[], &[folder.to_owned()]).unwrap_or_else(|error| panic!("{error}"));
         } else if path.extension().is_some_and(|extension| extension == "toml") {

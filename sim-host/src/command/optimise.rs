@@ -1,0 +1,269 @@
+//! `sprag optimise`: the inerter's size, mount and clutch law that overturn a structure least under limits on force and stroke.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde::Serialize;
+
+use super::BAD_INPUT;
+use super::format_arguments::FormatArguments;
+use super::study_input::{StudyArguments, StudyInputError};
+use crate::accuracy::{AccuracyArguments, Worst};
+use crate::cloud::records::StudyRecords;
+use crate::cloud::structures::StudyStructure;
+use crate::cloud::study::Study;
+use crate::cloud::study_file::{RecordEntry, RecordTable, StripesTable};
+use crate::columns::{TableError, metadata_of};
+use crate::interrupt::{self, Interrupt};
+use crate::optimise::curve::Curve;
+use crate::optimise::figure::trade_off_picture;
+use crate::optimise::findings::Findings;
+use crate::optimise::page::{choice_table, heading, limits, page};
+use crate::optimise::problem::{Choices, Problem, Solution};
+use crate::optimise::table::OptimiseTable;
+use crate::optimise::typed_tables::{DesignTable, MotionTable};
+use crate::output::{Formats, OutputError, Results, make_folder};
+use crate::plot::PlotError;
+use crate::progress::Progress;
+use crate::scene::SceneError;
+use crate::simulation::RunError;
+
+/// Choose a device: the mass ratio, mount and clutch law that overturn least, under a limit on force or stroke.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag optimise scenes/optimise.toml --records records/\n  \
+    sprag optimise study.toml --records near_fault/*.AT2 --set block.size_m=3 --out out/pier\n\n\
+    Tries devices on a grid of mass ratios, for every law and mount of the study's [optimise] table, under every record, scaled\n\
+    as the study says; then more where a limit is reached and around the best. Writes the tables designs and motions as .csv and\n\
+    .parquet, the picture trade_off as .svg and .png, optimise.md and summary.json. The exit code is 2 when no device respects the limits, and when a record cannot be read or\n\
+    a run fails; results are written all the same.")]
+pub struct OptimiseArguments {
+    /// The study.
+    #[command(flatten)]
+    pub input: StudyArguments,
+    /// Folder for the results; out/NAME of the study by default.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Threads; all cores by default. The result does not depend on it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// What is written.
+    #[command(flatten)]
+    pub formats: FormatArguments,
+    /// How accurate.
+    #[command(flatten)]
+    pub accuracy: AccuracyArguments,
+}
+
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error("{0}")]
+    Input(#[from] StudyInputError),
+    #[error("{0}")]
+    Choices(#[from] SceneError),
+    #[error("{}: there is no motion{}", study.display(), first.as_ref().map_or_else(String::new, |line| format!("; {line}")))]
+    NoMotion { study: PathBuf, first: Option<String> },
+    #[error("{0}")]
+    Run(#[from] RunError),
+    #[error("{}: no device could be tried; {first}", study.display())]
+    AllFailed { study: PathBuf, first: String },
+    #[error("the picture cannot be drawn: {0}")]
+    Plot(#[from] PlotError),
+    #[error("{0}")]
+    Output(#[from] OutputError),
+    #[error("{0}")]
+    Table(#[from] TableError),
+    #[error("the threads cannot be started: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+/// `summary.json`.
+#[derive(Serialize)]
+struct Document<'a> {
+    command: &'static str,
+    version: &'static str,
+    study: Resolved<'a>,
+    structure: &'a StudyStructure,
+    curves: &'a [Curve],
+    records: Vec<&'a str>,
+    unreadable: &'a [String],
+    #[serde(flatten)]
+    findings: &'a Findings,
+    left_out: &'a [String],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    accuracy: Option<Worst>,
+}
+
+/// What the Parquet files say of themselves.
+#[derive(Serialize)]
+struct MadeBy<'a> {
+    command: &'static str,
+    version: &'static str,
+    study: &'a Resolved<'a>,
+    structure: &'a StudyStructure,
+}
+
+/// What of the study an optimisation reads, with defaults filled in.
+#[derive(Serialize)]
+struct Resolved<'a> {
+    title: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scene: Option<&'a Path>,
+    records: &'a [RecordEntry],
+    record: &'a RecordTable,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scale: Option<&'a [f64]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stripes: Option<&'a StripesTable>,
+    optimise: &'a OptimiseTable,
+}
+
+/// Runs the command; a table goes to `out`, errors go to `err`.
+pub fn run(arguments: &OptimiseArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
+    match run_or_fail(arguments, out, err, interrupt) {
+        Ok(true) => 0,
+        Ok(false) => BAD_INPUT,
+        Err(Failure::Run(RunError::Interrupted)) => {
+            let _ = writeln!(err, "sprag: interrupted; nothing was written");
+            interrupt::EXIT_CODE
+        }
+        Err(failure) => {
+            let _ = writeln!(err, "sprag: {failure}");
+            BAD_INPUT
+        }
+    }
+}
+
+/// A study, its records, and how it was answered.
+struct Answered {
+    study: Study,
+    records: StudyRecords,
+    solution: Solution,
+}
+
+/// Whether there is a device, and everything could be read and run.
+fn run_or_fail(
+    arguments: &OptimiseArguments,
+    out: &mut impl Write,
+    err: &mut impl Write,
+    interrupt: &Interrupt,
+) -> Result<bool, Failure> {
+    let folder = arguments.out.clone().unwrap_or_else(|| arguments.input.folder());
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
+    let progress = Progress::new("runs");
+    let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
+    let answered =
+        arguments.accuracy.run(|change| pool.install(|| answered(arguments, change, &folder, &progress, interrupt)), tell)?;
+    progress.finish();
+    let Answered { study, records, solution } = &answered;
+    let problem = Problem::new(Choices::of(study)?, &records.records);
+    let findings = Findings::of(&problem, solution);
+    if interrupt.is_set() {
+        return Err(RunError::Interrupted.into());
+    }
+    let left_out = [&problem.choices.left_out[..], &problem.left_out, &solution.failures].concat();
+    write(&answered, &problem, &findings, &left_out, (&folder, arguments.formats.formats), err)?;
+    tell_all(&problem, &findings, out);
+    for line in &records.unreadable {
+        let _ = writeln!(err, "sprag: {line}");
+    }
+    for line in &left_out {
+        let _ = writeln!(err, "sprag: left out: {line}");
+    }
+    if let Some(worst) = solution.worst {
+        let _ = writeln!(out, "accuracy: {worst}");
+    }
+    let _ = writeln!(out, "results of {} in {}", arguments.input.study.display(), folder.display());
+    if findings.best.is_none() {
+        let study = arguments.input.study.display();
+        let why = match &findings.nearest {
+            Some(_) => format!("no device respects {}", limits(&problem.choices)),
+            None => "no device has a response to every motion".to_owned(),
+        };
+        let _ = writeln!(err, "sprag: {study}: {why}; results are written");
+    }
+    Ok(findings.best.is_some() && records.unreadable.is_empty() && solution.failures.is_empty())
+}
+
+fn answered(
+    arguments: &OptimiseArguments,
+    change: Option<String>,
+    folder: &Path,
+    progress: &Progress,
+    interrupt: &Interrupt,
+) -> Result<Answered, Failure> {
+    let study = arguments.input.load(change)?;
+    let choices = Choices::of(&study)?;
+    let records = arguments.input.read(&study)?;
+    let problem = Problem::new(choices, &records.records);
+    let file = || arguments.input.study.clone();
+    if problem.motions.is_empty() {
+        return Err(Failure::NoMotion { study: file(), first: problem.left_out.first().cloned() });
+    }
+    // Where the results go is tried before the work, not after it.
+    make_folder(folder)?;
+    let solution = problem.solve(interrupt, &|runs| progress.begin(runs), &|| progress.step())?;
+    if solution.designs.iter().all(|design| design.score.motions == 0) {
+        let first = solution.failures.first().cloned().unwrap_or_default();
+        return Err(Failure::AllFailed { study: file(), first });
+    }
+    Ok(Answered { study, records, solution })
+}
+
+/// Writes the results.
+fn write(
+    Answered { study, records, solution }: &Answered,
+    problem: &Problem<'_>,
+    findings: &Findings,
+    left_out: &[String],
+    (folder, formats): (&Path, Formats),
+    err: &mut impl Write,
+) -> Result<(), Failure> {
+    let choices = &problem.choices;
+    let document = Document {
+        command: "optimise",
+        version: env!("CARGO_PKG_VERSION"),
+        study: Resolved {
+            title: &study.file.title,
+            scene: study.file.scene.as_deref(),
+            records: &study.file.records,
+            record: &study.file.record,
+            scale: study.file.scale.as_deref(),
+            stripes: study.file.stripes.as_ref(),
+            optimise: &choices.table,
+        },
+        structure: choices.structure,
+        curves: &choices.curves,
+        records: records.records.iter().map(|record| record.name.as_str()).collect(),
+        unreadable: &records.unreadable,
+        findings,
+        left_out,
+        accuracy: solution.worst,
+    };
+    let picture = trade_off_picture(problem, findings)?;
+    let mut results = Results::default();
+    results.add_json(&folder.join("summary.json"), &document)?;
+    let made_by = metadata_of(&MadeBy {
+        command: document.command,
+        version: document.version,
+        study: &document.study,
+        structure: document.structure,
+    })?;
+    results.add_table(folder, "designs", &DesignTable(findings), &made_by, formats)?;
+    let motions = MotionTable { problem, solution, chosen: findings.best.as_ref() };
+    results.add_table(folder, "motions", &motions, &made_by, formats)?;
+    results.add(&folder.join("optimise.md"), |file| file.write_all(page(problem, findings).as_bytes()))?;
+    results.add_picture(folder, "trade_off", &picture, formats)?;
+    results.commit_telling(err)?;
+    Ok(())
+}
+
+/// The table of the choice, and what to know of it.
+fn tell_all(problem: &Problem<'_>, findings: &Findings, out: &mut impl Write) {
+    let Findings { motions, designs, runs, notes, .. } = findings;
+    let _ = writeln!(out, "{}: {motions} motions, {}", heading(&problem.choices), limits(&problem.choices));
+    let _ = writeln!(out, "{designs} devices tried in {runs} runs\n\n{}", choice_table(findings).markdown());
+    for note in notes {
+        let _ = writeln!(out, "{note}");
+    }
+}

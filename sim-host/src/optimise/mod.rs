@@ -1,0 +1,28 @@
+//! The device that overturns a structure least, under limits on its force and stroke.
+//!
+//! - [`table`], [`law`], [`mount`], [`curve`]: which devices there are to choose from; [`limit`]: what they may ask for.
+//! - [`motion`], [`response`], [`problem`]: what each does under each motion.
+//! - [`design`], [`search`]: devices and what they come to, on a grid of mass ratios and where it matters in between.
+//! - [`choice`], [`front`], [`findings`]: which is best, and at what price.
+//! - [`typed_tables`], [`page`], [`figure`]: tables and pictures of it.
+
+pub mod choice;
+pub mod curve;
+pub mod design;
+pub mod figure;
+pub mod findings;
+pub mod front;
+pub mod law;
+pub mod limit;
+pub mod motion;
+pub mod mount;
+mod notes;
+pub mod page;
+pub mod problem;
+pub mod response;
+pub mod search;
+pub mod table;
+pub mod typed_tables;
+
+#[cfg(test)]
+mod tests;

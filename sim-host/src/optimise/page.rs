@@ -1,0 +1,157 @@
+//! The choice as a page of tables, and the table for the terminal.
+
+use super::findings::{Findings, Row};
+use super::limit::Quantity;
+use super::notes::{device, share, short};
+use super::problem::{Choices, Problem};
+use crate::cloud::pages::percent;
+use crate::cloud::table::{Table, number};
+
+/// The heading of an optimisation.
+pub fn heading<'a>(choices: &'a Choices<'_>) -> &'a str {
+    let title = &choices.study.file.title;
+    if title.is_empty() { "Choice of a device" } else { title }
+}
+
+/// The bare block, the choice, and what would be chosen without limits if that is another.
+pub fn choice_table(findings: &Findings) -> Table {
+    let mut rows = vec![("bare block", &findings.reference)];
+    rows.extend(findings.best.as_ref().map(|row| ("best", row)));
+    rows.extend(findings.nearest.as_ref().map(|nearest| ("nearest to the limits", &nearest.design)));
+    let chosen = findings.best.as_ref().and_then(|row| row.candidate);
+    let unlimited = findings.best_without_limits.as_ref().filter(|row| row.candidate != chosen);
+    rows.extend(unlimited.map(|row| ("best without limits", row)));
+    table(findings, &rows)
+}
+
+/// Rows, each under what it is.
+fn table(findings: &Findings, rows: &[(&str, &Row)]) -> Table {
+    let band = format!("{} band", percent(findings.level.value()));
+    let titles = ["", "device", "overturned", "share", &band, "saved", "newly", "F/(mg)", "stroke (m)", "median θ/α"];
+    // Without the first column where it says nothing.
+    let first = usize::from(rows.iter().all(|(what, _)| what.is_empty()));
+    let mut table = Table::new(2 - first, &titles[first..]);
+    for (what, row) in rows {
+        let band = row.probability_band;
+        let of_device = |value: Option<f64>, digits: usize| number(value.filter(|_| row.candidate.is_some()), digits);
+        let cells = [
+            (*what).to_owned(),
+            device(row),
+            format!("{} of {}", row.overturned, row.motions),
+            tenths(row.probability),
+            format!("{} to {}", tenths(band.low), tenths(band.high)),
+            of_device(Some(row.saved as f64), 0),
+            of_device(Some(row.newly_overturned as f64), 0),
+            of_device(Some(row.peak_force_ratio), 4),
+            number(row.stroke_m, 4),
+            row.median_peak_rotation.map_or_else(|| "overturned".to_owned(), |rotation| number(Some(rotation), 3)),
+        ];
+        table.row(cells[first..].to_vec());
+    }
+    table
+}
+
+/// A share in percent with one decimal.
+fn tenths(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+/// What is limited, in words; empty without limits.
+pub fn limits(choices: &Choices<'_>) -> String {
+    let limits = choices.limits;
+    let force = limits.force.map(|limit| format!("max |F|/(mg) ≤ {limit}"));
+    let stroke = limits.stroke.map(|limit| format!("stroke ≤ {limit} m"));
+    let all: Vec<String> = force.into_iter().chain(stroke).collect();
+    if all.is_empty() { "no limit".to_owned() } else { format!("{} {}", all.join(" and "), motions_held(limits.quantile)) }
+}
+
+fn motions_held(quantile: f64) -> String {
+    if quantile == 1.0 { "in every motion".to_owned() } else { format!("as the {} quantile of the motions", percent(quantile)) }
+}
+
+/// `optimise.md`.
+pub fn page(problem: &Problem<'_>, findings: &Findings) -> String {
+    let choices = &problem.choices;
+    let mut page = format!("# {}\n\n", heading(choices));
+    page += &format!(
+        "The device for the structure \"{}\" that overturns under the fewest of {} motions, under {}.\n\n",
+        choices.structure.name,
+        findings.motions,
+        limits(choices)
+    );
+    page += &choice_table(findings).markdown();
+    let force = if choices.limits.force_of_overturned {
+        "over all motions, until the block lies down where they overturn it"
+    } else {
+        "over the motions in which the block stands"
+    };
+    page += &format!(
+        "\nBand: Wilson's, of the probability behind the share, as if motions were independent; those of one record at several scales\n\
+         are not. Saved and newly: motions that overturn the bare block and not this one, and this one and not the bare block.\n\
+         F/(mg): {force}; stroke: over the motions in which the\n\
+         block stands. Median θ/α: over the motions that rock the bare block, where overturning counts as infinite.\n"
+    );
+    for note in &findings.notes {
+        page += &format!("\n{note}\n");
+    }
+    if findings.neighbours.len() > 1 {
+        page +=
+            "\n## Its neighbours\n\nThe next smaller and larger mass ratio of the first grid, with the same law and mount.\n\n";
+        let best = findings.best.as_ref().and_then(|row| row.candidate);
+        let what = |row: &Row| match (row.candidate == best, row.mass_ratio < best.map(|at| at.mass_ratio), row.feasible) {
+            (true, ..) => "best",
+            (false, true, true) => "smaller",
+            (false, true, false) => "smaller, beyond the limit",
+            (false, false, true) => "larger",
+            (false, false, false) => "larger, beyond the limit",
+        };
+        let rows: Vec<(&str, &Row)> = findings.neighbours.iter().map(|row| (what(row), row)).collect();
+        page += &table(findings, &rows).markdown();
+    }
+    if choices.curves.len() > 1 && !findings.best_of_each.is_empty() {
+        page += "\n## The best of each law and mount\n\n";
+        let rows: Vec<(&str, &Row)> = findings.best_of_each.iter().map(|row| ("", row)).collect();
+        page += &table(findings, &rows).markdown();
+    }
+    page += &price(choices, findings);
+    page
+}
+
+/// What limits cost: where they are reached, and the fronts.
+fn price(choices: &Choices<'_>, findings: &Findings) -> String {
+    let mut page = String::new();
+    if let (Some(best), Some(without), true) = (&findings.best, &findings.best_without_limits, choices.limits.any()) {
+        page += "\n## What the limit costs\n\n";
+        page += &if without.overturned < best.overturned {
+            format!(
+                "Without a limit {} would overturn under {} instead of {}, with F/(mg) up to {:.4}.\n",
+                device(without),
+                share(without),
+                best.overturned,
+                without.peak_force_ratio
+            )
+        } else {
+            format!("Nothing in overturning: without a limit the best device overturns under {} too.\n", share(without))
+        };
+    }
+    if !findings.limits_reached.is_empty() {
+        page += "\n| limit | law, mount | within at σ | beyond at σ |\n| --- | --- | ---: | ---: |\n";
+        for found in &findings.limits_reached {
+            let name = if found.limit == Quantity::Force { "force" } else { "stroke" };
+            let [within, beyond] = [found.mass_ratio_within, found.mass_ratio_beyond].map(short);
+            page += &format!("| {name} | {}, {} | {within} | {beyond} |\n", found.law, found.mount);
+        }
+    }
+    let stroke = choices.limits.stroke.map(|_| ("stroke", &findings.fronts.stroke));
+    for (name, front) in std::iter::once(("force", &findings.fronts.force)).chain(stroke) {
+        page += &format!("\n## Overturning against {name}\n\nNo device tried overturns under fewer motions for the same {name}");
+        page += if choices.limits.force.is_some() && choices.limits.stroke.is_some() {
+            " within the other limit.\n\n"
+        } else {
+            ".\n\n"
+        };
+        let rows: Vec<(&str, &Row)> = front.iter().map(|row| (if row.feasible { "" } else { "beyond the limit" }, row)).collect();
+        page += &table(findings, &rows).markdown();
+    }
+    page
+}

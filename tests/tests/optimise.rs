@@ -1,0 +1,304 @@
+//! The choice of a device by the library: what is chosen is the best of what was tried, and does what a simulation of it does.
+//!
+//! `cargo test -p sprag-tests --test optimise -- --nocapture` prints the choice under a few recorded motions. The folder of records is
+//! not part of the repository.
+
+use std::path::{Path, PathBuf};
+
+use sprag_sim_host::cloud::records::StudyRecords;
+use sprag_sim_host::cloud::study::Study;
+use sprag_sim_host::columns::write_csv;
+use sprag_sim_host::interrupt::Interrupt;
+use sprag_sim_host::optimise::figure::trade_off_picture;
+use sprag_sim_host::optimise::findings::{Findings, Row};
+use sprag_sim_host::optimise::page::{choice_table, page};
+use sprag_sim_host::optimise::problem::{Choices, Problem, Solution};
+use sprag_sim_host::optimise::typed_tables::{DesignTable, MotionTable};
+use sprag_sim_host::outcome::Outcome;
+use sprag_sim_host::scene::Scene;
+use sprag_sim_host::simulation::{DeviceRun, RunError, simulate};
+use sprag_sim_host::statistics::quantile;
+use sprag_tests::pulses::sine_pulses;
+use sprag_tests::shared_file;
+
+/// Pulses of which the bare block of 1 m survives some, and an optimisation over two laws and two mounts.
+const SCENE: &str = "[[structure]]\nname = 'small'\nset = { 'block.size_m' = 1.0 }\n";
+const SPACE: &str = "mass_ratio = { from = 0.1, to = 1.5, cells = 5 }\nlaws = ['inerter', 'clutched-pair']\n\
+                     mounts = ['centre-of-mass', { mount = 'base-corners', pulley_ratio = 3.0 }]\n";
+
+fn pulses() -> tempfile::TempDir {
+    sine_pulses(&[0.2, 0.35, 0.5, 0.8], &[0.5, 0.9, 1.4])
+}
+
+fn study(optimise: &str, records: &Path) -> Study {
+    let text = format!("{SCENE}[optimise]\n{SPACE}{optimise}");
+    Study::parse(&text, "study.toml", Path::new(""), &[], &[PathBuf::from(records)]).unwrap()
+}
+
+/// What `then` makes of the answer to `study`.
+fn answered<R>(study: &Study, then: impl FnOnce(&Problem<'_>, &Solution, &Findings) -> R) -> R {
+    let records = StudyRecords::read(study).unwrap();
+    let problem = Problem::new(Choices::of(study).unwrap(), &records.records);
+    let solution = problem.solve(&Interrupt::default(), &|_| (), &|| ()).unwrap();
+    let findings = Findings::of(&problem, &solution);
+    then(&problem, &solution, &findings)
+}
+
+/// The table of designs as numbers, by column.
+struct Designs {
+    titles: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Designs {
+    fn of(findings: &Findings) -> Designs {
+        let mut bytes = Vec::new();
+        write_csv(&DesignTable(findings), &mut bytes).unwrap();
+        let text = String::from_utf8(bytes).unwrap();
+        // Names of mounts with a pulley hold a comma.
+        let fields = |line: &str| -> Vec<String> {
+            let mut quoted = false;
+            let split = line.split(|c: char| {
+                quoted ^= c == '"';
+                c == ',' && !quoted
+            });
+            split.map(|field| field.trim_matches('"').to_owned()).collect()
+        };
+        let mut lines = text.lines().map(fields);
+        Designs { titles: lines.next().unwrap(), rows: lines.collect() }
+    }
+
+    fn text(&self, row: &[String], title: &str) -> String {
+        row[self.titles.iter().position(|other| other == title).unwrap_or_else(|| panic!("{title}"))].clone()
+    }
+
+    /// The number in a cell; an empty one is infinite.
+    fn number(&self, row: &[String], title: &str) -> f64 {
+        let text = self.text(row, title);
+        if text.is_empty() { f64::INFINITY } else { text.parse().unwrap() }
+    }
+
+    /// In the order of preference.
+    fn merit(&self, row: &[String]) -> [f64; 3] {
+        ["overturned", "median_peak_rotation", "peak_force_ratio"].map(|title| self.number(row, title))
+    }
+}
+
+fn less(one: [f64; 3], other: [f64; 3]) -> bool {
+    one.partial_cmp(&other) == Some(std::cmp::Ordering::Less)
+}
+
+#[test]
+fn the_best_is_the_least_of_the_table_and_respects_the_limits() {
+    let folder = pulses();
+    for (limits, asked) in [
+        ("largest_force_ratio = 0.15", [0.15, f64::INFINITY]),
+        ("largest_stroke_m = 0.12", [f64::INFINITY, 0.12]),
+        ("largest_force_ratio = 0.3\nlargest_stroke_m = 0.2", [0.3, 0.2]),
+        ("largest_force_ratio = 0.15\nlimit_quantile = 0.8", [0.15, f64::INFINITY]),
+        ("", [f64::INFINITY; 2]),
+    ] {
+        answered(&study(limits, folder.path()), |_, _, findings| {
+            let table = Designs::of(findings);
+            let best = findings.best.as_ref().unwrap();
+            let [bare, rows @ ..] = &table.rows[..] else { panic!() };
+            assert_eq!((table.text(bare, "law"), rows.len()), ("none".to_owned(), findings.designs));
+            let chosen: Vec<&Vec<String>> = rows.iter().filter(|row| is(&table, row, best)).collect();
+            let [chosen] = chosen[..] else { panic!("{limits}: {} rows are the best", chosen.len()) };
+            let respects = |row: &[String]| {
+                let stroke = table.number(row, "stroke_m");
+                // A stroke of a block that never stands is none.
+                table.number(row, "peak_force_ratio") <= asked[0] && (stroke <= asked[1] || stroke == f64::INFINITY)
+            };
+            assert!(respects(chosen), "{limits}: {chosen:?}");
+            for row in rows {
+                assert_eq!(table.text(row, "feasible") == "true", respects(row), "{limits}: {row:?}");
+                assert!(!respects(row) || !less(table.merit(row), table.merit(chosen)), "{limits}: {row:?} before {chosen:?}");
+            }
+            // The limits are felt, or the test would show nothing.
+            let refused = rows.iter().filter(|row| !respects(row)).count();
+            assert_eq!(refused > 0, !limits.is_empty(), "{limits}");
+        });
+    }
+}
+
+/// Whether `row` of the table is this one.
+fn is(table: &Designs, row: &[String], this: &Row) -> bool {
+    let [law, mount] = ["law", "mount"].map(|title| table.text(row, title));
+    law == this.law && Some(mount) == this.mount && this.mass_ratio == Some(table.number(row, "mass_ratio"))
+}
+
+#[test]
+fn nothing_tried_betters_a_member_of_a_front() {
+    let folder = pulses();
+    answered(&study("largest_stroke_m = 0.15", folder.path()), |problem, _, findings| {
+        let table = Designs::of(findings);
+        let within = |row: &[String], quantity: &str| quantity == "stroke_m" || table.text(row, "feasible") == "true";
+        for (front, quantity, rows) in [
+            ("on_force_front", "peak_force_ratio", &findings.fronts.force),
+            ("on_stroke_front", "stroke_m", &findings.fronts.stroke),
+        ] {
+            // The bare block has no device, and asks for nothing.
+            let asks = |row: &[String]| if table.text(row, "law") == "none" { 0.0 } else { table.number(row, quantity) };
+            let points: Vec<(f64, f64, bool)> = table
+                .rows
+                .iter()
+                .filter(|row| within(row, quantity))
+                .map(|row| (asks(row), table.number(row, "overturned"), table.text(row, front) == "true"))
+                .collect();
+            let betters = |a: &(f64, f64, bool), b: &(f64, f64, bool)| a.0 <= b.0 && a.1 <= b.1 && (a.0, a.1) != (b.0, b.1);
+            for point in &points {
+                assert_eq!(point.2, !points.iter().any(|other| betters(other, point)), "{front}: {point:?}");
+            }
+            let members = points.iter().filter(|point| point.2).count();
+            assert!(members == rows.len() && members > 2, "{members} members");
+            assert!(rows.windows(2).all(|pair| pair[0].overturned >= pair[1].overturned));
+        }
+        assert!(trade_off_picture(problem, findings).unwrap().contains("stroke, max |"));
+    });
+}
+
+#[test]
+fn a_tighter_limit_never_overturns_less() {
+    let folder = pulses();
+    let mut before: Option<(f64, f64, usize)> = None;
+    let mut counts = Vec::new();
+    for limit in [0.6, 0.4, 0.3, 0.2, 0.08] {
+        answered(&study(&format!("largest_force_ratio = {limit}"), folder.path()), |_, _, findings| {
+            let best = findings.best.as_ref().unwrap();
+            if let Some((looser, low, overturned)) = before {
+                assert!(best.overturned >= overturned && best.probability_band.low >= low, "{limit} and {looser}");
+            }
+            assert!(best.peak_force_ratio <= limit && best.probability == best.overturned as f64 / 12.0);
+            before = Some((limit, best.probability_band.low, best.overturned));
+            counts.push(best.overturned);
+        });
+    }
+    assert!(counts[0] < counts[4], "the limit is felt: {counts:?}");
+}
+
+#[test]
+fn results_have_the_same_bytes_for_every_number_of_threads() {
+    let folder = pulses();
+    let study = study("largest_force_ratio = 0.2\nlargest_stroke_m = 0.3", folder.path());
+    let by = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            answered(&study, |problem, solution, findings| {
+                let mut bytes = Vec::new();
+                write_csv(&DesignTable(findings), &mut bytes).unwrap();
+                let chosen = findings.best.as_ref();
+                write_csv(&MotionTable { problem, solution, chosen }, &mut bytes).unwrap();
+                bytes.extend(page(problem, findings).into_bytes());
+                bytes.extend(choice_table(findings).markdown().into_bytes());
+                bytes.extend(trade_off_picture(problem, findings).unwrap().into_bytes());
+                bytes
+            })
+        })
+    };
+    let one = by(1);
+    assert!(one.len() > 10_000 && one == by(3));
+}
+
+#[test]
+fn no_design_within_the_limits_is_said_with_the_nearest() {
+    let folder = pulses();
+    answered(&study("largest_force_ratio = 0.001", folder.path()), |problem, _, findings| {
+        assert!(findings.best.is_none() && findings.best_of_each.is_empty() && findings.neighbours.is_empty());
+        let nearest = findings.nearest.as_ref().unwrap();
+        let least = findings.rows.iter().map(|row| row.peak_force_ratio).fold(f64::INFINITY, f64::min);
+        assert_eq!(nearest.design.peak_force_ratio, least);
+        assert!((nearest.demand_over_limit - least / 0.001).abs() < 1e-9 && nearest.demand_over_limit > 1.0);
+        assert!(page(problem, findings).contains("No device respects the limits."));
+        trade_off_picture(problem, findings).unwrap();
+    });
+}
+
+#[test]
+fn without_overturning_the_choice_is_by_rotation() {
+    let folder = sine_pulses(&[0.2, 0.25], &[0.3, 0.4]);
+    answered(&study("", folder.path()), |_, solution, findings| {
+        let best = findings.best.as_ref().unwrap();
+        assert_eq!((best.overturned, findings.reference.overturned), (0, 0));
+        assert!(findings.notes.iter().any(|note| note.contains("the choice is by peak rotation only")), "{:?}", findings.notes);
+        let least = solution.designs.iter().map(|design| design.score.median_rotation).fold(f64::INFINITY, f64::min);
+        assert_eq!(best.median_peak_rotation, Some(least));
+        assert!(best.median_peak_rotation < findings.reference.median_peak_rotation);
+    });
+}
+
+#[test]
+fn an_interrupted_search_has_no_results() {
+    let folder = sine_pulses(&[0.4], &[0.5, 1.0]);
+    let study = study("", folder.path());
+    let records = StudyRecords::read(&study).unwrap();
+    let problem = Problem::new(Choices::of(&study).unwrap(), &records.records);
+    let interrupt = Interrupt::default();
+    let stopped = problem.solve(&interrupt, &|_| (), &|| interrupt.set());
+    assert!(matches!(stopped, Err(RunError::Interrupted)));
+}
+
+/// The device of `best` under one record, as a scene of its own says it: by `sprag simulate`.
+fn simulated(best: &Row, record: &Path, size_m: f64) -> DeviceRun {
+    let mount = match best.mount.as_deref() {
+        Some("centre-of-mass") => "mount = 'centre-of-mass'",
+        Some("base-corners, pulley 3") => "mount = 'base-corners'\npulley_ratio = 3.0",
+        other => panic!("{other:?}"),
+    };
+    let text = format!(
+        "[block]\nsize_m = {size_m:?}\nslenderness_deg = 10.0\nrestitution = 0.85\n[[device]]\nkind = '{}'\nmass_ratio = {:?}\n{mount}\n\
+         [[ground]]\nmotion = 'record'\nfile = '{}'\n[run]\nfree_time_s = 10.0\n[checks]\n",
+        best.law,
+        best.mass_ratio.unwrap(),
+        record.display()
+    );
+    let scene = Scene::parse(&text, "again.toml").unwrap();
+    simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0)
+}
+
+/// Outcomes, forces and strokes of the best design, again.
+fn simulated_again(study: &Study, path_of: impl Fn(&str) -> PathBuf) {
+    answered(study, |problem, solution, findings| {
+        let best = findings.best.as_ref().unwrap();
+        let design = solution.designs.iter().find(|design| design.candidate == best.candidate).unwrap();
+        let runs: Vec<DeviceRun> =
+            problem.motions.iter().map(|motion| simulated(best, &path_of(&motion.record.name), 1.0)).collect();
+        for ((motion, response), run) in problem.motions.iter().zip(&design.responses).zip(&runs) {
+            let response = response.as_ref().unwrap();
+            assert_eq!((response.outcome, response.peak_rotation), (run.outcome, run.peak_rotation), "{}", motion.name());
+            let checks = run.checks.as_ref().unwrap();
+            assert_eq!(response.force_ratio, checks.force_ratio.unwrap_or(0.0), "{}", motion.name());
+            assert_eq!(response.stroke_m, checks.stroke_m.unwrap_or(0.0), "{}", motion.name());
+            // What a history samples is never above the largest, and not far below.
+            assert!(
+                run.peak_force_ratio <= response.force_ratio * (1.0 + 1e-9) && run.peak_force_ratio >= 0.9 * response.force_ratio
+            );
+        }
+        assert_eq!(best.overturned, runs.iter().filter(|run| run.outcome.overturned()).count());
+        let forces: Vec<f64> = runs.iter().map(|run| run.checks.as_ref().unwrap().force_ratio.unwrap_or(0.0)).collect();
+        assert_eq!(Some(best.peak_force_ratio), quantile(&forces, 1.0));
+        let standing = runs.iter().filter(|run| !run.outcome.overturned());
+        let stroke = standing.map(|run| run.checks.as_ref().unwrap().stroke_m.unwrap_or(0.0)).fold(0.0, f64::max);
+        assert_eq!(best.stroke_m, Some(stroke));
+        assert!(runs.iter().any(|run| run.outcome == Outcome::Safe));
+        eprintln!("{}", choice_table(findings).markdown());
+    });
+}
+
+#[test]
+fn the_best_device_does_the_same_in_a_scene_of_its_own() {
+    let folder = pulses();
+    simulated_again(&study("largest_force_ratio = 0.2", folder.path()), |name| folder.path().join(name));
+}
+
+#[test]
+fn the_same_holds_under_recorded_motions() {
+    let Some(folder) = shared_file("records/tclmodel_near_pulse") else { return };
+    let mut files: Vec<PathBuf> = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    let few = tempfile::tempdir().unwrap();
+    for file in files.iter().filter(|file| file.extension().is_some_and(|ending| ending == "AT2")).step_by(5) {
+        std::fs::copy(file, few.path().join(file.file_name().unwrap())).unwrap();
+    }
+    simulated_again(&study("largest_force_ratio = 0.25", few.path()), |name| few.path().join(name));
+}
