@@ -478,7 +478,8 @@ fn bad_input_of_optimise_costs_one_line() {
     line("[optimise]\nlargest_force_ratio = -0.1", &records, &["study.toml: optimise.largest_force_ratio is -0.1", "above 0"]);
     line("[optimise]\nlaws = ['magic']", &records, &["optimise.laws.0 is \"magic\"", "\"overrunning\""]);
     line("", &["--records", "a.csv", "--set", "accuracy.colour=red"], &["colour"]);
-    let step_end = ["--set", "accuracy.step_s=0.01", "--set", "accuracy.events=step-end"];
+    let method = ["--set", "accuracy.method=runge-kutta-4", "--set", "accuracy.step_s=0.01"];
+    let step_end = [&method[..], &["--set", "accuracy.events=step-end"]].concat();
     line("", &[&records[..], &step_end].concat(), &["accuracy.events", "located"]);
 }
 
