@@ -1,8 +1,10 @@
-//! How an axis of a map is called.
+//! How an axis of a map is called, and what is on none.
 
 use sprag_shared::block::Geometry;
 
 use crate::scene::Scene;
+use crate::scene::ground::Motion;
+use crate::scene::map::MapTable;
 
 /// The symbol of the scene's `key`, with its unit, in the markup of axis titles; the key itself where the field has no symbol for it.
 pub fn title(scene: &Scene, key: &str) -> String {
@@ -33,5 +35,47 @@ pub fn title(scene: &Scene, key: &str) -> String {
             }
         }
         _ => key.to_owned(),
+    }
+}
+
+/// The pulse of a scene that has no other motion, with those of its values that no axis of `map` sets, for headings; empty otherwise.
+pub fn pulse(scene: &Scene, map: &MapTable) -> String {
+    let [ground] = &scene.file.ground[..] else { return String::new() };
+    let mut text = match ground.motion {
+        Motion::Sine => "one-cycle sine".to_owned(),
+        Motion::Cosine => "one-cycle cosine".to_owned(),
+        _ => return String::new(),
+    };
+    let axes: Vec<&str> = [Some(&map.x), map.y.as_ref()].into_iter().flatten().map(|axis| axis.key.as_str()).collect();
+    let amplitude = ground.amplitude_ratio.map(|ratio| ground.scale * ratio);
+    for (key, value) in [("ground.0.amplitude_ratio", amplitude), ("ground.0.frequency_ratio", ground.frequency_ratio)] {
+        if let Some(value) = value.filter(|_| !axes.contains(&key)) {
+            // Headings have no markup.
+            text += &format!(", {} = {value}", title(scene, key).replace('*', ""));
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_heading_names_the_pulse_and_what_is_on_no_axis() {
+        let pulse = |motion: &str, y: &str| {
+            let x = "x = { key = 'ground.0.frequency_ratio', from = 1, to = 2, cells = 2 }";
+            let text = format!(
+                "block = {{ size_m = 2.0, slenderness_deg = 10.0 }}
+                 device = [{{ kind = 'none' }}]
+                 ground = [{{ motion = '{motion}', amplitude_ratio = 4.0, frequency_ratio = 3.0, scale = 2.0 }}]
+                 [map]\n{x}\n{y}"
+            );
+            let scene = Scene::parse(&text, "scene").unwrap();
+            super::pulse(&scene, scene.file.map.as_ref().unwrap())
+        };
+        assert_eq!(pulse("cosine", ""), "one-cycle cosine, a_g/(g tan α) = 8");
+        assert_eq!(pulse("sine", "y = { key = 'ground.0.amplitude_ratio', from = 1, to = 2, cells = 2 }"), "one-cycle sine");
+        assert_eq!(pulse("half-sine", ""), "");
     }
 }

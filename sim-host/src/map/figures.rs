@@ -2,7 +2,7 @@
 
 use sprag_shared::math;
 
-use super::axis::title;
+use super::axis::{pulse, title};
 use super::grid::Grid;
 use super::tally::{DeviceMap, Shown, Tally};
 use crate::ensemble::pulses::PulseResult;
@@ -15,7 +15,7 @@ use crate::scene::map::{AxisTable, ScaleName};
 type Peak = fn(&PulseResult) -> f64;
 
 /// Bands of a spectrum, at most.
-const BANDS: f64 = 12.0;
+const BANDS: f64 = 14.0;
 
 /// What the spectra show.
 const ROTATION: &str = "peak rotation max |θ|/α";
@@ -69,11 +69,11 @@ fn small_multiples(
     classes: Vec<Class>,
     class: impl Fn(&PulseResult) -> usize,
 ) -> CellMaps {
-    let heading = [grid.scene.file.title.as_str(), what];
+    let heading = [heading(grid), what.to_owned()];
     let cells = grid.columns() * grid.rows();
     let note = |map: &DeviceMap| format!("{} of {cells} overturn", map.counts.overturned());
     CellMaps {
-        title: heading.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(": "),
+        title: joined(heading, ": "),
         classes,
         scales: (scale(&grid.map.x), scale(y)),
         x_title: title(&grid.scene, &grid.map.x.key),
@@ -93,6 +93,16 @@ fn small_multiples(
             .collect(),
         columns: tally.maps.len().min(3),
     }
+}
+
+/// The scene's title and its pulse: one picture is told from another of the same scene.
+fn heading(grid: &Grid) -> String {
+    joined([grid.scene.file.title.clone(), pulse(&grid.scene, &grid.map)], ", ")
+}
+
+/// The parts that have something to say.
+fn joined(parts: [String; 2], between: &str) -> String {
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(between)
 }
 
 /// Peaks along the only axis, a line a device, broken where the block overturns.
@@ -120,7 +130,7 @@ fn cut(grid: &Grid, tally: &Tally) -> Result<String, PlotError> {
         .map(|(y_title, peak)| ChartPanel { y_title: y_title.to_owned(), lines: lines(peak), ..ChartPanel::default() })
         .collect();
     chart_figure(&Chart {
-        title: grid.scene.file.title.clone(),
+        title: heading(grid),
         x_title: title(&grid.scene, &grid.map.x.key),
         x: scale(&grid.map.x),
         panels,
@@ -153,7 +163,7 @@ mod tests {
         assert_eq!(limits(1.0).len(), 11);
         for largest in [0.003, 0.9, 1.07, 4.4, 12.0, 99.0, 3e5] {
             let limits = limits(largest);
-            assert!(limits.len() <= 13 && limits.len() >= 5, "{largest}: {limits:?}");
+            assert!(limits.len() <= 15 && limits.len() >= 5, "{largest}: {limits:?}");
             assert!(limits[limits.len() - 1] <= largest);
         }
         assert_eq!(limits(0.0), vec![0.0]);
