@@ -7,9 +7,11 @@ pub mod device_loop;
 pub mod dice;
 pub mod emulation;
 pub mod flash;
-pub mod pulses;
+pub mod pulse;
+pub mod pulse_records;
 pub mod reference;
 pub mod sample_tape;
+pub mod shipped;
 
 use std::path::PathBuf;
 

@@ -18,7 +18,7 @@ use sprag_sim_host::columns::{Table, write_csv};
 use sprag_sim_host::interrupt::Interrupt;
 use sprag_sim_host::simulation::RunError;
 use sprag_sim_host::statistics::Fragility;
-use sprag_tests::pulses::sine_pulses;
+use sprag_tests::pulse_records::sine_pulses;
 
 const RECORDS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/records");
 const STUDY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/cloud.toml");

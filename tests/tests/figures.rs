@@ -8,7 +8,9 @@ use sprag_shared::math::sin;
 use sprag_shared::rocking::{Phase, State};
 use sprag_shared::scalar::Sign;
 use sprag_shared::structure::DeviceKind;
-use sprag_tests::{FullLog, Segment, shake, unit_block};
+use sprag_sim_host::batch::case::PulseShape;
+use sprag_tests::FullLog;
+use sprag_tests::pulse::Pulsed;
 
 /// Outcome and peak rotation |θ|/α under one cycle of a sine with ω/p = `frequency` and a_g over the uplift threshold =
 /// `amplitude`.
@@ -19,10 +21,9 @@ fn sine_pulse(
     frequency: f64,
     amplitude: f64,
 ) -> (State<f64>, f64, FullLog) {
-    let structure = unit_block(geometry, degrees, device, 0.5, 0.85);
-    let level = amplitude * geometry.uplift_threshold(&structure.block);
-    let (state, log) = shake(&structure, &[Segment::sine(level, frequency, TAU / frequency), Segment::quiet(60.0)]);
-    (state, log.peaks.rotation / structure.block.slenderness(), log)
+    let pulsed = Pulsed { geometry, degrees, device, shape: PulseShape::Sine, frequency, amplitude };
+    let (state, log) = pulsed.follow(TAU / frequency + 60.0);
+    (state, log.peaks.rotation / degrees.to_radians(), log)
 }
 
 fn overturns(geometry: Geometry, degrees: f64, device: DeviceKind, frequency: f64, amplitude: f64) -> bool {

@@ -1,7 +1,5 @@
 //! Overturning maps: blocks in lanes against the reference cells, the counts of Figure 8, and what must not depend on threads.
 
-use std::path::Path;
-
 use sprag_sim_host::ensemble::machine::{Registers, run};
 use sprag_sim_host::ensemble::pulses::PulsedBlock;
 use sprag_sim_host::interrupt::Interrupt;
@@ -10,8 +8,8 @@ use sprag_sim_host::map::study::study;
 use sprag_sim_host::map::table::Labels;
 use sprag_sim_host::map::tally::Counts;
 use sprag_sim_host::progress::Progress;
-use sprag_sim_host::scene::{Scene, text_of};
 use sprag_tests::reference::{RelativeErrors, cells};
+use sprag_tests::shipped::grid;
 
 /// Blocks in lanes, whose free motions are settled by their first integral, are as right as the core.
 #[test]
@@ -36,19 +34,6 @@ fn reference_cells_in_lanes() {
     assert!(wrong.is_empty(), "{} wrong outcomes: {wrong:?}", wrong.len());
     rotation.hold("peak rotation", 709);
     acceleration.hold("peak acceleration", 709);
-}
-
-fn grid(scene: &str, changes: &[&str]) -> Grid {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(scene);
-    let origin = path.display().to_string();
-    let text = text_of(&path).expect("a scene that ships");
-    let mut table = Scene::table(&text, &origin).expect("TOML");
-    for change in changes {
-        sprag_sim_host::scene::overrides::apply(&mut table, change, &origin).expect("a key");
-    }
-    let mut scene = Scene::of_table(table.clone(), &origin, &[]).expect("a scene");
-    scene.folder = path.parent().expect("a folder").to_owned();
-    Grid::new(scene, table).expect("axes")
 }
 
 fn counts(changes: &[&str]) -> Vec<Counts> {

@@ -18,7 +18,7 @@ use sprag_sim_host::outcome::Outcome;
 use sprag_sim_host::scene::Scene;
 use sprag_sim_host::simulation::{DeviceRun, RunError, simulate};
 use sprag_sim_host::statistics::quantile;
-use sprag_tests::pulses::sine_pulses;
+use sprag_tests::pulse_records::sine_pulses;
 use sprag_tests::shared_file;
 
 /// Pulses of which the bare block of 1 m survives some, and an optimisation over two laws and two mounts.

@@ -1,27 +1,12 @@
 //! Self-similarity: Figures 6 and 7.
 
-use std::path::Path;
-
-use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::scene::Scene;
-use sprag_sim_host::similarity::compare::{Departure, Response};
-use sprag_sim_host::similarity::groups::groups;
-use sprag_sim_host::simulation::simulate;
+use sprag_sim_host::similarity::compare::Departure;
+use sprag_tests::shipped::responses;
 
 /// Departures of the second block of a figure from the first, device by device.
 fn departures(scene: &str, second: &[&str]) -> Vec<Departure> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(scene);
     let step = 0.01;
-    let load = |changes: &[&str]| {
-        let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
-        let mut scene = Scene::load(&path, &changes).expect("a scene that ships");
-        scene.file.output.interval_s = Some(step / scene.block.frequency_parameter());
-        let ground = scene.ground_motions().expect("a pulse");
-        let runs = simulate(&scene, &ground, &Interrupt::default()).expect("a run");
-        let responses: Vec<Response> = runs.iter().map(|run| Response::of(&run.history, step)).collect();
-        (groups(&scene).expect("groups"), responses)
-    };
-    let ((groups, first), (other_groups, other)) = (load(&[]), load(second));
+    let ((groups, first), (other_groups, other)) = (responses(scene, &[], step), responses(scene, second, step));
     assert!(groups.iter().zip(&other_groups).all(|(a, b)| a.equals(b)), "{groups:?} {other_groups:?}");
     first.iter().zip(&other).map(|(first, other)| Departure::between(first, other)).collect()
 }
