@@ -5,8 +5,8 @@ use sprag_shared::observer::Peaks;
 use sprag_shared::rocking::{Phase, State};
 use sprag_shared::scalar::Real;
 
-/// The four outcomes of the paper's section 4.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+/// The four outcomes of the paper's section 4, in the order of what they ask of the ground.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
     /// The block never uplifts.

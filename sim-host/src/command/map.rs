@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use super::BAD_INPUT;
 use super::format_arguments::FormatArguments;
+use super::map_boundaries::{BoundarySummary, trace, write_boundary_table};
 use crate::columns::{TableError, metadata_of};
 use crate::interrupt::{self, Interrupt};
 use crate::long_run::arguments::LongRunArguments;
@@ -17,6 +18,9 @@ use crate::long_run::error::LongRunError;
 use crate::long_run::origin::{Digest, Origin};
 use crate::long_run::rows::{Plan, Rows};
 use crate::long_run::shard::Shard;
+use crate::map::boundaries::{Boundaries, EVALUATIONS};
+use crate::map::boundary_figure;
+use crate::map::boundary_table::BoundaryTable;
 use crate::map::figures::figures;
 use crate::map::grid::Grid;
 use crate::map::study::{MapError, study_to};
@@ -33,11 +37,13 @@ use crate::scene::{Scene, SceneError, text_of};
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag map scenes/figure08.toml\n  \
     sprag map scenes/figure08.toml --set map.x.cells=512 --set map.y.cells=512\n  \
-    sprag map scenes/figure08.toml --x device.2.mass_ratio=0.01:10:200:log --y block.slenderness_deg=5:40:200\n\n\
+    sprag map scenes/figure08.toml --x device.2.mass_ratio=0.01:10:200:log --y block.slenderness_deg=5:40:200\n  \
+    sprag map scenes/figure08.toml --refine\n  \
     sprag map scenes/figure08.toml --shard 1/2; sprag map scenes/figure08.toml --shard 2/2; sprag map scenes/figure08.toml --merge 2\n\n\
     Writes summary.json, the table map.csv and map.parquet, and the pictures map (outcomes), rotation and acceleration (peaks), each \
-    as .svg and .png; without an axis y the picture cut. Rows go to the disk as they are made, map.run.json says what they come \
-    from, and Ctrl-C leaves them there for --resume.")]
+    as .svg and .png; without an axis y the picture cut. With --refine the table boundaries too, and for two axes the picture \
+    boundaries. Rows go to the disk as they are made, map.run.json says what they come from, and Ctrl-C leaves them there for \
+    --resume.")]
 pub struct MapArguments {
     /// Scene file.
     #[arg(value_name = "SCENE.toml")]
@@ -54,6 +60,12 @@ pub struct MapArguments {
     /// Leave out the axis up: a cut along x.
     #[arg(long, conflicts_with = "y")]
     pub cut: bool,
+    /// Trace the boundaries between outcomes to a relative 1e-6 of the axes' values: boundaries.csv and boundaries.svg.
+    #[arg(long)]
+    pub refine: bool,
+    /// Most blocks that --refine follows for one device; what that leaves coarser is told.
+    #[arg(long, value_name = "N", requires = "refine", default_value_t = EVALUATIONS)]
+    pub evaluations: usize,
     /// Ground motion record, in the place of the scene's.
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
@@ -85,6 +97,8 @@ enum Failure {
     Threads(#[from] rayon::ThreadPoolBuildError),
     #[error("the scene cannot be told in JSON: {0}")]
     Json(#[from] serde_json::Error),
+    #[error("--refine divides squares where boundaries are, and takes maps of at most 1024 x 1024 cells")]
+    TooManyCells,
     #[error("interrupted after {done} of {rows} rows; the same command with --resume goes on")]
     Interrupted { done: usize, rows: usize },
 }
@@ -125,11 +139,14 @@ struct DeviceSummary<'a> {
     #[serde(flatten)]
     counts: Counts,
     seconds: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refined: Option<BoundarySummary>,
 }
 
 impl<'a> DeviceSummary<'a> {
-    fn of(map: &'a DeviceMap) -> DeviceSummary<'a> {
-        DeviceSummary { device: &map.device, cells: map.counts.cells(), counts: map.counts, seconds: map.seconds }
+    fn of(map: &'a DeviceMap, boundaries: Option<&Boundaries>) -> DeviceSummary<'a> {
+        let refined = boundaries.map(BoundarySummary::of);
+        DeviceSummary { device: &map.device, cells: map.counts.cells(), counts: map.counts, seconds: map.seconds, refined }
     }
 }
 
@@ -158,6 +175,9 @@ fn run_or_fail(
         table.file = Some(record.clone());
     }
     let (labels, mut tally) = (Labels::new(&grid)?, Tally::new(&grid));
+    if arguments.refine && tally.maps.iter().any(|map| map.shown.len() != grid.columns() * grid.rows()) {
+        return Err(Failure::TooManyCells);
+    }
     let origin = Origin::new("map", &file, files(&grid, &file), grid.table_rows())?;
     let shard = arguments.long_run.shard();
     let columns = columns(&grid);
@@ -179,16 +199,24 @@ fn run_or_fail(
         let _ = writeln!(out, "shard {shard}: {}", path.display());
         return Ok(());
     }
-    let pictures = figures(&grid, &tally)?;
-    let runs = tally.maps.iter().map(DeviceSummary::of).collect();
+    let boundaries =
+        if arguments.refine { pool.install(|| trace(&grid, &tally.maps, arguments.evaluations, interrupt))? } else { Vec::new() };
+    let mut pictures = figures(&grid, &tally)?;
+    if arguments.refine {
+        pictures.extend(boundary_figure::figure(&grid, &tally, &boundaries)?.map(|picture| ("boundaries", picture)));
+    }
+    let runs = tally.maps.iter().enumerate().map(|(device, map)| DeviceSummary::of(map, boundaries.get(device))).collect();
     let (command, version) = ("map", env!("CARGO_PKG_VERSION"));
     let summary = Summary { command, version, scene: &file, runs };
+    let made_by = metadata_of(&MadeBy { command, version, scene: &file })?;
     let formats = arguments.formats.formats;
     let mut results = Results::default();
     results.add_json(&folder.join("summary.json"), &summary)?;
     if formats.parquet {
-        let made_by = metadata_of(&MadeBy { command, version, scene: &file })?;
         results.add_parquet_of(&path, &columns, &made_by)?;
+    }
+    if arguments.refine {
+        results.add_table(&folder, "boundaries", &BoundaryTable { grid: &grid, all: &boundaries }, &made_by, formats)?;
     }
     let mut first = None;
     for (name, picture) in &pictures {
@@ -197,6 +225,9 @@ fn run_or_fail(
     }
     results.commit_telling(err)?;
     let _ = write_table(out, &tally.maps);
+    if arguments.refine {
+        let _ = write_boundary_table(out, &boundaries);
+    }
     let _ = writeln!(out, "\n{}", first.unwrap_or(path).display());
     Ok(())
 }

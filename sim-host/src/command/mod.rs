@@ -21,6 +21,7 @@ pub mod loop_scene;
 #[cfg(feature = "effects")]
 pub mod loop_study;
 pub mod map;
+mod map_boundaries;
 pub mod optimise;
 pub mod record;
 pub mod sensitivity;

@@ -109,6 +109,7 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
                     columns: CELLS,
                     rows: CELLS,
                     cells: results.iter().map(|result| Cell::from(result.outcome).class()).collect(),
+                    curves: Vec::new(),
                 });
             }
         }
@@ -124,6 +125,7 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
             y_title: "*a*_g/(*g* tan α)".to_owned(),
             y: AMPLITUDES,
             maps,
+            curves: Vec::new(),
             columns: LawName::ALL.len(),
         };
         report.figure(&format!("laws-{}", number + 1), &format!("maps of overturned cells, {name}"), cell_map_figure(&maps)?);

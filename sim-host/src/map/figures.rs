@@ -61,7 +61,7 @@ fn limits(largest: f64) -> Vec<f64> {
 }
 
 /// One map a device, side by side.
-fn small_multiples(
+pub(super) fn small_multiples(
     grid: &Grid,
     y: &AxisTable,
     tally: &Tally,
@@ -89,8 +89,10 @@ fn small_multiples(
                 columns: tally.columns.len(),
                 rows: tally.rows.len(),
                 cells: map.shown.iter().map(&class).collect(),
+                curves: Vec::new(),
             })
             .collect(),
+        curves: Vec::new(),
         columns: tally.maps.len().min(3),
     }
 }

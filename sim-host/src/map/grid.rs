@@ -29,6 +29,18 @@ pub struct Grid {
     record: Option<Samples>,
 }
 
+/// What the axes are set to: x, and y where there is one.
+pub type Values = (f64, Option<f64>);
+
+/// What there is at a place of a map.
+#[derive(Debug)]
+pub(super) enum Subject {
+    /// A dimensionless block under a one-cycle pulse.
+    Pulsed(PulsedBlock),
+    /// Anything else.
+    Scene(Box<Scene>),
+}
+
 /// A dimensionless block and the quantities of it that the axes set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Direct {
@@ -108,23 +120,24 @@ impl Grid {
         }
     }
 
-    /// The block with device `device` in a cell, if its scene is a dimensionless block under a one-cycle pulse.
+    /// The block with device `device` where the axes have `values`.
     ///
     /// # Errors
-    /// [`SceneError`] for a cell's value outside its range.
-    pub fn pulsed(&self, device: usize, column: usize, row: usize) -> Result<Option<PulsedBlock>, SceneError> {
+    /// [`SceneError`] for a value outside its range.
+    pub(super) fn subject(&self, device: usize, values: Values) -> Result<Subject, SceneError> {
         let Some(direct) = &self.direct[device] else {
-            return Ok(pulsed(&self.scene_of(column, row)?, device));
+            let scene = self.scene_at(values)?;
+            return Ok(pulsed(&scene, device).map_or_else(|| Subject::Scene(Box::new(scene)), Subject::Pulsed));
         };
         let mut block = direct.base;
-        direct.set(&mut block, device, direct.x, self.map.x.value(column));
-        if let (Some(quantity), Some(axis)) = (direct.y, &self.map.y) {
-            direct.set(&mut block, device, quantity, axis.value(row));
+        direct.set(&mut block, device, direct.x, values.0);
+        if let (Some(quantity), Some(value)) = (direct.y, values.1) {
+            direct.set(&mut block, device, quantity, value);
         }
-        Ok(Some(block))
+        Ok(Subject::Pulsed(block))
     }
 
-    /// The block of a cell's scene with device `device` under the record that shakes all cells, if there is one.
+    /// The block of `scene`, at a place of the map, with device `device` under the record that shakes all of it, if there is one.
     pub(super) fn shaken(&self, scene: &Scene, device: usize) -> Option<ShakenBlock<'_>> {
         Some(ShakenBlock {
             plain: PlainBlock::of(scene, device)?,
@@ -134,15 +147,43 @@ impl Grid {
         })
     }
 
+    /// The values of a cell.
+    pub fn values(&self, column: usize, row: usize) -> Values {
+        self.values_at(column as f64, row as f64)
+    }
+
+    /// The values at a place in cells from the first, across and up.
+    pub fn values_at(&self, column: f64, row: f64) -> Values {
+        (self.map.x.value_at(column), self.map.y.as_ref().map(|axis| axis.value_at(row)))
+    }
+
+    /// `values` with their keys, for messages.
+    pub fn place(&self, values: Values) -> String {
+        self.settings(values).join(", ")
+    }
+
+    /// KEY=VALUE of both axes; values read back to the same f64.
+    fn settings(&self, (x, y): Values) -> Vec<String> {
+        let setting = |axis: &AxisTable, value: f64| format!("{}={value:?}", axis.key);
+        let mut settings = vec![setting(&self.map.x, x)];
+        settings.extend(self.map.y.iter().zip(y).map(|(axis, value)| setting(axis, value)));
+        settings
+    }
+
     /// The scene of a cell.
     ///
     /// # Errors
     /// [`SceneError`] for a value outside its range.
     pub fn scene_of(&self, column: usize, row: usize) -> Result<Scene, SceneError> {
-        let value = |axis: &AxisTable, index: usize| format!("{}={:?}", axis.key, axis.value(index));
-        let mut values = vec![value(&self.map.x, column)];
-        values.extend(self.map.y.iter().map(|axis| value(axis, row)));
-        let mut scene = Scene::of_table(self.text.clone(), &self.scene.origin, &values)?;
+        self.scene_at(self.values(column, row))
+    }
+
+    /// The scene where the axes have `values`.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a value outside its range.
+    pub fn scene_at(&self, values: Values) -> Result<Scene, SceneError> {
+        let mut scene = Scene::of_table(self.text.clone(), &self.scene.origin, &self.settings(values))?;
         scene.folder.clone_from(&self.scene.folder);
         Ok(scene)
     }
@@ -256,9 +297,12 @@ mod tests {
             .unwrap();
             assert!(grid.direct.iter().all(Option::is_some));
             for (device, column, row) in [(0, 0, 0), (1, 2, 1), (0, 3, 2), (1, 3, 0)] {
-                let long = pulsed(&grid.scene_of(column, row).unwrap(), device);
-                assert_eq!(grid.pulsed(device, column, row).unwrap(), long, "{x} {y}");
-                assert!(long.is_some());
+                let between = grid.values_at(column as f64 * 0.9, row as f64 * 0.7);
+                for values in [grid.values(column, row), between] {
+                    let long = pulsed(&grid.scene_at(values).unwrap(), device);
+                    let Subject::Pulsed(short) = grid.subject(device, values).unwrap() else { panic!("{x} {y}") };
+                    assert_eq!(Some(short), long, "{x} {y}");
+                }
             }
         }
     }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::time::Instant;
 
-use super::grid::Grid;
+use super::grid::{Grid, Subject, Values};
 use super::table::Labels;
 use super::tally::{DeviceMap, Tally};
 use crate::batch::case::CaseError;
@@ -28,25 +28,21 @@ pub enum MapError {
     /// The ground motion of a cell.
     #[error("{0}")]
     Ground(#[from] GroundError),
-    /// A cell that cannot be simulated.
-    #[error("cell {column} across, {row} up: {error}")]
+    /// A scene that cannot be simulated.
+    #[error("{place}: {error}")]
     Run {
-        /// From the left, from 1.
-        column: usize,
-        /// From below, from 1.
-        row: usize,
+        /// Values of the axes.
+        place: String,
         /// Why.
         error: RunError,
     },
     /// A block that cannot be followed.
-    #[error("{device}, cell {column} across, {row} up: {error}")]
-    Cell {
+    #[error("{device}, {place}: {error}")]
+    Block {
         /// Device.
         device: String,
-        /// From the left, from 1.
-        column: usize,
-        /// From below, from 1.
-        row: usize,
+        /// Values of the axes.
+        place: String,
         /// Why.
         error: CaseError,
     },
@@ -79,7 +75,7 @@ pub fn study(grid: &Grid, progress: &Progress, interrupt: &Interrupt) -> Result<
 /// Works out what is left of `rows`, adds it there and to `tally`; `false` when it was interrupted.
 ///
 /// # Errors
-/// [`MapError`] names the cell.
+/// [`MapError`] names the place.
 pub fn study_to(
     rows: &mut Rows,
     grid: &Grid,
@@ -116,7 +112,9 @@ fn run_rows(
             if interrupt.is_set() {
                 return Ok(None);
             }
-            let results = match chunk(grid, device, rows.start - first..rows.end - first, interrupt) {
+            let cells = rows.start - first..rows.end - first;
+            let places: Vec<Values> = cells.map(|cell| grid.values(cell % grid.columns(), cell / grid.columns())).collect();
+            let results = match results_at(grid, device, &places, interrupt) {
                 Err(MapError::Interrupted) => return Ok(None),
                 results => results?,
             };
@@ -141,53 +139,57 @@ fn run_rows(
     Ok(true)
 }
 
-/// Neighbouring cells: those that are blocks under a pulse or a record side by side, the others one by one.
-fn chunk(grid: &Grid, device: usize, cells: Range<usize>, interrupt: &Interrupt) -> Result<Vec<PulseResult>, MapError> {
-    let place = |cell: usize| (cell % grid.columns(), cell / grid.columns());
-    let mut results = vec![PulseResult::NO_ROCKING; cells.len()];
-    let (mut pulsed, mut pulsed_cells) = (Vec::with_capacity(cells.len()), Vec::with_capacity(cells.len()));
-    let (mut shaken, mut shaken_cells) = (Vec::new(), Vec::new());
-    for cell in cells.clone() {
-        let (column, row) = place(cell);
-        if let Some(block) = grid.pulsed(device, column, row)? {
-            pulsed.push(block);
-            pulsed_cells.push(cell);
-            continue;
-        }
-        let scene = grid.scene_of(column, row)?;
+/// What becomes of the block with device `device` at `places`: of those that are blocks under a pulse or a record side by side, of the others
+/// one by one.
+///
+/// # Errors
+/// [`MapError`] names the place.
+pub fn results_at(grid: &Grid, device: usize, places: &[Values], interrupt: &Interrupt) -> Result<Vec<PulseResult>, MapError> {
+    let mut results = vec![PulseResult::NO_ROCKING; places.len()];
+    let (mut pulsed, mut pulsed_places) = (Vec::with_capacity(places.len()), Vec::with_capacity(places.len()));
+    let (mut shaken, mut shaken_places) = (Vec::new(), Vec::new());
+    for (index, &values) in places.iter().enumerate() {
+        let scene = match grid.subject(device, values)? {
+            Subject::Pulsed(block) => {
+                pulsed.push(block);
+                pulsed_places.push(index);
+                continue;
+            }
+            Subject::Scene(scene) => scene,
+        };
         match grid.shaken(&scene, device) {
             Some(block) => {
                 shaken.push(block);
-                shaken_cells.push((cell, scene));
+                shaken_places.push((index, scene));
             }
-            None => results[cell - cells.start] = simulated(&scene.only(device), place(cell), interrupt)?,
+            None => results[index] = simulated(&scene.only(device), || grid.place(values), interrupt)?,
         }
     }
     let name = &grid.scene.devices[device].name;
     let found = run(&pulsed, Registers::Widest).map_err(|(index, error)| {
-        let (column, row) = place(pulsed_cells[index]);
-        MapError::Cell { device: name.clone(), column: column + 1, row: row + 1, error }
+        let place = grid.place(places[pulsed_places[index]]);
+        MapError::Block { device: name.clone(), place, error }
     })?;
-    for (result, cell) in found.into_iter().zip(pulsed_cells) {
-        results[cell - cells.start] = result;
+    for (result, index) in found.into_iter().zip(pulsed_places) {
+        results[index] = result;
     }
-    for ((block, found), (cell, scene)) in shaken.iter().zip(shake(&shaken, Registers::Widest)).zip(shaken_cells) {
+    for ((block, found), (index, scene)) in shaken.iter().zip(shake(&shaken, Registers::Widest)).zip(shaken_places) {
         let only = scene.only(device);
         let after = |found: Shaken| found.after(&only.structure(0), name, block.samples.duration(), only.free_time_s()).ok();
-        results[cell - cells.start] = match found.and_then(after) {
+        results[index] = match found.and_then(after) {
             Some(found) => PulseResult::of_shaken(&found, &only.block),
-            None => simulated(&only, place(cell), interrupt)?,
+            None => simulated(&only, || grid.place(places[index]), interrupt)?,
         };
     }
     Ok(results)
 }
 
-/// A cell simulated as the scene that it is, which has one device.
-fn simulated(scene: &Scene, (column, row): (usize, usize), interrupt: &Interrupt) -> Result<PulseResult, MapError> {
+/// A block simulated as the scene that it is, which has one device; `place` says where it is on the map.
+fn simulated(scene: &Scene, place: impl Fn() -> String, interrupt: &Interrupt) -> Result<PulseResult, MapError> {
     let ground = scene.ground_motions()?;
     let runs = simulate(scene, &ground, interrupt).map_err(|error| match error {
         RunError::Interrupted => MapError::Interrupted,
-        error => MapError::Run { column: column + 1, row: row + 1, error },
+        error => MapError::Run { place: place(), error },
     })?;
     let found = |peak: Option<f64>| peak.unwrap_or(f64::NAN);
     let result = |run: &DeviceRun| PulseResult {

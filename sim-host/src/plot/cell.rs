@@ -5,6 +5,9 @@ use plotters::style::RGBColor;
 use super::ticks::tick_text;
 use crate::outcome::Outcome;
 
+/// How far the pale colours are on the way to white.
+const PALENESS: f64 = 0.6;
+
 /// Outcome of one cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cell {
@@ -72,6 +75,13 @@ impl Class {
         Cell::ALL.map(|cell| Class::new(cell.name(), cell.colour())).to_vec()
     }
 
+    /// The outcomes in pale colours, for curves over them.
+    pub fn pale_outcomes() -> Vec<Class> {
+        let pale = |part: u8| part + ((255 - part) as f64 * PALENESS) as u8;
+        let class = |Class { name, colour: RGBColor(r, g, b) }| Class { name, colour: RGBColor(pale(r), pale(g), pale(b)) };
+        Class::outcomes().into_iter().map(class).collect()
+    }
+
     /// No rocking, bands between neighbouring `limits` and beyond the last, and overturned, in this order; [`band`] finds a value's place.
     /// `limits` increase in equal steps.
     pub fn bands(limits: &[f64]) -> Vec<Class> {
@@ -127,6 +137,7 @@ mod tests {
     #[test]
     fn greys_of_outcomes_are_apart() {
         assert!(Cell::ALL.windows(2).all(|pair| grey(pair[0].colour()) - grey(pair[1].colour()) > 45.0));
+        assert!(Class::pale_outcomes().windows(2).all(|pair| grey(pair[0].colour) - grey(pair[1].colour) > 15.0));
         assert!(Cell::ALL.iter().all(|cell| Class::outcomes()[cell.class()].name == cell.name()));
     }
 

@@ -4,6 +4,7 @@ use super::PlotError;
 use super::cell::Class;
 use super::layer::{Text, document, escape, units, write_rect};
 use super::legend::{BOLD_WIDTH, Key, Swatch, wrapped, write_heading};
+use super::map_curve::{MapCurve, curve_key, write_curves};
 use super::palette::{GROUND, hex};
 use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
 use super::ticks::Scale;
@@ -33,6 +34,8 @@ pub struct CellMap {
     pub rows: usize,
     /// Numbers of classes, row by row from the lowest, each from the left.
     pub cells: Vec<usize>,
+    /// Curves over the cells.
+    pub curves: Vec<MapCurve>,
 }
 
 /// A figure of maps over the same two axes.
@@ -55,11 +58,13 @@ pub struct CellMaps {
     pub y: (f64, f64),
     /// Maps, row by row.
     pub maps: Vec<CellMap>,
+    /// Names of the kinds of curves in the legend; none for maps without curves.
+    pub curves: Vec<String>,
     /// Maps in a row; zero counts as one.
     pub columns: usize,
 }
 
-/// Draws `maps` as an SVG document; the legend has the classes that occur.
+/// Draws `maps` as an SVG document; the legend has the classes and the kinds of curves that occur.
 ///
 /// Only maps at the left and at the lower edge have labelled axes. Runs of equal cells in a row are one rectangle. The text is the
 /// same for the same input.
@@ -85,8 +90,12 @@ pub fn cell_map_figure(maps: &CellMaps) -> Result<String, PlotError> {
     let numbered = maps.classes.iter().enumerate();
     let keys: Vec<Key> =
         numbered.filter(|(class, _)| used(*class)).map(|(_, class)| (Swatch::Framed(class.colour), class.name.clone())).collect();
+    let drawn = |kind: usize| maps.maps.iter().any(|map| map.curves.iter().any(|curve| curve.kind == kind));
+    let numbered = maps.curves.iter().enumerate();
+    let curve_keys: Vec<Key> = numbered.filter(|(kind, _)| drawn(*kind)).map(|(kind, name)| curve_key(kind, name)).collect();
     let mut body = String::new();
-    let mut top_px = write_heading(&mut body, &maps.title, &[keys], (left_px, width_px - left_px - RIGHT_MARGIN_PX), MARGIN_PX);
+    let groups: Vec<Vec<Key>> = [keys, curve_keys].into_iter().filter(|keys| !keys.is_empty()).collect();
+    let mut top_px = write_heading(&mut body, &maps.title, &groups, (left_px, width_px - left_px - RIGHT_MARGIN_PX), MARGIN_PX);
 
     let headings: Vec<Vec<String>> = maps.maps.iter().map(|map| wrapped(&map.title, BOLD_WIDTH * map_px, FONT_PX)).collect();
     let noted = |row: &[CellMap]| row.iter().any(|map| !map.note.is_empty());
@@ -119,6 +128,7 @@ pub fn cell_map_figure(maps: &CellMaps) -> Result<String, PlotError> {
             let panel = Panel::new((left_px, top_px), (map_px, map_px), x.0..x.1, y.0..y.1);
             let panel = Panel { title: (column == 0).then_some(&maps.y_title), scales: maps.scales, ..panel };
             write_cells(&mut body, &panel, map, &maps.classes);
+            write_curves(&mut body, &panel, &map.curves, maps.curves.len());
             let last = index + columns >= maps.maps.len();
             panel.write_frame(&mut body, canvas, last.then_some(&maps.x_title))?;
         }
@@ -135,6 +145,10 @@ fn check(map: &CellMap, maps: &CellMaps) -> Result<(), PlotError> {
     }
     if expected == 0 || map.cells.iter().any(|class| *class >= maps.classes.len()) {
         return Err(PlotError::NothingToDraw { title: map.title.clone() });
+    }
+    let points = map.curves.iter().flat_map(|curve| &curve.points);
+    if points.flat_map(|point| [point.0, point.1]).any(|value| !value.is_finite()) {
+        return Err(PlotError::NotFiniteValue { name: map.title.clone() });
     }
     for (title, (first, last), count) in [(&maps.x_title, maps.x, map.columns), (&maps.y_title, maps.y, map.rows)] {
         // The square root keeps differences finite too.
@@ -215,7 +229,7 @@ mod tests {
             _ => Cell::Overturns,
         };
         let cells = (0..columns * rows).map(|index| cell(index).class()).collect();
-        CellMap { title: title.to_owned(), note: "1 of <2>".to_owned(), columns, rows, cells }
+        CellMap { title: title.to_owned(), note: "1 of <2>".to_owned(), columns, rows, cells, curves: Vec::new() }
     }
 
     fn maps(count: usize, columns: usize) -> CellMaps {
@@ -228,8 +242,22 @@ mod tests {
             y_title: "*a*_p (g)".to_owned(),
             y: (0.1, 2.0),
             maps: (0..count).map(|index| map(&format!("map <{index}>"), 8, 9)).collect(),
+            curves: vec!["first".to_owned(), "second".to_owned(), "third".to_owned()],
             columns,
         }
+    }
+
+    #[test]
+    fn curves_lie_over_the_cells_and_in_the_legend() {
+        let mut maps = maps(2, 2);
+        let plain = cell_map_figure(&maps).unwrap();
+        assert!(!plain.contains("first"));
+        maps.maps[1].curves = vec![MapCurve { kind: 1, points: vec![(1.0, 0.2), (2.0, 0.4), (5.5, 1.9)] }; 2];
+        let svg = cell_map_figure(&maps).unwrap();
+        assert_well_formed(&svg);
+        assert!(svg.contains(">second<") && !svg.contains(">first<") && !svg.contains(">third<"));
+        maps.maps[1].curves[0].points[1].0 = f64::NAN;
+        assert!(matches!(cell_map_figure(&maps), Err(PlotError::NotFiniteValue { .. })));
     }
 
     #[test]

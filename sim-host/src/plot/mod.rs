@@ -18,6 +18,7 @@ mod lane;
 mod layer;
 mod legend;
 mod loop_figure;
+mod map_curve;
 mod marker;
 mod palette;
 mod panel;
@@ -39,6 +40,7 @@ pub use cloud_figure::{BandPoint, CloudFigure, CloudPanel, CloudSeries, cloud_fi
 pub use energy_figure::energy_figure;
 pub use history_figure::history_figure;
 pub use loop_figure::{LoopTrace, loop_figure};
+pub use map_curve::MapCurve;
 pub use png::{Png, PngError, png};
 pub use rug::Rug;
 pub use sensitivity_figure::{OwnMark, SensitivityLane, SensitivityRow, sensitivity_figure};

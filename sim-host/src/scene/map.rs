@@ -81,13 +81,22 @@ impl AxisTable {
 
     /// Value of cell `index` (below `cells`): `from` + index (`to` − `from`)/(cells − 1), or the same of logarithms; the ends are exact.
     pub fn value(&self, index: usize) -> f64 {
-        let share = index as f64 / (self.cells - 1) as f64;
-        match self.scale {
-            _ if index == 0 => self.from,
-            _ if index + 1 == self.cells => self.to,
+        self.value_at(index as f64)
+    }
+
+    /// Value at `position`, in cells from the first (0 to `cells` − 1): that of the cell where it is a whole number, between those of its
+    /// neighbours, by the scale, where it is not.
+    pub fn value_at(&self, position: f64) -> f64 {
+        let last = (self.cells - 1) as f64;
+        let share = position / last;
+        let value = match self.scale {
+            _ if position <= 0.0 => self.from,
+            _ if position >= last => self.to,
             ScaleName::Linear => self.from + (self.to - self.from) * share,
             ScaleName::Logarithmic => self.from * math::exp(share * math::ln(self.to / self.from)),
-        }
+        };
+        // Rounding could pass an end, and so the range of the key.
+        value.max(self.from).min(self.to)
     }
 }
 
@@ -120,9 +129,12 @@ mod tests {
         let linear: AxisTable = "block.restitution=0.2:0.8:4".parse().unwrap();
         assert_eq!([0, 3].map(|index| linear.value(index)), [0.2, 0.8]);
         assert!((linear.value(1) - 0.4).abs() < 1e-15);
+        assert_eq!([0.0, 1.0, 2.0, 3.0].map(|position| linear.value_at(position)), [0, 1, 2, 3].map(|index| linear.value(index)));
+        assert!((linear.value_at(1.5) - 0.5).abs() < 1e-15);
         let logarithmic: AxisTable = "device.1.mass_ratio=0.01:100:5:log".parse().unwrap();
         assert_eq!([0, 4].map(|index| logarithmic.value(index)), [0.01, 100.0]);
         assert!((logarithmic.value(2) - 1.0).abs() < 1e-15);
+        assert!((logarithmic.value_at(2.5) - sprag_shared::math::square_root(10.0)).abs() < 1e-14);
     }
 
     #[test]

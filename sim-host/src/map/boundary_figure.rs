@@ -1,0 +1,74 @@
+//! Boundaries as curves over the regions that the grid knows, small multiples a device.
+
+use sprag_shared::math;
+
+use super::boundaries::Boundaries;
+use super::figures::small_multiples;
+use super::grid::{Grid, Values};
+use super::tally::Tally;
+use crate::outcome::Outcome;
+use crate::plot::{Cell, Class, MapCurve, PlotError, cell_map_figure};
+use crate::scene::map::{AxisTable, ScaleName};
+
+/// Every pair of outcomes that a boundary may separate, with its name in the legend; the place is that of its look.
+const PAIRS: [(Outcome, Outcome, &str); 6] = [
+    (Outcome::Safe, Outcome::OverturnedWithoutImpact, "stands | overturns without an impact"),
+    (Outcome::Safe, Outcome::OverturnedAfterImpact, "stands | overturns after an impact"),
+    (Outcome::OverturnedWithoutImpact, Outcome::OverturnedAfterImpact, "overturns without | after an impact"),
+    (Outcome::NoRocking, Outcome::Safe, "no rocking | stands"),
+    (Outcome::NoRocking, Outcome::OverturnedWithoutImpact, "no rocking | overturns without an impact"),
+    (Outcome::NoRocking, Outcome::OverturnedAfterImpact, "no rocking | overturns after an impact"),
+];
+
+/// The picture of `all`, a [`Boundaries`] for each map of `tally`; none for a cut, whose boundaries are points.
+///
+/// # Errors
+/// [`PlotError`].
+pub fn figure(grid: &Grid, tally: &Tally, all: &[Boundaries]) -> Result<Option<String>, PlotError> {
+    let Some(y) = &grid.map.y else { return Ok(None) };
+    let class = |result: &crate::ensemble::pulses::PulseResult| Cell::from(result.outcome).class();
+    let mut figure = small_multiples(grid, y, tally, "boundaries", Class::pale_outcomes(), class);
+    figure.curves = PAIRS.map(|(_, _, name)| name.to_owned()).to_vec();
+    for (map, of_device) in figure.maps.iter_mut().zip(all) {
+        map.note = match of_device.unresolved {
+            0 => String::new(),
+            squares => format!("{squares} squares left coarser"),
+        };
+        map.curves = curves(grid, y, of_device);
+    }
+    Ok(Some(cell_map_figure(&figure)?))
+}
+
+/// The boundaries of a device on the scales of the axes.
+fn curves(grid: &Grid, y: &AxisTable, of_device: &Boundaries) -> Vec<MapCurve> {
+    let point = |values: &Values| (on_scale(&grid.map.x, values.0), on_scale(y, values.1.unwrap_or_default()));
+    let curve = |boundary: &super::boundaries::Boundary| {
+        let pair = (boundary.left.min(boundary.right), boundary.left.max(boundary.right));
+        let kind = PAIRS.iter().position(|(one, other, _)| (*one, *other) == pair)?;
+        Some(MapCurve { kind, points: boundary.vertices.iter().map(point).collect() })
+    };
+    of_device.boundaries.iter().filter_map(curve).collect()
+}
+
+fn on_scale(axis: &AxisTable, value: f64) -> f64 {
+    match axis.scale {
+        ScaleName::Linear => value,
+        ScaleName::Logarithmic => math::log10(value),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_pair_has_a_look() {
+        let outcomes = [Outcome::NoRocking, Outcome::Safe, Outcome::OverturnedWithoutImpact, Outcome::OverturnedAfterImpact];
+        for (index, one) in outcomes.iter().enumerate() {
+            for other in &outcomes[index + 1..] {
+                let known = PAIRS.iter().filter(|pair| (pair.0, pair.1) == ((*one).min(*other), (*one).max(*other)));
+                assert_eq!(known.count(), 1, "{one} {other}");
+            }
+        }
+    }
+}

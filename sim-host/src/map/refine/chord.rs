@@ -1,0 +1,55 @@
+//! Straight lines between crossings, measured in tolerances.
+
+use sprag_shared::math;
+
+use super::lattice::Point;
+
+/// A straight line between two crossings, in tolerances from the first.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Chord {
+    start: Point,
+    along: (f64, f64),
+    scale: (f64, f64),
+}
+
+impl Chord {
+    /// Between vertices in halves of units; `scale` tolerances make a unit, across and up.
+    pub(super) fn new(start: Point, end: Point, scale: (f64, f64)) -> Chord {
+        let mut chord = Chord { start, along: (0.0, 0.0), scale };
+        chord.along = chord.since_start(end);
+        chord
+    }
+
+    fn since_start(&self, point: Point) -> (f64, f64) {
+        let halves = |to: u64, from: u64| 0.5 * (to as f64 - from as f64);
+        (halves(point.x, self.start.x) * self.scale.0, halves(point.y, self.start.y) * self.scale.1)
+    }
+
+    pub(super) fn length(&self) -> f64 {
+        math::hypot(self.along.0, self.along.1)
+    }
+
+    /// Of `point`, in halves of units, from the nearest point of the chord.
+    pub(super) fn distance(&self, point: Point) -> f64 {
+        let ((x, y), (along_x, along_y)) = (self.since_start(point), self.along);
+        let squared = along_x * along_x + along_y * along_y;
+        let share = if squared > 0.0 { ((x * along_x + y * along_y) / squared).clamp(0.0, 1.0) } else { 0.0 };
+        math::hypot(x - share * along_x, y - share * along_y)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances_are_in_tolerances_each_way() {
+        let chord = Chord::new(Point { x: 10, y: 0 }, Point { x: 18, y: 0 }, (0.5, 4.0));
+        assert_eq!(chord.length(), 2.0);
+        assert_eq!(chord.distance(Point { x: 14, y: 1 }), 2.0);
+        // Beyond the end.
+        assert_eq!(chord.distance(Point { x: 22, y: 0 }), 1.0);
+        let point = Chord::new(Point { x: 3, y: 3 }, Point { x: 3, y: 3 }, (1.0, 1.0));
+        assert_eq!((point.length(), point.distance(Point { x: 3, y: 1 })), (0.0, 1.0));
+    }
+}

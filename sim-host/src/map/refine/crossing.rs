@@ -1,0 +1,162 @@
+//! Where boundaries cross the edges of squares: outcomes found so far, and bisection of many edges at once.
+
+use std::collections::HashMap;
+
+use super::lattice::{Along, Edge, Lattice, Point, Position};
+use super::square::Square;
+
+/// A change of outcome on an edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Crossing<O> {
+    /// The shortest edge that is known to be crossed.
+    pub bracket: Edge,
+    /// Outcome where a walk along the edge comes from.
+    pub from: O,
+    /// Outcome where it goes to.
+    pub to: O,
+}
+
+impl<O> Crossing<O> {
+    /// The middle of its bracket in halves of units, which no other bracket shares.
+    pub(super) fn vertex(&self) -> Point {
+        let (start, end) = (self.bracket.start, self.bracket.end());
+        Point { x: start.x + end.x, y: start.y + end.y }
+    }
+}
+
+/// Outcomes of points, each evaluated once and no more of them than a budget allows.
+pub(super) struct Outcomes<'a, O, F> {
+    pub lattice: Lattice,
+    columns: usize,
+    grid: &'a [O],
+    found: HashMap<Point, O>,
+    evaluate: F,
+    budget: usize,
+    /// A point was wanted that the budget did not allow.
+    pub exhausted: bool,
+}
+
+impl<'a, O, E, F> Outcomes<'a, O, F>
+where
+    O: Copy + Eq,
+    F: Fn(&[Position]) -> Result<Vec<O>, E>,
+{
+    pub(super) fn new(lattice: Lattice, columns: usize, grid: &'a [O], evaluate: F, budget: usize) -> Self {
+        Outcomes { lattice, columns, grid, found: HashMap::new(), evaluate, budget, exhausted: false }
+    }
+
+    /// Columns of the grid.
+    pub(super) fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// Points evaluated so far.
+    pub(super) fn evaluations(&self) -> usize {
+        self.found.len()
+    }
+
+    /// Points that the budget still allows.
+    pub(super) fn remaining(&self) -> usize {
+        self.budget - self.found.len()
+    }
+
+    /// What is known about `point`.
+    pub(super) fn get(&self, point: Point) -> Option<O> {
+        let (depth, inside) = (self.lattice.depth(), self.lattice.step() - 1);
+        if (point.x | point.y) & inside == 0 {
+            return self.grid.get((point.y >> depth) as usize * self.columns + (point.x >> depth) as usize).copied();
+        }
+        self.found.get(&point).copied()
+    }
+
+    /// Evaluates those of `points` that are not known yet, in one batch in order of their rows.
+    pub(super) fn learn(&mut self, mut points: Vec<Point>) -> Result<(), E> {
+        points.retain(|point| self.get(*point).is_none());
+        points.sort_unstable();
+        points.dedup();
+        if points.len() > self.remaining() {
+            self.exhausted = true;
+            points.truncate(self.remaining());
+        }
+        let positions: Vec<Position> = points.iter().map(|point| self.lattice.position(*point)).collect();
+        if !positions.is_empty() {
+            let found = (self.evaluate)(&positions)?;
+            self.found.extend(points.into_iter().zip(found));
+        }
+        Ok(())
+    }
+
+    /// The edge's crossing, as far as it is known: from its start and from its end.
+    fn crossed(&self, edge: Edge) -> Option<Crossing<O>> {
+        let (from, to) = (self.get(edge.start)?, self.get(edge.end())?);
+        (from != to).then_some(Crossing { bracket: edge, from, to })
+    }
+
+    /// Bisects those of `edges` whose ends differ until their brackets are narrow. An edge with a third outcome inside is left: the
+    /// squares beside it are divided, and its halves come back.
+    pub(super) fn narrow(&mut self, edges: impl IntoIterator<Item = Edge>) -> Result<(), E> {
+        let mut open: Vec<Crossing<O>> = edges.into_iter().filter_map(|edge| self.crossed(edge)).collect();
+        while !open.is_empty() && !self.exhausted {
+            let mut wanted = Vec::new();
+            open.retain_mut(|crossing| {
+                while crossing.bracket.length > self.lattice.bracket(&crossing.bracket) {
+                    let Some(middle) = crossing.bracket.middle() else { break };
+                    let [lower, upper] = crossing.bracket.halves();
+                    match self.get(middle) {
+                        None => {
+                            wanted.push(middle);
+                            return true;
+                        }
+                        Some(outcome) if outcome == crossing.from => crossing.bracket = upper,
+                        Some(outcome) if outcome == crossing.to => crossing.bracket = lower,
+                        Some(_) => return false,
+                    }
+                }
+                false
+            });
+            self.learn(wanted)?;
+        }
+        Ok(())
+    }
+
+    /// Appends the crossings of `edge` from its start to its end.
+    pub(super) fn crossings(&self, edge: Edge, all: &mut Vec<Crossing<O>>) {
+        if edge.middle().is_some_and(|middle| self.get(middle).is_some()) {
+            edge.halves().into_iter().for_each(|half| self.crossings(half, all));
+        } else {
+            all.extend(self.crossed(edge));
+        }
+    }
+
+    /// The crossings met on a counterclockwise walk around `square` from its lower left corner.
+    pub(super) fn around(&self, square: &Square) -> Vec<Crossing<O>> {
+        let mut all = Vec::new();
+        for (number, edge) in square.edges(&self.lattice).into_iter().enumerate() {
+            // The walk goes along the lower and the right edge, then back along the upper and the left one.
+            if number < 2 {
+                self.crossings(edge, &mut all);
+            } else {
+                let mut back = Vec::new();
+                self.crossings(edge, &mut back);
+                all.extend(back.into_iter().rev().map(|crossing| Crossing { from: crossing.to, to: crossing.from, ..crossing }));
+            }
+        }
+        all
+    }
+
+    /// Whether the bracket of a crossing is wider than the tolerance has it.
+    pub(super) fn wide(&self, crossing: &Crossing<O>) -> bool {
+        crossing.bracket.length > self.lattice.bracket(&crossing.bracket)
+    }
+
+    /// The grid's own edges: those of a row, or of a column.
+    pub(super) fn grid_edges(&self) -> impl Iterator<Item = Edge> + use<O, E, F> {
+        let (columns, rows, length) = (self.columns, self.grid.len() / self.columns.max(1), self.lattice.step());
+        let places = (0..columns * rows).map(move |index| (index % columns, index / columns));
+        places.flat_map(move |(column, row)| {
+            let start = Point { x: column as u64 * length, y: row as u64 * length };
+            let across = (column + 1 < columns).then_some(Edge { start, along: Along::Columns, length });
+            across.into_iter().chain((row + 1 < rows).then_some(Edge { start, along: Along::Rows, length }))
+        })
+    }
+}

@@ -1,0 +1,172 @@
+//! Follows boundaries by dividing the squares that they cross.
+
+use std::collections::{BTreeMap, BTreeSet, HashSet};
+
+use super::chord::Chord;
+use super::crossing::{Crossing, Outcomes};
+use super::lattice::{Edge, Point, Position};
+use super::polyline::{Piece, chains, pieces};
+use super::square::Square;
+use super::trace::{Traced, Unresolved, polyline};
+
+/// Evaluations that dividing a square takes, about: so many squares are divided at a time that a budget which runs out does so on the
+/// squares that come last.
+const SQUARE_EVALUATIONS: usize = 80;
+
+/// How far the boundary may be from its chord in a square, in tolerances, for the quarters to be near enough; and, so that a point of
+/// inflection on the chord does not pass for a straight boundary, how far it may have been in the square before.
+const STRAIGHT: f64 = 1.0;
+const STRAIGHT_BEFORE: f64 = 4.0;
+
+/// A square that a boundary crosses and that is not divided.
+#[derive(Clone, Copy, Debug, Default)]
+struct Leaf {
+    /// The straight pieces between its crossings are as near as wanted, if it has but two.
+    settled: bool,
+    /// How far the boundary was from its chord in the square that this one is a quarter of, in tolerances; none when that is not known.
+    deviation: Option<f64>,
+}
+
+/// Squares of the grid, quarters of those, and so on where boundaries are.
+pub(super) struct Tree<'a, O, F> {
+    outcomes: Outcomes<'a, O, F>,
+    /// Upper right corner of the grid.
+    end: Point,
+    divided: HashSet<Square>,
+    leaves: BTreeMap<Square, Leaf>,
+    /// Leaves to divide: those with a single boundary first, then tangles; larger ones before smaller ones.
+    waiting: BTreeSet<(bool, Square)>,
+}
+
+impl<'a, O, E, F> Tree<'a, O, F>
+where
+    O: Copy + Ord,
+    F: Fn(&[Position]) -> Result<Vec<O>, E>,
+{
+    /// The squares of a grid with so many rows, two or more, which no boundary has been followed in.
+    pub(super) fn new(mut outcomes: Outcomes<'a, O, F>, rows: usize) -> Result<Self, E> {
+        let edges: Vec<Edge> = outcomes.grid_edges().collect();
+        outcomes.narrow(edges)?;
+        let step = outcomes.lattice.step();
+        let end = Point { x: (outcomes.columns() as u64 - 1) * step, y: (rows as u64 - 1) * step };
+        let mut tree = Tree { outcomes, end, divided: HashSet::new(), leaves: BTreeMap::new(), waiting: BTreeSet::new() };
+        for corner in (0..end.y / step).flat_map(|y| (0..end.x / step).map(move |x| Point { x: x * step, y: y * step })) {
+            tree.look(Square { level: 0, corner });
+        }
+        Ok(tree)
+    }
+
+    /// Divides until every leaf is settled, no larger than the tolerance, or beyond the budget.
+    pub(super) fn divide_all(&mut self) -> Result<(), E> {
+        while !self.waiting.is_empty() && !self.outcomes.exhausted {
+            let most = (self.outcomes.remaining() / SQUARE_EVALUATIONS).max(1);
+            let batch: Vec<Square> = self.waiting.iter().take(most).map(|(_, square)| *square).collect();
+            let lattice = &self.outcomes.lattice;
+            let inner: Vec<Edge> = batch.iter().flat_map(|square| square.inner_edges(lattice)).collect();
+            let outer: Vec<Edge> = batch.iter().flat_map(|square| square.edges(lattice)).collect();
+            self.outcomes.learn(inner.iter().flat_map(|edge| [edge.start, edge.end()]).collect())?;
+            self.outcomes.narrow(inner.into_iter().chain(outer.into_iter().flat_map(|edge| edge.halves())))?;
+            let mut changed = BTreeSet::new();
+            for square in batch {
+                changed.extend(square.neighbours(&self.outcomes.lattice, self.end).filter_map(|beside| self.leaf_over(beside)));
+                if self.outcomes.exhausted {
+                    changed.insert(square);
+                } else {
+                    changed.extend(self.divide(square));
+                }
+            }
+            // Some of them have been divided after they were noted.
+            changed.retain(|square| !self.divided.contains(square));
+            changed.into_iter().for_each(|square| self.look(square));
+        }
+        Ok(())
+    }
+
+    /// The leaf that `square` is or lies in; none when it is divided.
+    fn leaf_over(&self, square: Square) -> Option<Square> {
+        if self.divided.contains(&square) {
+            return None;
+        }
+        let mut leaf = square;
+        while let Some(parent) = leaf.parent(&self.outcomes.lattice) {
+            if self.divided.contains(&parent) {
+                break;
+            }
+            leaf = parent;
+        }
+        Some(leaf)
+    }
+
+    /// Notes whether boundaries cross an undivided square, and whether it needs to be divided.
+    fn look(&mut self, square: Square) {
+        let crossings = self.outcomes.around(&square);
+        self.waiting.remove(&(false, square));
+        self.waiting.remove(&(true, square));
+        if crossings.is_empty() {
+            self.leaves.remove(&square);
+            return;
+        }
+        let leaf = *self.leaves.entry(square).or_default();
+        let simple = self.chord(&square, &crossings);
+        let near = simple.is_some_and(|chord| leaf.settled || chord.length() <= STRAIGHT);
+        if !near && square.level < self.outcomes.lattice.finest_level(square.corner) {
+            self.waiting.insert((simple.is_none(), square));
+        }
+    }
+
+    /// Replaces `square`, whose inner edges are known, by its quarters.
+    fn divide(&mut self, square: Square) -> [Square; 4] {
+        let leaf = self.leaves.remove(&square).unwrap_or_default();
+        self.waiting.remove(&(false, square));
+        self.waiting.remove(&(true, square));
+        self.divided.insert(square);
+        let deviation = self.chord(&square, &self.outcomes.around(&square)).map(|chord| self.deviation(&square, &chord));
+        let next = match deviation {
+            // Without a crossing inside nothing has been learnt.
+            Some(None) => leaf,
+            Some(Some(found)) => Leaf {
+                settled: found <= STRAIGHT && leaf.deviation.is_some_and(|before| before <= STRAIGHT_BEFORE),
+                deviation: Some(found),
+            },
+            None => Leaf::default(),
+        };
+        let quarters = square.quarters(&self.outcomes.lattice);
+        self.leaves.extend(quarters.map(|quarter| (quarter, next)));
+        quarters
+    }
+
+    /// The chord of a boundary that enters a square and leaves it; none for several.
+    fn chord(&self, square: &Square, crossings: &[Crossing<O>]) -> Option<Chord> {
+        let [first, second] = crossings else { return None };
+        let scale = self.outcomes.lattice.tolerances(square.corner);
+        Some(Chord::new(first.vertex(), second.vertex(), scale))
+    }
+
+    /// How far the boundary inside `square` goes from its chord, in tolerances, by the edges that divide it.
+    fn deviation(&self, square: &Square, chord: &Chord) -> Option<f64> {
+        let mut inside = Vec::new();
+        square.inner_edges(&self.outcomes.lattice).into_iter().for_each(|edge| self.outcomes.crossings(edge, &mut inside));
+        inside.iter().map(|crossing| chord.distance(crossing.vertex())).reduce(f64::max)
+    }
+
+    /// The boundaries through all leaves.
+    pub(super) fn traced(self) -> Traced<O> {
+        let lattice = &self.outcomes.lattice;
+        let mut unresolved = Unresolved::default();
+        let mut all: Vec<Piece<O>> = Vec::new();
+        for square in self.leaves.keys() {
+            let crossings = self.outcomes.around(square);
+            let side = square.side(lattice);
+            let waits = [false, true].iter().any(|tangled| self.waiting.contains(&(*tangled, *square)));
+            let (across, up) = lattice.tolerances(square.corner);
+            let size = side as f64 * across.max(up);
+            if waits || size > 1.0 && crossings.iter().any(|crossing| self.outcomes.wide(crossing)) {
+                unresolved.add(size);
+            }
+            let centre = Point { x: 2 * square.corner.x + side, y: 2 * square.corner.y + side };
+            all.extend(pieces(&crossings, centre));
+        }
+        let polylines = chains(&all).into_iter().map(|chain| polyline(lattice, chain)).collect();
+        Traced { polylines, evaluations: self.outcomes.evaluations(), unresolved }
+    }
+}
