@@ -24,6 +24,9 @@ impl<O> Crossing<O> {
     }
 }
 
+/// Times that a bisection goes on in both halves.
+const MOST_FORKS: u32 = 2;
+
 /// Outcomes of points, each evaluated once and no more of them than a budget allows.
 pub(super) struct Outcomes<'a, O, F> {
     pub lattice: Lattice,
@@ -92,28 +95,33 @@ where
         (from != to).then_some(Crossing { bracket: edge, from, to })
     }
 
-    /// Bisects those of `edges` whose ends differ until their brackets are narrow. An edge with a third outcome inside is left: the
-    /// squares beside it are divided, and its halves come back.
+    /// Bisects those of `edges` whose ends differ until their brackets are narrow. Where another outcome turns up inside, both sides of it
+    /// are, up to a few on an edge: the squares beside an edge with more are divided, and its halves come back.
     pub(super) fn narrow(&mut self, edges: impl IntoIterator<Item = Edge>) -> Result<(), E> {
-        let mut open: Vec<Crossing<O>> = edges.into_iter().filter_map(|edge| self.crossed(edge)).collect();
+        let mut open: Vec<(Crossing<O>, u32)> =
+            edges.into_iter().filter_map(|edge| self.crossed(edge)).map(|crossing| (crossing, 0)).collect();
         while !open.is_empty() && !self.exhausted {
             let mut wanted = Vec::new();
-            open.retain_mut(|crossing| {
-                while crossing.bracket.length > self.lattice.bracket(&crossing.bracket) {
-                    let Some(middle) = crossing.bracket.middle() else { break };
-                    let [lower, upper] = crossing.bracket.halves();
-                    match self.get(middle) {
-                        None => {
-                            wanted.push(middle);
-                            return true;
-                        }
-                        Some(outcome) if outcome == crossing.from => crossing.bracket = upper,
-                        Some(outcome) if outcome == crossing.to => crossing.bracket = lower,
-                        Some(_) => return false,
+            let mut waiting = Vec::new();
+            while let Some((crossing, forks)) = open.pop() {
+                let middle = crossing.bracket.middle().filter(|_| self.wide(&crossing));
+                let Some(middle) = middle else { continue };
+                let [lower, upper] = crossing.bracket.halves();
+                match self.get(middle) {
+                    None => {
+                        wanted.push(middle);
+                        waiting.push((crossing, forks));
                     }
+                    Some(outcome) if outcome == crossing.from => open.push((Crossing { bracket: upper, ..crossing }, forks)),
+                    Some(outcome) if outcome == crossing.to => open.push((Crossing { bracket: lower, ..crossing }, forks)),
+                    Some(outcome) if forks < MOST_FORKS => {
+                        open.push((Crossing { bracket: lower, to: outcome, ..crossing }, forks + 1));
+                        open.push((Crossing { bracket: upper, from: outcome, ..crossing }, forks + 1));
+                    }
+                    Some(_) => {}
                 }
-                false
-            });
+            }
+            open = waiting;
             self.learn(wanted)?;
         }
         Ok(())

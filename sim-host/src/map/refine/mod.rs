@@ -11,6 +11,7 @@ mod crossing;
 mod lattice;
 mod polyline;
 mod square;
+mod strands;
 #[cfg(test)]
 mod tests;
 mod trace;

@@ -22,31 +22,46 @@ pub(super) struct Chain<O> {
     pub vertices: Vec<Point>,
 }
 
-/// The pieces inside a square from the crossings met on a counterclockwise walk around it. Crossings of one pair of outcomes are joined
-/// two by two, without crossing each other; what is left over meets at the `centre`, where more than two outcomes meet.
-pub(super) fn pieces<O: Copy + Ord>(crossings: &[Crossing<O>], centre: Point) -> Vec<Piece<O>> {
-    let mut pieces = Vec::new();
-    let mut open: BTreeMap<(O, O), Vec<&Crossing<O>>> = BTreeMap::new();
-    for crossing in crossings {
-        let (left, right) = (crossing.from.min(crossing.to), crossing.from.max(crossing.to));
-        let same_pair = open.entry((left, right)).or_default();
-        match same_pair.pop_if(|other| other.from == crossing.to) {
-            // Into the square, what the walk comes from lies on the left.
-            Some(other) if other.from == left => {
-                pieces.push(Piece { start: other.vertex(), end: crossing.vertex(), left, right });
+/// The crossings met on a counterclockwise walk around a square, joined two by two.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Joined<O> {
+    /// Between crossings of one pair of outcomes, none of them across another of its pair.
+    pub pieces: Vec<Piece<O>>,
+    /// What is left over: more than two outcomes meet inside.
+    pub alone: Vec<Crossing<O>>,
+}
+
+impl<O: Copy + Ord> Joined<O> {
+    /// Of all crossings of a square in the order of the walk.
+    pub(super) fn of(crossings: &[Crossing<O>]) -> Joined<O> {
+        let mut pieces = Vec::new();
+        let mut open: BTreeMap<(O, O), Vec<Crossing<O>>> = BTreeMap::new();
+        for &crossing in crossings {
+            let (left, right) = (crossing.from.min(crossing.to), crossing.from.max(crossing.to));
+            let same_pair = open.entry((left, right)).or_default();
+            match same_pair.pop_if(|other| other.from == crossing.to) {
+                // Into the square, what the walk comes from lies on the left.
+                Some(other) if other.from == left => {
+                    pieces.push(Piece { start: other.vertex(), end: crossing.vertex(), left, right });
+                }
+                Some(other) => pieces.push(Piece { start: crossing.vertex(), end: other.vertex(), left, right }),
+                None => same_pair.push(crossing),
             }
-            Some(other) => pieces.push(Piece { start: crossing.vertex(), end: other.vertex(), left, right }),
-            None => same_pair.push(crossing),
         }
+        Joined { pieces, alone: open.into_values().flatten().collect() }
     }
-    for ((left, right), alone) in open {
-        pieces.extend(alone.into_iter().map(|crossing| {
+
+    /// All pieces, those of crossings that are left over to a vertex where they `meet`.
+    pub(super) fn meeting(mut self, meet: Point) -> Vec<Piece<O>> {
+        // One of the crossings may be where they meet.
+        for crossing in self.alone.into_iter().filter(|crossing| crossing.vertex() != meet) {
             let vertex = crossing.vertex();
-            let (start, end) = if crossing.from == left { (vertex, centre) } else { (centre, vertex) };
-            Piece { start, end, left, right }
-        }));
+            let (left, right) = (crossing.from.min(crossing.to), crossing.from.max(crossing.to));
+            let (start, end) = if crossing.from == left { (vertex, meet) } else { (meet, vertex) };
+            self.pieces.push(Piece { start, end, left, right });
+        }
+        self.pieces
     }
-    pieces
 }
 
 /// Joins pieces to chains that end only at the edge of the grid or where more than two boundaries meet; in order of the outcomes, open
@@ -142,19 +157,23 @@ mod tests {
         Crossing { bracket: Edge { start: point(x, 0), along: Along::Columns, length: 1 }, from, to }
     }
 
+    fn meet(crossings: &[Crossing<u8>], centre: Point) -> Vec<Piece<u8>> {
+        Joined::of(crossings).meeting(centre)
+    }
+
     #[test]
     fn crossings_of_a_pair_are_joined_and_three_outcomes_meet() {
         let centre = point(100, 100);
-        let two = pieces(&[crossing(0, 1, 2), crossing(5, 2, 1)], centre);
+        let two = meet(&[crossing(0, 1, 2), crossing(5, 2, 1)], centre);
         assert_eq!(two, [Piece { start: point(1, 0), end: point(11, 0), left: 1, right: 2 }]);
-        let reversed = pieces(&[crossing(0, 2, 1), crossing(5, 1, 2)], centre);
+        let reversed = meet(&[crossing(0, 2, 1), crossing(5, 1, 2)], centre);
         assert_eq!(reversed, [Piece { start: point(11, 0), end: point(1, 0), left: 1, right: 2 }]);
-        let three = pieces(&[crossing(0, 1, 2), crossing(5, 2, 3), crossing(9, 3, 1)], centre);
+        let three = meet(&[crossing(0, 1, 2), crossing(5, 2, 3), crossing(9, 3, 1)], centre);
         assert!(three.len() == 3 && three.iter().all(|piece| (piece.start == centre) != (piece.end == centre)));
-        let four = pieces(&[crossing(0, 1, 2), crossing(1, 2, 1), crossing(2, 1, 2), crossing(3, 2, 1)], centre);
+        let four = meet(&[crossing(0, 1, 2), crossing(1, 2, 1), crossing(2, 1, 2), crossing(3, 2, 1)], centre);
         assert!(four.len() == 2 && four.iter().all(|piece| piece.start != centre && piece.end != centre));
         // A band between two boundaries.
-        let band = pieces(&[crossing(0, 1, 2), crossing(1, 2, 3), crossing(2, 3, 2), crossing(3, 2, 1)], centre);
+        let band = meet(&[crossing(0, 1, 2), crossing(1, 2, 3), crossing(2, 3, 2), crossing(3, 2, 1)], centre);
         assert!(band.len() == 2 && band.iter().all(|piece| piece.start != centre && piece.end != centre));
     }
 }

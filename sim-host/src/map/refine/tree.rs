@@ -2,29 +2,30 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
-use super::chord::Chord;
 use super::crossing::{Crossing, Outcomes};
 use super::lattice::{Edge, Point, Position};
-use super::polyline::{Piece, chains, pieces};
+use super::polyline::{Joined, Piece, chains};
 use super::square::Square;
+use super::strands::{STRAIGHT, Strands};
 use super::trace::{Traced, Unresolved, polyline};
 
 /// Evaluations that dividing a square takes, about: so many squares are divided at a time that a budget which runs out does so on the
 /// squares that come last.
 const SQUARE_EVALUATIONS: usize = 80;
 
-/// How far the boundary may be from its chord in a square, in tolerances, for the quarters to be near enough; and, so that a point of
-/// inflection on the chord does not pass for a straight boundary, how far it may have been in the square before.
-const STRAIGHT: f64 = 1.0;
+/// How far a boundary may have been from its chord in the square before, in tolerances, so that a point of inflection on the chord does
+/// not pass for a straight boundary.
 const STRAIGHT_BEFORE: f64 = 4.0;
 
 /// A square that a boundary crosses and that is not divided.
 #[derive(Clone, Copy, Debug, Default)]
 struct Leaf {
-    /// The straight pieces between its crossings are as near as wanted, if it has but two.
+    /// The straight pieces between its crossings are as near as wanted, unless they are a tangle.
     settled: bool,
-    /// How far the boundary was from its chord in the square that this one is a quarter of, in tolerances; none when that is not known.
+    /// How far boundaries were from their chords in the square that this one is a quarter of, in tolerances; none when that is not known.
     deviation: Option<f64>,
+    /// Crossings around it when it was last looked at.
+    crossings: Option<usize>,
 }
 
 /// Squares of the grid, quarters of those, and so on where boundaries are.
@@ -106,11 +107,17 @@ where
             self.leaves.remove(&square);
             return;
         }
-        let leaf = *self.leaves.entry(square).or_default();
-        let simple = self.chord(&square, &crossings);
-        let near = simple.is_some_and(|chord| leaf.settled || chord.length() <= STRAIGHT);
+        let leaf = self.leaves.entry(square).or_default();
+        // A neighbour that was divided has come upon further ones.
+        if leaf.crossings.is_some_and(|before| before != crossings.len()) {
+            *leaf = Leaf::default();
+        }
+        leaf.crossings = Some(crossings.len());
+        let settled = leaf.settled;
+        let strands = Strands::of(&crossings, self.outcomes.lattice.tolerances(square.corner));
+        let near = !strands.tangled && (settled || strands.chords.iter().all(|chord| chord.length() <= STRAIGHT));
         if !near && square.level < self.outcomes.lattice.finest_level(square.corner) {
-            self.waiting.insert((simple.is_none(), square));
+            self.waiting.insert((crossings.len() > 2, square));
         }
     }
 
@@ -120,33 +127,22 @@ where
         self.waiting.remove(&(false, square));
         self.waiting.remove(&(true, square));
         self.divided.insert(square);
-        let deviation = self.chord(&square, &self.outcomes.around(&square)).map(|chord| self.deviation(&square, &chord));
-        let next = match deviation {
+        let strands = Strands::of(&self.outcomes.around(&square), self.outcomes.lattice.tolerances(square.corner));
+        let mut inside = Vec::new();
+        square.inner_edges(&self.outcomes.lattice).into_iter().for_each(|edge| self.outcomes.crossings(edge, &mut inside));
+        let inside: Vec<Point> = inside.iter().map(Crossing::vertex).collect();
+        let next = match strands.deviation(&inside) {
+            _ if strands.tangled => Leaf::default(),
             // Without a crossing inside nothing has been learnt.
-            Some(None) => leaf,
-            Some(Some(found)) => Leaf {
-                settled: found <= STRAIGHT && leaf.deviation.is_some_and(|before| before <= STRAIGHT_BEFORE),
-                deviation: Some(found),
-            },
-            None => Leaf::default(),
+            None => Leaf { crossings: None, ..leaf },
+            Some(found) => {
+                let straight = found <= STRAIGHT && leaf.deviation.is_some_and(|before| before <= STRAIGHT_BEFORE);
+                Leaf { settled: straight && strands.seen(&inside), deviation: Some(found), crossings: None }
+            }
         };
         let quarters = square.quarters(&self.outcomes.lattice);
         self.leaves.extend(quarters.map(|quarter| (quarter, next)));
         quarters
-    }
-
-    /// The chord of a boundary that enters a square and leaves it; none for several.
-    fn chord(&self, square: &Square, crossings: &[Crossing<O>]) -> Option<Chord> {
-        let [first, second] = crossings else { return None };
-        let scale = self.outcomes.lattice.tolerances(square.corner);
-        Some(Chord::new(first.vertex(), second.vertex(), scale))
-    }
-
-    /// How far the boundary inside `square` goes from its chord, in tolerances, by the edges that divide it.
-    fn deviation(&self, square: &Square, chord: &Chord) -> Option<f64> {
-        let mut inside = Vec::new();
-        square.inner_edges(&self.outcomes.lattice).into_iter().for_each(|edge| self.outcomes.crossings(edge, &mut inside));
-        inside.iter().map(|crossing| chord.distance(crossing.vertex())).reduce(f64::max)
     }
 
     /// The boundaries through all leaves.
@@ -163,8 +159,9 @@ where
             if waits || size > 1.0 && crossings.iter().any(|crossing| self.outcomes.wide(crossing)) {
                 unresolved.add(size);
             }
+            let strands = Strands::of(&crossings, (across, up));
             let centre = Point { x: 2 * square.corner.x + side, y: 2 * square.corner.y + side };
-            all.extend(pieces(&crossings, centre));
+            all.extend(Joined::of(&crossings).meeting(strands.meet.unwrap_or(centre)));
         }
         let polylines = chains(&all).into_iter().map(|chain| polyline(lattice, chain)).collect();
         Traced { polylines, evaluations: self.outcomes.evaluations(), unresolved }
