@@ -560,3 +560,31 @@ fn bad_input_of_loop_costs_one_line() {
         refused(&["loop", &scene_file, "--set", set, "--out", place], &out, words);
     }
 }
+
+#[test]
+fn a_refined_map_has_its_boundaries_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |threads: &str, more: &[&str]| {
+        let out = folder.path().join(format!("{threads}{}", more.len()));
+        let few = ["--set", "map.x.cells=6", "--set", "map.y.cells=5", "--refine", "--evaluations", "1500", "--threads", threads];
+        let (scene, place) = (scene("figure08"), out.to_str().unwrap().to_owned());
+        let output = sprag(&[&["map", &scene, "--out", &place][..], &few, more].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        (out, String::from_utf8(output.stdout).unwrap())
+    };
+    let ((one, table), (two, _)) = (run("1", &[]), run("2", &[]));
+    assert!(table.contains("evaluations") && table.contains("are left coarser"), "{table}");
+    for name in ["boundaries.csv", "boundaries.svg"] {
+        let [one, two] = [&one, &two].map(|out| fs::read(out.join(name)).unwrap());
+        assert!(!one.is_empty() && one == two, "{name}");
+    }
+    let summary: serde_json::Value = serde_json::from_slice(&fs::read(one.join("summary.json")).unwrap()).unwrap();
+    for run in summary["runs"].as_array().unwrap() {
+        let refined = &run["refined"];
+        assert!(refined["evaluations"] == 1500 && refined["vertices"].as_u64().unwrap() > 10, "{refined}");
+        assert!(refined["unresolved_squares"].as_u64().unwrap() > 0 && refined["unresolved_relative_width"].is_number());
+    }
+    // In a cut boundaries are points.
+    let (cut, table) = run("1", &["--cut"]);
+    assert!(cut.join("boundaries.csv").exists() && !cut.join("boundaries.svg").exists() && !table.contains("coarser"));
+}
