@@ -31,7 +31,7 @@ pub(super) fn notes(choices: &Choices<'_>, findings: &Findings) -> Vec<String> {
         ));
     }
     let alike = findings.rows.iter().filter(|row| row.feasible && row.overturned == best.overturned).count();
-    if best.overturned > 0 && alike > 1 {
+    if reference.overturned > 0 && alike > 1 {
         notes.push(format!(
             "{alike} of the {} devices tried respect the limits and overturn under {}: the choice among them is by peak rotation.",
             findings.designs,
