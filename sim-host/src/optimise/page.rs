@@ -56,7 +56,7 @@ fn tenths(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
-/// What is limited, in words; empty without limits.
+/// What is limited, in words; "no limit" where nothing is.
 pub fn limits(choices: &Choices<'_>) -> String {
     let limits = choices.limits;
     let force = limits.force.map(|limit| format!("max |F|/(mg) ≤ {limit}"));
