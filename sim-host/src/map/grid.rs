@@ -120,6 +120,17 @@ impl Grid {
         }
     }
 
+    /// The block with device `device` in a cell, if its scene is a dimensionless block under a one-cycle pulse.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a cell's value outside its range.
+    pub fn pulsed(&self, device: usize, column: usize, row: usize) -> Result<Option<PulsedBlock>, SceneError> {
+        Ok(match self.subject(device, self.values(column, row))? {
+            Subject::Pulsed(block) => Some(block),
+            Subject::Scene(_) => None,
+        })
+    }
+
     /// The block with device `device` where the axes have `values`.
     ///
     /// # Errors
