@@ -37,7 +37,7 @@ fn run(study: &Study) -> (StudyRecords, Runs, Findings) {
 /// Everything that a study writes.
 fn written(study: &Study, (records, runs, findings): &(StudyRecords, Runs, Findings)) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let runs = RunsTable { study, records: &records.records, runs };
+    let runs = RunsTable { study, records: &records.records, runs: &runs.all };
     let tables: [&dyn Table; 4] = [&runs, &DemandTable(findings), &FragilityTable(findings), &RankingTable(findings)];
     for table in tables {
         write_csv(table, &mut bytes).unwrap();

@@ -1,5 +1,7 @@
 //! The runs of a study: every structure under every record, scaled, with every device.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::measure::Measure;
@@ -11,6 +13,7 @@ use crate::ensemble::machine::{Registers, shake};
 use crate::ensemble::plain::PlainBlock;
 use crate::ensemble::records::{Samples, Shaken, ShakenBlock};
 use crate::interrupt::Interrupt;
+use crate::long_run::in_order::in_order;
 use crate::outcome::Outcome;
 use crate::scene::Scene;
 use crate::scene::motions::GroundMotions;
@@ -85,9 +88,101 @@ struct Shaking<'a> {
 /// Shakings that one task takes, at most: enough to keep lanes full, and a twentieth of a small study.
 const MOST_TOGETHER: usize = 256;
 
+/// What a study runs: each of its structures under every record, scaled, with every device. A row is a run.
+pub struct RunList<'a> {
+    /// The study.
+    pub study: &'a Study,
+    /// Its records.
+    pub records: &'a [StudyRecord],
+    shakings: Vec<Shaking<'a>>,
+    left_out: Vec<String>,
+    subjects: Vec<Subject<'a>>,
+    samples: Vec<Samples>,
+}
+
+impl<'a> RunList<'a> {
+    /// Of `study` under `records`.
+    pub fn new(study: &'a Study, records: &'a [StudyRecord]) -> RunList<'a> {
+        let mut left_out = Vec::new();
+        let mut shakings = Vec::new();
+        for (number, structure) in study.structures.iter().enumerate() {
+            for (record, motion) in records.iter().enumerate() {
+                for (factor, level) in scales(study, structure, motion, &mut left_out) {
+                    shakings.push(Shaking { structure: number, record, motion, factor, level });
+                }
+            }
+        }
+        let subjects = study.structures.iter().map(Subject::new).collect();
+        let samples = records.par_iter().map(|record| Samples::of(&record.motion.record)).collect();
+        RunList { study, records, shakings, left_out, subjects, samples }
+    }
+
+    /// Runs of the same shaking, one a device: neighbouring rows.
+    pub fn together(&self) -> usize {
+        self.study.devices.len()
+    }
+
+    /// How many runs there are.
+    pub fn rows(&self) -> usize {
+        self.shakings.len() * self.together()
+    }
+
+    /// Rows that one task takes.
+    fn task(&self) -> usize {
+        (self.shakings.len() / 20).clamp(1, MOST_TOGETHER) * self.together()
+    }
+
+    /// Row number `row`, if it came to `answer`; `measures` are those of the scaled record.
+    pub(super) fn run(&self, row: usize, measures: [f64; Measure::COUNT], answer: Result<Answer, String>) -> Run {
+        let Shaking { structure, record, factor, level, .. } = self.shakings[row / self.together()];
+        Run { structure, record, device: row % self.together(), factor, level, measures, answer }
+    }
+
+    /// The runs of `rows`, whole shakings; none once interrupted.
+    fn runs(&self, rows: Range<usize>, interrupt: &Interrupt, done: &(dyn Fn() + Sync)) -> Option<Vec<Run>> {
+        let shakings = &self.shakings[rows.start / self.together()..rows.end / self.together()];
+        let of_one = shakings.chunk_by(|a, b| a.structure == b.structure);
+        let runs = of_one.flat_map(|part| self.subjects[part[0].structure].runs(part, &self.samples, interrupt, done)).collect();
+        (!interrupt.is_set()).then_some(runs)
+    }
+
+    /// What `all` runs say together.
+    pub fn sum_up(&self, all: Vec<Run>) -> Runs {
+        let mut runs = Runs { left_out: self.left_out.clone(), ..Runs::default() };
+        for run in &all {
+            match &run.answer {
+                Ok(Answer { error: Some(error), peak_rotation, .. }) => {
+                    runs.worst.get_or_insert_default().note(error, *peak_rotation);
+                }
+                Ok(_) => {}
+                Err(reason) => {
+                    let [structure, record] = [&self.study.structures[run.structure].name, &self.records[run.record].name];
+                    runs.left_out.push(format!("{structure}, {record} times {}: {reason}", run.factor));
+                    runs.failed = true;
+                }
+            }
+        }
+        Runs { all, ..runs }
+    }
+
+    /// Works through `rows`, whole shakings, on rayon's threads, and hands runs to `keep` in their order; `done` is called after each.
+    /// Neither the number of threads nor their order changes a bit of the runs. `false` when it was interrupted.
+    ///
+    /// # Errors
+    /// Those of `keep`.
+    pub fn work_through<E: Send>(
+        &self,
+        rows: Range<usize>,
+        interrupt: &Interrupt,
+        done: &(dyn Fn() + Sync),
+        keep: impl FnMut(Vec<Run>) -> Result<(), E>,
+    ) -> Result<bool, E> {
+        in_order(rows, self.task(), |rows| Ok(self.runs(rows, interrupt, done)), keep)
+    }
+}
+
 impl Runs {
-    /// Runs `study` under `records` on rayon's threads. `begin` is told how many runs there will be, `done` is called after
-    /// each. Neither the number of threads nor their order changes a bit of the runs.
+    /// Runs `study` under `records`. `begin` is told how many runs there will be, `done` is called after each.
     ///
     /// # Errors
     /// [`RunError::Interrupted`]; runs that fail are among [`Runs::left_out`].
@@ -98,42 +193,14 @@ impl Runs {
         begin: impl FnOnce(u64),
         done: &(dyn Fn() + Sync),
     ) -> Result<Runs, RunError> {
-        let mut runs = Runs::default();
-        let mut shakings = Vec::new();
-        for (number, structure) in study.structures.iter().enumerate() {
-            for (record, motion) in records.iter().enumerate() {
-                for (factor, level) in scales(study, structure, motion, &mut runs.left_out) {
-                    shakings.push(Shaking { structure: number, record, motion, factor, level });
-                }
-            }
-        }
-        let subjects: Vec<Subject<'_>> = study.structures.iter().map(Subject::new).collect();
-        let samples: Vec<Samples> = records.par_iter().map(|record| Samples::of(&record.motion.record)).collect();
-        begin((shakings.len() * study.devices.len()) as u64);
-        let together = (shakings.len() / 20).clamp(1, MOST_TOGETHER);
-        let found: Vec<Vec<Run>> = shakings
-            .par_chunks(together)
-            .flat_map_iter(|shakings| shakings.chunk_by(|a, b| a.structure == b.structure))
-            .map(|shakings| subjects[shakings[0].structure].runs(shakings, &samples, interrupt, done))
-            .collect();
-        if interrupt.is_set() {
-            return Err(RunError::Interrupted);
-        }
-        runs.all = found.into_iter().flatten().collect();
-        for run in &runs.all {
-            match &run.answer {
-                Ok(Answer { error: Some(error), peak_rotation, .. }) => {
-                    runs.worst.get_or_insert_default().note(error, *peak_rotation);
-                }
-                Ok(_) => {}
-                Err(reason) => {
-                    let [structure, record] = [&study.structures[run.structure].name, &records[run.record].name];
-                    runs.left_out.push(format!("{structure}, {record} times {}: {reason}", run.factor));
-                    runs.failed = true;
-                }
-            }
-        }
-        Ok(runs)
+        let list = RunList::new(study, records);
+        begin(list.rows() as u64);
+        let mut all = Vec::with_capacity(list.rows());
+        let whole = list.work_through(0..list.rows(), interrupt, done, |runs| {
+            all.extend(runs);
+            Ok::<(), RunError>(())
+        })?;
+        if whole { Ok(list.sum_up(all)) } else { Err(RunError::Interrupted) }
     }
 }
 

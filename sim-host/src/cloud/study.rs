@@ -147,6 +147,11 @@ impl Study {
         self.structures.iter().all(|structure| structure.scene.geometry() == sprag_shared::block::Geometry::Slender)
     }
 
+    /// Whether runs shall say how accurate they are.
+    pub fn asks_for_errors(&self) -> bool {
+        self.structures.iter().any(|structure| structure.scene.file.accuracy.level.is_some())
+    }
+
     /// Factors or levels: runs of every record for each structure and device.
     pub fn scalings(&self) -> usize {
         match &self.scaling {

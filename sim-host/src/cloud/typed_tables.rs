@@ -7,13 +7,15 @@ use super::measure::Measure;
 use super::overturning::DeviceFragility;
 use super::ranking::Ranking;
 use super::records::StudyRecord;
-use super::runs::{Answer, Run, Runs};
+use super::run_rows::FAILED;
+use super::runs::{Answer, Run};
 use super::study::Study;
+use crate::accuracy::ErrorEstimate;
 use crate::columns::{Column, Fields, RowWriter, Table, TableError, Value};
 use crate::statistics::{Band, FragilityCurve, PowerLaw, RankedMeasure};
 
 /// `runs`: one run a row. Peaks are max |θ|/α and max |θ̈|/(p²α), empty when overturned; measures are dimensionless, of the scaled
-/// record.
+/// record. Where an accuracy was asked for, the last columns are the absolute errors.
 #[derive(Clone, Copy)]
 pub struct RunsTable<'s> {
     /// Names of structures and devices.
@@ -21,7 +23,7 @@ pub struct RunsTable<'s> {
     /// Names of records.
     pub records: &'s [StudyRecord],
     /// The rows.
-    pub runs: &'s Runs,
+    pub runs: &'s [Run],
 }
 
 /// A run and what it belongs to.
@@ -34,37 +36,51 @@ impl RunRow<'_> {
     fn answer(&self) -> Option<&Answer> {
         self.run.answer.as_ref().ok()
     }
+
+    fn error(&self) -> Option<&ErrorEstimate> {
+        self.answer()?.error.as_ref()
+    }
 }
 
-fn run_fields<'s>() -> Fields<RunRow<'s>> {
+fn run_fields<'s>(study: &Study) -> Fields<RunRow<'s>> {
+    let number = |name: &str| Column::number(name).or_nothing();
     let mut fields = Fields::<RunRow<'s>>::default()
         .with(Column::text("record"), |row| (&row.table.records[row.run.record].name).into())
         .with(Column::text("structure"), |row| (&row.table.study.structures[row.run.structure].name).into())
         .with(Column::text("device"), |row| (&row.table.study.devices[row.run.device]).into())
         .with(Column::number("scale"), |row| row.run.factor.into())
-        .with(Column::number("level").or_nothing(), |row| row.run.level.into());
+        .with(number("level"), |row| row.run.level.into());
     for (index, measure) in Measure::ALL.into_iter().enumerate() {
         fields = fields.with(Column::number(measure.name().replace('-', "_")), move |row| row.run.measures[index].into());
     }
-    fields
-        .with(Column::text("outcome"), |row| row.answer().map_or("failed", |answer| answer.outcome.name()).into())
-        .with(Column::number("peak_rotation").or_nothing(), |row| row.answer().and_then(|answer| answer.peak_rotation).into())
-        .with(Column::number("peak_acceleration").or_nothing(), |row| {
-            row.answer().and_then(|answer| answer.peak_acceleration).into()
-        })
+    fields = fields
+        .with(Column::text("outcome"), |row| row.answer().map_or(FAILED, |answer| answer.outcome.name()).into())
+        .with(number("peak_rotation"), |row| row.answer().and_then(|answer| answer.peak_rotation).into())
+        .with(number("peak_acceleration"), |row| row.answer().and_then(|answer| answer.peak_acceleration).into())
         .with(Column::count("impacts").or_nothing(), |row| row.answer().map(|answer| answer.impacts).into())
-        .with(Column::number("end_time_s").or_nothing(), |row| row.answer().map(|answer| answer.end_time_s).into())
-        .with(Column::text("failure").or_nothing(), |row| row.run.answer.as_ref().err().into())
+        .with(number("end_time_s"), |row| row.answer().map(|answer| answer.end_time_s).into())
+        .with(Column::text("failure").or_nothing(), |row| row.run.answer.as_ref().err().into());
+    if !study.asks_for_errors() {
+        return fields;
+    }
+    let certain = |certain: bool| if certain { "true" } else { "false" };
+    fields
+        .with(Column::text("outcome_certain").or_nothing(), move |row| {
+            row.error().map(|error| certain(error.outcome_certain)).into()
+        })
+        .with(number("peak_rotation_error"), |row| row.error().map(|error| error.peak_rotation).into())
+        .with(number("peak_acceleration_error"), |row| row.error().map(|error| error.peak_acceleration).into())
+        .with(number("first_impact_time_error_s"), |row| row.error().map(|error| error.first_impact_time).into())
 }
 
 impl Table for RunsTable<'_> {
     fn columns(&self) -> Vec<Column> {
-        run_fields().columns()
+        run_fields(self.study).columns()
     }
 
     fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
-        let fields = run_fields();
-        self.runs.all.iter().try_for_each(|run| fields.row(&RunRow { table: *self, run }, writer))
+        let fields = run_fields(self.study);
+        self.runs.iter().try_for_each(|run| fields.row(&RunRow { table: *self, run }, writer))
     }
 }
 

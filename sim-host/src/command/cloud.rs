@@ -14,17 +14,23 @@ use crate::cloud::figures::{demand_picture, fragility_picture};
 use crate::cloud::findings::Findings;
 use crate::cloud::overturning::OverturningError;
 use crate::cloud::pages::{demand_page, demand_table, fragility_notes, fragility_page, fragility_table, ranking_page};
-use crate::cloud::records::StudyRecords;
-use crate::cloud::runs::Runs;
+use crate::cloud::records::{StudyRecord, StudyRecords};
+use crate::cloud::runs::{RunList, Runs};
 use crate::cloud::structures::StudyStructure;
 use crate::cloud::study::Study;
 use crate::cloud::study_file::StudyFile;
 use crate::cloud::typed_tables::{DemandTable, FragilityTable, RankingTable, RunsTable};
 use crate::columns::{Table, TableError, metadata_of};
 use crate::interrupt::{self, Interrupt};
+use crate::long_run::arguments::LongRunArguments;
+use crate::long_run::error::LongRunError;
+use crate::long_run::origin::{Digest, Origin};
+use crate::long_run::rows::{Plan, Rows};
+use crate::long_run::shard::Shard;
 use crate::output::{Formats, OutputError, Results, make_folder};
 use crate::plot::PlotError;
 use crate::progress::Progress;
+use crate::record::Record;
 use crate::simulation::RunError;
 
 /// Demand regressions and overturning fragilities over many records (Figures 15 and 16).
@@ -34,7 +40,8 @@ use crate::simulation::RunError;
     Runs every structure of the study under every record, scaled as it says, with every device. Writes the tables runs, demand,\n\
     fragility and ranking as .csv and .parquet, the last three as .md too, the pictures demand and fragility as .svg and .png,\n\
     and summary.json. A record that cannot be read and a run that fails are named, the others are still done, and the exit\n\
-    code is 2.")]
+    code is 2. Runs go to the disk as they are made, runs.run.json says what they come from, and Ctrl-C leaves them there for\n\
+    --resume.")]
 pub struct CloudArguments {
     /// The study.
     #[command(flatten)]
@@ -51,6 +58,9 @@ pub struct CloudArguments {
     /// How accurate.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
+    /// Which of the runs, and whether some are there.
+    #[command(flatten)]
+    pub long_run: LongRunArguments,
 }
 
 #[derive(Debug, thiserror::Error)]
@@ -59,6 +69,10 @@ enum Failure {
     Input(#[from] StudyInputError),
     #[error("{0}")]
     Run(#[from] RunError),
+    #[error("{0}")]
+    Rows(#[from] LongRunError),
+    #[error("the study cannot be told in JSON: {0}")]
+    Json(#[from] serde_json::Error),
     #[error("{0}")]
     Fragility(#[from] OverturningError),
     #[error("the picture cannot be drawn: {0}")]
@@ -99,18 +113,14 @@ struct MadeBy<'a> {
 
 /// Runs the command; tables go to `out`, errors go to `err`.
 pub fn run(arguments: &CloudArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    match run_or_fail(arguments, out, err, interrupt) {
-        Ok(true) => 0,
-        Ok(false) => BAD_INPUT,
-        Err(Failure::Run(RunError::Interrupted)) => {
-            let _ = writeln!(err, "sprag: interrupted; nothing was written");
-            interrupt::EXIT_CODE
-        }
-        Err(failure) => {
-            let _ = writeln!(err, "sprag: {failure}");
-            BAD_INPUT
-        }
-    }
+    let failure = match run_or_fail(arguments, out, err, interrupt) {
+        Ok(true) => return 0,
+        Ok(false) => return BAD_INPUT,
+        Err(failure) => failure,
+    };
+    let _ = writeln!(err, "sprag: {failure}");
+    let interrupted = matches!(failure, Failure::Run(RunError::Interrupted) | Failure::Rows(LongRunError::Interrupted { .. }));
+    if interrupted { interrupt::EXIT_CODE } else { BAD_INPUT }
 }
 
 /// A study that was run.
@@ -118,6 +128,8 @@ struct Studied {
     study: Study,
     records: StudyRecords,
     runs: Runs,
+    /// runs.csv, if it is written.
+    rows: Option<PathBuf>,
 }
 
 /// Whether everything could be read and run.
@@ -131,17 +143,22 @@ fn run_or_fail(
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
     let progress = Progress::new("runs");
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
-    let Studied { study, records, runs } =
+    let studied =
         arguments.accuracy.run(|change| pool.install(|| studied(arguments, change, &folder, &progress, interrupt)), tell)?;
     progress.finish();
-    for line in &records.unreadable {
+    for line in &studied.records.unreadable {
         let _ = writeln!(err, "sprag: {line}");
     }
-    let findings = pool.install(|| Findings::of(&study, &runs))?;
+    let shard = arguments.long_run.shard();
+    if let (true, Some(rows)) = (shard != Shard::WHOLE, &studied.rows) {
+        let _ = writeln!(out, "shard {shard}: {}", rows.display());
+        return Ok(studied.records.unreadable.is_empty() && !studied.runs.failed);
+    }
+    let findings = pool.install(|| Findings::of(&studied.study, &studied.runs))?;
     if interrupt.is_set() {
         return Err(RunError::Interrupted.into());
     }
-    let complete = write(&Studied { study, records, runs }, &findings, &folder, arguments.formats.formats, out, err)?;
+    let complete = write(&studied, &findings, &folder, arguments.formats.formats, out, err)?;
     let _ = writeln!(out, "results of {} in {}", arguments.input.study.display(), folder.display());
     Ok(complete)
 }
@@ -157,8 +174,51 @@ fn studied(
     let records = arguments.input.read(&study)?;
     // Where the results go is tried before the work, not after it.
     make_folder(folder)?;
-    let runs = Runs::of(&study, &records.records, interrupt, |runs| progress.begin(runs), &|| progress.step())?;
-    Ok(Studied { study, records, runs })
+    if arguments.accuracy.time_budget.is_some() {
+        // Runs of several accuracies are tried; only the last are worth keeping.
+        let runs = Runs::of(&study, &records.records, interrupt, |runs| progress.begin(runs), &|| progress.step())?;
+        return Ok(Studied { study, records, runs, rows: None });
+    }
+    let list = RunList::new(&study, &records.records);
+    let columns = list.columns().into_iter().map(|column| column.name).collect();
+    let origin = origin(&list)?;
+    let shard = arguments.long_run.shard();
+    let plan = Plan { folder, name: "runs", columns, together: list.together(), shard, origin };
+    let mut all = Vec::new();
+    let mut rows = Rows::begin(&plan, arguments.long_run.start(), |row, record| {
+        all.push(list.read(row, record)?);
+        Ok(())
+    })?;
+    progress.begin((rows.done() + rows.left().len()) as u64);
+    progress.resume(rows.done() as u64);
+    let whole = list.work_through(rows.left(), interrupt, &|| progress.step(), |runs| {
+        rows.append(&list.text(&runs)?, runs.len())?;
+        all.extend(runs);
+        Ok::<(), Failure>(())
+    })?;
+    if !whole {
+        return Err(rows.interrupted().into());
+    }
+    let rows = rows.finish()?;
+    let runs = list.sum_up(all);
+    Ok(Studied { study, records, runs, rows: Some(rows) })
+}
+
+/// What runs come from: study, structures, and the samples of every record.
+fn origin(list: &RunList<'_>) -> Result<Origin, serde_json::Error> {
+    #[derive(Serialize)]
+    struct Input<'a> {
+        study: &'a StudyFile,
+        structures: &'a [StudyStructure],
+    }
+    let digest = |record: &StudyRecord| {
+        let Record { time_step_s, acceleration_m_s2, .. } = &record.motion.record;
+        let bytes: Vec<u8> =
+            std::iter::once(time_step_s).chain(acceleration_m_s2).flat_map(|value| value.to_le_bytes()).collect();
+        (record.name.clone(), Digest::of_bytes(&bytes))
+    };
+    let input = Input { study: &list.study.file, structures: &list.study.structures };
+    Origin::new("cloud", &input, list.records.iter().map(digest).collect(), list.rows())
 }
 
 /// Writes the results; returns whether everything was read and run.
@@ -170,7 +230,7 @@ fn write(
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> Result<bool, Failure> {
-    let Studied { study, records, runs } = studied;
+    let Studied { study, records, runs, rows } = studied;
     let (command, version) = ("cloud", env!("CARGO_PKG_VERSION"));
     let (file, structures) = (&study.file, &study.structures[..]);
     let document = Document {
@@ -187,13 +247,14 @@ fn write(
     let mut results = Results::default();
     results.add_json(&folder.join("summary.json"), &document)?;
     let made_by = metadata_of(&MadeBy { command, version, study: file, structures, seed: study.bootstrap.seed })?;
-    let of_runs = RunsTable { study, records: &records.records, runs };
-    let tables: [(&str, &dyn Table); 4] = [
-        ("runs", &of_runs),
-        ("demand", &DemandTable(findings)),
-        ("fragility", &FragilityTable(findings)),
-        ("ranking", &RankingTable(findings)),
-    ];
+    let of_runs = RunsTable { study, records: &records.records, runs: &runs.all };
+    match rows {
+        None => results.add_table(folder, "runs", &of_runs, &made_by, formats)?,
+        Some(rows) if formats.parquet => results.add_parquet_of(rows, &of_runs.columns(), &made_by)?,
+        Some(_) => {}
+    }
+    let tables: [(&str, &dyn Table); 3] =
+        [("demand", &DemandTable(findings)), ("fragility", &FragilityTable(findings)), ("ranking", &RankingTable(findings))];
     for (name, table) in tables {
         results.add_table(folder, name, table, &made_by, formats)?;
     }

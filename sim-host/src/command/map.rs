@@ -99,8 +99,6 @@ enum Failure {
     Json(#[from] serde_json::Error),
     #[error("--refine divides squares where boundaries are, and takes maps of at most 1024 x 1024 cells")]
     TooManyCells,
-    #[error("interrupted after {done} of {rows} rows; the same command with --resume goes on")]
-    Interrupted { done: usize, rows: usize },
 }
 
 impl From<LongRunError> for Failure {
@@ -154,7 +152,8 @@ impl<'a> DeviceSummary<'a> {
 pub fn run(arguments: &MapArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
     let Err(failure) = run_or_fail(arguments, out, err, interrupt) else { return 0 };
     let _ = writeln!(err, "sprag: {failure}");
-    if matches!(failure, Failure::Interrupted { .. }) { interrupt::EXIT_CODE } else { BAD_INPUT }
+    let interrupted = matches!(failure, Failure::Map(MapError::Interrupted | MapError::Rows(LongRunError::Interrupted { .. })));
+    if interrupted { interrupt::EXIT_CODE } else { BAD_INPUT }
 }
 
 fn run_or_fail(
@@ -192,7 +191,7 @@ fn run_or_fail(
     let whole = pool.install(|| study_to(&mut rows, &grid, &labels, &mut tally, &progress, interrupt));
     progress.finish();
     if !whole? {
-        return Err(Failure::Interrupted { done: rows.done(), rows: rows.done() + rows.left().len() });
+        return Err(rows.interrupted().into());
     }
     let path = rows.finish()?;
     if shard != Shard::WHOLE {

@@ -29,6 +29,14 @@ pub enum LongRunError {
         /// The first thing that is not the same.
         what: String,
     },
+    /// Ctrl-C.
+    #[error("interrupted after {done} of {rows} rows; the same command with --resume goes on")]
+    Interrupted {
+        /// Rows that are there.
+        done: usize,
+        /// Rows that there should be.
+        rows: usize,
+    },
     /// Rows that are not as they were written.
     #[error("{}: row {row}: {reason}", path.display())]
     BadRow {

@@ -37,9 +37,13 @@ impl Digest {
     /// # Errors
     /// When it cannot be read.
     pub fn of(path: &Path) -> std::io::Result<Digest> {
-        let bytes = std::fs::read(path)?;
-        let crc32 = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC).checksum(&bytes);
-        Ok(Digest { bytes: bytes.len() as u64, crc32: format!("{crc32:08x}") })
+        Ok(Digest::of_bytes(&std::fs::read(path)?))
+    }
+
+    /// Of `bytes`.
+    pub fn of_bytes(bytes: &[u8]) -> Digest {
+        let crc32 = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC).checksum(bytes);
+        Digest { bytes: bytes.len() as u64, crc32: format!("{crc32:08x}") }
     }
 }
 

@@ -138,6 +138,11 @@ impl Rows {
         self.done
     }
 
+    /// What to say of a run that was interrupted.
+    pub fn interrupted(&self) -> LongRunError {
+        LongRunError::Interrupted { done: self.done, rows: self.range.len() }
+    }
+
     /// Adds the next `rows` rows as `text`.
     ///
     /// # Errors

@@ -1,0 +1,112 @@
+//! Runs as rows of runs.csv, written part by part and read back to the same bits.
+
+use csv::StringRecord;
+
+use super::measure::Measure;
+use super::runs::{Answer, Run, RunList};
+use super::typed_tables::RunsTable;
+use crate::accuracy::ErrorEstimate;
+use crate::columns::{Column, CsvWriter, Table, TableError};
+use crate::outcome::Outcome;
+
+/// Outcome of a run that failed.
+pub(super) const FAILED: &str = "failed";
+
+impl RunList<'_> {
+    fn table<'s>(&'s self, runs: &'s [Run]) -> RunsTable<'s> {
+        RunsTable { study: self.study, records: self.records, runs }
+    }
+
+    /// The columns of its rows.
+    pub fn columns(&self) -> Vec<Column> {
+        self.table(&[]).columns()
+    }
+
+    /// The rows of `runs`, without the heading.
+    ///
+    /// # Errors
+    /// [`TableError`].
+    pub fn text(&self, runs: &[Run]) -> Result<Vec<u8>, TableError> {
+        let mut writer = CsvWriter::resumed(self.columns(), Vec::new());
+        self.table(runs).rows(&mut writer)?;
+        writer.finish()
+    }
+
+    /// The run that row number `row` tells of.
+    ///
+    /// # Errors
+    /// When it is the row of another run, or none.
+    pub fn read(&self, row: usize, record: &StringRecord) -> Result<Run, String> {
+        let mut fields = Fields { columns: self.columns(), record, next: 0 };
+        let expected = self.run(row, [0.0; Measure::COUNT], Err(String::new()));
+        let names = [
+            &self.records[expected.record].name,
+            &self.study.structures[expected.structure].name,
+            &self.study.devices[expected.device],
+        ];
+        for name in names {
+            fields.require(name)?;
+        }
+        fields.require(&format!("{:?}", expected.factor))?;
+        fields.require(&expected.level.map_or_else(String::new, |level| format!("{level:?}")))?;
+        let mut measures = [0.0; Measure::COUNT];
+        for measure in &mut measures {
+            *measure = fields.number()?;
+        }
+        let name = fields.text();
+        if name == FAILED {
+            fields.next += 4;
+            let reason = fields.text().to_owned();
+            return Ok(self.run(row, measures, Err(reason)));
+        }
+        let outcome = Outcome::from_name(name).ok_or_else(|| format!("`{name}` is no outcome"))?;
+        let [peak_rotation, peak_acceleration] = [fields.maybe()?, fields.maybe()?];
+        let impacts = fields.number::<u32>()?;
+        let end_time_s = fields.number()?;
+        let _failure = fields.text();
+        let error = match fields.text() {
+            "" => None,
+            certain => Some(ErrorEstimate {
+                outcome_certain: certain == "true",
+                peak_rotation: fields.number()?,
+                peak_acceleration: fields.number()?,
+                first_impact_time: fields.number()?,
+            }),
+        };
+        let answer = Answer { outcome, peak_rotation, peak_acceleration, impacts, end_time_s, error };
+        Ok(self.run(row, measures, Ok(answer)))
+    }
+}
+
+/// The fields of a row, one after another.
+struct Fields<'a> {
+    columns: Vec<Column>,
+    record: &'a StringRecord,
+    next: usize,
+}
+
+impl<'a> Fields<'a> {
+    fn text(&mut self) -> &'a str {
+        self.next += 1;
+        self.record.get(self.next - 1).unwrap_or_default()
+    }
+
+    fn require(&mut self, expected: &str) -> Result<(), String> {
+        let field = self.text();
+        if field == expected { Ok(()) } else { Err(format!("`{field}` should be `{expected}`")) }
+    }
+
+    fn number<N: std::str::FromStr>(&mut self) -> Result<N, String> {
+        let field = self.text();
+        let column = self.columns.get(self.next - 1).map_or("", |column| column.name.as_str());
+        field.parse().map_err(|_| format!("`{field}` is no number for {column}"))
+    }
+
+    fn maybe(&mut self) -> Result<Option<f64>, String> {
+        if self.record.get(self.next).is_none_or(str::is_empty) {
+            self.next += 1;
+            return Ok(None);
+        }
+        self.number().map(Some)
+    }
+}
