@@ -16,11 +16,11 @@ impl Chord {
     /// Between vertices in halves of units; `scale` tolerances make a unit, across and up.
     pub(super) fn new(start: Point, end: Point, scale: (f64, f64)) -> Chord {
         let mut chord = Chord { start, along: (0.0, 0.0), scale };
-        chord.along = chord.since_start(end);
+        chord.along = chord.offset(end);
         chord
     }
 
-    fn since_start(&self, point: Point) -> (f64, f64) {
+    fn offset(&self, point: Point) -> (f64, f64) {
         let halves = |to: u64, from: u64| 0.5 * (to as f64 - from as f64);
         (halves(point.x, self.start.x) * self.scale.0, halves(point.y, self.start.y) * self.scale.1)
     }
@@ -31,7 +31,7 @@ impl Chord {
 
     /// Of `point`, in halves of units, from the nearest point of the chord.
     pub(super) fn distance(&self, point: Point) -> f64 {
-        let ((x, y), (along_x, along_y)) = (self.since_start(point), self.along);
+        let ((x, y), (along_x, along_y)) = (self.offset(point), self.along);
         let squared = along_x * along_x + along_y * along_y;
         let share = if squared > 0.0 { ((x * along_x + y * along_y) / squared).clamp(0.0, 1.0) } else { 0.0 };
         math::hypot(x - share * along_x, y - share * along_y)
