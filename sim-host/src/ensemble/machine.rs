@@ -4,7 +4,9 @@
 //! they do the same IEEE operations in the same order on every lane (nothing is fused: Rust never contracts), so results are the same
 //! to the last bit; [`Registers::Baseline`] is there to show it.
 
-use pulp::{Arch, NullaryFnOnce};
+#[cfg(target_arch = "x86_64")]
+use pulp::Arch;
+use pulp::NullaryFnOnce;
 use sprag_shared::block::Geometry;
 use sprag_shared::clutch::{Clutch, ClutchedPair, NoInerter, SingleInerter};
 use sprag_shared::structure::DeviceKind;
@@ -58,9 +60,20 @@ fn resolve<W: Work>((geometry, device): (Geometry, DeviceKind), registers: Regis
 fn go<W: Work, M: Model, C: Clutch>(work: W, registers: Registers) -> W::Output {
     let resolved = Resolved(work, std::marker::PhantomData::<(M, C)>);
     match registers {
-        Registers::Widest => Arch::new().dispatch(resolved),
-        Registers::Baseline => resolved.call(),
+        // Not `Arch::dispatch`: its way without wide registers would be a second copy of the one below.
+        #[cfg(target_arch = "x86_64")]
+        Registers::Widest => match Arch::new() {
+            Arch::V4(registers) => registers.vectorize(resolved),
+            Arch::V3(registers) => registers.vectorize(resolved),
+            _ => baseline(resolved),
+        },
+        _ => baseline(resolved),
     }
+}
+
+#[inline(never)]
+fn baseline<F: NullaryFnOnce>(work: F) -> F::Output {
+    work.call()
 }
 
 struct UnderPulses<'a> {
