@@ -20,7 +20,7 @@ use sprag_shared::taylor::Taylor;
 use sprag_sim_host::batch::case::{TERMS, TIGHT};
 use sprag_sim_host::ensemble::machine::{Registers, shake};
 use sprag_sim_host::ensemble::plain::PlainBlock;
-use sprag_sim_host::ensemble::records::{Samples, Shaken, ShakenBlock};
+use sprag_sim_host::ensemble::shaken::{Samples, Shaken, ShakenBlock};
 use sprag_sim_host::ground_motion::{Component, GroundMotion};
 use sprag_sim_host::simulation::drive::{Course, Overturning};
 

@@ -11,7 +11,7 @@ use super::study::{Scaling, Study};
 use crate::accuracy::{ErrorEstimate, Worst};
 use crate::ensemble::machine::{Registers, shake};
 use crate::ensemble::plain::PlainBlock;
-use crate::ensemble::records::{Samples, Shaken, ShakenBlock};
+use crate::ensemble::shaken::{Samples, Shaken, ShakenBlock};
 use crate::interrupt::Interrupt;
 use crate::long_run::in_order::in_order;
 use crate::outcome::Outcome;

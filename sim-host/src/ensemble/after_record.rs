@@ -9,7 +9,7 @@ use sprag_shared::rocking::{Limits, Phase, Stopped, System};
 use sprag_shared::structure::{Structure, WithSystem};
 use sprag_shared::taylor::Taylor;
 
-use super::records::Shaken;
+use super::shaken::Shaken;
 use crate::batch::case::{TERMS, TIGHT};
 use crate::simulation::RunError;
 

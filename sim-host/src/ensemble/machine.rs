@@ -13,7 +13,8 @@ use sprag_shared::structure::DeviceKind;
 
 use super::model::{FullAlone, FullWithInerter, Model, Slender};
 use super::pulses::{self, PulseResult, PulsedBlock};
-use super::records::{self, Shaken, ShakenBlock};
+use super::records;
+use super::shaken::{Shaken, ShakenBlock};
 use crate::batch::case::CaseError;
 
 /// Which registers the lanes are in.

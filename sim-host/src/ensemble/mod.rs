@@ -2,7 +2,7 @@
 //!
 //! [`blocks`] steps several blocks side by side, in lanes, by the equations of motion and the series that every other part uses;
 //! [`pulses`] keeps the lanes filled, decides what becomes of each block after its pulse by the first integral of its free motion, and
-//! hands the few that the lanes cannot settle to the core. [`records`] does the same for blocks under records, and
+//! hands the few that the lanes cannot settle to the core. [`records`] does the same for blocks under records ([`shaken`]), and
 //! [`after_record`] goes on from there. [`machine`] picks the widest registers of the machine that runs it: the
 //! bits of a result do not depend on them, nor on a block's neighbours.
 
@@ -16,6 +16,7 @@ pub mod pulses;
 pub mod records;
 pub mod rest;
 pub mod series;
+pub mod shaken;
 
 use sprag_shared::lanes::{LaneMask, Lanes};
 

@@ -18,9 +18,9 @@ use sprag_shared::taylor::Taylor;
 
 use super::blocks::{Blocks, Bounds};
 use super::model::Model;
-use super::records::Shaken;
 use super::rest::{AfterWeakImpact, Sine, WEAK_IMPACT};
 use super::series::Series;
+use super::shaken::Shaken;
 use super::{Mask, Number, WIDTH, number};
 use crate::batch::case::{Case, CaseError, PulseShape, TERMS, TIGHT};
 use crate::outcome::Outcome;

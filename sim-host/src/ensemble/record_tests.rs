@@ -13,7 +13,7 @@ use sprag_shared::taylor::Taylor;
 
 use super::machine::{Registers, shake};
 use super::plain::PlainBlock;
-use super::records::{Samples, Shaken, ShakenBlock};
+use super::shaken::{Samples, Shaken, ShakenBlock};
 use crate::batch::case::{TERMS, TIGHT};
 use crate::ground_motion::{Component, GroundMotion};
 use crate::simulation::drive::{Course, Overturning};

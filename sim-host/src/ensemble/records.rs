@@ -8,18 +8,16 @@ use std::f64::consts::FRAC_PI_2;
 use sprag_shared::block::Geometry;
 use sprag_shared::clutch::Clutch;
 use sprag_shared::observer::Peaks;
-use sprag_shared::rocking::{Phase, State};
+use sprag_shared::rocking::Phase;
 use sprag_shared::scalar::Scalar;
 use sprag_shared::structure::COUNTED_SPEED;
 
 use super::blocks::{Blocks, Bounds};
 use super::model::Model;
-use super::plain::PlainBlock;
 use super::rest::{WEAK_IMPACT, tail};
 use super::series::Series;
+use super::shaken::{DOUBTFUL_UPLIFT, Doubtful, Shaken, ShakenBlock, Uplift};
 use super::{Mask, Number, WIDTH, number};
-use crate::outcome::Outcome;
-use crate::record::{Record, STANDARD_GRAVITY_M_S2};
 
 /// Coefficients of θ: as many as reach from one sample to the next.
 const SERIES_TERMS: usize = 9;
@@ -30,171 +28,8 @@ const TOLERANCE: f64 = 3e-15;
 /// Steps within one sample before a block is left to the core.
 const MOST_STEPS: f64 = 5_000.0;
 
-/// How close to the threshold a push that has jumped beyond it is left to the core: there rounding decides whether the block uplifts.
-const DOUBTFUL_UPLIFT: f64 = 1e-9;
-
 /// Swings below the rest speed, over the time to the next sample, that are not worth following; as the core has it.
 const MOST_IDLE_SWINGS: f64 = 1e3;
-
-/// A record as blocks feel it: straight lines between samples.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Samples {
-    /// s.
-    step: f64,
-    /// ü_g/g.
-    values: Vec<f64>,
-    /// max |ü_g/g| from each sample on.
-    bounds: Vec<f64>,
-}
-
-impl Samples {
-    /// Of ü_g/g every `step` (s, above 0).
-    pub fn new(step: f64, values: Vec<f64>) -> Samples {
-        let mut bounds = values.clone();
-        let mut bound = 0.0_f64;
-        for value in bounds.iter_mut().rev() {
-            bound = bound.max(value.abs());
-            *value = bound;
-        }
-        Samples { step, values, bounds }
-    }
-
-    /// Those of a record.
-    pub fn of(record: &Record) -> Samples {
-        let values = record.acceleration_m_s2.iter().map(|a| a / STANDARD_GRAVITY_M_S2).collect();
-        Samples::new(record.time_step_s, values)
-    }
-
-    /// ü_g/g at the samples.
-    pub fn values(&self) -> &[f64] {
-        &self.values
-    }
-
-    /// When it ends, s.
-    pub fn duration(&self) -> f64 {
-        self.step * self.values.len().saturating_sub(1) as f64
-    }
-
-    /// The first sample after `sample` beyond `threshold` (above 0).
-    fn beyond(&self, sample: usize, threshold: f64) -> Option<usize> {
-        let exceeds = |value: &f64| value.abs() > threshold;
-        let first = sample + 1;
-        let bound = self.bounds.get(first)?;
-        if *bound <= threshold {
-            return None;
-        }
-        // Registers compare many samples at once where none of them ends the search.
-        const MANY: usize = 32;
-        let quiet =
-            self.values[first..].chunks(MANY).take_while(|samples| !samples.iter().fold(false, |any, a| any | exceeds(a)));
-        let start = first + quiet.map(<[f64]>::len).sum::<usize>();
-        self.values[start..].iter().position(exceeds).map(|place| start + place)
-    }
-}
-
-/// A block under a record.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ShakenBlock<'a> {
-    /// The block and its device.
-    pub plain: PlainBlock,
-    /// p, 1/s.
-    pub frequency_parameter: f64,
-    /// The record.
-    pub samples: &'a Samples,
-    /// Factor on it.
-    pub factor: f64,
-}
-
-/// What a record has done to a block, at its end or when it overturned.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shaken {
-    /// Rest, rocking or overturned.
-    pub phase: Phase,
-    /// θ, rad.
-    pub rotation: f64,
-    /// θ̇, rad/s.
-    pub velocity: f64,
-    /// Impacts that count.
-    pub impacts: u32,
-    /// Largest values and times, in rad and s from the record's start.
-    pub peaks: Peaks<f64>,
-}
-
-impl Shaken {
-    /// Its outcome, if the motion is over.
-    pub fn outcome(&self) -> Outcome {
-        Outcome::of(&State { phase: self.phase, ..State::default() }, &self.peaks)
-    }
-}
-
-/// When and where a block at rest uplifts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Uplift {
-    sample: usize,
-    /// From that sample on, in units of 1/p.
-    time: f64,
-    /// ±1.
-    side: f64,
-    /// The push crosses the threshold, or has jumped beyond it.
-    crossing: bool,
-}
-
-impl ShakenBlock<'_> {
-    /// Whether the lanes may take it: parameters as the core would accept them.
-    fn is_plain(&self) -> bool {
-        let ShakenBlock { plain, frequency_parameter, samples, factor } = *self;
-        let PlainBlock { slenderness, coupling, restitution, .. } = plain;
-        (1e-4..1.5).contains(&slenderness)
-            && (0.0..=1e3).contains(&coupling)
-            && (0.0..=1.0).contains(&restitution)
-            && (1e-3..1e3).contains(&frequency_parameter)
-            && samples.values.len() > 1
-            && (1e-9..1e3).contains(&samples.step)
-            && (1e-9..1e4).contains(&(samples.bounds[0] * factor.abs()))
-    }
-
-    /// Between samples, in units of 1/p.
-    fn step(&self) -> f64 {
-        self.frequency_parameter * self.samples.step
-    }
-
-    /// ü_g/g at a sample.
-    #[inline(always)]
-    fn at(&self, sample: usize) -> f64 {
-        self.factor * self.samples.values[sample]
-    }
-
-    /// ü_g/g at `sample` and its slope (p = 1) up to the next.
-    fn line(&self, sample: usize) -> (f64, f64) {
-        let start = self.at(sample);
-        (start, (self.at(sample + 1) - start) / self.step())
-    }
-
-    /// The first uplift from `time` after `sample` on, where the push is not beyond the `threshold`; or that it is there, hardly.
-    fn next_uplift(&self, sample: usize, time: f64, threshold: f64) -> Result<Option<Uplift>, Doubtful> {
-        let (start, slope) = self.line(sample);
-        let now = start + slope * time;
-        if now.abs() > threshold {
-            let plain = now.abs() > threshold * (1.0 + DOUBTFUL_UPLIFT);
-            return if plain { Ok(Some(Uplift { sample, time, side: -now.signum(), crossing: false })) } else { Err(Doubtful) };
-        }
-        let Some(beyond) = self.samples.beyond(sample, threshold / self.factor.abs()) else { return Ok(None) };
-        let last = beyond - 1;
-        let side = -self.at(beyond).signum();
-        let (start, slope) = self.line(last);
-        let crossing = (-side * threshold - start) / slope;
-        let earliest = if last == sample { time } else { 0.0 };
-        if self.step() - crossing <= self.step() * (4.0 * f64::EPSILON) {
-            let next = beyond + 1 < self.samples.values.len();
-            return Ok(next.then_some(Uplift { sample: beyond, time: 0.0, side, crossing: true }));
-        }
-        Ok(Some(Uplift { sample: last, time: crossing.max(earliest), side, crossing: true }))
-    }
-}
-
-/// Rounding decides whether a block uplifts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Doubtful;
 
 /// What a lane keeps of its block beside the numbers.
 #[derive(Clone, Copy, Debug)]

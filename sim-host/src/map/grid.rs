@@ -9,7 +9,7 @@ use toml::Table;
 use crate::batch::case::PulseShape;
 use crate::ensemble::plain::PlainBlock;
 use crate::ensemble::pulses::PulsedBlock;
-use crate::ensemble::records::{Samples, ShakenBlock};
+use crate::ensemble::shaken::{Samples, ShakenBlock};
 use crate::scene::ground::Motion;
 use crate::scene::map::{AxisTable, MapTable};
 use crate::scene::schema::RestitutionValue;

@@ -9,7 +9,7 @@ use super::tally::{DeviceMap, Tally};
 use crate::batch::case::CaseError;
 use crate::ensemble::machine::{Registers, run, shake};
 use crate::ensemble::pulses::PulseResult;
-use crate::ensemble::records::Shaken;
+use crate::ensemble::shaken::Shaken;
 use crate::interrupt::Interrupt;
 use crate::long_run::error::LongRunError;
 use crate::long_run::in_order::in_order;
