@@ -137,37 +137,48 @@ fn separates(grid: &Grid, device: usize, boundary: &Boundary, vertex: Values) ->
     both(&found[..2]) || both(&found[2..])
 }
 
-/// Every vertex of Figure 8, and what it takes. Pulses slower than the block (ω_g/p < 1) have ever finer stripes of overturning after
-/// impacts, in which something else may lie 2e-6 away, and which no budget traces to the end.
-#[test]
-fn vertices_separate_their_outcomes() {
-    let grid = grid("figure08.toml", &["map.x.cells=24", "map.y.cells=24"]);
-    let decades = |axis: &AxisTable| ln(axis.to / axis.from) / TOLERANCE;
-    let uniform = decades(&grid.map.x) * grid.map.y.as_ref().map_or(1.0, decades);
-    println!("a uniform grid of this accuracy has {uniform:.1e} cells");
-    for (device, of_device) in traced(&grid, 300_000).iter().enumerate() {
-        let vertices =
-            || of_device.boundaries.iter().flat_map(|boundary| boundary.vertices.iter().map(move |vertex| (boundary, *vertex)));
-        let wrong: Vec<Values> = vertices()
-            .filter(|(boundary, vertex)| !separates(&grid, device, boundary, *vertex))
-            .map(|(_, vertex)| vertex)
-            .collect();
-        let fast = |vertex: &Values| vertex.0 >= 1.0;
+/// Traces the boundaries of a grid and prints what it takes; returns the number of vertices that do not separate their outcomes, for every
+/// device, with its boundaries.
+fn measured(grid: &Grid, evaluations: usize) -> Vec<(Boundaries, usize)> {
+    let tolerances = |axis: &AxisTable| ln(axis.to / axis.from) / TOLERANCE;
+    let uniform = tolerances(&grid.map.x) * grid.map.y.as_ref().map_or(1.0, tolerances);
+    println!("{}: a uniform grid of this accuracy has {uniform:.1e} cells", grid.place(grid.values(0, 0)));
+    let of_device = |(device, of_device): (usize, Boundaries)| {
+        let wrong =
+            |boundary: &Boundary| boundary.vertices.iter().filter(|vertex| !separates(grid, device, boundary, **vertex)).count();
+        let wrong = of_device.boundaries.iter().map(wrong).sum();
         println!(
-            "{}: {} boundaries, {} vertices ({} at ω_g/p ≥ 1), {} evaluations, {} squares left up to {:.1e} wide; {} vertices do not separate",
+            "{}: {} boundaries, {} vertices, {} evaluations, {} squares left up to {:.1e} wide; {wrong} vertices do not separate",
             of_device.device,
             of_device.boundaries.len(),
             of_device.vertices(),
-            vertices().filter(|(_, vertex)| fast(vertex)).count(),
             of_device.evaluations,
             of_device.unresolved,
             of_device.unresolved_width,
-            wrong.len(),
         );
-        assert!(of_device.vertices() > 1000);
-        let wrong_and_fast: Vec<&Values> = wrong.iter().filter(|vertex| fast(vertex)).collect();
-        assert!(wrong_and_fast.is_empty(), "{}: {wrong_and_fast:?}", of_device.device);
-        assert!(wrong.len() * 10 < of_device.vertices(), "{}: {}", of_device.device, wrong.len());
+        (of_device, wrong)
+    };
+    traced(grid, evaluations).into_iter().enumerate().map(of_device).collect()
+}
+
+/// Every vertex of Figure 8 for pulses that are no slower than the block, where everything is finished.
+#[test]
+fn vertices_separate_their_outcomes() {
+    let grid = grid("figure08.toml", &["map.x.from=1.0", "map.x.cells=24", "map.y.cells=24"]);
+    for (of_device, wrong) in measured(&grid, EVALUATIONS) {
+        assert_eq!((of_device.unresolved, wrong), (0, 0), "{}", of_device.device);
+        assert!(of_device.vertices() > 5000 && of_device.evaluations < 300_000, "{}", of_device.evaluations);
+    }
+}
+
+/// Slower pulses have ever finer stripes of overturning after impacts, in which something else may lie 2e-6 away, and which no budget
+/// traces to the end.
+#[test]
+fn stripes_of_slow_pulses_end_with_the_budget() {
+    let grid = grid("figure08.toml", &["map.x.cells=24", "map.y.cells=24"]);
+    for (of_device, wrong) in measured(&grid, 300_000) {
+        assert!(of_device.evaluations == 300_000 && of_device.unresolved > 0);
+        assert!(wrong * 50 < of_device.vertices(), "{}: {wrong}", of_device.device);
     }
 }
 
