@@ -29,12 +29,17 @@ impl Chord {
         math::hypot(self.along.0, self.along.1)
     }
 
-    /// Of `point`, in halves of units, from the nearest point of the chord.
-    pub(super) fn distance(&self, point: Point) -> f64 {
+    /// Where the foot of `point`, in halves of units, lies on the chord: 0 at its start, 1 at its end.
+    pub(super) fn share(&self, point: Point) -> f64 {
         let ((x, y), (along_x, along_y)) = (self.offset(point), self.along);
         let squared = along_x * along_x + along_y * along_y;
-        let share = if squared > 0.0 { ((x * along_x + y * along_y) / squared).clamp(0.0, 1.0) } else { 0.0 };
-        math::hypot(x - share * along_x, y - share * along_y)
+        if squared > 0.0 { ((x * along_x + y * along_y) / squared).clamp(0.0, 1.0) } else { 0.0 }
+    }
+
+    /// Of `point`, in halves of units, from the nearest point of the chord.
+    pub(super) fn distance(&self, point: Point) -> f64 {
+        let ((x, y), share) = (self.offset(point), self.share(point));
+        math::hypot(x - share * self.along.0, y - share * self.along.1)
     }
 }
 
@@ -47,6 +52,7 @@ mod tests {
         let chord = Chord::new(Point { x: 10, y: 0 }, Point { x: 18, y: 0 }, (0.5, 4.0));
         assert_eq!(chord.length(), 2.0);
         assert_eq!(chord.distance(Point { x: 14, y: 1 }), 2.0);
+        assert_eq!(chord.share(Point { x: 12, y: 7 }), 0.25);
         // Beyond the end.
         assert_eq!(chord.distance(Point { x: 22, y: 0 }), 1.0);
         let point = Chord::new(Point { x: 3, y: 3 }, Point { x: 3, y: 3 }, (1.0, 1.0));

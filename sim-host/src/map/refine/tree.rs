@@ -17,6 +17,9 @@ const SQUARE_EVALUATIONS: usize = 80;
 /// not pass for a straight boundary.
 const STRAIGHT_BEFORE: f64 = 4.0;
 
+/// The part of a chord near a boundary that needs no look of its own where a single boundary cuts the corner of a square.
+const CORNER: f64 = 1.0 / 4.0;
+
 /// A square that a boundary crosses and that is not divided.
 #[derive(Clone, Copy, Debug, Default)]
 struct Leaf {
@@ -24,6 +27,8 @@ struct Leaf {
     settled: bool,
     /// How far boundaries were from their chords in the square that this one is a quarter of, in tolerances; none when that is not known.
     deviation: Option<f64>,
+    /// Length of a chord, in tolerances, that a boundary around here was seen to be near to; 0 before.
+    straight: f64,
     /// Crossings around it when it was last looked at.
     crossings: Option<usize>,
 }
@@ -113,11 +118,13 @@ where
             *leaf = Leaf::default();
         }
         leaf.crossings = Some(crossings.len());
-        let settled = leaf.settled;
+        let Leaf { settled, straight, .. } = *leaf;
+        let alone = crossings.len() == 2;
         let strands = Strands::of(&crossings, self.outcomes.lattice.tolerances(square.corner));
-        let near = !strands.tangled && (settled || strands.chords.iter().all(|chord| chord.length() <= STRAIGHT));
+        let near =
+            !strands.tangled && (settled || strands.longest() <= STRAIGHT || alone && strands.longest() <= CORNER * straight);
         if !near && square.level < self.outcomes.lattice.finest_level(square.corner) {
-            self.waiting.insert((crossings.len() > 2, square));
+            self.waiting.insert((!alone, square));
         }
     }
 
@@ -127,18 +134,23 @@ where
         self.waiting.remove(&(false, square));
         self.waiting.remove(&(true, square));
         self.divided.insert(square);
-        let strands = Strands::of(&self.outcomes.around(&square), self.outcomes.lattice.tolerances(square.corner));
+        let crossings = self.outcomes.around(&square);
+        let alone = crossings.len() == 2;
+        let strands = Strands::of(&crossings, self.outcomes.lattice.tolerances(square.corner));
         let mut inside = Vec::new();
         square.inner_edges(&self.outcomes.lattice).into_iter().for_each(|edge| self.outcomes.crossings(edge, &mut inside));
         let inside: Vec<Point> = inside.iter().map(Crossing::vertex).collect();
         let next = match strands.deviation(&inside) {
             _ if strands.tangled => Leaf::default(),
-            // Without a crossing inside nothing has been learnt.
-            None => Leaf { crossings: None, ..leaf },
-            Some(found) => {
-                let straight = found <= STRAIGHT && leaf.deviation.is_some_and(|before| before <= STRAIGHT_BEFORE);
-                Leaf { settled: straight && strands.seen(&inside), deviation: Some(found), crossings: None }
-            }
+            // Without crossings in the midst nothing has been learnt.
+            None if alone => Leaf { crossings: None, ..leaf },
+            None => Leaf::default(),
+            Some(found) => Leaf {
+                settled: found <= STRAIGHT && leaf.deviation.is_some_and(|before| before <= STRAIGHT_BEFORE),
+                deviation: Some(found),
+                straight: if alone && found <= STRAIGHT_BEFORE { strands.longest() } else { 0.0 },
+                crossings: None,
+            },
         };
         let quarters = square.quarters(&self.outcomes.lattice);
         self.leaves.extend(quarters.map(|quarter| (quarter, next)));
