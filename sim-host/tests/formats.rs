@@ -33,9 +33,9 @@ fn studies(folder: &Path) -> [PathBuf; 3] {
     let outs = ["map", "cut", "cloud"].map(|name| folder.join(name));
     let scene = format!("{SCENES}/figure08.toml");
     let map = ["map", &scene, "--set", "map.x.cells=24", "--set", "map.y.cells=20", "--set", QUOTED];
-    let names = ["map.csv", "map.parquet", "map.png", "map.svg", "rotation.png", "rotation.svg", "summary.json"];
-    assert_eq!(written(&map, &outs[0]), [&["acceleration.png", "acceleration.svg"], &names[..]].concat());
-    let names = ["cut.png", "cut.svg", "map.csv", "map.parquet", "summary.json"];
+    let names = ["acceleration.png", "acceleration.svg", "map.csv", "map.parquet", "map.png", "map.run.json", "map.svg"];
+    assert_eq!(written(&map, &outs[0]), [&names[..], &["rotation.png", "rotation.svg", "summary.json"]].concat());
+    let names = ["cut.png", "cut.svg", "map.csv", "map.parquet", "map.run.json", "summary.json"];
     assert_eq!(written(&["map", &scene, "--cut"], &outs[1]), names);
     let records = folder.join("records");
     fs::create_dir_all(&records).unwrap();
@@ -130,8 +130,8 @@ fn formats_are_those_asked_for() {
     let folder = tempfile::tempdir().unwrap();
     let scene = format!("{SCENES}/figure08.toml");
     let map = |formats| ["map", &scene, "--set", "map.x.cells=5", "--set", "map.y.cells=4", "--formats", formats];
-    assert_eq!(written(&map("csv"), &folder.path().join("csv")), ["map.csv", "summary.json"]);
-    let names = ["acceleration.png", "map.csv", "map.png", "rotation.png", "summary.json"];
+    assert_eq!(written(&map("csv"), &folder.path().join("csv")), ["map.csv", "map.run.json", "summary.json"]);
+    let names = ["acceleration.png", "map.csv", "map.png", "map.run.json", "rotation.png", "summary.json"];
     assert_eq!(written(&map("png,csv"), &folder.path().join("png")), names);
     for (formats, words) in [("svg,png", "csv cannot be left out"), ("csv,pdf", "`pdf` is not a format")] {
         let output = sprag(&map(formats));
