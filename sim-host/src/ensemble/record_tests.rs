@@ -50,15 +50,7 @@ fn structure(geometry: Geometry, kind: DeviceKind, (size, slenderness, restituti
 }
 
 fn shaken<'a>(structure: &Structure, samples: &'a Samples, factor: f64) -> ShakenBlock<'a> {
-    let Restitution::Constant(restitution) = structure.restitution else { panic!("a number") };
-    let inerter = structure.device.kind != DeviceKind::None;
-    let plain = PlainBlock {
-        geometry: structure.geometry,
-        device: structure.device.kind,
-        slenderness: structure.block.slenderness(),
-        coupling: if inerter { structure.device.mass_ratio / RECTANGLE_INERTIA_RATIO } else { 0.0 },
-        restitution,
-    };
+    let plain = PlainBlock::of_structure(structure).expect("a plain block");
     ShakenBlock { plain, frequency_parameter: structure.block.frequency_parameter(), samples, factor }
 }
 
