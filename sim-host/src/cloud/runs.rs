@@ -314,15 +314,13 @@ impl Subject<'_> {
 impl Answer {
     /// Of a motion that has come to its end after a record of `duration` (s).
     fn shaken(shaken: &Shaken, scene: &Scene, duration: f64) -> Answer {
-        let (alpha, p) = (scene.block.slenderness(), scene.block.frequency_parameter());
         let Shaken { peaks, impacts, .. } = shaken;
-        let outcome = shaken.outcome();
-        let safe = |value: f64| (!outcome.overturned()).then_some(value);
+        let relative = shaken.relative_peaks(&scene.block);
         let from_start = peaks.ended.unwrap_or(duration + scene.free_time_s());
         Answer {
-            outcome,
-            peak_rotation: safe(peaks.rotation / alpha),
-            peak_acceleration: safe(peaks.acceleration / (p * p * alpha)),
+            outcome: shaken.outcome(),
+            peak_rotation: relative.map(|(rotation, _)| rotation),
+            peak_acceleration: relative.map(|(_, acceleration)| acceleration),
             impacts: *impacts,
             end_time_s: scene.file.ground[0].start_s + from_start,
             error: None,

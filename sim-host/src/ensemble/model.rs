@@ -7,6 +7,7 @@ use sprag_shared::detected::Switched;
 use sprag_shared::equation::{FullBlock, FullInerter, Paper, SlenderBlock};
 use sprag_shared::first_integral::{FirstIntegral, FullIntegral, SlenderIntegral};
 use sprag_shared::lever::CentreOfMass;
+use sprag_shared::math;
 
 use super::blocks::Modes;
 use super::{Number, number};
@@ -26,6 +27,14 @@ pub trait Model {
 
     /// The integral with κ k = `coupling`.
     fn integral(coupling: f64) -> Self::Integral;
+
+    /// ü_g/g above which a block of slenderness `alpha` (rad) uplifts: tan α, or α for the slender model.
+    fn uplift_threshold(alpha: f64) -> f64 {
+        match Self::GEOMETRY {
+            Geometry::Full => math::tan(alpha),
+            Geometry::Slender => alpha,
+        }
+    }
 
     /// |θ̈|/p² of a block of slenderness `alpha` (rad) at θ = 0 on quiet ground, with κ k = `coupling`.
     fn rate(alpha: f64, coupling: f64) -> f64 {

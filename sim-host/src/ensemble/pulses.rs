@@ -75,16 +75,8 @@ impl PulseResult {
 
     /// Of a block that a record has shaken.
     pub fn of_shaken(shaken: &Shaken, block: &Block) -> PulseResult {
-        let outcome = shaken.outcome();
-        if outcome.overturned() {
-            return PulseResult { outcome, peak_rotation: f64::NAN, peak_acceleration: f64::NAN };
-        }
-        let alpha = block.slenderness();
-        PulseResult {
-            outcome,
-            peak_rotation: shaken.peaks.rotation / alpha,
-            peak_acceleration: shaken.peaks.acceleration / (block.frequency_parameter_squared() * alpha),
-        }
+        let (peak_rotation, peak_acceleration) = shaken.relative_peaks(block).unwrap_or((f64::NAN, f64::NAN));
+        PulseResult { outcome: shaken.outcome(), peak_rotation, peak_acceleration }
     }
 
     fn overturned(impact: bool) -> PulseResult {
@@ -273,11 +265,7 @@ pub(super) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [Pu
                     if plain(block) {
                         at[lane] = Some(next);
                         if threshold.0 != block.slenderness {
-                            let uplift = match M::GEOMETRY {
-                                Geometry::Full => math::tan(block.slenderness),
-                                Geometry::Slender => block.slenderness,
-                            };
-                            threshold = (block.slenderness, uplift);
+                            threshold = (block.slenderness, M::uplift_threshold(block.slenderness));
                         }
                         // A push to the positive side lifts the block to the other; the sign of the pulse only mirrors the motion.
                         let amplitude = block.amplitude_ratio.abs() * threshold.1;

@@ -114,10 +114,7 @@ impl<'a, 'b> Lanes<'a, 'b> {
             if !block.is_plain() {
                 continue;
             }
-            let threshold = match M::GEOMETRY {
-                Geometry::Full => sprag_shared::math::tan(block.plain.slenderness),
-                Geometry::Slender => block.plain.slenderness,
-            };
+            let threshold = M::uplift_threshold(block.plain.slenderness);
             let first = match block.next_uplift(0, 0.0, threshold) {
                 Err(Doubtful) => continue,
                 Ok(None) => {

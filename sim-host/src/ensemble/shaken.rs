@@ -1,5 +1,6 @@
 //! A block under a record: what shakes it, when it uplifts, and what has become of it.
 
+use sprag_shared::block::Block;
 use sprag_shared::observer::Peaks;
 use sprag_shared::rocking::{Phase, State};
 
@@ -98,6 +99,12 @@ impl Shaken {
     /// Its outcome, if the motion is over.
     pub fn outcome(&self) -> Outcome {
         Outcome::of(&State { phase: self.phase, ..State::default() }, &self.peaks)
+    }
+
+    /// max |θ|/α and max |θ̈|/(p²α) of `block`; none when overturned.
+    pub fn relative_peaks(&self, block: &Block) -> Option<(f64, f64)> {
+        let (alpha, p) = (block.slenderness(), block.frequency_parameter());
+        (!self.outcome().overturned()).then_some((self.peaks.rotation / alpha, self.peaks.acceleration / (p * p * alpha)))
     }
 }
 
