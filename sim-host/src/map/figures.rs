@@ -86,8 +86,8 @@ pub(super) fn small_multiples(
             .map(|map| CellMap {
                 title: map.device.clone(),
                 note: note(map),
-                columns: tally.columns.len(),
-                rows: tally.rows.len(),
+                columns: tally.columns.count(),
+                rows: tally.rows.count(),
                 cells: map.shown.iter().map(&class).collect(),
                 curves: Vec::new(),
             })
@@ -149,7 +149,7 @@ fn scale(axis: &AxisTable) -> Scale {
 
 /// The first and the last of the cells that are shown, as the scale of their axis is divided.
 fn ends(axis: &AxisTable, shown: &Shown) -> (f64, f64) {
-    let [first, last] = [0, shown.len() - 1].map(|place| axis.value(shown.cell(place)));
+    let [first, last] = [0, shown.count() - 1].map(|place| axis.value(shown.cell(place)));
     match axis.scale {
         ScaleName::Linear => (first, last),
         ScaleName::Logarithmic => (math::log10(first), math::log10(last)),

@@ -80,13 +80,8 @@ impl Shown {
     }
 
     /// How many.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.shown
-    }
-
-    /// Whether there are none; there always are.
-    pub fn is_empty(&self) -> bool {
-        self.shown == 0
     }
 
     /// The cell that is shown in `place`: the one in the middle of its share of the axis.
@@ -115,7 +110,7 @@ impl Tally {
         let map = |name: &str| DeviceMap {
             device: name.to_owned(),
             counts: Counts::default(),
-            shown: vec![PulseResult::NO_ROCKING; columns.len() * rows.len()],
+            shown: vec![PulseResult::NO_ROCKING; columns.count() * rows.count()],
             worked_out: 0,
             seconds: 0.0,
         };
@@ -130,7 +125,7 @@ impl Tally {
         map.counts.add(result.outcome);
         let across = self.columns.places.len();
         if let (Some(column), Some(up)) = (self.columns.places[cell % across], self.rows.places[cell / across]) {
-            map.shown[up * self.columns.len() + column] = result;
+            map.shown[up * self.columns.count() + column] = result;
         }
     }
 
