@@ -1,13 +1,13 @@
 //! `sprag accuracy`: what accuracy costs in time, for one scene.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
 
-use super::ended;
 use super::format_arguments::PictureArguments;
+use super::{ended, results_folder};
 use crate::accuracy_study::board::{Board, BoardError};
 use crate::accuracy_study::figure::figures;
 use crate::accuracy_study::report::{page, write_csv};
@@ -112,10 +112,7 @@ fn run_or_fail(
         return Err(Failure::BeyondIdeal { scene: scene.origin.clone(), what });
     }
     let ground = scene.ground_motions()?;
-    let folder = arguments.out.clone().unwrap_or_else(|| {
-        let name = arguments.scene.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Path::new("out").join(format!("{name}-accuracy"))
-    });
+    let folder = results_folder(&arguments.scene, arguments.out.as_ref(), "accuracy");
     // Where the results go is tried before the work, not after it.
     make_folder(&folder)?;
     let board = if arguments.qemu { Some(Board::measure(arguments.image.as_deref())?) } else { None };

@@ -8,9 +8,9 @@ use clap::Args;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::ended;
 use super::format_arguments::PictureArguments;
 use super::loop_scene::{LoopScene, LoopSceneError};
+use super::{ended, results_folder};
 use crate::accuracy::AccuracyArguments;
 use crate::closed_loop::LoopFailure;
 use crate::closed_loop::answered::Looped;
@@ -100,7 +100,7 @@ fn run_or_fail(
     err: &mut impl Write,
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
-    let folder = LoopScene::folder(&arguments.scene, arguments.out.as_ref(), "loop");
+    let folder = results_folder(&arguments.scene, arguments.out.as_ref(), "loop");
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
     let (desk, mut reports) = arguments.accuracy.run(|change| looped(arguments, change, &folder, interrupt), tell)?;
     let scene = &desk.scene;

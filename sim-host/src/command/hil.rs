@@ -9,9 +9,9 @@ use serde::Serialize;
 
 use super::closed_loop::heading;
 use super::device_line::{LineArguments, connect};
-use super::ended;
 use super::format_arguments::PictureArguments;
 use super::loop_scene::{LoopScene, LoopSceneError};
+use super::{ended, results_folder};
 use crate::accuracy::{AccuracyArguments, Closeness};
 use crate::closed_loop::answered::Looped;
 use crate::closed_loop::plant::Extremes;
@@ -101,7 +101,7 @@ fn run_or_fail(
     err: &mut impl Write,
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
-    let folder = LoopScene::folder(&arguments.scene, arguments.out.as_ref(), "hil");
+    let folder = results_folder(&arguments.scene, arguments.out.as_ref(), "hil");
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
     let (desk, hosts) = arguments.accuracy.run(|change| on_host(arguments, change, &folder, interrupt), tell)?;
     let mut results = Results::default();

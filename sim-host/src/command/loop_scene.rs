@@ -108,12 +108,4 @@ impl LoopScene {
         file.controller = Some(self.controller.clone());
         file
     }
-
-    /// Where results go: `given`, or a folder called after scene and command.
-    pub fn folder(path: &Path, given: Option<&PathBuf>, command: &str) -> PathBuf {
-        given.cloned().unwrap_or_else(|| {
-            let stem = path.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy().into_owned());
-            Path::new("out").join(format!("{stem}-{command}"))
-        })
-    }
 }

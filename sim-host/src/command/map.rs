@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::Serialize;
 
-use super::BAD_INPUT;
 use super::format_arguments::FormatArguments;
 use super::map_boundaries::{BoundarySummary, trace, write_boundary_table};
+use super::{BAD_INPUT, results_folder};
 use crate::columns::{TableError, metadata_of};
 use crate::interrupt::{self, Interrupt};
 use crate::long_run::arguments::LongRunArguments;
@@ -163,10 +163,7 @@ fn run_or_fail(
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
     let grid = grid(arguments)?;
-    let folder = arguments.out.clone().unwrap_or_else(|| {
-        let stem = arguments.scene.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
-        Path::new("out").join(format!("{stem}-map"))
-    });
+    let folder = results_folder(&arguments.scene, arguments.out.as_ref(), "map");
     make_folder(&folder)?;
     let mut file = grid.scene.file.clone();
     if let (Some(record), Some(table)) = (&arguments.record, file.ground.iter_mut().find(|table| table.file.is_some())) {

@@ -32,11 +32,20 @@ pub mod synthesize;
 
 use std::fmt::Display;
 use std::io::Write;
+use std::path::{Path, PathBuf};
 
 use crate::interrupt;
 
 /// Exit code for bad input, and for output that cannot be written.
 pub const BAD_INPUT: i32 = 2;
+
+/// Where results of a scene go: `given`, or a folder called after scene and command.
+fn results_folder(scene: &Path, given: Option<&PathBuf>, command: &str) -> PathBuf {
+    given.cloned().unwrap_or_else(|| {
+        let stem = scene.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
+        Path::new("out").join(format!("{stem}-{command}"))
+    })
+}
 
 /// The exit code of a command that wrote nothing unless it ended well; why it did not goes to `err` in one line.
 fn ended<E: Display>(result: Result<(), E>, interrupted: impl FnOnce(&E) -> bool, err: &mut impl Write) -> i32 {

@@ -1,13 +1,13 @@
 //! `sprag sensitivity`: what each effect changes, alone and together, under one or many ground motions.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
 
-use super::BAD_INPUT;
 use super::format_arguments::PictureArguments;
+use super::{BAD_INPUT, results_folder};
 use crate::accuracy::{AccuracyArguments, Worst};
 use crate::interrupt::{self, Interrupt};
 use crate::output::{OutputError, Results, make_folder};
@@ -161,10 +161,7 @@ fn studied(arguments: &SensitivityArguments, change: Option<String>, interrupt: 
     if motions.is_empty() {
         return Err(Failure::NoMotion { scene: arguments.scene.clone() });
     }
-    let folder = arguments.out.clone().unwrap_or_else(|| {
-        let name = arguments.scene.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Path::new("out").join(format!("{name}-sensitivity"))
-    });
+    let folder = results_folder(&arguments.scene, arguments.out.as_ref(), "sensitivity");
     // Where the results go is tried before the work, not after it.
     make_folder(&folder)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;

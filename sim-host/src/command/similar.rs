@@ -1,14 +1,14 @@
 //! `sprag similar`: responses of blocks with equal dimensionless groups, overlaid.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
 use sprag_shared::error::ParameterError;
 
-use super::ended;
 use super::format_arguments::PictureArguments;
+use super::{ended, results_folder};
 use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, make_folder};
 use crate::plot::{Chart, ChartPanel, Line, PlotError, Scale, chart_figure};
@@ -107,10 +107,7 @@ fn run_or_fail(
     err: &mut impl Write,
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
-    let folder = arguments.out.clone().unwrap_or_else(|| {
-        let stem = arguments.scene.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
-        Path::new("out").join(format!("{stem}-similar"))
-    });
+    let folder = results_folder(&arguments.scene, arguments.out.as_ref(), "similar");
     let mut blocks = vec![block(arguments, "", None, interrupt)?];
     for changes in &arguments.with {
         let other = block(arguments, changes, Some(&blocks[0]), interrupt)?;
