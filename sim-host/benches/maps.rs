@@ -13,7 +13,7 @@ use sprag_shared::structure::DeviceKind;
 use sprag_shared::taylor::Taylor;
 use sprag_sim_host::batch::case::{Case, PulseShape, TERMS, TIGHT};
 use sprag_sim_host::ensemble::machine::{Registers, run};
-use sprag_sim_host::ensemble::pulses::PulsedBlock;
+use sprag_sim_host::ensemble::pulsed::PulsedBlock;
 
 const SIDE: u32 = 64;
 const PASSES: usize = 15;

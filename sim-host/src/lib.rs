@@ -21,7 +21,6 @@ pub mod command;
 #[cfg(feature = "effects")]
 pub mod device;
 pub mod effect;
-pub mod ensemble;
 pub mod ground_motion;
 pub mod history;
 pub mod interrupt;
@@ -30,7 +29,6 @@ pub mod long_run;
 pub mod loop_study;
 pub mod map;
 pub mod optimise;
-pub mod outcome;
 pub mod output;
 pub mod plot;
 pub mod progress;
@@ -43,3 +41,6 @@ pub mod simulation;
 pub mod statistics;
 pub mod summary_table;
 pub mod synthesis;
+
+pub use sprag_ensemble as ensemble;
+pub use sprag_ensemble::outcome;

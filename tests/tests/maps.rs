@@ -1,7 +1,7 @@
 //! Overturning maps: blocks in lanes against the reference cells, the counts of Figure 8, and what must not depend on threads.
 
 use sprag_sim_host::ensemble::machine::{Registers, run};
-use sprag_sim_host::ensemble::pulses::PulsedBlock;
+use sprag_sim_host::ensemble::pulsed::PulsedBlock;
 use sprag_sim_host::interrupt::Interrupt;
 use sprag_sim_host::map::grid::Grid;
 use sprag_sim_host::map::study::study;

@@ -8,28 +8,17 @@ use sprag_shared::error::ParameterError;
 use sprag_shared::ground::{Harmonics, Quiet};
 use sprag_shared::lever::Mount;
 use sprag_shared::observer::Peaks;
-use sprag_shared::rocking::{Limits, State, Stopped, System};
+use sprag_shared::rocking::{Limits, State, System};
 use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure, WithSystem};
 use sprag_shared::taylor::Taylor;
+
+pub use sprag_ensemble::alone::{CaseError, TERMS, TIGHT};
+pub use sprag_ensemble::pulsed::PulseShape;
+use sprag_ensemble::pulsed::PulsedBlock;
 
 use crate::accuracy::answer::{Answer, Comparable, answer};
 use crate::accuracy::{Accuracy, Compared};
 use crate::outcome::Outcome;
-
-/// Coefficients of the series that bulk work uses: the fastest at tight accuracy (`cargo bench`).
-pub const TERMS: usize = 20;
-
-/// Tolerance of the series' last terms that stands for "to rounding".
-pub const TIGHT: f64 = 1e-15;
-
-/// A one-cycle pulse.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PulseShape {
-    /// A sin ωt.
-    Sine,
-    /// A cos ωt.
-    Cosine,
-}
 
 /// The columns of DESIGN section 5, resolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,17 +60,6 @@ pub struct CaseResult {
     pub first_impact_time: Option<f64>,
     /// Rest, the proof of overturning, or the end of the free time.
     pub end_time: f64,
-}
-
-/// Why a case has no result.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum CaseError {
-    /// A parameter outside its range.
-    #[error("{0}")]
-    Parameter(#[from] ParameterError),
-    /// The motion could not be followed to its end.
-    #[error("{0}")]
-    Stopped(#[from] Stopped),
 }
 
 impl Default for Case {
@@ -151,6 +129,21 @@ impl Comparable for CaseResult {
             peak_rotation: peak(self.peak_rotation),
             peak_acceleration: peak(self.peak_acceleration),
             first_impact_time: self.first_impact_time,
+        }
+    }
+}
+
+impl From<&Case> for PulsedBlock {
+    fn from(case: &Case) -> PulsedBlock {
+        PulsedBlock {
+            geometry: case.geometry,
+            device: case.device,
+            slenderness: case.slenderness,
+            coupling: if case.device == DeviceKind::None { 0.0 } else { case.mass_ratio / RECTANGLE_INERTIA_RATIO },
+            restitution: case.restitution,
+            pulse: case.pulse,
+            frequency_ratio: case.frequency_ratio,
+            amplitude_ratio: case.amplitude_ratio,
         }
     }
 }

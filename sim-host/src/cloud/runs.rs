@@ -113,7 +113,7 @@ impl<'a> RunList<'a> {
             }
         }
         let subjects = study.structures.iter().map(Subject::new).collect();
-        let samples = records.par_iter().map(|record| Samples::of(&record.motion.record)).collect();
+        let samples = records.par_iter().map(|record| Samples::from(&record.motion.record)).collect();
         RunList { study, records, shakings, left_out, subjects, samples }
     }
 
@@ -245,7 +245,7 @@ impl Subject<'_> {
     fn new(structure: &StudyStructure) -> Subject<'_> {
         let scene = &structure.scene;
         let devices = 0..scene.devices.len();
-        let plain = devices.clone().map(|device| PlainBlock::of(scene, device)).collect();
+        let plain = devices.clone().map(|device| scene.plain_block(device)).collect();
         Subject { structure, scenes: devices.map(|device| scene.only(device)).collect(), plain }
     }
 
@@ -293,7 +293,7 @@ impl Subject<'_> {
         let blocks: Vec<ShakenBlock<'_>> = shakings.iter().map(block).collect();
         let structure = scene.structure(0);
         let after = |(block, found): (&ShakenBlock<'_>, Option<Shaken>)| {
-            let shaken = found?.after(&structure, "", block.samples.duration(), scene.free_time_s()).ok()?;
+            let shaken = found?.after(&structure, block.samples.duration(), scene.free_time_s()).ok()?;
             Some(Answer::shaken(&shaken, scene, block.samples.duration()))
         };
         blocks.iter().zip(shake(&blocks, Registers::Widest)).map(after).collect()

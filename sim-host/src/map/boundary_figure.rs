@@ -26,7 +26,7 @@ const PAIRS: [(Outcome, Outcome, &str); 6] = [
 /// [`PlotError`].
 pub fn figure(grid: &Grid, tally: &Tally, all: &[Boundaries]) -> Result<Option<String>, PlotError> {
     let Some(y) = &grid.map.y else { return Ok(None) };
-    let class = |result: &crate::ensemble::pulses::PulseResult| Cell::from(result.outcome).class();
+    let class = |result: &crate::ensemble::pulsed::PulseResult| Cell::from(result.outcome).class();
     let mut figure = small_multiples(grid, y, tally, "boundaries", Class::pale_outcomes(), class);
     figure.curves = PAIRS.map(|(_, _, name)| name.to_owned()).to_vec();
     for (map, of_device) in figure.maps.iter_mut().zip(all) {

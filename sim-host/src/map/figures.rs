@@ -5,7 +5,7 @@ use sprag_shared::math;
 use super::axis::{pulse, title};
 use super::grid::Grid;
 use super::tally::{DeviceMap, Shown, Tally};
-use crate::ensemble::pulses::PulseResult;
+use crate::ensemble::pulsed::PulseResult;
 use crate::plot::{
     Cell, CellMap, CellMaps, Chart, ChartPanel, Class, Line, PlotError, Scale, band, cell_map_figure, chart_figure,
 };

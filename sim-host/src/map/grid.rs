@@ -8,7 +8,7 @@ use toml::Table;
 
 use crate::batch::case::PulseShape;
 use crate::ensemble::plain::PlainBlock;
-use crate::ensemble::pulses::PulsedBlock;
+use crate::ensemble::pulsed::PulsedBlock;
 use crate::ensemble::shaken::{Samples, ShakenBlock};
 use crate::scene::ground::Motion;
 use crate::scene::map::{AxisTable, MapTable};
@@ -90,7 +90,7 @@ impl Grid {
         let mut keys = std::iter::once(&grid.map.x).chain(&grid.map.y).map(|axis| axis.key.as_str());
         if keys.all(|key| !key.starts_with("ground.") || key == "ground.0.scale") {
             // What cannot be read is told by the first cell.
-            grid.record = grid.scene.only_record().ok().flatten().map(|record| Samples::of(&record));
+            grid.record = grid.scene.only_record().ok().flatten().map(|record| Samples::from(&record));
         }
         Ok(grid)
     }
@@ -115,7 +115,7 @@ impl Grid {
         match (&self.direct[device], pulsed(&self.scene, device), &self.record) {
             (Some(_), ..) => 2048,
             (None, Some(_), _) => 256,
-            (None, None, Some(_)) if PlainBlock::of(&self.scene, device).is_some() => 64,
+            (None, None, Some(_)) if self.scene.plain_block(device).is_some() => 64,
             (None, None, _) => 1,
         }
     }
@@ -151,7 +151,7 @@ impl Grid {
     /// The block of `scene`, at a place of the map, with device `device` under the record that shakes all of it, if there is one.
     pub(super) fn shaken(&self, scene: &Scene, device: usize) -> Option<ShakenBlock<'_>> {
         Some(ShakenBlock {
-            plain: PlainBlock::of(scene, device)?,
+            plain: scene.plain_block(device)?,
             frequency_parameter: scene.block.frequency_parameter(),
             samples: self.record.as_ref()?,
             factor: scene.file.ground[0].scale,
@@ -258,7 +258,7 @@ pub fn pulsed(scene: &Scene, device: usize) -> Option<PulsedBlock> {
     if ground.start_s != 0.0 {
         return None;
     }
-    let PlainBlock { geometry, device, slenderness, coupling, restitution } = PlainBlock::of(scene, device)?;
+    let PlainBlock { geometry, device, slenderness, coupling, restitution } = scene.plain_block(device)?;
     let p = scene.block.frequency_parameter();
     let amplitude = match (ground.amplitude_ratio, ground.amplitude_g, ground.amplitude_m_s2) {
         (Some(ratio), ..) => ratio,

@@ -8,7 +8,7 @@ use super::table::Labels;
 use super::tally::{DeviceMap, Tally};
 use crate::batch::case::CaseError;
 use crate::ensemble::machine::{Registers, run, shake};
-use crate::ensemble::pulses::PulseResult;
+use crate::ensemble::pulsed::PulseResult;
 use crate::ensemble::shaken::Shaken;
 use crate::interrupt::Interrupt;
 use crate::long_run::error::LongRunError;
@@ -175,7 +175,7 @@ pub fn results_at(grid: &Grid, device: usize, places: &[Values], interrupt: &Int
     }
     for ((block, found), (index, scene)) in shaken.iter().zip(shake(&shaken, Registers::Widest)).zip(shaken_places) {
         let only = scene.only(device);
-        let after = |found: Shaken| found.after(&only.structure(0), name, block.samples.duration(), only.free_time_s()).ok();
+        let after = |found: Shaken| found.after(&only.structure(0), block.samples.duration(), only.free_time_s()).ok();
         results[index] = match found.and_then(after) {
             Some(found) => PulseResult::of_shaken(&found, &only.block),
             None => simulated(&only, || grid.place(places[index]), interrupt)?,

@@ -4,7 +4,7 @@ use csv::StringRecord;
 
 use super::grid::Grid;
 use crate::columns::{Column, TableError};
-use crate::ensemble::pulses::PulseResult;
+use crate::ensemble::pulsed::PulseResult;
 use crate::outcome::Outcome;
 
 /// `device`, the keys of the axes, `outcome`, `peak_rotation` and `peak_acceleration`: peaks max|θ|/α and max|θ̈|/(p²α), empty when overturned;

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::grid::Grid;
-use crate::ensemble::pulses::PulseResult;
+use crate::ensemble::pulsed::PulseResult;
 use crate::outcome::Outcome;
 
 /// Cells that a picture shows along an axis, at most: more than a page can print. A cut, which is a line, shows all.

@@ -34,6 +34,7 @@ pub use units::{STANDARD_GRAVITY_M_S2, Units};
 pub use warning::Warning;
 
 use contents::Contents;
+use sprag_ensemble::shaken::Samples;
 
 /// Largest file that is read: 64 MiB, some 200 times a long record at 200 samples per second.
 pub const MAXIMUM_FILE_BYTES: u64 = 64 << 20;
@@ -242,5 +243,12 @@ fn finish(name: &str, contents: Contents, options: &ReadOptions) -> Result<Recor
     match options.resample_to_s {
         Some(step_s) if step_s != record.time_step_s => record.resample(step_s),
         _ => Ok(record),
+    }
+}
+
+impl From<&Record> for Samples {
+    /// In units of g, as blocks in lanes take it.
+    fn from(record: &Record) -> Samples {
+        Samples::new(record.time_step_s, record.acceleration_m_s2.iter().map(|a| a / STANDARD_GRAVITY_M_S2).collect())
     }
 }

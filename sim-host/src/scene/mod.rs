@@ -10,6 +10,7 @@ pub mod ground;
 pub mod map;
 pub mod motions;
 pub mod overrides;
+mod plain_block;
 pub mod schema;
 pub mod sensors;
 pub mod weight;

@@ -2,7 +2,7 @@
 
 use sprag_shared::math;
 use sprag_sim_host::ensemble::machine::{Registers, run};
-use sprag_sim_host::ensemble::pulses::PulsedBlock;
+use sprag_sim_host::ensemble::pulsed::PulsedBlock;
 use sprag_sim_host::similarity::compare::{Departure, Response};
 use sprag_sim_host::simulation::DeviceRun;
 use sprag_sim_host::simulation::energy::Shares;

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use rayon::prelude::*;
 use sprag_sim_host::ensemble::machine::{Registers, run};
-use sprag_sim_host::ensemble::pulses::PulseResult;
+use sprag_sim_host::ensemble::pulsed::PulseResult;
 use sprag_sim_host::outcome::Outcome;
 use sprag_sim_host::statistics::quantile;
 use sprag_tests::shipped::grid;

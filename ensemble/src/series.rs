@@ -7,8 +7,8 @@ use sprag_shared::math::RECIPROCALS;
 use sprag_shared::scalar::Scalar;
 use sprag_shared::tape::Tape;
 
-use super::polynomial::deflated;
-use super::{Mask, Number, number};
+use crate::polynomial::deflated;
+use crate::{Mask, Number, number};
 
 /// Quantities of an equation of motion on the tape.
 const SLOTS: usize = 18;

@@ -12,12 +12,12 @@ use sprag_shared::rocking::Phase;
 use sprag_shared::scalar::Scalar;
 use sprag_shared::structure::COUNTED_SPEED;
 
-use super::blocks::{Blocks, Bounds};
-use super::model::Model;
-use super::rest::{WEAK_IMPACT, tail};
-use super::series::Series;
-use super::shaken::{DOUBTFUL_UPLIFT, Doubtful, Shaken, ShakenBlock, Uplift};
-use super::{Mask, Number, WIDTH, number};
+use crate::blocks::{Blocks, Bounds};
+use crate::model::Model;
+use crate::rest::{WEAK_IMPACT, tail};
+use crate::series::Series;
+use crate::shaken::{DOUBTFUL_UPLIFT, Doubtful, Shaken, ShakenBlock, Uplift};
+use crate::{Mask, Number, WIDTH, number};
 
 /// Coefficients of θ: as many as reach from one sample to the next.
 const SERIES_TERMS: usize = 9;
@@ -278,7 +278,7 @@ fn passes<const TERMS: usize>(series: &Series<TERMS>, lane: usize, length: f64, 
 
 /// Runs all `shaken` blocks, which have the model `M` and the clutch `C`, into `results`, one each; those left `None` are for the core.
 #[inline(always)]
-pub(super) fn run<M: Model, C: Clutch>(shaken: &[ShakenBlock<'_>], results: &mut [Option<Shaken>]) {
+pub(crate) fn run<M: Model, C: Clutch>(shaken: &[ShakenBlock<'_>], results: &mut [Option<Shaken>]) {
     let (zero, one) = (number(0.0), number(1.0));
     let mut series = Series::<SERIES_TERMS>::default();
     let mut lanes = Lanes::new(shaken);

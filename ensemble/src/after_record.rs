@@ -9,9 +9,8 @@ use sprag_shared::rocking::{Limits, Phase, Stopped, System};
 use sprag_shared::structure::{Structure, WithSystem};
 use sprag_shared::taylor::Taylor;
 
-use super::shaken::Shaken;
-use crate::batch::case::{TERMS, TIGHT};
-use crate::simulation::RunError;
+use crate::alone::{CaseError, TERMS, TIGHT};
+use crate::shaken::Shaken;
 
 /// Swings that the free time may have; from their first impact on they are summed in closed form.
 const MOST_EVENTS: u32 = 1_000_000;
@@ -43,15 +42,12 @@ impl Shaken {
     /// What has become of it `free_time` (s) after its record, which ended at `duration` (s).
     ///
     /// # Errors
-    /// The core's, with the name of the `device`.
-    pub fn after(mut self, structure: &Structure, device: &str, duration: f64, free_time: f64) -> Result<Shaken, RunError> {
+    /// The core's.
+    pub fn after(mut self, structure: &Structure, duration: f64, free_time: f64) -> Result<Shaken, CaseError> {
         if self.phase != Phase::Rocking {
             return Ok(self);
         }
         self.peaks.origin = duration;
-        let device = || device.to_owned();
-        let resolved = structure.resolve(FreeTime { structure, shaken: self, free_time });
-        let found = resolved.map_err(|error| RunError::Parameter { device: device(), error })?;
-        found.map_err(|error| RunError::Stopped { device: device(), error })
+        Ok(structure.resolve(FreeTime { structure, shaken: self, free_time })??)
     }
 }

@@ -4,22 +4,21 @@ use sprag_shared::block::Block;
 use sprag_shared::observer::Peaks;
 use sprag_shared::rocking::{Phase, State};
 
-use super::plain::PlainBlock;
 use crate::outcome::Outcome;
-use crate::record::{Record, STANDARD_GRAVITY_M_S2};
+use crate::plain::PlainBlock;
 
 /// How close to the threshold a push that has jumped beyond it is left to the core: there rounding decides whether the block uplifts.
-pub(super) const DOUBTFUL_UPLIFT: f64 = 1e-9;
+pub(crate) const DOUBTFUL_UPLIFT: f64 = 1e-9;
 
 /// A record as blocks feel it: straight lines between samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Samples {
     /// s.
-    pub(super) step: f64,
+    pub(crate) step: f64,
     /// ü_g/g.
-    pub(super) values: Vec<f64>,
+    pub(crate) values: Vec<f64>,
     /// max |ü_g/g| from each sample on.
-    pub(super) bounds: Vec<f64>,
+    pub(crate) bounds: Vec<f64>,
 }
 
 impl Samples {
@@ -32,12 +31,6 @@ impl Samples {
             *value = bound;
         }
         Samples { step, values, bounds }
-    }
-
-    /// Those of a record.
-    pub fn of(record: &Record) -> Samples {
-        let values = record.acceleration_m_s2.iter().map(|a| a / STANDARD_GRAVITY_M_S2).collect();
-        Samples::new(record.time_step_s, values)
     }
 
     /// ü_g/g at the samples.
@@ -110,20 +103,20 @@ impl Shaken {
 
 /// When and where a block at rest uplifts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Uplift {
+pub(crate) struct Uplift {
     /// After which it comes.
-    pub(super) sample: usize,
+    pub(crate) sample: usize,
     /// From that sample on, in units of 1/p.
-    pub(super) time: f64,
+    pub(crate) time: f64,
     /// ±1.
-    pub(super) side: f64,
+    pub(crate) side: f64,
     /// The push crosses the threshold, or has jumped beyond it.
-    pub(super) crossing: bool,
+    pub(crate) crossing: bool,
 }
 
 impl ShakenBlock<'_> {
     /// Whether the lanes may take it: parameters as the core would accept them.
-    pub(super) fn is_plain(&self) -> bool {
+    pub(crate) fn is_plain(&self) -> bool {
         let ShakenBlock { plain, frequency_parameter, samples, factor } = *self;
         let PlainBlock { slenderness, coupling, restitution, .. } = plain;
         (1e-4..1.5).contains(&slenderness)
@@ -136,24 +129,24 @@ impl ShakenBlock<'_> {
     }
 
     /// Between samples, in units of 1/p.
-    pub(super) fn step(&self) -> f64 {
+    pub(crate) fn step(&self) -> f64 {
         self.frequency_parameter * self.samples.step
     }
 
     /// ü_g/g at a sample.
     #[inline(always)]
-    pub(super) fn at(&self, sample: usize) -> f64 {
+    pub(crate) fn at(&self, sample: usize) -> f64 {
         self.factor * self.samples.values[sample]
     }
 
     /// ü_g/g at `sample` and its slope (p = 1) up to the next.
-    pub(super) fn line(&self, sample: usize) -> (f64, f64) {
+    pub(crate) fn line(&self, sample: usize) -> (f64, f64) {
         let start = self.at(sample);
         (start, (self.at(sample + 1) - start) / self.step())
     }
 
     /// The first uplift from `time` after `sample` on, where the push is not beyond the `threshold`; or that it is there, hardly.
-    pub(super) fn next_uplift(&self, sample: usize, time: f64, threshold: f64) -> Result<Option<Uplift>, Doubtful> {
+    pub(crate) fn next_uplift(&self, sample: usize, time: f64, threshold: f64) -> Result<Option<Uplift>, Doubtful> {
         let (start, slope) = self.line(sample);
         let now = start + slope * time;
         if now.abs() > threshold {
@@ -176,4 +169,4 @@ impl ShakenBlock<'_> {
 
 /// Rounding decides whether a block uplifts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Doubtful;
+pub(crate) struct Doubtful;

@@ -1,11 +1,13 @@
+//! Blocks under pulses in lanes against the core, which follows one at a time.
+
 use sprag_shared::block::Geometry;
 use sprag_shared::structure::DeviceKind;
 use sprag_shared::taylor::Taylor;
 
-use super::machine::{Registers, run};
-use super::pulses::{PulseResult, PulsedBlock};
-use crate::batch::case::{Case, PulseShape, TERMS, TIGHT};
-use crate::outcome::Outcome;
+use sprag_ensemble::machine::{Registers, run};
+use sprag_ensemble::outcome::Outcome;
+use sprag_ensemble::pulsed::{PulseResult, PulsedBlock};
+use sprag_sim_host::batch::case::{Case, PulseShape, TERMS, TIGHT};
 
 const DEVICES: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
 

@@ -12,9 +12,9 @@ use sprag_shared::detected::Switched;
 use sprag_shared::polynomial as core_polynomial;
 use sprag_shared::scalar::Scalar;
 
-use super::polynomial::{Shape, extreme, shape, value, value_and_slope, zero};
-use super::series::Series;
-use super::{Mask, Number, WIDTH, number};
+use crate::polynomial::{Shape, extreme, shape, value, value_and_slope, zero};
+use crate::series::Series;
+use crate::{Mask, Number, WIDTH, number};
 
 /// Halvings of a step that a block may ask for.
 const MOST_HALVINGS: u32 = 24;

@@ -9,8 +9,8 @@ use sprag_shared::first_integral::{FirstIntegral, FullIntegral, SlenderIntegral}
 use sprag_shared::lever::CentreOfMass;
 use sprag_shared::math;
 
-use super::blocks::Modes;
-use super::{Number, number};
+use crate::blocks::Modes;
+use crate::{Number, number};
 
 /// A model of a block; p = 1.
 pub trait Model {

@@ -4,18 +4,19 @@
 //! they do the same IEEE operations in the same order on every lane (nothing is fused: Rust never contracts), so results are the same
 //! to the last bit; [`Registers::Baseline`] is there to show it.
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", not(test)))]
 use pulp::Arch;
 use pulp::NullaryFnOnce;
 use sprag_shared::block::Geometry;
 use sprag_shared::clutch::{Clutch, ClutchedPair, NoInerter, SingleInerter};
 use sprag_shared::structure::DeviceKind;
 
-use super::model::{FullAlone, FullWithInerter, Model, Slender};
-use super::pulses::{self, PulseResult, PulsedBlock};
-use super::records;
-use super::shaken::{Shaken, ShakenBlock};
-use crate::batch::case::CaseError;
+use crate::alone::CaseError;
+use crate::model::{FullAlone, FullWithInerter, Model, Slender};
+use crate::pulsed::{PulseResult, PulsedBlock};
+use crate::pulses;
+use crate::records;
+use crate::shaken::{Shaken, ShakenBlock};
 
 /// Which registers the lanes are in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -62,7 +63,8 @@ fn go<W: Work, M: Model, C: Clutch>(work: W, registers: Registers) -> W::Output 
     let resolved = Resolved(work, std::marker::PhantomData::<(M, C)>);
     match registers {
         // Not `Arch::dispatch`: its way without wide registers would be a second copy of the one below.
-        #[cfg(target_arch = "x86_64")]
+        // No unit test asks for registers (`tests/tests/lanes_*.rs` do), and every kind takes as long to build.
+        #[cfg(all(target_arch = "x86_64", not(test)))]
         Registers::Widest => match Arch::new() {
             Arch::V4(registers) => registers.vectorize(resolved),
             Arch::V3(registers) => registers.vectorize(resolved),

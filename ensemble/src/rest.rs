@@ -6,7 +6,7 @@ use sprag_shared::accumulation::Accumulation;
 use sprag_shared::math;
 use sprag_shared::structure::{COUNTED_SPEED, REST_SPEED};
 
-use super::model::Model;
+use crate::model::Model;
 
 /// θ̇/(pα) after an impact below which the next ones are summed.
 pub const WEAK_IMPACT: f64 = REST_SPEED;

@@ -5,7 +5,7 @@
 
 use sprag_shared::scalar::Scalar;
 
-use super::{Mask, Number, number};
+use crate::{Mask, Number, number};
 
 /// Σ c_k t^k, as two interleaved Horner chains in t².
 #[inline(always)]

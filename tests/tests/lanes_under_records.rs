@@ -11,12 +11,12 @@ use sprag_shared::rocking::{Phase, State, System};
 use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure, WithSystem};
 use sprag_shared::taylor::Taylor;
 
-use super::machine::{Registers, shake};
-use super::plain::PlainBlock;
-use super::shaken::{Samples, Shaken, ShakenBlock};
-use crate::batch::case::{TERMS, TIGHT};
-use crate::ground_motion::{Component, GroundMotion};
-use crate::simulation::drive::{Course, Overturning};
+use sprag_ensemble::machine::{Registers, shake};
+use sprag_ensemble::plain::PlainBlock;
+use sprag_ensemble::shaken::{Samples, Shaken, ShakenBlock};
+use sprag_sim_host::batch::case::{TERMS, TIGHT};
+use sprag_sim_host::ground_motion::{Component, GroundMotion};
+use sprag_sim_host::simulation::drive::{Course, Overturning};
 
 const DEVICES: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
 const STEP: f64 = 0.01;
@@ -103,7 +103,7 @@ fn blocks_under_records_do_what_they_do_alone() {
                         left += 1;
                         continue;
                     };
-                    let found = found.after(&structure, "block", samples.duration(), FREE_TIME).unwrap();
+                    let found = found.after(&structure, samples.duration(), FREE_TIME).unwrap();
                     let record = Component::record(0.0, STEP, samples.values().iter().map(|value| factor * value));
                     let ground = GroundMotion::sum(&[record]);
                     let (state, peaks) = structure.resolve(Alone { structure: &structure, ground: &ground }).unwrap();
