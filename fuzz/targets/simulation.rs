@@ -108,7 +108,10 @@ fn fastest(scene: &Scene) -> f64 {
             }
             _ => 0.0,
         };
-        clutch + train.rack.viscous + train.flywheel.viscous_rate
+        // A clutch that answers late may switch as often as it can.
+        let answer = train.actuation.engagement_delay + train.actuation.release_delay + train.actuation.dwell;
+        let chatter = if answer > 0.0 { 1.0 / answer } else { 0.0 };
+        clutch + chatter + train.rack.viscous + train.flywheel.viscous_rate
     });
     devices.fold(scene.block.frequency_parameter(), f64::max)
 }

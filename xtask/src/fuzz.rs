@@ -28,11 +28,20 @@ const INSTRUMENTATION: [&str; 9] = [
     "-Ccodegen-units=1",
 ];
 
+/// Which inputs are tried, of those that a corpus and a program lead to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inputs {
+    /// Others every time.
+    New,
+    /// The same every time, so that a check which passed passes again.
+    Same,
+}
+
 /// Runs one fuzz target, or each in turn, for so many seconds; 0 only tries the seeds.
 ///
 /// # Errors
 /// If there is no such target, the build fails, or an input makes a target panic, hang or eat the memory.
-pub fn run(root: &Path, only: Option<&str>, seconds: u32) -> Result<(), Stop> {
+pub fn run(root: &Path, only: Option<&str>, seconds: u32, inputs: Inputs) -> Result<(), Stop> {
     tools::need_cxx()?;
     let fuzz = root.join(WORKSPACE);
     let mut targets = build(root)?;
@@ -46,7 +55,7 @@ pub fn run(root: &Path, only: Option<&str>, seconds: u32) -> Result<(), Stop> {
     }
     for (name, program) in &targets {
         println!("-- fuzzing {name} for {seconds} s");
-        fuzz_one(&fuzz, name, program, seconds)?;
+        fuzz_one(&fuzz, name, program, seconds, inputs)?;
     }
     Ok(())
 }
@@ -80,14 +89,18 @@ fn none_forgotten(fuzz: &Path, built: &[(String, PathBuf)]) -> Result<(), Stop> 
     Ok(())
 }
 
-fn fuzz_one(fuzz: &Path, target: &str, program: &Path, seconds: u32) -> Result<(), Stop> {
+fn fuzz_one(fuzz: &Path, target: &str, program: &Path, seconds: u32, inputs: Inputs) -> Result<(), Stop> {
     let artifacts = fuzz.join("artifacts").join(target);
     let corpus = fuzz.join("corpus").join(target);
     for folder in [&artifacts, &corpus] {
         fs::create_dir_all(folder).map_err(|error| Stop::failed(format!("{}: {error}", folder.display())))?;
     }
     let mut command = Command::new(program);
-    command.current_dir(fuzz).args(["-rss_limit_mb=1024", "-timeout=10", "-max_len=16384"]);
+    // The longest run of a simulation is the millions of events that it may have, in some ten seconds; a hang is longer.
+    command.current_dir(fuzz).args(["-rss_limit_mb=1024", "-timeout=60", "-max_len=16384"]);
+    if inputs == Inputs::Same {
+        command.arg("-seed=1");
+    }
     command.args(["-print_final_stats=1", &format!("-artifact_prefix=artifacts/{target}/")]);
     // Short words that parsers look for, which random bytes would hardly ever spell.
     let dictionary = format!("dictionaries/{target}.txt");

@@ -18,6 +18,7 @@ mod thumb;
 mod ticks;
 mod tools;
 
+use fuzz::Inputs;
 use std::{path::PathBuf, process::ExitCode};
 use steps::Steps;
 use stop::Stop;
@@ -103,8 +104,8 @@ fn run(mut args: impl Iterator<Item = String>) -> Result<(), Stop> {
             tools::need_board_target(&root)?;
             ticks::run(&root)
         }
-        ["fuzz"] => fuzz::run(&root, None, seconds),
-        ["fuzz", target] => fuzz::run(&root, Some(target), seconds),
+        ["fuzz"] => fuzz::run(&root, None, seconds, Inputs::New),
+        ["fuzz", target] => fuzz::run(&root, Some(target), seconds, Inputs::New),
         [] => Err(Stop::usage("no task given; see --help")),
         [task, ..] => Err(Stop::usage(format!("no task \"{task}\" with these words; see --help"))),
     }

@@ -2,7 +2,8 @@
 
 use crate::{
     firmware::{BOARD, Built, LINTED},
-    fuzz, panic_check,
+    fuzz::{self, Inputs},
+    panic_check,
     process::{cargo, cargo_in, host, run as done},
     size,
     steps::Steps,
@@ -48,7 +49,7 @@ pub fn run(root: &Path, fuzz_seconds: u32) -> Result<(), Stop> {
     })?;
     // The emulator tests are among them and find the images through the variables.
     steps.step("tests", || done(cargo(root, &["test", "--workspace"]).envs(built.variables())))?;
-    steps.step("fuzzing", || fuzz::run(root, None, fuzz_seconds))
+    steps.step("fuzzing", || fuzz::run(root, None, fuzz_seconds, Inputs::Same))
 }
 
 /// Builds the images for the board and checks them; new sizes are accepted if they shall be overwritten.
