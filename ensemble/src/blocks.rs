@@ -52,6 +52,23 @@ pub struct Blocks {
     pub hard: Mask,
 }
 
+/// Where a step ends, and by which event, if any.
+#[derive(Clone, Copy, Debug)]
+pub struct Arrival {
+    /// θ, rad.
+    pub rotation: Number,
+    /// θ̇, rad.
+    pub velocity: Number,
+    /// At θ = 0.
+    pub hit: Mask,
+    /// At θ̇ = 0.
+    pub turned: Mask,
+    /// At θ̈ = 0.
+    pub rate_zero: Mask,
+    /// θ̈ has changed its sign on the way.
+    pub passed: Mask,
+}
+
 /// What does not change along the way.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
@@ -168,25 +185,32 @@ impl Blocks {
             velocity = hit.choose(value(series.velocity(), length), velocity);
             rotation = hit.choose(nothing, rotation);
         }
-        self.peak_rotation = self.peak_rotation.larger(rotation);
-        self.overturned = self.overturned | (self.outward & rotation.exceeds(bounds.no_return));
         let uneventful = !(changed | turned | hit | from_zero).any();
         let over_step = if uneventful { plain } else { shape(series.acceleration(), length) };
         self.widen(series, length, push, over_step);
 
         let rate_zero = changed & !turned & !hit;
+        self.arrive(Arrival { rotation, velocity, hit, turned: turned & !hit, rate_zero, passed: Mask::NONE }, bounds);
+        length
+    }
+
+    /// The end of a step over which θ was monotone.
+    #[inline(always)]
+    pub fn arrive(&mut self, arrival: Arrival, bounds: &Bounds) {
+        let Arrival { rotation, velocity, hit, turned, rate_zero, passed } = arrival;
+        self.peak_rotation = self.peak_rotation.larger(rotation);
+        self.overturned = self.overturned | (self.outward & rotation.exceeds(bounds.no_return));
         let after = velocity * bounds.restitution;
         self.counted = hit & !bounds.counted.exceeds(velocity.abs());
         self.weak = hit & bounds.weak.exceeds(after.abs());
         self.rotation = rotation;
         self.velocity = hit.choose(-after, velocity);
-        self.pushed = self.pushed ^ rate_zero;
+        self.pushed = self.pushed ^ (rate_zero | passed);
         self.at_zero = rate_zero;
-        self.outward = (self.outward ^ (turned & !hit)) | hit;
+        self.outward = (self.outward ^ turned) | hit;
         self.side = hit.choose(-self.side, self.side);
         self.impact = self.impact | hit;
         self.fresh = hit;
-        length
     }
 
     /// A length, at most `longest`, over which each θ̈ has one zero or none: the length, where there is a zero, and the shape of θ̈ (over t

@@ -22,6 +22,7 @@ pub mod records;
 pub mod rest;
 pub mod series;
 pub mod shaken;
+pub mod slender;
 
 use sprag_shared::lanes::{LaneMask, Lanes};
 

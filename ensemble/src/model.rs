@@ -10,6 +10,8 @@ use sprag_shared::lever::CentreOfMass;
 use sprag_shared::math;
 
 use crate::blocks::Modes;
+use crate::pulses::{BySeries, Stepping};
+use crate::slender::step::ClosedForm;
 use crate::{Number, number};
 
 /// A model of a block; p = 1.
@@ -18,6 +20,8 @@ pub trait Model {
     type Equation: Switched<Number>;
     /// Its first integral.
     type Integral: FirstIntegral;
+    /// How it is followed under pulses.
+    type Stepping: Stepping;
 
     /// Full or slender.
     const GEOMETRY: Geometry;
@@ -62,6 +66,7 @@ fn full(slenderness: Number) -> FullBlock<Number> {
 impl Model for FullAlone {
     type Equation = FullBlock<Number>;
     type Integral = FullIntegral;
+    type Stepping = BySeries<FullAlone>;
 
     const GEOMETRY: Geometry = Geometry::Full;
 
@@ -79,6 +84,7 @@ impl Model for FullAlone {
 impl Model for FullWithInerter {
     type Equation = FullInerter<Number, CentreOfMass, Paper>;
     type Integral = FullIntegral;
+    type Stepping = BySeries<FullWithInerter>;
 
     const GEOMETRY: Geometry = Geometry::Full;
 
@@ -98,6 +104,7 @@ impl Model for FullWithInerter {
 impl Model for Slender {
     type Equation = SlenderBlock<Number>;
     type Integral = SlenderIntegral;
+    type Stepping = ClosedForm;
 
     const GEOMETRY: Geometry = Geometry::Slender;
 

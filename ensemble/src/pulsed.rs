@@ -9,7 +9,7 @@ use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::shaken::Shaken;
 
-/// How far beyond the threshold a pulse must go for the lanes: nearer, rounding decides whether the block uplifts.
+/// How far beyond the threshold a pulse must go to lift a block for certain: nearer, rounding decides.
 const PLAIN_UPLIFT: f64 = 1.0 + 1e-9;
 
 /// A one-cycle pulse.
@@ -99,13 +99,22 @@ impl PulsedBlock {
         self.stands(peaks.0.max(settled.rotation), peaks.1.max(settled.acceleration))
     }
 
-    /// The lanes may take it: parameters as the core would accept them, and no doubt whether it uplifts.
-    pub(crate) fn is_plain(&self) -> bool {
+    /// Parameters that the lanes may take, as the core would accept them.
+    pub(crate) fn is_within_range(&self) -> bool {
         let PulsedBlock { slenderness, coupling, restitution, frequency_ratio, amplitude_ratio, .. } = *self;
         (1e-4..1.5).contains(&slenderness)
             && (0.0..=1e3).contains(&coupling)
             && (0.0..=1.0).contains(&restitution)
             && (1e-3..1e3).contains(&frequency_ratio)
-            && (PLAIN_UPLIFT..1e4).contains(&amplitude_ratio.abs())
+            && amplitude_ratio.abs() < 1e4
+    }
+
+    /// Whether the pulse lifts it; none if rounding decides.
+    pub(crate) fn uplifts(&self) -> Option<bool> {
+        let amplitude = self.amplitude_ratio.abs();
+        if amplitude <= 1.0 {
+            return Some(false);
+        }
+        (amplitude >= PLAIN_UPLIFT).then_some(true)
     }
 }

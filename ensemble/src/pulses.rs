@@ -1,6 +1,7 @@
 //! Blocks under one cycle of a sine or a cosine, as many as there are: a lane whose block is done takes the next.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::marker::PhantomData;
 
 use sprag_shared::block::Geometry;
 use sprag_shared::clutch::Clutch;
@@ -11,6 +12,7 @@ use sprag_shared::taylor::Taylor;
 use crate::alone::{CaseError, TERMS, TIGHT};
 use crate::blocks::{Blocks, Bounds};
 use crate::model::Model;
+use crate::outcome::Outcome;
 use crate::pulsed::{PulseResult, PulseShape, PulsedBlock};
 use crate::rest::{AfterWeakImpact, Sine, WEAK_IMPACT};
 use crate::series::Series;
@@ -25,13 +27,74 @@ pub const TOLERANCE: f64 = 3e-15;
 /// Steps of one block before it is left to the core; most take a dozen.
 const MOST_STEPS: u32 = 400;
 
-/// The pulses of the blocks in the lanes, each in its block's mirror.
-struct Pulses {
-    amplitude: Number,
-    frequency: Number,
-    phase: Number,
-    time: Number,
-    duration: Number,
+/// The pulses of the blocks in the lanes, each in its block's mirror: ü_g/g = A sin(ωt + φ).
+#[derive(Clone, Copy, Debug)]
+pub struct Pulses {
+    /// A on the side to which the pulse first lifts the block.
+    pub amplitude: Number,
+    /// ω.
+    pub frequency: Number,
+    /// φ, 0 or π/2.
+    pub phase: Number,
+    /// t, from the start of the pulse.
+    pub time: Number,
+    /// When it ends.
+    pub duration: Number,
+}
+
+/// A way to follow blocks under pulses.
+pub trait Stepping: Default {
+    /// A new block in `lane`.
+    fn renew(&mut self, _lane: usize) {}
+
+    /// The block in `lane` uplifts after so many whole half-cycles of its sine.
+    fn uplift(&mut self, _lane: usize, _half_cycles: f64) {}
+
+    /// The block in `lane` has come to its end and stands, as `results` have it under number `index`; its peak may be found later.
+    fn stands(&mut self, _lane: usize, _index: usize, _results: &mut [PulseResult]) {}
+
+    /// Finds what peaks are left; returns the numbers of those that are for the core.
+    fn finish(&mut self, _results: &mut [PulseResult]) -> &[usize] {
+        &[]
+    }
+
+    /// One step of blocks of these slendernesses α (rad) and couplings k, at most up to the end of the pulse, which is `left`; returns how far each went.
+    fn step<C: Clutch>(
+        &mut self,
+        blocks: &mut Blocks,
+        bounds: &Bounds,
+        block: (Number, Number),
+        pulses: &Pulses,
+        left: Number,
+    ) -> Number;
+}
+
+/// Steps by power series.
+#[derive(Debug)]
+pub struct BySeries<M> {
+    series: Series<SERIES_TERMS>,
+    model: PhantomData<M>,
+}
+
+impl<M> Default for BySeries<M> {
+    fn default() -> Self {
+        BySeries { series: Series::default(), model: PhantomData }
+    }
+}
+
+impl<M: Model> Stepping for BySeries<M> {
+    #[inline(always)]
+    fn step<C: Clutch>(
+        &mut self,
+        blocks: &mut Blocks,
+        bounds: &Bounds,
+        (slenderness, coupling): (Number, Number),
+        pulses: &Pulses,
+        left: Number,
+    ) -> Number {
+        pulses.series(blocks.side, &mut self.series.ground[..SERIES_TERMS - 2]);
+        blocks.step::<M::Equation, C, SERIES_TERMS>(&M::modes(slenderness, coupling), bounds, &mut self.series, left)
+    }
 }
 
 impl Pulses {
@@ -67,7 +130,7 @@ pub(crate) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [Pu
     let zero = number(0.0);
     let one = number(1.0);
     let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
-    let mut series = Series::<SERIES_TERMS>::default();
+    let mut stepping = M::Stepping::default();
     let mut blocks = Blocks::default();
     // Idle lanes go through the motions of a harmless block.
     let (mut slenderness, mut coupling) = (one, zero);
@@ -89,17 +152,23 @@ pub(crate) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [Pu
                         block.follow::<M, C>(&method).map_err(|error| (index, error))?
                     } else if blocks.overturned.at(lane) {
                         PulseResult::overturned(blocks.impact.at(lane))
-                    } else if rests.at(lane) {
-                        block.stands(blocks.peak_rotation.0[lane], blocks.peak_acceleration.0[lane])
                     } else {
                         let peaks = (blocks.peak_rotation.0[lane], blocks.peak_acceleration.0[lane]);
-                        block.settle::<M, C>(blocks.rotation.0[lane], blocks.velocity.0[lane], peaks, blocks.impact.at(lane))
+                        if rests.at(lane) {
+                            block.stands(peaks.0, peaks.1)
+                        } else {
+                            block.settle::<M, C>(blocks.rotation.0[lane], blocks.velocity.0[lane], peaks, blocks.impact.at(lane))
+                        }
                     };
+                    if !blocks.hard.at(lane) && results[index].outcome == Outcome::Safe {
+                        stepping.stands(lane, index, results);
+                    }
                 }
                 at[lane] = None;
                 while at[lane].is_none() && next < pulsed.len() {
                     let block = &pulsed[next];
-                    if block.is_plain() {
+                    let uplifts = if block.is_within_range() { block.uplifts() } else { None };
+                    if uplifts == Some(true) {
                         at[lane] = Some(next);
                         if threshold.0 != block.slenderness {
                             threshold = (block.slenderness, M::uplift_threshold(block.slenderness));
@@ -124,8 +193,12 @@ pub(crate) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [Pu
                         bounds.tolerance.0[lane] = TOLERANCE * block.slenderness;
                         blocks.renew(lane);
                         blocks.uplift(lane, 1.0, sine);
+                        stepping.renew(lane);
+                        stepping.uplift(lane, 0.0);
                         rests.set(lane, false);
                         steps[lane] = 0;
+                    } else if uplifts == Some(false) {
+                        results[next] = PulseResult::NO_ROCKING;
                     } else {
                         results[next] = block.follow::<M, C>(&method).map_err(|error| (next, error))?;
                     }
@@ -137,12 +210,14 @@ pub(crate) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [Pu
                 }
             }
             if at.iter().all(Option::is_none) {
+                for &index in stepping.finish(results) {
+                    results[index] = pulsed[index].follow::<M, C>(&method).map_err(|error| (index, error))?;
+                }
                 return Ok(());
             }
         }
-        pulses.series(blocks.side, &mut series.ground[..SERIES_TERMS - 2]);
         let left = pulses.duration - pulses.time;
-        let went = blocks.step::<M::Equation, C, SERIES_TERMS>(&M::modes(slenderness, coupling), &bounds, &mut series, left);
+        let went = stepping.step::<C>(&mut blocks, &bounds, (slenderness, coupling), &pulses, left);
         pulses.time = pulses.time + went;
         for (lane, count) in steps.iter_mut().enumerate() {
             *count += 1;
@@ -160,9 +235,10 @@ pub(crate) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [Pu
                 let couplings = block.couplings::<C>();
                 match sine.after_weak_impact::<M>(pulses.time.0[lane], push, motion, couplings) {
                     AfterWeakImpact::Rests => rests.set(lane, true),
-                    AfterWeakImpact::Uplifts { time, first_side } => {
+                    AfterWeakImpact::Uplifts { time, half_cycles } => {
                         pulses.time.0[lane] = time;
-                        blocks.uplift(lane, if first_side { 1.0 } else { -1.0 }, true);
+                        blocks.uplift(lane, if half_cycles % 2.0 == 0.0 { 1.0 } else { -1.0 }, true);
+                        stepping.uplift(lane, half_cycles);
                     }
                     AfterWeakImpact::Unsettled => blocks.hard.set(lane, true),
                 }

@@ -29,12 +29,12 @@ pub struct Sine {
 pub enum AfterWeakImpact {
     /// It rests until the pulse is over.
     Rests,
-    /// It rests, and uplifts at `time`, to the side on which the pulse first lifted it or to the other.
+    /// It rests, and uplifts at `time`.
     Uplifts {
         /// From the start of the pulse.
         time: f64,
-        /// The side of the first uplift of a sine.
-        first_side: bool,
+        /// Whole half-cycles of the sine before that; if their number is even, to the side to which it lifts first.
+        half_cycles: f64,
     },
     /// The push does not let it rest.
     Unsettled,
@@ -76,10 +76,6 @@ impl Sine {
         let first = math::asin(1.0 / self.amplitude);
         let half_cycles = ((angle - first) / PI).ceil().max(0.0);
         let time = (first + half_cycles * PI - self.phase) / self.frequency;
-        if time >= self.duration {
-            AfterWeakImpact::Rests
-        } else {
-            AfterWeakImpact::Uplifts { time, first_side: half_cycles % 2.0 == 0.0 }
-        }
+        if time >= self.duration { AfterWeakImpact::Rests } else { AfterWeakImpact::Uplifts { time, half_cycles } }
     }
 }

@@ -3,7 +3,7 @@
 //! - f64: libm, pinned and without architecture-specific paths, so that a host gives the same bits as any other.
 //! - f32: [`sine32`], an own polynomial in single precision. libm's `sinf` computes in double, which on a Cortex-M4F
 //!   (single-precision FPU) takes some 1,200 instructions.
-//! - lanes: [`wide_sine`], a branch-free f64 polynomial that fills SIMD registers.
+//! - lanes: [`wide_sine`] and [`wide_hyperbolic`], branch-free f64 polynomials that fill SIMD registers.
 //! - [`tier`], [`tiered`]: any of these and others in the place of a number's own sine, to compare them; [`stumpff`]: what is left of
 //!   sines and cosines in short steps.
 //!
@@ -14,6 +14,7 @@ pub mod sine32;
 pub mod stumpff;
 pub mod tier;
 pub mod tiered;
+pub mod wide_hyperbolic;
 pub mod wide_sine;
 
 pub use libm::{

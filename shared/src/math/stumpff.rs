@@ -11,7 +11,7 @@
 use crate::scalar::Real;
 
 /// 1/(first + 2j)!.
-const fn reciprocal_factorials<const N: usize>(first: usize) -> [f64; N] {
+pub(super) const fn reciprocal_factorials<const N: usize>(first: usize) -> [f64; N] {
     let mut table = [0.0; N];
     let (mut j, mut k, mut factorial) = (0, 1, 1.0);
     while j < N {
