@@ -16,7 +16,7 @@ use std::{
 const WORKSPACE: &str = "fuzz";
 
 /// The compiler flags that make the program count its branches and show its comparisons to libFuzzer.
-const INSTRUMENTATION: [&str; 9] = [
+const INSTRUMENTATION: [&str; 8] = [
     "--cfg",
     "fuzzing",
     "-Cpasses=sancov-module",
@@ -25,7 +25,6 @@ const INSTRUMENTATION: [&str; 9] = [
     "-Cllvm-args=-sanitizer-coverage-pc-table",
     "-Cllvm-args=-sanitizer-coverage-trace-compares",
     "-Cdebug-assertions",
-    "-Ccodegen-units=1",
 ];
 
 /// Which inputs are tried, of those that a corpus and a program lead to.

@@ -29,14 +29,14 @@ fn parts(motion: &Motion, place: &Place, sign: Number) -> [Number; 4] {
     [own * place.own, own * place.own_rate, forced * place.forced, forced * place.forced_rate]
 }
 
-/// What is between `start` and `end`, of lanes where |θ̈| may exceed `known`. q is θ̈ with the sign that makes s̈ positive: crests of −q are at the ends, because q
+/// What is between the start and `end`, of lanes where |θ̈| may exceed `known`. q is θ̈ with the sign that makes s̈ positive: crests of −q are at the ends, because q
 /// bends downwards (q̈ < 0) where y and s̈ differ in sign.
 #[inline(always)]
-fn between(motion: &Motion, start: &Place, (length, end): (Number, &Place), known: Number) -> Between {
+fn between(motion: &Motion, (length, end): (Number, &Place), known: Number) -> Between {
     let nothing = number(0.0);
     // s̈ = −ω² R sin ψ.
     let sign = motion.amplitude.exceeds(nothing).sign() * number(-1.0);
-    let [own, own_slope, forced, forced_slope] = parts(motion, start, sign);
+    let [own, own_slope, forced, forced_slope] = parts(motion, &motion.start, sign);
     let [own_end, own_slope_end, forced_end, forced_slope_end] = parts(motion, end, sign);
     let squared = motion.frequency * motion.frequency;
     let bend = motion.rate * own - squared * forced;
@@ -71,18 +71,18 @@ fn between(motion: &Motion, start: &Place, (length, end): (Number, &Place), know
 
 /// Where |θ̈| may exceed `known` between the ends of a step.
 #[inline(always)]
-pub fn may_exceed(motion: &Motion, start: &Place, end: (Number, &Place), known: Number) -> Mask {
-    let Between { crest, doubtful, .. } = between(motion, start, end, known);
+pub fn may_exceed(motion: &Motion, end: (Number, &Place), known: Number) -> Mask {
+    let Between { crest, doubtful, .. } = between(motion, end, known);
     crest | doubtful
 }
 
-/// The larger of `known` and max |θ̈| of the step from `start` to `end`, and the lanes in which it could not be told.
+/// The larger of `known` and max |θ̈| of the step to `end`, and the lanes in which it could not be told.
 #[inline(always)]
-pub fn largest(motion: &Motion, start: &Place, end: (Number, &Place), known: Number) -> (Number, Mask) {
-    let Between { crest, doubtful, sign } = between(motion, start, end, known);
+pub fn largest(motion: &Motion, end: (Number, &Place), known: Number) -> (Number, Mask) {
+    let Between { crest, doubtful, sign } = between(motion, end, known);
     let mut largest = known;
     if crest.any() {
-        let (_, top) = zero(motion, &Wanted { slope: crest, ..Wanted::NOTHING }, sign, start, end);
+        let (_, top) = zero(motion, &Wanted { slope: crest, ..Wanted::NOTHING }, sign, end);
         largest = largest.larger(crest.choose(motion.accelerations(&top)[0].abs(), number(0.0)));
     }
     let mut unknown = Mask::NONE;
@@ -111,14 +111,13 @@ fn look_inside(motion: &Motion, length: f64, known: f64) -> Option<f64> {
         let part = (to - from) / WIDTH as f64;
         let starts = Lanes(std::array::from_fn(|lane| from + part * lane as f64));
         let (start, end) = (motion.at(starts), motion.at(starts + number(part)));
-        let shifted =
-            Motion { phase: motion.phase + motion.frequency * starts, own: start.own, own_rate: start.own_rate, ..*motion };
+        let shifted = motion.from(starts, start);
         let highest = |place: &Place| motion.accelerations(place)[0].abs();
         largest = highest(&start).larger(highest(&end)).0.into_iter().fold(largest, f64::max);
         let end = (number(part), &end);
-        let Between { crest, doubtful, sign } = between(&shifted, &start, end, number(largest));
+        let Between { crest, doubtful, sign } = between(&shifted, end, number(largest));
         if crest.any() {
-            let (_, top) = zero(&shifted, &Wanted { slope: crest, ..Wanted::NOTHING }, sign, &start, end);
+            let (_, top) = zero(&shifted, &Wanted { slope: crest, ..Wanted::NOTHING }, sign, end);
             largest = crest.choose(highest(&top), number(0.0)).0.into_iter().fold(largest, f64::max);
         }
         for lane in (0..WIDTH).filter(|&lane| doubtful.at(lane)) {
@@ -139,12 +138,12 @@ mod tests {
     fn the_largest_is_as_large_as_any() {
         let (mut crests, mut inside) = (0, 0);
         for (motion, length) in motions(400) {
-            let (start, end) = (motion.start(), motion.at(length));
+            let (start, end) = (motion.start, motion.at(length));
             let size = |place: &Place| motion.accelerations(place)[0].abs();
             let known = size(&start).larger(size(&end));
-            let Between { crest, doubtful, .. } = between(&motion, &start, (length, &end), known);
-            let may = may_exceed(&motion, &start, (length, &end), known);
-            let (found, unknown) = largest(&motion, &start, (length, &end), known);
+            let Between { crest, doubtful, .. } = between(&motion, (length, &end), known);
+            let may = may_exceed(&motion, (length, &end), known);
+            let (found, unknown) = largest(&motion, (length, &end), known);
             let seen = samples(&motion, length).fold(known, |most, place| most.larger(size(&place)));
             for lane in 0..WIDTH {
                 let (found, seen, known) = (found.0[lane], seen.0[lane], known.0[lane]);

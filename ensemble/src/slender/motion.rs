@@ -1,6 +1,7 @@
 //! The motion of a step, and where it is at a time.
 
-use sprag_shared::math::wide_hyperbolic::cosh_sinhc;
+use sprag_shared::math::wide_hyperbolic::c2_c3;
+use sprag_shared::math::wide_sine::sin_versine;
 use sprag_shared::scalar::Scalar;
 
 use crate::{Mask, Number, WIDTH, number};
@@ -18,22 +19,24 @@ pub struct Motion {
     pub amplitude: Number,
     /// ψ from the start of the half-cycle, 0 to π rad.
     pub phase: Number,
-    /// y at the start, rad.
-    pub own: Number,
-    /// ẏ at the start, rad.
-    pub own_rate: Number,
+    /// Sine and cosine of that.
+    turn: (Number, Number),
+    /// Where it starts.
+    pub start: Place,
 }
 
-/// Where a motion is: its two parts and their rates, rad.
+/// Where a motion is.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
-    /// y.
+    /// θ, rad.
+    pub rotation: Number,
+    /// y, rad.
     pub own: Number,
-    /// ẏ.
+    /// ẏ, rad.
     pub own_rate: Number,
-    /// s.
+    /// s, rad.
     pub forced: Number,
-    /// ṡ.
+    /// ṡ, rad.
     pub forced_rate: Number,
 }
 
@@ -47,12 +50,21 @@ impl Motion {
     ) -> Motion {
         let amplitude = ground * rate / (rate + frequency * frequency);
         let (sine, cosine) = Scalar::sin_cos(phase);
-        let own = rotation - slenderness - amplitude * sine;
-        let own_rate = velocity - amplitude * frequency * cosine;
-        Motion { slenderness, rate, frequency, amplitude, phase, own, own_rate }
+        let (forced, forced_rate) = (amplitude * sine, amplitude * frequency * cosine);
+        let own = rotation - slenderness - forced;
+        let own_rate = velocity - forced_rate;
+        let start = Place { rotation, own, own_rate, forced, forced_rate };
+        Motion { slenderness, rate, frequency, amplitude, phase, turn: (sine, cosine), start }
     }
 
-    /// The motion of one lane.
+    /// The same motion, looked at from `place` on, where it is at `time`.
+    #[inline(always)]
+    pub fn from(&self, time: Number, place: Place) -> Motion {
+        let phase = self.phase + self.frequency * time;
+        Motion { phase, turn: Scalar::sin_cos(phase), start: place, ..*self }
+    }
+
+    /// Slenderness, rate, frequency, amplitude, phase, y and ẏ of one lane.
     #[inline(always)]
     pub fn lane(&self, lane: usize) -> [f64; 7] {
         [
@@ -61,8 +73,8 @@ impl Motion {
             self.frequency.0[lane],
             self.amplitude.0[lane],
             self.phase.0[lane],
-            self.own.0[lane],
-            self.own_rate.0[lane],
+            self.start.own.0[lane],
+            self.start.own_rate.0[lane],
         ]
     }
 
@@ -76,32 +88,38 @@ impl Motion {
             }
         }
         let [slenderness, rate, frequency, amplitude, phase, own, own_rate] = numbers;
-        Motion { slenderness, rate, frequency, amplitude, phase, own, own_rate }
-    }
-
-    /// Where it starts.
-    #[inline(always)]
-    pub fn start(&self) -> Place {
-        let (sine, cosine) = Scalar::sin_cos(self.phase);
-        Place {
-            own: self.own,
-            own_rate: self.own_rate,
-            forced: self.amplitude * sine,
-            forced_rate: self.amplitude * self.frequency * cosine,
-        }
+        let (sine, cosine) = Scalar::sin_cos(phase);
+        let (forced, forced_rate) = (amplitude * sine, amplitude * frequency * cosine);
+        let start = Place { rotation: slenderness + (own + forced), own, own_rate, forced, forced_rate };
+        Motion { slenderness, rate, frequency, amplitude, phase, turn: (sine, cosine), start }
     }
 
     /// At `time` from the start: up to the end of the half-cycle, and up to `time`²/I = 4.
+    ///
+    /// θ is the start's and what is added to it, as in [`sprag_shared::closed_form`]: however small the motion, nothing of it cancels.
     #[inline(always)]
     pub fn at(&self, time: Number) -> Place {
-        let (cosh, sinhc) = cosh_sinhc(self.rate * (time * time));
-        let (sine, cosine) = Scalar::sin_cos(self.phase + self.frequency * time);
-        let sinh = time * sinhc;
+        let one = number(1.0);
+        let start = &self.start;
+        let squared = time * time;
+        let own_turn = self.rate * squared;
+        let (c2, c3) = c2_c3(own_turn);
+        let (cosh, sinh) = (one + own_turn * c2, time * (one + own_turn * c3));
+        let angle = self.frequency * time;
+        let (sine, versine) = sin_versine(angle);
+        let (sine_here, cosine_here) = self.turn;
+        let cosine = one - versine;
+
+        let [acceleration, ..] = self.accelerations(start);
+        let free = self.velocity(start) * sinh + acceleration * (squared * c2);
+        let even = (angle * angle) * c2 - versine;
+        let odd = angle * (own_turn * c3) + (angle - sine);
         Place {
-            own: self.own * cosh + self.own_rate * sinh,
-            own_rate: self.own * (self.rate * sinh) + self.own_rate * cosh,
-            forced: self.amplitude * sine,
-            forced_rate: self.amplitude * self.frequency * cosine,
+            rotation: start.rotation + (free + self.amplitude * (sine_here * even - cosine_here * odd)),
+            own: start.own * cosh + start.own_rate * sinh,
+            own_rate: start.own * (self.rate * sinh) + start.own_rate * cosh,
+            forced: self.amplitude * (sine_here * cosine + cosine_here * sine),
+            forced_rate: (self.amplitude * self.frequency) * (cosine_here * cosine - sine_here * sine),
         }
     }
 
@@ -109,15 +127,15 @@ impl Motion {
     #[inline(always)]
     pub fn soon_after(&self, place: &Place, time: Number) -> Place {
         let forced = -(self.frequency * self.frequency);
-        let (own, own_rate) = along(place.own, place.own_rate, self.rate, time);
-        let (forced, forced_rate) = along(place.forced, place.forced_rate, forced, time);
-        Place { own, own_rate, forced, forced_rate }
-    }
-
-    /// θ.
-    #[inline(always)]
-    pub fn rotation(&self, place: &Place) -> Number {
-        self.slenderness + (place.own + place.forced)
+        let own_change = Change::new(self.rate, time).of(place.own, place.own_rate);
+        let forced_change = Change::new(forced, time).of(place.forced, place.forced_rate);
+        Place {
+            rotation: place.rotation + (own_change.0 + forced_change.0 + time * self.velocity(place)),
+            own: place.own + (time * place.own_rate + own_change.0),
+            own_rate: place.own_rate + own_change.1,
+            forced: place.forced + (time * place.forced_rate + forced_change.0),
+            forced_rate: place.forced_rate + forced_change.1,
+        }
     }
 
     /// θ̇.
@@ -138,15 +156,30 @@ impl Motion {
     }
 }
 
-/// x and ẋ a `time` after they are `value` and `rate`, where ẍ = `factor` x; to the fifth power of `time`.
-#[inline(always)]
-fn along(value: Number, rate: Number, factor: Number, time: Number) -> (Number, Number) {
-    let one = number(1.0);
-    let squared = factor * (time * time);
-    // cosh and sinh of time √factor, the latter over √factor.
-    let cosh = one + squared * (number(1.0 / 2.0) + squared * number(1.0 / 24.0));
-    let sinh = time * (one + squared * (number(1.0 / 6.0) + squared * number(1.0 / 120.0)));
-    (value * cosh + rate * sinh, rate * cosh + value * (factor * sinh))
+/// How x and ẋ change over a short time where ẍ = c x, to the fifth power of the time: x by more than its rate tells.
+struct Change {
+    /// c.
+    factor: Number,
+    /// cosh(t√c) − 1.
+    even: Number,
+    /// sinh(t√c)/√c − t.
+    odd: Number,
+    time: Number,
+}
+
+impl Change {
+    #[inline(always)]
+    fn new(factor: Number, time: Number) -> Change {
+        let squared = factor * (time * time);
+        let even = squared * (number(1.0 / 2.0) + squared * number(1.0 / 24.0));
+        let odd = time * (squared * (number(1.0 / 6.0) + squared * number(1.0 / 120.0)));
+        Change { factor, even, odd, time }
+    }
+
+    #[inline(always)]
+    fn of(&self, value: Number, rate: Number) -> (Number, Number) {
+        (value * self.even + rate * self.odd, rate * self.even + value * (self.factor * (self.time + self.odd)))
+    }
 }
 
 impl Place {
@@ -154,6 +187,7 @@ impl Place {
     #[inline(always)]
     pub fn where_chosen(&self, mask: Mask, other: &Place) -> Place {
         Place {
+            rotation: mask.choose(self.rotation, other.rotation),
             own: mask.choose(self.own, other.own),
             own_rate: mask.choose(self.own_rate, other.own_rate),
             forced: mask.choose(self.forced, other.forced),

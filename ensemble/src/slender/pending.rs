@@ -65,7 +65,7 @@ impl Pending {
             known.0[lane] = results[index].peak_acceleration * slenderness;
         }
         let motion = Motion::of_lanes(&motions);
-        let (found, unknown) = largest(&motion, &motion.start(), (length, &motion.at(length)), known);
+        let (found, unknown) = largest(&motion, (length, &motion.at(length)), known);
         for (lane, (index, _)) in self.ended.drain(from..).enumerate() {
             if unknown.at(lane) {
                 self.unsolved.push(index);

@@ -49,9 +49,10 @@ impl ClosedForm {
 
 /// A length, at most `longest`, over which each θ̈ has one zero or none; the place there, and where there is a zero.
 #[inline(always)]
-fn plain_stretch(blocks: &mut Blocks, motion: &Motion, start: &Place, longest: Number) -> (Number, Place, Mask) {
+fn plain_stretch(blocks: &mut Blocks, motion: &Motion, longest: Number) -> (Number, Place, Mask) {
     let nothing = number(0.0);
     let push = blocks.pushed.sign();
+    let start = &motion.start;
     let [rate, slope, _] = motion.accelerations(start);
     let rate = blocks.at_zero.choose(nothing, rate) * push;
     let slope = slope * push;
@@ -134,11 +135,10 @@ impl Stepping for ClosedForm {
         let rate = one / (one + engaged.choose(coupling, nothing));
         let here = (blocks.rotation, blocks.velocity);
         let motion = Motion::new(here, (slenderness, rate), (ground, pulses.frequency, phase));
-        let start = motion.start();
 
         let to_half_cycle = (half_cycle - phase) / pulses.frequency;
         let longest = left.smaller(to_half_cycle).smaller(number(LONGEST));
-        let (mut length, mut end, changed) = plain_stretch(blocks, &motion, &start, longest);
+        let (mut length, mut end, changed) = plain_stretch(blocks, &motion, longest);
 
         let push = blocks.pushed.sign();
         let direction = blocks.outward.sign();
@@ -150,13 +150,13 @@ impl Stepping for ClosedForm {
             let acceleration = !looked_at_rate;
             let followed = looked_at_rate & !blocks.hard;
             let velocity = followed & !turned & !hit & nothing.exceeds(motion.velocity(&end) * direction);
-            let rotation = followed & !velocity & !hit & nothing.exceeds(motion.rotation(&end));
+            let rotation = followed & !velocity & !hit & nothing.exceeds(end.rotation);
             let wanted = Wanted { rotation, velocity, acceleration, slope: Mask::NONE };
             if !wanted.any().any() {
                 break;
             }
             let before = acceleration.choose(push, velocity.choose(direction, one));
-            (length, end) = zero(&motion, &wanted, before, &start, (length, &end));
+            (length, end) = zero(&motion, &wanted, before, (length, &end));
             looked_at_rate = Mask::ALL;
             (rate_zero, turned, hit) =
                 (acceleration | (rate_zero & !velocity & !rotation), velocity | (turned & !rotation), hit | rotation);
@@ -165,10 +165,10 @@ impl Stepping for ClosedForm {
         let tiny = !(length * length * (rate + pulses.frequency * pulses.frequency)).exceeds(number(TINY * TINY));
         blocks.hard = blocks.hard | (hit & blocks.outward) | ((turned | rate_zero) & tiny);
         let known = blocks.peak_acceleration;
-        let ends = [&start, &end].map(|place| motion.accelerations(place)[0].abs());
+        let ends = [&motion.start, &end].map(|place| motion.accelerations(place)[0].abs());
         let known = known.larger(blocks.at_zero.choose(nothing, ends[0])).larger(rate_zero.choose(nothing, ends[1]));
         blocks.peak_acceleration = known;
-        let pending = crest::may_exceed(&motion, &start, (length, &end), known) & !blocks.hard;
+        let pending = crest::may_exceed(&motion, (length, &end), known) & !blocks.hard;
         if pending.any() {
             for lane in (0..WIDTH).filter(|&lane| pending.at(lane)) {
                 self.pending.add(lane, &motion, length.0[lane]);
@@ -177,7 +177,7 @@ impl Stepping for ClosedForm {
 
         let over = !to_half_cycle.exceeds(length);
         self.half_cycles = self.half_cycles + over.choose(one, nothing);
-        let rotation = hit.choose(nothing, motion.rotation(&end));
+        let rotation = hit.choose(nothing, end.rotation);
         let velocity = turned.choose(nothing, motion.velocity(&end));
         blocks.arrive(Arrival { rotation, velocity, hit, turned, rate_zero, passed }, bounds);
         length
@@ -194,10 +194,9 @@ mod tests {
     fn a_stretch_has_the_zeros_that_it_is_said_to_have() {
         let (mut changes, mut halved) = (0, 0);
         for (motion, longest) in motions(400) {
-            let start = motion.start();
-            let pushed = motion.accelerations(&start)[0].exceeds(number(0.0));
+            let pushed = motion.accelerations(&motion.start)[0].exceeds(number(0.0));
             let mut blocks = Blocks { pushed, ..Blocks::default() };
-            let (length, end, changed) = plain_stretch(&mut blocks, &motion, &start, longest);
+            let (length, end, changed) = plain_stretch(&mut blocks, &motion, longest);
             assert!(!blocks.hard.any());
             let mut seen = [0; WIDTH];
             let mut before = pushed;

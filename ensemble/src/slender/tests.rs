@@ -48,12 +48,13 @@ fn motions_obey_the_equation() {
         let ground = motion.amplitude * (motion.rate + motion.frequency * motion.frequency) / motion.rate;
         let (sine, _) = Scalar::sin_cos(motion.phase + motion.frequency * length * number(0.5));
         let [rate, slope, curvature] = motion.accelerations(&place);
-        let should = motion.rate * (motion.rotation(&place) - motion.slenderness - ground * sine);
+        let should = motion.rate * (place.rotation - motion.slenderness - ground * sine);
         assert_near(rate, should, 1e-12, "equation");
+        assert_near(place.rotation, motion.slenderness + place.own + place.forced, 1e-13, "parts");
         let step = number(1e-4) / (number(1.0) + motion.frequency);
         let [before, after] = [-1.0, 1.0].map(|sign| motion.soon_after(&place, step * number(sign)));
         let derivative = |of: &dyn Fn(&Place) -> Number| (of(&after) - of(&before)) / (step + step);
-        assert_near(derivative(&|place| motion.rotation(place)), motion.velocity(&place), 1e-6, "velocity");
+        assert_near(derivative(&|place| place.rotation), motion.velocity(&place), 1e-6, "velocity");
         assert_near(derivative(&|place| motion.velocity(place)), rate, 1e-6, "acceleration");
         assert_near(derivative(&|place| motion.accelerations(place)[0]), slope, 1e-5, "slope");
         assert_near(derivative(&|place| motion.accelerations(place)[1]), curvature, 1e-4, "curvature");
@@ -66,12 +67,27 @@ fn steps_add_up() {
     for (motion, length) in motions(100) {
         let half = number(0.5) * length;
         let middle = motion.at(half);
-        let on = Motion { phase: motion.phase + motion.frequency * half, own: middle.own, own_rate: middle.own_rate, ..motion };
+        let on = motion.from(half, middle);
         let (twice, once) = (on.at(half), motion.at(length));
-        assert_near(motion.rotation(&twice), motion.rotation(&once), 3e-14, "rotation");
+        assert_near(twice.rotation, once.rotation, 3e-14, "rotation");
         assert_near(motion.velocity(&twice), motion.velocity(&once), 3e-14 * 13.0, "velocity");
         let short = number(1e-3) / (number(1.0) + motion.frequency);
         let (near, exact) = (motion.soon_after(&middle, short), motion.at(half + short));
-        assert_near(motion.rotation(&near), motion.rotation(&exact), 1e-14, "soon after");
+        assert_near(near.rotation, exact.rotation, 1e-14, "soon after");
+    }
+}
+
+/// A bounce of 1e-12 rad: constant acceleration, to the size of the time.
+#[test]
+fn small_motions_keep_their_digits() {
+    let (ground, frequency, phase) = (number(0.2), number(3.0), number(0.7));
+    let velocity = 1e-6;
+    let motion = Motion::new((number(0.0), number(velocity)), (number(0.3), number(0.8)), (ground, frequency, phase));
+    let [rate, slope, _] = motion.accelerations(&motion.start).map(|numbers| numbers.0[0]);
+    for share in [0.1, 0.5, 1.0, 1.9] {
+        let time = -share * velocity / rate;
+        let should = time * (velocity + time * (0.5 * rate + time * slope / 6.0));
+        let found = motion.at(number(time)).rotation.0[0];
+        assert!((found / should - 1.0).abs() < 1e-9, "{share}: {found} {should}");
     }
 }

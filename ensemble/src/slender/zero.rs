@@ -39,11 +39,12 @@ impl Wanted {
         let (own, own_rate) = (late.choose(rate, number(1.0)), late.choose(forced, number(1.0)));
         let (a, a_rate, b, b_rate) =
             (own * place.own, own * place.own_rate, own_rate * place.forced, own_rate * place.forced_rate);
+        let (own, forced_part) = (odd.choose(a_rate, a), odd.choose(b_rate, b));
         Sum {
-            constant: (late | odd).choose(number(0.0), motion.slenderness),
-            own: odd.choose(a_rate, a),
+            value: (late | odd).choose(own + forced_part, place.rotation),
+            own,
             own_rate: odd.choose(rate * a, a_rate),
-            forced: odd.choose(b_rate, b),
+            forced: forced_part,
             forced_rate: odd.choose(forced * b, b_rate),
             factors: [rate, forced],
         }
@@ -53,7 +54,7 @@ impl Wanted {
 /// A derivative of θ: its two parts and their rates. Each part's second derivative is a multiple of itself.
 #[derive(Clone, Copy, Debug)]
 struct Sum {
-    constant: Number,
+    value: Number,
     own: Number,
     own_rate: Number,
     forced: Number,
@@ -63,11 +64,6 @@ struct Sum {
 
 impl Sum {
     #[inline(always)]
-    fn value(&self) -> Number {
-        self.constant + (self.own + self.forced)
-    }
-
-    #[inline(always)]
     fn slope(&self) -> Number {
         self.own_rate + self.forced_rate
     }
@@ -76,11 +72,12 @@ impl Sum {
     #[inline(always)]
     fn second(&self) -> Sum {
         let [a, b] = self.factors;
+        let (own, forced) = (a * self.own, b * self.forced);
         Sum {
-            constant: number(0.0),
-            own: a * self.own,
+            value: own + forced,
+            own,
             own_rate: a * self.own_rate,
-            forced: b * self.forced,
+            forced,
             forced_rate: b * self.forced_rate,
             factors: self.factors,
         }
@@ -125,13 +122,13 @@ fn guess([value, slope, curvature]: [Number; 3], [value_end, slope_end]: [Number
 /// The time in (0, `end`] at which what is `wanted` vanishes, and the place there; `end` where nothing is. There it has the sign `before`
 /// (±1) up to its only zero, and the other at `end`; at the start it may be zero too.
 #[inline(always)]
-pub fn zero(motion: &Motion, wanted: &Wanted, before: Number, start: &Place, end: (Number, &Place)) -> (Number, Place) {
+pub fn zero(motion: &Motion, wanted: &Wanted, before: Number, end: (Number, &Place)) -> (Number, Place) {
     let nothing = number(0.0);
     let (last, place_last) = end;
-    let (first, at_end) = (wanted.of(motion, start), wanted.of(motion, place_last));
+    let (first, at_end) = (wanted.of(motion, &motion.start), wanted.of(motion, place_last));
     let scale = before * last;
-    let from = [(first.value() * before).larger(nothing), first.slope() * scale, first.second().value() * (scale * last)];
-    let share = guess(from, [at_end.value() * before, at_end.slope() * scale]);
+    let from = [(first.value * before).larger(nothing), first.slope() * scale, first.second().value * (scale * last)];
+    let share = guess(from, [at_end.value * before, at_end.slope() * scale]);
     let mut open = wanted.any();
     let mut x = open.choose(share * last, last);
     let mut found = *place_last;
@@ -142,22 +139,22 @@ pub fn zero(motion: &Motion, wanted: &Wanted, before: Number, start: &Place, end
         let place = motion.at(x);
         let here = wanted.of(motion, &place);
         let (second, fourth) = (here.second(), here.second().second());
-        let (value, slope) = (here.value(), here.slope());
+        let (value, slope) = (here.value, here.slope());
         let still_before = (value * before).exceeds(nothing);
         low = still_before.choose(x, low);
         top = still_before.choose(top, x);
         // Halley's step, then Newton's for the quintic about here.
-        let halves = number(0.5) * second.value();
+        let halves = number(0.5) * second.value;
         let mut change = -(value * slope) / (slope * slope - value * halves);
         let near = !(change * change * quick).exceeds(number(NEAR * NEAR));
         let (cube, quartic, quintic) =
-            (second.slope() * number(1.0 / 6.0), fourth.value() * number(1.0 / 24.0), fourth.slope() * number(1.0 / 120.0));
+            (second.slope() * number(1.0 / 6.0), fourth.value * number(1.0 / 24.0), fourth.slope() * number(1.0 / 120.0));
         let mut correction = nothing;
         for _ in 0..2 {
             let rest = value + change * (slope + change * (halves + change * (cube + change * (quartic + change * quintic))));
             let rest_slope = slope
                 + change
-                    * (second.value()
+                    * (second.value
                         + change * (number(3.0) * cube + change * (number(4.0) * quartic + change * (number(5.0) * quintic))));
             correction = rest / rest_slope;
             change = near.choose(change - correction, change);
@@ -202,8 +199,8 @@ mod tests {
         for (kind, all) in kinds.into_iter().enumerate() {
             let mut zeros = 0;
             for (motion, length) in motions(200) {
-                let (start, end) = (motion.start(), motion.at(length));
-                let value = |place: &Place| all.of(&motion, place).value();
+                let (start, end) = (motion.start, motion.at(length));
+                let value = |place: &Place| all.of(&motion, place).value;
                 let (before, mut once) =
                     (value(&start).exceeds(number(0.0)), value(&start).exceeds(number(0.0)) ^ value(&end).exceeds(number(0.0)));
                 let mut changed = Mask::NONE;
@@ -218,7 +215,7 @@ mod tests {
                     acceleration: all.acceleration & once,
                     slope: all.slope & once,
                 };
-                let (time, place) = zero(&motion, &wanted, before.sign(), &start, (length, &end));
+                let (time, place) = zero(&motion, &wanted, before.sign(), (length, &end));
                 let again = motion.at(time);
                 for lane in 0..WIDTH {
                     let size = [start, end].iter().map(|place| value(place).0[lane].abs()).fold(0.0, f64::max)
@@ -247,10 +244,10 @@ mod tests {
         let phase = number(sprag_shared::math::asin(0.3 / 0.4));
         let motion = Motion::new((number(0.0), number(0.0)), (number(0.3), number(1.0)), (ground, frequency, phase));
         let length = number(1.5);
-        let (start, end) = (motion.start(), motion.at(length));
+        let end = motion.at(length);
         let wanted = Wanted { acceleration: Mask::ALL, ..Wanted::NOTHING };
         assert!(motion.accelerations(&end)[0].0[0] < 0.0);
-        let (time, _) = zero(&motion, &wanted, number(1.0), &start, (length, &end));
+        let (time, _) = zero(&motion, &wanted, number(1.0), (length, &end));
         assert!(time.0[0] > 0.1 && time.0[0] < 1.5);
     }
 }
