@@ -398,6 +398,7 @@ fn bad_input_of_cloud_costs_one_line() {
     line("records = [\"a.csv\"]\nscene = \"nowhere.toml\"", &[], &["nowhere.toml"]);
     line("scale = [-1]", &["--records", "a.csv"], &["scale.0 is -1", "above 0"]);
     line("", &["--records", "a.csv", "--set", "block.colour=red"], &["colour"]);
+    line("", &["--records", "a.csv", "--time-budget", "1", "--shard", "1/2"], &["--time-budget", "--shard"]);
 }
 
 /// Records of pulses of several amplitudes (g), in a folder of their own.

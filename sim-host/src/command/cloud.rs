@@ -81,6 +81,8 @@ enum Failure {
     Output(#[from] OutputError),
     #[error("{0}")]
     Table(#[from] TableError),
+    #[error("--time-budget tries several accuracies and keeps no rows on the way: {option} cannot go with it")]
+    NoRows { option: &'static str },
     #[error("the threads cannot be started: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
@@ -139,6 +141,9 @@ fn run_or_fail(
     err: &mut impl Write,
     interrupt: &Interrupt,
 ) -> Result<bool, Failure> {
+    if let (Some(_), Some(option)) = (arguments.accuracy.time_budget, arguments.long_run.given()) {
+        return Err(Failure::NoRows { option });
+    }
     let folder = arguments.out.clone().unwrap_or_else(|| arguments.input.folder());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
     let progress = Progress::new("runs");

@@ -36,6 +36,14 @@ pub enum Start {
 }
 
 impl LongRunArguments {
+    /// The first of these options that is given, if any.
+    pub fn given(&self) -> Option<&'static str> {
+        let LongRunArguments { shard, resume, restart, merge } = self;
+        let options =
+            [("--shard", shard.is_some()), ("--resume", *resume), ("--restart", *restart), ("--merge", merge.is_some())];
+        options.into_iter().find_map(|(option, given)| given.then_some(option))
+    }
+
     /// How the rows begin.
     pub fn start(&self) -> Start {
         match self {

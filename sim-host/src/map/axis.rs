@@ -47,11 +47,16 @@ pub fn pulse(scene: &Scene, map: &MapTable) -> String {
         _ => return String::new(),
     };
     let axes: Vec<&str> = [Some(&map.x), map.y.as_ref()].into_iter().flatten().map(|axis| axis.key.as_str()).collect();
-    let amplitude = ground.amplitude_ratio.map(|ratio| ground.scale * ratio);
-    for (key, value) in [("ground.0.amplitude_ratio", amplitude), ("ground.0.frequency_ratio", ground.frequency_ratio)] {
-        if let Some(value) = value.filter(|_| !axes.contains(&key)) {
-            // Headings have no markup.
-            text += &format!(", {} = {value}", title(scene, key).replace('*', ""));
+    let threshold = match scene.geometry() {
+        Geometry::Full => "g tan α",
+        Geometry::Slender => "gα",
+    };
+    // In words: headings have no subscripts.
+    let amplitude = ground.amplitude_ratio.map(|ratio| format!(", amplitude {} {threshold}", ground.scale * ratio));
+    let frequency = ground.frequency_ratio.map(|ratio| format!(", circular frequency {ratio} p"));
+    for (key, words) in [("ground.0.amplitude_ratio", amplitude), ("ground.0.frequency_ratio", frequency)] {
+        if let Some(words) = words.filter(|_| !axes.contains(&key)) {
+            text += &words;
         }
     }
     text
@@ -74,7 +79,7 @@ mod tests {
             let scene = Scene::parse(&text, "scene").unwrap();
             super::pulse(&scene, scene.file.map.as_ref().unwrap())
         };
-        assert_eq!(pulse("cosine", ""), "one-cycle cosine, a_g/(g tan α) = 8");
+        assert_eq!(pulse("cosine", ""), "one-cycle cosine, amplitude 8 g tan α");
         assert_eq!(pulse("sine", "y = { key = 'ground.0.amplitude_ratio', from = 1, to = 2, cells = 2 }"), "one-cycle sine");
         assert_eq!(pulse("half-sine", ""), "");
     }
