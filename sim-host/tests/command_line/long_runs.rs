@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
+use super::said;
 const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/figure08.toml");
 /// Cells that are simulated one by one, so that a run takes a while.
 const SLOW: [&str; 6] = ["--set", "map.x.cells=24", "--set", "map.y.cells=20", "--set", "ground.0.motion=\"half-sine\""];
@@ -12,10 +13,6 @@ fn map(out: &Path, more: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
     command.args(["map", SCENE, "--out", out.to_str().unwrap()]).args(more);
     command
-}
-
-fn said(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
 fn well(output: Output) {

@@ -2,19 +2,10 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 
-const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
+use super::{said, scene, sprag};
 const HEADER: &str =
     "id,geometry,slenderness_deg,device,mass_ratio,restitution,pulse,frequency_ratio,amplitude_ratio,free_time\n";
-
-fn sprag(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_sprag")).args(arguments).output().expect("sprag starts")
-}
-
-fn said(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
 
 fn summary(folder: &Path) -> serde_json::Value {
     serde_json::from_slice(&fs::read(folder.join("summary.json")).unwrap()).unwrap()
@@ -24,7 +15,7 @@ fn summary(folder: &Path) -> serde_json::Value {
 fn peak_and_error(command: &str, scene: &str, level: &str) -> (f64, f64) {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().to_str().unwrap();
-    let output = sprag(&[command, &format!("{SCENES}/{scene}.toml"), "--accuracy", level, "--out", out]);
+    let output = sprag(&[command, &super::scene(scene), "--accuracy", level, "--out", out]);
     assert!(output.status.success(), "{}", said(&output));
     let summary = summary(folder.path());
     let run = summary["runs"].as_array().unwrap().iter().find(|run| run["outcome"] == "safe").unwrap();
@@ -125,7 +116,7 @@ fn too_little_time_is_said_with_what_it_affords() {
 
 #[test]
 fn levels_that_make_no_sense_are_refused() {
-    let scene = format!("{SCENES}/figure05.toml");
+    let scene = scene("figure05");
     for (arguments, word) in [
         (&["simulate", &scene, "--accuracy", "loose"] as &[&str], "fast, normal, tight"),
         (&["simulate", &scene, "--accuracy=-1"], "fast, normal, tight"),
@@ -145,7 +136,7 @@ fn levels_that_make_no_sense_are_refused() {
 fn the_study_writes_its_tables_and_pictures() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("study");
-    let scene = format!("{SCENES}/figure05.toml");
+    let scene = scene("figure05");
     let output = sprag(&["accuracy", &scene, "--cells", "2", "--smallest-step", "0.03", "--out", out.to_str().unwrap()]);
     assert!(output.status.success(), "{}", said(&output));
     let mut files: Vec<_> = fs::read_dir(&out).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap()).collect();

@@ -1,22 +1,15 @@
 //! Tables and pictures of `sprag map` and `sprag cloud` in every format: the same values to the bits, the same bytes, and characters
 //! that the font has.
 
-mod python;
-
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
+use super::{scene, sprag};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
-const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
 /// A device's name that CSV has to quote.
 const QUOTED: &str = "device.1.name=\"one, \\\"inerter\\\"\"";
-
-fn sprag(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_sprag")).args(arguments).output().expect("sprag starts")
-}
 
 /// Runs `sprag` with `--out`, expects that it ends well and says nothing on the side, and gives the names of its files.
 fn written(arguments: &[&str], out: &Path) -> Vec<String> {
@@ -31,7 +24,7 @@ fn written(arguments: &[&str], out: &Path) -> Vec<String> {
 /// A small map, a cut and a cloud, each in a folder of its own.
 fn studies(folder: &Path) -> [PathBuf; 3] {
     let outs = ["map", "cut", "cloud"].map(|name| folder.join(name));
-    let scene = format!("{SCENES}/figure08.toml");
+    let scene = scene("figure08");
     let map = ["map", &scene, "--set", "map.x.cells=24", "--set", "map.y.cells=20", "--set", QUOTED];
     let names = ["acceleration.png", "acceleration.svg", "map.csv", "map.parquet", "map.png", "map.run.json", "map.svg"];
     assert_eq!(written(&map, &outs[0]), [&names[..], &["rotation.png", "rotation.svg", "summary.json"]].concat());
@@ -44,7 +37,7 @@ fn studies(folder: &Path) -> [PathBuf; 3] {
         let lines: String = (0..400).map(|step| format!("{:?},{:?}\n", f64::from(step) * 0.01, sample(step))).collect();
         fs::write(records.join(format!("{number}.csv")), format!("# time_s,acc_g\n{lines}")).unwrap();
     }
-    let study = format!("{SCENES}/cloud.toml");
+    let study = super::scene("cloud");
     let names = written(&["cloud", &study, "--records", records.to_str().unwrap()], &outs[2]);
     for name in ["runs", "demand", "fragility", "ranking"] {
         assert!([".csv", ".parquet"].iter().all(|ending| names.contains(&format!("{name}{ending}"))), "{names:?}");
@@ -103,7 +96,7 @@ fn parquet_holds_what_csv_holds_and_what_made_it() {
     // The same with pyarrow, where it can be had.
     let what = "Parquet files with pyarrow";
     let folders = outs.each_ref().map(PathBuf::as_path);
-    let Some(printed) = python::printed("tables_against_python.py", "pyarrow", &folders, what) else { return };
+    let Some(printed) = super::python::printed("tables_against_python.py", "pyarrow", &folders, what) else { return };
     let found: serde_json::Value = serde_json::from_slice(&printed).unwrap();
     let found = found.as_object().unwrap();
     assert_eq!(found.len(), outs.iter().map(|out| parquet_files(out).len()).sum::<usize>());
@@ -113,7 +106,7 @@ fn parquet_holds_what_csv_holds_and_what_made_it() {
 #[test]
 fn files_do_not_depend_on_the_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = format!("{SCENES}/figure08.toml");
+    let scene = scene("figure08");
     let outs = ["1", "3"].map(|threads| {
         let out = folder.path().join(threads);
         written(&["map", &scene, "--set", "map.x.cells=90", "--set", "map.y.cells=20", "--threads", threads], &out);
@@ -128,7 +121,7 @@ fn files_do_not_depend_on_the_number_of_threads() {
 #[test]
 fn formats_are_those_asked_for() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = format!("{SCENES}/figure08.toml");
+    let scene = scene("figure08");
     let map = |formats| ["map", &scene, "--set", "map.x.cells=5", "--set", "map.y.cells=4", "--formats", formats];
     assert_eq!(written(&map("csv"), &folder.path().join("csv")), ["map.csv", "map.run.json", "summary.json"]);
     let names = ["acceleration.png", "map.csv", "map.png", "map.run.json", "rotation.png", "summary.json"];
@@ -143,7 +136,7 @@ fn formats_are_those_asked_for() {
 #[test]
 fn other_commands_draw_dots_when_asked() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = format!("{SCENES}/near_fault.toml");
+    let scene = scene("near_fault");
     let names = ["history.csv", "history.png", "history.svg", "summary.json"];
     assert_eq!(written(&["simulate", &scene, "--png"], folder.path()), names);
 }
@@ -151,7 +144,7 @@ fn other_commands_draw_dots_when_asked() {
 #[test]
 fn what_the_font_of_pictures_lacks_is_told() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = format!("{SCENES}/near_fault.toml");
+    let scene = scene("near_fault");
     let out = folder.path().to_str().unwrap();
     let output = sprag(&["simulate", &scene, "--png", "--set", "title=\u{5730}\u{9707}", "--out", out]);
     let message = String::from_utf8_lossy(&output.stderr).into_owned();

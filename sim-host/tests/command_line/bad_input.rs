@@ -1,0 +1,184 @@
+//! Bad input costs one clear line, and nothing is left half-written.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use super::{SCENES, refused, scene};
+
+#[test]
+fn bad_scenes_cost_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let to = out.to_str().unwrap();
+    let figure = scene("figure05");
+    let set = |item: &str, words: &[&str]| refused(&["simulate", &figure, "--out", to, "--set", item], &out, words);
+    set("block.colour=red", &["colour"]);
+    set("block.slenderness_deg=90", &["slenderness_deg", "90"]);
+    set("block.restitution=1.5", &["restitution", "from 0 to 1"]);
+    set("block.mass_kg=-1", &["mass_kg", "above 0"]);
+    set("block.size_m=ten", &["size_m"]);
+    set("output.interval_s=1e-6", &["5 million"]);
+    refused(&["simulate", "nowhere.toml", "--out", to], &out, &["nowhere.toml"]);
+    refused(&["simulate", SCENES, "--out", to], &out, &["not a file"]);
+    let empty = folder.path().join("empty.toml");
+    fs::write(&empty, "").unwrap();
+    refused(&["simulate", empty.to_str().unwrap(), "--out", to], &out, &["block"]);
+    fs::write(&empty, [0xff, 0xfe, 0x00]).unwrap();
+    refused(&["simulate", empty.to_str().unwrap(), "--out", to], &out, &["UTF-8"]);
+    fs::File::create(&empty).unwrap().set_len(2 << 30).unwrap();
+    refused(&["simulate", empty.to_str().unwrap(), "--out", to], &out, &["too large"]);
+}
+
+#[test]
+fn bad_records_cost_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let to = out.to_str().unwrap();
+    let record = folder.path().join("record.csv");
+    let try_text = |text: &str, words: &[&str]| {
+        fs::write(&record, text).unwrap();
+        refused(&["simulate", &scene("record"), "--record", record.to_str().unwrap(), "--out", to], &out, words);
+    };
+    try_text("", &["record.csv"]);
+    try_text("# time_s,acc_g\n0.00,0.1\n0.01,NaN\n0.02,0.1\n", &["record.csv", "NaN"]);
+    try_text("# time_s,acc_g\n0.00,0.1\n", &["record.csv"]);
+    try_text("# time_s,acc_furlong\n0.00,0.1\n0.01,0.2\n", &["record.csv"]);
+    fs::File::create(&record).unwrap().set_len(2 << 30).unwrap();
+    refused(&["simulate", &scene("record"), "--record", record.to_str().unwrap(), "--out", to], &out, &["record.csv"]);
+    refused(&["simulate", &scene("record"), "--record", "nowhere.AT2", "--out", to], &out, &["nowhere.AT2"]);
+    refused(&["simulate", &scene("record"), "--out", to], &out, &["--record"]);
+    refused(&["simulate", &scene("figure05"), "--record", "x.AT2", "--out", to], &out, &["motion = \"record\""]);
+    refused(&["simulate", &scene("record"), "--set", "ground.0.units=furlong", "--out", to], &out, &["units", "m/s2"]);
+}
+
+#[test]
+fn bad_cases_cost_one_line_that_names_the_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    fs::create_dir(&out).unwrap();
+    let results = out.join("results.csv");
+    let cases = folder.path().join("cases.csv");
+    let header = "id,geometry,slenderness_deg,device,mass_ratio,restitution,pulse,frequency_ratio,amplitude_ratio,free_time\n";
+    let good = "0,full,15,none,0,0.85,sine,2,2,60\n";
+    let try_text = |text: &str, words: &[&str]| {
+        fs::write(&cases, text).unwrap();
+        refused(&["batch", cases.to_str().unwrap(), "--out", results.to_str().unwrap()], &out, words);
+    };
+    try_text("", &["column `id` is missing"]);
+    try_text(header, &["no cases"]);
+    try_text(&format!("{header}{good}1,full,95,none,0,0.85,sine,2,2,60\n"), &["line 3", "slenderness_deg", "95"]);
+    try_text(&format!("{header}1,round,15,none,0,0.85,sine,2,2,60\n"), &["geometry", "round", "full or slender"]);
+    try_text(&format!("{header}1,full,15,none,0,1.85,sine,2,2,60\n"), &["restitution", "from 0 to 1"]);
+    try_text(&format!("{header}1,full,15,none,0,0.85,sine,NaN,2,60\n"), &["frequency_ratio", "NaN"]);
+    try_text(&format!("{header}1,full,15,none\n"), &["line 2", "4 fields"]);
+    try_text(&format!("colour,{header}"), &["unknown column `colour`"]);
+    fs::File::create(&cases).unwrap().set_len(2 << 30).unwrap();
+    refused(&["batch", cases.to_str().unwrap(), "--out", results.to_str().unwrap()], &out, &["too large"]);
+}
+
+#[test]
+fn an_output_place_that_cannot_be_written_costs_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    fs::write(&file, "kept").unwrap();
+    let inside = file.join("out");
+    refused(&["simulate", &scene("figure05"), "--out", inside.to_str().unwrap()], &inside, &["cannot be written"]);
+    assert_eq!(fs::read_to_string(&file).unwrap(), "kept");
+    #[cfg(target_os = "linux")]
+    refused(&["simulate", &scene("figure05"), "--out", "/proc/sprag"], Path::new("/proc/sprag"), &["cannot be written"]);
+}
+
+/// A limit on the size of files stands for a full disk: the write fails half-way.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_leaves_nothing_behind() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let command = format!(
+        "trap '' XFSZ; ulimit -f 16; exec '{}' simulate '{}' --out '{}'",
+        env!("CARGO_BIN_EXE_sprag"),
+        scene("near_fault"),
+        out.display()
+    );
+    let output = Command::new("bash").args(["-c", &command]).output().unwrap();
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(message.contains("cannot be written") && message.trim_end().lines().count() == 1, "{message}");
+    assert_eq!(fs::read_dir(&out).unwrap().count(), 0);
+}
+
+#[test]
+fn bad_input_of_sensitivity_costs_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let near_fault = scene("near_fault");
+    let line = |scene: &str, more: &[&str], words: &[&str]| {
+        refused(&[&["sensitivity", scene, "--out", out.to_str().unwrap()], more].concat(), &out, words);
+    };
+    line("nowhere.toml", &[], &["nowhere.toml"]);
+    line(&near_fault, &["--set", "block.colour=red"], &["colour"]);
+    line(&scene("figure05"), &["--records", "x.AT2"], &["motion = \"record\""]);
+    line(&scene("record"), &[], &["--record"]);
+    line(&near_fault, &["--records", "x.AT2", "y.AT2", "--records-vertical", "z.AT2"], &["1 files", "2"]);
+}
+
+#[test]
+fn bad_input_of_cloud_costs_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let study = folder.path().join("study.toml");
+    let line = |text: &str, more: &[&str], words: &[&str]| {
+        fs::write(&study, text).unwrap();
+        refused(&[&["cloud", study.to_str().unwrap(), "--out", out.to_str().unwrap()], more].concat(), &out, words);
+    };
+    line("", &[], &["study.toml: records is missing", "--records"]);
+    line("records = 'a.csv'", &[], &["study.toml:1", "records"]);
+    line("record = ['a.csv']", &[], &["study.toml:1", "record"]);
+    line("records = ['a.csv']", &[], &["no record could be read", "a.csv"]);
+    line("records = [\"a.csv\"]\nscene = \"nowhere.toml\"", &[], &["nowhere.toml"]);
+    line("scale = [-1]", &["--records", "a.csv"], &["scale.0 is -1", "above 0"]);
+    line("", &["--records", "a.csv", "--set", "block.colour=red"], &["colour"]);
+    line("", &["--records", "a.csv", "--time-budget", "1", "--shard", "1/2"], &["--time-budget", "--shard"]);
+}
+
+#[test]
+fn bad_input_of_optimise_costs_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let study = folder.path().join("study.toml");
+    let line = |text: &str, more: &[&str], words: &[&str]| {
+        fs::write(&study, text).unwrap();
+        refused(&[&["optimise", study.to_str().unwrap(), "--out", out.to_str().unwrap()], more].concat(), &out, words);
+    };
+    let records = ["--records", "a.csv"];
+    line("", &[], &["study.toml: records is missing", "--records"]);
+    line("", &records, &["no record could be read", "a.csv"]);
+    line("[optimise]\nlimit = 1", &records, &["study.toml:2", "limit"]);
+    line("[optimise]\nlargest_force_ratio = -0.1", &records, &["study.toml: optimise.largest_force_ratio is -0.1", "above 0"]);
+    line("[optimise]\nlaws = ['magic']", &records, &["optimise.laws.0 is \"magic\"", "\"overrunning\""]);
+    line("", &["--records", "a.csv", "--set", "accuracy.colour=red"], &["colour"]);
+    let method = ["--set", "accuracy.method=runge-kutta-4", "--set", "accuracy.step_s=0.01"];
+    let step_end = [&method[..], &["--set", "accuracy.events=step-end"]].concat();
+    line("", &[&records[..], &step_end].concat(), &["accuracy.events", "located"]);
+}
+
+#[test]
+fn bad_input_of_loop_costs_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let place = out.to_str().unwrap();
+    let scene_file = scene("controller");
+    for (set, words) in [
+        ("controller.rate_hz=5", &["controller.rate_hz", "100"][..]),
+        ("controller.law=\"nonsense\"", &["controller.law", "sign-table"][..]),
+        ("controller.sensors.suite=\"nonsense\"", &["controller.sensors.suite", "adis16470"][..]),
+        ("controller.belief.size_factor=0", &["controller.belief.size_factor", "0.1"][..]),
+        ("controller.sign_table=3", &["controller.sign_table"][..]),
+        ("device.0.kind=\"inerter\"", &["clutched-pair"][..]),
+        ("device.0.engagement=\"overrunning\"", &["overrunning"][..]),
+        ("block.initial_rotation_ratio=0.5", &["block.initial_rotation_ratio"][..]),
+    ] {
+        refused(&["loop", &scene_file, "--set", set, "--out", place], &out, words);
+    }
+}

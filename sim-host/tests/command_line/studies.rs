@@ -1,0 +1,160 @@
+//! Studies over many motions or places.
+
+use std::fs;
+use std::path::Path;
+
+use super::{SHORT_SCENE, pulse, scene, sprag};
+
+#[test]
+fn sensitivity_does_not_depend_on_the_number_of_threads_and_names_a_bad_record() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let (scene, bad) = (file("short.toml", SHORT_SCENE), file("bad.csv", "# time_s,acc_g\n0,0\n0.01,NaN\n"));
+    let records = [file("weak.csv", &pulse(0.25)), file("strong.csv", &pulse(-0.3)), file("own.csv", &pulse(0.28))];
+    let outs = ["1", "3"].map(|threads| {
+        let out = folder.path().join(threads);
+        let line = ["sensitivity", &scene, "--threads", threads, "--out", out.to_str().unwrap(), "--records"];
+        let output = sprag(&[&line[..], &[&records[0], &bad, &records[1]]].concat());
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains("bad.csv") && message.trim_end().lines().count() == 1, "{message}");
+        out
+    });
+    for name in ["summary.json", "sensitivity.csv", "sensitivity.md", "sensitivity.svg"] {
+        let [one, other] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
+        assert!(one == other && !one.is_empty(), "{name}");
+    }
+    let summary: serde_json::Value = serde_json::from_slice(&fs::read(outs[0].join("summary.json")).unwrap()).unwrap();
+    assert_eq!(summary["records"], serde_json::json!(["weak", "strong"]));
+    let table = fs::read_to_string(outs[0].join("sensitivity.csv")).unwrap();
+    let rows: Vec<&str> = table.lines().filter(|row| row.contains(",kinematics,consistent,")).collect();
+    assert_eq!(rows.len(), 3, "{table}");
+    assert!(rows[0].starts_with("own motion,inerter,") && rows[2].starts_with("strong,inerter,"), "{rows:?}");
+}
+
+#[test]
+fn cloud_does_not_depend_on_the_number_of_threads_and_names_a_bad_record() {
+    let folder = tempfile::tempdir().unwrap();
+    let records = folder.path().join("records");
+    fs::create_dir_all(&records).unwrap();
+    for (number, peak) in [0.2, 0.25, -0.3, 0.35, 0.4, -0.5, 0.7].into_iter().enumerate() {
+        fs::write(records.join(format!("{number}.csv")), pulse(peak)).unwrap();
+    }
+    fs::write(records.join("bad.csv"), "# time_s,acc_g\n0,0\n0.01,NaN\n").unwrap();
+    let outs = ["1", "3"].map(|threads| {
+        let out = folder.path().join(threads);
+        let line = ["cloud", &scene("cloud"), "--threads", threads, "--out", out.to_str().unwrap(), "--records"];
+        let output = sprag(&[&line[..], &[records.to_str().unwrap()]].concat());
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains("bad.csv") && message.trim_end().lines().count() == 1, "{message}");
+        out
+    });
+    let names = ["summary.json", "runs.csv", "demand.csv", "demand.md", "demand.svg", "fragility.csv", "fragility.md"];
+    for name in names.into_iter().chain(["fragility.svg", "ranking.csv", "ranking.md"]) {
+        let [one, other] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
+        assert!(one == other && !one.is_empty(), "{name}");
+    }
+    let summary: serde_json::Value = serde_json::from_slice(&fs::read(outs[0].join("summary.json")).unwrap()).unwrap();
+    assert_eq!((&summary["command"], &summary["structures"][1]["scene"]["block"]["size_m"]), (&"cloud".into(), &1.0.into()));
+    assert_eq!(summary["records"].as_array().unwrap().len(), 7);
+    assert_eq!(summary["runs"].as_array().unwrap().len(), 3 * 3);
+    let table = fs::read_to_string(outs[0].join("runs.csv")).unwrap();
+    assert_eq!(table.lines().count(), 1 + 7 * 3 * 3);
+    assert!(table.starts_with("record,structure,device,scale,level,uniform_duration,pgv,"), "{table}");
+}
+
+/// Records of pulses of several amplitudes (g), in a folder of their own.
+fn folder_of_pulses(folder: &Path) -> String {
+    let records = folder.join("records");
+    fs::create_dir_all(&records).unwrap();
+    for (number, peak) in [0.2, -0.3, 0.4, -0.5, 0.7].into_iter().enumerate() {
+        fs::write(records.join(format!("{number}.csv")), pulse(peak)).unwrap();
+    }
+    records.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn optimise_writes_its_files_and_does_not_depend_on_the_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let records = folder_of_pulses(folder.path());
+    let outs = ["1", "3"].map(|threads| {
+        let out = folder.path().join(threads);
+        let line = ["optimise", &scene("optimise"), "--threads", threads, "--out", out.to_str().unwrap(), "--records", &records];
+        let output = sprag(&line);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let table = String::from_utf8(output.stdout).unwrap();
+        assert!(table.contains("| bare block") && table.contains("| best") && table.contains("5 motions"), "{table}");
+        out
+    });
+    let mut files: Vec<_> = fs::read_dir(&outs[0]).unwrap().map(|file| file.unwrap().file_name()).collect();
+    files.sort();
+    let tables = ["designs.csv", "designs.parquet", "motions.csv", "motions.parquet"];
+    assert_eq!(files, [&tables[..], &["optimise.md", "summary.json", "trade_off.png", "trade_off.svg"]].concat());
+    for name in &files {
+        let [one, other] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
+        assert!(one == other && !one.is_empty(), "{name:?}");
+    }
+    let summary: serde_json::Value = serde_json::from_slice(&fs::read(outs[0].join("summary.json")).unwrap()).unwrap();
+    assert_eq!((&summary["command"], &summary["reference"]["law"]), (&"optimise".into(), &"none".into()));
+    assert_eq!(summary["structure"]["scene"]["block"]["size_m"], 1.0);
+    assert_eq!(summary["study"]["optimise"]["limit_quantile"], 1.0);
+    for key in ["law", "mount", "mass_ratio", "probability", "probability_band", "peak_force_ratio", "stroke_m", "feasible"] {
+        assert!(!summary["best"][key].is_null(), "{key}: {}", summary["best"]);
+    }
+    let table = fs::read_to_string(outs[0].join("designs.csv")).unwrap();
+    assert_eq!(table.lines().count() as u64, 2 + summary["designs"].as_u64().unwrap());
+}
+
+#[test]
+fn an_optimisation_without_a_device_within_the_limit_writes_its_results_and_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let records = folder_of_pulses(folder.path());
+    let study = folder.path().join("study.toml");
+    let keys = "mass_ratio = { from = 0.5, to = 1, cells = 2 }\nlaws = ['rigid', 'inerter']\nmounts = ['base-corners']";
+    fs::write(&study, format!("[optimise]\nlargest_force_ratio = 1e-4\n{keys}")).unwrap();
+    let out = folder.path().join("out");
+    let output = sprag(&["optimise", study.to_str().unwrap(), "--out", out.to_str().unwrap(), "--records", &records]);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(
+        message.contains("study.toml: no device respects max |F|/(mg) ≤ 0.0001 in every motion; results are written"),
+        "{message}"
+    );
+    assert!(message.contains("left out: rigid, base-corners: "), "{message}");
+    assert!(String::from_utf8_lossy(&output.stdout).contains("nearest to the limits"));
+    let summary: serde_json::Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+    assert!(summary["best"].is_null() && summary["nearest"]["demand_over_limit"].as_f64().unwrap() > 1.0);
+}
+
+#[test]
+fn a_refined_map_has_its_boundaries_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |threads: &str, more: &[&str]| {
+        let out = folder.path().join(format!("{threads}{}", more.len()));
+        let few = ["--set", "map.x.cells=6", "--set", "map.y.cells=5", "--refine", "--evaluations", "1500", "--threads", threads];
+        let (scene, place) = (scene("figure08"), out.to_str().unwrap().to_owned());
+        let output = sprag(&[&["map", &scene, "--out", &place][..], &few, more].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        (out, String::from_utf8(output.stdout).unwrap())
+    };
+    let ((one, table), (two, _)) = (run("1", &[]), run("2", &[]));
+    assert!(table.contains("evaluations") && table.contains("are left coarser"), "{table}");
+    for name in ["boundaries.csv", "boundaries.svg"] {
+        let [one, two] = [&one, &two].map(|out| fs::read(out.join(name)).unwrap());
+        assert!(!one.is_empty() && one == two, "{name}");
+    }
+    let summary: serde_json::Value = serde_json::from_slice(&fs::read(one.join("summary.json")).unwrap()).unwrap();
+    for run in summary["runs"].as_array().unwrap() {
+        let refined = &run["refined"];
+        assert!(refined["evaluations"] == 1500 && refined["vertices"].as_u64().unwrap() > 10, "{refined}");
+        assert!(refined["unresolved_squares"].as_u64().unwrap() > 0 && refined["unresolved_relative_width"].is_number());
+    }
+    // In a cut boundaries are points.
+    let (cut, table) = run("1", &["--cut"]);
+    assert!(cut.join("boundaries.csv").exists() && !cut.join("boundaries.svg").exists() && !table.contains("coarser"));
+}
