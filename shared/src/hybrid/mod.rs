@@ -69,6 +69,16 @@ pub struct MachineState<S> {
     free: bool,
 }
 
+/// Events that may follow one another at once before that is taken for a graze: a guard touches zero, and rounding decides in which mode
+/// the motion goes on, anew each time.
+const MOST_AT_ONCE: u32 = 16;
+
+/// How far apart events at once are, in 1/p.
+const AT_ONCE: f64 = 1e-9;
+
+/// How far a graze is followed without guards, in 1/p: what they watch stays below the square of that.
+const GRAZE: f64 = 1e-6;
+
 /// What ended a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum End {
@@ -118,6 +128,9 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let mut time = S::ZERO;
         let mut tick = 0_u32;
         let mut events = 0_u32;
+        let mut at_once = 0_u32;
+        // 1/p.
+        let unit = self.slenderness / self.speed;
         self.ground_at_start(state, shaking.at::<S, B>(S::ZERO), observer);
         while time < duration && state.motion.phase != Phase::Overturned {
             if state.motion.phase == Phase::Rest {
@@ -148,12 +161,18 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                     state.device.elapse(due);
                 }
             }
+            let before = time;
+            let grazes = at_once >= MOST_AT_ONCE;
+            if grazes {
+                stop = stop.smaller(time + (S::of(GRAZE) * unit).larger(S::of(4.0) * S::EPSILON * time));
+            }
             if stop <= time {
             } else if state.held {
                 time = self.hold(state, shaking, time, stop, observer);
             } else {
-                self.follow(tracer, state, shaking, &mut time, stop, limits, observer);
+                self.follow(tracer, state, shaking, (&mut time, stop), (limits, !grazes), observer);
             }
+            at_once = if time - before > S::of(AT_ONCE) * unit { 0 } else { at_once + 1 };
             self.ramps(state);
             self.command(state, time, observer);
             events += 1;
@@ -169,16 +188,14 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// One step, up to its first event.
-    #[expect(clippy::too_many_arguments, reason = "one call site, and each is a different thing")]
     #[inline]
     fn follow<T: Tracer<S>, P: Piece<S>, Q: Piece<S>>(
         &self,
         tracer: &T,
         state: &mut MachineState<S>,
         shaking: Shaking<'_, P, Q>,
-        time: &mut S,
-        stop: S,
-        limits: &Limits<S>,
+        (time, stop): (&mut S, S),
+        (limits, guarded): (&Limits<S>, bool),
         observer: &mut dyn DeviceObserver<S>,
     ) {
         let motion = &state.motion;
@@ -206,7 +223,8 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             (until, end) = (turn, End::Turn);
         }
         for guard in 0..G {
-            if law.watch[guard] != Watch::Nothing
+            if guarded
+                && law.watch[guard] != Watch::Nothing
                 && let Some(zero) = path.guard_zero(guard, until, state.fresh[guard])
             {
                 (until, end) = (zero, End::Guard(guard));
