@@ -3,16 +3,21 @@
 //! `cargo test -p sprag-tests --test optimise -- --nocapture` prints the choice under a few recorded motions. The folder of records is
 //! not part of the repository.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use sprag_sim_host::cloud::records::StudyRecords;
 use sprag_sim_host::cloud::study::Study;
 use sprag_sim_host::columns::write_csv;
 use sprag_sim_host::interrupt::Interrupt;
+use sprag_sim_host::long_run::arguments::Start;
+use sprag_sim_host::long_run::origin::Origin;
 use sprag_sim_host::optimise::figure::trade_off_picture;
 use sprag_sim_host::optimise::findings::{Findings, Row};
 use sprag_sim_host::optimise::page::{choice_table, page};
 use sprag_sim_host::optimise::problem::{Choices, Problem, Solution};
+use sprag_sim_host::optimise::tried::{MOST_ROWS, Tried, TriedError};
 use sprag_sim_host::optimise::typed_tables::{DesignTable, MotionTable};
 use sprag_sim_host::outcome::Outcome;
 use sprag_sim_host::scene::Scene;
@@ -39,7 +44,7 @@ fn study(optimise: &str, records: &Path) -> Study {
 fn answered<R>(study: &Study, then: impl FnOnce(&Problem<'_>, &Solution, &Findings) -> R) -> R {
     let records = StudyRecords::read(study).unwrap();
     let problem = Problem::new(Choices::of(study).unwrap(), &records.records);
-    let solution = problem.solve(&Interrupt::default(), &|_| (), &|| ()).unwrap();
+    let solution = problem.solve(&mut (), &Interrupt::default(), &|_| (), &|| ()).unwrap();
     let findings = Findings::of(&problem, &solution);
     then(&problem, &solution, &findings)
 }
@@ -234,8 +239,42 @@ fn an_interrupted_search_has_no_results() {
     let records = StudyRecords::read(&study).unwrap();
     let problem = Problem::new(Choices::of(&study).unwrap(), &records.records);
     let interrupt = Interrupt::default();
-    let stopped = problem.solve(&interrupt, &|_| (), &|| interrupt.set());
+    let stopped = problem.solve(&mut (), &interrupt, &|_| (), &|| interrupt.set());
     assert!(matches!(stopped, Err(RunError::Interrupted)));
+}
+
+/// Interrupted twice and gone on with, a search makes no run again, and comes to the same.
+#[test]
+fn an_interrupted_search_goes_on() {
+    let records = sine_pulses(&[0.3, 0.5], &[0.5, 1.0]);
+    let study = study("", records.path());
+    let records = StudyRecords::read(&study).unwrap();
+    let problem = Problem::new(Choices::of(&study).unwrap(), &records.records);
+    let whole = problem.solve(&mut (), &Interrupt::default(), &|_| (), &|| ()).unwrap();
+
+    let folder = tempfile::tempdir().unwrap();
+    let origin = || Origin::new("optimise", &0, BTreeMap::new(), MOST_ROWS).unwrap();
+    let mut made = 0;
+    let mut part = |start: Start, most: usize| {
+        let mut tried = Tried::begin(folder.path(), origin(), start, problem.motions.len()).unwrap();
+        let (interrupt, runs) = (Interrupt::default(), AtomicUsize::new(0));
+        let solution = problem.solve(&mut tried, &interrupt, &|_| (), &|| {
+            if runs.fetch_add(1, Ordering::Relaxed) + 1 == most {
+                interrupt.set();
+            }
+        });
+        made += runs.into_inner();
+        (solution, tried)
+    };
+    for start in [Start::New, Start::Resume] {
+        assert!(matches!(part(start, 60), (Err(TriedError::Run(RunError::Interrupted)), _)));
+    }
+    let (solution, tried) = part(Start::Resume, usize::MAX);
+    let solution = solution.unwrap();
+    assert_eq!((solution.bare, solution.designs), (whole.bare, whole.designs));
+    // What an interrupt costs: the designs that were under way.
+    assert!(made < whole.runs + 2 * 9 * problem.motions.len() && whole.runs > 300, "{made} of {}", whole.runs);
+    tried.discard().unwrap();
 }
 
 /// The device of `best` under one record, as a scene of its own says it: by `sprag simulate`.

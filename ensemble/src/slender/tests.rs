@@ -15,7 +15,7 @@ pub(super) fn motions(count: usize) -> impl Iterator<Item = (Motion, Number)> {
     };
     (0..count).map(move |_| {
         let mut each = |of: &mut dyn FnMut(&mut dyn FnMut() -> f64) -> f64| Lanes([0.0; WIDTH].map(|_| of(&mut share)));
-        let rate = each(&mut |share| 1.0 / (1.0 + 20.0 * share().powi(3)));
+        let rate = each(&mut |share| 1.0 / (1.0 + 20.0 * share() * share()));
         let frequency = each(&mut |share| 0.05 + 12.0 * share() * share());
         let phase = each(&mut |share| if share() < 0.2 { 0.0 } else { PI * share() });
         let ground = each(&mut |share| 6.0 * share() - 3.0);

@@ -220,7 +220,7 @@ mod tests {
                 for lane in 0..WIDTH {
                     let size = [start, end].iter().map(|place| value(place).0[lane].abs()).fold(0.0, f64::max)
                         + place.own.0[lane].abs()
-                        + place.forced.0[lane].abs() * (1.0 + motion.frequency.0[lane].powi(3));
+                        + place.forced.0[lane].abs() * (1.0 + sprag_shared::math::pow(motion.frequency.0[lane], 3.0));
                     let what = || format!("{kind} of {:?} over {}: {}", motion.lane(lane), length.0[lane], time.0[lane]);
                     if once.at(lane) {
                         zeros += 1;

@@ -7,6 +7,7 @@ use super::runs::{Answer, Run, RunList};
 use super::typed_tables::RunsTable;
 use crate::accuracy::ErrorEstimate;
 use crate::columns::{Column, CsvWriter, Table, TableError};
+use crate::long_run::row_fields::RowFields;
 use crate::outcome::Outcome;
 
 /// Outcome of a run that failed.
@@ -37,14 +38,15 @@ impl RunList<'_> {
     /// # Errors
     /// When it is the row of another run, or none.
     pub fn read(&self, row: usize, record: &StringRecord) -> Result<Run, String> {
-        let mut fields = Fields { columns: self.columns(), record, next: 0 };
+        let names: Vec<String> = self.columns().into_iter().map(|column| column.name).collect();
+        let mut fields = RowFields::new(&names, record);
         let expected = self.run(row, [0.0; Measure::COUNT], Err(String::new()));
-        let names = [
+        let of_run = [
             &self.records[expected.record].name,
             &self.study.structures[expected.structure].name,
             &self.study.devices[expected.device],
         ];
-        for name in names {
+        for name in of_run {
             fields.require(name)?;
         }
         fields.require(&format!("{:?}", expected.factor))?;
@@ -55,7 +57,7 @@ impl RunList<'_> {
         }
         let name = fields.text();
         if name == FAILED {
-            fields.next += 4;
+            fields.skip(4);
             let reason = fields.text().to_owned();
             return Ok(self.run(row, measures, Err(reason)));
         }
@@ -75,38 +77,5 @@ impl RunList<'_> {
         };
         let answer = Answer { outcome, peak_rotation, peak_acceleration, impacts, end_time_s, error };
         Ok(self.run(row, measures, Ok(answer)))
-    }
-}
-
-/// The fields of a row, one after another.
-struct Fields<'a> {
-    columns: Vec<Column>,
-    record: &'a StringRecord,
-    next: usize,
-}
-
-impl<'a> Fields<'a> {
-    fn text(&mut self) -> &'a str {
-        self.next += 1;
-        self.record.get(self.next - 1).unwrap_or_default()
-    }
-
-    fn require(&mut self, expected: &str) -> Result<(), String> {
-        let field = self.text();
-        if field == expected { Ok(()) } else { Err(format!("`{field}` should be `{expected}`")) }
-    }
-
-    fn number<N: std::str::FromStr>(&mut self) -> Result<N, String> {
-        let field = self.text();
-        let column = self.columns.get(self.next - 1).map_or("", |column| column.name.as_str());
-        field.parse().map_err(|_| format!("`{field}` is no number for {column}"))
-    }
-
-    fn maybe(&mut self) -> Result<Option<f64>, String> {
-        if self.record.get(self.next).is_none_or(str::is_empty) {
-            self.next += 1;
-            return Ok(None);
-        }
-        self.number().map(Some)
     }
 }

@@ -8,13 +8,13 @@ use serde::Serialize;
 
 use super::BAD_INPUT;
 use super::format_arguments::FormatArguments;
-use super::study_input::{StudyArguments, StudyInputError};
+use super::study_input::{StudyArguments, StudyInputError, study_origin};
 use crate::accuracy::{AccuracyArguments, Worst};
 use crate::cloud::figures::{demand_picture, fragility_picture};
 use crate::cloud::findings::Findings;
 use crate::cloud::overturning::OverturningError;
 use crate::cloud::pages::{demand_page, demand_table, fragility_notes, fragility_page, fragility_table, ranking_page};
-use crate::cloud::records::{StudyRecord, StudyRecords};
+use crate::cloud::records::StudyRecords;
 use crate::cloud::runs::{RunList, Runs};
 use crate::cloud::structures::StudyStructure;
 use crate::cloud::study::Study;
@@ -24,13 +24,11 @@ use crate::columns::{Table, TableError, metadata_of};
 use crate::interrupt::{self, Interrupt};
 use crate::long_run::arguments::LongRunArguments;
 use crate::long_run::error::LongRunError;
-use crate::long_run::origin::{Digest, Origin};
 use crate::long_run::rows::{Plan, Rows};
 use crate::long_run::shard::Shard;
 use crate::output::{Formats, OutputError, Results, make_folder};
 use crate::plot::PlotError;
 use crate::progress::Progress;
-use crate::record::Record;
 use crate::simulation::RunError;
 
 /// Demand regressions and overturning fragilities over many records (Figures 15 and 16).
@@ -81,8 +79,6 @@ enum Failure {
     Output(#[from] OutputError),
     #[error("{0}")]
     Table(#[from] TableError),
-    #[error("--time-budget tries several accuracies and keeps no rows on the way: {option} cannot go with it")]
-    NoRows { option: &'static str },
     #[error("the threads cannot be started: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
@@ -142,7 +138,7 @@ fn run_or_fail(
     interrupt: &Interrupt,
 ) -> Result<bool, Failure> {
     if let (Some(_), Some(option)) = (arguments.accuracy.time_budget, arguments.long_run.given()) {
-        return Err(Failure::NoRows { option });
+        return Err(LongRunError::NoRows { option }.into());
     }
     let folder = arguments.out.clone().unwrap_or_else(|| arguments.input.folder());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
@@ -186,7 +182,7 @@ fn studied(
     }
     let list = RunList::new(&study, &records.records);
     let columns = list.columns().into_iter().map(|column| column.name).collect();
-    let origin = origin(&list)?;
+    let origin = study_origin("cloud", list.study, list.records, list.rows())?;
     let shard = arguments.long_run.shard();
     let plan = Plan { folder, name: "runs", columns, together: list.together(), shard, origin };
     let mut all = Vec::new();
@@ -207,23 +203,6 @@ fn studied(
     let rows = rows.finish()?;
     let runs = list.sum_up(all);
     Ok(Studied { study, records, runs, rows: Some(rows) })
-}
-
-/// What runs come from: study, structures, and the samples of every record.
-fn origin(list: &RunList<'_>) -> Result<Origin, serde_json::Error> {
-    #[derive(Serialize)]
-    struct Input<'a> {
-        study: &'a StudyFile,
-        structures: &'a [StudyStructure],
-    }
-    let digest = |record: &StudyRecord| {
-        let Record { time_step_s, acceleration_m_s2, .. } = &record.motion.record;
-        let bytes: Vec<u8> =
-            std::iter::once(time_step_s).chain(acceleration_m_s2).flat_map(|value| value.to_le_bytes()).collect();
-        (record.name.clone(), Digest::of_bytes(&bytes))
-    };
-    let input = Input { study: &list.study.file, structures: &list.study.structures };
-    Origin::new("cloud", &input, list.records.iter().map(digest).collect(), list.rows())
 }
 
 /// Writes the results; returns whether everything was read and run.

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::BAD_INPUT;
 use super::format_arguments::FormatArguments;
-use super::study_input::{StudyArguments, StudyInputError};
+use super::study_input::{StudyArguments, StudyInputError, study_origin};
 use crate::accuracy::{AccuracyArguments, Worst};
 use crate::cloud::records::StudyRecords;
 use crate::cloud::structures::StudyStructure;
@@ -16,12 +16,15 @@ use crate::cloud::study::Study;
 use crate::cloud::study_file::{RecordEntry, RecordTable, StripesTable};
 use crate::columns::{TableError, metadata_of};
 use crate::interrupt::{self, Interrupt};
+use crate::long_run::arguments::ResumeArguments;
+use crate::long_run::error::LongRunError;
 use crate::optimise::curve::Curve;
 use crate::optimise::figure::trade_off_picture;
 use crate::optimise::findings::Findings;
 use crate::optimise::page::{choice_table, heading, limits, page};
 use crate::optimise::problem::{Choices, Problem, Solution};
 use crate::optimise::table::OptimiseTable;
+use crate::optimise::tried::{MOST_ROWS, Tried, TriedError};
 use crate::optimise::typed_tables::{DesignTable, MotionTable};
 use crate::output::{Formats, OutputError, Results, make_folder};
 use crate::plot::PlotError;
@@ -35,7 +38,8 @@ use crate::simulation::RunError;
     sprag optimise study.toml --records near_fault/*.AT2 --set block.size_m=3 --out out/pier\n\n\
     Tries devices on a grid of mass ratios, for every law and mount of the study's [optimise] table, under every record, scaled\n\
     as the study says; then more where a limit is reached and around the best. Writes the tables designs and motions as .csv and\n\
-    .parquet, the picture trade_off as .svg and .png, optimise.md and summary.json. The exit code is 2 when no device respects the limits, and when a record cannot be read or\n\
+    .parquet, the picture trade_off as .svg and .png, optimise.md and summary.json. Runs go to the disk as they are made, and Ctrl-C leaves\n\
+    them there for --resume. The exit code is 2 when no device respects the limits, and when a record cannot be read or\n\
     a run fails; results are written all the same.")]
 pub struct OptimiseArguments {
     /// The study.
@@ -53,6 +57,9 @@ pub struct OptimiseArguments {
     /// How accurate.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
+    /// Whether some runs are there.
+    #[command(flatten)]
+    pub rows: ResumeArguments,
 }
 
 #[derive(Debug, thiserror::Error)]
@@ -65,6 +72,10 @@ enum Failure {
     NoMotion { study: PathBuf, first: Option<String> },
     #[error("{0}")]
     Run(#[from] RunError),
+    #[error("{0}")]
+    Rows(#[from] LongRunError),
+    #[error("the study cannot be told in JSON: {0}")]
+    Json(#[from] serde_json::Error),
     #[error("{}: no device could be tried; {first}", study.display())]
     AllFailed { study: PathBuf, first: String },
     #[error("the picture cannot be drawn: {0}")]
@@ -127,6 +138,10 @@ pub fn run(arguments: &OptimiseArguments, out: &mut impl Write, err: &mut impl W
             let _ = writeln!(err, "sprag: interrupted; nothing was written");
             interrupt::EXIT_CODE
         }
+        Err(failure @ Failure::Rows(LongRunError::Stopped { .. })) => {
+            let _ = writeln!(err, "sprag: {failure}");
+            interrupt::EXIT_CODE
+        }
         Err(failure) => {
             let _ = writeln!(err, "sprag: {failure}");
             BAD_INPUT
@@ -139,6 +154,8 @@ struct Answered {
     study: Study,
     records: StudyRecords,
     solution: Solution,
+    /// The runs as they went to the disk.
+    tried: Option<Tried>,
 }
 
 /// Whether there is a device, and everything could be read and run.
@@ -148,6 +165,9 @@ fn run_or_fail(
     err: &mut impl Write,
     interrupt: &Interrupt,
 ) -> Result<bool, Failure> {
+    if let (Some(_), Some(option)) = (arguments.accuracy.time_budget, arguments.rows.given()) {
+        return Err(LongRunError::NoRows { option }.into());
+    }
     let folder = arguments.out.clone().unwrap_or_else(|| arguments.input.folder());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
     let progress = Progress::new("runs");
@@ -155,7 +175,7 @@ fn run_or_fail(
     let answered =
         arguments.accuracy.run(|change| pool.install(|| answered(arguments, change, &folder, &progress, interrupt)), tell)?;
     progress.finish();
-    let Answered { study, records, solution } = &answered;
+    let Answered { study, records, solution, .. } = &answered;
     let problem = Problem::new(Choices::of(study)?, &records.records);
     let findings = Findings::of(&problem, solution);
     if interrupt.is_set() {
@@ -182,7 +202,9 @@ fn run_or_fail(
         };
         let _ = writeln!(err, "sprag: {study}: {why}; results are written");
     }
-    Ok(findings.best.is_some() && records.unreadable.is_empty() && solution.failures.is_empty())
+    let well = findings.best.is_some() && records.unreadable.is_empty() && solution.failures.is_empty();
+    answered.tried.map_or(Ok(()), Tried::discard)?;
+    Ok(well)
 }
 
 fn answered(
@@ -202,17 +224,29 @@ fn answered(
     }
     // Where the results go is tried before the work, not after it.
     make_folder(folder)?;
-    let solution = problem.solve(interrupt, &|runs| progress.begin(runs), &|| progress.step())?;
+    let (begin, done) = (|runs| progress.begin(runs), || progress.step());
+    let (solution, tried) = if arguments.accuracy.time_budget.is_some() {
+        (problem.solve(&mut (), interrupt, &begin, &done)?, None)
+    } else {
+        let origin = study_origin("optimise", &study, &records.records, MOST_ROWS)?;
+        let mut tried = Tried::begin(folder, origin, arguments.rows.start(), problem.motions.len())?;
+        match problem.solve(&mut tried, interrupt, &begin, &done) {
+            Err(TriedError::Run(RunError::Interrupted)) => return Err(tried.interrupted().into()),
+            Err(TriedError::Run(error)) => return Err(error.into()),
+            Err(TriedError::Rows(error)) => return Err(error.into()),
+            Ok(solution) => (solution, Some(tried)),
+        }
+    };
     if solution.designs.iter().all(|design| design.score.motions == 0) {
         let first = solution.failures.first().cloned().unwrap_or_default();
         return Err(Failure::AllFailed { study: file(), first });
     }
-    Ok(Answered { study, records, solution })
+    Ok(Answered { study, records, solution, tried })
 }
 
 /// Writes the results.
 fn write(
-    Answered { study, records, solution }: &Answered,
+    Answered { study, records, solution, .. }: &Answered,
     problem: &Problem<'_>,
     findings: &Findings,
     left_out: &[String],

@@ -3,12 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use serde::Serialize;
 
 use super::record::time_step;
-use crate::cloud::records::StudyRecords;
+use crate::cloud::records::{StudyRecord, StudyRecords};
+use crate::cloud::structures::StudyStructure;
 use crate::cloud::study::{Study, StudyError};
-use crate::cloud::study_file::RecordTable;
-use crate::record::Units;
+use crate::cloud::study_file::{RecordTable, StudyFile};
+use crate::long_run::origin::{Digest, Origin};
+use crate::record::{Record, Units};
 use crate::scene::SceneError;
 
 /// A study and its records.
@@ -91,4 +94,24 @@ impl StudyArguments {
     pub fn folder(&self) -> PathBuf {
         Path::new("out").join(self.study.file_stem().map_or_else(|| "study".into(), |stem| stem.to_os_string()))
     }
+}
+
+/// What the `rows` rows of `command` come from: study, structures, and the samples of every record.
+///
+/// # Errors
+/// When the study cannot be told in JSON.
+pub fn study_origin(command: &str, study: &Study, records: &[StudyRecord], rows: usize) -> Result<Origin, serde_json::Error> {
+    #[derive(Serialize)]
+    struct Input<'a> {
+        study: &'a StudyFile,
+        structures: &'a [StudyStructure],
+    }
+    let digest = |record: &StudyRecord| {
+        let Record { time_step_s, acceleration_m_s2, .. } = &record.motion.record;
+        let bytes: Vec<u8> =
+            std::iter::once(time_step_s).chain(acceleration_m_s2).flat_map(|value| value.to_le_bytes()).collect();
+        (record.name.clone(), Digest::of_bytes(&bytes))
+    };
+    let input = Input { study: &study.file, structures: &study.structures };
+    Origin::new(command, &input, records.iter().map(digest).collect(), rows)
 }

@@ -37,6 +37,18 @@ pub enum LongRunError {
         /// Rows that there should be.
         rows: usize,
     },
+    /// Ctrl-C, where it is not known beforehand how many rows there will be.
+    #[error("interrupted after {done} rows; the same command with --resume goes on")]
+    Stopped {
+        /// Rows that are there.
+        done: usize,
+    },
+    /// An option of long runs where no rows are kept.
+    #[error("--time-budget tries several accuracies and keeps no rows on the way: {option} cannot go with it")]
+    NoRows {
+        /// The option.
+        option: &'static str,
+    },
     /// Rows that are not as they were written.
     #[error("{}: row {row}: {reason}", path.display())]
     BadRow {

@@ -2,12 +2,13 @@
 //!
 //! - [`shard`]: which rows are this process's; [`in_order`]: rows worked out on many threads, written one after another.
 //! - [`origin`]: what makes rows what they are, so that only rows of one origin are put together.
-//! - [`rows`]: the file that grows, and what is done of it; [`arguments`]: the options of commands that have one.
+//! - [`rows`]: the file that grows, and what is done of it; [`row_fields`]: what a row of it says; [`arguments`]: the options of commands that have one.
 
 pub mod arguments;
 pub mod error;
 pub mod in_order;
 pub mod origin;
+pub mod row_fields;
 pub mod rows;
 pub mod shard;
 

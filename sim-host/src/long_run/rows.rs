@@ -155,6 +155,30 @@ impl Rows {
         Ok(())
     }
 
+    /// Adds the next rows, field by field.
+    ///
+    /// # Errors
+    /// [`LongRunError::File`].
+    pub fn append_fields(&mut self, rows: &[Vec<String>]) -> Result<(), LongRunError> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let written = rows.iter().try_for_each(|row| writer.write_record(row)).map_err(|error| error.to_string());
+        let text = written.and_then(|()| writer.into_inner().map_err(|error| error.to_string()));
+        let text = text.map_err(|reason| LongRunError::file(&self.paths_of.unfinished, &reason))?;
+        self.append(&text, rows.len())
+    }
+
+    /// Removes the file, whose rows are kept elsewhere.
+    ///
+    /// # Errors
+    /// [`LongRunError::File`].
+    pub fn discard(self) -> Result<(), LongRunError> {
+        let paths = self.paths_of;
+        drop(self.growing);
+        [&paths.unfinished, &paths.unfinished_page]
+            .into_iter()
+            .try_for_each(|path| std::fs::remove_file(path).map_err(|error| LongRunError::file(path, &error)))
+    }
+
     /// Puts the whole file into its place, and says where that is.
     ///
     /// # Errors

@@ -2,7 +2,8 @@
 //!
 //! - [`table`], [`law`], [`mount`], [`curve`]: which devices there are to choose from; [`limit`]: what they may ask for.
 //! - [`motion`], [`response`], [`problem`]: what each does under each motion.
-//! - [`design`], [`search`]: devices and what they come to, on a grid of mass ratios and where it matters in between.
+//! - [`design`], [`search`]: devices and what they come to, on a grid of mass ratios and where it matters in between; [`tried`]: those of an
+//!   interrupted search.
 //! - [`choice`], [`front`], [`findings`]: which is best, and at what price.
 //! - [`typed_tables`], [`page`], [`figure`]: tables and pictures of it.
 
@@ -22,6 +23,7 @@ pub mod problem;
 pub mod response;
 pub mod search;
 pub mod table;
+pub mod tried;
 pub mod typed_tables;
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use super::motion::{Motion, motions};
 use super::response::Response;
 use super::search::search;
 use super::table::OptimiseTable;
+use super::tried::Memory;
 use crate::accuracy::Worst;
 use crate::cloud::records::StudyRecord;
 use crate::cloud::structures::StudyStructure;
@@ -16,9 +17,12 @@ use crate::cloud::study::Study;
 use crate::interrupt::Interrupt;
 use crate::scene::accuracy::EventTreatment;
 use crate::scene::error::Key;
-use crate::scene::schema::Kind;
+use crate::scene::schema::{DeviceTable, Kind};
 use crate::scene::{Scene, SceneError};
 use crate::simulation::{RunError, simulate};
+
+/// Designs that are tried at a time: enough for many threads, and no more than an interrupt may cost.
+const TOGETHER: usize = 8;
 
 /// Which devices a study has to choose from, every value within its range.
 #[derive(Clone, Debug)]
@@ -116,32 +120,64 @@ impl<'a> Problem<'a> {
         Problem { choices, motions, left_out }
     }
 
-    /// Tries designs on rayon's threads until the best is found. `begin` is told of runs to come, as often as there are more; `done` is
-    /// called after each. Neither the number of threads nor their order changes a bit of the solution.
+    /// Tries designs on rayon's threads until the best is found, but for those that `memory` has of an earlier search. `begin` is told of
+    /// runs to come, as often as there are more; `done` is called after each. Neither the number of threads nor their order changes a
+    /// bit of the solution.
     ///
     /// # Errors
-    /// [`RunError::Interrupted`]; runs that fail are among [`Solution::failures`].
-    pub fn solve(&self, interrupt: &Interrupt, begin: &dyn Fn(u64), done: &(dyn Fn() + Sync)) -> Result<Solution, RunError> {
-        let Choices { structure, table, curves, limits, .. } = &self.choices;
-        let base = &structure.scene;
-        let respond = |scenes: Vec<Result<Scene, String>>| {
-            begin((scenes.len() * self.motions.len()) as u64);
-            self.respond(&scenes, interrupt, done)
-        };
-        let bare_scene = watched(base, crate::scene::schema::DeviceTable::of(Kind::None)).map_err(|error| error.to_string());
-        let bare = respond(vec![bare_scene])?.pop().unwrap_or_default();
+    /// [`RunError::Interrupted`], and those of `memory`; runs that fail are among [`Solution::failures`].
+    pub fn solve<M: Memory>(
+        &self,
+        memory: &mut M,
+        interrupt: &Interrupt,
+        begin: &dyn Fn(u64),
+        done: &(dyn Fn() + Sync),
+    ) -> Result<Solution, M::Error> {
+        let Choices { table, curves, limits, .. } = &self.choices;
+        let mut respond = |batch: &[Option<Candidate>]| self.respond_to(batch, memory, interrupt, (begin, done));
+        let bare = respond(&[None])?.pop().unwrap_or_default();
         let designs = search(curves.len(), &table.mass_ratio.grid(), limits, |batch: &[Candidate]| {
-            let scene = |at: &Candidate| curves[at.curve].scene(base, at.mass_ratio).map_err(|error| error.to_string());
-            let found = respond(batch.iter().map(scene).collect())?;
+            let found = respond(&batch.iter().copied().map(Some).collect::<Vec<_>>())?;
             let design = |(at, responses): (&Candidate, Responses)| {
                 let score = Score::of(&responses, &bare, limits);
                 Design { candidate: Some(*at), responses, score }
             };
-            Ok::<_, RunError>(batch.iter().zip(found).map(design).collect())
+            Ok::<_, M::Error>(batch.iter().zip(found).map(design).collect())
         })?;
         let score = Score::of(&bare, &bare, limits);
         let bare = Design { candidate: None, responses: bare, score };
         Ok(self.solution(bare, designs))
+    }
+
+    /// The responses of the designs of a `batch`, remembered or new, a few designs at a time.
+    fn respond_to<M: Memory>(
+        &self,
+        batch: &[Option<Candidate>],
+        memory: &mut M,
+        interrupt: &Interrupt,
+        (begin, done): (&dyn Fn(u64), &(dyn Fn() + Sync)),
+    ) -> Result<Vec<Responses>, M::Error> {
+        let mut found: Vec<Option<Responses>> = batch.iter().map(|of| memory.recall(*of)).collect();
+        let new: Vec<usize> = (0..batch.len()).filter(|&index| found[index].is_none()).collect();
+        begin((new.len() * self.motions.len()) as u64);
+        for together in new.chunks(TOGETHER) {
+            let scenes: Vec<_> = together.iter().map(|&index| self.scene(batch[index])).collect();
+            for (&index, responses) in together.iter().zip(self.respond(&scenes, interrupt, done)?) {
+                memory.keep(batch[index], &responses)?;
+                found[index] = Some(responses);
+            }
+        }
+        Ok(found.into_iter().flatten().collect())
+    }
+
+    /// The block with a device, or bare.
+    fn scene(&self, of: Option<Candidate>) -> Result<Scene, String> {
+        let base = &self.choices.structure.scene;
+        let scene = match of {
+            Some(Candidate { curve, mass_ratio }) => self.choices.curves[curve].scene(base, mass_ratio),
+            None => watched(base, DeviceTable::of(Kind::None)),
+        };
+        scene.map_err(|error| error.to_string())
     }
 
     /// Responses of every scene to every motion, by scene.

@@ -153,6 +153,7 @@ fn bad_input_of_optimise_costs_one_line() {
     };
     let records = ["--records", "a.csv"];
     line("", &[], &["study.toml: records is missing", "--records"]);
+    line("", &["--records", "a.csv", "--time-budget", "1", "--resume"], &["--time-budget", "--resume"]);
     line("", &records, &["no record could be read", "a.csv"]);
     line("[optimise]\nlimit = 1", &records, &["study.toml:2", "limit"]);
     line("[optimise]\nlargest_force_ratio = -0.1", &records, &["study.toml: optimise.largest_force_ratio is -0.1", "above 0"]);

@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use super::said;
+use super::studies::folder_of_pulses;
+use super::{said, scene};
+
 const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/figure08.toml");
 /// Cells that are simulated one by one, so that a run takes a while.
 const SLOW: [&str; 6] = ["--set", "map.x.cells=24", "--set", "map.y.cells=20", "--set", "ground.0.motion=\"half-sine\""];
@@ -53,11 +55,16 @@ fn two_processes_make_the_bytes_of_one() {
     assert!(said(&missing).contains("shard 2/2 is not finished"), "{}", said(&missing));
 }
 
-/// Waits until some rows are written.
+/// Waits until some rows of the map are written.
 fn begun(folder: &Path) {
+    grown(folder, ["map.csv.unfinished", "map.csv"]);
+}
+
+/// Waits until a file has some rows, or the one that it leads to is there.
+fn grown(folder: &Path, [unfinished, finished]: [&str; 2]) {
     let start = Instant::now();
-    while std::fs::metadata(folder.join("map.csv.unfinished")).map_or(0, |data| data.len()) < 200 {
-        if folder.join("map.csv").exists() || start.elapsed() > Duration::from_secs(60) {
+    while std::fs::metadata(folder.join(unfinished)).map_or(0, |data| data.len()) < 400 {
+        if folder.join(finished).exists() || start.elapsed() > Duration::from_secs(60) {
             return;
         }
         std::thread::sleep(Duration::from_millis(1));
@@ -99,4 +106,37 @@ fn control_c_leaves_what_is_finished() {
     assert_eq!(ended.status.code(), Some(130));
     assert!(said(&ended).contains("of 27000000 rows; the same command with --resume goes on"), "{}", said(&ended));
     assert!(folder.join("map.csv.unfinished").exists() && !folder.join("map.csv").exists());
+}
+
+/// An optimisation that is killed and gone on with leaves the files of one that is not, and no others.
+#[test]
+fn a_killed_optimisation_goes_on() {
+    let (root, whole, killed) = folders();
+    let records = folder_of_pulses(root.path());
+    let run = |out: &Path, more: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
+        command.args(["optimise", &scene("optimise"), "--records", &records, "--out", out.to_str().unwrap()]).args(more);
+        command
+    };
+    well(run(&whole, &[]).output().unwrap());
+    let mut process = run(&killed, &["--threads", "1"]).stdout(Stdio::null()).spawn().unwrap();
+    grown(&killed, ["tried.csv.unfinished", "summary.json"]);
+    process.kill().unwrap();
+    process.wait().unwrap();
+    if killed.join("tried.csv.unfinished").exists() {
+        let again = run(&killed, &[]).output().unwrap();
+        assert_eq!(again.status.code(), Some(2));
+        assert!(said(&again).contains("tried.csv.unfinished") && said(&again).contains("--resume"), "{}", said(&again));
+    }
+    well(run(&killed, &["--resume"]).output().unwrap());
+    let all = |folder: &Path| {
+        let mut files: Vec<(String, Vec<u8>)> = std::fs::read_dir(folder)
+            .unwrap()
+            .map(|file| file.unwrap())
+            .map(|file| (file.file_name().into_string().unwrap(), std::fs::read(file.path()).unwrap()))
+            .collect();
+        files.sort();
+        files
+    };
+    assert!(all(&whole) == all(&killed));
 }

@@ -69,7 +69,7 @@ fn cloud_does_not_depend_on_the_number_of_threads_and_names_a_bad_record() {
 }
 
 /// Records of pulses of several amplitudes (g), in a folder of their own.
-fn folder_of_pulses(folder: &Path) -> String {
+pub(super) fn folder_of_pulses(folder: &Path) -> String {
     let records = folder.join("records");
     fs::create_dir_all(&records).unwrap();
     for (number, peak) in [0.2, -0.3, 0.4, -0.5, 0.7].into_iter().enumerate() {
