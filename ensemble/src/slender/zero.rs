@@ -198,7 +198,7 @@ mod tests {
         ];
         for (kind, all) in kinds.into_iter().enumerate() {
             let mut zeros = 0;
-            for (motion, length) in motions(200) {
+            for (motion, length) in motions(400) {
                 let (start, end) = (motion.start, motion.at(length));
                 let value = |place: &Place| all.of(&motion, place).value;
                 let (before, mut once) =
