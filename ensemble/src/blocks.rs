@@ -17,7 +17,7 @@ use crate::series::Series;
 use crate::{Mask, Number, WIDTH, number};
 
 /// Halvings of a step that a block may ask for.
-const MOST_HALVINGS: u32 = 24;
+pub(crate) const MOST_HALVINGS: u32 = 24;
 
 /// The state of the blocks and what they have been through; p = 1.
 #[derive(Clone, Copy, Debug)]
@@ -150,8 +150,7 @@ impl Blocks {
         let one = number(1.0);
         if self.fresh.any() {
             // The sign of θ̈ does not depend on the mode.
-            let rate = modes.released.switching(one, self.rotation, self.velocity, series.ground[0]);
-            self.pushed = (self.fresh & rate.exceeds(nothing)) | (!self.fresh & self.pushed);
+            self.read_push(modes.released.switching(one, self.rotation, self.velocity, series.ground[0]));
         }
         let equation = match (C::FOLLOWS_SIGNS, C::INERTER) {
             (true, _) => E::switched(!(self.outward ^ self.pushed), &modes.engaged, &modes.released),
@@ -192,6 +191,12 @@ impl Blocks {
         let rate_zero = changed & !turned & !hit;
         self.arrive(Arrival { rotation, velocity, hit, turned: turned & !hit, rate_zero, passed: Mask::NONE }, bounds);
         length
+    }
+
+    /// Reads the sign of θ̈ from `rate`, which has it, where that is to be read anew.
+    #[inline(always)]
+    pub fn read_push(&mut self, rate: Number) {
+        self.pushed = (self.fresh & rate.exceeds(number(0.0))) | (!self.fresh & self.pushed);
     }
 
     /// The end of a step over which θ was monotone.

@@ -58,15 +58,8 @@ pub trait Stepping: Default {
         &[]
     }
 
-    /// One step of blocks of these slendernesses α (rad) and couplings k, at most up to the end of the pulse, which is `left`; returns how far each went.
-    fn step<C: Clutch>(
-        &mut self,
-        blocks: &mut Blocks,
-        bounds: &Bounds,
-        block: (Number, Number),
-        pulses: &Pulses,
-        left: Number,
-    ) -> Number;
+    /// One step of blocks of these slendernesses α (rad) and couplings k, at most up to the end of their pulses; returns how far each went.
+    fn step<C: Clutch>(&mut self, blocks: &mut Blocks, bounds: &Bounds, block: (Number, Number), pulses: &Pulses) -> Number;
 }
 
 /// Steps by power series.
@@ -90,14 +83,19 @@ impl<M: Model> Stepping for BySeries<M> {
         bounds: &Bounds,
         (slenderness, coupling): (Number, Number),
         pulses: &Pulses,
-        left: Number,
     ) -> Number {
         pulses.series(blocks.side, &mut self.series.ground[..SERIES_TERMS - 2]);
-        blocks.step::<M::Equation, C, SERIES_TERMS>(&M::modes(slenderness, coupling), bounds, &mut self.series, left)
+        blocks.step::<M::Equation, C, SERIES_TERMS>(&M::modes(slenderness, coupling), bounds, &mut self.series, pulses.left())
     }
 }
 
 impl Pulses {
+    /// Up to their ends.
+    #[inline(always)]
+    pub fn left(&self) -> Number {
+        self.duration - self.time
+    }
+
     /// The pulse of one lane, in units of the threshold.
     fn sine(&self, lane: usize, block: &PulsedBlock) -> Sine {
         let (frequency, phase, duration) = (self.frequency.0[lane], self.phase.0[lane], self.duration.0[lane]);
@@ -216,8 +214,8 @@ pub(crate) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [Pu
                 return Ok(());
             }
         }
-        let left = pulses.duration - pulses.time;
-        let went = stepping.step::<C>(&mut blocks, &bounds, (slenderness, coupling), &pulses, left);
+        let left = pulses.left();
+        let went = stepping.step::<C>(&mut blocks, &bounds, (slenderness, coupling), &pulses);
         pulses.time = pulses.time + went;
         for (lane, count) in steps.iter_mut().enumerate() {
             *count += 1;

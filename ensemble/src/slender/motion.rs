@@ -41,20 +41,21 @@ pub struct Place {
 }
 
 impl Motion {
-    /// That of blocks of inertia I = 1/`rate` at θ = `rotation` with θ̇ = `velocity`, where ü_g/g is `ground` sin `phase`.
+    /// That of blocks of inertia I = 1/`rate` at θ = `rotation` with θ̇ = `velocity`, where ü_g/g is `ground` sin `phase`; `turn` is the sine and
+    /// cosine of that.
     #[inline(always)]
     pub fn new(
         (rotation, velocity): (Number, Number),
         (slenderness, rate): (Number, Number),
-        (ground, frequency, phase): (Number, Number, Number),
+        (ground, frequency): (Number, Number),
+        (phase, turn): (Number, (Number, Number)),
     ) -> Motion {
         let amplitude = ground * rate / (rate + frequency * frequency);
-        let (sine, cosine) = Scalar::sin_cos(phase);
-        let (forced, forced_rate) = (amplitude * sine, amplitude * frequency * cosine);
+        let (forced, forced_rate) = (amplitude * turn.0, amplitude * frequency * turn.1);
         let own = rotation - slenderness - forced;
         let own_rate = velocity - forced_rate;
         let start = Place { rotation, own, own_rate, forced, forced_rate };
-        Motion { slenderness, rate, frequency, amplitude, phase, turn: (sine, cosine), start }
+        Motion { slenderness, rate, frequency, amplitude, phase, turn, start }
     }
 
     /// The same motion, looked at from `place` on, where it is at `time`.

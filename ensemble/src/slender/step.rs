@@ -9,16 +9,13 @@ use super::crest;
 use super::pending::Pending;
 use super::zero::{Wanted, zero};
 use super::{Motion, Place};
-use crate::blocks::{Arrival, Blocks, Bounds};
+use crate::blocks::{Arrival, Blocks, Bounds, MOST_HALVINGS};
 use crate::pulsed::PulseResult;
 use crate::pulses::{Pulses, Stepping};
 use crate::{Mask, Number, WIDTH, number};
 
 /// The longest step: time²/I is then below what [`Motion::at`] takes, because I is 1 or more.
 const LONGEST: f64 = 2.0;
-
-/// Halvings of a step that a block may ask for.
-const MOST_HALVINGS: u32 = 24;
 
 /// How soon a zero of θ̇ or θ̈ may come, in units of the time in which anything changes, before it is left to the core.
 const TINY: f64 = 1e-10;
@@ -113,19 +110,15 @@ impl Stepping for ClosedForm {
         bounds: &Bounds,
         (slenderness, coupling): (Number, Number),
         pulses: &Pulses,
-        left: Number,
     ) -> Number {
         let (nothing, one) = (number(0.0), number(1.0));
         let half_cycle = number(PI);
         let phase = pulses.frequency * pulses.time + pulses.phase - self.half_cycles * half_cycle;
         let phase = phase.larger(nothing).smaller(half_cycle);
         let ground = pulses.amplitude * blocks.side * self.sign();
-        if blocks.fresh.any() {
-            // The sign of θ̈ does not depend on the mode.
-            let (sine, _) = Scalar::sin_cos(phase);
-            let rate = blocks.rotation - slenderness - ground * sine;
-            blocks.pushed = (blocks.fresh & rate.exceeds(nothing)) | (!blocks.fresh & blocks.pushed);
-        }
+        let turn = Scalar::sin_cos(phase);
+        // The sign of θ̈ does not depend on the mode.
+        blocks.read_push(blocks.rotation - slenderness - ground * turn.0);
         let along = !(blocks.outward ^ blocks.pushed);
         let engaged = match (C::FOLLOWS_SIGNS, C::INERTER) {
             (true, _) => along,
@@ -134,10 +127,10 @@ impl Stepping for ClosedForm {
         };
         let rate = one / (one + engaged.choose(coupling, nothing));
         let here = (blocks.rotation, blocks.velocity);
-        let motion = Motion::new(here, (slenderness, rate), (ground, pulses.frequency, phase));
+        let motion = Motion::new(here, (slenderness, rate), (ground, pulses.frequency), (phase, turn));
 
         let to_half_cycle = (half_cycle - phase) / pulses.frequency;
-        let longest = left.smaller(to_half_cycle).smaller(number(LONGEST));
+        let longest = pulses.left().smaller(to_half_cycle).smaller(number(LONGEST));
         let (mut length, mut end, changed) = plain_stretch(blocks, &motion, longest);
 
         let push = blocks.pushed.sign();

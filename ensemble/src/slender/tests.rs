@@ -21,7 +21,7 @@ pub(super) fn motions(count: usize) -> impl Iterator<Item = (Motion, Number)> {
         let ground = each(&mut |share| 6.0 * share() - 3.0);
         let rotation = each(&mut |share| 1.5 * share());
         let velocity = each(&mut |share| 3.0 * share() - 1.5);
-        let motion = Motion::new((rotation, velocity), (number(0.3), rate), (ground, frequency, phase));
+        let motion = Motion::new((rotation, velocity), (number(0.3), rate), (ground, frequency), (phase, Scalar::sin_cos(phase)));
         let longest = ((number(PI) - phase) / frequency).smaller(number(2.0));
         let part = each(&mut |share| if share() < 0.5 { 1.0 } else { 0.02 + share() });
         (motion, longest * part.smaller(number(1.0)))
@@ -82,7 +82,12 @@ fn steps_add_up() {
 fn small_motions_keep_their_digits() {
     let (ground, frequency, phase) = (number(0.2), number(3.0), number(0.7));
     let velocity = 1e-6;
-    let motion = Motion::new((number(0.0), number(velocity)), (number(0.3), number(0.8)), (ground, frequency, phase));
+    let motion = Motion::new(
+        (number(0.0), number(velocity)),
+        (number(0.3), number(0.8)),
+        (ground, frequency),
+        (phase, Scalar::sin_cos(phase)),
+    );
     let [rate, slope, _] = motion.accelerations(&motion.start).map(|numbers| numbers.0[0]);
     for share in [0.1, 0.5, 1.0, 1.9] {
         let time = -share * velocity / rate;

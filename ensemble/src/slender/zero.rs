@@ -242,7 +242,12 @@ mod tests {
         let (ground, frequency) = (number(-0.4), number(1.3));
         // a sin ψ = α.
         let phase = number(sprag_shared::math::asin(0.3 / 0.4));
-        let motion = Motion::new((number(0.0), number(0.0)), (number(0.3), number(1.0)), (ground, frequency, phase));
+        let motion = Motion::new(
+            (number(0.0), number(0.0)),
+            (number(0.3), number(1.0)),
+            (ground, frequency),
+            (phase, Scalar::sin_cos(phase)),
+        );
         let length = number(1.5);
         let end = motion.at(length);
         let wanted = Wanted { acceleration: Mask::ALL, ..Wanted::NOTHING };
