@@ -5,13 +5,8 @@ use csv::StringRecord;
 use super::measure::Measure;
 use super::runs::{Answer, Run, RunList};
 use super::typed_tables::RunsTable;
-use crate::accuracy::ErrorEstimate;
 use crate::columns::{Column, CsvWriter, Table, TableError};
 use crate::long_run::row_fields::RowFields;
-use crate::outcome::Outcome;
-
-/// Outcome of a run that failed.
-pub(super) const FAILED: &str = "failed";
 
 impl RunList<'_> {
     fn table<'s>(&'s self, runs: &'s [Run]) -> RunsTable<'s> {
@@ -55,26 +50,16 @@ impl RunList<'_> {
         for measure in &mut measures {
             *measure = fields.number()?;
         }
-        let name = fields.text();
-        if name == FAILED {
+        let Some(outcome) = fields.outcome()? else {
             fields.skip(4);
             let reason = fields.text().to_owned();
             return Ok(self.run(row, measures, Err(reason)));
-        }
-        let outcome = Outcome::from_name(name).ok_or_else(|| format!("`{name}` is no outcome"))?;
+        };
         let [peak_rotation, peak_acceleration] = [fields.maybe()?, fields.maybe()?];
         let impacts = fields.number::<u32>()?;
         let end_time_s = fields.number()?;
         let _failure = fields.text();
-        let error = match fields.text() {
-            "" => None,
-            certain => Some(ErrorEstimate {
-                outcome_certain: certain == "true",
-                peak_rotation: fields.number()?,
-                peak_acceleration: fields.number()?,
-                first_impact_time: fields.number()?,
-            }),
-        };
+        let error = fields.error_estimate()?;
         let answer = Answer { outcome, peak_rotation, peak_acceleration, impacts, end_time_s, error };
         Ok(self.run(row, measures, Ok(answer)))
     }

@@ -7,11 +7,11 @@ use super::measure::Measure;
 use super::overturning::DeviceFragility;
 use super::ranking::Ranking;
 use super::records::StudyRecord;
-use super::run_rows::FAILED;
 use super::runs::{Answer, Run};
 use super::study::Study;
 use crate::accuracy::ErrorEstimate;
 use crate::columns::{Column, Fields, RowWriter, Table, TableError, Value};
+use crate::long_run::row_fields::FAILED;
 use crate::statistics::{Band, FragilityCurve, PowerLaw, RankedMeasure};
 
 /// `runs`: one run a row. Peaks are max |θ|/α and max |θ̈|/(p²α), empty when overturned; measures are dimensionless, of the scaled

@@ -4,6 +4,12 @@ use std::str::FromStr;
 
 use csv::StringRecord;
 
+use crate::accuracy::ErrorEstimate;
+use crate::outcome::Outcome;
+
+/// Outcome of a run that failed.
+pub const FAILED: &str = "failed";
+
 /// The fields of a row, one after another.
 #[derive(Debug)]
 pub struct RowFields<'a> {
@@ -58,5 +64,32 @@ impl<'a> RowFields<'a> {
             return Ok(None);
         }
         self.number().map(Some)
+    }
+
+    /// The next as an outcome; none where the run failed.
+    ///
+    /// # Errors
+    /// What it is instead.
+    pub fn outcome(&mut self) -> Result<Option<Outcome>, String> {
+        match self.text() {
+            FAILED => Ok(None),
+            name => Outcome::from_name(name).map(Some).ok_or_else(|| format!("`{name}` is no outcome")),
+        }
+    }
+
+    /// The next four as an error; none where the first is empty.
+    ///
+    /// # Errors
+    /// Those of [`RowFields::number`].
+    pub fn error_estimate(&mut self) -> Result<Option<ErrorEstimate>, String> {
+        match self.text() {
+            "" => Ok(None),
+            certain => Ok(Some(ErrorEstimate {
+                outcome_certain: certain == "true",
+                peak_rotation: self.number()?,
+                peak_acceleration: self.number()?,
+                first_impact_time: self.number()?,
+            })),
+        }
     }
 }

@@ -9,10 +9,9 @@ use crate::accuracy::ErrorEstimate;
 use crate::long_run::arguments::Start;
 use crate::long_run::error::LongRunError;
 use crate::long_run::origin::Origin;
-use crate::long_run::row_fields::RowFields;
+use crate::long_run::row_fields::{FAILED, RowFields};
 use crate::long_run::rows::{Plan, Rows};
 use crate::long_run::shard::Shard;
-use crate::outcome::Outcome;
 use crate::simulation::RunError;
 
 /// More rows than any search makes: how many there will be is not known beforehand.
@@ -32,9 +31,6 @@ const COLUMNS: [&str; 12] = [
     "peak_acceleration_error",
     "first_impact_time_error",
 ];
-
-/// Outcome of a run that failed.
-const FAILED: &str = "failed";
 
 /// What a search remembers of designs that were tried before, and where it leaves those that it tries.
 pub trait Memory {
@@ -114,11 +110,6 @@ impl Tried {
         Ok(Tried { rows, known })
     }
 
-    /// Designs that were tried before.
-    pub fn designs(&self) -> usize {
-        self.known.len()
-    }
-
     /// What to say of a search that was interrupted.
     pub fn interrupted(&self) -> LongRunError {
         LongRunError::Stopped { done: self.rows.done() }
@@ -178,29 +169,20 @@ fn texts(response: &Result<Response, String>) -> [String; 9] {
 
 /// What [`texts`] has written.
 fn response(fields: &mut RowFields<'_>) -> Result<Result<Response, String>, String> {
-    let name = fields.text();
-    if name == FAILED {
+    let Some(outcome) = fields.outcome()? else {
         fields.skip(3);
         return Ok(Err(fields.text().to_owned()));
-    }
-    let outcome = Outcome::from_name(name).ok_or_else(|| format!("`{name}` is no outcome"))?;
+    };
     let (peak_rotation, force_ratio, stroke_m) = (fields.maybe()?, fields.number()?, fields.number()?);
     fields.skip(1);
-    let error = match fields.text() {
-        "" => None,
-        certain => Some(ErrorEstimate {
-            outcome_certain: certain == "true",
-            peak_rotation: fields.number()?,
-            peak_acceleration: fields.number()?,
-            first_impact_time: fields.number()?,
-        }),
-    };
+    let error = fields.error_estimate()?;
     Ok(Ok(Response { outcome, peak_rotation, force_ratio, stroke_m, error }))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::outcome::Outcome;
 
     fn origin(seed: u32) -> Origin {
         Origin::new("optimise", &seed, std::collections::BTreeMap::new(), MOST_ROWS).unwrap()
@@ -243,7 +225,7 @@ mod tests {
         assert!(matches!(Tried::begin(folder.path(), origin(1), Start::New, 2), Err(LongRunError::Unfinished { .. })));
         assert!(matches!(Tried::begin(folder.path(), origin(2), Start::Resume, 2), Err(LongRunError::OtherRun { .. })));
         let mut tried = Tried::begin(folder.path(), origin(1), Start::Resume, 2).unwrap();
-        assert_eq!(tried.designs(), 2);
+        assert_eq!(tried.known.len(), 2);
         for (candidate, responses) in &designs {
             assert_eq!(tried.recall(*candidate).as_ref(), Some(responses));
         }

@@ -6,6 +6,7 @@ use super::motion::Motion;
 use super::problem::{Problem, Solution};
 use super::response::Response;
 use crate::columns::{Column, Fields, RowWriter, Table, TableError};
+use crate::long_run::row_fields::FAILED;
 
 /// `designs`: the bare block, then every device that was tried, by law, mount and mass ratio.
 pub struct DesignTable<'s>(pub &'s Findings);
@@ -78,7 +79,7 @@ fn motion_fields<'s>() -> Fields<MotionRow<'s>> {
         .with(Column::number("scale"), |row| row.motion.factor.into())
         .with(number("level"), |row| row.motion.level.into())
         .with(Column::text("device"), |row| if row.design.candidate.is_none() { "none" } else { "chosen" }.into())
-        .with(Column::text("outcome"), |row| row.answer().map_or("failed", |response| response.outcome.name()).into())
+        .with(Column::text("outcome"), |row| row.answer().map_or(FAILED, |response| response.outcome.name()).into())
         .with(number("peak_rotation"), |row| row.answer().and_then(|response| response.peak_rotation).into())
         .with(number("peak_force_ratio"), |row| row.answer().map(|response| response.force_ratio).into())
         .with(number("stroke_m"), |row| {

@@ -7,13 +7,12 @@ use std::time::{Duration, Instant};
 use super::studies::folder_of_pulses;
 use super::{said, scene};
 
-const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/figure08.toml");
 /// Cells that are simulated one by one, so that a run takes a while.
 const SLOW: [&str; 6] = ["--set", "map.x.cells=24", "--set", "map.y.cells=20", "--set", "ground.0.motion=\"half-sine\""];
 
 fn map(out: &Path, more: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
-    command.args(["map", SCENE, "--out", out.to_str().unwrap()]).args(more);
+    command.args(["map", &scene("figure08"), "--out", out.to_str().unwrap()]).args(more);
     command
 }
 
