@@ -6,6 +6,7 @@
 //!   [`sensitivity`]: what each effect changes.
 //! - [`history`], [`outcome`], [`plot`], [`summary_table`], [`columns`], [`output`]: what comes out.
 //! - [`long_run`]: work that is split, interrupted and resumed.
+//! - [`progress`], [`interrupt`], [`streams`]: what a user sees of a command while it runs.
 //! - [`closed_loop`], [`device`]: the controller on the host, and the firmware in its place.
 //! - [`effect`]: what a scene may ask for, and what follows from it; [`command`]: the subcommands of `sprag`.
 
@@ -39,6 +40,7 @@ pub mod sensor;
 pub mod similarity;
 pub mod simulation;
 pub mod statistics;
+pub mod streams;
 pub mod summary_table;
 pub mod synthesis;
 

@@ -1,6 +1,5 @@
 //! The `sprag` command.
 
-use std::io::{stderr, stdout};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -10,6 +9,7 @@ use sprag_sim_host::command::{
     batch, cloud, effects, explain, map, optimise, record, sensitivity, similar, simulate, synthesize,
 };
 use sprag_sim_host::interrupt::Interrupt;
+use sprag_sim_host::streams::{Errors, Output};
 
 /// Rocking structures with inerters and clutches: simulate, and get the numbers to decide with.
 #[derive(Parser)]
@@ -47,7 +47,7 @@ enum Command {
 fn main() -> ExitCode {
     let line = Line::parse();
     let interrupt = Interrupt::installed();
-    let (mut out, mut err) = (stdout().lock(), stderr().lock());
+    let (mut out, mut err) = (Output::default(), Errors::default());
     let code = match &line.command {
         Command::Simulate(arguments) => simulate::run(arguments, &mut out, &mut err, &interrupt),
         Command::Batch(arguments) => batch::run(arguments, &mut err, &interrupt),
@@ -71,5 +71,5 @@ fn main() -> ExitCode {
         Command::Effects(arguments) => effects::run(arguments, &mut out, &mut err),
         Command::Explain(arguments) => explain::run(arguments, &mut out, &mut err),
     };
-    ExitCode::from(u8::try_from(code).unwrap_or(1))
+    ExitCode::from(u8::try_from(out.finish(code, &mut err)).unwrap_or(1))
 }

@@ -95,7 +95,7 @@ struct Summary<'a> {
 /// Runs the command; a table goes to `out`, errors go to `err`.
 pub fn run(arguments: &AccuracyCommandArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
     let result = run_or_fail(arguments, out, err, interrupt);
-    ended(result, |failure| matches!(failure, Failure::Study(StudyError::Interrupted)), err)
+    ended(result.map(|()| true), interrupt, err)
 }
 
 fn run_or_fail(
@@ -123,6 +123,7 @@ fn run_or_fail(
     let rows = rows?;
     let devices: Vec<String> = scene.devices.iter().map(|device| device.name.clone()).collect();
     let title = if scene.file.title.is_empty() { "Scene" } else { &scene.file.title };
+    let drawing = Progress::uncounted(super::DRAWING);
     let page = page(title, &rows, &devices);
     let summary = Summary {
         command: "accuracy",
@@ -139,6 +140,7 @@ fn run_or_fail(
         results.add_picture(&folder, name, &figure, arguments.pictures.formats())?;
     }
     results.commit_telling(err)?;
+    drawing.finish();
     let _ = write!(out, "{page}");
     let _ = writeln!(out, "results in {}", folder.display());
     Ok(())

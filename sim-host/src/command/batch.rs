@@ -98,7 +98,7 @@ fn plan(seconds: Duration, accuracy: Option<Accuracy>, cases: &[(String, Case)])
 /// Runs the command; errors go to `err`.
 pub fn run(arguments: &BatchArguments, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
     let result = run_or_fail(arguments, err, interrupt);
-    ended(result, |failure| matches!(failure, Failure::Interrupted), err)
+    ended(result.map(|()| true), interrupt, err)
 }
 
 fn run_or_fail(arguments: &BatchArguments, err: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
@@ -107,7 +107,9 @@ fn run_or_fail(arguments: &BatchArguments, err: &mut impl Write, interrupt: &Int
     if !file.metadata().is_ok_and(|data| data.len() <= LARGEST_FILE) {
         return Err(Failure::TooLarge { path: path.clone() });
     }
+    let reading = Progress::uncounted("reading cases");
     let cases = read_cases(BufReader::new(file)).map_err(|error| Failure::Table { path: path.clone(), error })?;
+    reading.finish();
     // Where the results go is tried before the work, not after it.
     let mut results = Results::default();
     results.add(&arguments.out, |_| Ok(()))?;
@@ -144,6 +146,7 @@ fn run_or_fail(arguments: &BatchArguments, err: &mut impl Write, interrupt: &Int
     if let Some((id, error)) = cases.iter().zip(&answers).find_map(|((id, _), answer)| answer.as_ref().err().map(|e| (id, *e))) {
         return Err(Failure::Case { path: path.clone(), id: id.clone(), error });
     }
+    let _writing = Progress::uncounted("writing results");
     let mut results = Results::default();
     results.add(&arguments.out, |out| {
         match accuracy {

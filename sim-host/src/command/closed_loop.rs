@@ -10,13 +10,13 @@ use serde::Serialize;
 
 use super::format_arguments::PictureArguments;
 use super::loop_scene::{LoopScene, LoopSceneError};
-use super::{ended, results_folder};
+use super::{DRAWING, ended, results_folder};
 use crate::accuracy::AccuracyArguments;
 use crate::closed_loop::LoopFailure;
 use crate::closed_loop::answered::Looped;
 use crate::closed_loop::plant::Extremes;
 use crate::closed_loop::report::{LoopReport, LoopSummary, loop_trace, write_history};
-use crate::closed_loop::run::{LoopError, Tick};
+use crate::closed_loop::run::Tick;
 use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, make_folder};
 use crate::plot::{PlotError, loop_figure};
@@ -85,13 +85,7 @@ struct Summary<'a> {
 /// Runs the command; a table goes to `out`, errors go to `err`.
 pub fn run(arguments: &LoopArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
     let result = run_or_fail(arguments, out, err, interrupt);
-    ended(
-        result,
-        |failure| {
-            matches!(failure, Failure::Interrupted | Failure::Loop { failure: LoopFailure::Loop(LoopError::Interrupted), .. })
-        },
-        err,
-    )
+    ended(result.map(|()| true), interrupt, err)
 }
 
 fn run_or_fail(
@@ -109,6 +103,7 @@ fn run_or_fail(
         let table = monte_carlo(arguments, &desk, &mut reports, count, interrupt)?;
         results.add(&folder.join("monte_carlo.csv"), |file| file.write_all(table.as_bytes()))?;
     }
+    let drawing = Progress::uncounted(DRAWING);
     let summaries: Vec<LoopSummary> = reports.iter().map(|report| report.summary.clone()).collect();
     let file = desk.resolved(arguments.record.as_ref());
     let summary = Summary { command: "loop", version: env!("CARGO_PKG_VERSION"), scene: &file, runs: &summaries };
@@ -123,6 +118,7 @@ fn run_or_fail(
         return Err(Failure::Interrupted);
     }
     results.commit_telling(err)?;
+    drawing.finish();
     for summary in &summaries {
         let _ = write!(out, "{summary}");
     }
@@ -141,6 +137,7 @@ fn looped(
     changes.extend(change);
     let desk = LoopScene::load(&arguments.scene, &changes, arguments.record.as_ref())?;
     make_folder(folder)?;
+    let _running = Progress::uncounted("running the loop");
     let mut reports: Vec<LoopReport> = Vec::new();
     for &index in &desk.pairs {
         let failed = |failure| Failure::Loop { device: desk.scene.devices[index].name.clone(), failure };

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::Serialize;
 
-use super::BAD_INPUT;
 use super::format_arguments::FormatArguments;
 use super::study_input::{StudyArguments, StudyInputError, study_origin};
+use super::{DRAWING, ended, resumable};
 use crate::accuracy::{AccuracyArguments, Worst};
 use crate::cloud::figures::{demand_picture, fragility_picture};
 use crate::cloud::findings::Findings;
@@ -21,7 +21,7 @@ use crate::cloud::study::Study;
 use crate::cloud::study_file::StudyFile;
 use crate::cloud::typed_tables::{DemandTable, FragilityTable, RankingTable, RunsTable};
 use crate::columns::{Table, TableError, metadata_of};
-use crate::interrupt::{self, Interrupt};
+use crate::interrupt::Interrupt;
 use crate::long_run::arguments::LongRunArguments;
 use crate::long_run::error::LongRunError;
 use crate::long_run::rows::{Plan, Rows};
@@ -111,14 +111,8 @@ struct MadeBy<'a> {
 
 /// Runs the command; tables go to `out`, errors go to `err`.
 pub fn run(arguments: &CloudArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    let failure = match run_or_fail(arguments, out, err, interrupt) {
-        Ok(true) => return 0,
-        Ok(false) => return BAD_INPUT,
-        Err(failure) => failure,
-    };
-    let _ = writeln!(err, "sprag: {failure}");
-    let interrupted = matches!(failure, Failure::Run(RunError::Interrupted) | Failure::Rows(LongRunError::Interrupted { .. }));
-    if interrupted { interrupt::EXIT_CODE } else { BAD_INPUT }
+    let result = run_or_fail(arguments, out, err, interrupt);
+    ended(result, interrupt, err)
 }
 
 /// A study that was run.
@@ -142,11 +136,8 @@ fn run_or_fail(
     }
     let folder = arguments.out.clone().unwrap_or_else(|| arguments.input.folder());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
-    let progress = Progress::new("runs");
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
-    let studied =
-        arguments.accuracy.run(|change| pool.install(|| studied(arguments, change, &folder, &progress, interrupt)), tell)?;
-    progress.finish();
+    let studied = arguments.accuracy.run(|change| pool.install(|| studied(arguments, change, &folder, interrupt)), tell)?;
     for line in &studied.records.unreadable {
         let _ = writeln!(err, "sprag: {line}");
     }
@@ -155,24 +146,23 @@ fn run_or_fail(
         let _ = writeln!(out, "shard {shard}: {}", rows.display());
         return Ok(studied.records.unreadable.is_empty() && !studied.runs.failed);
     }
+    let drawing = Progress::uncounted(DRAWING);
     let findings = pool.install(|| Findings::of(&studied.study, &studied.runs))?;
     if interrupt.is_set() {
         return Err(RunError::Interrupted.into());
     }
     let complete = write(&studied, &findings, &folder, arguments.formats.formats, out, err)?;
+    drawing.finish();
     let _ = writeln!(out, "results of {} in {}", arguments.input.study.display(), folder.display());
     Ok(complete)
 }
 
-fn studied(
-    arguments: &CloudArguments,
-    change: Option<String>,
-    folder: &Path,
-    progress: &Progress,
-    interrupt: &Interrupt,
-) -> Result<Studied, Failure> {
+fn studied(arguments: &CloudArguments, change: Option<String>, folder: &Path, interrupt: &Interrupt) -> Result<Studied, Failure> {
+    let reading = Progress::uncounted("reading records");
     let study = arguments.input.load(change)?;
     let records = arguments.input.read(&study)?;
+    reading.finish();
+    let progress = Progress::new("runs");
     // Where the results go is tried before the work, not after it.
     make_folder(folder)?;
     if arguments.accuracy.time_budget.is_some() {
@@ -190,6 +180,7 @@ fn studied(
         all.push(list.read(row, record)?);
         Ok(())
     })?;
+    interrupt.keep(resumable("the rows made so far", folder));
     progress.begin((rows.done() + rows.left().len()) as u64);
     progress.resume(rows.done() as u64);
     let whole = list.work_through(rows.left(), interrupt, &|| progress.step(), |runs| {
@@ -198,9 +189,11 @@ fn studied(
         Ok::<(), Failure>(())
     })?;
     if !whole {
+        interrupt.keep(rows.interrupted());
         return Err(rows.interrupted().into());
     }
     let rows = rows.finish()?;
+    interrupt.keep(resumable("all rows", &rows));
     let runs = list.sum_up(all);
     Ok(Studied { study, records, runs, rows: Some(rows) })
 }

@@ -10,15 +10,15 @@ use sprag_shared::control::supervisor::Phase;
 use sprag_shared::link::{Identity, Request, State};
 use sprag_shared::settings::{Item, Settings};
 
-use super::BAD_INPUT;
 use super::device_line::{Connected, LineArguments, connect, firmware};
+use super::ended;
 use super::loop_scene::{LoopScene, LoopSceneError};
 use crate::device::event_table::{what, write_csv, write_table};
 use crate::device::line::{DeviceError, Line};
 use crate::device::session::Session;
 use crate::device::strip_chart::StripChart;
 use crate::device::{parameters, setting_text};
-use crate::interrupt::{self, Interrupt};
+use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results};
 
 /// Talk to a device: who it is, its parameters, its self-test, its event log, and what it believes of the motion.
@@ -127,6 +127,7 @@ type Talk = Session<Box<dyn Line>>;
 
 /// Runs the command; what the device says goes to `out`, errors go to `err`.
 pub fn run(arguments: &DeviceArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
+    interrupt.keep("what was changed in the device stays as it is");
     let outcome = match &arguments.command {
         DeviceCommand::Info(info) => with_device(&info.line, out, |session, out| show(session, out)),
         DeviceCommand::Parameters(given) => change(given, out, interrupt),
@@ -137,13 +138,11 @@ pub fn run(arguments: &DeviceArguments, out: &mut impl Write, err: &mut impl Wri
     };
     match outcome {
         Ok(()) => 0,
-        // Whoever reads has had enough.
-        Err(Failure::Stream(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => 0,
-        Err(Failure::Interrupted) => interrupt::EXIT_CODE,
-        Err(failure) => {
-            let _ = writeln!(err, "sprag: {failure}");
-            BAD_INPUT
-        }
+        // Reported where standard output is.
+        Err(Failure::Stream(_)) => 0,
+        // Watching ends so.
+        Err(Failure::Interrupted) if matches!(arguments.command, DeviceCommand::Watch(_)) => interrupt.exit_code(),
+        outcome => ended(outcome.map(|()| true), interrupt, err),
     }
 }
 

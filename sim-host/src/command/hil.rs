@@ -11,12 +11,12 @@ use super::closed_loop::heading;
 use super::device_line::{LineArguments, connect};
 use super::format_arguments::PictureArguments;
 use super::loop_scene::{LoopScene, LoopSceneError};
-use super::{ended, results_folder};
+use super::{DRAWING, ended, results_folder};
 use crate::accuracy::{AccuracyArguments, Closeness};
 use crate::closed_loop::answered::Looped;
 use crate::closed_loop::plant::Extremes;
 use crate::closed_loop::report::{LoopReport, loop_trace, write_history};
-use crate::closed_loop::run::{LoopError, Tick};
+use crate::closed_loop::run::Tick;
 use crate::closed_loop::{LoopFailure, LoopTask};
 use crate::device::driver::{DeviceDriver, DeviceTick};
 use crate::device::line::DeviceError;
@@ -25,6 +25,7 @@ use crate::device::session::Session;
 use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, make_folder};
 use crate::plot::{PlotError, loop_figure};
+use crate::progress::Progress;
 use crate::scene::schema::SceneFile;
 use crate::simulation::ErrorReport;
 
@@ -86,13 +87,7 @@ struct Summary<'a> {
 /// Runs the command; a table goes to `out`, errors go to `err`.
 pub fn run(arguments: &HilArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
     let result = run_or_fail(arguments, out, err, interrupt);
-    ended(
-        result,
-        |failure| {
-            matches!(failure, Failure::Interrupted | Failure::Loop { failure: LoopFailure::Loop(LoopError::Interrupted), .. })
-        },
-        err,
-    )
+    ended(result.map(|()| true), interrupt, err)
 }
 
 fn run_or_fail(
@@ -122,6 +117,7 @@ fn run_or_fail(
         }
         summaries.push(run.summary);
     }
+    let drawing = Progress::uncounted(DRAWING);
     let file = desk.resolved(arguments.record.as_ref());
     let summary = Summary { command: "hil", version: env!("CARGO_PKG_VERSION"), scene: &file, runs: &summaries };
     results.add_json(&folder.join("summary.json"), &summary)?;
@@ -131,6 +127,7 @@ fn run_or_fail(
         return Err(Failure::Interrupted);
     }
     results.commit_telling(err)?;
+    drawing.finish();
     for summary in &summaries {
         let _ = write!(out, "{summary}");
     }
@@ -165,6 +162,7 @@ fn on_host(
     changes.extend(change);
     let desk = LoopScene::load(&arguments.scene, &changes, arguments.record.as_ref())?;
     make_folder(folder)?;
+    let _running = Progress::uncounted("running the host's own loop");
     let host = |&index: &usize| {
         let task = desk.task(index, desk.controller.sensors.seed(), interrupt);
         let failed = |failure| Failure::Loop { device: desk.scene.devices[index].name.clone(), failure };
@@ -189,9 +187,11 @@ fn one(arguments: &HilArguments, desk: &LoopScene, index: usize, host: Host, int
     let identity = session.identify()?;
     let mut driver = DeviceDriver::attach(session, &settings, own)?;
     let (mut seen, mut extremes) = (Vec::new(), Extremes::default());
+    let running = Progress::uncounted("running the loop over the device");
     let begun = Instant::now();
     let ending = task.run_with(&mut driver, &mut (), &mut extremes, &mut seen);
     let seconds = begun.elapsed().as_secs_f64();
+    running.finish();
     // A device that has gone explains whatever became of the loop.
     let (mut session, ticks) = driver.finish()?;
     let ending = ending.map_err(failed)?;

@@ -77,7 +77,7 @@ enum Failure {
 /// Runs the command; the page goes to `out`, errors go to `err`.
 pub fn run(arguments: &LoopStudyArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
     let result = run_or_fail(arguments, out, err, interrupt);
-    ended(result, |failure| matches!(failure, Failure::Study(StudyError::Interrupted)), err)
+    ended(result.map(|()| true), interrupt, err)
 }
 
 fn run_or_fail(
@@ -123,6 +123,7 @@ fn write(report: &Report, arguments: &LoopStudyArguments, out: &mut impl Write, 
     for (inner, _) in names.filter_map(|name| name.rsplit_once('/')) {
         make_folder(&folder.join(inner))?;
     }
+    let drawing = Progress::uncounted(super::DRAWING);
     let mut results = Results::default();
     results.add(&folder.join(format!("{}.md", report.name)), |file| file.write_all(report.text.as_bytes()))?;
     for (name, table) in &report.tables {
@@ -132,6 +133,7 @@ fn write(report: &Report, arguments: &LoopStudyArguments, out: &mut impl Write, 
         results.add_picture(folder, name, svg, arguments.pictures.formats())?;
     }
     results.commit_telling(err)?;
+    drawing.finish();
     let _ = write!(out, "{}", report.text);
     let _ = writeln!(out, "results in {}", folder.display());
     Ok(())

@@ -10,9 +10,9 @@ use serde::Serialize;
 
 use super::format_arguments::FormatArguments;
 use super::map_boundaries::{BoundarySummary, trace, write_boundary_table};
-use super::{BAD_INPUT, results_folder};
+use super::{DRAWING, ended, results_folder, resumable};
 use crate::columns::{TableError, metadata_of};
-use crate::interrupt::{self, Interrupt};
+use crate::interrupt::Interrupt;
 use crate::long_run::arguments::LongRunArguments;
 use crate::long_run::error::LongRunError;
 use crate::long_run::origin::{Digest, Origin};
@@ -150,10 +150,8 @@ impl<'a> DeviceSummary<'a> {
 
 /// Runs the command; a table goes to `out`, errors go to `err`.
 pub fn run(arguments: &MapArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    let Err(failure) = run_or_fail(arguments, out, err, interrupt) else { return 0 };
-    let _ = writeln!(err, "sprag: {failure}");
-    let interrupted = matches!(failure, Failure::Map(MapError::Interrupted | MapError::Rows(LongRunError::Interrupted { .. })));
-    if interrupted { interrupt::EXIT_CODE } else { BAD_INPUT }
+    let result = run_or_fail(arguments, out, err, interrupt);
+    ended(result.map(|()| true), interrupt, err)
 }
 
 fn run_or_fail(
@@ -184,19 +182,23 @@ fn run_or_fail(
         Ok(())
     })?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
+    interrupt.keep(resumable("the rows made so far", &folder));
     let progress = Progress::new("cells");
     let whole = pool.install(|| study_to(&mut rows, &grid, &labels, &mut tally, &progress, interrupt));
     progress.finish();
     if !whole? {
+        interrupt.keep(rows.interrupted());
         return Err(rows.interrupted().into());
     }
     let path = rows.finish()?;
+    interrupt.keep(resumable("all rows", &path));
     if shard != Shard::WHOLE {
         let _ = writeln!(out, "shard {shard}: {}", path.display());
         return Ok(());
     }
     let boundaries =
         if arguments.refine { pool.install(|| trace(&grid, &tally.maps, arguments.evaluations, interrupt))? } else { Vec::new() };
+    let drawing = Progress::uncounted(DRAWING);
     let mut pictures = figures(&grid, &tally)?;
     if arguments.refine {
         pictures.extend(boundary_figure::figure(&grid, &tally, &boundaries)?.map(|picture| ("boundaries", picture)));
@@ -219,7 +221,11 @@ fn run_or_fail(
         let added = results.add_picture(&folder, name, picture, formats)?;
         first = first.or(added);
     }
+    if interrupt.is_set() {
+        return Err(MapError::Interrupted.into());
+    }
     results.commit_telling(err)?;
+    drawing.finish();
     let _ = write_table(out, &tally.maps);
     if arguments.refine {
         let _ = write_boundary_table(out, &boundaries);

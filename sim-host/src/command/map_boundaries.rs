@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+use indicatif::HumanCount;
 use serde::Serialize;
 
 use crate::interrupt::Interrupt;
@@ -43,7 +44,8 @@ pub(super) fn trace(
     evaluations: usize,
     interrupt: &Interrupt,
 ) -> Result<Vec<Boundaries>, MapError> {
-    let progress = Progress::new("blocks on boundaries");
+    let most = HumanCount((evaluations * maps.len()) as u64);
+    let progress = Progress::of_unknown_length(&format!("blocks (at most {most}) on boundaries"));
     let of_device = |(device, map): (usize, &DeviceMap)| {
         let outcomes: Vec<Outcome> = map.shown.iter().map(|result| result.outcome).collect();
         refine(grid, device, &outcomes, evaluations, &progress, interrupt)

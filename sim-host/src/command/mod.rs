@@ -1,5 +1,5 @@
 //! The subcommands of `sprag`. Each has its arguments and a `run` that returns the exit code: 0 well, 2 bad input or
-//! output, 130 interrupted.
+//! output, 130 and 143 interrupted.
 
 #[cfg(feature = "effects")]
 pub mod accuracy;
@@ -34,7 +34,7 @@ use std::fmt::Display;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::interrupt;
+use crate::interrupt::Interrupt;
 
 /// Exit code for bad input, and for output that cannot be written.
 pub const BAD_INPUT: i32 = 2;
@@ -47,13 +47,23 @@ fn results_folder(scene: &Path, given: Option<&PathBuf>, command: &str) -> PathB
     })
 }
 
-/// The exit code of a command that wrote nothing unless it ended well; why it did not goes to `err` in one line.
-fn ended<E: Display>(result: Result<(), E>, interrupted: impl FnOnce(&E) -> bool, err: &mut impl Write) -> i32 {
+/// What is shown while results are made from finished runs.
+const DRAWING: &str = "drawing and writing results";
+
+/// How an interrupted command goes on from the `rows` in `place`.
+fn resumable(rows: &str, place: &Path) -> String {
+    format!("{rows} are kept in {}; the same command with --resume goes on", place.display())
+}
+
+/// The exit code of a command whose `result` is whether all is well; what ended it otherwise goes to `err` in one line.
+fn ended<E: Display>(result: Result<bool, E>, interrupt: &Interrupt, err: &mut impl Write) -> i32 {
     match result {
-        Ok(()) => 0,
-        Err(failure) if interrupted(&failure) => {
-            let _ = writeln!(err, "sprag: interrupted; nothing was written");
-            interrupt::EXIT_CODE
+        Ok(true) => 0,
+        Ok(false) => BAD_INPUT,
+        // Whatever fails once the user has asked to stop: other programs of the command are stopped by the same Ctrl-C.
+        Err(_) if interrupt.is_set() => {
+            interrupt.report(err);
+            interrupt.exit_code()
         }
         Err(failure) => {
             let _ = writeln!(err, "sprag: {failure}");

@@ -6,16 +6,16 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::Serialize;
 
-use super::BAD_INPUT;
 use super::format_arguments::FormatArguments;
 use super::study_input::{StudyArguments, StudyInputError, study_origin};
+use super::{DRAWING, ended, resumable};
 use crate::accuracy::{AccuracyArguments, Worst};
 use crate::cloud::records::StudyRecords;
 use crate::cloud::structures::StudyStructure;
 use crate::cloud::study::Study;
 use crate::cloud::study_file::{RecordEntry, RecordTable, StripesTable};
 use crate::columns::{TableError, metadata_of};
-use crate::interrupt::{self, Interrupt};
+use crate::interrupt::Interrupt;
 use crate::long_run::arguments::ResumeArguments;
 use crate::long_run::error::LongRunError;
 use crate::optimise::curve::Curve;
@@ -131,22 +131,8 @@ struct Resolved<'a> {
 
 /// Runs the command; a table goes to `out`, errors go to `err`.
 pub fn run(arguments: &OptimiseArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    match run_or_fail(arguments, out, err, interrupt) {
-        Ok(true) => 0,
-        Ok(false) => BAD_INPUT,
-        Err(Failure::Run(RunError::Interrupted)) => {
-            let _ = writeln!(err, "sprag: interrupted; nothing was written");
-            interrupt::EXIT_CODE
-        }
-        Err(failure @ Failure::Rows(LongRunError::Stopped { .. })) => {
-            let _ = writeln!(err, "sprag: {failure}");
-            interrupt::EXIT_CODE
-        }
-        Err(failure) => {
-            let _ = writeln!(err, "sprag: {failure}");
-            BAD_INPUT
-        }
-    }
+    let result = run_or_fail(arguments, out, err, interrupt);
+    ended(result, interrupt, err)
 }
 
 /// A study, its records, and how it was answered.
@@ -170,11 +156,9 @@ fn run_or_fail(
     }
     let folder = arguments.out.clone().unwrap_or_else(|| arguments.input.folder());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
-    let progress = Progress::new("runs");
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
-    let answered =
-        arguments.accuracy.run(|change| pool.install(|| answered(arguments, change, &folder, &progress, interrupt)), tell)?;
-    progress.finish();
+    let answered = arguments.accuracy.run(|change| pool.install(|| answered(arguments, change, &folder, interrupt)), tell)?;
+    let drawing = Progress::uncounted(DRAWING);
     let Answered { study, records, solution, .. } = &answered;
     let problem = Problem::new(Choices::of(study)?, &records.records);
     let findings = Findings::of(&problem, solution);
@@ -183,6 +167,7 @@ fn run_or_fail(
     }
     let left_out = [&problem.choices.left_out[..], &problem.left_out, &solution.failures].concat();
     write(&answered, &problem, &findings, &left_out, (&folder, arguments.formats.formats), err)?;
+    drawing.finish();
     tell_all(&problem, &findings, out);
     for line in &records.unreadable {
         let _ = writeln!(err, "sprag: {line}");
@@ -211,12 +196,14 @@ fn answered(
     arguments: &OptimiseArguments,
     change: Option<String>,
     folder: &Path,
-    progress: &Progress,
     interrupt: &Interrupt,
 ) -> Result<Answered, Failure> {
+    let reading = Progress::uncounted("reading records");
     let study = arguments.input.load(change)?;
     let choices = Choices::of(&study)?;
     let records = arguments.input.read(&study)?;
+    reading.finish();
+    let progress = Progress::new("runs");
     let problem = Problem::new(choices, &records.records);
     let file = || arguments.input.study.clone();
     if problem.motions.is_empty() {
@@ -230,8 +217,12 @@ fn answered(
     } else {
         let origin = study_origin("optimise", &study, &records.records, MOST_ROWS)?;
         let mut tried = Tried::begin(folder, origin, arguments.rows.start(), problem.motions.len())?;
+        interrupt.keep(resumable("the rows made so far", folder));
         match problem.solve(&mut tried, interrupt, &begin, &done) {
-            Err(TriedError::Run(RunError::Interrupted)) => return Err(tried.interrupted().into()),
+            Err(TriedError::Run(RunError::Interrupted)) => {
+                interrupt.keep(tried.interrupted());
+                return Err(tried.interrupted().into());
+            }
             Err(TriedError::Run(error)) => return Err(error.into()),
             Err(TriedError::Rows(error)) => return Err(error.into()),
             Ok(solution) => (solution, Some(tried)),

@@ -7,6 +7,7 @@ use clap::Args;
 use serde::Serialize;
 use sprag_shared::math;
 
+use crate::progress::Progress;
 use crate::record::intensity::uniform_duration_s;
 use crate::record::{Component, Intensity, ReadOptions, Record, STANDARD_GRAVITY_M_S2, Units};
 
@@ -110,6 +111,8 @@ pub fn run(arguments: &RecordArguments, out: &mut impl Write, err: &mut impl Wri
         component: arguments.component.clone(),
         resample_to_s: arguments.resample,
     };
+    let progress = Progress::new("files");
+    progress.begin(arguments.files.len() as u64);
     let entries: Vec<Entry> = arguments
         .files
         .iter()
@@ -117,7 +120,9 @@ pub fn run(arguments: &RecordArguments, out: &mut impl Write, err: &mut impl Wri
             Ok(record) => Entry::Description(Description::of(&record, arguments.slenderness_deg)),
             Err(error) => Entry::Failure { file: file.to_string_lossy().into_owned(), error: error.to_string() },
         })
+        .inspect(|_| progress.step())
         .collect();
+    progress.finish();
     let written = if arguments.json { write_json(&entries, out) } else { write_text(&entries, out, err) };
     match written {
         // A reader that stops early, such as `head`, has what it wanted.

@@ -7,9 +7,9 @@ use clap::Args;
 use serde::Serialize;
 
 use super::format_arguments::PictureArguments;
-use super::{BAD_INPUT, results_folder};
+use super::{DRAWING, ended, results_folder};
 use crate::accuracy::{AccuracyArguments, Worst};
-use crate::interrupt::{self, Interrupt};
+use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, make_folder};
 use crate::plot::{OwnMark, PlotError, SensitivityLane, SensitivityRow, sensitivity_figure};
 use crate::progress::Progress;
@@ -94,18 +94,8 @@ struct Document<'a> {
 
 /// Runs the command; a table goes to `out`, errors go to `err`.
 pub fn run(arguments: &SensitivityArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    match run_or_fail(arguments, out, err, interrupt) {
-        Ok(true) => 0,
-        Ok(false) => BAD_INPUT,
-        Err(Failure::Run(RunError::Interrupted)) => {
-            let _ = writeln!(err, "sprag: interrupted; nothing was written");
-            interrupt::EXIT_CODE
-        }
-        Err(failure) => {
-            let _ = writeln!(err, "sprag: {failure}");
-            BAD_INPUT
-        }
-    }
+    let result = run_or_fail(arguments, out, err, interrupt);
+    ended(result, interrupt, err)
 }
 
 /// Whether everything could be read and run.
@@ -144,6 +134,7 @@ fn studied(arguments: &SensitivityArguments, change: Option<String>, interrupt: 
     changes.extend(change);
     let (scene, study) = Study::load(&arguments.scene, &changes)?;
     let records = records(arguments, &scene)?;
+    let reading = Progress::uncounted("reading records");
     let mut motions: Vec<StudyMotion> = Vec::new();
     let mut errors: Vec<String> = Vec::new();
     motions.extend(StudyMotion::own(&scene)?);
@@ -154,6 +145,7 @@ fn studied(arguments: &SensitivityArguments, change: Option<String>, interrupt: 
             Err(error) => return Err(error.into()),
         }
     }
+    reading.finish();
     if motions.is_empty() && errors.is_empty() {
         // What the scene lacks, in the words of a simulation.
         scene.ground_motions()?;
@@ -192,6 +184,7 @@ fn records(arguments: &SensitivityArguments, scene: &Scene) -> Result<Vec<Record
 /// Writes the results.
 fn write(arguments: &SensitivityArguments, studied: &Studied, out: &mut impl Write, err: &mut impl Write) -> Result<(), Failure> {
     let Studied { scene, study, motions, folder, findings, .. } = studied;
+    let drawing = Progress::uncounted(DRAWING);
     let runs = summaries(findings, motions, &study.devices);
     let records: Vec<&str> = motions.iter().filter(|motion| !motion.own).map(|motion| motion.name.as_str()).collect();
     let left_out = [&study.left_out[..], &findings.left_out, &findings.failed].concat();
@@ -215,6 +208,7 @@ fn write(arguments: &SensitivityArguments, studied: &Studied, out: &mut impl Wri
         .add(&folder.join("sensitivity.md"), |file| file.write_all(page(title, &runs, records.len(), &left_out).as_bytes()))?;
     results.add_picture(folder, "sensitivity", &figure, arguments.pictures.formats())?;
     results.commit_telling(err)?;
+    drawing.finish();
     let _ = write!(out, "{}", table(&runs));
     for line in &left_out {
         let _ = writeln!(out, "left out: {line}");

@@ -12,6 +12,7 @@ use super::{ended, results_folder};
 use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, make_folder};
 use crate::plot::{Chart, ChartPanel, Line, PlotError, Scale, chart_figure};
+use crate::progress::Progress;
 use crate::scene::ground::GroundError;
 use crate::scene::schema::SceneFile;
 use crate::scene::{Scene, SceneError};
@@ -98,7 +99,7 @@ struct RunSummary<'a> {
 /// Runs the command; a table goes to `out`, errors go to `err`.
 pub fn run(arguments: &SimilarArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
     let result = run_or_fail(arguments, out, err, interrupt);
-    ended(result, |failure| matches!(failure, Failure::Run(RunError::Interrupted)), err)
+    ended(result.map(|()| true), interrupt, err)
 }
 
 fn run_or_fail(
@@ -108,14 +109,19 @@ fn run_or_fail(
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
     let folder = results_folder(&arguments.scene, arguments.out.as_ref(), "similar");
+    let progress = Progress::new("blocks");
+    progress.begin(1 + arguments.with.len() as u64);
     let mut blocks = vec![block(arguments, "", None, interrupt)?];
+    progress.step();
     for changes in &arguments.with {
         let other = block(arguments, changes, Some(&blocks[0]), interrupt)?;
         for name in unequal(&blocks[0], &other) {
             let _ = writeln!(err, "sprag: --with {changes}: {name} is not that of the first block");
         }
         blocks.push(other);
+        progress.step();
     }
+    progress.finish();
     let figure = figure(&blocks)?;
     make_folder(&folder)?;
     let first = &blocks[0];

@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::Serialize;
 
-use super::ended;
 use super::format_arguments::PictureArguments;
+use super::{DRAWING, ended};
 use crate::accuracy::AccuracyArguments;
 use crate::history::{History, write_csv};
 use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, make_folder};
 use crate::plot::{PlotError, TimeAxis, energy_figure, history_figure};
+use crate::progress::Progress;
 use crate::scene::ground::{GroundError, Motion};
 use crate::scene::schema::{SceneFile, TimeAxisName};
 use crate::scene::{Scene, SceneError};
@@ -80,7 +81,7 @@ struct Summary<'a> {
 /// Runs the command; a table goes to `out`, errors go to `err`.
 pub fn run(arguments: &SimulateArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
     let result = run_or_fail(arguments, out, err, interrupt);
-    ended(result, |failure| matches!(failure, Failure::Run(RunError::Interrupted)), err)
+    ended(result.map(|()| true), interrupt, err)
 }
 
 fn run_or_fail(
@@ -95,6 +96,7 @@ fn run_or_fail(
     });
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
     let (scene, mut runs) = arguments.accuracy.run(|change| simulated(arguments, change, &folder, interrupt), tell)?;
+    let drawing = Progress::uncounted(DRAWING);
     let rows: Vec<SummaryRow> = runs.iter().map(row).collect();
     let axis = match scene.file.output.time_axis {
         TimeAxisName::Seconds => TimeAxis::Seconds,
@@ -124,6 +126,7 @@ fn run_or_fail(
         return Err(RunError::Interrupted.into());
     }
     results.commit_telling(err)?;
+    drawing.finish();
     let _ = write!(out, "{}", summary_table(&rows));
     for run in &runs {
         if let Some(error) = &run.error {
@@ -155,6 +158,7 @@ fn simulated(
     let mut changes = arguments.set.clone();
     changes.extend(change);
     let mut scene = Scene::load(&arguments.scene, &changes)?;
+    let _simulating = Progress::uncounted("simulating");
     if let Some(record) = &arguments.record {
         scene.use_record(record)?;
     }

@@ -30,7 +30,7 @@ pub enum LongRunError {
         what: String,
     },
     /// Ctrl-C.
-    #[error("interrupted after {done} of {rows} rows; the same command with --resume goes on")]
+    #[error("{done} of {rows} rows are kept; the same command with --resume goes on")]
     Interrupted {
         /// Rows that are there.
         done: usize,
@@ -38,7 +38,7 @@ pub enum LongRunError {
         rows: usize,
     },
     /// Ctrl-C, where it is not known beforehand how many rows there will be.
-    #[error("interrupted after {done} rows; the same command with --resume goes on")]
+    #[error("{done} rows are kept; the same command with --resume goes on")]
     Stopped {
         /// Rows that are there.
         done: usize,

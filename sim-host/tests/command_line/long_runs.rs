@@ -103,7 +103,7 @@ fn control_c_leaves_what_is_finished() {
     assert!(sent.success());
     let ended = process.wait_with_output().unwrap();
     assert_eq!(ended.status.code(), Some(130));
-    assert!(said(&ended).contains("of 27000000 rows; the same command with --resume goes on"), "{}", said(&ended));
+    assert!(said(&ended).contains("of 27000000 rows are kept; the same command with --resume goes on"), "{}", said(&ended));
     assert!(folder.join("map.csv.unfinished").exists() && !folder.join("map.csv").exists());
 }
 
