@@ -180,7 +180,7 @@ fn studied(arguments: &CloudArguments, change: Option<String>, folder: &Path, in
         all.push(list.read(row, record)?);
         Ok(())
     })?;
-    interrupt.keep(resumable("the rows made so far", folder));
+    interrupt.keep(resumable("finished rows", folder));
     progress.begin((rows.done() + rows.left().len()) as u64);
     progress.resume(rows.done() as u64);
     let whole = list.work_through(rows.left(), interrupt, &|| progress.step(), |runs| {

@@ -182,7 +182,7 @@ fn run_or_fail(
         Ok(())
     })?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
-    interrupt.keep(resumable("the rows made so far", &folder));
+    interrupt.keep(resumable("finished rows", &folder));
     let progress = Progress::new("cells");
     let whole = pool.install(|| study_to(&mut rows, &grid, &labels, &mut tally, &progress, interrupt));
     progress.finish();

@@ -217,7 +217,7 @@ fn answered(
     } else {
         let origin = study_origin("optimise", &study, &records.records, MOST_ROWS)?;
         let mut tried = Tried::begin(folder, origin, arguments.rows.start(), problem.motions.len())?;
-        interrupt.keep(resumable("the rows made so far", folder));
+        interrupt.keep(resumable("finished rows", folder));
         match problem.solve(&mut tried, interrupt, &begin, &done) {
             Err(TriedError::Run(RunError::Interrupted)) => {
                 interrupt.keep(tried.interrupted());

@@ -8,6 +8,8 @@ mod long_runs;
 mod python;
 mod runs;
 mod studies;
+#[cfg(unix)]
+mod terminal;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -22,7 +24,7 @@ fn sprag(arguments: &[&str]) -> Output {
 /// Runs `sprag`, expects exit code 2 and one line that contains `words`, and that `out` holds no file.
 fn refused(arguments: &[&str], out: &Path, words: &[&str]) {
     let output = sprag(arguments);
-    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    let message = said(&output);
     assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
     assert_eq!(message.trim_end().lines().count(), 1, "one line: {message}");
     for word in words {
@@ -46,7 +48,13 @@ fn pulse(peak: f64) -> String {
     (0..=60).fold("# time_s,acc_g\n".to_owned(), |text, k| text + &sample(k))
 }
 
-/// What a run said on the side.
+/// What a run said on the side, without the lines of work that takes long on a busy machine.
 fn said(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
+    let number = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit() || c == ',');
+    let sign_of_life = |line: &str| {
+        let counted = line.strip_prefix("sprag: ").and_then(|line| line.split_once(" of "));
+        counted.is_some_and(|(count, rest)| number(count) && number(rest.split(' ').next().unwrap_or_default()))
+            || line.contains(" so far")
+    };
+    String::from_utf8_lossy(&output.stderr).split_inclusive('\n').filter(|line| !sign_of_life(line)).collect()
 }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::{SHORT_SCENE, pulse, scene, sprag};
+use super::{SHORT_SCENE, pulse, said, scene, sprag};
 
 #[test]
 fn sensitivity_does_not_depend_on_the_number_of_threads_and_names_a_bad_record() {
@@ -19,7 +19,7 @@ fn sensitivity_does_not_depend_on_the_number_of_threads_and_names_a_bad_record()
         let out = folder.path().join(threads);
         let line = ["sensitivity", &scene, "--threads", threads, "--out", out.to_str().unwrap(), "--records"];
         let output = sprag(&[&line[..], &[&records[0], &bad, &records[1]]].concat());
-        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        let message = said(&output);
         assert_eq!(output.status.code(), Some(2), "{message}");
         assert!(message.contains("bad.csv") && message.trim_end().lines().count() == 1, "{message}");
         out
@@ -49,7 +49,7 @@ fn cloud_does_not_depend_on_the_number_of_threads_and_names_a_bad_record() {
         let out = folder.path().join(threads);
         let line = ["cloud", &scene("cloud"), "--threads", threads, "--out", out.to_str().unwrap(), "--records"];
         let output = sprag(&[&line[..], &[records.to_str().unwrap()]].concat());
-        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        let message = said(&output);
         assert_eq!(output.status.code(), Some(2), "{message}");
         assert!(message.contains("bad.csv") && message.trim_end().lines().count() == 1, "{message}");
         out
@@ -119,7 +119,7 @@ fn an_optimisation_without_a_device_within_the_limit_writes_its_results_and_says
     fs::write(&study, format!("[optimise]\nlargest_force_ratio = 1e-4\n{keys}")).unwrap();
     let out = folder.path().join("out");
     let output = sprag(&["optimise", study.to_str().unwrap(), "--out", out.to_str().unwrap(), "--records", &records]);
-    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    let message = said(&output);
     assert_eq!(output.status.code(), Some(2), "{message}");
     assert!(
         message.contains("study.toml: no device respects max |F|/(mg) ≤ 0.0001 in every motion; results are written"),
