@@ -8,9 +8,11 @@ use tempfile::NamedTempFile;
 
 mod formats;
 mod picture;
+mod same_file;
 mod table;
 
 pub use formats::{Formats, FormatsError};
+pub use same_file::{is_at, is_standard_output, same_file};
 
 /// A result that could not be written.
 #[derive(Debug, thiserror::Error)]

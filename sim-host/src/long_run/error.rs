@@ -29,6 +29,14 @@ pub enum LongRunError {
         /// The first thing that is not the same.
         what: String,
     },
+    /// Rows that another program has changed while they were made.
+    #[error("{}: it is not as it was written: {reason}; give --restart to make its rows again", path.display())]
+    Changed {
+        /// Where they are.
+        path: PathBuf,
+        /// What says so.
+        reason: String,
+    },
     /// Ctrl-C.
     #[error("{done} of {rows} rows are kept; the same command with --resume goes on")]
     Interrupted {
@@ -76,5 +84,15 @@ pub enum LongRunError {
 impl LongRunError {
     pub(super) fn file(path: &Path, reason: &impl ToString) -> LongRunError {
         LongRunError::File { path: path.to_owned(), reason: reason.to_string() }
+    }
+
+    /// The error without the file that it names.
+    pub(super) fn reason(&self) -> String {
+        match self {
+            LongRunError::File { reason, .. } => reason.clone(),
+            LongRunError::BadRow { row, reason, .. } => format!("row {row}: {reason}"),
+            LongRunError::OtherRun { what, .. } => format!("{what} differs"),
+            other => other.to_string(),
+        }
     }
 }

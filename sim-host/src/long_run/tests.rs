@@ -122,7 +122,74 @@ fn rows_that_were_changed_are_refused() {
 #[test]
 fn two_processes_do_not_write_one_file() {
     let folder = tempfile::tempdir().unwrap();
+    let expected = whole(folder.path());
     let plan = plan(folder.path(), Shard::WHOLE, 1);
-    let _first = go_on(&plan, Start::New, 2).unwrap();
-    assert!(go_on(&plan, Start::Resume, 2).unwrap_err().to_string().contains("another process"));
+    let (mut first, _) = go_on(&plan, Start::New, 2).unwrap();
+    for start in [Start::New, Start::Resume, Start::Restart] {
+        let refused = go_on(&plan, start, 2).unwrap_err().to_string();
+        assert!(refused.contains("another process works on it"), "{start:?}: {refused}");
+    }
+    for row in first.left() {
+        first.append(format!("{row},\"row, {row}\"\n").as_bytes(), 1).unwrap();
+    }
+    assert_eq!(std::fs::read(first.finish().unwrap()).unwrap(), expected);
+}
+
+/// Whoever begins while another ends: the rows of each are its own, and the table is whole.
+#[test]
+fn runs_that_begin_and_end_together_do_not_mix() {
+    let folder = tempfile::tempdir().unwrap();
+    let expected = whole(folder.path());
+    let run = |start| {
+        let (rows, _) = go_on(&plan(folder.path(), Shard::WHOLE, 1), start, ROWS)?;
+        let finished = rows.finish()?;
+        Ok::<_, LongRunError>(std::fs::read(finished).unwrap())
+    };
+    for _ in 0..40 {
+        let runs = std::thread::scope(|scope| {
+            [Start::Restart, Start::Restart, Start::New]
+                .map(|start| scope.spawn(move || run(start)))
+                .map(|run| run.join().unwrap())
+        });
+        let mut finished = 0;
+        for run in runs {
+            match run {
+                Ok(bytes) => {
+                    assert_eq!(bytes, expected);
+                    finished += 1;
+                }
+                Err(error) => {
+                    let refused = error.to_string();
+                    assert!(["another process", "an interrupted run"].iter().any(|words| refused.contains(words)), "{refused}");
+                }
+            }
+        }
+        assert!(finished > 0);
+    }
+}
+
+#[test]
+fn a_file_that_is_not_as_it_was_written_is_not_finished() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("table.csv.unfinished");
+    let plan = plan(folder.path(), Shard::WHOLE, 1);
+    let text = || std::fs::read(&path).unwrap();
+    let write = |text: &[u8]| std::fs::write(&path, text).unwrap();
+    let changes: [(&dyn Fn(), &str); 4] = [
+        (&|| write(b""), "0 bytes for"),
+        (&|| write(&vec![0; text().len()]), "the heading differs"),
+        (&|| write(String::from_utf8(text()).unwrap().replace("row, 4", "\0\0\0\0\0\0").as_bytes()), "a zero byte"),
+        (&|| std::fs::rename(&path, folder.path().join("elsewhere")).unwrap(), "another file is in its place"),
+    ];
+    for (change, says) in changes {
+        let (rows, _) = go_on(&plan, Start::Restart, ROWS).unwrap();
+        change();
+        let refused = rows.finish().unwrap_err();
+        assert!(matches!(&refused, LongRunError::Changed { .. }), "{refused}");
+        assert!(refused.to_string().contains(says), "{refused}");
+        assert!(!folder.path().join("table.csv").exists());
+    }
+    // One that was cut short.
+    let (rows, _) = go_on(&plan, Start::Restart, ROWS - 1).unwrap();
+    assert!(rows.finish().unwrap_err().to_string().contains("11 rows for 12"));
 }
