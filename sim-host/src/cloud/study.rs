@@ -142,6 +142,11 @@ impl Study {
         self.reading = read_options(table, &self.structures[0].scene);
     }
 
+    /// What looks like a mistake in the scenes of its structures, in a line each ([`Scene::warnings`]).
+    pub fn warnings(&self) -> Vec<String> {
+        self.structures.iter().flat_map(|structure| structure.scene.warnings()).collect()
+    }
+
     /// Whether the measure titles of `structures` shall be those of the slender model: all of them have it.
     pub fn slender(&self) -> bool {
         self.structures.iter().all(|structure| structure.scene.geometry() == sprag_shared::block::Geometry::Slender)

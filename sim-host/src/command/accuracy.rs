@@ -7,7 +7,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::format_arguments::PictureArguments;
-use super::{ended, results_folder};
+use super::{ended, results_folder, warned};
 use crate::accuracy_study::board::{Board, BoardError};
 use crate::accuracy_study::figure::figures;
 use crate::accuracy_study::report::{page, write_csv};
@@ -88,6 +88,7 @@ struct Summary<'a> {
     command: &'static str,
     version: &'static str,
     scene: &'a SceneFile,
+    warnings: &'a [String],
     cells: u32,
     runs: Vec<RowText<'a>>,
 }
@@ -105,6 +106,7 @@ fn run_or_fail(
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
     let mut scene = Scene::load(&arguments.scene, &arguments.set)?;
+    let warnings = warned(scene.warnings(), err);
     if let Some(record) = &arguments.record {
         scene.use_record(record)?;
     }
@@ -129,6 +131,7 @@ fn run_or_fail(
         command: "accuracy",
         version: env!("CARGO_PKG_VERSION"),
         scene: &scene.file,
+        warnings: &warnings,
         cells: u32::from(arguments.cells) * u32::from(arguments.cells),
         runs: rows.iter().map(|row| row.text(&devices[row.device])).collect(),
     };

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::format_arguments::PictureArguments;
 use super::loop_scene::{LoopScene, LoopSceneError};
-use super::{DRAWING, ended, results_folder};
+use super::{DRAWING, ended, results_folder, warned};
 use crate::accuracy::AccuracyArguments;
 use crate::closed_loop::LoopFailure;
 use crate::closed_loop::answered::Looped;
@@ -79,6 +79,7 @@ struct Summary<'a> {
     command: &'static str,
     version: &'static str,
     scene: &'a SceneFile,
+    warnings: &'a [String],
     runs: &'a [LoopSummary],
 }
 
@@ -95,6 +96,8 @@ fn run_or_fail(
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
     let folder = results_folder(&arguments.scene, arguments.out.as_ref(), "loop");
+    let plain = Scene::load(&arguments.scene, &arguments.set).map_err(LoopSceneError::from)?;
+    let warnings = warned(plain.warnings(), err);
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
     let (desk, mut reports) = arguments.accuracy.run(|change| looped(arguments, change, &folder, interrupt), tell)?;
     let scene = &desk.scene;
@@ -106,7 +109,8 @@ fn run_or_fail(
     let drawing = Progress::uncounted(DRAWING);
     let summaries: Vec<LoopSummary> = reports.iter().map(|report| report.summary.clone()).collect();
     let file = desk.resolved(arguments.record.as_ref());
-    let summary = Summary { command: "loop", version: env!("CARGO_PKG_VERSION"), scene: &file, runs: &summaries };
+    let version = env!("CARGO_PKG_VERSION");
+    let summary = Summary { command: "loop", version, scene: &file, warnings: &warnings, runs: &summaries };
     results.add_json(&folder.join("summary.json"), &summary)?;
     results.add(&folder.join("history.csv"), |file| write_history(&reports, file).map_err(std::io::Error::other))?;
     for (number, report) in reports.iter().enumerate() {

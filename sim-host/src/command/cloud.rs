@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::format_arguments::FormatArguments;
 use super::study_input::{StudyArguments, StudyInputError, study_origin};
-use super::{DRAWING, ended, resumable};
+use super::{DRAWING, ended, resumable, warned};
 use crate::accuracy::{AccuracyArguments, Worst};
 use crate::cloud::figures::{demand_picture, fragility_picture};
 use crate::cloud::findings::Findings;
@@ -90,6 +90,7 @@ struct Document<'a> {
     version: &'static str,
     study: &'a StudyFile,
     structures: &'a [StudyStructure],
+    warnings: &'a [String],
     records: Vec<&'a str>,
     unreadable: &'a [String],
     #[serde(flatten)]
@@ -135,6 +136,7 @@ fn run_or_fail(
         return Err(LongRunError::NoRows { option }.into());
     }
     let folder = arguments.out.clone().unwrap_or_else(|| arguments.input.folder());
+    let warnings = warned(arguments.input.load(None)?.warnings(), err);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
     let studied = arguments.accuracy.run(|change| pool.install(|| studied(arguments, change, &folder, interrupt)), tell)?;
@@ -151,7 +153,7 @@ fn run_or_fail(
     if interrupt.is_set() {
         return Err(RunError::Interrupted.into());
     }
-    let complete = write(&studied, &findings, &folder, arguments.formats.formats, out, err)?;
+    let complete = write(&studied, &findings, &warnings, (&folder, arguments.formats.formats), out, err)?;
     drawing.finish();
     let _ = writeln!(out, "results of {} in {}", arguments.input.study.display(), folder.display());
     Ok(complete)
@@ -202,8 +204,8 @@ fn studied(arguments: &CloudArguments, change: Option<String>, folder: &Path, in
 fn write(
     studied: &Studied,
     findings: &Findings,
-    folder: &Path,
-    formats: Formats,
+    warnings: &[String],
+    (folder, formats): (&Path, Formats),
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> Result<bool, Failure> {
@@ -215,6 +217,7 @@ fn write(
         version,
         study: file,
         structures,
+        warnings,
         records: records.records.iter().map(|record| record.name.as_str()).collect(),
         unreadable: &records.unreadable,
         findings,

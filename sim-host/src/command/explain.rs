@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::BAD_INPUT;
+use super::{BAD_INPUT, warned};
 use crate::effect::explanation::{Effects, Explanation};
 use crate::scene::Scene;
 
@@ -35,6 +35,7 @@ pub fn run(arguments: &ExplainArguments, out: &mut impl Write, err: &mut impl Wr
             return BAD_INPUT;
         }
     };
+    warned(scene.warnings(), err);
     match write_scene(&scene, out) {
         // A reader that stops early, such as `head`, has what it wanted.
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {

@@ -11,7 +11,7 @@ use super::closed_loop::heading;
 use super::device_line::{LineArguments, connect};
 use super::format_arguments::PictureArguments;
 use super::loop_scene::{LoopScene, LoopSceneError};
-use super::{DRAWING, ended, results_folder};
+use super::{DRAWING, ended, results_folder, warned};
 use crate::accuracy::{AccuracyArguments, Closeness};
 use crate::closed_loop::answered::Looped;
 use crate::closed_loop::plant::Extremes;
@@ -26,6 +26,7 @@ use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, make_folder};
 use crate::plot::{PlotError, loop_figure};
 use crate::progress::Progress;
+use crate::scene::Scene;
 use crate::scene::schema::SceneFile;
 use crate::simulation::ErrorReport;
 
@@ -81,6 +82,7 @@ struct Summary<'a> {
     command: &'static str,
     version: &'static str,
     scene: &'a SceneFile,
+    warnings: &'a [String],
     runs: &'a [DeviceSummary],
 }
 
@@ -97,6 +99,8 @@ fn run_or_fail(
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
     let folder = results_folder(&arguments.scene, arguments.out.as_ref(), "hil");
+    let plain = Scene::load(&arguments.scene, &arguments.set).map_err(LoopSceneError::from)?;
+    let warnings = warned(plain.warnings(), err);
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
     let (desk, hosts) = arguments.accuracy.run(|change| on_host(arguments, change, &folder, interrupt), tell)?;
     let mut results = Results::default();
@@ -119,7 +123,8 @@ fn run_or_fail(
     }
     let drawing = Progress::uncounted(DRAWING);
     let file = desk.resolved(arguments.record.as_ref());
-    let summary = Summary { command: "hil", version: env!("CARGO_PKG_VERSION"), scene: &file, runs: &summaries };
+    let version = env!("CARGO_PKG_VERSION");
+    let summary = Summary { command: "hil", version, scene: &file, warnings: &warnings, runs: &summaries };
     results.add_json(&folder.join("summary.json"), &summary)?;
     results.add(&folder.join("history.csv"), |file| write_history(&reports, file).map_err(std::io::Error::other))?;
     results.add(&folder.join("device.csv"), |file| write_device_ticks(&ticks, file))?;

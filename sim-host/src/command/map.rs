@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::format_arguments::FormatArguments;
 use super::map_boundaries::{BoundarySummary, trace, write_boundary_table};
-use super::{DRAWING, ended, results_folder, resumable};
+use super::{DRAWING, ended, results_folder, resumable, warned};
 use crate::columns::{TableError, metadata_of};
 use crate::interrupt::Interrupt;
 use crate::long_run::arguments::LongRunArguments;
@@ -127,6 +127,7 @@ struct Summary<'a> {
     command: &'static str,
     version: &'static str,
     scene: &'a SceneFile,
+    warnings: &'a [String],
     runs: Vec<DeviceSummary<'a>>,
 }
 
@@ -161,6 +162,7 @@ fn run_or_fail(
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
     let grid = grid(arguments)?;
+    let warnings = warned(grid.scene.warnings(), err);
     let folder = results_folder(&arguments.scene, arguments.out.as_ref(), "map");
     make_folder(&folder)?;
     let mut file = grid.scene.file.clone();
@@ -205,7 +207,7 @@ fn run_or_fail(
     }
     let runs = tally.maps.iter().enumerate().map(|(device, map)| DeviceSummary::of(map, boundaries.get(device))).collect();
     let (command, version) = ("map", env!("CARGO_PKG_VERSION"));
-    let summary = Summary { command, version, scene: &file, runs };
+    let summary = Summary { command, version, scene: &file, warnings: &warnings, runs };
     let made_by = metadata_of(&MadeBy { command, version, scene: &file })?;
     let formats = arguments.formats.formats;
     let mut results = Results::default();

@@ -55,6 +55,18 @@ fn resumable(rows: &str, place: &Path) -> String {
     format!("{rows} are kept in {}; the same command with --resume goes on", place.display())
 }
 
+/// Writes `warnings` to `err`, each once and in a line of its own, and hands those on for `summary.json`.
+fn warned(warnings: impl IntoIterator<Item = String>, err: &mut impl Write) -> Vec<String> {
+    let mut told: Vec<String> = Vec::new();
+    for warning in warnings {
+        if !told.contains(&warning) {
+            let _ = writeln!(err, "sprag: warning: {warning}");
+            told.push(warning);
+        }
+    }
+    told
+}
+
 /// The exit code of a command whose `result` is whether all is well; what ended it otherwise goes to `err` in one line.
 fn ended<E: Display>(result: Result<bool, E>, interrupt: &Interrupt, err: &mut impl Write) -> i32 {
     match result {

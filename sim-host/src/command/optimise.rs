@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::format_arguments::FormatArguments;
 use super::study_input::{StudyArguments, StudyInputError, study_origin};
-use super::{DRAWING, ended, resumable};
+use super::{DRAWING, ended, resumable, warned};
 use crate::accuracy::{AccuracyArguments, Worst};
 use crate::cloud::records::StudyRecords;
 use crate::cloud::structures::StudyStructure;
@@ -95,6 +95,7 @@ struct Document<'a> {
     version: &'static str,
     study: Resolved<'a>,
     structure: &'a StudyStructure,
+    warnings: &'a [String],
     curves: &'a [Curve],
     records: Vec<&'a str>,
     unreadable: &'a [String],
@@ -155,6 +156,7 @@ fn run_or_fail(
         return Err(LongRunError::NoRows { option }.into());
     }
     let folder = arguments.out.clone().unwrap_or_else(|| arguments.input.folder());
+    let warnings = warned(arguments.input.load(None)?.warnings(), err);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
     let answered = arguments.accuracy.run(|change| pool.install(|| answered(arguments, change, &folder, interrupt)), tell)?;
@@ -166,7 +168,7 @@ fn run_or_fail(
         return Err(RunError::Interrupted.into());
     }
     let left_out = [&problem.choices.left_out[..], &problem.left_out, &solution.failures].concat();
-    write(&answered, &problem, &findings, &left_out, (&folder, arguments.formats.formats), err)?;
+    write(&answered, &problem, &findings, (&left_out, &warnings), (&folder, arguments.formats.formats), err)?;
     drawing.finish();
     tell_all(&problem, &findings, out);
     for line in &records.unreadable {
@@ -240,7 +242,7 @@ fn write(
     Answered { study, records, solution, .. }: &Answered,
     problem: &Problem<'_>,
     findings: &Findings,
-    left_out: &[String],
+    (left_out, warnings): (&[String], &[String]),
     (folder, formats): (&Path, Formats),
     err: &mut impl Write,
 ) -> Result<(), Failure> {
@@ -258,6 +260,7 @@ fn write(
             optimise: &choices.table,
         },
         structure: choices.structure,
+        warnings,
         curves: &choices.curves,
         records: records.records.iter().map(|record| record.name.as_str()).collect(),
         unreadable: &records.unreadable,

@@ -7,7 +7,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::format_arguments::PictureArguments;
-use super::{DRAWING, ended, results_folder};
+use super::{DRAWING, ended, results_folder, warned};
 use crate::accuracy::{AccuracyArguments, Worst};
 use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, make_folder};
@@ -85,6 +85,7 @@ struct Document<'a> {
     command: &'static str,
     version: &'static str,
     scene: &'a SceneFile,
+    warnings: &'a [String],
     records: Vec<&'a str>,
     runs: &'a [Summary],
     left_out: &'a [String],
@@ -105,12 +106,13 @@ fn run_or_fail(
     err: &mut impl Write,
     interrupt: &Interrupt,
 ) -> Result<bool, Failure> {
+    let warnings = warned(Scene::load(&arguments.scene, &arguments.set)?.warnings(), err);
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
     let studied = arguments.accuracy.run(|change| studied(arguments, change, interrupt), tell)?;
     for error in &studied.errors {
         let _ = writeln!(err, "sprag: {error}");
     }
-    write(arguments, &studied, out, err)?;
+    write(arguments, &studied, &warnings, out, err)?;
     for error in &studied.findings.failed {
         let _ = writeln!(err, "sprag: {error}");
     }
@@ -182,7 +184,13 @@ fn records(arguments: &SensitivityArguments, scene: &Scene) -> Result<Vec<Record
 }
 
 /// Writes the results.
-fn write(arguments: &SensitivityArguments, studied: &Studied, out: &mut impl Write, err: &mut impl Write) -> Result<(), Failure> {
+fn write(
+    arguments: &SensitivityArguments,
+    studied: &Studied,
+    warnings: &[String],
+    out: &mut impl Write,
+    err: &mut impl Write,
+) -> Result<(), Failure> {
     let Studied { scene, study, motions, folder, findings, .. } = studied;
     let drawing = Progress::uncounted(DRAWING);
     let runs = summaries(findings, motions, &study.devices);
@@ -194,6 +202,7 @@ fn write(arguments: &SensitivityArguments, studied: &Studied, out: &mut impl Wri
         command: "sensitivity",
         version: env!("CARGO_PKG_VERSION"),
         scene: &scene.file,
+        warnings,
         records: records.clone(),
         runs: &runs,
         left_out: &left_out,

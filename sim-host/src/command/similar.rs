@@ -8,7 +8,7 @@ use serde::Serialize;
 use sprag_shared::error::ParameterError;
 
 use super::format_arguments::PictureArguments;
-use super::{ended, results_folder};
+use super::{ended, results_folder, warned};
 use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, make_folder};
 use crate::plot::{Chart, ChartPanel, Line, PlotError, Scale, chart_figure};
@@ -77,6 +77,7 @@ struct Summary<'a> {
     command: &'static str,
     version: &'static str,
     scene: &'a SceneFile,
+    warnings: &'a [String],
     blocks: Vec<BlockSummary<'a>>,
 }
 
@@ -122,6 +123,7 @@ fn run_or_fail(
         progress.step();
     }
     progress.finish();
+    let warnings = warned(blocks.iter().flat_map(|block| block.scene.warnings()), err);
     let figure = figure(&blocks)?;
     make_folder(&folder)?;
     let first = &blocks[0];
@@ -135,7 +137,8 @@ fn run_or_fail(
         runs: block.runs.iter().enumerate().map(|(device, run)| RunSummary { run, departure: of(block, device) }).collect(),
     });
     let version = env!("CARGO_PKG_VERSION");
-    let summary = Summary { command: "similar", version, scene: &first.scene.file, blocks: summaries.collect() };
+    let summary =
+        Summary { command: "similar", version, scene: &first.scene.file, warnings: &warnings, blocks: summaries.collect() };
     let mut results = Results::default();
     results.add_json(&folder.join("summary.json"), &summary)?;
     results.add(&folder.join("similar.csv"), |file| write_csv(&blocks, file))?;

@@ -7,7 +7,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::format_arguments::PictureArguments;
-use super::{DRAWING, ended};
+use super::{DRAWING, ended, warned};
 use crate::accuracy::AccuracyArguments;
 use crate::history::{History, write_csv};
 use crate::interrupt::Interrupt;
@@ -75,6 +75,7 @@ struct Summary<'a> {
     command: &'static str,
     version: &'static str,
     scene: &'a SceneFile,
+    warnings: &'a [String],
     runs: &'a [DeviceRun],
 }
 
@@ -94,6 +95,7 @@ fn run_or_fail(
         let name = arguments.scene.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_os_string());
         Path::new("out").join(name)
     });
+    let warnings = warned(Scene::load(&arguments.scene, &arguments.set)?.warnings(), err);
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
     let (scene, mut runs) = arguments.accuracy.run(|change| simulated(arguments, change, &folder, interrupt), tell)?;
     let drawing = Progress::uncounted(DRAWING);
@@ -111,7 +113,8 @@ fn run_or_fail(
             table.file = Some(record.clone());
         }
     }
-    let summary = Summary { command: "simulate", version: env!("CARGO_PKG_VERSION"), scene: &file, runs: &runs };
+    let version = env!("CARGO_PKG_VERSION");
+    let summary = Summary { command: "simulate", version, scene: &file, warnings: &warnings, runs: &runs };
     let formats = arguments.pictures.formats();
     let mut results = Results::default();
     results.add_json(&folder.join("summary.json"), &summary)?;

@@ -11,7 +11,7 @@ use super::ticks::{round_ticks, tick_text};
 const WIDTH_PX: f64 = 900.0;
 const MARGIN_PX: f64 = 12.0;
 /// Left of the axis, for effects and variants.
-const LABELS_PX: f64 = 280.0;
+const LABELS_PX: f64 = 395.0;
 /// Where variants start, right of their effects.
 const VARIANT_PX: f64 = 96.0;
 /// Right of the axis, for one column of counts.

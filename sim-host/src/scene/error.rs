@@ -1,6 +1,6 @@
 //! What can be wrong with a scene.
 
-use sprag_shared::error::ParameterError;
+use sprag_shared::error::{Number, ParameterError};
 
 /// A scene that cannot be read, in one line.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -77,13 +77,13 @@ pub struct Key {
 impl Key {
     /// `value` is outside `range`.
     pub fn range(self, value: f64, range: &str) -> SceneError {
-        SceneError::Range { origin: self.origin, key: self.key, value: value.to_string(), range: range.to_owned() }
+        SceneError::Range { origin: self.origin, key: self.key, value: Number(value).to_string(), range: range.to_owned() }
     }
 
     /// A parameter below this key is outside its range.
     pub fn parameter(self, error: &ParameterError) -> SceneError {
         let key = format!("{}: {}", self.key, error.parameter);
-        SceneError::Range { origin: self.origin, key, value: error.value.to_string(), range: error.range.to_owned() }
+        SceneError::Range { origin: self.origin, key, value: Number(error.value).to_string(), range: error.range.to_owned() }
     }
 
     /// Something is needed here.

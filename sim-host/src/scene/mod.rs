@@ -13,6 +13,7 @@ pub mod overrides;
 mod plain_block;
 pub mod schema;
 pub mod sensors;
+mod warnings;
 pub mod weight;
 
 use std::path::{Path, PathBuf};

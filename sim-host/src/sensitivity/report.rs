@@ -5,7 +5,7 @@ use std::io;
 use super::motion::StudyMotion;
 use super::statistics::{OwnMotion, Quantiles, Summary};
 use super::study::{Findings, Flip, ROCKS_FROM};
-use super::variants::VARIANTS;
+use super::variants::{VARIANTS, Variant};
 
 /// Columns of the table.
 pub const COLUMNS: [&str; 9] = [
@@ -60,11 +60,30 @@ pub fn page(title: &str, summaries: &[Summary], records: usize, left_out: &[Stri
          reaches {ROCKS_FROM} α (their number: rocking). The last columns count records that change the outcome.\n\n"
     );
     page += &table(summaries);
+    page += &settings(summaries);
     if !left_out.is_empty() {
         page += "\nLeft out:\n\n";
         for line in left_out {
             page += &format!("- {line}\n");
         }
+    }
+    page
+}
+
+/// What each variant of the table sets, as `--set` has it, with `N` for the number of the device.
+fn settings(summaries: &[Summary]) -> String {
+    let used = |variant: &&Variant| {
+        let of = |summary: &Summary| (summary.effect, summary.variant) == (variant.effect, variant.name);
+        summaries.iter().any(of)
+    };
+    let mut page =
+        String::from("\nWhat each variant sets (flywheels with a speed of their own also move by consistent kinematics):\n\n");
+    for variant in VARIANTS.iter().filter(used) {
+        let keys = variant.changes.iter().map(|change| format!("`{change}`"));
+        let of_pair = variant.of_pair.iter().map(|change| format!("`{change}` (clutched pair)"));
+        let vertical = variant.vertical.then(|| "`[[vertical]]`".to_owned());
+        let all: Vec<String> = vertical.into_iter().chain(keys).chain(of_pair).collect();
+        page += &format!("- {}: {}\n", variant.label(), all.join(", "));
     }
     page
 }

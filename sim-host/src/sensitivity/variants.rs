@@ -7,7 +7,7 @@ use crate::scene::device::Kind;
 pub struct Variant {
     /// The effect's name in [`crate::effect::EFFECTS`]; "together" for several.
     pub effect: &'static str,
-    /// What it is set to, for tables and pictures.
+    /// What it is set to, for tables and pictures: everything that is turned on, and whether a fraction is one of the block's mass or weight.
     pub name: &'static str,
     /// The kinds of devices that it is for.
     pub kinds: &'static [Kind],
@@ -32,7 +32,7 @@ const fn variant(effect: &'static str, name: &'static str, kinds: &'static [Kind
 
 /// All of them, in the order of the registry of effects.
 ///
-/// - Losses: 0.05 m/s² at the rack, with a mass ratio of 0.5 a force of 0.0025 m g, is a train of gears with seals (plain rolling
+/// - Losses ("bearings"): 0.05 m/s² at the rack, with a mass ratio of 0.5 a force of 0.0025 m g, is a train of gears with seals (plain rolling
 ///   bearings have a tenth of it); 0.05 1/s is windage, a flywheel that coasts for 20 s. A brake of 10 m/s² stops one from 1 m/s
 ///   within 0.1 s.
 /// - Clutches: a tenth of the block's weight is about the largest force of the ideal device, a fiftieth makes it slip. 1e4 m p²
@@ -49,18 +49,18 @@ pub const VARIANTS: [Variant; 21] = [
     variant("impact", "geometric restitution", EVERY, &["block.restitution=geometric"]),
     variant("impact", "momentum balance", EVERY, &["block.restitution=momentum-balance"]),
     variant("kinematics", "consistent", INERTERS, &["device.N.kinematics=consistent"]),
-    variant("weight", "guided rack 0.01 m", INERTERS, &["device.N.weight={ flywheels_ratio = 0.02, rack_ratio = 0.01 }"]),
+    variant("weight", "guided rack, 0.01 × block mass", INERTERS, &["device.N.weight={ rack_ratio = 0.01 }"]),
     variant(
         "weight",
-        "flywheels 0.02 m on the block",
+        "flywheels on the block, 0.02 × its mass",
         INERTERS,
         &["device.N.weight={ flywheels_ratio = 0.02, flywheels_on = \"block\" }"],
     ),
-    variant("rack", "dry friction 0.01 m g", INERTERS, &["device.N.rack={ dry_friction_ratio = 0.01 }"]),
+    variant("rack", "dry friction, 0.01 × block weight", INERTERS, &["device.N.rack={ dry_friction_ratio = 0.01 }"]),
     variant("rack", "viscous 0.05 1/s", INERTERS, &["device.N.rack={ viscous_1_s = 0.05 }"]),
     variant(
         "engagement",
-        "rigid, brake 10 m/s²",
+        "rigid, bearings, brake 10 m/s²",
         PAIR,
         &[
             "device.N.engagement=rigid",
@@ -69,7 +69,7 @@ pub const VARIANTS: [Variant; 21] = [
     ),
     variant(
         "engagement",
-        "rigid, instant brake",
+        "rigid, bearings, instant brake",
         PAIR,
         &[
             "device.N.engagement=rigid",
@@ -78,21 +78,31 @@ pub const VARIANTS: [Variant; 21] = [
     ),
     variant(
         "engagement",
-        "overrunning, no brake",
+        "overrunning, bearings, no brake",
         PAIR,
         &["device.N.engagement=overrunning", "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05 }"],
     ),
-    variant("clutch", "capacity 0.1 m g", PAIR, &["device.N.clutch={ capacity_ratio = 0.1 }", INSTANT_BRAKE]),
-    variant("clutch", "capacity 0.02 m g", PAIR, &["device.N.clutch={ capacity_ratio = 0.02 }", INSTANT_BRAKE]),
     variant(
         "clutch",
-        "elastic, K = 1e4 m p²",
+        "capacity 0.1 × block weight, instant brake",
+        PAIR,
+        &["device.N.clutch={ capacity_ratio = 0.1 }", INSTANT_BRAKE],
+    ),
+    variant(
+        "clutch",
+        "capacity 0.02 × block weight, instant brake",
+        PAIR,
+        &["device.N.clutch={ capacity_ratio = 0.02 }", INSTANT_BRAKE],
+    ),
+    variant(
+        "clutch",
+        "elastic, K = 1e4 m p², ζ = 0.1, instant brake",
         PAIR,
         &["device.N.clutch={ stiffness_ratio = 1e4, damping_ratio = 0.1 }", INSTANT_BRAKE],
     ),
     variant(
         "clutch",
-        "elastic, 1 mm backlash",
+        "K = 1e4 m p², ζ = 0.1, 1 mm backlash, instant brake",
         PAIR,
         &["device.N.clutch={ stiffness_ratio = 1e4, damping_ratio = 0.1, backlash_m = 0.001 }", INSTANT_BRAKE],
     ),
@@ -173,6 +183,35 @@ mod tests {
                 let brought = ["flywheel", "kinematics"];
                 assert!(others.iter().all(|name| brought.contains(name)), "{}: {others:?}", variant.label());
             }
+        }
+    }
+
+    #[test]
+    fn a_label_says_all_that_its_variant_sets_and_no_mass_reads_as_metres() {
+        let said = [
+            ("brake_deceleration_m_s2 = 10", "brake 10 m/s²"),
+            ("brake_deceleration_m_s2 = \"instant\"", "instant brake"),
+            ("viscous_rate_1_s", "bearings"),
+            ("capacity_ratio = 0.1 ", "capacity 0.1 × block weight"),
+            ("capacity_ratio = 0.02", "capacity 0.02 × block weight"),
+            ("stiffness_ratio = 1e4", "K = 1e4 m p²"),
+            ("damping_ratio = 0.1", "ζ = 0.1"),
+            ("backlash_m = 0.001", "1 mm backlash"),
+            ("rack_ratio = 0.01", "0.01 × block mass"),
+            ("flywheels_ratio = 0.02", "flywheels"),
+            ("flywheels_on = \"block\"", "on the block"),
+            ("dry_friction_ratio = 0.01", "0.01 × block weight"),
+            ("engagement=rigid", "rigid"),
+            ("engagement=overrunning", "overrunning"),
+        ];
+        // What is together is listed key by key beside the table.
+        for variant in VARIANTS.iter().filter(|variant| variant.effect != "together") {
+            let changes = variant.changes.join("; ");
+            for (_, words) in said.iter().filter(|(key, _)| changes.contains(key)) {
+                assert!(variant.name.contains(words), "{}: {changes}", variant.name);
+            }
+            let reads_as_metres = variant.name.contains(" m g") || variant.name.ends_with(" m") || variant.name.contains(" m on");
+            assert!(!reads_as_metres, "{}", variant.name);
         }
     }
 
