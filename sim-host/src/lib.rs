@@ -23,6 +23,7 @@ pub mod command;
 pub mod device;
 pub mod effect;
 pub mod ground_motion;
+pub mod heading;
 pub mod history;
 pub mod interrupt;
 pub mod long_run;

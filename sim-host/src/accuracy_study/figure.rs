@@ -43,7 +43,7 @@ fn front(rows: &[Row], device: usize) -> Line {
 
 fn chart(title: &str, x_title: &str, panels: Vec<ChartPanel>) -> Option<Result<String, PlotError>> {
     let columns = panels.len().min(2);
-    let chart = Chart { title: title.to_owned(), x_title: x_title.to_owned(), x: Scale::Logarithmic, panels, columns };
+    let chart = Chart { title: title.into(), x_title: x_title.to_owned(), x: Scale::Logarithmic, panels, columns };
     (!chart.panels.is_empty()).then(|| chart_figure(&chart))
 }
 

@@ -203,7 +203,7 @@ fn figure(blocks: &[Block]) -> Result<String, PlotError> {
             .collect(),
     };
     chart_figure(&Chart {
-        title: first.scene.file.title.clone(),
+        title: first.scene.file.title.as_str().into(),
         x_title: "*p t*".to_owned(),
         x: Scale::Linear,
         panels: (0..first.runs.len()).map(panel).collect(),

@@ -103,7 +103,7 @@ pub fn ideal_limit(progress: &Progress, conditions: &Conditions<'_>) -> Result<R
     panel.lines.push(Line { name: "order 1".to_owned(), points: guide, marks: false, guide: true });
     report.table("ideal-limit", table);
     let chart = Chart {
-        title: "Closed loop against the ideal pair".to_owned(),
+        title: "Closed loop against the ideal pair".into(),
         x_title: "control period (s)".to_owned(),
         x: Scale::Logarithmic,
         panels: vec![panel],

@@ -108,6 +108,7 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
                     note: format!("{} of {cells}", overturned(results)),
                     columns: CELLS,
                     rows: CELLS,
+                    parts: 1,
                     cells: results.iter().map(|result| Cell::from(result.outcome).class()).collect(),
                     curves: Vec::new(),
                 });
@@ -117,7 +118,7 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
         report.section(name);
         report.table(&format!("laws-{}", number + 1), table);
         let maps = CellMaps {
-            title: format!("Overturning by clutch law, {name}"),
+            title: format!("Overturning by clutch law, {name}").into(),
             classes: Class::outcomes(),
             scales: (Scale::Linear, Scale::Linear),
             x_title: "ω_g/*p*".to_owned(),

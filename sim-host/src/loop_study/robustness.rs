@@ -167,7 +167,7 @@ pub fn robustness(records: &[Motion], progress: &Progress, conditions: &Conditio
             lines: vec![line("median size", median), line("95th percentile", high)],
         };
         let (title, x_title, x) = (sweep.heading.to_owned(), sweep.axis.to_owned(), sweep.scale);
-        let chart = Chart { title, x_title, x, panels: vec![panel], columns: 1 };
+        let chart = Chart { title: title.into(), x_title, x, panels: vec![panel], columns: 1 };
         report.figure(&name, sweep.heading, chart_figure(&chart)?);
     }
     Ok(report)

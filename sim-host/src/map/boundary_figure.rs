@@ -1,11 +1,13 @@
-//! Boundaries as curves over the regions that the grid knows, small multiples a device.
+//! Boundaries as curves around the regions that they divide a map into, small multiples a device.
 
 use sprag_shared::math;
 
-use super::boundaries::Boundaries;
+use super::boundaries::{Boundaries, Boundary};
 use super::figures::small_multiples;
 use super::grid::{Grid, Values};
+use super::regions::{Piece, regions};
 use super::tally::Tally;
+use crate::ensemble::pulsed::PulseResult;
 use crate::outcome::Outcome;
 use crate::plot::{Cell, Class, MapCurve, PlotError, cell_map_figure};
 use crate::scene::map::{AxisTable, ScaleName};
@@ -26,15 +28,25 @@ const PAIRS: [(Outcome, Outcome, &str); 6] = [
 /// [`PlotError`].
 pub fn figure(grid: &Grid, tally: &Tally, all: &[Boundaries]) -> Result<Option<String>, PlotError> {
     let Some(y) = &grid.map.y else { return Ok(None) };
-    let class = |result: &crate::ensemble::pulsed::PulseResult| Cell::from(result.outcome).class();
-    let mut figure = small_multiples(grid, y, tally, "boundaries", Class::pale_outcomes(), class);
+    let class = |outcome: Outcome| Cell::from(outcome).class();
+    let mut figure =
+        small_multiples(grid, y, tally, "boundaries", Class::pale_outcomes(), |result: &PulseResult| class(result.outcome));
     figure.curves = PAIRS.map(|(_, _, name)| name.to_owned()).to_vec();
-    for (map, of_device) in figure.maps.iter_mut().zip(all) {
+    // Of more cells than that the picture shows no steps.
+    let all_shown = tally.columns.count() == grid.columns() && tally.rows.count() == grid.rows();
+    for ((map, of_device), cells) in figure.maps.iter_mut().zip(all).zip(&tally.maps) {
         map.note = match of_device.unresolved {
             0 => String::new(),
-            squares => format!("{squares} squares left coarser"),
+            squares => format!("coarser than the tolerance in {squares} squares"),
         };
         map.curves = curves(grid, y, of_device);
+        if all_shown {
+            let outcomes: Vec<Outcome> = cells.shown.iter().map(|result| result.outcome).collect();
+            let divided = regions(&outcomes, grid.columns(), &pieces(grid, y, of_device));
+            (map.columns, map.rows) = (grid.columns() * divided.parts, grid.rows() * divided.parts);
+            map.parts = divided.parts;
+            map.cells = divided.outcomes.into_iter().map(class).collect();
+        }
     }
     Ok(Some(cell_map_figure(&figure)?))
 }
@@ -42,12 +54,27 @@ pub fn figure(grid: &Grid, tally: &Tally, all: &[Boundaries]) -> Result<Option<S
 /// The boundaries of a device on the scales of the axes.
 fn curves(grid: &Grid, y: &AxisTable, of_device: &Boundaries) -> Vec<MapCurve> {
     let point = |values: &Values| (on_scale(&grid.map.x, values.0), on_scale(y, values.1.unwrap_or_default()));
-    let curve = |boundary: &super::boundaries::Boundary| {
+    let curve = |boundary: &Boundary| {
         let pair = (boundary.left.min(boundary.right), boundary.left.max(boundary.right));
         let kind = PAIRS.iter().position(|(one, other, _)| (*one, *other) == pair)?;
         Some(MapCurve { kind, points: boundary.vertices.iter().map(point).collect() })
     };
     of_device.boundaries.iter().filter_map(curve).collect()
+}
+
+/// The boundaries of a device in straight pieces, in cells from the first.
+fn pieces(grid: &Grid, y: &AxisTable, of_device: &Boundaries) -> Vec<Piece> {
+    let place = |axis: &AxisTable, value: f64| {
+        let [first, last, value] = [axis.value(0), axis.value(axis.cells - 1), value].map(|value| on_scale(axis, value));
+        (value - first) / (last - first) * (axis.cells - 1) as f64
+    };
+    let point = |values: &Values| (place(&grid.map.x, values.0), place(y, values.1.unwrap_or_default()));
+    let of_boundary = |boundary: &Boundary| {
+        let (left, right) = (boundary.left, boundary.right);
+        let piece = |pair: &[Values]| Piece { from: point(&pair[0]), to: point(&pair[1]), left, right };
+        boundary.vertices.windows(2).map(piece).collect::<Vec<_>>()
+    };
+    of_device.boundaries.iter().flat_map(of_boundary).collect()
 }
 
 fn on_scale(axis: &AxisTable, value: f64) -> f64 {

@@ -2,12 +2,13 @@
 
 use sprag_shared::math;
 
-use super::axis::{pulse, title};
 use super::grid::Grid;
 use super::tally::{DeviceMap, Shown, Tally};
 use crate::ensemble::pulsed::PulseResult;
+use crate::heading;
+use crate::heading::axis_title;
 use crate::plot::{
-    Cell, CellMap, CellMaps, Chart, ChartPanel, Class, Line, PlotError, Scale, band, cell_map_figure, chart_figure,
+    Cell, CellMap, CellMaps, Chart, ChartPanel, Class, FigureTitle, Line, PlotError, Scale, band, cell_map_figure, chart_figure,
 };
 use crate::scene::map::{AxisTable, ScaleName};
 
@@ -69,16 +70,15 @@ pub(super) fn small_multiples(
     classes: Vec<Class>,
     class: impl Fn(&PulseResult) -> usize,
 ) -> CellMaps {
-    let heading = [heading(grid), what.to_owned()];
     let cells = grid.columns() * grid.rows();
     let note = |map: &DeviceMap| format!("{} of {cells} overturn", map.counts.overturned());
     CellMaps {
-        title: joined(heading, ": "),
+        title: title(grid, what),
         classes,
         scales: (scale(&grid.map.x), scale(y)),
-        x_title: title(&grid.scene, &grid.map.x.key),
+        x_title: axis_title(&grid.scene, &grid.map.x.key),
         x: ends(&grid.map.x, &tally.columns),
-        y_title: title(&grid.scene, &y.key),
+        y_title: axis_title(&grid.scene, &y.key),
         y: ends(y, &tally.rows),
         maps: tally
             .maps
@@ -88,6 +88,7 @@ pub(super) fn small_multiples(
                 note: note(map),
                 columns: tally.columns.count(),
                 rows: tally.rows.count(),
+                parts: 1,
                 cells: map.shown.iter().map(&class).collect(),
                 curves: Vec::new(),
             })
@@ -97,14 +98,15 @@ pub(super) fn small_multiples(
     }
 }
 
-/// The scene's title and its pulse: one picture is told from another of the same scene.
-fn heading(grid: &Grid) -> String {
-    joined([grid.scene.file.title.clone(), pulse(&grid.scene, &grid.map)], ", ")
-}
-
-/// The parts that have something to say.
-fn joined(parts: [String; 2], between: &str) -> String {
-    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(between)
+/// The scene's title and what the picture shows, and below it what no axis sets: one picture is told from another of the same scene.
+fn title(grid: &Grid, what: &str) -> FigureTitle {
+    let (last_column, last_row) = (grid.columns() - 1, grid.rows() - 1);
+    let corners = [(0, 0), (last_column, 0), (0, last_row), (last_column, last_row)];
+    // The grid has made them all before; what holds at the corners holds between them.
+    let corners: Vec<_> = corners.into_iter().filter_map(|(column, row)| grid.scene_of(column, row).ok()).collect();
+    let parts = [grid.scene.file.title.as_str(), what];
+    let text = parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(": ");
+    FigureTitle { text, conditions: heading::of_scenes(&corners) }
 }
 
 /// Peaks along the only axis, a line a device, broken where the block overturns.
@@ -132,8 +134,8 @@ fn cut(grid: &Grid, tally: &Tally) -> Result<String, PlotError> {
         .map(|(y_title, peak)| ChartPanel { y_title: y_title.to_owned(), lines: lines(peak), ..ChartPanel::default() })
         .collect();
     chart_figure(&Chart {
-        title: heading(grid),
-        x_title: title(&grid.scene, &grid.map.x.key),
+        title: title(grid, ""),
+        x_title: axis_title(&grid.scene, &grid.map.x.key),
         x: scale(&grid.map.x),
         panels,
         columns: 1,

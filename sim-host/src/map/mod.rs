@@ -4,13 +4,13 @@
 //! [`crate::ensemble`]; any other scene is simulated cell by cell. [`study`] runs them, [`tally`] is what is kept of them in memory, [`table`] and
 //! [`figures`] show them. [`boundaries`] are where outcomes change, found by [`refine`]; [`boundary_table`] and [`boundary_figure`] show those.
 
-pub mod axis;
 pub mod boundaries;
 pub mod boundary_figure;
 pub mod boundary_table;
 pub mod figures;
 pub mod grid;
 pub mod refine;
+mod regions;
 pub mod study;
 pub mod table;
 pub mod tally;

@@ -1,13 +1,14 @@
 //! Small multiples of maps: classes of cells over a grid of two parameters.
 
-use super::PlotError;
 use super::cell::Class;
-use super::layer::{Text, document, escape, units, write_rect};
-use super::legend::{BOLD_WIDTH, Key, Swatch, wrapped, write_heading};
+use super::layer::{document, units, write_rect};
+use super::legend::{Key, Swatch, write_heading};
 use super::map_curve::{MapCurve, curve_key, write_curves};
-use super::palette::{GROUND, hex};
+use super::palette::hex;
 use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
+use super::panel_heading::Heading;
 use super::ticks::Scale;
+use super::{FigureTitle, PlotError};
 
 const MARGIN_PX: f64 = 10.0;
 /// Wider on the right, where half of the last tick label sticks out.
@@ -18,8 +19,8 @@ const GAP_PX: f64 = 14.0;
 const ROW_PX: f64 = 900.0;
 const SMALLEST_MAP_PX: f64 = 110.0;
 const LARGEST_MAP_PX: f64 = 360.0;
-const FONT_PX: f64 = 11.0;
-const LINE_PX: f64 = 14.0;
+/// Between labels of neighbouring maps (px).
+const LABELS_APART_PX: f64 = 8.0;
 
 /// One map.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +33,8 @@ pub struct CellMap {
     pub columns: usize,
     /// Rows of cells.
     pub rows: usize,
+    /// Cells along either axis that divide one of those whose middles the axes speak of; 1 where they are the same.
+    pub parts: usize,
     /// Numbers of classes, row by row from the lowest, each from the left.
     pub cells: Vec<usize>,
     /// Curves over the cells.
@@ -41,8 +44,8 @@ pub struct CellMap {
 /// A figure of maps over the same two axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CellMaps {
-    /// Heading of the figure.
-    pub title: String,
+    /// What stands above the figure.
+    pub title: FigureTitle,
     /// What cells may be, in the order of the legend.
     pub classes: Vec<Class>,
     /// How the two axes are divided.
@@ -74,15 +77,19 @@ pub struct CellMaps {
 /// increase; an axis of a single cell may have two equal values.
 pub fn cell_map_figure(maps: &CellMaps) -> Result<String, PlotError> {
     if maps.maps.is_empty() {
-        return Err(PlotError::NothingToDraw { title: maps.title.clone() });
+        return Err(PlotError::NothingToDraw { title: maps.title.text.clone() });
     }
     for map in &maps.maps {
         check(map, maps)?;
     }
     let columns = maps.columns.clamp(1, maps.maps.len());
-    let map_px = (ROW_PX / columns as f64 - GAP_PX).clamp(SMALLEST_MAP_PX, LARGEST_MAP_PX).floor();
+    let map_px = |gap_px: f64| (ROW_PX / columns as f64 - gap_px).clamp(SMALLEST_MAP_PX, LARGEST_MAP_PX).floor();
     let left_px = MARGIN_PX + LEFT_LABELS_PX;
-    let row_px = columns as f64 * (map_px + GAP_PX) - GAP_PX;
+    // Labels at the ends of neighbouring axes keep clear of each other.
+    let overhang_px = maps.panel(&maps.maps[0], (left_px, 0.0), map_px(GAP_PX)).overhang_px();
+    let gap_px = (overhang_px.0 + overhang_px.1 + LABELS_APART_PX).max(GAP_PX).ceil();
+    let map_px = map_px(gap_px);
+    let row_px = columns as f64 * (map_px + gap_px) - gap_px;
     // Room for title and legend over a single small map.
     let width_px = left_px + row_px.max(LARGEST_MAP_PX) + RIGHT_MARGIN_PX;
 
@@ -97,44 +104,37 @@ pub fn cell_map_figure(maps: &CellMaps) -> Result<String, PlotError> {
     let groups: Vec<Vec<Key>> = [keys, curve_keys].into_iter().filter(|keys| !keys.is_empty()).collect();
     let mut top_px = write_heading(&mut body, &maps.title, &groups, (left_px, width_px - left_px - RIGHT_MARGIN_PX), MARGIN_PX);
 
-    let headings: Vec<Vec<String>> = maps.maps.iter().map(|map| wrapped(&map.title, BOLD_WIDTH * map_px, FONT_PX)).collect();
-    let noted = |row: &[CellMap]| row.iter().any(|map| !map.note.is_empty());
-    let heading_px: Vec<f64> = headings
-        .chunks(columns)
-        .zip(maps.maps.chunks(columns))
-        .map(|(lines, row)| (lines.iter().map(Vec::len).max().unwrap_or(0) + usize::from(noted(row))) as f64 * LINE_PX + 4.0)
-        .collect();
-    let rows_px: f64 = heading_px.iter().map(|heading| heading + map_px + GAP_PX).sum();
+    let headings: Vec<Heading> =
+        maps.maps.iter().map(|map| Heading::of(&map.title, std::slice::from_ref(&map.note), map_px)).collect();
+    let heading_px = |row: &[Heading]| row.iter().map(Heading::height_px).fold(0.0, f64::max) + 4.0;
+    let rows_px: f64 = headings.chunks(columns).map(|row| heading_px(row) + map_px + GAP_PX).sum();
     let height_px = top_px + rows_px - GAP_PX + BOTTOM_LABELS_PX + 4.0;
-    let canvas = (units(width_px) as u32, units(height_px) as u32);
 
-    for (row, (row_maps, heading)) in maps.maps.chunks(columns).zip(heading_px).enumerate() {
-        top_px += heading;
+    for (row, (row_maps, row_headings)) in maps.maps.chunks(columns).zip(headings.chunks(columns)).enumerate() {
+        top_px += heading_px(row_headings);
         for (column, map) in row_maps.iter().enumerate() {
             let index = row * columns + column;
-            let left_px = left_px + column as f64 * (map_px + GAP_PX);
-            let mut baseline = top_px - 6.0;
-            if noted(row_maps) {
-                let note = escape(&map.note);
-                Text { colour: GROUND, ..Text::new(&note, (left_px, baseline), FONT_PX) }.write(&mut body, false);
-                baseline -= LINE_PX;
-            }
-            for line in headings[index].iter().rev() {
-                let text = Text::new(line, (left_px, baseline), FONT_PX);
-                Text { attributes: " font-weight=\"bold\"", ..text }.write(&mut body, false);
-                baseline -= LINE_PX;
-            }
-            let (x, y) = (edges(maps.x, map.columns), edges(maps.y, map.rows));
-            let panel = Panel::new((left_px, top_px), (map_px, map_px), x.0..x.1, y.0..y.1);
-            let panel = Panel { title: (column == 0).then_some(&maps.y_title), scales: maps.scales, ..panel };
+            let left_px = left_px + column as f64 * (map_px + gap_px);
+            row_headings[column].write(&mut body, (left_px, top_px - 6.0));
+            let panel = maps.panel(map, (left_px, top_px), map_px);
+            let panel = Panel { title: (column == 0).then_some(&maps.y_title), ..panel };
             write_cells(&mut body, &panel, map, &maps.classes);
             write_curves(&mut body, &panel, &map.curves, maps.curves.len());
             let last = index + columns >= maps.maps.len();
-            panel.write_frame(&mut body, canvas, last.then_some(&maps.x_title))?;
+            panel.write_frame(&mut body, last.then_some(&maps.x_title));
         }
         top_px += map_px + GAP_PX;
     }
-    Ok(document(&maps.title, (width_px, height_px), &body))
+    Ok(document(&maps.title.text, (width_px, height_px), &body))
+}
+
+impl CellMaps {
+    /// The panel of `map`, `side_px` wide and high, without a title.
+    fn panel(&self, map: &CellMap, corner_px: (f64, f64), side_px: f64) -> Panel<'_> {
+        let (x, y) = (edges(self.x, map.columns / map.parts), edges(self.y, map.rows / map.parts));
+        let panel = Panel::new(corner_px, (side_px, side_px), x.0..x.1, y.0..y.1);
+        Panel { scales: self.scales, ends: Some((self.x, self.y)), ..panel }
+    }
 }
 
 /// Refuses what cannot be drawn.
@@ -143,14 +143,16 @@ fn check(map: &CellMap, maps: &CellMaps) -> Result<(), PlotError> {
     if map.cells.len() != expected {
         return Err(PlotError::WrongLength { name: map.title.clone(), found: map.cells.len(), expected });
     }
-    if expected == 0 || map.cells.iter().any(|class| *class >= maps.classes.len()) {
+    if expected == 0 || map.parts == 0 || map.cells.iter().any(|class| *class >= maps.classes.len()) {
         return Err(PlotError::NothingToDraw { title: map.title.clone() });
     }
     let points = map.curves.iter().flat_map(|curve| &curve.points);
     if points.flat_map(|point| [point.0, point.1]).any(|value| !value.is_finite()) {
         return Err(PlotError::NotFiniteValue { name: map.title.clone() });
     }
-    for (title, (first, last), count) in [(&maps.x_title, maps.x, map.columns), (&maps.y_title, maps.y, map.rows)] {
+    for (title, (first, last), count) in
+        [(&maps.x_title, maps.x, map.columns / map.parts), (&maps.y_title, maps.y, map.rows / map.parts)]
+    {
         // The square root keeps differences finite too.
         if ![first, last].iter().all(|value| value.abs() < f64::MAX.sqrt()) {
             return Err(PlotError::NotFiniteValue { name: title.clone() });
@@ -219,7 +221,7 @@ fn write_cells(svg: &mut String, panel: &Panel<'_>, map: &CellMap, classes: &[Cl
 mod tests {
     use super::*;
     use crate::plot::Cell;
-    use crate::plot::synthetic::assert_well_formed;
+    use crate::plot::synthetic::{assert_texts_apart, assert_well_formed};
 
     fn map(title: &str, columns: usize, rows: usize) -> CellMap {
         let cell = |index: usize| match (index % columns + index / columns, index % columns) {
@@ -229,12 +231,12 @@ mod tests {
             _ => Cell::Overturns,
         };
         let cells = (0..columns * rows).map(|index| cell(index).class()).collect();
-        CellMap { title: title.to_owned(), note: "1 of <2>".to_owned(), columns, rows, cells, curves: Vec::new() }
+        CellMap { title: title.to_owned(), note: "1 of <2>".to_owned(), columns, rows, parts: 1, cells, curves: Vec::new() }
     }
 
     fn maps(count: usize, columns: usize) -> CellMaps {
         CellMaps {
-            title: "A & B".to_owned(),
+            title: "A & B".into(),
             classes: Class::outcomes(),
             scales: (Scale::Linear, Scale::Linear),
             x_title: "ω/*p*".to_owned(),
@@ -274,6 +276,33 @@ mod tests {
         one.maps[0].cells.fill(Cell::Stands.class());
         let svg = cell_map_figure(&one).unwrap();
         assert!(svg.contains("rocks and stands") && !svg.contains("overturns"));
+    }
+
+    #[test]
+    fn no_texts_collide_whatever_the_axes() {
+        let linear = [(0.2, 8.0), (5.0, 40.0), (0.0, 0.1), (-0.013, 0.97), (1.0, 1.000_01), (12_345.6, 98_765.4)];
+        let logarithmic = [(-2.0, 1.0), (0.3_f64.log10(), 8.0_f64.log10()), (-6.0, 7.0), (0.1, 0.15), (-0.01, 1.99)];
+        let spans = |scale: Scale| if scale == Scale::Linear { &linear[..] } else { &logarithmic[..] };
+        for (count, columns, cells) in [(1, 1, 8), (2, 2, 3), (3, 3, 20), (7, 7, 2)] {
+            for scales in
+                [Scale::Linear, Scale::Logarithmic].into_iter().flat_map(|x| [(x, Scale::Linear), (x, Scale::Logarithmic)])
+            {
+                for (index, &x) in spans(scales.0).iter().enumerate() {
+                    let y = spans(scales.1)[(index + count) % spans(scales.1).len()];
+                    let mut figure = CellMaps { scales, x, y, ..maps(count, columns) };
+                    figure.x_title = "viscous friction of the rack over mass of a long-named clutched pair (1/s)".to_owned();
+                    figure.y_title = "mass of the flywheels over that of the block of clutched pair 2".to_owned();
+                    figure.title.conditions = vec!["*a*_g = 8 *g* tan α".to_owned(); 12];
+                    figure.maps = (0..count).map(|index| map(&format!("a clutched pair, {index}"), cells, cells)).collect();
+                    for map in &mut figure.maps {
+                        map.note = "26,214 of 40,000 overturn".to_owned();
+                    }
+                    let svg = cell_map_figure(&figure).unwrap();
+                    assert_well_formed(&svg);
+                    assert_texts_apart(&svg);
+                }
+            }
+        }
     }
 
     #[test]

@@ -2,13 +2,13 @@
 
 use sprag_shared::math;
 
-use super::PlotError;
 use super::curve::write_curve;
 use super::layer::{Text, document, units, write_disc};
 use super::legend::{BOLD_WIDTH, Key, MARK_PX, Swatch, wrapped, write_heading};
 use super::palette::{Stroke, device_look, guide_stroke};
 use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
 use super::ticks::{Scale, axis_range};
+use super::{FigureTitle, PlotError};
 
 const MARGIN_PX: f64 = 10.0;
 /// Wider on the right, where half of the last tick label sticks out.
@@ -50,8 +50,8 @@ pub struct ChartPanel {
 /// A figure of panels in rows.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Chart {
-    /// Heading of the figure.
-    pub title: String,
+    /// What stands above the figure.
+    pub title: FigureTitle,
     /// Title of the horizontal axis. In axis titles `*x*` is italic, `_x` one subscript character, `'` a dot and `''` two dots over
     /// the symbol before.
     pub x_title: String,
@@ -72,7 +72,7 @@ pub struct Chart {
 /// # Errors
 /// [`PlotError`] without panels, when no point of the figure or of a panel can be shown, and for numbers that are not finite.
 pub fn chart_figure(chart: &Chart) -> Result<String, PlotError> {
-    let nothing = || PlotError::NothingToDraw { title: chart.title.clone() };
+    let nothing = || PlotError::NothingToDraw { title: chart.title.text.clone() };
     let mut panels: Vec<Vec<Vec<(f64, f64)>>> = Vec::new();
     for panel in &chart.panels {
         panels.push(panel.lines.iter().map(|line| shown(line, chart.x, panel.y)).collect::<Result<_, _>>()?);
@@ -126,7 +126,7 @@ pub fn chart_figure(chart: &Chart) -> Result<String, PlotError> {
         }
         top_px += panel_height_px + TICK_LABELS_PX;
     }
-    Ok(document(&chart.title, (width_px, height_px), &body))
+    Ok(document(&chart.title.text, (width_px, height_px), &body))
 }
 
 /// The points of `line` on the panel's scales: those that it can show.
@@ -209,7 +209,7 @@ mod tests {
             lines: vec![line("a & <b>", 2), line("fourth order", 4), guide.clone()],
         };
         Chart {
-            title: "A <title>".to_owned(),
+            title: "A <title>".into(),
             x_title: "steps".to_owned(),
             x: scale,
             panels: ["one", "two & a half", "three"].map(panel).to_vec(),

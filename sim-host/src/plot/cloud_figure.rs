@@ -108,7 +108,7 @@ pub fn cloud_figure(figure: &CloudFigure) -> Result<String, PlotError> {
     let left_px = MARGIN_PX + LEFT_LABELS_PX;
     let mut body = String::new();
     let area = (left_px, width_px - left_px - RIGHT_MARGIN_PX);
-    let mut top_px = write_heading(&mut body, &figure.title, &figure.keys(), area, MARGIN_PX) + 4.0;
+    let mut top_px = write_heading(&mut body, &figure.title.as_str().into(), &figure.keys(), area, MARGIN_PX) + 4.0;
 
     // plotters cuts off what lies beyond its canvas, so the height comes first.
     let headings: Vec<Heading> =

@@ -6,13 +6,14 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::{Cartesian2d, Polygon, SVGBackend};
 use plotters::style::{Color, RGBColor};
 
-use super::PlotError;
 use super::curve::write_curve;
 use super::decimate::decimate;
-use super::layer::{Anchor, Text, document, escape, plotters_layer, text_of, text_width_px, units, write_rect};
+use super::layer::{Anchor, Text, document, escape, plotters_layer, text_of, units, write_rect};
 use super::legend::write_heading;
 use super::palette::{FLYWHEEL_TINTS, GROUND, GUIDE, INK, Stroke, device_look, hex};
 use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
+use super::text_width::text_width_px;
+use super::{FigureTitle, PlotError};
 use crate::simulation::DeviceRun;
 use crate::simulation::energy::Shares;
 
@@ -73,7 +74,8 @@ fn supply(shares: &Shares) -> f64 {
 ///
 /// # Errors
 /// [`PlotError`] when no run has a ledger, without a time span, and for numbers that are not finite or out of time order.
-pub fn energy_figure(title: &str, runs: &[DeviceRun]) -> Result<String, PlotError> {
+pub fn energy_figure(title: impl Into<FigureTitle>, runs: &[DeviceRun]) -> Result<String, PlotError> {
+    let title = title.into();
     if runs.iter().all(|run| run.energy.is_none()) {
         return Err(PlotError::NoHistories);
     }
@@ -89,7 +91,7 @@ pub fn energy_figure(title: &str, runs: &[DeviceRun]) -> Result<String, PlotErro
 
     let (left_px, width_px) = (MARGIN_PX + LEFT_LABELS_PX, WIDTH_PX - MARGIN_PX - LEFT_LABELS_PX - RIGHT_MARGIN_PX);
     let mut body = String::new();
-    let heading_px = write_heading(&mut body, title, &[], (left_px, width_px), MARGIN_PX);
+    let heading_px = write_heading(&mut body, &title, &[], (left_px, width_px), MARGIN_PX);
     let mut top_px = write_legend(&mut body, &ledgers, &layers, (left_px, width_px), heading_px - 4.0);
 
     let height_px = top_px + runs.len() as f64 * (NAME_PX + PANEL_PX) + BOTTOM_LABELS_PX + 4.0;
@@ -119,7 +121,7 @@ pub fn energy_figure(title: &str, runs: &[DeviceRun]) -> Result<String, PlotErro
         }
         top_px += PANEL_PX;
     }
-    Ok(document(title, (WIDTH_PX, height_px), &body))
+    Ok(document(&title.text, (WIDTH_PX, height_px), &body))
 }
 
 /// Refuses numbers that cannot be drawn.

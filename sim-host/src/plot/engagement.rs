@@ -3,9 +3,10 @@
 use plotters::style::RGBColor;
 
 use super::device_trace::DeviceTrace;
-use super::layer::{Anchor, Text, text_width_px, units, write_rect};
+use super::layer::{Anchor, Text, units, write_rect};
 use super::palette::{FLYWHEEL_TINTS, hex};
 use super::panel::Panel;
+use super::text_width::text_width_px;
 
 /// Impact marks a device may show before they are thinned out.
 const MOST_MARKS: usize = 60;

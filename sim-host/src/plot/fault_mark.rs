@@ -1,8 +1,9 @@
 //! Faults over time: vertical lines with their texts above the panels.
 
-use super::layer::{Text, text_width_px, units};
+use super::layer::{Text, units};
 use super::legend::shortened;
 use super::palette::{FAULT, Stroke, hex};
+use super::text_width::text_width_px;
 
 const FAULT_FONT_PX: f64 = 10.5;
 /// Height of a row of texts above the panels (px).

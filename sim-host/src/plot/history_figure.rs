@@ -9,7 +9,7 @@ use super::legend::{device_keys, write_heading};
 use super::palette::{GROUND, Stroke};
 use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel, scale_around_zero};
 use super::time_axis::time_span;
-use super::{PlotError, TimeAxis};
+use super::{FigureTitle, PlotError, TimeAxis};
 use crate::history::History;
 
 const WIDTH_PX: f64 = 760.0;
@@ -35,7 +35,8 @@ const ROTATION_PANEL_PX: f64 = 184.0;
 ///
 /// [`PlotError`] without responses, without a time span, for numbers that are not finite, for samples out of time
 /// order, and for a block without positive slenderness and frequency parameter.
-pub fn history_figure(title: &str, histories: &[History], axes: TimeAxis) -> Result<String, PlotError> {
+pub fn history_figure(title: impl Into<FigureTitle>, histories: &[History], axes: TimeAxis) -> Result<String, PlotError> {
+    let title = title.into();
     if histories.is_empty() {
         return Err(PlotError::NoHistories);
     }
@@ -50,7 +51,7 @@ pub fn history_figure(title: &str, histories: &[History], axes: TimeAxis) -> Res
 
     let area = (MARGIN_PX + LEFT_LABELS_PX, WIDTH_PX - MARGIN_PX - LEFT_LABELS_PX - RIGHT_MARGIN_PX);
     let mut body = String::new();
-    let heading_px = write_heading(&mut body, title, &device_keys(&traces), area, MARGIN_PX);
+    let heading_px = write_heading(&mut body, &title, &device_keys(&traces), area, MARGIN_PX);
 
     let values = |pick: fn(&DeviceTrace) -> &[(f64, f64)]| {
         traces.iter().flat_map(move |trace| {
@@ -104,7 +105,7 @@ pub fn history_figure(title: &str, histories: &[History], axes: TimeAxis) -> Res
         }
     }
 
-    Ok(document(title, (WIDTH_PX, height_px), &body))
+    Ok(document(&title.text, (WIDTH_PX, height_px), &body))
 }
 
 #[cfg(test)]

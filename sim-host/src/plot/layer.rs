@@ -66,64 +66,6 @@ pub(super) fn escape(text: &str) -> String {
     escaped
 }
 
-/// Width of `text` in pixels at `font_px`: an estimate, since no font is at hand; common sans-serif fonts need less.
-pub(super) fn text_width_px(text: &str, font_px: f64) -> f64 {
-    text.chars().map(|c| if c < '\u{1100}' { 0.54 } else { 1.0 }).sum::<f64>() * font_px
-}
-
-// How the text after a subscript or a dot finds its place again.
-const UP_FROM_SUBSCRIPT: &str = " dy=\"-0.19em\"";
-const UP_AND_ON_FROM_SUBSCRIPT: &str = " dx=\"0.3em\" dy=\"-0.19em\"";
-const BACK_FROM_DOT: &str = " dx=\"0.14em\" dy=\"0.8em\"";
-const BACK_FROM_TWO_DOTS: &str = " dx=\"0.02em\" dy=\"0.8em\"";
-
-/// A formula from plain markup: `*x*` italic, `_x` one subscript character, `_{xyz}` several, `'` a dot and `''` two dots
-/// over the symbol before them.
-///
-/// The dot is a full stop moved back and up by fractions of the font size, because fonts place combining dots badly.
-pub(super) fn formula(markup: &str) -> String {
-    let mut svg = String::new();
-    let mut italic = false;
-    let mut return_shift = "";
-    let mut characters = markup.chars().peekable();
-    while let Some(character) = characters.next() {
-        match character {
-            '*' => {
-                svg.push_str(if italic { "</tspan>" } else { "<tspan font-style=\"italic\">" });
-                italic = !italic;
-            }
-            '_' => {
-                let subscript: String = match characters.next() {
-                    Some('{') => characters.by_ref().take_while(|character| *character != '}').collect(),
-                    other => other.unwrap_or(' ').to_string(),
-                };
-                let subscript = escape(&subscript);
-                svg.push_str(&format!("<tspan dy=\"0.25em\" font-size=\"75%\">{subscript}</tspan>"));
-                return_shift = UP_FROM_SUBSCRIPT;
-            }
-            '\'' if characters.next_if_eq(&'\'').is_some() => {
-                svg.push_str("<tspan dx=\"-0.56em\" dy=\"-0.8em\">..</tspan>");
-                return_shift = BACK_FROM_TWO_DOTS;
-            }
-            '\'' => {
-                svg.push_str("<tspan dx=\"-0.45em\" dy=\"-0.8em\">.</tspan>");
-                return_shift = BACK_FROM_DOT;
-            }
-            // A space at the start of an element would be dropped, so it becomes a shift.
-            ' ' if return_shift == UP_FROM_SUBSCRIPT => return_shift = UP_AND_ON_FROM_SUBSCRIPT,
-            other if return_shift.is_empty() => svg.push_str(&escape(&other.to_string())),
-            other => {
-                svg.push_str(&format!("<tspan{return_shift}>{}</tspan>", escape(&other.to_string())));
-                return_shift = "";
-            }
-        }
-    }
-    if italic {
-        svg.push_str("</tspan>");
-    }
-    svg
-}
-
 /// Where a text starts from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Anchor {
@@ -138,7 +80,7 @@ pub(super) enum Anchor {
 /// A text element: ready-made SVG `content` at a baseline position in pixels.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Text<'a> {
-    /// Escaped text or the output of [`formula`].
+    /// Escaped text or the output of [`super::formula::formula`].
     pub content: &'a str,
     /// Baseline position (px).
     pub at: (f64, f64),
@@ -216,19 +158,6 @@ mod tests {
     #[test]
     fn escape_leaves_no_markup() {
         assert_eq!(escape("a<b>&\"c\"\u{1}"), "a&lt;b&gt;&amp;&quot;c&quot; ");
-    }
-
-    #[test]
-    fn formulas_balance_their_tags() {
-        for markup in ["*a*_g (g)", "*t*_{uni} (s)", "_{open", "θ'/(*p*α)", "θ''/(*p*²α)", "*F*/(*mg*)", "plain", "*open", "_"]
-        {
-            let svg = formula(markup);
-            assert_eq!(svg.matches("<tspan").count(), svg.matches("</tspan>").count(), "{svg}");
-        }
-        assert_eq!(formula("time (s)"), "time (s)");
-        assert!(formula("θ''").contains(">..<") && formula("θ'").contains(">.<"));
-        assert!(formula("a_<").contains("&lt;"));
-        assert!(formula("*t*_{u<i}").ends_with(">u&lt;i</tspan>"));
     }
 
     #[test]

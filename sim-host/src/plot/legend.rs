@@ -2,12 +2,16 @@
 
 use plotters::style::RGBColor;
 
+use super::FigureTitle;
 use super::device_trace::DeviceTrace;
-use super::layer::{Text, escape, text_width_px, units, write_area, write_disc, write_rect};
+use super::formula::{formula, formula_width_px};
+use super::layer::{Text, escape, units, write_area, write_disc, write_rect};
 use super::marker::{Marker, write_chosen};
-use super::palette::{DeviceLook, FLYWHEEL_TINTS, INK, Stroke, hex};
+use super::palette::{DeviceLook, FLYWHEEL_TINTS, GROUND, INK, Stroke, hex};
+use super::text_width::text_width_px;
 
 const TITLE_FONT_PX: f64 = 14.0;
+const CONDITIONS_FONT_PX: f64 = 12.0;
 const FONT_PX: f64 = 11.0;
 const ROW_PX: f64 = 17.0;
 const SWATCH_PX: f64 = 30.0;
@@ -17,7 +21,7 @@ const GAP_PX: f64 = 14.0;
 pub(super) const MARK_PX: f64 = 2.6;
 
 /// Part of a width that [`wrapped`] may use for bold text, which is wider.
-pub(super) const BOLD_WIDTH: f64 = 0.92;
+pub(super) const BOLD_WIDTH: f64 = 0.87;
 
 /// A legend entry: what it looks like and its name.
 pub(super) type Key = (Swatch, String);
@@ -55,19 +59,24 @@ pub(super) enum Swatch {
 
 /// Appends title and legend from `top_px` down, over the width from `left_px`; returns the lower edge (px).
 ///
-/// Every group of entries starts a row of its own.
+/// What holds in all of the figure stands below the title, and every group of entries starts a row of its own.
 pub(super) fn write_heading(
     svg: &mut String,
-    title: &str,
+    title: &FigureTitle,
     groups: &[Vec<Key>],
     (left_px, width_px): (f64, f64),
     top_px: f64,
 ) -> f64 {
     let mut y = top_px;
-    for line in wrapped(title, width_px, TITLE_FONT_PX) {
+    for line in wrapped(&title.text, BOLD_WIDTH * width_px, TITLE_FONT_PX) {
         y += TITLE_FONT_PX + 4.0;
         let text = Text::new(&line, (left_px, y - 4.0), TITLE_FONT_PX);
         Text { attributes: " font-weight=\"bold\"", ..text }.write(svg, false);
+    }
+    for line in lines_of(&title.conditions, width_px) {
+        y += CONDITIONS_FONT_PX + 5.0;
+        let content = formula(&line);
+        Text { colour: GROUND, ..Text::new(&content, (left_px, y - 4.0), CONDITIONS_FONT_PX) }.write(svg, false);
     }
     y += 4.0;
     for entries in groups {
@@ -214,6 +223,21 @@ pub(super) fn shortened(text: &str, width_px: f64) -> String {
         kept.pop();
     }
     format!("{}…{}", escape(kept.trim_end()), escape(tail))
+}
+
+/// Lines of the formulas `conditions`, broken between them.
+fn lines_of(conditions: &[String], width_px: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for condition in conditions {
+        match lines.last_mut() {
+            Some(line) if formula_width_px(&format!("{line}, {condition}"), CONDITIONS_FONT_PX) <= width_px => {
+                line.push_str(", ");
+                line.push_str(condition);
+            }
+            _ => lines.push(condition.clone()),
+        }
+    }
+    lines
 }
 
 /// Lines of `title`, broken at spaces; a single word may still be too wide.

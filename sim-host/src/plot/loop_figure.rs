@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use super::PlotError;
 use super::curve::write_curve;
 use super::fault_mark::{FAULT_ROW_PX, fault_places, fault_stroke, write_faults};
 use super::lane::{LANES_PX, LAW, write_flywheels, write_lanes};
@@ -10,6 +9,7 @@ use super::layer::{document, units};
 use super::legend::{Key, Swatch, write_heading};
 use super::palette::{FLYWHEEL_BARS, FLYWHEEL_TINTS, GROUND, Stroke, device_look};
 use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel, scale_around_zero};
+use super::{FigureTitle, PlotError};
 
 const WIDTH_PX: f64 = 760.0;
 const MARGIN_PX: f64 = 10.0;
@@ -71,7 +71,8 @@ pub struct LoopTrace {
 ///
 /// # Errors
 /// [`PlotError`] for vectors of different lengths, without a time span, for numbers that are not finite and times out of order.
-pub fn loop_figure(title: &str, trace: &LoopTrace) -> Result<String, PlotError> {
+pub fn loop_figure(title: impl Into<FigureTitle>, trace: &LoopTrace) -> Result<String, PlotError> {
+    let title = title.into();
     check(trace)?;
     let (Some(&start), Some(&end)) = (trace.time.first(), trace.time.last()) else {
         return Err(PlotError::EmptyTimeSpan);
@@ -89,7 +90,7 @@ pub fn loop_figure(title: &str, trace: &LoopTrace) -> Result<String, PlotError> 
     let host: Vec<(f64, f64)> = trace.rotation_host.iter().copied().filter(|point| inside(point.0)).collect();
     let mut body = String::new();
     let keys = keys(trace, !ideal.is_empty(), !marks.is_empty());
-    let heading_px = write_heading(&mut body, title, &keys, (left_px, width_px), MARGIN_PX);
+    let heading_px = write_heading(&mut body, &title, &keys, (left_px, width_px), MARGIN_PX);
 
     let places = fault_places(&marks, left_px + width_px);
     let fault_rows = places.iter().flatten().map(|place| place.1 + 1).max().unwrap_or(0);
@@ -118,7 +119,7 @@ pub fn loop_figure(title: &str, trace: &LoopTrace) -> Result<String, PlotError> 
         panel.write_axes(&mut body, canvas, None)?;
     }
     write_lanes(&mut body, &lane_panel, trace);
-    lane_panel.write_frame(&mut body, canvas, Some("time (s)"))?;
+    lane_panel.write_frame(&mut body, Some("time (s)"));
     write_faults(&mut body, &marks, (first_px, lane_panel.bottom_px()), &places);
 
     let curves: [(&Panel<'_>, &[f64], Stroke); 6] = [
@@ -135,7 +136,7 @@ pub fn loop_figure(title: &str, trace: &LoopTrace) -> Result<String, PlotError> 
         write_curve(&mut body, canvas, panel, &points, stroke)?;
     }
     write_curve(&mut body, canvas, &rotation_panel, &ideal, ideal_stroke())?;
-    Ok(document(title, (WIDTH_PX, height_px), &body))
+    Ok(document(&title.text, (WIDTH_PX, height_px), &body))
 }
 
 fn true_stroke() -> Stroke {

@@ -2,6 +2,7 @@
 //!
 //! plotters draws axes and curves; clip, dash patterns, tints and formula labels are SVG around its output. [`png()`] makes dots of it.
 
+mod axis_ticks;
 mod cell;
 mod cell_map;
 mod chart;
@@ -12,6 +13,8 @@ mod device_trace;
 mod energy_figure;
 mod engagement;
 mod fault_mark;
+mod figure_title;
+mod formula;
 mod ground;
 mod history_figure;
 mod lane;
@@ -24,11 +27,11 @@ mod palette;
 mod panel;
 mod panel_heading;
 mod png;
-mod round_scale;
 mod rug;
 mod sensitivity_figure;
 #[cfg(test)]
 mod synthetic;
+mod text_width;
 mod ticks;
 mod time_axis;
 mod trade_off_figure;
@@ -38,6 +41,8 @@ pub use cell_map::{CellMap, CellMaps, cell_map_figure};
 pub use chart::{Chart, ChartPanel, Line, chart_figure};
 pub use cloud_figure::{BandPoint, CloudFigure, CloudPanel, CloudSeries, cloud_figure};
 pub use energy_figure::energy_figure;
+pub use figure_title::FigureTitle;
+pub use formula::literal;
 pub use history_figure::history_figure;
 pub use loop_figure::{LoopTrace, loop_figure};
 pub use map_curve::MapCurve;

@@ -2,14 +2,15 @@
 
 use std::ops::Range;
 
-use plotters::prelude::{ChartBuilder, IntoFont, LabelAreaPosition, PathElement, SVGBackend, ShapeStyle};
-use plotters::style::{Color, IntoTextStyle};
+use plotters::prelude::{PathElement, SVGBackend, ShapeStyle};
+use plotters::style::Color;
 
 use super::PlotError;
-use super::layer::{Anchor, Text, formula, plotters_layer, text_of, units};
+use super::axis_ticks::{Axis, Label, TICK_FONT_PX, Way};
+use super::formula::{formula, formula_width_px};
+use super::layer::{Anchor, Text, plotters_layer, text_of, units};
 use super::palette::{GUIDE, INK, hex};
-use super::round_scale::RoundScale;
-use super::ticks::{Scale, decade_texts, decade_ticks, round_ticks, tick_text};
+use super::ticks::Scale;
 
 /// Space left of a panel for tick labels and the axis title (px).
 pub(super) const LEFT_LABELS_PX: f64 = 62.0;
@@ -25,14 +26,12 @@ const TICK_DISTANCE_PX: f64 = 28.0;
 const LABEL_WIDTH_PX: f64 = 42.0;
 /// Most labels of the horizontal axis.
 const MOST_LABELS: usize = 8;
-/// From ticks to their labels, where plotters has it too (px).
+/// From ticks to their labels (px).
 const LABEL_GAP_PX: (f64, f64) = (6.0, 8.0);
-const TICK_FONT_PX: f64 = 11.0;
+/// Width of a label of the vertical axis that its title leaves (px).
+const LEFT_LABEL_PX: f64 = 34.0;
 const TITLE_FONT_PX: f64 = 13.0;
 const FRAME_PX: f64 = 0.8;
-
-// plotters writes 1/1.24 of the size it is given.
-const PLOTTERS_FONT_FACTOR: f64 = 1.24;
 
 /// A panel of the figure.
 #[derive(Debug, Clone)]
@@ -51,6 +50,8 @@ pub(super) struct Panel<'a> {
     pub y: Range<f64>,
     /// How the two axes are divided.
     pub scales: (Scale, Scale),
+    /// First and last values of both axes that have a meaning: they are labelled, and no tick lies beyond.
+    pub ends: Option<((f64, f64), (f64, f64))>,
     /// Title of the vertical axis, in the markup of [`formula`]; without one, its ticks have no labels either.
     pub title: Option<&'a str>,
     /// Whether the vertical axis has ticks.
@@ -64,7 +65,7 @@ impl Panel<'_> {
     pub(super) fn new(corner_px: (f64, f64), size_px: (f64, f64), x: Range<f64>, y: Range<f64>) -> Self {
         let ((left_px, top_px), (width_px, height_px)) = (corner_px, size_px);
         let scales = (Scale::Linear, Scale::Linear);
-        Self { left_px, top_px, width_px, height_px, x, y, scales, title: None, y_ticks: true, guides: &[] }
+        Self { left_px, top_px, width_px, height_px, x, y, scales, ends: None, title: None, y_ticks: true, guides: &[] }
     }
 
     /// Position of a data point in pixels.
@@ -88,25 +89,25 @@ impl Panel<'_> {
     /// empty.
     pub(super) fn write_axes(&self, svg: &mut String, canvas: (u32, u32), x_title: Option<&str>) -> Result<(), PlotError> {
         self.write_guides(svg, canvas)?;
-        self.write_frame(svg, canvas, x_title)
+        self.write_frame(svg, x_title);
+        Ok(())
     }
 
     /// Appends frame, ticks and titles, as [`Self::write_axes`] does.
-    pub(super) fn write_frame(&self, svg: &mut String, canvas: (u32, u32), x_title: Option<&str>) -> Result<(), PlotError> {
-        svg.push_str(&self.axes(canvas, x_title.is_some())?);
-        self.write_decades(svg, x_title.is_some());
+    pub(super) fn write_frame(&self, svg: &mut String, x_title: Option<&str>) {
+        self.write_edge(svg);
+        self.write_ticks(svg, x_title.is_some());
 
         if let Some(title) = self.title.filter(|title| !title.is_empty()) {
             let middle = (self.left_px - LEFT_LABELS_PX + TITLE_FONT_PX, self.top_px + 0.5 * self.height_px);
-            let title = formula(title);
-            Text { anchor: Anchor::Middle, ..Text::new(&title, middle, TITLE_FONT_PX) }.write(svg, true);
+            let font_px = title_font_px(title, self.height_px);
+            Text { anchor: Anchor::Middle, ..Text::new(&formula(title), middle, font_px) }.write(svg, true);
         }
         if let Some(title) = x_title.filter(|title| !title.is_empty()) {
             let middle = (self.left_px + 0.5 * self.width_px, self.bottom_px() + BOTTOM_LABELS_PX - 6.0);
-            let title = formula(title);
-            Text { anchor: Anchor::Middle, ..Text::new(&title, middle, TITLE_FONT_PX) }.write(svg, false);
+            let font_px = title_font_px(title, self.width_px);
+            Text { anchor: Anchor::Middle, ..Text::new(&formula(title), middle, font_px) }.write(svg, false);
         }
-        Ok(())
     }
 
     fn write_guides(&self, svg: &mut String, canvas: (u32, u32)) -> Result<(), PlotError> {
@@ -132,103 +133,85 @@ impl Panel<'_> {
         Ok(())
     }
 
-    /// Number of labels that the axes aim for.
-    fn label_counts(&self) -> (usize, usize) {
-        let across = (self.width_px / LABEL_WIDTH_PX) as usize;
-        (across.clamp(2, MOST_LABELS), (self.height_px / TICK_DISTANCE_PX) as usize)
+    /// Both axes.
+    fn axes(&self) -> (Axis, Axis) {
+        let across = Axis {
+            range: self.x.clone(),
+            scale: self.scales.0,
+            ends: self.ends.map(|ends| ends.0),
+            way: Way::Across,
+            length_px: self.width_px,
+            target: ((self.width_px / LABEL_WIDTH_PX) as usize).clamp(2, MOST_LABELS),
+            margin: 0.0,
+        };
+        let up = Axis {
+            range: self.y.clone(),
+            scale: self.scales.1,
+            ends: self.ends.map(|ends| ends.1),
+            way: Way::Up,
+            length_px: self.height_px,
+            target: (self.height_px / TICK_DISTANCE_PX) as usize,
+            // Half a label's height keeps clear of the neighbouring panels.
+            margin: if self.ends.is_some() { 0.0 } else { 0.5 * TICK_FONT_PX / self.height_px },
+        };
+        (across, up)
     }
 
-    /// Frame, and ticks and labels of linear axes.
-    fn axes(&self, canvas: (u32, u32), labels_x: bool) -> Result<String, PlotError> {
-        let (across, up) = self.label_counts();
-        let linear = |scale: Scale, ticks: Vec<f64>| if scale == Scale::Linear { ticks } else { Vec::new() };
-        let x_ticks = linear(self.scales.0, round_ticks(&self.x, across, 0.0));
-        // Half a label's height keeps clear of the neighbouring panels.
-        let y_ticks = linear(self.scales.1, round_ticks(&self.y, up, 0.5 * TICK_FONT_PX / self.height_px));
-        let (x_step, y_step) = (tick_step(&x_ticks), tick_step(&y_ticks));
-        let below = if labels_x { units(BOTTOM_LABELS_PX) } else { 0 };
-        let beside = if self.title.is_some() { units(LEFT_LABELS_PX) } else { 0 };
-        let frame: ShapeStyle = INK.stroke_width(units(FRAME_PX) as u32);
-        let (left, right) = (units(self.left_px), units(self.right_px()));
-        let (top, bottom) = (units(self.top_px), units(self.bottom_px()));
-
-        plotters_layer(canvas, |root| {
-            let area = root.clone().shrink((left - beside, top), (right - left + beside, bottom - top + below));
-            let mut chart = ChartBuilder::on(&area)
-                .set_label_area_size(LabelAreaPosition::Left, beside)
-                .set_label_area_size(LabelAreaPosition::Bottom, below)
-                .build_cartesian_2d(RoundScale::new(&self.x, &x_ticks), RoundScale::new(&self.y, &y_ticks))
-                .map_err(text_of::<SVGBackend<'_>>)?;
-            let font_size = TICK_FONT_PX * PLOTTERS_FONT_FACTOR * super::layer::UNIT;
-            let font = ("sans-serif", font_size).into_font().color(&INK);
-            chart
-                .configure_mesh()
-                .disable_mesh()
-                .axis_style(frame)
-                .label_style(font.into_text_style(root))
-                .x_labels(x_ticks.len() + 1)
-                .y_labels(y_ticks.len() + 1)
-                .x_label_formatter(&|value| tick_text(*value, x_step))
-                .y_label_formatter(&|value| tick_text(*value, y_step))
-                .set_all_tick_mark_size(units(TICK_PX))
-                .draw()
-                .map_err(text_of::<SVGBackend<'_>>)?;
-
-            let mut paths = vec![vec![(left, top), (right, top), (right, bottom), (left, bottom), (left, top)]];
-            if !labels_x {
-                // Unlabelled ticks point inwards, away from the next panel.
-                paths.extend(x_ticks.iter().map(|&tick| {
-                    let x = units(self.position_px((tick, self.y.start)).0);
-                    vec![(x, bottom), (x, bottom - units(TICK_PX))]
-                }));
-            }
-            if self.title.is_none() && self.y_ticks {
-                paths.extend(y_ticks.iter().map(|&tick| {
-                    let y = units(self.position_px((self.x.start, tick)).1);
-                    vec![(left, y), (left + units(TICK_PX), y)]
-                }));
-            }
-            for path in paths {
-                root.draw(&PathElement::new(path, frame)).map_err(text_of::<SVGBackend<'_>>)?;
-            }
-            Ok(())
-        })
+    /// How far labels of the horizontal axis stick out beyond the left and the right edge (px).
+    pub(super) fn overhang_px(&self) -> (f64, f64) {
+        let labels = self.axes().0.ticks().labelled;
+        let extent = |label: &Label| {
+            let (x, half) = (self.position_px((label.at, self.y.start)).0, 0.5 * label.text.width_px(TICK_FONT_PX));
+            (self.left_px - (x - half), x + half - self.right_px())
+        };
+        labels.iter().map(extent).fold((0.0, 0.0), |most, label| (most.0.max(label.0), most.1.max(label.1)))
     }
 
-    /// Appends ticks and labels of logarithmic axes.
-    fn write_decades(&self, svg: &mut String, labels_x: bool) {
-        let (across, up) = self.label_counts();
+    fn write_edge(&self, svg: &mut String) {
+        let (left, top) = (units(self.left_px), units(self.top_px));
+        svg.push_str(&format!(
+            "<rect x=\"{left}\" y=\"{top}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"/>\n",
+            units(self.right_px()) - left,
+            units(self.bottom_px()) - top,
+            hex(INK),
+            units(FRAME_PX)
+        ));
+    }
+
+    /// Appends ticks and labels; those of the vertical axis are as small as it takes to stay clear of its title.
+    fn write_ticks(&self, svg: &mut String, labels_x: bool) {
+        let (across, up) = self.axes();
         let mut path = String::new();
-        if self.scales.0 == Scale::Logarithmic {
-            let (labelled, minor) = decade_ticks(&self.x, across, self.width_px);
-            // Unlabelled ticks point inwards, away from the next panel.
-            let outward = if labels_x { 1 } else { -1 };
-            let mut tick = |power: f64, length_px: f64| {
-                let (x, y) = self.position_px((power, self.y.start));
-                path.push_str(&format!("M{} {}v{}", units(x), units(y), outward * units(length_px)));
-                (x, y + TICK_PX + LABEL_GAP_PX.1 + 0.36 * TICK_FONT_PX)
-            };
-            minor.into_iter().for_each(|power| _ = tick(power, MINOR_TICK_PX));
-            for (power, text) in labelled.iter().zip(decade_texts(&labelled)) {
-                let at = tick(*power, TICK_PX);
-                if labels_x {
-                    Text { anchor: Anchor::Middle, ..Text::new(&text, at, TICK_FONT_PX) }.write(svg, false);
-                }
+        // Unlabelled ticks point inwards, away from the next panel.
+        let downward = if labels_x { 1 } else { -1 };
+        let mut tick = |at: f64, length_px: f64| {
+            let (x, y) = self.position_px((at, self.y.start));
+            path.push_str(&format!("M{} {}v{}", units(x), units(y), downward * units(length_px)));
+            (x, y + TICK_PX + LABEL_GAP_PX.1 + 0.36 * TICK_FONT_PX)
+        };
+        let ticks = across.ticks();
+        ticks.minor.into_iter().for_each(|at| _ = tick(at, MINOR_TICK_PX));
+        for label in ticks.labelled {
+            let at = tick(label.at, TICK_PX);
+            if labels_x {
+                Text { anchor: Anchor::Middle, ..Text::new(&label.text.svg(), at, TICK_FONT_PX) }.write(svg, false);
             }
         }
-        if self.scales.1 == Scale::Logarithmic {
-            let (labelled, minor) = decade_ticks(&self.y, up, self.height_px);
-            let outward = if self.title.is_some() { -1 } else { 1 };
-            let mut tick = |power: f64, length_px: f64| {
-                let (x, y) = self.position_px((self.x.start, power));
-                path.push_str(&format!("M{} {}h{}", units(x), units(y), outward * units(length_px)));
-                (x - TICK_PX - LABEL_GAP_PX.0, y + 0.36 * TICK_FONT_PX)
+        if self.y_ticks {
+            let ticks = up.ticks();
+            let widest = ticks.labelled.iter().map(|label| label.text.width_px(TICK_FONT_PX)).fold(1.0, f64::max);
+            let font_px = TICK_FONT_PX * (LEFT_LABEL_PX / widest).min(1.0);
+            let leftward = if self.title.is_some() { -1 } else { 1 };
+            let mut tick = |at: f64, length_px: f64| {
+                let (x, y) = self.position_px((self.x.start, at));
+                path.push_str(&format!("M{} {}h{}", units(x), units(y), leftward * units(length_px)));
+                (x - TICK_PX - LABEL_GAP_PX.0, y + 0.36 * font_px)
             };
-            minor.into_iter().for_each(|power| _ = tick(power, MINOR_TICK_PX));
-            for (power, text) in labelled.iter().zip(decade_texts(&labelled)) {
-                let at = tick(*power, TICK_PX);
+            ticks.minor.into_iter().for_each(|at| _ = tick(at, MINOR_TICK_PX));
+            for label in ticks.labelled {
+                let at = tick(label.at, TICK_PX);
                 if self.title.is_some() {
-                    Text { anchor: Anchor::End, ..Text::new(&text, at, TICK_FONT_PX) }.write(svg, false);
+                    Text { anchor: Anchor::End, ..Text::new(&label.text.svg(), at, font_px) }.write(svg, false);
                 }
             }
         }
@@ -238,11 +221,9 @@ impl Panel<'_> {
     }
 }
 
-fn tick_step(ticks: &[f64]) -> f64 {
-    match ticks {
-        [first, second, ..] => second - first,
-        _ => 1.0,
-    }
+/// Font size (px) of the axis title `markup`, as small as it takes to be no longer than `length_px`.
+fn title_font_px(markup: &str, length_px: f64) -> f64 {
+    TITLE_FONT_PX * (length_px / formula_width_px(markup, TITLE_FONT_PX)).min(1.0)
 }
 
 /// A scale around zero that holds `values` with some air; `floor` is half the height when all values are zero.

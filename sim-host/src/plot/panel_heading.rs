@@ -7,6 +7,7 @@ use super::palette::GROUND;
 const HEADING_FONT_PX: f64 = 12.0;
 const NOTE_FONT_PX: f64 = 10.5;
 const HEADING_LINE_PX: f64 = 15.0;
+
 /// What stands above a panel.
 pub(super) struct Heading {
     title: Vec<String>,

@@ -58,7 +58,8 @@ pub fn png(svg: &str) -> Result<Png, PngError> {
     Ok(Png { bytes: encoded(&dots)?, missing })
 }
 
-fn tree(svg: &str) -> Result<Tree, usvg::Error> {
+/// `svg` with its texts laid out.
+pub(super) fn tree(svg: &str) -> Result<Tree, usvg::Error> {
     let options = Options { fontdb: fonts(), ..Options::default() };
     Tree::from_str(svg, &options)
 }

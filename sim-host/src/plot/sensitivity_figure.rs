@@ -2,11 +2,12 @@
 
 use plotters::style::RGBColor;
 
-use super::PlotError;
-use super::layer::{Anchor, Text, document, escape, text_width_px, units, write_disc, write_rect};
+use super::layer::{Anchor, Text, document, escape, units, write_disc, write_rect};
 use super::legend::write_heading;
 use super::palette::{GROUND, GUIDE, INK, device_look, hex};
+use super::text_width::text_width_px;
 use super::ticks::{round_ticks, tick_text};
+use super::{FigureTitle, PlotError};
 
 const WIDTH_PX: f64 = 900.0;
 const MARGIN_PX: f64 = 12.0;
@@ -77,7 +78,12 @@ pub enum OwnMark {
 ///
 /// # Errors
 /// [`PlotError`] without rows, and for changes that are not finite.
-pub fn sensitivity_figure(title: &str, devices: &[String], rows: &[SensitivityRow]) -> Result<String, PlotError> {
+pub fn sensitivity_figure(
+    title: impl Into<FigureTitle>,
+    devices: &[String],
+    rows: &[SensitivityRow],
+) -> Result<String, PlotError> {
+    let title = title.into();
     if rows.is_empty() {
         return Err(PlotError::NoHistories);
     }
@@ -89,7 +95,7 @@ pub fn sensitivity_figure(title: &str, devices: &[String], rows: &[SensitivityRo
     }
     let mut body = String::new();
     let (left_px, width_px) = (MARGIN_PX, WIDTH_PX - 2.0 * MARGIN_PX);
-    let heading_px = write_heading(&mut body, title, &[], (left_px, width_px), MARGIN_PX);
+    let heading_px = write_heading(&mut body, &title, &[], (left_px, width_px), MARGIN_PX);
     let used: Vec<usize> = (0..devices.len()).filter(|index| lanes().any(|lane| lane.device == *index)).collect();
     let legend_px = write_legend(&mut body, devices, &used, (left_px, width_px), heading_px - 2.0);
 
@@ -127,7 +133,7 @@ pub fn sensitivity_figure(title: &str, devices: &[String], rows: &[SensitivityRo
     body.push_str(&marks);
 
     let height_px = axis.bottom_px + 46.0;
-    Ok(document(title, (WIDTH_PX, height_px), &body))
+    Ok(document(&title.text, (WIDTH_PX, height_px), &body))
 }
 
 impl SensitivityLane {

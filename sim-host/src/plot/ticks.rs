@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use sprag_shared::math;
 
+use super::text_width::text_width_px;
+
 /// How an axis is divided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Scale {
@@ -99,18 +101,62 @@ pub(super) fn decade_ticks(range: &Range<f64>, target: usize, length_px: f64) ->
     (labelled, minor)
 }
 
-/// Texts of the labelled ticks of a logarithmic axis: powers of ten, or numbers where some of them are none.
-pub(super) fn decade_texts(labelled: &[f64]) -> Vec<String> {
-    if labelled.iter().all(|power| *power == power.round()) {
-        return labelled.iter().map(|power| power_of_ten(*power)).collect();
-    }
-    labelled.iter().map(|power| tick_text(math::pow(10.0, *power), math::pow(10.0, (power + 1e-9).floor()))).collect()
+/// Text of a tick.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct TickText {
+    base: String,
+    /// Raised behind the base; may be empty.
+    exponent: String,
 }
 
-/// Ten to the whole number `power`, with a raised exponent and a true minus sign, as SVG content.
-fn power_of_ten(power: f64) -> String {
-    let sign = if power < 0.0 { "\u{2212}" } else { "" };
-    format!("10<tspan dy=\"-0.45em\" font-size=\"75%\">{sign}{:.0}</tspan>", power.abs())
+impl TickText {
+    /// `text`, without an exponent.
+    pub(super) fn plain(text: String) -> Self {
+        Self { base: text, exponent: String::new() }
+    }
+
+    /// Ten to the whole number `power`, with a true minus sign.
+    fn power_of_ten(power: f64) -> Self {
+        let sign = if power < 0.0 { "\u{2212}" } else { "" };
+        Self { base: "10".to_owned(), exponent: format!("{sign}{:.0}", power.abs()) }
+    }
+
+    /// `number` with as many decimals as it has, and at least those of ticks that are `step` apart; times a power of ten if it is long.
+    pub(super) fn number(number: f64, step: f64) -> Self {
+        let shortest = format!("{number}").replace('-', "\u{2212}");
+        let size = number.abs();
+        if size != 0.0 && !(1e-3..1e5).contains(&size) {
+            let power = (math::log10(size) + 1e-12).floor();
+            let mantissa = format!("{number:e}").split('e').next().unwrap_or_default().replace('-', "\u{2212}");
+            let raised = Self::power_of_ten(power);
+            return if mantissa == "1" { raised } else { Self { base: format!("{mantissa}·10"), ..raised } };
+        }
+        let as_neighbours = tick_text(number, step);
+        let decimals = |text: &str| text.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+        Self::plain(if decimals(&as_neighbours) >= decimals(&shortest) { as_neighbours } else { shortest })
+    }
+
+    /// As SVG content.
+    pub(super) fn svg(&self) -> String {
+        if self.exponent.is_empty() {
+            return self.base.clone();
+        }
+        format!("{}<tspan dy=\"-0.45em\" font-size=\"75%\">{}</tspan>", self.base, self.exponent)
+    }
+
+    /// Width (px) at `font_px`.
+    pub(super) fn width_px(&self, font_px: f64) -> f64 {
+        text_width_px(&self.base, font_px) + text_width_px(&self.exponent, 0.75 * font_px)
+    }
+}
+
+/// Texts of the labelled ticks of a logarithmic axis: powers of ten, or numbers where some of them are none.
+pub(super) fn decade_texts(labelled: &[f64]) -> Vec<TickText> {
+    if labelled.iter().all(|power| *power == power.round()) {
+        return labelled.iter().map(|power| TickText::power_of_ten(*power)).collect();
+    }
+    let text = |power: &f64| tick_text(math::pow(10.0, *power), math::pow(10.0, (power + 1e-9).floor()));
+    labelled.iter().map(|power| TickText::plain(text(power))).collect()
 }
 
 /// Multiples of 1, 2 or 5 times a power of ten inside `range`, about `target` of them; never more than twice that.
@@ -160,8 +206,8 @@ pub(super) fn tick_text(value: f64, step: f64) -> String {
     let size = value.abs();
     let text = if size < step * 1e-6 {
         "0".to_owned()
-    } else if size >= 1e5 || step < 1e-4 {
-        scientific(size)
+    } else if size >= 1e5 || (step < 1e-4 && size < 1e-3) {
+        scientific(size, step)
     } else {
         let mut decimals = 0;
         let mut unit = 1.0;
@@ -174,9 +220,14 @@ pub(super) fn tick_text(value: f64, step: f64) -> String {
     if value < 0.0 && text != "0" { format!("\u{2212}{text}") } else { text }
 }
 
-fn scientific(size: f64) -> String {
-    let text = format!("{size:.1e}");
-    text.replace(".0e", "e").replace("e-", "e\u{2212}")
+/// With the digits that tell ticks `step` apart.
+fn scientific(size: f64, step: f64) -> String {
+    let power = |value: f64| (math::log10(value) + 1e-9).floor();
+    let decimals = (power(size) - power(step)).clamp(0.0, 15.0) as usize;
+    let text = format!("{size:.decimals$e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let mantissa = if mantissa.contains('.') { mantissa.trim_end_matches('0').trim_end_matches('.') } else { mantissa };
+    format!("{mantissa}e{}", exponent.replace('-', "\u{2212}"))
 }
 
 #[cfg(test)]
@@ -223,11 +274,12 @@ mod tests {
         // From 0.7 to 7: 1, 2 and 5 are labelled.
         let close = close_range([-0.15, 0.85].into_iter()).unwrap();
         let (labelled, minor) = decade_ticks(&close, 5, 200.0);
-        assert_eq!(decade_texts(&labelled), ["1", "2", "5"]);
+        let texts = |labelled: &[f64]| decade_texts(labelled).iter().map(TickText::svg).collect::<Vec<_>>();
+        assert_eq!(texts(&labelled), ["1", "2", "5"]);
         assert_eq!(minor.len(), 7, "{minor:?}");
-        assert_eq!(decade_texts(&[math::log10(0.2), math::log10(0.5), 0.0]), ["0.2", "0.5", "1"]);
+        assert_eq!(texts(&[math::log10(0.2), math::log10(0.5), 0.0]), ["0.2", "0.5", "1"]);
         assert_eq!(close_range(std::iter::empty()), None);
-        assert_eq!(power_of_ten(-3.0), "10<tspan dy=\"-0.45em\" font-size=\"75%\">\u{2212}3</tspan>");
+        assert_eq!(TickText::power_of_ten(-3.0).svg(), "10<tspan dy=\"-0.45em\" font-size=\"75%\">\u{2212}3</tspan>");
     }
 
     #[test]
@@ -239,5 +291,7 @@ mod tests {
         assert_eq!(tick_text(1e-17, 0.5), "0");
         assert_eq!(tick_text(-2e-6, 1e-6), "\u{2212}2e\u{2212}6");
         assert_eq!(tick_text(2e6, 1e6), "2e6");
+        assert_eq!(tick_text(123_450.0, 10.0), "1.2345e5");
+        assert_eq!(tick_text(1.000_01, 5e-6), "1.000010");
     }
 }

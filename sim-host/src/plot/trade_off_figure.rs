@@ -94,7 +94,7 @@ pub fn trade_off_figure(figure: &TradeOffFigure) -> Result<String, PlotError> {
     let left_px = MARGIN_PX + LEFT_LABELS_PX;
     let mut body = String::new();
     let area = (left_px, width_px - left_px - RIGHT_MARGIN_PX);
-    let top_px = write_heading(&mut body, &figure.title, &figure.keys(), area, MARGIN_PX) + 4.0;
+    let top_px = write_heading(&mut body, &figure.title.as_str().into(), &figure.keys(), area, MARGIN_PX) + 4.0;
     let height_px = top_px + panel_height_px + BOTTOM_LABELS_PX + 4.0;
     let canvas = (units(width_px) as u32, units(height_px) as u32);
     // Probabilities of all panels are those of the same designs.
