@@ -108,7 +108,7 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
                     note: format!("{} of {cells}", overturned(results)),
                     columns: CELLS,
                     rows: CELLS,
-                    parts: 1,
+                    to_the_edges: false,
                     cells: results.iter().map(|result| Cell::from(result.outcome).class()).collect(),
                     curves: Vec::new(),
                 });

@@ -43,8 +43,8 @@ pub fn figure(grid: &Grid, tally: &Tally, all: &[Boundaries]) -> Result<Option<S
         if all_shown {
             let outcomes: Vec<Outcome> = cells.shown.iter().map(|result| result.outcome).collect();
             let divided = regions(&outcomes, grid.columns(), &pieces(grid, y, of_device));
-            (map.columns, map.rows) = (grid.columns() * divided.parts, grid.rows() * divided.parts);
-            map.parts = divided.parts;
+            (map.columns, map.rows) = (divided.columns, divided.rows);
+            map.to_the_edges = true;
             map.cells = divided.outcomes.into_iter().map(class).collect();
         }
     }

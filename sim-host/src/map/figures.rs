@@ -88,7 +88,7 @@ pub(super) fn small_multiples(
                 note: note(map),
                 columns: tally.columns.count(),
                 rows: tally.rows.count(),
-                parts: 1,
+                to_the_edges: false,
                 cells: map.shown.iter().map(&class).collect(),
                 curves: Vec::new(),
             })

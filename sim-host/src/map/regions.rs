@@ -23,25 +23,26 @@ pub struct Piece {
     pub right: Outcome,
 }
 
-/// A map whose cells are divided along boundaries.
+/// Regions between the outermost grid points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Regions {
-    /// Parts of every cell along either axis.
-    pub parts: usize,
+    /// Parts in a row.
+    pub columns: usize,
+    /// Rows of parts.
+    pub rows: usize,
     /// Outcomes of the parts, row by row from the lowest.
     pub outcomes: Vec<Outcome>,
 }
 
-/// Divides the cells of `grid`, rows of `columns` outcomes, so that regions end at the boundaries `pieces`.
+/// Divides the squares between the points of `grid`, rows of `columns` outcomes, so that regions end at the boundaries `pieces`.
 ///
-/// Grid points are the middles of cells and the corners of squares. A part lies on that side of the boundaries in its square on which
-/// the nearest of them has it. In squares where that contradicts a corner, such as one that was left coarser, parts are like the cell
-/// that they belong to; so are squares without a boundary.
+/// A part lies on that side of the boundaries in its square on which the nearest of them has it. In squares where that contradicts a
+/// corner, such as one that was left coarser, parts are like the nearest grid point; so are squares without a boundary.
 pub fn regions(grid: &[Outcome], columns: usize, pieces: &[Piece]) -> Regions {
     let rows = grid.len() / columns;
-    let parts = PARTS.div_ceil(columns.max(rows)).max(1);
-    let squares = (columns - 1).max(1);
-    let mut of_square: Vec<Vec<Piece>> = vec![Vec::new(); squares * (rows - 1).max(1)];
+    let parts = PARTS.div_ceil(columns.max(rows));
+    let squares = columns - 1;
+    let mut of_square: Vec<Vec<Piece>> = vec![Vec::new(); squares * (rows - 1)];
     for piece in pieces {
         for row in span(piece.from.1, piece.to.1, rows) {
             for column in span(piece.from.0, piece.to.0, columns) {
@@ -51,7 +52,7 @@ pub fn regions(grid: &[Outcome], columns: usize, pieces: &[Piece]) -> Regions {
     }
     let outcome = |column: usize, row: usize| grid[row * columns + column];
     for row in 0..rows - 1 {
-        for column in 0..columns - 1 {
+        for column in 0..squares {
             let own = &mut of_square[row * squares + column];
             let corners = [(column, row), (column + 1, row), (column, row + 1), (column + 1, row + 1)];
             let agrees = |(x, y): &(usize, usize)| side(own, (*x as f64, *y as f64)) == Some(outcome(*x, *y));
@@ -60,18 +61,15 @@ pub fn regions(grid: &[Outcome], columns: usize, pieces: &[Piece]) -> Regions {
             }
         }
     }
-    // The outer half of the outermost cells is like their middle.
-    let place = |index: usize, count: usize| (((index as f64 + 0.5) / parts as f64) - 0.5).clamp(0.0, (count - 1) as f64);
-    let mut outcomes = Vec::with_capacity(columns * rows * parts * parts);
-    for up in 0..rows * parts {
-        let y = place(up, rows);
-        for across in 0..columns * parts {
-            let x = place(across, columns);
-            let square = (y as usize).min(rows - 2) * squares + (x as usize).min(columns - 2);
-            outcomes.push(side(&of_square[square], (x, y)).unwrap_or_else(|| outcome(across / parts, up / parts)));
-        }
-    }
-    Regions { parts, outcomes }
+    let place = |index: usize| (index as f64 + 0.5) / parts as f64;
+    let (across, up) = (squares * parts, (rows - 1) * parts);
+    let part = |index: usize| {
+        let (x, y) = (index % across, index / across);
+        let at = (place(x), place(y));
+        let of_grid = || outcome(at.0.round() as usize, at.1.round() as usize);
+        side(&of_square[y / parts * squares + x / parts], at).unwrap_or_else(of_grid)
+    };
+    Regions { columns: across, rows: up, outcomes: (0..across * up).map(part).collect() }
 }
 
 /// Squares that a piece from `one` to `other` may go through, along an axis of `count` grid points.
@@ -130,11 +128,10 @@ mod tests {
     fn regions_end_at_the_boundaries() {
         let (grid, pieces, inside) = disc(2000);
         let regions = regions(&grid, 12, &pieces);
-        assert_eq!(regions.parts, 60);
-        let side = 12 * regions.parts;
+        assert_eq!((regions.columns, regions.rows), (11 * 60, 9 * 60));
         for (index, outcome) in regions.outcomes.iter().enumerate() {
-            let place = |index: usize| (index as f64 + 0.5) / regions.parts as f64 - 0.5;
-            let at = (place(index % side), place(index / side));
+            let place = |index: usize| (index as f64 + 0.5) / 60.0;
+            let at = (place(index % regions.columns), place(index / regions.columns));
             let from_edge = ((at.0 - 5.6).hypot(at.1 - 4.3) - 3.3).abs();
             assert!((*outcome == IN) == inside(at) || from_edge < 1e-3, "{at:?}");
         }
@@ -144,8 +141,8 @@ mod tests {
     fn without_boundaries_regions_are_the_cells() {
         let (grid, pieces, _) = disc(2000);
         let cells = regions(&grid, 12, &[]);
-        let side = 12 * cells.parts;
-        let cell = |index: usize| index / side / cells.parts * 12 + index % side / cells.parts;
+        let nearest = |part: usize| (part + 30) / 60;
+        let cell = |index: usize| nearest(index / cells.columns) * 12 + nearest(index % cells.columns);
         assert!(cells.outcomes.iter().enumerate().all(|(index, outcome)| *outcome == grid[cell(index)]));
         // A boundary that contradicts the grid is not believed.
         let wrong: Vec<Piece> = pieces.iter().map(|piece| Piece { left: OUT, right: IN, ..*piece }).collect();

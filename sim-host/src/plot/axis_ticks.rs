@@ -14,6 +14,8 @@ const LINE_PX: f64 = 13.0;
 /// Digits that the label of an end has, unless it needs more to lie within the axis.
 const END_DIGITS: usize = 3;
 const MOST_END_DIGITS: usize = 9;
+/// Distance that nobody sees (px).
+const UNSEEN_PX: f64 = 0.2;
 
 /// Which way an axis goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,8 +132,9 @@ impl Axis {
         let number = if self.scale == Scale::Logarithmic { sprag_shared::math::pow(10.0, value) } else { value };
         let at = |number: f64| if self.scale == Scale::Logarithmic { sprag_shared::math::log10(number) } else { number };
         let rounded = |digits: usize| format!("{number:.*e}", digits - 1).parse::<f64>().unwrap_or(number);
-        // No farther away than the edge of the axis.
-        let slack = (value - self.range.start).min(self.range.end - value);
+        // No farther away than the edge of the axis, or than can be seen.
+        let seen = UNSEEN_PX / self.length_px * (self.range.end - self.range.start);
+        let slack = (value - self.range.start).min(self.range.end - value).max(seen);
         let near = |number: &f64| (at(*number) - value).abs() <= slack;
         let number = (END_DIGITS..=MOST_END_DIGITS).map(rounded).find(near).unwrap_or(number);
         // As its neighbours, if it is one of them.

@@ -33,8 +33,8 @@ pub struct CellMap {
     pub columns: usize,
     /// Rows of cells.
     pub rows: usize,
-    /// Cells along either axis that divide one of those whose middles the axes speak of; 1 where they are the same.
-    pub parts: usize,
+    /// Whether the values of the axes are the outer edges of the outermost cells; otherwise they are their middles.
+    pub to_the_edges: bool,
     /// Numbers of classes, row by row from the lowest, each from the left.
     pub cells: Vec<usize>,
     /// Curves over the cells.
@@ -128,10 +128,17 @@ pub fn cell_map_figure(maps: &CellMaps) -> Result<String, PlotError> {
     Ok(document(&maps.title.text, (width_px, height_px), &body))
 }
 
+impl CellMap {
+    /// Ends of an axis of `count` cells, the first and the last of which have the values `ends`.
+    fn edges(&self, ends: (f64, f64), count: usize) -> (f64, f64) {
+        if self.to_the_edges { ends } else { edges(ends, count) }
+    }
+}
+
 impl CellMaps {
     /// The panel of `map`, `side_px` wide and high, without a title.
     fn panel(&self, map: &CellMap, corner_px: (f64, f64), side_px: f64) -> Panel<'_> {
-        let (x, y) = (edges(self.x, map.columns / map.parts), edges(self.y, map.rows / map.parts));
+        let (x, y) = (map.edges(self.x, map.columns), map.edges(self.y, map.rows));
         let panel = Panel::new(corner_px, (side_px, side_px), x.0..x.1, y.0..y.1);
         Panel { scales: self.scales, ends: Some((self.x, self.y)), ..panel }
     }
@@ -143,22 +150,20 @@ fn check(map: &CellMap, maps: &CellMaps) -> Result<(), PlotError> {
     if map.cells.len() != expected {
         return Err(PlotError::WrongLength { name: map.title.clone(), found: map.cells.len(), expected });
     }
-    if expected == 0 || map.parts == 0 || map.cells.iter().any(|class| *class >= maps.classes.len()) {
+    if expected == 0 || map.cells.iter().any(|class| *class >= maps.classes.len()) {
         return Err(PlotError::NothingToDraw { title: map.title.clone() });
     }
     let points = map.curves.iter().flat_map(|curve| &curve.points);
     if points.flat_map(|point| [point.0, point.1]).any(|value| !value.is_finite()) {
         return Err(PlotError::NotFiniteValue { name: map.title.clone() });
     }
-    for (title, (first, last), count) in
-        [(&maps.x_title, maps.x, map.columns / map.parts), (&maps.y_title, maps.y, map.rows / map.parts)]
-    {
+    for (title, (first, last), count) in [(&maps.x_title, maps.x, map.columns), (&maps.y_title, maps.y, map.rows)] {
         // The square root keeps differences finite too.
         if ![first, last].iter().all(|value| value.abs() < f64::MAX.sqrt()) {
             return Err(PlotError::NotFiniteValue { name: title.clone() });
         }
         // Ticks need steps that change the values they are added to.
-        let (low, high) = edges((first, last), count);
+        let (low, high) = map.edges((first, last), count);
         if high - low <= 1e-9 * low.abs().max(high.abs()) || high - low < 1e-200 {
             return Err(PlotError::EmptyAxis { title: title.clone() });
         }
@@ -231,7 +236,15 @@ mod tests {
             _ => Cell::Overturns,
         };
         let cells = (0..columns * rows).map(|index| cell(index).class()).collect();
-        CellMap { title: title.to_owned(), note: "1 of <2>".to_owned(), columns, rows, parts: 1, cells, curves: Vec::new() }
+        CellMap {
+            title: title.to_owned(),
+            note: "1 of <2>".to_owned(),
+            columns,
+            rows,
+            to_the_edges: false,
+            cells,
+            curves: Vec::new(),
+        }
     }
 
     fn maps(count: usize, columns: usize) -> CellMaps {
