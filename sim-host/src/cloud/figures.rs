@@ -7,10 +7,17 @@ use super::findings::Findings;
 use super::overturning::DeviceFragility;
 use super::pages::{heading, percent, short_reason};
 use super::study::Study;
-use crate::plot::{BandPoint, CloudFigure, CloudPanel, CloudSeries, PlotError, Rug, Scale, cloud_figure};
+use crate::heading::of_blocks;
+use crate::plot::{BandPoint, CloudFigure, CloudPanel, CloudSeries, FigureTitle, PlotError, Rug, Scale, cloud_figure};
 
 /// Intensities at which the band of a power law is drawn.
 const BAND_POINTS: u32 = 60;
+
+/// The study's title, and below it what its blocks have in common.
+fn title(study: &Study) -> FigureTitle {
+    let scenes: Vec<_> = study.structures.iter().map(|structure| &structure.scene).collect();
+    FigureTitle { text: heading(study).to_owned(), conditions: of_blocks(&scenes) }
+}
 
 /// `demand.svg`: rotations left, accelerations right, a row for each structure; `None` where nothing rocks and stands.
 ///
@@ -33,7 +40,7 @@ pub fn demand_picture(study: &Study, findings: &Findings) -> Result<Option<Strin
         return Ok(None);
     }
     cloud_figure(&CloudFigure {
-        title: heading(study).to_owned(),
+        title: title(study),
         devices: study.devices.clone(),
         x_title: study.file.demand.measure.axis_title(study.slender()),
         scales: (Scale::Logarithmic, Scale::Logarithmic),
@@ -87,7 +94,7 @@ pub fn fragility_picture(study: &Study, findings: &Findings) -> Result<Option<St
         return Ok(None);
     }
     cloud_figure(&CloudFigure {
-        title: heading(study).to_owned(),
+        title: title(study),
         devices: study.devices.clone(),
         x_title: study.file.fragility.measure.axis_title(study.slender()),
         scales: (Scale::Linear, Scale::Linear),

@@ -17,9 +17,10 @@ use crate::closed_loop::answered::Looped;
 use crate::closed_loop::plant::Extremes;
 use crate::closed_loop::report::{LoopReport, LoopSummary, loop_trace, write_history};
 use crate::closed_loop::run::Tick;
+use crate::heading::of_scene;
 use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, make_folder};
-use crate::plot::{PlotError, loop_figure};
+use crate::plot::{FigureTitle, PlotError, loop_figure};
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::scene::schema::SceneFile;
@@ -114,7 +115,7 @@ fn run_or_fail(
     results.add_json(&folder.join("summary.json"), &summary)?;
     results.add(&folder.join("history.csv"), |file| write_history(&reports, file).map_err(std::io::Error::other))?;
     for (number, report) in reports.iter().enumerate() {
-        let picture = loop_figure(&heading(scene, report), &loop_trace(report, &scene.block))?;
+        let picture = loop_figure(heading(scene, report), &loop_trace(report, &scene.block))?;
         let name = if number == 0 { "loop".to_owned() } else { format!("loop-{}", number + 1) };
         results.add_picture(&folder, &name, &picture, arguments.pictures.formats())?;
     }
@@ -155,9 +156,10 @@ fn looped(
     Ok((desk, reports))
 }
 
-pub(super) fn heading(scene: &Scene, report: &LoopReport) -> String {
+pub(super) fn heading(scene: &Scene, report: &LoopReport) -> FigureTitle {
     let title = if scene.file.title.is_empty() { "Closed loop" } else { &scene.file.title };
-    format!("{title}: {}, {}, {}", report.summary.device, report.summary.law, report.summary.estimator)
+    let text = format!("{title}: {}, {}, {}", report.summary.device, report.summary.law, report.summary.estimator);
+    FigureTitle { text, conditions: of_scene(scene) }
 }
 
 /// Runs `count` specimens of the sensors, puts quantiles into the reports, and returns the table of all.

@@ -110,7 +110,7 @@ fn run_or_fail(
         let mut trace = loop_trace(&run.report, &desk.scene.block);
         let alpha = desk.scene.block.slenderness();
         trace.rotation_host = run.host.iter().map(|tick| (tick.plant.time, tick.plant.motion.rotation / alpha)).collect();
-        let picture = loop_figure(&heading(&desk.scene, &run.report), &trace)?;
+        let picture = loop_figure(heading(&desk.scene, &run.report), &trace)?;
         let name = if number == 0 { "loop".to_owned() } else { format!("loop-{}", number + 1) };
         results.add_picture(&folder, &name, &picture, arguments.pictures.formats())?;
         ticks.push((run.report.summary.device.clone(), run.ticks));

@@ -9,9 +9,10 @@ use serde::Serialize;
 use super::format_arguments::PictureArguments;
 use super::{DRAWING, ended, results_folder, warned};
 use crate::accuracy::{AccuracyArguments, Worst};
+use crate::heading::of_scene;
 use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, make_folder};
-use crate::plot::{OwnMark, PlotError, SensitivityLane, SensitivityRow, sensitivity_figure};
+use crate::plot::{FigureTitle, OwnMark, PlotError, SensitivityLane, SensitivityRow, sensitivity_figure};
 use crate::progress::Progress;
 use crate::scene::ground::{GroundError, Motion};
 use crate::scene::schema::SceneFile;
@@ -197,7 +198,12 @@ fn write(
     let records: Vec<&str> = motions.iter().filter(|motion| !motion.own).map(|motion| motion.name.as_str()).collect();
     let left_out = [&study.left_out[..], &findings.left_out, &findings.failed].concat();
     let title = &scene.file.title;
-    let figure = sensitivity_figure(title, &study.devices, &figure_rows(&runs))?;
+    let mut conditions = of_scene(scene);
+    if let Some(first) = conditions.first_mut() {
+        first.insert_str(0, "without a variant: ");
+    }
+    let heading = FigureTitle { text: title.clone(), conditions };
+    let figure = sensitivity_figure(heading, &study.devices, &figure_rows(&runs))?;
     let document = Document {
         command: "sensitivity",
         version: env!("CARGO_PKG_VERSION"),

@@ -9,9 +9,10 @@ use sprag_shared::error::ParameterError;
 
 use super::format_arguments::PictureArguments;
 use super::{ended, results_folder, warned};
+use crate::heading::of_scenes;
 use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, make_folder};
-use crate::plot::{Chart, ChartPanel, Line, PlotError, Scale, chart_figure};
+use crate::plot::{Chart, ChartPanel, FigureTitle, Line, PlotError, Scale, chart_figure};
 use crate::progress::Progress;
 use crate::scene::ground::GroundError;
 use crate::scene::schema::SceneFile;
@@ -203,11 +204,15 @@ fn figure(blocks: &[Block]) -> Result<String, PlotError> {
             .collect(),
     };
     chart_figure(&Chart {
-        title: first.scene.file.title.as_str().into(),
+        title: FigureTitle {
+            text: first.scene.file.title.clone(),
+            conditions: of_scenes(&blocks.iter().map(|block| &block.scene).collect::<Vec<_>>()),
+        },
         x_title: "*p t*".to_owned(),
         x: Scale::Linear,
         panels: (0..first.runs.len()).map(panel).collect(),
         columns: 1,
+        keys: Vec::new(),
     })
 }
 

@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::format_arguments::PictureArguments;
 use super::{DRAWING, ended, warned};
 use crate::accuracy::AccuracyArguments;
+use crate::heading::title;
 use crate::history::{History, write_csv};
 use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, make_folder};
@@ -105,7 +106,7 @@ fn run_or_fail(
         TimeAxisName::FrequencyParameter => TimeAxis::TimesFrequencyParameter,
     };
     let histories: Vec<History> = runs.iter_mut().map(|run| std::mem::take(&mut run.history)).collect();
-    let figure = history_figure(&scene.file.title, &histories, axis)?;
+    let figure = history_figure(title(&scene), &histories, axis)?;
     let mut file = scene.file.clone();
     // As the user wrote them, so that the summary does not depend on where it was made.
     for (tables, record) in [(&mut file.ground, &arguments.record), (&mut file.vertical, &arguments.record_vertical)] {
@@ -121,7 +122,7 @@ fn run_or_fail(
     results.add(&folder.join("history.csv"), |file| write_csv(&histories, file).map_err(std::io::Error::other))?;
     let picture = results.add_picture(&folder, "history", &figure, formats)?;
     if scene.file.output.energy {
-        let figure = energy_figure(&scene.file.title, &runs)?;
+        let figure = energy_figure(title(&scene), &runs)?;
         results.add(&folder.join("energy.csv"), |file| write_energy(&runs, file).map_err(std::io::Error::other))?;
         results.add_picture(&folder, "energy", &figure, formats)?;
     }

@@ -19,11 +19,19 @@ struct Phrase {
 
 /// What holds in `scene`.
 pub fn of_scene(scene: &Scene) -> Vec<String> {
-    of_scenes(std::slice::from_ref(scene))
+    of_scenes(&[scene])
+}
+
+/// What holds of the blocks of all `scenes`, whatever their devices and the ground motions.
+pub fn of_blocks(scenes: &[&Scene]) -> Vec<String> {
+    let mut blocks = scenes.iter().map(|scene| block(scene));
+    let Some(mut common) = blocks.next() else { return Vec::new() };
+    blocks.for_each(|other| common.values.retain(|value| other.values.contains(value)));
+    common.parts().collect()
 }
 
 /// What holds in every one of `scenes`, which differ in numbers only.
-pub fn of_scenes(scenes: &[Scene]) -> Vec<String> {
+pub fn of_scenes(scenes: &[&Scene]) -> Vec<String> {
     let Some((first, others)) = scenes.split_first() else { return Vec::new() };
     let (mut block, mut grounds) = (block(first), grounds(first));
     let mut ratios = mass_ratios(first);
@@ -212,7 +220,7 @@ mod tests {
             ("device.2.mass_ratio", "σ ="),
         ] {
             let scenes = ["0.5", "0.7"].map(|value| scene(SINE, &format!("{key}={value}")));
-            let all = of_scenes(&scenes);
+            let all = of_scenes(&scenes.each_ref());
             assert!(all.iter().all(|condition| !condition.contains(symbol)), "{key}: {all:?}");
             assert!(all.contains(&"one-cycle sine".to_owned()), "{key}: {all:?}");
             assert!(all.len() + 1 >= of_scene(&scenes[0]).len(), "{key}: {all:?}");

@@ -3,5 +3,13 @@
 mod conditions;
 mod quantity;
 
-pub use conditions::{of_scene, of_scenes};
+pub use conditions::{of_blocks, of_scene, of_scenes};
 pub use quantity::axis_title;
+
+use crate::plot::FigureTitle;
+use crate::scene::Scene;
+
+/// The title of a picture of `scene` as it is, and below it what holds in it.
+pub fn title(scene: &Scene) -> FigureTitle {
+    FigureTitle { text: scene.file.title.clone(), conditions: of_scene(scene) }
+}

@@ -96,11 +96,11 @@ pub fn ideal_limit(progress: &Progress, conditions: &Conditions<'_>) -> Result<R
         row.extend(errors.iter().map(|error| format!("{error:.2e}")));
         row.push(format!("{:.2}", order(&points)));
         table.row(row);
-        panel.lines.push(Line { name: estimator.name().to_owned(), points, marks: true, guide: false });
+        panel.lines.push(Line { name: estimator.name().to_owned(), points, marks: true, ..Line::default() });
     }
     let first = 2e-3;
     let guide = [1.0 / 16_000.0, 2e-3].map(|period: f64| (period, first * period / 2e-3)).to_vec();
-    panel.lines.push(Line { name: "order 1".to_owned(), points: guide, marks: false, guide: true });
+    panel.lines.push(Line { name: "order 1".to_owned(), points: guide, guide: true, ..Line::default() });
     report.table("ideal-limit", table);
     let chart = Chart {
         title: "Closed loop against the ideal pair".into(),
@@ -108,6 +108,7 @@ pub fn ideal_limit(progress: &Progress, conditions: &Conditions<'_>) -> Result<R
         x: Scale::Logarithmic,
         panels: vec![panel],
         columns: 1,
+        keys: Vec::new(),
     };
     report.figure("ideal-limit", "error over control period", chart_figure(&chart)?);
     Ok(report)

@@ -159,7 +159,7 @@ pub fn robustness(records: &[Motion], progress: &Progress, conditions: &Conditio
         report.paragraph(&breaking(sweep, &high));
         let name = format!("robustness/{}", number + 1);
         report.table(&name, table);
-        let line = |name: &str, points: Vec<(f64, f64)>| Line { name: name.to_owned(), points, marks: true, guide: false };
+        let line = |name: &str, points: Vec<(f64, f64)>| Line { name: name.to_owned(), points, marks: true, ..Line::default() };
         let panel = ChartPanel {
             title: String::new(),
             y_title: "change (%)".to_owned(),
@@ -167,7 +167,7 @@ pub fn robustness(records: &[Motion], progress: &Progress, conditions: &Conditio
             lines: vec![line("median size", median), line("95th percentile", high)],
         };
         let (title, x_title, x) = (sweep.heading.to_owned(), sweep.axis.to_owned(), sweep.scale);
-        let chart = Chart { title: title.into(), x_title, x, panels: vec![panel], columns: 1 };
+        let chart = Chart { title: title.into(), x_title, x, panels: vec![panel], columns: 1, keys: Vec::new() };
         report.figure(&name, sweep.heading, chart_figure(&chart)?);
     }
     Ok(report)

@@ -106,7 +106,7 @@ fn title(grid: &Grid, what: &str) -> FigureTitle {
     let corners: Vec<_> = corners.into_iter().filter_map(|(column, row)| grid.scene_of(column, row).ok()).collect();
     let parts = [grid.scene.file.title.as_str(), what];
     let text = parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(": ");
-    FigureTitle { text, conditions: heading::of_scenes(&corners) }
+    FigureTitle { text, conditions: heading::of_scenes(&corners.iter().collect::<Vec<_>>()) }
 }
 
 /// Peaks along the only axis, a line a device, broken where the block overturns.
@@ -139,6 +139,7 @@ fn cut(grid: &Grid, tally: &Tally) -> Result<String, PlotError> {
         x: scale(&grid.map.x),
         panels,
         columns: 1,
+        keys: Vec::new(),
     })
 }
 

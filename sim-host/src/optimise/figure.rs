@@ -6,7 +6,8 @@ use super::limit::Quantity;
 use super::page::heading;
 use super::problem::Problem;
 use crate::cloud::pages::percent;
-use crate::plot::{PlotError, TradeOffFigure, TradeOffMark, TradeOffPanel, TradeOffPoint, trade_off_figure};
+use crate::heading::of_blocks;
+use crate::plot::{FigureTitle, PlotError, TradeOffFigure, TradeOffMark, TradeOffPanel, TradeOffPoint, trade_off_figure};
 
 /// The picture: overturning against force, and against stroke where that is limited.
 ///
@@ -16,7 +17,7 @@ pub fn trade_off_picture(problem: &Problem<'_>, findings: &Findings) -> Result<S
     let choices = &problem.choices;
     let quantities = Quantity::ALL.into_iter().filter(|quantity| *quantity == Quantity::Force || choices.limits.stroke.is_some());
     trade_off_figure(&TradeOffFigure {
-        title: heading(choices).to_owned(),
+        title: FigureTitle { text: heading(choices).to_owned(), conditions: of_blocks(&[&choices.structure.scene]) },
         series: choices.curves.iter().map(Curve::name).collect(),
         band: format!("{} band", percent(findings.level.value())),
         panels: quantities.map(|quantity| panel(problem, findings, quantity)).collect(),

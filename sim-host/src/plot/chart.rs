@@ -3,10 +3,11 @@
 use sprag_shared::math;
 
 use super::curve::write_curve;
-use super::layer::{Text, document, units, write_disc};
-use super::legend::{BOLD_WIDTH, Key, MARK_PX, Swatch, wrapped, write_heading};
-use super::palette::{Stroke, device_look, guide_stroke};
+use super::layer::{Text, document, escape, units};
+use super::legend::{BOLD_WIDTH, Key, Swatch, wrapped, write_heading, write_mark};
+use super::palette::{INK, Stroke, device_look, guide_stroke, hex, stroke_of};
 use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
+use super::text_width::text_width_px;
 use super::ticks::{Scale, axis_range};
 use super::{FigureTitle, PlotError};
 
@@ -20,6 +21,11 @@ const COLUMN_GAP_PX: f64 = 14.0;
 const TICK_LABELS_PX: f64 = 34.0;
 const HEADING_FONT_PX: f64 = 12.0;
 const HEADING_LINE_PX: f64 = 15.0;
+/// Labels at the ends of lines, and the distance that they keep (px).
+const LABEL_FONT_PX: f64 = 9.5;
+const LABEL_LINE_PX: f64 = 11.5;
+/// From the panel to those labels (px).
+const LEADER_PX: f64 = 18.0;
 
 /// A line of a chart.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -32,6 +38,21 @@ pub struct Line {
     pub marks: bool,
     /// Makes it a thin grey dashed reference line, such as a slope.
     pub guide: bool,
+    /// How it looks; by its name without.
+    pub look: Option<LineLook>,
+    /// Text at its right end, instead of an entry of its own in the legend; empty for none.
+    pub label: String,
+}
+
+/// How a line looks: what lines share a part of their look for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct LineLook {
+    /// Number of its colour.
+    pub colour: usize,
+    /// Number of its dashes; the first is a solid line.
+    pub dashes: usize,
+    /// Its marks are circles instead of discs.
+    pub open: bool,
 }
 
 /// A panel of a chart.
@@ -61,6 +82,19 @@ pub struct Chart {
     pub panels: Vec<ChartPanel>,
     /// Panels in a row; zero counts as one.
     pub columns: usize,
+    /// Entries of the legend that explain looks, a row each: they look like lines of this look.
+    pub keys: Vec<Vec<ChartKey>>,
+}
+
+/// An entry of the legend that explains a part of looks.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum ChartKey {
+    /// What a colour stands for, by its number.
+    Colour(usize, String),
+    /// What dashes stand for, by their number.
+    Dashes(usize, String),
+    /// What discs stand for, or circles if it is true.
+    Marks(bool, String),
 }
 
 /// Draws `chart` as an SVG document.
@@ -82,12 +116,16 @@ pub fn chart_figure(chart: &Chart) -> Result<String, PlotError> {
 
     let columns = chart.columns.clamp(1, chart.panels.len().max(1));
     let (panel_width_px, panel_height_px) = PANEL_SIZES_PX[columns.min(PANEL_SIZES_PX.len()) - 1];
-    let column_px = LEFT_LABELS_PX + panel_width_px + COLUMN_GAP_PX;
+    let labels = chart.panels.iter().flat_map(|panel| &panel.lines).map(|line| text_width_px(&line.label, LABEL_FONT_PX));
+    let labels_px = labels.fold(0.0, f64::max);
+    let labels_px = if labels_px > 0.0 { labels_px + LEADER_PX } else { 0.0 };
+    let column_px = LEFT_LABELS_PX + panel_width_px + labels_px + COLUMN_GAP_PX;
     let width_px = MARGIN_PX + columns as f64 * column_px - COLUMN_GAP_PX + RIGHT_MARGIN_PX;
     let left_px = MARGIN_PX + LEFT_LABELS_PX;
     let mut body = String::new();
     let area = (left_px, width_px - left_px - RIGHT_MARGIN_PX);
-    let mut top_px = write_heading(&mut body, &chart.title, &looks.groups(), area, MARGIN_PX) + 4.0;
+    let groups = [chart.keys.iter().map(|row| row.iter().map(ChartKey::entry).collect()).collect(), looks.groups().to_vec()];
+    let mut top_px = write_heading(&mut body, &chart.title, &groups.concat(), area, MARGIN_PX) + 4.0;
 
     // plotters cuts off what lies beyond its canvas, so the height comes first.
     let headings: Vec<Vec<String>> =
@@ -120,13 +158,76 @@ pub fn chart_figure(chart: &Chart) -> Result<String, PlotError> {
                 let stroke = looks.stroke(line);
                 write_curve(&mut body, canvas, &panel, points, stroke)?;
                 if line.marks || points.len() == 1 {
-                    points.iter().for_each(|point| write_disc(&mut body, panel.position_px(*point), MARK_PX, stroke.colour, ""));
+                    let open = line.look.is_some_and(|look| look.open);
+                    points.iter().for_each(|point| write_mark(&mut body, panel.position_px(*point), stroke.colour, open));
                 }
             }
+            write_labels(
+                &mut body,
+                &panel,
+                source.lines.iter().zip(curves).map(|(line, points)| (line, &points[..], looks.stroke(line))),
+            );
         }
         top_px += panel_height_px + TICK_LABELS_PX;
     }
     Ok(document(&chart.title.text, (width_px, height_px), &body))
+}
+
+impl LineLook {
+    fn stroke(self) -> Stroke {
+        stroke_of(self.colour, self.dashes)
+    }
+}
+
+impl ChartKey {
+    fn entry(&self) -> Key {
+        match self {
+            ChartKey::Colour(colour, name) => (Swatch::Line(stroke_of(*colour, 0)), name.clone()),
+            ChartKey::Dashes(dashes, name) => (Swatch::Line(Stroke { colour: INK, ..stroke_of(0, *dashes) }), name.clone()),
+            ChartKey::Marks(open, name) => (Swatch::Point { open: *open }, name.clone()),
+        }
+    }
+}
+
+/// Appends the labels of `lines` right of the panel, in the order of the ends of their curves and apart from each other, with a thin line
+/// from each end to its label.
+fn write_labels<'a>(svg: &mut String, panel: &Panel<'_>, lines: impl Iterator<Item = (&'a Line, &'a [(f64, f64)], Stroke)>) {
+    let last = |points: &[(f64, f64)]| points.iter().copied().max_by(|a, b| a.0.total_cmp(&b.0));
+    let mut ends: Vec<((f64, f64), &str, Stroke)> = lines
+        .filter(|(line, ..)| !line.label.is_empty())
+        .filter_map(|(line, points, stroke)| Some((panel.position_px(last(points)?), line.label.as_str(), stroke)))
+        .collect();
+    ends.sort_by(|a, b| a.0.1.total_cmp(&b.0.1));
+    let wanted: Vec<f64> = ends.iter().map(|end| end.0.1).collect();
+    let heights = apart(&wanted, LABEL_LINE_PX, (panel.top_px, panel.bottom_px()));
+    let left_px = panel.right_px() + LEADER_PX;
+    for (((x, y), label, stroke), height) in ends.into_iter().zip(heights) {
+        svg.push_str(&format!(
+            "<path d=\"M{} {}L{} {}\" fill=\"none\" stroke=\"{}\" stroke-width=\"5\" stroke-opacity=\"0.5\"/>\n",
+            units(x),
+            units(y),
+            units(left_px - 3.0),
+            units(height),
+            hex(stroke.colour)
+        ));
+        let at = (left_px, height + 0.36 * LABEL_FONT_PX);
+        Text { colour: stroke.colour, ..Text::new(&escape(label), at, LABEL_FONT_PX) }.write(svg, false);
+    }
+}
+
+/// Places near `wanted`, which rise, at least `distance` apart and within `range` if there is room.
+fn apart(wanted: &[f64], distance: f64, (low, high): (f64, f64)) -> Vec<f64> {
+    let mut places: Vec<f64> = Vec::with_capacity(wanted.len());
+    for &wish in wanted {
+        let least = places.last().map_or(low, |before| before + distance);
+        places.push(wish.max(least));
+    }
+    let mut most = high.max(low + distance * wanted.len().saturating_sub(1) as f64);
+    for place in places.iter_mut().rev() {
+        *place = place.min(most);
+        most = *place - distance;
+    }
+    places
 }
 
 /// The points of `line` on the panel's scales: those that it can show.
@@ -154,6 +255,9 @@ impl<'a> Looks<'a> {
         let mut looks = Self { lines: Vec::new(), guides: Vec::new() };
         for line in chart.panels.iter().flat_map(|panel| &panel.lines) {
             let name = line.name.as_str();
+            if line.look.is_some() && !line.guide {
+                continue;
+            }
             if line.guide {
                 if !looks.guides.contains(&name) {
                     looks.guides.push(name);
@@ -168,7 +272,9 @@ impl<'a> Looks<'a> {
     }
 
     fn stroke(&self, line: &Line) -> Stroke {
-        if line.guide {
+        if let Some(look) = line.look.filter(|_| !line.guide) {
+            look.stroke()
+        } else if line.guide {
             guide_stroke(self.guides.iter().position(|name| *name == line.name).unwrap_or(0))
         } else {
             device_look(self.lines.iter().position(|(name, _)| *name == line.name).unwrap_or(0)).stroke()
@@ -197,7 +303,7 @@ mod tests {
 
     fn line(name: &str, exponent: i32) -> Line {
         let points = (0..10).map(|k| (f64::from(1 << k), 1e-2 * (0..k * exponent).fold(1.0, |value, _| 0.5 * value)));
-        Line { name: name.to_owned(), points: points.collect(), marks: true, guide: false }
+        Line { name: name.to_owned(), points: points.collect(), marks: true, ..Line::default() }
     }
 
     fn chart(scale: Scale, columns: usize) -> Chart {
@@ -214,6 +320,7 @@ mod tests {
             x: scale,
             panels: ["one", "two & a half", "three"].map(panel).to_vec(),
             columns,
+            keys: Vec::new(),
         }
     }
 

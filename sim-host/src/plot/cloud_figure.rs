@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use sprag_shared::math;
 
-use super::PlotError;
 use super::curve::write_curve;
 use super::layer::{document, escape, units, write_area};
 use super::legend::{Key, Swatch, write_heading};
@@ -14,6 +13,7 @@ use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
 use super::panel_heading::Heading;
 use super::rug::{Rug, rugs_px};
 use super::ticks::{Scale, axis_range, close_range};
+use super::{FigureTitle, PlotError};
 
 const MARGIN_PX: f64 = 10.0;
 /// Wider on the right, where half of the last tick label sticks out.
@@ -27,8 +27,8 @@ const TICK_LABELS_PX: f64 = 34.0;
 /// A figure of panels in rows.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CloudFigure {
-    /// Heading.
-    pub title: String,
+    /// What stands above the figure.
+    pub title: FigureTitle,
     /// Names of the devices, for the legend.
     pub devices: Vec<String>,
     /// Title of the shared horizontal axis, in the markup of [`super::Chart::x_title`].
@@ -91,7 +91,7 @@ pub struct BandPoint {
 /// # Errors
 /// [`PlotError`] without panels or without a point in all of them, and for numbers that are not finite.
 pub fn cloud_figure(figure: &CloudFigure) -> Result<String, PlotError> {
-    let nothing = || PlotError::NothingToDraw { title: figure.title.clone() };
+    let nothing = || PlotError::NothingToDraw { title: figure.title.text.clone() };
     let panels: Vec<Vec<CloudSeries>> = figure
         .panels
         .iter()
@@ -108,7 +108,7 @@ pub fn cloud_figure(figure: &CloudFigure) -> Result<String, PlotError> {
     let left_px = MARGIN_PX + LEFT_LABELS_PX;
     let mut body = String::new();
     let area = (left_px, width_px - left_px - RIGHT_MARGIN_PX);
-    let mut top_px = write_heading(&mut body, &figure.title.as_str().into(), &figure.keys(), area, MARGIN_PX) + 4.0;
+    let mut top_px = write_heading(&mut body, &figure.title, &figure.keys(), area, MARGIN_PX) + 4.0;
 
     // plotters cuts off what lies beyond its canvas, so the height comes first.
     let headings: Vec<Heading> =
@@ -138,7 +138,7 @@ pub fn cloud_figure(figure: &CloudFigure) -> Result<String, PlotError> {
         }
         top_px += height_of_panel + TICK_LABELS_PX;
     }
-    Ok(document(&figure.title, (width_px, height_px), &body))
+    Ok(document(&figure.title.text, (width_px, height_px), &body))
 }
 
 /// The range of an axis that shows `values`; `None` without any.
@@ -278,7 +278,7 @@ mod tests {
             ..CloudPanel::default()
         };
         CloudFigure {
-            title: "A <title>".to_owned(),
+            title: "A <title>".into(),
             devices: ["none", "in & erter", "pair"].map(str::to_owned).to_vec(),
             x_title: "*p* *t*_{uni}".to_owned(),
             scales: (Scale::Logarithmic, Scale::Logarithmic),

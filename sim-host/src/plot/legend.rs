@@ -14,11 +14,12 @@ const TITLE_FONT_PX: f64 = 14.0;
 const CONDITIONS_FONT_PX: f64 = 12.0;
 const FONT_PX: f64 = 11.0;
 const ROW_PX: f64 = 17.0;
-const SWATCH_PX: f64 = 30.0;
+/// So long that the longest dash shows twice.
+const SWATCH_PX: f64 = 36.0;
 const GAP_PX: f64 = 14.0;
 
 /// Radius of the discs at the points of a line (px).
-pub(super) const MARK_PX: f64 = 2.6;
+const MARK_PX: f64 = 2.6;
 
 /// Part of a width that [`wrapped`] may use for bold text, which is wider.
 pub(super) const BOLD_WIDTH: f64 = 0.87;
@@ -33,6 +34,8 @@ pub(super) enum Swatch {
     Line(Stroke),
     /// A piece of a curve with a disc at its points.
     MarkedLine(Stroke),
+    /// A mark of a line in a colour of none: a disc, or a circle.
+    Point { open: bool },
     /// A piece of a fitted line on its band, with the mark of what it was fitted to.
     Fitted(DeviceLook, Option<Marker>),
     /// A mark in a colour of no device.
@@ -145,6 +148,16 @@ fn column_lefts(entries: &[Key], width_px: f64) -> Vec<f64> {
     vec![0.0]
 }
 
+/// Appends the mark of a point of a line: a disc, or a circle if it is `open`.
+pub(super) fn write_mark(svg: &mut String, at_px: (f64, f64), colour: RGBColor, open: bool) {
+    if open {
+        let stroke = format!(" stroke=\"{}\" stroke-width=\"{}\"", hex(colour), units(1.1));
+        write_disc(svg, at_px, MARK_PX - 0.3, RGBColor(255, 255, 255), &stroke);
+    } else {
+        write_disc(svg, at_px, MARK_PX, colour, "");
+    }
+}
+
 fn write_swatch(svg: &mut String, swatch: Swatch, x_px: f64, middle_px: f64) {
     let (x, y, width) = (units(x_px), units(middle_px), units(SWATCH_PX));
     match swatch {
@@ -158,6 +171,7 @@ fn write_swatch(svg: &mut String, swatch: Swatch, x_px: f64, middle_px: f64) {
             write_swatch(svg, Swatch::Line(stroke), x_px, middle_px);
             write_disc(svg, (x_px + 0.5 * SWATCH_PX, middle_px), MARK_PX, stroke.colour, "");
         }
+        Swatch::Point { open } => write_mark(svg, (x_px + 0.5 * SWATCH_PX, middle_px), INK, open),
         Swatch::Fitted(look, marker) => {
             write_swatch(svg, Swatch::Line(look.stroke()), x_px, middle_px);
             if let Some(marker) = marker {

@@ -30,7 +30,7 @@ mod png;
 mod rug;
 mod sensitivity_figure;
 #[cfg(test)]
-mod synthetic;
+pub(crate) mod synthetic;
 mod text_width;
 mod ticks;
 mod time_axis;
@@ -38,7 +38,7 @@ mod trade_off_figure;
 
 pub use cell::{Cell, Class, band};
 pub use cell_map::{CellMap, CellMaps, cell_map_figure};
-pub use chart::{Chart, ChartPanel, Line, chart_figure};
+pub use chart::{Chart, ChartKey, ChartPanel, Line, LineLook, chart_figure};
 pub use cloud_figure::{BandPoint, CloudFigure, CloudPanel, CloudSeries, cloud_figure};
 pub use energy_figure::energy_figure;
 pub use figure_title::FigureTitle;

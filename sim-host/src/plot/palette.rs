@@ -78,6 +78,11 @@ pub(super) fn device_look(index: usize) -> DeviceLook {
     DeviceLook { colour: COLOURS[index % COLOURS.len()], dashes: DASHES[index % DASHES.len()] }
 }
 
+/// The stroke of the colour and the dashes of these numbers; colours repeat after seven, dashes after five.
+pub(super) fn stroke_of(colour: usize, dashes: usize) -> Stroke {
+    Stroke { colour: COLOURS[colour % COLOURS.len()], dashes: DASHES[dashes % DASHES.len()], width_px: CURVE_PX }
+}
+
 /// The look of the reference line at `index`; dashes repeat after three.
 pub(super) fn guide_stroke(index: usize) -> Stroke {
     const GUIDE_DASHES: [&str; 3] = ["40 30", "100 40", "12 22"];

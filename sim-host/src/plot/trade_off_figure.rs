@@ -1,12 +1,12 @@
 //! Panels of a probability against what it costs: a line of designs for each series, the Pareto front below them, and the limit.
 
-use super::PlotError;
 use super::curve::write_curve;
 use super::layer::{document, units, write_area, write_disc};
 use super::legend::{Key, Swatch, write_heading};
 use super::marker::{device_marker, write_chosen};
 use super::palette::{FRONT, GUIDE, INK, Stroke, device_look, guide_stroke};
 use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
+use super::{FigureTitle, PlotError};
 use crate::statistics::Band;
 
 const MARGIN_PX: f64 = 10.0;
@@ -29,8 +29,8 @@ const LIMIT_STROKE: Stroke = Stroke { colour: INK, dashes: "70 40", width_px: 1.
 /// A figure of panels side by side.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TradeOffFigure {
-    /// Heading.
-    pub title: String,
+    /// What stands above the figure.
+    pub title: FigureTitle,
     /// Names of the series, for the legend.
     pub series: Vec<String>,
     /// What bands are, for the legend.
@@ -82,7 +82,7 @@ pub struct TradeOffMark {
 /// [`PlotError`] without panels or without a design in one of them, and for numbers that are not finite.
 pub fn trade_off_figure(figure: &TradeOffFigure) -> Result<String, PlotError> {
     if figure.panels.is_empty() || figure.panels.iter().any(|panel| panel.series.iter().all(Vec::is_empty)) {
-        return Err(PlotError::NothingToDraw { title: figure.title.clone() });
+        return Err(PlotError::NothingToDraw { title: figure.title.text.clone() });
     }
     if let Some(panel) = figure.panels.iter().find(|panel| !panel.values().all(f64::is_finite)) {
         return Err(PlotError::NotFiniteValue { name: panel.x_title.clone() });
@@ -94,7 +94,7 @@ pub fn trade_off_figure(figure: &TradeOffFigure) -> Result<String, PlotError> {
     let left_px = MARGIN_PX + LEFT_LABELS_PX;
     let mut body = String::new();
     let area = (left_px, width_px - left_px - RIGHT_MARGIN_PX);
-    let top_px = write_heading(&mut body, &figure.title.as_str().into(), &figure.keys(), area, MARGIN_PX) + 4.0;
+    let top_px = write_heading(&mut body, &figure.title, &figure.keys(), area, MARGIN_PX) + 4.0;
     let height_px = top_px + panel_height_px + BOTTOM_LABELS_PX + 4.0;
     let canvas = (units(width_px) as u32, units(height_px) as u32);
     // Probabilities of all panels are those of the same designs.
@@ -113,7 +113,7 @@ pub fn trade_off_figure(figure: &TradeOffFigure) -> Result<String, PlotError> {
         };
         source.write(&mut body, canvas, &panel)?;
     }
-    Ok(document(&figure.title, (width_px, height_px), &body))
+    Ok(document(&figure.title.text, (width_px, height_px), &body))
 }
 
 impl TradeOffFigure {
@@ -230,7 +230,7 @@ mod tests {
             reference: mark((0.0, 0.3)),
         };
         TradeOffFigure {
-            title: "A <title>".to_owned(),
+            title: "A <title>".into(),
             series: ["in & erter".to_owned(), "pair".to_owned()].to_vec(),
             band: "95 % band".to_owned(),
             panels: vec![panel; panels],
