@@ -37,7 +37,7 @@ use crate::scene::{Scene, SceneError, text_of};
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag map scenes/figure08.toml\n  \
     sprag map scenes/figure08.toml --set map.x.cells=512 --set map.y.cells=512\n  \
-    sprag map scenes/figure08.toml --x device.2.mass_ratio=0.01:10:200:log --y block.slenderness_deg=5:40:200\n  \
+    sprag map scenes/figure08.toml --x ground.0.frequency_ratio=0.5:8:200:log --y block.restitution=0.5:1:200\n  \
     sprag map scenes/figure08.toml --refine\n  \
     sprag map scenes/figure08.toml --shard 1/2; sprag map scenes/figure08.toml --shard 2/2; sprag map scenes/figure08.toml --merge 2\n\n\
     Writes summary.json, the table map.csv and map.parquet, and the pictures map (outcomes), rotation and acceleration (peaks), each \
