@@ -8,7 +8,7 @@ trap 'rm -rf "$out"' EXIT
 peak() { # stiffness, further settings
     stiffness=$1
     shift
-    "$program" simulate scenes/near_fault.toml --out "$out" --set output.interval_s=1 \
+    "$program" simulate scenes/near_fault.toml --out "$out" --overwrite --set output.interval_s=1 \
         --set "device.2.clutch={stiffness_ratio=$stiffness,damping_ratio=0.3}" \
         --set 'device.2.flywheel={brake_deceleration_m_s2="instant"}' "$@" > /dev/null 2>&1 || { echo nan; return; }
     awk -F'[:,]' '/"peak_rotation"/ { value = $2 } END { print value }' "$out/summary.json"

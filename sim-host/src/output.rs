@@ -1,18 +1,42 @@
 //! Writing results: beside their place first, then renamed into it, so that nothing half-written is ever left there.
+//!
+//! Nothing is lost:
+//! - Links are followed, an existing file keeps its mode, and a read-only one is refused, whoever asks.
+//! - Devices and pipes are written through, as every program does.
+//! - An input of a command is never its output.
+//! - Results are replaced only by those of the same command and the same input ([`Subject`]: scene or study as resolved, options that change
+//!   results, contents of the files that are read), and else where `--overwrite` asks for it. [`ResultFolder`] finds out by `summary.json`,
+//!   [`claim_file`] by the file itself. A file that Sprag did not write is another's.
 
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use tempfile::NamedTempFile;
 
+mod folder;
 mod formats;
 mod picture;
 mod same_file;
+mod subject;
 mod table;
+mod target;
 
+#[cfg(test)]
+mod tests;
+
+pub use folder::{Claim, ResultFolder};
 pub use formats::{Formats, FormatsError};
-pub use same_file::{is_at, is_standard_output, same_file};
+pub use same_file::{is_at, is_standard_output};
+pub use subject::{Digest, Subject, difference};
+use target::Written;
+pub use target::claim_file;
+
+/// What to do about results that are there.
+const REPLACE: &str = "--overwrite replaces it, or give another place for the new one";
+
+fn is_input(input: &Path) -> String {
+    format!("cannot be written: it is {}, which the command reads; give another place", input.display())
+}
 
 /// A result that could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -33,7 +57,9 @@ impl OutputError {
 /// Files of one command that appear together, once all of them are written.
 #[derive(Debug, Default)]
 pub struct Results {
-    files: Vec<(NamedTempFile, PathBuf)>,
+    files: Vec<Written>,
+    /// Files of the results before that would contradict these.
+    obsolete: Vec<PathBuf>,
     notes: Vec<String>,
 }
 
@@ -48,23 +74,12 @@ impl Results {
         fill: impl FnOnce(&mut BufWriter<&mut std::fs::File>) -> io::Result<()>,
     ) -> Result<(), OutputError> {
         let failed = |error: io::Error| OutputError::new(path, &error);
-        if path.is_dir() {
-            return Err(OutputError { path: path.to_owned(), reason: "cannot be written: it is a folder".to_owned() });
-        }
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let mut builder = tempfile::Builder::new();
-        // Temporary files are private by default; this one becomes the user's, as far as the umask allows.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let mut file = builder.prefix(".sprag-").tempfile_in(folder).map_err(|error| OutputError {
-            path: path.to_owned(),
-            reason: format!("cannot be written: its folder does not exist or may not be written ({})", error.kind()),
-        })?;
-        let mut writer = BufWriter::new(file.as_file_mut());
+        let mut written = Written::new(path)?;
+        let mut writer = BufWriter::new(written.file());
         fill(&mut writer).and_then(|()| writer.flush()).map_err(failed)?;
         drop(writer);
-        file.as_file().sync_all().map_err(failed)?;
-        self.files.push((file, path.to_owned()));
+        written.seal().map_err(failed)?;
+        self.files.push(written);
         Ok(())
     }
 
@@ -79,15 +94,23 @@ impl Results {
         })
     }
 
+    /// Removes the file at `path`, if there is one, when the others are put in their places: it would contradict them.
+    pub fn remove(&mut self, path: PathBuf) {
+        self.obsolete.push(path);
+    }
+
     /// Puts every file in its place.
     ///
     /// # Errors
     /// [`OutputError`] when a file cannot be renamed.
     pub fn commit(self) -> Result<(), OutputError> {
-        for (file, path) in self.files {
-            file.persist(&path).map_err(|error| OutputError::new(&path, &error.error))?;
+        for path in self.obsolete {
+            match std::fs::remove_file(&path) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(OutputError::new(&path, &error)),
+                _ => {}
+            }
         }
-        Ok(())
+        self.files.into_iter().try_for_each(Written::commit)
     }
 
     /// Puts every file in its place, and tells `err` what the reader of the files should know, in a line each.
@@ -102,12 +125,4 @@ impl Results {
         }
         Ok(())
     }
-}
-
-/// Makes `folder` and those above it.
-///
-/// # Errors
-/// [`OutputError`] when that is not possible.
-pub fn make_folder(folder: &Path) -> Result<(), OutputError> {
-    std::fs::create_dir_all(folder).map_err(|error| OutputError::new(folder, &error))
 }

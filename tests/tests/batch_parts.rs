@@ -7,6 +7,7 @@ use sprag_sim_host::accuracy::AccuracyArguments;
 use sprag_sim_host::batch::case::TIGHT;
 use sprag_sim_host::batch::table::{CASE_COLUMNS, RESULT_COLUMNS};
 use sprag_sim_host::command::batch::{BatchArguments, run};
+use sprag_sim_host::command::out_arguments::OverwriteArguments;
 use sprag_sim_host::interrupt::Interrupt;
 use sprag_tests::dice::Dice;
 
@@ -39,7 +40,14 @@ fn results(folder: &Path, rows: &[String], threads: Option<u16>) -> Vec<u8> {
     std::fs::write(&cases, text).unwrap();
     let out = folder.join("results.csv");
     let (arguments, mut errors) = (
-        BatchArguments { cases, out: out.clone(), threads, tolerance: TIGHT, accuracy: AccuracyArguments::default() },
+        BatchArguments {
+            cases,
+            out: out.clone(),
+            replace: OverwriteArguments { overwrite: true },
+            threads,
+            tolerance: TIGHT,
+            accuracy: AccuracyArguments::default(),
+        },
         Vec::new(),
     );
     assert_eq!(run(&arguments, &mut errors, &Interrupt::default()), 0, "{}", String::from_utf8_lossy(&errors));

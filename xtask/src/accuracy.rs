@@ -45,7 +45,7 @@ pub fn run(root: &Path) -> Result<(), Stop> {
             "--qemu",
             "--image",
         ]);
-        done(command.arg(&image).arg("--out").arg(&folder))?;
+        done(command.arg(&image).arg("--out").arg(&folder).arg("--overwrite"))?;
         let page = folder.join("accuracy.md");
         let text = read(&page)?;
         // The heading is the page's own.
@@ -85,7 +85,15 @@ fn batch(sprag: &Path, cases: &Path, results: &Path, options: &[&str], times: u3
     let mut least = f64::INFINITY;
     for _ in 0..times {
         let start = std::time::Instant::now();
-        output(Command::new(sprag).arg("batch").arg(cases).arg("--out").arg(results).args(["--threads", "1"]).args(options))?;
+        output(
+            Command::new(sprag)
+                .arg("batch")
+                .arg(cases)
+                .arg("--out")
+                .arg(results)
+                .args(["--overwrite", "--threads", "1"])
+                .args(options),
+        )?;
         least = least.min(start.elapsed().as_secs_f64());
     }
     Ok(least)

@@ -202,7 +202,7 @@ fn arguments(root: &Path, set: &[&str], step: f64, out: &Path) -> Vec<String> {
     for item in all {
         words.extend(["--set".to_owned(), item]);
     }
-    words.extend(["--out".to_owned(), out.display().to_string()]);
+    words.extend(["--out".to_owned(), out.display().to_string(), "--overwrite".to_owned()]);
     words
 }
 

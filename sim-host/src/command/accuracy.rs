@@ -1,5 +1,6 @@
 //! `sprag accuracy`: what accuracy costs in time, for one scene.
 
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -7,14 +8,15 @@ use clap::Args;
 use serde::Serialize;
 
 use super::format_arguments::PictureArguments;
-use super::{ended, results_folder, warned};
+use super::out_arguments::{FolderArguments, claim_of_scene};
+use super::{ended, warned};
 use crate::accuracy_study::board::{Board, BoardError};
 use crate::accuracy_study::figure::figures;
 use crate::accuracy_study::report::{page, write_csv};
 use crate::accuracy_study::row::RowText;
 use crate::accuracy_study::study::{Extent, StudyError, study};
 use crate::interrupt::Interrupt;
-use crate::output::{OutputError, Results, make_folder};
+use crate::output::{Digest, OutputError, Results};
 use crate::plot::PlotError;
 use crate::progress::Progress;
 use crate::scene::ground::GroundError;
@@ -52,9 +54,9 @@ pub struct AccuracyCommandArguments {
     /// Pictures.
     #[command(flatten)]
     pub pictures: PictureArguments,
-    /// Folder for the results; out/NAME-accuracy of the scene by default.
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    /// Where results go.
+    #[command(flatten)]
+    pub folder: FolderArguments,
 }
 
 fn smallest_step(text: &str) -> Result<f64, String> {
@@ -89,9 +91,15 @@ struct Summary<'a> {
     version: &'static str,
     scene: &'a SceneFile,
     warnings: &'a [String],
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    files: &'a BTreeMap<String, Digest>,
     cells: u32,
+    smallest_step: f64,
     runs: Vec<RowText<'a>>,
 }
+
+/// Names of what is written beside the summary.
+const NAMES: [&str; 6] = ["accuracy", "work_precision", "order", "sines", "wrong_outcomes", "board"];
 
 /// Runs the command; a table goes to `out`, errors go to `err`.
 pub fn run(arguments: &AccuracyCommandArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
@@ -114,9 +122,12 @@ fn run_or_fail(
         return Err(Failure::BeyondIdeal { scene: scene.origin.clone(), what });
     }
     let ground = scene.ground_motions()?;
-    let folder = results_folder(&arguments.scene, arguments.out.as_ref(), "accuracy");
+    let mut folder = arguments.folder.folder(&arguments.scene, "accuracy");
+    let cells = u32::from(arguments.cells) * u32::from(arguments.cells);
+    let mut claim = claim_of_scene("accuracy", &arguments.scene, &scene, &scene.file, &NAMES, &[])?;
+    claim.subject = claim.subject.with("cells", &cells)?.with("smallest_step", &arguments.smallest_step)?;
     // Where the results go is tried before the work, not after it.
-    make_folder(&folder)?;
+    folder.open(&claim)?;
     let board = if arguments.qemu { Some(Board::measure(arguments.image.as_deref())?) } else { None };
     let progress = Progress::new("runs");
     let extent = Extent { cells: arguments.cells.into(), smallest_step: arguments.smallest_step };
@@ -132,7 +143,9 @@ fn run_or_fail(
         version: env!("CARGO_PKG_VERSION"),
         scene: &scene.file,
         warnings: &warnings,
-        cells: u32::from(arguments.cells) * u32::from(arguments.cells),
+        files: &claim.subject.files,
+        cells,
+        smallest_step: arguments.smallest_step,
         runs: rows.iter().map(|row| row.text(&devices[row.device])).collect(),
     };
     let mut results = Results::default();

@@ -1,6 +1,6 @@
 //! `sprag batch`: many independent cases, one a row.
 
-use std::io::{BufReader, Write};
+use std::io::{BufReader, Read, Write};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -9,12 +9,13 @@ use rayon::prelude::*;
 use sprag_shared::taylor::Taylor;
 
 use super::ended;
+use super::out_arguments::OverwriteArguments;
 use crate::accuracy::answer::Comparable;
 use crate::accuracy::{Accuracy, AccuracyArguments, ErrorEstimate, budget};
 use crate::batch::case::{Case, CaseError, CaseResult, TERMS, TIGHT};
 use crate::batch::table::{CASE_COLUMNS, ERROR_COLUMNS, RESULT_COLUMNS, TableError, read_cases, shown, write_result};
 use crate::interrupt::Interrupt;
-use crate::output::{OutputError, Results};
+use crate::output::{OutputError, Results, claim_file};
 use crate::progress::Progress;
 
 /// Run many independent cases: dimensionless blocks under one-cycle pulses.
@@ -29,6 +30,9 @@ pub struct BatchArguments {
     /// Result file.
     #[arg(long, value_name = "RESULTS.csv")]
     pub out: PathBuf,
+    /// What may be replaced.
+    #[command(flatten)]
+    pub replace: OverwriteArguments,
     /// Threads; all cores by default. The result does not depend on it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -101,6 +105,18 @@ pub fn run(arguments: &BatchArguments, err: &mut impl Write, interrupt: &Interru
     ended(result.map(|()| true), interrupt, err)
 }
 
+/// The first line of a result file.
+fn heading(with_errors: bool) -> String {
+    if with_errors { format!("{RESULT_COLUMNS},{ERROR_COLUMNS}") } else { RESULT_COLUMNS.to_owned() }
+}
+
+/// Whether `file` has results below this heading, of these cases by their ids.
+fn results_of(file: impl Read, heading: &str, cases: &[(String, Case)]) -> bool {
+    let mut reader = csv::Reader::from_reader(file);
+    let same = reader.headers().is_ok_and(|titles| titles.iter().eq(heading.split(',')));
+    same && reader.records().map(|row| row.ok()?.get(0).map(str::to_owned)).eq(cases.iter().map(|(id, _)| Some(id.clone())))
+}
+
 fn run_or_fail(arguments: &BatchArguments, err: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
     let path = &arguments.cases;
     let file = std::fs::File::open(path).map_err(|error| Failure::Unreadable { path: path.clone(), error })?;
@@ -111,9 +127,9 @@ fn run_or_fail(arguments: &BatchArguments, err: &mut impl Write, interrupt: &Int
     let cases = read_cases(BufReader::new(file)).map_err(|error| Failure::Table { path: path.clone(), error })?;
     reading.finish();
     // Where the results go is tried before the work, not after it.
-    let mut results = Results::default();
-    results.add(&arguments.out, |_| Ok(()))?;
-    drop(results);
+    let heading = heading(arguments.accuracy.accuracy.is_some() || arguments.accuracy.time_budget.is_some());
+    let same = |file| results_of(file, &heading, &cases);
+    claim_file(&arguments.out, &[path], arguments.replace.overwrite, same)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
     let AccuracyArguments { mut accuracy, time_budget } = arguments.accuracy;
     if let Some(seconds) = time_budget {
@@ -149,10 +165,7 @@ fn run_or_fail(arguments: &BatchArguments, err: &mut impl Write, interrupt: &Int
     let _writing = Progress::uncounted("writing results");
     let mut results = Results::default();
     results.add(&arguments.out, |out| {
-        match accuracy {
-            Some(_) => writeln!(out, "{RESULT_COLUMNS},{ERROR_COLUMNS}")?,
-            None => writeln!(out, "{RESULT_COLUMNS}")?,
-        }
+        writeln!(out, "{heading}")?;
         for ((id, _), answer) in cases.iter().zip(&answers) {
             if let Ok((result, error)) = answer {
                 write_result(out, id, result, error.as_ref())?;

@@ -1,8 +1,9 @@
 //! `sprag loop`: the controller in closed loop with the plant, its sensors and its clutches.
 
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use rayon::prelude::*;
@@ -10,7 +11,8 @@ use serde::Serialize;
 
 use super::format_arguments::PictureArguments;
 use super::loop_scene::{LoopScene, LoopSceneError};
-use super::{DRAWING, ended, results_folder, warned};
+use super::out_arguments::{FolderArguments, claim_of_scene};
+use super::{DRAWING, ended, warned};
 use crate::accuracy::AccuracyArguments;
 use crate::closed_loop::LoopFailure;
 use crate::closed_loop::answered::Looped;
@@ -19,7 +21,7 @@ use crate::closed_loop::report::{LoopReport, LoopSummary, loop_trace, write_hist
 use crate::closed_loop::run::Tick;
 use crate::heading::of_scene;
 use crate::interrupt::Interrupt;
-use crate::output::{OutputError, Results, make_folder};
+use crate::output::{Digest, OutputError, ResultFolder, Results, Subject};
 use crate::plot::{FigureTitle, PlotError, loop_figure};
 use crate::progress::Progress;
 use crate::scene::Scene;
@@ -48,9 +50,9 @@ pub struct LoopArguments {
     /// Threads of --monte-carlo; all processors by default. Results do not depend on it.
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
-    /// Folder for the results; out/NAME-loop of the scene by default.
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    /// Where results go.
+    #[command(flatten)]
+    pub folder: FolderArguments,
     /// Pictures.
     #[command(flatten)]
     pub pictures: PictureArguments,
@@ -81,6 +83,10 @@ struct Summary<'a> {
     version: &'static str,
     scene: &'a SceneFile,
     warnings: &'a [String],
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    files: &'a BTreeMap<String, Digest>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    monte_carlo: Option<NonZeroUsize>,
     runs: &'a [LoopSummary],
 }
 
@@ -96,11 +102,13 @@ fn run_or_fail(
     err: &mut impl Write,
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
-    let folder = results_folder(&arguments.scene, arguments.out.as_ref(), "loop");
+    let any_accuracy = arguments.accuracy.time_budget.is_some();
+    let mut folder = arguments.folder.folder(&arguments.scene, "loop").of_any_accuracy(any_accuracy);
     let plain = Scene::load(&arguments.scene, &arguments.set).map_err(LoopSceneError::from)?;
     let warnings = warned(plain.warnings(), err);
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
-    let (desk, mut reports) = arguments.accuracy.run(|change| looped(arguments, change, &folder, interrupt), tell)?;
+    let (desk, subject, mut reports) =
+        arguments.accuracy.run(|change| looped(arguments, change, &mut folder, interrupt), tell)?;
     let scene = &desk.scene;
     let mut results = Results::default();
     if let Some(count) = arguments.monte_carlo {
@@ -110,8 +118,8 @@ fn run_or_fail(
     let drawing = Progress::uncounted(DRAWING);
     let summaries: Vec<LoopSummary> = reports.iter().map(|report| report.summary.clone()).collect();
     let file = desk.resolved(arguments.record.as_ref());
-    let version = env!("CARGO_PKG_VERSION");
-    let summary = Summary { command: "loop", version, scene: &file, warnings: &warnings, runs: &summaries };
+    let (version, files, monte_carlo) = (env!("CARGO_PKG_VERSION"), &subject.files, arguments.monte_carlo);
+    let summary = Summary { command: "loop", version, scene: &file, warnings: &warnings, files, monte_carlo, runs: &summaries };
     results.add_json(&folder.join("summary.json"), &summary)?;
     results.add(&folder.join("history.csv"), |file| write_history(&reports, file).map_err(std::io::Error::other))?;
     for (number, report) in reports.iter().enumerate() {
@@ -135,13 +143,17 @@ fn run_or_fail(
 fn looped(
     arguments: &LoopArguments,
     change: Option<String>,
-    folder: &Path,
+    folder: &mut ResultFolder,
     interrupt: &Interrupt,
-) -> Result<(LoopScene, Vec<LoopReport>), Failure> {
+) -> Result<(LoopScene, Subject, Vec<LoopReport>), Failure> {
     let mut changes = arguments.set.clone();
     changes.extend(change);
     let desk = LoopScene::load(&arguments.scene, &changes, arguments.record.as_ref())?;
-    make_folder(folder)?;
+    let file = desk.resolved(arguments.record.as_ref());
+    let names = &["history", "loop", "monte_carlo"];
+    let mut claim = claim_of_scene("loop", &arguments.scene, &desk.scene, &file, names, &[])?;
+    claim.subject = claim.subject.with("monte_carlo", &arguments.monte_carlo)?;
+    folder.open(&claim)?;
     let _running = Progress::uncounted("running the loop");
     let mut reports: Vec<LoopReport> = Vec::new();
     for &index in &desk.pairs {
@@ -153,7 +165,7 @@ fn looped(
         report.summary.error = error;
         reports.push(report);
     }
-    Ok((desk, reports))
+    Ok((desk, claim.subject, reports))
 }
 
 pub(super) fn heading(scene: &Scene, report: &LoopReport) -> FigureTitle {

@@ -1,5 +1,6 @@
 //! `sprag cloud`: demand regressions and fragilities over many records.
 
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -7,7 +8,8 @@ use clap::Args;
 use serde::Serialize;
 
 use super::format_arguments::FormatArguments;
-use super::study_input::{StudyArguments, StudyInputError, study_origin};
+use super::out_arguments::FolderArguments;
+use super::study_input::{StudyArguments, StudyInputError, study_subject};
 use super::{DRAWING, ended, resumable, warned};
 use crate::accuracy::{AccuracyArguments, Worst};
 use crate::cloud::figures::{demand_picture, fragility_picture};
@@ -24,9 +26,10 @@ use crate::columns::{Table, TableError, metadata_of};
 use crate::interrupt::Interrupt;
 use crate::long_run::arguments::LongRunArguments;
 use crate::long_run::error::LongRunError;
+use crate::long_run::origin::Origin;
 use crate::long_run::rows::{Plan, Rows};
 use crate::long_run::shard::Shard;
-use crate::output::{Formats, OutputError, Results, make_folder};
+use crate::output::{Claim, Digest, Formats, OutputError, ResultFolder, Results, Subject};
 use crate::plot::PlotError;
 use crate::progress::Progress;
 use crate::simulation::RunError;
@@ -44,9 +47,9 @@ pub struct CloudArguments {
     /// The study.
     #[command(flatten)]
     pub input: StudyArguments,
-    /// Folder for the results; out/NAME of the study by default.
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    /// Where results go.
+    #[command(flatten)]
+    pub folder: FolderArguments,
     /// Threads; all cores by default. The result does not depend on it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -69,8 +72,6 @@ enum Failure {
     Run(#[from] RunError),
     #[error("{0}")]
     Rows(#[from] LongRunError),
-    #[error("the study cannot be told in JSON: {0}")]
-    Json(#[from] serde_json::Error),
     #[error("{0}")]
     Fragility(#[from] OverturningError),
     #[error("the picture cannot be drawn: {0}")]
@@ -92,6 +93,7 @@ struct Document<'a> {
     structures: &'a [StudyStructure],
     warnings: &'a [String],
     records: Vec<&'a str>,
+    files: &'a BTreeMap<String, Digest>,
     unreadable: &'a [String],
     #[serde(flatten)]
     findings: &'a Findings,
@@ -110,6 +112,9 @@ struct MadeBy<'a> {
     seed: u64,
 }
 
+/// Names of what is written beside the summary.
+const NAMES: [&str; 4] = ["runs", "demand", "fragility", "ranking"];
+
 /// Runs the command; tables go to `out`, errors go to `err`.
 pub fn run(arguments: &CloudArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
     let result = run_or_fail(arguments, out, err, interrupt);
@@ -120,6 +125,7 @@ pub fn run(arguments: &CloudArguments, out: &mut impl Write, err: &mut impl Writ
 struct Studied {
     study: Study,
     records: StudyRecords,
+    subject: Subject,
     runs: Runs,
     /// runs.csv, if it is written.
     rows: Option<PathBuf>,
@@ -135,11 +141,12 @@ fn run_or_fail(
     if let (Some(_), Some(option)) = (arguments.accuracy.time_budget, arguments.long_run.given()) {
         return Err(LongRunError::NoRows { option }.into());
     }
-    let folder = arguments.out.clone().unwrap_or_else(|| arguments.input.folder());
+    let any_accuracy = arguments.accuracy.time_budget.is_some();
+    let mut folder = arguments.folder.folder(&arguments.input.study, "cloud").of_any_accuracy(any_accuracy);
     let warnings = warned(arguments.input.load(None)?.warnings(), err);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
-    let studied = arguments.accuracy.run(|change| pool.install(|| studied(arguments, change, &folder, interrupt)), tell)?;
+    let studied = arguments.accuracy.run(|change| pool.install(|| studied(arguments, change, &mut folder, interrupt)), tell)?;
     for line in &studied.records.unreadable {
         let _ = writeln!(err, "sprag: {line}");
     }
@@ -159,22 +166,29 @@ fn run_or_fail(
     Ok(complete)
 }
 
-fn studied(arguments: &CloudArguments, change: Option<String>, folder: &Path, interrupt: &Interrupt) -> Result<Studied, Failure> {
+fn studied(
+    arguments: &CloudArguments,
+    change: Option<String>,
+    folder: &mut ResultFolder,
+    interrupt: &Interrupt,
+) -> Result<Studied, Failure> {
     let reading = Progress::uncounted("reading records");
     let study = arguments.input.load(change)?;
     let records = arguments.input.read(&study)?;
     reading.finish();
     let progress = Progress::new("runs");
     // Where the results go is tried before the work, not after it.
-    make_folder(folder)?;
+    let subject = study_subject("cloud", &records.records).with("study", &study.file)?.with("structures", &study.structures)?;
+    let inputs = arguments.input.files(&study, &records);
+    folder.open(&Claim { subject: subject.clone(), page: "summary.json", names: &NAMES, inputs })?;
     if arguments.accuracy.time_budget.is_some() {
         // Runs of several accuracies are tried; only the last are worth keeping.
         let runs = Runs::of(&study, &records.records, interrupt, |runs| progress.begin(runs), &|| progress.step())?;
-        return Ok(Studied { study, records, runs, rows: None });
+        return Ok(Studied { study, records, subject, runs, rows: None });
     }
     let list = RunList::new(&study, &records.records);
     let columns = list.columns().into_iter().map(|column| column.name).collect();
-    let origin = study_origin("cloud", list.study, list.records, list.rows())?;
+    let origin = Origin::new(subject.clone(), list.rows());
     let shard = arguments.long_run.shard();
     let plan = Plan { folder, name: "runs", columns, together: list.together(), shard, origin };
     let mut all = Vec::new();
@@ -197,7 +211,7 @@ fn studied(arguments: &CloudArguments, change: Option<String>, folder: &Path, in
     let rows = rows.finish()?;
     interrupt.keep(resumable("all rows", &rows));
     let runs = list.sum_up(all);
-    Ok(Studied { study, records, runs, rows: Some(rows) })
+    Ok(Studied { study, records, subject, runs, rows: Some(rows) })
 }
 
 /// Writes the results; returns whether everything was read and run.
@@ -209,7 +223,7 @@ fn write(
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> Result<bool, Failure> {
-    let Studied { study, records, runs, rows } = studied;
+    let Studied { study, records, subject, runs, rows } = studied;
     let (command, version) = ("cloud", env!("CARGO_PKG_VERSION"));
     let (file, structures) = (&study.file, &study.structures[..]);
     let document = Document {
@@ -219,6 +233,7 @@ fn write(
         structures,
         warnings,
         records: records.records.iter().map(|record| record.name.as_str()).collect(),
+        files: &subject.files,
         unreadable: &records.unreadable,
         findings,
         left_out: &runs.left_out,
@@ -229,7 +244,11 @@ fn write(
     let made_by = metadata_of(&MadeBy { command, version, study: file, structures, seed: study.bootstrap.seed })?;
     let of_runs = RunsTable { study, records: &records.records, runs: &runs.all };
     match rows {
-        None => results.add_table(folder, "runs", &of_runs, &made_by, formats)?,
+        None => {
+            results.add_table(folder, "runs", &of_runs, &made_by, formats)?;
+            // What a run without a time budget says of its own runs.csv.
+            results.remove(folder.join("runs.run.json"));
+        }
         Some(rows) if formats.parquet => results.add_parquet_of(rows, &of_runs.columns(), &made_by)?,
         Some(_) => {}
     }

@@ -1,7 +1,7 @@
 //! `sprag device`: talk to a device.
 
 use std::io::{IsTerminal, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::{Args, Subcommand};
@@ -13,13 +13,14 @@ use sprag_shared::settings::{Item, Settings};
 use super::device_line::{Connected, LineArguments, connect, firmware};
 use super::ended;
 use super::loop_scene::{LoopScene, LoopSceneError};
+use super::out_arguments::OverwriteArguments;
 use crate::device::event_table::{what, write_csv, write_table};
 use crate::device::line::{DeviceError, Line};
 use crate::device::session::Session;
 use crate::device::strip_chart::StripChart;
 use crate::device::{parameters, setting_text};
 use crate::interrupt::Interrupt;
-use crate::output::{OutputError, Results};
+use crate::output::{OutputError, Results, claim_file, is_standard_output};
 
 /// Talk to a device: who it is, its parameters, its self-test, its event log, and what it believes of the motion.
 #[derive(Args, Clone, Debug)]
@@ -87,6 +88,8 @@ struct ParameterArguments {
     /// Save all to this file.
     #[arg(long, value_name = "FILE.toml")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    replace: OverwriteArguments,
 }
 
 #[derive(Args, Clone, Debug)]
@@ -96,6 +99,8 @@ struct LogArguments {
     /// Write it to this file, as CSV.
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    #[command(flatten)]
+    replace: OverwriteArguments,
 }
 
 #[derive(Args, Clone, Debug)]
@@ -132,7 +137,7 @@ pub fn run(arguments: &DeviceArguments, out: &mut impl Write, err: &mut impl Wri
         DeviceCommand::Info(info) => with_device(&info.line, out, |session, out| show(session, out)),
         DeviceCommand::Parameters(given) => change(given, out, interrupt),
         DeviceCommand::SelfTest(info) => with_device(&info.line, out, |session, out| self_test(session, out, interrupt)),
-        DeviceCommand::Log(given) => with_device(&given.line, out, |session, out| log(session, given, out)),
+        DeviceCommand::Log(given) => log_to(given, out),
         DeviceCommand::Clear(info) => with_device(&info.line, out, clear),
         DeviceCommand::Watch(given) => with_device(&given.line, out, |session, out| watch(session, given, out, interrupt)),
     };
@@ -213,6 +218,11 @@ fn change(given: &ParameterArguments, out: &mut impl Write, interrupt: &Interrup
         Ok::<_, Failure>((name, text))
     });
     let file = file.transpose()?;
+    if let Some(path) = &given.out {
+        let inputs: Vec<&Path> = given.scene.iter().chain(&given.file).map(PathBuf::as_path).collect();
+        // What another device or another time had is not made again by the same command.
+        claim_file(path, &inputs, given.replace.overwrite, |_| false)?;
+    }
     with_device(&given.line, out, |session, out| {
         let before = parameters::read(session)?;
         let mut wanted = scene.map_or(before, |scene| setting_text::with_board_of(&scene, &before));
@@ -252,7 +262,10 @@ fn report(given: &ParameterArguments, before: &Settings, now: &Settings, out: &m
         writeln!(out, "{differing} parameters changed; in force {until}")?;
     }
     if let Some(path) = &given.out {
-        writeln!(out, "saved in {}", path.display())?;
+        // Not among the settings, if they are read from there.
+        if !is_standard_output(path) {
+            writeln!(out, "saved in {}", path.display())?;
+        }
     }
     if !told && given.get.is_empty() && given.out.is_none() {
         write!(out, "{}", setting_text::table(now))?;
@@ -260,7 +273,7 @@ fn report(given: &ParameterArguments, before: &Settings, now: &Settings, out: &m
     Ok(())
 }
 
-fn of_scene(path: &std::path::Path, interrupt: &Interrupt) -> Result<Settings, Failure> {
+fn of_scene(path: &Path, interrupt: &Interrupt) -> Result<Settings, Failure> {
     let desk = LoopScene::load(path, &[], None)?;
     let Some(&index) = desk.pairs.first() else { return Err(Failure::Input(format!("{}: no clutched pair", path.display()))) };
     let settings = desk.task(index, desk.controller.sensors.seed(), interrupt).settings();
@@ -303,6 +316,14 @@ fn self_test(session: &mut Talk, out: &mut impl Write, interrupt: &Interrupt) ->
     }
 }
 
+fn log_to(given: &LogArguments, out: &mut impl Write) -> Result<(), Failure> {
+    if let Some(path) = &given.csv {
+        // A log is of its time: the same command makes another.
+        claim_file(path, &[], given.replace.overwrite, |_| false)?;
+    }
+    with_device(&given.line, out, |session, out| log(session, given, out))
+}
+
 fn log(session: &mut Talk, given: &LogArguments, out: &mut impl Write) -> Result<(), Failure> {
     let period = parameters::read(session)?.period();
     let (entries, total) = session.log()?;
@@ -310,7 +331,9 @@ fn log(session: &mut Talk, given: &LogArguments, out: &mut impl Write) -> Result
         let mut results = Results::default();
         results.add(path, |file| write_csv(&entries, period, file))?;
         results.commit()?;
-        writeln!(out, "{} of {total} entries in {}", entries.len(), path.display())?;
+        if !is_standard_output(path) {
+            writeln!(out, "{} of {total} entries in {}", entries.len(), path.display())?;
+        }
     } else {
         write_table(&entries, total, period, out)?;
     }

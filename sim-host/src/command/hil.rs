@@ -1,7 +1,8 @@
 //! `sprag hil`: the firmware in closed loop with the simulator's plant and sensors.
 
+use std::collections::BTreeMap;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
@@ -11,7 +12,8 @@ use super::closed_loop::heading;
 use super::device_line::{LineArguments, connect};
 use super::format_arguments::PictureArguments;
 use super::loop_scene::{LoopScene, LoopSceneError};
-use super::{DRAWING, ended, results_folder, warned};
+use super::out_arguments::{FolderArguments, claim_of_scene};
+use super::{DRAWING, ended, warned};
 use crate::accuracy::{AccuracyArguments, Closeness};
 use crate::closed_loop::answered::Looped;
 use crate::closed_loop::plant::Extremes;
@@ -23,7 +25,7 @@ use crate::device::line::DeviceError;
 use crate::device::report::{DeviceSummary, costs, write_device_ticks};
 use crate::device::session::Session;
 use crate::interrupt::Interrupt;
-use crate::output::{OutputError, Results, make_folder};
+use crate::output::{Digest, OutputError, ResultFolder, Results, Subject};
 use crate::plot::{PlotError, loop_figure};
 use crate::progress::Progress;
 use crate::scene::Scene;
@@ -47,9 +49,9 @@ pub struct HilArguments {
     /// Ground motion record, in the place of the scene's.
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
-    /// Folder for the results; out/NAME-hil of the scene by default.
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    /// Where results go.
+    #[command(flatten)]
+    pub folder: FolderArguments,
     /// How accurate the plant is; found by the host's own loop.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
@@ -83,6 +85,8 @@ struct Summary<'a> {
     version: &'static str,
     scene: &'a SceneFile,
     warnings: &'a [String],
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    files: &'a BTreeMap<String, Digest>,
     runs: &'a [DeviceSummary],
 }
 
@@ -98,11 +102,12 @@ fn run_or_fail(
     err: &mut impl Write,
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
-    let folder = results_folder(&arguments.scene, arguments.out.as_ref(), "hil");
+    let any_accuracy = arguments.accuracy.time_budget.is_some();
+    let mut folder = arguments.folder.folder(&arguments.scene, "hil").of_any_accuracy(any_accuracy);
     let plain = Scene::load(&arguments.scene, &arguments.set).map_err(LoopSceneError::from)?;
     let warnings = warned(plain.warnings(), err);
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
-    let (desk, hosts) = arguments.accuracy.run(|change| on_host(arguments, change, &folder, interrupt), tell)?;
+    let (desk, subject, hosts) = arguments.accuracy.run(|change| on_host(arguments, change, &mut folder, interrupt), tell)?;
     let mut results = Results::default();
     let (mut reports, mut summaries, mut ticks) = (Vec::new(), Vec::new(), Vec::new());
     for (number, (&index, host)) in desk.pairs.iter().zip(hosts).enumerate() {
@@ -123,8 +128,8 @@ fn run_or_fail(
     }
     let drawing = Progress::uncounted(DRAWING);
     let file = desk.resolved(arguments.record.as_ref());
-    let version = env!("CARGO_PKG_VERSION");
-    let summary = Summary { command: "hil", version, scene: &file, warnings: &warnings, runs: &summaries };
+    let (version, files) = (env!("CARGO_PKG_VERSION"), &subject.files);
+    let summary = Summary { command: "hil", version, scene: &file, warnings: &warnings, files, runs: &summaries };
     results.add_json(&folder.join("summary.json"), &summary)?;
     results.add(&folder.join("history.csv"), |file| write_history(&reports, file).map_err(std::io::Error::other))?;
     results.add(&folder.join("device.csv"), |file| write_device_ticks(&ticks, file))?;
@@ -160,13 +165,16 @@ struct Host {
 fn on_host(
     arguments: &HilArguments,
     change: Option<String>,
-    folder: &Path,
+    folder: &mut ResultFolder,
     interrupt: &Interrupt,
-) -> Result<(LoopScene, Vec<Host>), Failure> {
+) -> Result<(LoopScene, Subject, Vec<Host>), Failure> {
     let mut changes = arguments.set.clone();
     changes.extend(change);
     let desk = LoopScene::load(&arguments.scene, &changes, arguments.record.as_ref())?;
-    make_folder(folder)?;
+    let file = desk.resolved(arguments.record.as_ref());
+    let names = &["history", "loop", "device", "log"];
+    let claim = claim_of_scene("hil", &arguments.scene, &desk.scene, &file, names, &[])?;
+    folder.open(&claim)?;
     let _running = Progress::uncounted("running the host's own loop");
     let host = |&index: &usize| {
         let task = desk.task(index, desk.controller.sensors.seed(), interrupt);
@@ -175,7 +183,7 @@ fn on_host(
         Ok(Host { closeness: task.closeness, error, looped })
     };
     let hosts = desk.pairs.iter().map(host).collect::<Result<_, Failure>>()?;
-    Ok((desk, hosts))
+    Ok((desk, claim.subject, hosts))
 }
 
 fn one(arguments: &HilArguments, desk: &LoopScene, index: usize, host: Host, interrupt: &Interrupt) -> Result<Run, Failure> {

@@ -5,9 +5,11 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use serde::Serialize;
 
 use super::ended;
 use super::format_arguments::PictureArguments;
+use super::out_arguments::{OverwriteArguments, digests, file_of};
 use crate::accuracy::{Accuracy, AccuracyArguments};
 use crate::interrupt::Interrupt;
 use crate::loop_study::bench::{Conditions, Motion, StudyError};
@@ -18,7 +20,7 @@ use crate::loop_study::laws::laws;
 use crate::loop_study::practice::practice;
 use crate::loop_study::report::Report;
 use crate::loop_study::robustness::robustness;
-use crate::output::{OutputError, Results, make_folder};
+use crate::output::{Claim, OutputError, ResultFolder, Results, Subject};
 use crate::progress::Progress;
 
 /// Which study.
@@ -42,7 +44,9 @@ pub enum Study {
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag loop-study practice --out out/practice\n  \
     sprag loop-study laws --records records/*.AT2 --out out/laws\n\n\
-    Writes a page NAME.md, its tables as CSV and its pictures as SVG, with --png as PNG too.")]
+    Writes a page NAME.md, its tables as CSV and its pictures as SVG, with --png as PNG too, and NAME.run.json, which says what they
+\
+    are of.")]
 pub struct LoopStudyArguments {
     /// Which.
     #[arg(value_enum)]
@@ -53,6 +57,9 @@ pub struct LoopStudyArguments {
     /// Folder for the results.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+    /// What may be replaced in it.
+    #[command(flatten)]
+    pub replace: OverwriteArguments,
     /// Threads; all processors by default. Results do not depend on it.
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
@@ -62,6 +69,14 @@ pub struct LoopStudyArguments {
     /// Pictures.
     #[command(flatten)]
     pub pictures: PictureArguments,
+}
+
+/// `NAME.run.json`.
+#[derive(Serialize)]
+struct Page<'a> {
+    #[serde(flatten)]
+    subject: &'a Subject,
+    version: &'static str,
 }
 
 #[derive(Debug, thiserror::Error)]
@@ -86,7 +101,14 @@ fn run_or_fail(
     err: &mut impl Write,
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
-    make_folder(&arguments.out)?;
+    let any_accuracy = arguments.accuracy.time_budget.is_some();
+    let mut folder = ResultFolder::new(arguments.out.clone(), arguments.replace.overwrite).of_any_accuracy(any_accuracy);
+    let name = arguments.study.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
+    let read: Vec<(PathBuf, PathBuf)> = arguments.records.iter().map(|file| (file.clone(), file.clone())).collect();
+    let accuracy = arguments.accuracy.accuracy.map(|accuracy| accuracy.to_string());
+    let subject = Subject::new("loop-study", digests(&read)).with("study", &name)?.with("accuracy", &accuracy)?;
+    let (page, inputs) = (format!("{name}.run.json"), arguments.records.iter().map(|file| file_of(file)).collect());
+    folder.open(&Claim { subject: subject.clone(), page: &page, names: &[&name], inputs })?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
     let progress = Progress::new("runs");
     let records: Vec<Motion> = arguments
@@ -110,21 +132,28 @@ fn run_or_fail(
     let found = arguments.accuracy.levels(study, tell);
     progress.finish();
     let (report, worst) = found?;
-    write(&report, arguments, out, err)?;
+    write(&report, &subject, arguments, &mut folder, out, err)?;
     if let Some(worst) = worst {
         let _ = writeln!(out, "accuracy: {worst}");
     }
     Ok(())
 }
 
-fn write(report: &Report, arguments: &LoopStudyArguments, out: &mut impl Write, err: &mut impl Write) -> Result<(), OutputError> {
-    let folder = &arguments.out;
+fn write(
+    report: &Report,
+    subject: &Subject,
+    arguments: &LoopStudyArguments,
+    folder: &mut ResultFolder,
+    out: &mut impl Write,
+    err: &mut impl Write,
+) -> Result<(), OutputError> {
     let names = report.tables.iter().map(|(name, _)| name).chain(report.figures.iter().map(|(name, _)| name));
     for (inner, _) in names.filter_map(|name| name.rsplit_once('/')) {
-        make_folder(&folder.join(inner))?;
+        folder.make(inner)?;
     }
     let drawing = Progress::uncounted(super::DRAWING);
     let mut results = Results::default();
+    results.add_json(&folder.join(format!("{}.run.json", report.name)), &Page { subject, version: env!("CARGO_PKG_VERSION") })?;
     results.add(&folder.join(format!("{}.md", report.name)), |file| file.write_all(report.text.as_bytes()))?;
     for (name, table) in &report.tables {
         results.add(&folder.join(format!("{name}.csv")), |file| file.write_all(table.csv().as_bytes()))?;

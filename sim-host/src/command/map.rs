@@ -10,12 +10,13 @@ use serde::Serialize;
 
 use super::format_arguments::FormatArguments;
 use super::map_boundaries::{BoundarySummary, trace, write_boundary_table};
-use super::{DRAWING, ended, results_folder, resumable, warned};
+use super::out_arguments::{FolderArguments, claim_of_scene};
+use super::{DRAWING, ended, resumable, warned};
 use crate::columns::{TableError, metadata_of};
 use crate::interrupt::Interrupt;
 use crate::long_run::arguments::LongRunArguments;
 use crate::long_run::error::LongRunError;
-use crate::long_run::origin::{Digest, Origin};
+use crate::long_run::origin::Origin;
 use crate::long_run::rows::{Plan, Rows};
 use crate::long_run::shard::Shard;
 use crate::map::boundaries::{Boundaries, EVALUATIONS};
@@ -26,7 +27,7 @@ use crate::map::grid::Grid;
 use crate::map::study::{MapError, study_to};
 use crate::map::table::{Labels, columns};
 use crate::map::tally::{Counts, DeviceMap, Tally};
-use crate::output::{OutputError, Results, make_folder};
+use crate::output::{Digest, OutputError, Results};
 use crate::plot::PlotError;
 use crate::progress::Progress;
 use crate::scene::map::AxisTable;
@@ -69,9 +70,9 @@ pub struct MapArguments {
     /// Ground motion record, in the place of the scene's.
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
-    /// Folder for the results; out/NAME-map of the scene by default.
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    /// Where results go.
+    #[command(flatten)]
+    pub folder: FolderArguments,
     /// Threads; as many as the machine has by default.
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
@@ -95,8 +96,6 @@ enum Failure {
     Table(#[from] TableError),
     #[error("the threads cannot be started: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
-    #[error("the scene cannot be told in JSON: {0}")]
-    Json(#[from] serde_json::Error),
     #[error("--refine divides squares where boundaries are, and takes maps of at most 1024 x 1024 cells")]
     TooManyCells,
 }
@@ -128,6 +127,8 @@ struct Summary<'a> {
     version: &'static str,
     scene: &'a SceneFile,
     warnings: &'a [String],
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    files: &'a BTreeMap<String, Digest>,
     runs: Vec<DeviceSummary<'a>>,
 }
 
@@ -149,6 +150,9 @@ impl<'a> DeviceSummary<'a> {
     }
 }
 
+/// Names of what is written beside the summary.
+const NAMES: [&str; 5] = ["map", "cut", "rotation", "acceleration", "boundaries"];
+
 /// Runs the command; a table goes to `out`, errors go to `err`.
 pub fn run(arguments: &MapArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
     let result = run_or_fail(arguments, out, err, interrupt);
@@ -163,8 +167,6 @@ fn run_or_fail(
 ) -> Result<(), Failure> {
     let grid = grid(arguments)?;
     let warnings = warned(grid.scene.warnings(), err);
-    let folder = results_folder(&arguments.scene, arguments.out.as_ref(), "map");
-    make_folder(&folder)?;
     let mut file = grid.scene.file.clone();
     if let (Some(record), Some(table)) = (&arguments.record, file.ground.iter_mut().find(|table| table.file.is_some())) {
         // As the user wrote it, so that the summary does not depend on where it was made.
@@ -174,7 +176,11 @@ fn run_or_fail(
     if arguments.refine && tally.maps.iter().any(|map| map.shown.len() != grid.columns() * grid.rows()) {
         return Err(Failure::TooManyCells);
     }
-    let origin = Origin::new("map", &file, files(&grid, &file), grid.table_rows())?;
+    let mut folder = arguments.folder.folder(&arguments.scene, "map");
+    let claim = claim_of_scene("map", &arguments.scene, &grid.scene, &file, &NAMES, &[])?;
+    folder.open(&claim)?;
+    let subject = claim.subject;
+    let origin = Origin::new(subject.clone(), grid.table_rows());
     let shard = arguments.long_run.shard();
     let columns = columns(&grid);
     let titles = columns.iter().map(|column| column.name.clone()).collect();
@@ -207,7 +213,7 @@ fn run_or_fail(
     }
     let runs = tally.maps.iter().enumerate().map(|(device, map)| DeviceSummary::of(map, boundaries.get(device))).collect();
     let (command, version) = ("map", env!("CARGO_PKG_VERSION"));
-    let summary = Summary { command, version, scene: &file, warnings: &warnings, runs };
+    let summary = Summary { command, version, scene: &file, warnings: &warnings, files: &subject.files, runs };
     let made_by = metadata_of(&MadeBy { command, version, scene: &file })?;
     let formats = arguments.formats.formats;
     let mut results = Results::default();
@@ -234,16 +240,6 @@ fn run_or_fail(
     }
     let _ = writeln!(out, "\n{}", first.unwrap_or(path).display());
     Ok(())
-}
-
-/// The files that the scene reads, by the names that `file`, as the user wrote it, has for them.
-fn files(grid: &Grid, file: &SceneFile) -> BTreeMap<String, Digest> {
-    let tables = |file: &SceneFile| file.ground.iter().chain(&file.vertical).map(|table| table.file.clone()).collect::<Vec<_>>();
-    let of = |(name, path): (Option<PathBuf>, Option<PathBuf>)| {
-        // A file that cannot be read is refused when its motion is.
-        Some((name?.display().to_string(), Digest::of(&grid.scene.folder.join(path?)).ok()?))
-    };
-    tables(file).into_iter().zip(tables(&grid.scene.file)).filter_map(of).collect()
 }
 
 /// The scene with its overrides and axes.

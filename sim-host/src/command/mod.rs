@@ -23,6 +23,7 @@ pub mod loop_study;
 pub mod map;
 mod map_boundaries;
 pub mod optimise;
+pub mod out_arguments;
 pub mod record;
 pub mod sensitivity;
 pub mod similar;
@@ -32,20 +33,12 @@ pub mod synthesize;
 
 use std::fmt::Display;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::interrupt::Interrupt;
 
 /// Exit code for bad input, and for output that cannot be written.
 pub const BAD_INPUT: i32 = 2;
-
-/// Where results of a scene go: `given`, or a folder called after scene and command.
-fn results_folder(scene: &Path, given: Option<&PathBuf>, command: &str) -> PathBuf {
-    given.cloned().unwrap_or_else(|| {
-        let stem = scene.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
-        Path::new("out").join(format!("{stem}-{command}"))
-    })
-}
 
 /// What is shown while results are made from finished runs.
 const DRAWING: &str = "drawing and writing results";

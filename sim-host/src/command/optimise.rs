@@ -1,5 +1,6 @@
 //! `sprag optimise`: the inerter's size, mount and clutch law that overturn a structure least under limits on force and stroke.
 
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -7,7 +8,8 @@ use clap::Args;
 use serde::Serialize;
 
 use super::format_arguments::FormatArguments;
-use super::study_input::{StudyArguments, StudyInputError, study_origin};
+use super::out_arguments::FolderArguments;
+use super::study_input::{StudyArguments, StudyInputError, study_subject};
 use super::{DRAWING, ended, resumable, warned};
 use crate::accuracy::{AccuracyArguments, Worst};
 use crate::cloud::records::StudyRecords;
@@ -18,6 +20,7 @@ use crate::columns::{TableError, metadata_of};
 use crate::interrupt::Interrupt;
 use crate::long_run::arguments::ResumeArguments;
 use crate::long_run::error::LongRunError;
+use crate::long_run::origin::Origin;
 use crate::optimise::curve::Curve;
 use crate::optimise::figure::trade_off_picture;
 use crate::optimise::findings::Findings;
@@ -26,7 +29,7 @@ use crate::optimise::problem::{Choices, Problem, Solution};
 use crate::optimise::table::OptimiseTable;
 use crate::optimise::tried::{MOST_ROWS, Tried, TriedError};
 use crate::optimise::typed_tables::{DesignTable, MotionTable};
-use crate::output::{Formats, OutputError, Results, make_folder};
+use crate::output::{Claim, Digest, Formats, OutputError, ResultFolder, Results, Subject};
 use crate::plot::PlotError;
 use crate::progress::Progress;
 use crate::scene::SceneError;
@@ -45,9 +48,9 @@ pub struct OptimiseArguments {
     /// The study.
     #[command(flatten)]
     pub input: StudyArguments,
-    /// Folder for the results; out/NAME of the study by default.
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    /// Where results go.
+    #[command(flatten)]
+    pub folder: FolderArguments,
     /// Threads; all cores by default. The result does not depend on it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -74,8 +77,6 @@ enum Failure {
     Run(#[from] RunError),
     #[error("{0}")]
     Rows(#[from] LongRunError),
-    #[error("the study cannot be told in JSON: {0}")]
-    Json(#[from] serde_json::Error),
     #[error("{}: no device could be tried; {first}", study.display())]
     AllFailed { study: PathBuf, first: String },
     #[error("the picture cannot be drawn: {0}")]
@@ -98,6 +99,7 @@ struct Document<'a> {
     warnings: &'a [String],
     curves: &'a [Curve],
     records: Vec<&'a str>,
+    files: &'a BTreeMap<String, Digest>,
     unreadable: &'a [String],
     #[serde(flatten)]
     findings: &'a Findings,
@@ -130,6 +132,20 @@ struct Resolved<'a> {
     optimise: &'a OptimiseTable,
 }
 
+impl<'a> Resolved<'a> {
+    fn of(study: &'a Study, choices: &'a Choices<'_>) -> Resolved<'a> {
+        Resolved {
+            title: &study.file.title,
+            scene: study.file.scene.as_deref(),
+            records: &study.file.records,
+            record: &study.file.record,
+            scale: study.file.scale.as_deref(),
+            stripes: study.file.stripes.as_ref(),
+            optimise: &choices.table,
+        }
+    }
+}
+
 /// Runs the command; a table goes to `out`, errors go to `err`.
 pub fn run(arguments: &OptimiseArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
     let result = run_or_fail(arguments, out, err, interrupt);
@@ -140,6 +156,7 @@ pub fn run(arguments: &OptimiseArguments, out: &mut impl Write, err: &mut impl W
 struct Answered {
     study: Study,
     records: StudyRecords,
+    subject: Subject,
     solution: Solution,
     /// The runs as they went to the disk.
     tried: Option<Tried>,
@@ -155,11 +172,12 @@ fn run_or_fail(
     if let (Some(_), Some(option)) = (arguments.accuracy.time_budget, arguments.rows.given()) {
         return Err(LongRunError::NoRows { option }.into());
     }
-    let folder = arguments.out.clone().unwrap_or_else(|| arguments.input.folder());
+    let any_accuracy = arguments.accuracy.time_budget.is_some();
+    let mut folder = arguments.folder.folder(&arguments.input.study, "optimise").of_any_accuracy(any_accuracy);
     let warnings = warned(arguments.input.load(None)?.warnings(), err);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
-    let answered = arguments.accuracy.run(|change| pool.install(|| answered(arguments, change, &folder, interrupt)), tell)?;
+    let answered = arguments.accuracy.run(|change| pool.install(|| answered(arguments, change, &mut folder, interrupt)), tell)?;
     let drawing = Progress::uncounted(DRAWING);
     let Answered { study, records, solution, .. } = &answered;
     let problem = Problem::new(Choices::of(study)?, &records.records);
@@ -197,7 +215,7 @@ fn run_or_fail(
 fn answered(
     arguments: &OptimiseArguments,
     change: Option<String>,
-    folder: &Path,
+    folder: &mut ResultFolder,
     interrupt: &Interrupt,
 ) -> Result<Answered, Failure> {
     let reading = Progress::uncounted("reading records");
@@ -212,12 +230,18 @@ fn answered(
         return Err(Failure::NoMotion { study: file(), first: problem.left_out.first().cloned() });
     }
     // Where the results go is tried before the work, not after it.
-    make_folder(folder)?;
+    let choices = &problem.choices;
+    let subject = study_subject("optimise", &records.records)
+        .with("study", &Resolved::of(&study, choices))?
+        .with("structure", choices.structure)?;
+    let inputs = arguments.input.files(&study, &records);
+    let names = &["designs", "motions", "optimise", "trade_off"];
+    folder.open(&Claim { subject: subject.clone(), page: "summary.json", names, inputs })?;
     let (begin, done) = (|runs| progress.begin(runs), || progress.step());
     let (solution, tried) = if arguments.accuracy.time_budget.is_some() {
         (problem.solve(&mut (), interrupt, &begin, &done)?, None)
     } else {
-        let origin = study_origin("optimise", &study, &records.records, MOST_ROWS)?;
+        let origin = Origin::new(subject.clone(), MOST_ROWS);
         let mut tried = Tried::begin(folder, origin, arguments.rows.start(), problem.motions.len())?;
         interrupt.keep(resumable("finished rows", folder));
         match problem.solve(&mut tried, interrupt, &begin, &done) {
@@ -234,12 +258,12 @@ fn answered(
         let first = solution.failures.first().cloned().unwrap_or_default();
         return Err(Failure::AllFailed { study: file(), first });
     }
-    Ok(Answered { study, records, solution, tried })
+    Ok(Answered { study, records, subject, solution, tried })
 }
 
 /// Writes the results.
 fn write(
-    Answered { study, records, solution, .. }: &Answered,
+    Answered { study, records, subject, solution, .. }: &Answered,
     problem: &Problem<'_>,
     findings: &Findings,
     (left_out, warnings): (&[String], &[String]),
@@ -250,19 +274,12 @@ fn write(
     let document = Document {
         command: "optimise",
         version: env!("CARGO_PKG_VERSION"),
-        study: Resolved {
-            title: &study.file.title,
-            scene: study.file.scene.as_deref(),
-            records: &study.file.records,
-            record: &study.file.record,
-            scale: study.file.scale.as_deref(),
-            stripes: study.file.stripes.as_ref(),
-            optimise: &choices.table,
-        },
+        study: Resolved::of(study, choices),
         structure: choices.structure,
         warnings,
         curves: &choices.curves,
         records: records.records.iter().map(|record| record.name.as_str()).collect(),
+        files: &subject.files,
         unreadable: &records.unreadable,
         findings,
         left_out,

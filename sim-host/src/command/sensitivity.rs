@@ -1,17 +1,19 @@
 //! `sprag sensitivity`: what each effect changes, alone and together, under one or many ground motions.
 
+use std::collections::BTreeMap;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde::Serialize;
 
 use super::format_arguments::PictureArguments;
-use super::{DRAWING, ended, results_folder, warned};
+use super::out_arguments::{FolderArguments, claim_of_scene};
+use super::{DRAWING, ended, warned};
 use crate::accuracy::{AccuracyArguments, Worst};
 use crate::heading::of_scene;
 use crate::interrupt::Interrupt;
-use crate::output::{OutputError, Results, make_folder};
+use crate::output::{Digest, OutputError, ResultFolder, Results, Subject};
 use crate::plot::{FigureTitle, OwnMark, PlotError, SensitivityLane, SensitivityRow, sensitivity_figure};
 use crate::progress::Progress;
 use crate::scene::ground::{GroundError, Motion};
@@ -44,9 +46,9 @@ pub struct SensitivityArguments {
     /// Change one value of the scene, such as block.size_m=2 or device.1.mass_ratio=0.5.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Folder for the results; out/NAME-sensitivity of the scene by default.
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    /// Where results go.
+    #[command(flatten)]
+    pub folder: FolderArguments,
     /// Threads; all cores by default. The result does not depend on it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -87,6 +89,8 @@ struct Document<'a> {
     version: &'static str,
     scene: &'a SceneFile,
     warnings: &'a [String],
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    files: &'a BTreeMap<String, Digest>,
     records: Vec<&'a str>,
     runs: &'a [Summary],
     left_out: &'a [String],
@@ -109,11 +113,13 @@ fn run_or_fail(
 ) -> Result<bool, Failure> {
     let warnings = warned(Scene::load(&arguments.scene, &arguments.set)?.warnings(), err);
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
-    let studied = arguments.accuracy.run(|change| studied(arguments, change, interrupt), tell)?;
+    let any_accuracy = arguments.accuracy.time_budget.is_some();
+    let mut folder = arguments.folder.folder(&arguments.scene, "sensitivity").of_any_accuracy(any_accuracy);
+    let studied = arguments.accuracy.run(|change| studied(arguments, change, &mut folder, interrupt), tell)?;
     for error in &studied.errors {
         let _ = writeln!(err, "sprag: {error}");
     }
-    write(arguments, &studied, &warnings, out, err)?;
+    write(arguments, &studied, &warnings, &folder, out, err)?;
     for error in &studied.findings.failed {
         let _ = writeln!(err, "sprag: {error}");
     }
@@ -123,16 +129,21 @@ fn run_or_fail(
 /// A study that was run.
 struct Studied {
     scene: Scene,
+    subject: Subject,
     study: Study,
     motions: Vec<StudyMotion>,
     /// Records that could not be read, in a line each.
     errors: Vec<String>,
-    folder: PathBuf,
     findings: Findings,
 }
 
 /// The study of the scene with `change`.
-fn studied(arguments: &SensitivityArguments, change: Option<String>, interrupt: &Interrupt) -> Result<Studied, Failure> {
+fn studied(
+    arguments: &SensitivityArguments,
+    change: Option<String>,
+    folder: &mut ResultFolder,
+    interrupt: &Interrupt,
+) -> Result<Studied, Failure> {
     let mut changes = arguments.set.clone();
     changes.extend(change);
     let (scene, study) = Study::load(&arguments.scene, &changes)?;
@@ -156,15 +167,16 @@ fn studied(arguments: &SensitivityArguments, change: Option<String>, interrupt: 
     if motions.is_empty() {
         return Err(Failure::NoMotion { scene: arguments.scene.clone() });
     }
-    let folder = results_folder(&arguments.scene, arguments.out.as_ref(), "sensitivity");
+    let others = [&arguments.records[..], &arguments.records_vertical].concat();
+    let claim = claim_of_scene("sensitivity", &arguments.scene, &scene, &scene.file, &["sensitivity"], &others)?;
     // Where the results go is tried before the work, not after it.
-    make_folder(&folder)?;
+    folder.open(&claim)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
     let progress = Progress::new("runs");
     progress.begin((study.runs() * motions.len()) as u64);
     let findings = pool.install(|| study.run(&motions, interrupt, &|| progress.step()));
     progress.finish();
-    Ok(Studied { findings: findings?, scene, study, motions, errors, folder })
+    Ok(Studied { findings: findings?, scene, subject: claim.subject, study, motions, errors })
 }
 
 /// The records, each with its vertical component.
@@ -189,10 +201,11 @@ fn write(
     arguments: &SensitivityArguments,
     studied: &Studied,
     warnings: &[String],
+    folder: &Path,
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> Result<(), Failure> {
-    let Studied { scene, study, motions, folder, findings, .. } = studied;
+    let Studied { scene, subject, study, motions, findings, .. } = studied;
     let drawing = Progress::uncounted(DRAWING);
     let runs = summaries(findings, motions, &study.devices);
     let records: Vec<&str> = motions.iter().filter(|motion| !motion.own).map(|motion| motion.name.as_str()).collect();
@@ -209,6 +222,7 @@ fn write(
         version: env!("CARGO_PKG_VERSION"),
         scene: &scene.file,
         warnings,
+        files: &subject.files,
         records: records.clone(),
         runs: &runs,
         left_out: &left_out,

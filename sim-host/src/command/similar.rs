@@ -1,5 +1,6 @@
 //! `sprag similar`: responses of blocks with equal dimensionless groups, overlaid.
 
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -8,10 +9,11 @@ use serde::Serialize;
 use sprag_shared::error::ParameterError;
 
 use super::format_arguments::PictureArguments;
-use super::{ended, results_folder, warned};
+use super::out_arguments::{FolderArguments, claim_of_scene};
+use super::{ended, warned};
 use crate::heading::of_scenes;
 use crate::interrupt::Interrupt;
-use crate::output::{OutputError, Results, make_folder};
+use crate::output::{Digest, OutputError, Results};
 use crate::plot::{Chart, ChartPanel, FigureTitle, Line, PlotError, Scale, chart_figure};
 use crate::progress::Progress;
 use crate::scene::ground::GroundError;
@@ -37,9 +39,9 @@ pub struct SimilarArguments {
     /// Change one value of the scene for all blocks.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Folder for the results; out/NAME-similar of the scene by default.
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    /// Where results go.
+    #[command(flatten)]
+    pub folder: FolderArguments,
     /// Pictures.
     #[command(flatten)]
     pub pictures: PictureArguments,
@@ -79,6 +81,9 @@ struct Summary<'a> {
     version: &'static str,
     scene: &'a SceneFile,
     warnings: &'a [String],
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    files: &'a BTreeMap<String, Digest>,
+    with: &'a [String],
     blocks: Vec<BlockSummary<'a>>,
 }
 
@@ -110,11 +115,15 @@ fn run_or_fail(
     err: &mut impl Write,
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
-    let folder = results_folder(&arguments.scene, arguments.out.as_ref(), "similar");
+    let mut folder = arguments.folder.folder(&arguments.scene, "similar");
     let progress = Progress::new("blocks");
     progress.begin(1 + arguments.with.len() as u64);
     let mut blocks = vec![block(arguments, "", None, interrupt)?];
     progress.step();
+    let first = &blocks[0].scene;
+    let mut claim = claim_of_scene("similar", &arguments.scene, first, &first.file, &["similar"], &[])?;
+    claim.subject = claim.subject.with("with", &arguments.with)?;
+    folder.open(&claim)?;
     for changes in &arguments.with {
         let other = block(arguments, changes, Some(&blocks[0]), interrupt)?;
         for name in unequal(&blocks[0], &other) {
@@ -126,7 +135,6 @@ fn run_or_fail(
     progress.finish();
     let warnings = warned(blocks.iter().flat_map(|block| block.scene.warnings()), err);
     let figure = figure(&blocks)?;
-    make_folder(&folder)?;
     let first = &blocks[0];
     let of = |block: &'_ Block, device: usize| {
         (!std::ptr::eq(block, first)).then(|| Departure::between(&first.responses[device], &block.responses[device]))
@@ -138,8 +146,9 @@ fn run_or_fail(
         runs: block.runs.iter().enumerate().map(|(device, run)| RunSummary { run, departure: of(block, device) }).collect(),
     });
     let version = env!("CARGO_PKG_VERSION");
-    let summary =
-        Summary { command: "similar", version, scene: &first.scene.file, warnings: &warnings, blocks: summaries.collect() };
+    let (scene, files, with) = (&first.scene.file, &claim.subject.files, &arguments.with[..]);
+    let summaries = summaries.collect();
+    let summary = Summary { command: "similar", version, scene, warnings: &warnings, files, with, blocks: summaries };
     let mut results = Results::default();
     results.add_json(&folder.join("summary.json"), &summary)?;
     results.add(&folder.join("similar.csv"), |file| write_csv(&blocks, file))?;

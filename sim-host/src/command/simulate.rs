@@ -1,18 +1,20 @@
 //! `sprag simulate`: one scene, every device, a summary, a history and a picture.
 
+use std::collections::BTreeMap;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
 
 use super::format_arguments::PictureArguments;
+use super::out_arguments::{FolderArguments, claim_of_scene};
 use super::{DRAWING, ended, warned};
 use crate::accuracy::AccuracyArguments;
 use crate::heading::title;
 use crate::history::{History, write_csv};
 use crate::interrupt::Interrupt;
-use crate::output::{OutputError, Results, make_folder};
+use crate::output::{Digest, OutputError, ResultFolder, Results, Subject};
 use crate::plot::{PlotError, TimeAxis, energy_figure, history_figure};
 use crate::progress::Progress;
 use crate::scene::ground::{GroundError, Motion};
@@ -42,9 +44,9 @@ pub struct SimulateArguments {
     /// The vertical record, in the place of the scene's.
     #[arg(long, value_name = "FILE")]
     pub record_vertical: Option<PathBuf>,
-    /// Folder for the results; out/NAME of the scene by default.
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    /// Where results go.
+    #[command(flatten)]
+    pub folder: FolderArguments,
     /// How accurate.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
@@ -77,6 +79,8 @@ struct Summary<'a> {
     version: &'static str,
     scene: &'a SceneFile,
     warnings: &'a [String],
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    files: &'a BTreeMap<String, Digest>,
     runs: &'a [DeviceRun],
 }
 
@@ -92,13 +96,12 @@ fn run_or_fail(
     err: &mut impl Write,
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
-    let folder = arguments.out.clone().unwrap_or_else(|| {
-        let name = arguments.scene.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_os_string());
-        Path::new("out").join(name)
-    });
+    let any_accuracy = arguments.accuracy.time_budget.is_some();
+    let mut folder = arguments.folder.folder(&arguments.scene, "simulate").of_any_accuracy(any_accuracy);
     let warnings = warned(Scene::load(&arguments.scene, &arguments.set)?.warnings(), err);
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
-    let (scene, mut runs) = arguments.accuracy.run(|change| simulated(arguments, change, &folder, interrupt), tell)?;
+    let Simulated { scene, file, subject, mut runs } =
+        arguments.accuracy.run(|change| simulated(arguments, change, &mut folder, interrupt), tell)?;
     let drawing = Progress::uncounted(DRAWING);
     let rows: Vec<SummaryRow> = runs.iter().map(row).collect();
     let axis = match scene.file.output.time_axis {
@@ -107,15 +110,8 @@ fn run_or_fail(
     };
     let histories: Vec<History> = runs.iter_mut().map(|run| std::mem::take(&mut run.history)).collect();
     let figure = history_figure(title(&scene), &histories, axis)?;
-    let mut file = scene.file.clone();
-    // As the user wrote them, so that the summary does not depend on where it was made.
-    for (tables, record) in [(&mut file.ground, &arguments.record), (&mut file.vertical, &arguments.record_vertical)] {
-        if let (Some(table), Some(record)) = (tables.iter_mut().find(|table| table.motion == Motion::Record), record) {
-            table.file = Some(record.clone());
-        }
-    }
-    let version = env!("CARGO_PKG_VERSION");
-    let summary = Summary { command: "simulate", version, scene: &file, warnings: &warnings, runs: &runs };
+    let (version, files) = (env!("CARGO_PKG_VERSION"), &subject.files);
+    let summary = Summary { command: "simulate", version, scene: &file, warnings: &warnings, files, runs: &runs };
     let formats = arguments.pictures.formats();
     let mut results = Results::default();
     results.add_json(&folder.join("summary.json"), &summary)?;
@@ -152,13 +148,22 @@ fn run_or_fail(
     Ok(())
 }
 
+/// A scene that was run.
+struct Simulated {
+    scene: Scene,
+    /// As the user wrote it.
+    file: SceneFile,
+    subject: Subject,
+    runs: Vec<DeviceRun>,
+}
+
 /// The scene with `change`, and its runs.
 fn simulated(
     arguments: &SimulateArguments,
     change: Option<String>,
-    folder: &Path,
+    folder: &mut ResultFolder,
     interrupt: &Interrupt,
-) -> Result<(Scene, Vec<DeviceRun>), Failure> {
+) -> Result<Simulated, Failure> {
     let mut changes = arguments.set.clone();
     changes.extend(change);
     let mut scene = Scene::load(&arguments.scene, &changes)?;
@@ -171,9 +176,17 @@ fn simulated(
     }
     let ground = scene.ground_motions()?;
     // Where the results go is tried before the work, not after it.
-    make_folder(folder)?;
+    let mut file = scene.file.clone();
+    // As the user wrote them, so that the summary does not depend on where it was made.
+    for (tables, record) in [(&mut file.ground, &arguments.record), (&mut file.vertical, &arguments.record_vertical)] {
+        if let (Some(table), Some(record)) = (tables.iter_mut().find(|table| table.motion == Motion::Record), record) {
+            table.file = Some(record.clone());
+        }
+    }
+    let claim = claim_of_scene("simulate", &arguments.scene, &scene, &file, &["history", "energy"], &[])?;
+    folder.open(&claim)?;
     let runs = simulate(&scene, &ground, interrupt)?;
-    Ok((scene, runs))
+    Ok(Simulated { scene, file, subject: claim.subject, runs })
 }
 
 fn row(run: &DeviceRun) -> SummaryRow {

@@ -3,14 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use serde::Serialize;
 
+use super::out_arguments::file_of;
 use super::record::time_step;
 use crate::cloud::records::{StudyRecord, StudyRecords};
-use crate::cloud::structures::StudyStructure;
 use crate::cloud::study::{Study, StudyError};
-use crate::cloud::study_file::{RecordTable, StudyFile};
-use crate::long_run::origin::{Digest, Origin};
+use crate::cloud::study_file::RecordTable;
+use crate::output::{Digest, Subject};
 use crate::record::{Record, Units};
 use crate::scene::SceneError;
 
@@ -90,28 +89,22 @@ impl StudyArguments {
         Ok(records)
     }
 
-    /// out/NAME of the study.
-    pub fn folder(&self) -> PathBuf {
-        Path::new("out").join(self.study.file_stem().map_or_else(|| "study".into(), |stem| stem.to_os_string()))
+    /// The files that were read: the study, its scene and its records.
+    pub(super) fn files(&self, study: &Study, records: &StudyRecords) -> Vec<PathBuf> {
+        let folder = self.study.parent().unwrap_or(Path::new(""));
+        let scene = study.file.scene.iter().map(|scene| folder.join(scene));
+        let records = records.records.iter().map(|record| file_of(Path::new(&record.motion.record.name)));
+        std::iter::once(self.study.clone()).chain(scene).chain(records).collect()
     }
 }
 
-/// What the `rows` rows of `command` come from: study, structures, and the samples of every record.
-///
-/// # Errors
-/// When the study cannot be told in JSON.
-pub fn study_origin(command: &str, study: &Study, records: &[StudyRecord], rows: usize) -> Result<Origin, serde_json::Error> {
-    #[derive(Serialize)]
-    struct Input<'a> {
-        study: &'a StudyFile,
-        structures: &'a [StudyStructure],
-    }
+/// What results of `command` are of, as far as it is the samples of every record.
+pub fn study_subject(command: &str, records: &[StudyRecord]) -> Subject {
     let digest = |record: &StudyRecord| {
         let Record { time_step_s, acceleration_m_s2, .. } = &record.motion.record;
         let bytes: Vec<u8> =
             std::iter::once(time_step_s).chain(acceleration_m_s2).flat_map(|value| value.to_le_bytes()).collect();
         (record.name.clone(), Digest::of_bytes(&bytes))
     };
-    let input = Input { study: &study.file, structures: &study.structures };
-    Origin::new(command, &input, records.iter().map(digest).collect(), rows)
+    Subject::new(command, records.iter().map(digest).collect())
 }

@@ -1,11 +1,12 @@
 //! `sprag synthesize`: writes a synthetic near-fault ground motion.
 
-use std::io::Write;
+use std::io::{BufRead, BufReader, Write};
 use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::output::Results;
+use super::out_arguments::OverwriteArguments;
+use crate::output::{Results, claim_file, is_standard_output};
 use crate::record::{Intensity, ReadOptions, Record, STANDARD_GRAVITY_M_S2};
 use crate::synthesis::NearFaultMotion;
 
@@ -19,6 +20,9 @@ pub struct SynthesizeArguments {
     /// CSV file to write: time (s) and ground acceleration (g).
     #[arg(long, value_name = "FILE.csv")]
     pub out: PathBuf,
+    /// What may be replaced.
+    #[command(flatten)]
+    pub replace: OverwriteArguments,
     /// Seed of the noise.
     #[arg(long, default_value_t = DEFAULT.seed)]
     pub seed: u64,
@@ -78,7 +82,7 @@ pub fn run(arguments: &SynthesizeArguments, out: &mut impl Write, err: &mut impl
     match synthesize(arguments) {
         Ok(line) => {
             // Nobody may be listening, which is no failure of the synthesis.
-            let _ = writeln!(out, "{line}");
+            let _ = if is_standard_output(&arguments.out) { writeln!(err, "{line}") } else { writeln!(out, "{line}") };
             0
         }
         Err(message) => {
@@ -91,6 +95,9 @@ pub fn run(arguments: &SynthesizeArguments, out: &mut impl Write, err: &mut impl
 fn synthesize(arguments: &SynthesizeArguments) -> Result<String, String> {
     let csv = arguments.motion().csv().map_err(|error| error.to_string())?;
     let name = arguments.out.display().to_string();
+    // The first line is the command that makes the same bytes.
+    let same = |file| BufReader::lines(file).next().is_some_and(|line| line.is_ok_and(|line| csv.lines().next() == Some(&line)));
+    claim_file(&arguments.out, &[], arguments.replace.overwrite, same).map_err(|error| error.to_string())?;
     let mut results = Results::default();
     results.add(&arguments.out, |file| file.write_all(csv.as_bytes())).map_err(|error| error.to_string())?;
     results.commit().map_err(|error| error.to_string())?;

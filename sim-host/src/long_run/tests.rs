@@ -8,11 +8,12 @@ use super::error::LongRunError;
 use super::origin::Origin;
 use super::rows::{Plan, Rows};
 use super::shard::Shard;
+use crate::output::Subject;
 
 const ROWS: usize = 12;
 
 fn plan(folder: &Path, shard: Shard, seed: u32) -> Plan<'_> {
-    let origin = Origin::new("test", &serde_json::json!({ "seed": seed }), BTreeMap::new(), ROWS).unwrap();
+    let origin = Origin::new(Subject::new("test", BTreeMap::new()).with("seed", &seed).unwrap(), ROWS);
     Plan { folder, name: "table", columns: ["row", "its name, quoted"].map(str::to_owned).to_vec(), together: 2, shard, origin }
 }
 
@@ -86,7 +87,7 @@ fn rows_of_another_run_are_not_mixed() {
     drop(go_on(&ours, Start::New, 4).unwrap());
     assert!(matches!(go_on(&ours, Start::New, 0).unwrap_err(), LongRunError::Unfinished { .. }));
     let refused = go_on(&other, Start::Resume, 0).unwrap_err();
-    assert!(refused.to_string().contains("input.seed"), "{refused}");
+    assert!(refused.to_string().contains("seed differs"), "{refused}");
     assert_eq!(go_on(&ours, Start::Resume, 0).unwrap().1.len(), 4);
     // A finished run of another origin is no beginning of this one.
     go_on(&ours, Start::Resume, ROWS).unwrap().0.finish().unwrap();

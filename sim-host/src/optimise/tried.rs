@@ -185,7 +185,8 @@ mod tests {
     use crate::outcome::Outcome;
 
     fn origin(seed: u32) -> Origin {
-        Origin::new("optimise", &seed, std::collections::BTreeMap::new(), MOST_ROWS).unwrap()
+        let subject = crate::output::Subject::new("optimise", std::collections::BTreeMap::new());
+        Origin::new(subject.with("seed", &seed).unwrap(), MOST_ROWS)
     }
 
     /// Everything that a run may answer, and what is left of a process that was killed in the middle of a row.

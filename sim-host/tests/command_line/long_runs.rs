@@ -8,25 +8,25 @@ use super::studies::folder_of_pulses;
 use super::{said, scene};
 
 /// Cells that are simulated one by one, so that a run takes a while.
-const SLOW: [&str; 6] = ["--set", "map.x.cells=24", "--set", "map.y.cells=20", "--set", "ground.0.motion=\"half-sine\""];
+pub const SLOW: [&str; 6] = ["--set", "map.x.cells=24", "--set", "map.y.cells=20", "--set", "ground.0.motion=\"half-sine\""];
 
-fn map(out: &Path, more: &[&str]) -> Command {
+pub fn map(out: &Path, more: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
     command.args(["map", &scene("figure08"), "--out", out.to_str().unwrap()]).args(more);
     command
 }
 
-fn well(output: Output) {
+pub fn well(output: Output) {
     assert!(output.status.success(), "{}", said(&output));
 }
 
 /// The files that do not tell the time.
-fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+pub fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let read = |name: &str| (name.to_owned(), std::fs::read(folder.join(name)).unwrap());
     ["map.csv", "map.svg", "rotation.svg", "acceleration.svg"].map(read).to_vec()
 }
 
-fn folders() -> (tempfile::TempDir, PathBuf, PathBuf) {
+pub fn folders() -> (tempfile::TempDir, PathBuf, PathBuf) {
     let root = tempfile::tempdir().unwrap();
     let [one, other] = ["one", "other"].map(|name| root.path().join(name));
     (root, one, other)
@@ -47,7 +47,7 @@ fn two_processes_make_the_bytes_of_one() {
     // A part of another scene is not taken.
     let other = map(&split, &["--merge", "2", "--set", "block.restitution=0.8"]).output().unwrap();
     assert_eq!(other.status.code(), Some(2));
-    assert!(said(&other).contains("input.block.restitution"), "{}", said(&other));
+    assert!(said(&other).contains("scene.block.restitution"), "{}", said(&other));
     // Nor is one that is not there.
     std::fs::remove_file(split.join("map-2-of-2.csv")).unwrap();
     let missing = map(&split, &["--merge", "2"]).output().unwrap();
@@ -55,12 +55,12 @@ fn two_processes_make_the_bytes_of_one() {
 }
 
 /// Waits until some rows of the map are written.
-fn begun(folder: &Path) {
+pub fn begun(folder: &Path) {
     grown(folder, ["map.csv.unfinished", "map.csv"]);
 }
 
 /// Waits until a file has some rows, or the one that it leads to is there.
-fn grown(folder: &Path, [unfinished, finished]: [&str; 2]) {
+pub fn grown(folder: &Path, [unfinished, finished]: [&str; 2]) {
     let start = Instant::now();
     while std::fs::metadata(folder.join(unfinished)).map_or(0, |data| data.len()) < 400 {
         if folder.join(finished).exists() || start.elapsed() > Duration::from_secs(60) {

@@ -4,6 +4,7 @@ mod accuracy_options;
 mod bad_input;
 mod formats;
 mod long_runs;
+mod outputs;
 #[path = "../python/mod.rs"]
 mod python;
 mod runs;

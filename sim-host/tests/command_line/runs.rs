@@ -94,7 +94,7 @@ fn ctrl_c_ends_a_long_run_and_leaves_nothing() {
     }
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     assert_eq!(child.wait().unwrap().code(), Some(130));
-    assert_eq!(fs::read_dir(&out).unwrap().count(), 0);
+    assert!(!out.exists(), "an empty folder");
 }
 
 #[test]

@@ -1,0 +1,168 @@
+//! The folder of a command's results: made when it is needed, gone if nothing came of it, and never another command's unasked.
+
+use std::fs;
+use std::ops::Deref;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use super::same_file::same_file;
+use super::{OutputError, REPLACE, Subject};
+
+/// Endings of results.
+const ENDINGS: [&str; 6] = ["csv", "parquet", "svg", "png", "md", "txt"];
+
+/// What a command is about to write into its folder.
+#[derive(Clone, Debug)]
+pub struct Claim<'a> {
+    /// What the results are of.
+    pub subject: Subject,
+    /// The result that says so: `summary.json` of most commands.
+    pub page: &'a str,
+    /// Names of the other results, without endings: `history` for history.csv, history.svg, history-2.svg.
+    pub names: &'a [&'a str],
+    /// Files that the command reads.
+    pub inputs: Vec<PathBuf>,
+}
+
+impl Claim<'_> {
+    /// Whether the file `name` may be one of these results.
+    fn has(&self, name: &str) -> bool {
+        let ended = name.rsplit_once('.').is_some_and(|(_, ending)| ENDINGS.contains(&ending));
+        name == self.page || (ended && self.is_named(name)) || self.is_ledger(name)
+    }
+
+    /// Whether the file `name` says what rows of this command are of: `map.run.json`, `map-1-of-2.run.json`.
+    fn is_ledger(&self, name: &str) -> bool {
+        name.ends_with(".run.json") && self.is_named(name)
+    }
+
+    fn is_named(&self, name: &str) -> bool {
+        let stem = name.split('.').next().unwrap_or_default();
+        self.names.iter().filter_map(|known| stem.strip_prefix(known)).any(|rest| {
+            rest.is_empty() || rest.strip_prefix('-').is_some_and(|rest| rest.starts_with(|first: char| first.is_ascii_digit()))
+        })
+    }
+}
+
+/// A folder for results. What it made itself is removed with it where it is still empty: a command that fails leaves no empty folder.
+#[derive(Debug)]
+pub struct ResultFolder {
+    path: PathBuf,
+    overwrite: bool,
+    any_accuracy: bool,
+    open: bool,
+    made: Vec<PathBuf>,
+}
+
+impl ResultFolder {
+    /// The folder at `path`, which need not be there; whether results of other commands and inputs in it may be overwritten.
+    pub fn new(path: PathBuf, overwrite: bool) -> ResultFolder {
+        ResultFolder { path, overwrite, any_accuracy: false, open: false, made: Vec::new() }
+    }
+
+    /// Whether results of another accuracy are of the same subject: where a time budget chooses it.
+    #[must_use]
+    pub fn of_any_accuracy(mut self, any_accuracy: bool) -> ResultFolder {
+        self.any_accuracy = any_accuracy;
+        self
+    }
+
+    /// Makes the folder, unless the results of `claim` would take the place of others: of another command or input, of files that are no
+    /// results of Sprag, of an input itself. Does nothing when it was opened before.
+    ///
+    /// # Errors
+    /// [`OutputError`] says whose place it would be, or why the folder cannot be made.
+    pub fn open(&mut self, claim: &Claim<'_>) -> Result<(), OutputError> {
+        if self.open {
+            return Ok(());
+        }
+        self.check(claim)?;
+        self.make("")?;
+        self.open = true;
+        Ok(())
+    }
+
+    fn check(&self, claim: &Claim<'_>) -> Result<(), OutputError> {
+        // A folder that is not there has nothing to lose; one that cannot be read is refused when it is written.
+        let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
+        let mut names: Vec<String> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
+        names.retain(|name| claim.has(name));
+        names.sort();
+        for name in &names {
+            let path = self.path.join(name);
+            if let Some(input) = claim.inputs.iter().find(|input| same_file(input, &path)) {
+                return Err(OutputError { path, reason: super::is_input(input) });
+            }
+        }
+        if self.overwrite {
+            return Ok(());
+        }
+        let mut known = false;
+        for name in names.iter().filter(|name| *name == claim.page || claim.is_ledger(name)) {
+            known = true;
+            if let Some(reason) = self.other(claim, &self.path.join(name)) {
+                return Err(OutputError { path: self.path.clone(), reason: format!("{reason}; {REPLACE}") });
+            }
+        }
+        match names.first() {
+            Some(name) if !known => {
+                let reason = format!("{name} is there, and no {} says what it is of; {REPLACE}", claim.page);
+                Err(OutputError { path: self.path.clone(), reason })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// What the results of the page at `path` are of, if not of the subject of `claim`.
+    fn other(&self, claim: &Claim<'_>, path: &Path) -> Option<String> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let page: Option<Value> = fs::read(path).ok().and_then(|text| serde_json::from_slice(&text).ok());
+        let Some((page, command)) = page.as_ref().and_then(|page| Some((page, page.get("command")?.as_str()?))) else {
+            return Some(format!("its {name} is no result of sprag"));
+        };
+        if command != claim.subject.command {
+            return Some(format!("it holds results of `sprag {command}`"));
+        }
+        let what = claim.subject.difference(page, self.any_accuracy)?;
+        Some(format!("it holds results of another run of `sprag {command}`: {what} differs"))
+    }
+
+    /// Makes `inner`, a folder in this one, and those above it.
+    ///
+    /// # Errors
+    /// [`OutputError`] when that is not possible.
+    pub fn make(&mut self, inner: &str) -> Result<(), OutputError> {
+        let folder = if inner.is_empty() { self.path.clone() } else { self.path.join(inner) };
+        let named = |folder: &&Path| !folder.as_os_str().is_empty();
+        let mut missing: Vec<&Path> = folder.ancestors().filter(named).take_while(|folder| !folder.is_dir()).collect();
+        while let Some(next) = missing.pop() {
+            match fs::create_dir(next) {
+                Ok(()) => self.made.push(next.to_owned()),
+                // Another process has made it.
+                Err(_) if next.is_dir() => {}
+                Err(_) if next.exists() => {
+                    let reason = format!("cannot be written: {} is a file, not a folder", next.display());
+                    return Err(OutputError { path: self.path.clone(), reason });
+                }
+                Err(error) => return Err(OutputError::new(&self.path, &error)),
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Deref for ResultFolder {
+    type Target = Path;
+
+    fn deref(&self) -> &Path {
+        &self.path
+    }
+}
+
+impl Drop for ResultFolder {
+    fn drop(&mut self) {
+        // Those that hold anything stay.
+        self.made.iter().rev().for_each(|folder| _ = fs::remove_dir(folder));
+    }
+}

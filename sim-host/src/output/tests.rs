@@ -1,0 +1,193 @@
+//! Results in the place of what is there already.
+
+#![cfg(unix)]
+
+use std::collections::BTreeMap;
+use std::fs::{self, Permissions};
+use std::io::{Read, Write};
+use std::os::unix::fs::{PermissionsExt, symlink};
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+
+use super::{Claim, OutputError, ResultFolder, Results, Subject, claim_file};
+
+fn written(path: &Path, text: &str) -> Result<(), OutputError> {
+    let mut results = Results::default();
+    results.add(path, |file| file.write_all(text.as_bytes()))?;
+    results.commit()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+fn is_link(path: &Path) -> bool {
+    path.symlink_metadata().unwrap().is_symlink()
+}
+
+#[test]
+fn links_are_followed_to_files_that_are_there_and_to_those_that_are_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    fs::create_dir(at("deep")).unwrap();
+    fs::write(at("deep/file"), "old").unwrap();
+    symlink("deep/file", at("link")).unwrap();
+    symlink("link", at("again")).unwrap();
+    symlink("deep/new", at("dangling")).unwrap();
+    written(&at("again"), "new").unwrap();
+    written(&at("dangling"), "made").unwrap();
+    assert_eq!(fs::read_to_string(at("deep/file")).unwrap(), "new");
+    assert_eq!(fs::read_to_string(at("deep/new")).unwrap(), "made");
+    assert!(is_link(&at("link")) && is_link(&at("again")) && is_link(&at("dangling")));
+    // To itself.
+    symlink("circle", at("circle")).unwrap();
+    assert!(written(&at("circle"), "x").is_err() && is_link(&at("circle")));
+    assert_eq!(names(folder.path()), ["again", "circle", "dangling", "deep", "link"]);
+}
+
+#[test]
+fn modes_are_kept_and_read_only_files_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("file");
+    fs::write(&path, "old").unwrap();
+    for mode in [0o600, 0o664, 0o755] {
+        fs::set_permissions(&path, Permissions::from_mode(mode)).unwrap();
+        written(&path, "new").unwrap();
+        assert_eq!(path.metadata().unwrap().permissions().mode() & 0o7777, mode);
+    }
+    fs::set_permissions(&path, Permissions::from_mode(0o444)).unwrap();
+    let refused = written(&path, "other").unwrap_err().to_string();
+    assert!(refused.contains("file: cannot be written: it is read-only"), "{refused}");
+    assert_eq!(fs::read_to_string(&path).unwrap(), "new");
+    let refused = written(folder.path(), "x").unwrap_err().to_string();
+    assert!(refused.contains("it is a folder"), "{refused}");
+    assert_eq!(names(folder.path()), ["file"]);
+}
+
+#[test]
+fn pipes_are_written_through_once_all_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let path = pipe.clone();
+    let reader = std::thread::spawn(move || {
+        let mut text = String::new();
+        fs::File::open(path).unwrap().read_to_string(&mut text).unwrap();
+        text
+    });
+    let mut results = Results::default();
+    assert!(results.add(&pipe, |_| Err(std::io::Error::other("half"))).is_err());
+    written(&pipe, "through").unwrap();
+    assert_eq!(reader.join().unwrap(), "through");
+    assert_eq!(names(folder.path()), ["pipe"]);
+    assert!(!pipe.metadata().unwrap().is_file());
+}
+
+#[test]
+fn one_file_is_replaced_by_its_like_or_when_asked_and_never_when_it_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let [path, link, none] = ["file", "link", "none"].map(|name| folder.path().join(name));
+    fs::write(&path, "text").unwrap();
+    symlink("file", &link).unwrap();
+    let refused = claim_file(&path, &[], false, |_| false).unwrap_err().to_string();
+    assert!(refused.contains("--overwrite"), "{refused}");
+    claim_file(&path, &[], false, |file| file.buffer().is_empty()).unwrap();
+    claim_file(&path, &[], true, |_| false).unwrap();
+    claim_file(&none, &[&path], false, |_| false).unwrap();
+    for (out, input) in [(&path, &path), (&link, &path), (&path, &link)] {
+        let refused = claim_file(out, &[input], true, |_| true).unwrap_err().to_string();
+        assert!(refused.contains("which the command reads"), "{refused}");
+    }
+    // An empty file has nothing to lose.
+    fs::write(&path, "").unwrap();
+    claim_file(&path, &[], false, |_| false).unwrap();
+    claim_file(Path::new("/dev/null"), &[Path::new("/dev/null")], false, |_| false).unwrap();
+    assert_eq!(names(folder.path()), ["file", "link"]);
+}
+
+fn claim(command: &str, scene: &Value) -> Claim<'static> {
+    let subject = Subject::new(command, BTreeMap::new()).with("scene", scene).unwrap();
+    Claim { subject, page: "summary.json", names: &["map", "loop"], inputs: Vec::new() }
+}
+
+fn open(folder: &Path, overwrite: bool, claim: &Claim<'_>) -> Result<(), String> {
+    ResultFolder::new(folder.to_owned(), overwrite).open(claim).map_err(|error| error.to_string())
+}
+
+#[test]
+fn results_are_replaced_by_their_like_or_when_asked() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let ours = claim("map", &json!({"size": 2.0}));
+    let others = [
+        (claim("loop", &json!({"size": 2.0})), "holds results of `sprag map`"),
+        (claim("map", &json!({"size": 2.5})), "scene.size differs"),
+    ];
+    for page in ["summary.json", "map.run.json", "map-2-of-3.run.json"] {
+        fs::write(at(page), serde_json::to_string(&ours.subject).unwrap()).unwrap();
+        fs::write(at("map.csv"), "").unwrap();
+        open(folder.path(), false, &ours).unwrap();
+        for (other, says) in &others {
+            let refused = open(folder.path(), false, other).unwrap_err();
+            assert!(refused.contains(says) && refused.contains("--overwrite"), "{page}: {refused}");
+            open(folder.path(), true, other).unwrap();
+        }
+        fs::remove_file(at(page)).unwrap();
+    }
+    // What no page says to be a result is another's, and so is a page that is not.
+    for name in ["map.csv", "map-1-of-2.csv", "loop-2.svg", "summary.json", "map.run.json"] {
+        let folder = tempfile::tempdir().unwrap();
+        for text in ["", "{}", "[1]"] {
+            fs::write(folder.path().join(name), text).unwrap();
+            let refused = open(folder.path(), false, &ours).unwrap_err();
+            assert!(refused.contains(name) && refused.contains("--overwrite"), "{refused}");
+            open(folder.path(), true, &ours).unwrap();
+        }
+    }
+    // Other files are nobody's concern.
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["notes.md", "map.toml", "mapped.csv", "map.csv.unfinished", "map-notes.md", "history.csv"] {
+        fs::write(folder.path().join(name), "").unwrap();
+    }
+    open(folder.path(), false, &ours).unwrap();
+}
+
+#[test]
+fn an_input_is_never_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    fs::write(at("record.csv"), "").unwrap();
+    symlink("record.csv", at("map.csv")).unwrap();
+    let inputs: Vec<PathBuf> = vec![at("record.csv")];
+    let refused = open(folder.path(), true, &Claim { inputs, ..claim("map", &json!(1)) }).unwrap_err();
+    assert!(refused.contains("map.csv") && refused.contains("record.csv, which the command reads"), "{refused}");
+}
+
+#[test]
+fn folders_that_stay_empty_are_removed_and_others_stay() {
+    let root = tempfile::tempdir().unwrap();
+    let ours = claim("map", &json!(1));
+    let deep = root.path().join("a/b/c");
+    drop(ResultFolder::new(deep.clone(), false));
+    let mut folder = ResultFolder::new(deep.clone(), false);
+    folder.open(&ours).unwrap();
+    folder.make("d/e").unwrap();
+    assert!(deep.join("d/e").is_dir());
+    drop(folder);
+    assert_eq!(names(root.path()), [""; 0]);
+    let mut folder = ResultFolder::new(deep.clone(), false);
+    folder.open(&ours).unwrap();
+    written(&folder.join("map.csv"), "1").unwrap();
+    drop(folder);
+    assert!(deep.join("map.csv").is_file());
+    // One that was there, empty, is not this command's to remove.
+    fs::create_dir(root.path().join("own")).unwrap();
+    open(&root.path().join("own"), false, &ours).unwrap();
+    assert!(root.path().join("own").is_dir());
+    let refused = open(&deep.join("map.csv/out"), false, &ours).unwrap_err();
+    assert!(refused.contains("map.csv is a file, not a folder"), "{refused}");
+}
