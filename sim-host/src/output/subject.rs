@@ -74,7 +74,9 @@ impl Subject {
             forget_accuracy(&mut theirs);
         }
         let Value::Object(ours) = ours else { return None };
-        ours.iter().find_map(|(name, ours)| {
+        // A scene says more of what is other than the files that it reads.
+        let (files, others): (Vec<_>, Vec<_>) = ours.iter().partition(|(name, _)| *name == "files");
+        others.into_iter().chain(files).find_map(|(name, ours)| {
             let nothing = if ours.is_object() { Value::Object(Map::new()) } else { Value::Null };
             difference(name, ours, theirs.get(name).unwrap_or(&nothing))
         })
