@@ -74,11 +74,11 @@ fn records(draw: &mut Draw<'_>, scene: &Scene) -> Result<GroundMotions, String> 
     let samples: Vec<f64> = (0..count).map(|_| peak * draw.share()).collect();
     let horizontal = [Component::record(0.0, step, samples.iter().copied())];
     if scene.file.vertical.is_empty() {
-        return Ok(GroundMotions { horizontal: GroundMotion::sum(&horizontal), vertical: None });
+        return Ok(GroundMotions { horizontal: GroundMotion::sum(&horizontal), vertical: None, records: Vec::new() });
     }
     let vertical = Component::record(0.0, step, samples.iter().map(|sample| 0.5 * sample / peak));
     let [horizontal, vertical] = GroundMotion::aligned(&horizontal, &[vertical]);
-    Ok(GroundMotions { horizontal, vertical: Some(vertical) })
+    Ok(GroundMotions { horizontal, vertical: Some(vertical), records: Vec::new() })
 }
 
 /// Makes a run over `shaking` (s) short enough, if it can be done with its free time and its step.

@@ -1,24 +1,19 @@
 //! The records of a study: files named one by one, and those of folders.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use rayon::prelude::*;
 
+use super::folder;
 use super::measure::MeasuredRecord;
 use super::study::{Study, check_record};
 use super::study_file::{DescribedRecord, RecordEntry};
 use crate::ground_motion::{self, GroundMotion};
-use crate::record::{Component, ReadOptions, Record, STANDARD_GRAVITY_M_S2};
+use crate::record::{Component, ReadOptions, Record, RecordSummary, STANDARD_GRAVITY_M_S2, Warning, warning_lines};
 use crate::scene::SceneError;
 use crate::scene::error::Key;
 use crate::scene::motions::GroundMotions;
-
-/// Endings of the files that a folder is searched for. A file that is named is read whatever its ending.
-pub const ENDINGS: [&str; 8] = ["acc", "at2", "csv", "dat", "g3", "json", "smc", "txt"];
-
-/// Folders within folders that are searched.
-const DEEPEST: usize = 16;
 
 /// A record of a study.
 #[derive(Clone, Debug)]
@@ -36,7 +31,7 @@ impl StudyRecord {
         let Record { acceleration_m_s2, time_step_s, .. } = &self.motion.record;
         let samples = acceleration_m_s2.iter().map(|a| factor * a / STANDARD_GRAVITY_M_S2);
         let component = ground_motion::Component::record(start_s, *time_step_s, samples);
-        GroundMotions { horizontal: GroundMotion::sum(&[component]), vertical: None }
+        GroundMotions { horizontal: GroundMotion::sum(&[component]), vertical: None, records: Vec::new() }
     }
 }
 
@@ -47,6 +42,8 @@ pub struct StudyRecords {
     pub records: Vec<StudyRecord>,
     /// One line for each file or folder without a record; names the file.
     pub unreadable: Vec<String>,
+    /// One line for each folder in which something was passed over.
+    pub passed_over: Vec<String>,
 }
 
 /// A file to be read.
@@ -64,25 +61,57 @@ impl StudyRecords {
     /// [`StudyRecords::unreadable`].
     pub fn read(study: &Study) -> Result<StudyRecords, SceneError> {
         let mut found = StudyRecords::default();
-        let mut sources = sources(study, &mut found.unreadable)?;
+        let mut sources = sources(study, &mut found)?;
         let mut seen = BTreeSet::new();
         sources.retain(|source| seen.insert(std::fs::canonicalize(&source.path).unwrap_or_else(|_| source.path.clone())));
         let same = |name: &str| sources.iter().filter(|source| source.name == name).count() > 1;
-        let named = |source: &Source| if same(&source.name) { shown(&source.path) } else { source.name.clone() };
+        let named = |source: &Source| if same(&source.name) { folder::shown(&source.path) } else { source.name.clone() };
         let names: Vec<String> = sources.iter().map(named).collect();
         let read: Vec<_> = sources.par_iter().map(|source| Record::read(&source.path, &source.options)).collect();
         for (name, record) in names.into_iter().zip(read) {
             match record {
-                Ok(record) => found.records.push(StudyRecord { name, motion: record.into() }),
-                Err(error) => found.unreadable.push(error.to_string()),
+                Ok(record) => found.records.push(StudyRecord { name, motion: record.as_horizontal().into() }),
+                Err(error) => found.unreadable.push(match error.key() {
+                    Some(key) => format!("{error}, or record.{key} in {}", study.origin),
+                    None => error.to_string(),
+                }),
             }
         }
         Ok(found)
     }
+
+    /// The records as summaries have them.
+    pub fn summaries(&self) -> Vec<RecordSummary> {
+        self.records.iter().map(|record| RecordSummary::of(&record.motion.record, &record.name)).collect()
+    }
+
+    /// What a person should look at, in a few lines.
+    pub fn warnings(&self) -> Vec<String> {
+        let is_vertical = |warning: &Warning| matches!(warning, Warning::VerticalComponent { .. });
+        let mut lines = self.passed_over.clone();
+        let vertical = self.records.iter().filter(|record| record.motion.record.warnings.iter().any(is_vertical));
+        let vertical: Vec<&str> = vertical.map(|record| record.name.as_str()).collect();
+        if !vertical.is_empty() {
+            lines.push(format!(
+                "vertical components by their names or headers, taken as horizontal motions: {} of {} records: {}",
+                vertical.len(),
+                self.records.len(),
+                folder::first_of(&vertical)
+            ));
+        }
+        let mut others = self.summaries();
+        for (summary, record) in others.iter_mut().zip(&self.records) {
+            // Said above, and the last of a record's warnings.
+            let kept = record.motion.record.warnings.iter().filter(|warning| !is_vertical(warning));
+            summary.warnings = kept.map(ToString::to_string).collect();
+        }
+        lines.extend(warning_lines(&others));
+        lines
+    }
 }
 
-/// The files of `study`; folders without any go to `unreadable`.
-fn sources(study: &Study, unreadable: &mut Vec<String>) -> Result<Vec<Source>, SceneError> {
+/// The files of `study`; what is no file, and folders without any, are noted in `found`.
+fn sources(study: &Study, found: &mut StudyRecords) -> Result<Vec<Source>, SceneError> {
     let mut sources = Vec::new();
     for (index, entry) in study.file.records.iter().enumerate() {
         let mut options = study.reading.clone();
@@ -99,51 +128,28 @@ fn sources(study: &Study, unreadable: &mut Vec<String>) -> Result<Vec<Source>, S
         };
         let path = study.folder.join(path);
         if !path.is_dir() {
-            let name = path.file_name().map_or_else(|| shown(&path), |name| name.to_string_lossy().into_owned());
+            let name = path.file_name().map_or_else(|| folder::shown(&path), |name| name.to_string_lossy().into_owned());
             sources.push(Source { name, path, options });
             continue;
         }
-        let mut files = Vec::new();
-        if let Err(error) = search(&path, DEEPEST, &mut files) {
-            unreadable.push(format!("{}: {error}", path.display()));
-        } else if files.is_empty() {
-            unreadable.push(format!("{}: no file in it ends in {}", path.display(), ENDINGS.join(", ")));
+        let inside = folder::search(&path);
+        found.passed_over.extend(inside.passed_over_line(&path));
+        if inside.files.is_empty() && inside.unreadable.is_empty() {
+            found.unreadable.push(format!("{}: no file in it ends in {}", path.display(), folder::ENDINGS.join(", ")));
         }
-        files.sort();
-        for file in files {
-            let name = shown(file.strip_prefix(&path).unwrap_or(&file));
+        found.unreadable.extend(inside.unreadable);
+        for file in inside.files {
+            let name = folder::shown(file.strip_prefix(&path).unwrap_or(&file));
             sources.push(Source { name, path: file, options: options.clone() });
         }
     }
     Ok(sources)
 }
 
-/// Adds the files of `folder` and of those below it that may be records. Links to folders are not followed.
-fn search(folder: &Path, deepest: usize, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
-    for entry in std::fs::read_dir(folder)? {
-        let entry = entry?;
-        let (path, kind) = (entry.path(), entry.file_type()?);
-        if entry.file_name().as_encoded_bytes().starts_with(b".") {
-            continue;
-        }
-        if kind.is_dir() && deepest > 0 {
-            search(&path, deepest - 1, files)?;
-        }
-        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        if ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str())) && path.is_file() {
-            files.push(path);
-        }
-    }
-    Ok(())
-}
-
-/// A path with `/` between its parts, the same on every system.
-fn shown(path: &Path) -> String {
-    path.to_string_lossy().replace('\\', "/")
-}
-
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
     use crate::cloud::study_file::RecordTable;
 
@@ -193,6 +199,6 @@ mod tests {
         assert_eq!(of_all.records[0].motion.record, described.records[0].motion.record);
         let study = study(folder.path(), "[{ file = 'plain.g3', units = 'furlongs' }]");
         let error = StudyRecords::read(&study).unwrap_err().to_string();
-        assert_eq!(error, "study.toml: records.0.units is \"furlongs\", but must be g, m/s2, cm/s2 or in/s2");
+        assert_eq!(error, "study.toml: records.0.units is \"furlongs\", but must be g, m/s2, cm/s2 (gal), mm/s2, in/s2, ft/s2");
     }
 }

@@ -248,7 +248,7 @@ pub(super) fn check_record(
 ) -> Result<(), SceneError> {
     if let Some(units) = units.filter(|units| units.parse::<Units>().is_err()) {
         let Key { origin, key } = key(&format!("{table}.units"));
-        let range = "g, m/s2, cm/s2 or in/s2".to_owned();
+        let range = Units::ALLOWED.to_owned();
         return Err(SceneError::Range { origin, key, value: format!("{units:?}"), range });
     }
     if let Some(step) = step {

@@ -85,7 +85,7 @@ pub struct DescribedRecord {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RecordTable {
-    /// Units of files that do not state theirs: g, m/s2, cm/s2 or in/s2.
+    /// Units of files that do not state theirs: g, m/s2, cm/s2 (gal), mm/s2, in/s2 or ft/s2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub units: Option<String>,
     /// Time step of files that do not state theirs, s.

@@ -58,7 +58,7 @@ fn what_is_wrong_is_named_with_its_key_and_range() {
         ("[bootstrap]\nlevel = 1.0", "bootstrap.level is 1, but must be above 0 and below 1"),
         ("[bootstrap]\nresamples = 0", "bootstrap.resamples is 0, but must be from 1 to 1000000"),
         ("[record]\ntime_step_s = 0", "record.time_step_s is 0, but must be from 0.00001 to 1 s"),
-        ("[record]\nunits = 'ell'", "record.units is \"ell\", but must be g, m/s2, cm/s2 or in/s2"),
+        ("[record]\nunits = 'ell'", "record.units is \"ell\", but must be g, m/s2, cm/s2 (gal), mm/s2, in/s2, ft/s2"),
         ("[demand]\nstructures = ['tall']", "demand.structures is \"tall\", but must be among the structures"),
         ("[[structure]]\nname = 'a'\nset = { 'block.size_m' = -1 }", "block.size_m is -1, but must be from 0.001 to 10000 m"),
         ("[[structure]]\nname = 'a'\nset = { 'block.sise_m' = 1 }", "unknown field `sise_m`"),

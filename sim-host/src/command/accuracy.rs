@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use super::format_arguments::PictureArguments;
 use super::out_arguments::{FolderArguments, claim_of_scene};
+use super::record_arguments::SceneRecordArguments;
 use super::{ended, warned};
 use crate::accuracy_study::board::{Board, BoardError};
 use crate::accuracy_study::figure::figures;
@@ -19,6 +20,7 @@ use crate::interrupt::Interrupt;
 use crate::output::{Digest, OutputError, Results};
 use crate::plot::PlotError;
 use crate::progress::Progress;
+use crate::record::{RecordSummary, warning_lines};
 use crate::scene::ground::GroundError;
 use crate::scene::schema::SceneFile;
 use crate::scene::{Scene, SceneError};
@@ -36,9 +38,9 @@ pub struct AccuracyCommandArguments {
     /// Change one value of the scene, such as block.size_m=2 or device.1.mass_ratio=0.5.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Ground motion record, in the place of the scene's.
-    #[arg(long, value_name = "FILE")]
-    pub record: Option<PathBuf>,
+    /// Records.
+    #[command(flatten)]
+    pub records: SceneRecordArguments,
     /// Cells along each side of the grid of one-cycle pulses that wrong outcomes are counted over, by steps from 1e-3/p on; 0 to 64.
     #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u8).range(0..=64))]
     pub cells: u8,
@@ -90,6 +92,7 @@ struct Summary<'a> {
     command: &'static str,
     version: &'static str,
     scene: &'a SceneFile,
+    records: &'a [RecordSummary],
     warnings: &'a [String],
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     files: &'a BTreeMap<String, Digest>,
@@ -114,10 +117,8 @@ fn run_or_fail(
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
     let mut scene = Scene::load(&arguments.scene, &arguments.set)?;
-    let warnings = warned(scene.warnings(), err);
-    if let Some(record) = &arguments.record {
-        scene.use_record(record)?;
-    }
+    arguments.records.apply(&mut scene)?;
+    let mut warnings = warned(scene.warnings(), err);
     if let Some(what) = scene.first_beyond_ideal() {
         return Err(Failure::BeyondIdeal { scene: scene.origin.clone(), what });
     }
@@ -128,6 +129,7 @@ fn run_or_fail(
     claim.subject = claim.subject.with("cells", &cells)?.with("smallest_step", &arguments.smallest_step)?;
     // Where the results go is tried before the work, not after it.
     folder.open(&claim)?;
+    warnings.extend(warned(warning_lines(&ground.records), err));
     let board = if arguments.qemu { Some(Board::measure(arguments.image.as_deref())?) } else { None };
     let progress = Progress::new("runs");
     let extent = Extent { cells: arguments.cells.into(), smallest_step: arguments.smallest_step };
@@ -142,6 +144,7 @@ fn run_or_fail(
         command: "accuracy",
         version: env!("CARGO_PKG_VERSION"),
         scene: &scene.file,
+        records: &ground.records,
         warnings: &warnings,
         files: &claim.subject.files,
         cells,

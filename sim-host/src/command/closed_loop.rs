@@ -12,6 +12,7 @@ use serde::Serialize;
 use super::format_arguments::PictureArguments;
 use super::loop_scene::{LoopScene, LoopSceneError};
 use super::out_arguments::{FolderArguments, claim_of_scene};
+use super::record_arguments::SceneRecordArguments;
 use super::{DRAWING, ended, warned};
 use crate::accuracy::AccuracyArguments;
 use crate::closed_loop::LoopFailure;
@@ -24,6 +25,7 @@ use crate::interrupt::Interrupt;
 use crate::output::{Digest, OutputError, ResultFolder, Results, Subject};
 use crate::plot::{FigureTitle, PlotError, loop_figure};
 use crate::progress::Progress;
+use crate::record::{RecordSummary, warning_lines};
 use crate::scene::Scene;
 use crate::scene::schema::SceneFile;
 use crate::statistics::quantile;
@@ -41,9 +43,9 @@ pub struct LoopArguments {
     /// Change one value of the scene, such as controller.rate_hz=1000.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Ground motion record, in the place of the scene's.
-    #[arg(long, value_name = "FILE")]
-    pub record: Option<PathBuf>,
+    /// Records.
+    #[command(flatten)]
+    pub records: SceneRecordArguments,
     /// Run so many specimens of the sensors, each with noise and errors of its own.
     #[arg(long, value_name = "N")]
     pub monte_carlo: Option<NonZeroUsize>,
@@ -82,6 +84,7 @@ struct Summary<'a> {
     command: &'static str,
     version: &'static str,
     scene: &'a SceneFile,
+    records: &'a [RecordSummary],
     warnings: &'a [String],
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     files: &'a BTreeMap<String, Digest>,
@@ -105,11 +108,12 @@ fn run_or_fail(
     let any_accuracy = arguments.accuracy.time_budget.is_some();
     let mut folder = arguments.folder.folder(&arguments.scene, "loop").of_any_accuracy(any_accuracy);
     let plain = Scene::load(&arguments.scene, &arguments.set).map_err(LoopSceneError::from)?;
-    let warnings = warned(plain.warnings(), err);
+    let mut warnings = warned(plain.warnings(), err);
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
     let (desk, subject, mut reports) =
         arguments.accuracy.run(|change| looped(arguments, change, &mut folder, interrupt), tell)?;
     let scene = &desk.scene;
+    warnings.extend(warned(warning_lines(&desk.ground.records), err));
     let mut results = Results::default();
     if let Some(count) = arguments.monte_carlo {
         let table = monte_carlo(arguments, &desk, &mut reports, count, interrupt)?;
@@ -117,9 +121,9 @@ fn run_or_fail(
     }
     let drawing = Progress::uncounted(DRAWING);
     let summaries: Vec<LoopSummary> = reports.iter().map(|report| report.summary.clone()).collect();
-    let file = desk.resolved(arguments.record.as_ref());
-    let (version, files, monte_carlo) = (env!("CARGO_PKG_VERSION"), &subject.files, arguments.monte_carlo);
-    let summary = Summary { command: "loop", version, scene: &file, warnings: &warnings, files, monte_carlo, runs: &summaries };
+    let (file, records, files) = (desk.resolved(), &desk.ground.records, &subject.files);
+    let (command, version, monte_carlo, runs) = ("loop", env!("CARGO_PKG_VERSION"), arguments.monte_carlo, &summaries);
+    let summary = Summary { command, version, scene: &file, records, warnings: &warnings, files, monte_carlo, runs };
     results.add_json(&folder.join("summary.json"), &summary)?;
     results.add(&folder.join("history.csv"), |file| write_history(&reports, file).map_err(std::io::Error::other))?;
     for (number, report) in reports.iter().enumerate() {
@@ -148,8 +152,8 @@ fn looped(
 ) -> Result<(LoopScene, Subject, Vec<LoopReport>), Failure> {
     let mut changes = arguments.set.clone();
     changes.extend(change);
-    let desk = LoopScene::load(&arguments.scene, &changes, arguments.record.as_ref())?;
-    let file = desk.resolved(arguments.record.as_ref());
+    let desk = LoopScene::load(&arguments.scene, &changes, &arguments.records)?;
+    let file = desk.resolved();
     let names = &["history", "loop", "monte_carlo"];
     let mut claim = claim_of_scene("loop", &arguments.scene, &desk.scene, &file, names, &[])?;
     claim.subject = claim.subject.with("monte_carlo", &arguments.monte_carlo)?;

@@ -32,6 +32,7 @@ use crate::long_run::shard::Shard;
 use crate::output::{Claim, Digest, Formats, OutputError, ResultFolder, Results, Subject};
 use crate::plot::PlotError;
 use crate::progress::Progress;
+use crate::record::RecordSummary;
 use crate::simulation::RunError;
 
 /// Demand regressions and overturning fragilities over many records (Figures 15 and 16).
@@ -91,8 +92,8 @@ struct Document<'a> {
     version: &'static str,
     study: &'a StudyFile,
     structures: &'a [StudyStructure],
+    records: Vec<RecordSummary>,
     warnings: &'a [String],
-    records: Vec<&'a str>,
     files: &'a BTreeMap<String, Digest>,
     unreadable: &'a [String],
     #[serde(flatten)]
@@ -122,9 +123,9 @@ pub fn run(arguments: &CloudArguments, out: &mut impl Write, err: &mut impl Writ
 }
 
 /// A study that was run.
-struct Studied {
+struct Studied<'a> {
     study: Study,
-    records: StudyRecords,
+    records: &'a StudyRecords,
     subject: Subject,
     runs: Runs,
     /// runs.csv, if it is written.
@@ -143,13 +144,20 @@ fn run_or_fail(
     }
     let any_accuracy = arguments.accuracy.time_budget.is_some();
     let mut folder = arguments.folder.folder(&arguments.input.study, "cloud").of_any_accuracy(any_accuracy);
-    let warnings = warned(arguments.input.load(None)?.warnings(), err);
+    let study = arguments.input.load(None)?;
+    let mut warnings = warned(study.warnings(), err);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
-    let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
-    let studied = arguments.accuracy.run(|change| pool.install(|| studied(arguments, change, &mut folder, interrupt)), tell)?;
-    for line in &studied.records.unreadable {
+    // Records do not depend on how accurately they are followed.
+    let reading = Progress::uncounted("reading records");
+    let records = pool.install(|| arguments.input.read(&study))?;
+    reading.finish();
+    for line in &records.unreadable {
         let _ = writeln!(err, "sprag: {line}");
     }
+    warnings.extend(warned(records.warnings(), err));
+    let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
+    let once = |change| pool.install(|| studied(arguments, change, &records, &mut folder, interrupt));
+    let studied = arguments.accuracy.run(once, tell)?;
     let shard = arguments.long_run.shard();
     if let (true, Some(rows)) = (shard != Shard::WHOLE, &studied.rows) {
         let _ = writeln!(out, "shard {shard}: {}", rows.display());
@@ -166,16 +174,14 @@ fn run_or_fail(
     Ok(complete)
 }
 
-fn studied(
+fn studied<'a>(
     arguments: &CloudArguments,
     change: Option<String>,
+    records: &'a StudyRecords,
     folder: &mut ResultFolder,
     interrupt: &Interrupt,
-) -> Result<Studied, Failure> {
-    let reading = Progress::uncounted("reading records");
+) -> Result<Studied<'a>, Failure> {
     let study = arguments.input.load(change)?;
-    let records = arguments.input.read(&study)?;
-    reading.finish();
     let progress = Progress::new("runs");
     // Where the results go is tried before the work, not after it.
     let subject = study_subject("cloud", &records.records).with("study", &study.file)?.with("structures", &study.structures)?;
@@ -216,7 +222,7 @@ fn studied(
 
 /// Writes the results; returns whether everything was read and run.
 fn write(
-    studied: &Studied,
+    studied: &Studied<'_>,
     findings: &Findings,
     warnings: &[String],
     (folder, formats): (&Path, Formats),
@@ -232,7 +238,7 @@ fn write(
         study: file,
         structures,
         warnings,
-        records: records.records.iter().map(|record| record.name.as_str()).collect(),
+        records: records.summaries(),
         files: &subject.files,
         unreadable: &records.unreadable,
         findings,

@@ -14,6 +14,7 @@ use super::device_line::{Connected, LineArguments, connect, firmware};
 use super::ended;
 use super::loop_scene::{LoopScene, LoopSceneError};
 use super::out_arguments::OverwriteArguments;
+use super::record_arguments::SceneRecordArguments;
 use crate::device::event_table::{what, write_csv, write_table};
 use crate::device::line::{DeviceError, Line};
 use crate::device::session::Session;
@@ -274,7 +275,7 @@ fn report(given: &ParameterArguments, before: &Settings, now: &Settings, out: &m
 }
 
 fn of_scene(path: &Path, interrupt: &Interrupt) -> Result<Settings, Failure> {
-    let desk = LoopScene::load(path, &[], None)?;
+    let desk = LoopScene::load(path, &[], &SceneRecordArguments::default())?;
     let Some(&index) = desk.pairs.first() else { return Err(Failure::Input(format!("{}: no clutched pair", path.display()))) };
     let settings = desk.task(index, desk.controller.sensors.seed(), interrupt).settings();
     settings.map_err(|error| Failure::Input(format!("{}: {error}", path.display())))

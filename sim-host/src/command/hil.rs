@@ -13,6 +13,7 @@ use super::device_line::{LineArguments, connect};
 use super::format_arguments::PictureArguments;
 use super::loop_scene::{LoopScene, LoopSceneError};
 use super::out_arguments::{FolderArguments, claim_of_scene};
+use super::record_arguments::SceneRecordArguments;
 use super::{DRAWING, ended, warned};
 use crate::accuracy::{AccuracyArguments, Closeness};
 use crate::closed_loop::answered::Looped;
@@ -28,6 +29,7 @@ use crate::interrupt::Interrupt;
 use crate::output::{Digest, OutputError, ResultFolder, Results, Subject};
 use crate::plot::{PlotError, loop_figure};
 use crate::progress::Progress;
+use crate::record::{RecordSummary, warning_lines};
 use crate::scene::Scene;
 use crate::scene::schema::SceneFile;
 use crate::simulation::ErrorReport;
@@ -46,9 +48,9 @@ pub struct HilArguments {
     /// Change one value of the scene, such as controller.rate_hz=1000.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Ground motion record, in the place of the scene's.
-    #[arg(long, value_name = "FILE")]
-    pub record: Option<PathBuf>,
+    /// Records.
+    #[command(flatten)]
+    pub records: SceneRecordArguments,
     /// Where results go.
     #[command(flatten)]
     pub folder: FolderArguments,
@@ -84,6 +86,7 @@ struct Summary<'a> {
     command: &'static str,
     version: &'static str,
     scene: &'a SceneFile,
+    records: &'a [RecordSummary],
     warnings: &'a [String],
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     files: &'a BTreeMap<String, Digest>,
@@ -105,9 +108,10 @@ fn run_or_fail(
     let any_accuracy = arguments.accuracy.time_budget.is_some();
     let mut folder = arguments.folder.folder(&arguments.scene, "hil").of_any_accuracy(any_accuracy);
     let plain = Scene::load(&arguments.scene, &arguments.set).map_err(LoopSceneError::from)?;
-    let warnings = warned(plain.warnings(), err);
+    let mut warnings = warned(plain.warnings(), err);
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
     let (desk, subject, hosts) = arguments.accuracy.run(|change| on_host(arguments, change, &mut folder, interrupt), tell)?;
+    warnings.extend(warned(warning_lines(&desk.ground.records), err));
     let mut results = Results::default();
     let (mut reports, mut summaries, mut ticks) = (Vec::new(), Vec::new(), Vec::new());
     for (number, (&index, host)) in desk.pairs.iter().zip(hosts).enumerate() {
@@ -127,9 +131,9 @@ fn run_or_fail(
         summaries.push(run.summary);
     }
     let drawing = Progress::uncounted(DRAWING);
-    let file = desk.resolved(arguments.record.as_ref());
-    let (version, files) = (env!("CARGO_PKG_VERSION"), &subject.files);
-    let summary = Summary { command: "hil", version, scene: &file, warnings: &warnings, files, runs: &summaries };
+    let (file, records, files) = (desk.resolved(), &desk.ground.records, &subject.files);
+    let (command, version, runs) = ("hil", env!("CARGO_PKG_VERSION"), &summaries);
+    let summary = Summary { command, version, scene: &file, records, warnings: &warnings, files, runs };
     results.add_json(&folder.join("summary.json"), &summary)?;
     results.add(&folder.join("history.csv"), |file| write_history(&reports, file).map_err(std::io::Error::other))?;
     results.add(&folder.join("device.csv"), |file| write_device_ticks(&ticks, file))?;
@@ -170,8 +174,8 @@ fn on_host(
 ) -> Result<(LoopScene, Subject, Vec<Host>), Failure> {
     let mut changes = arguments.set.clone();
     changes.extend(change);
-    let desk = LoopScene::load(&arguments.scene, &changes, arguments.record.as_ref())?;
-    let file = desk.resolved(arguments.record.as_ref());
+    let desk = LoopScene::load(&arguments.scene, &changes, &arguments.records)?;
+    let file = desk.resolved();
     let names = &["history", "loop", "device", "log"];
     let claim = claim_of_scene("hil", &arguments.scene, &desk.scene, &file, names, &[])?;
     folder.open(&claim)?;

@@ -1,10 +1,11 @@
 //! What every command that closes a loop needs of a scene.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use sprag_shared::drivetrain::Engagement;
 use sprag_shared::structure::DeviceKind;
 
+use super::record_arguments::SceneRecordArguments;
 use crate::closed_loop::LoopTask;
 use crate::interrupt::Interrupt;
 use crate::scene::controller::ControllerTable;
@@ -62,15 +63,13 @@ pub struct LoopScene {
 }
 
 impl LoopScene {
-    /// Reads a scene with changes, and with another record where there is one.
+    /// Reads a scene with changes, and with other records where there are some.
     ///
     /// # Errors
     /// [`LoopSceneError`].
-    pub fn load(path: &Path, set: &[String], record: Option<&PathBuf>) -> Result<LoopScene, LoopSceneError> {
+    pub fn load(path: &Path, set: &[String], records: &SceneRecordArguments) -> Result<LoopScene, LoopSceneError> {
         let mut scene = Scene::load(path, set)?;
-        if let Some(record) = record {
-            scene.use_record(record)?;
-        }
+        records.apply(&mut scene)?;
         let name = || path.display().to_string();
         let pairs: Vec<usize> =
             (0..scene.devices.len()).filter(|&index| scene.devices[index].device.kind == DeviceKind::ClutchedPair).collect();
@@ -98,14 +97,7 @@ impl LoopScene {
     }
 
     /// The scene as it was run, for a summary.
-    pub fn resolved(&self, record: Option<&PathBuf>) -> SceneFile {
-        let mut file = self.scene.file.clone();
-        if let (Some(table), Some(record)) =
-            (file.ground.iter_mut().find(|table| table.motion == crate::scene::ground::Motion::Record), record)
-        {
-            table.file = Some(record.clone());
-        }
-        file.controller = Some(self.controller.clone());
-        file
+    pub fn resolved(&self) -> SceneFile {
+        SceneFile { controller: Some(self.controller.clone()), ..self.scene.file.clone() }
     }
 }

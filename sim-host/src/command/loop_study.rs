@@ -7,12 +7,13 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
-use super::ended;
 use super::format_arguments::PictureArguments;
 use super::out_arguments::{OverwriteArguments, digests, file_of};
+use super::record_arguments::ReadArguments;
+use super::{ended, warned};
 use crate::accuracy::{Accuracy, AccuracyArguments};
 use crate::interrupt::Interrupt;
-use crate::loop_study::bench::{Conditions, Motion, StudyError};
+use crate::loop_study::bench::{Conditions, Motion, StudyError, records_of};
 use crate::loop_study::decisions::decisions;
 use crate::loop_study::faults::faults;
 use crate::loop_study::ideal_limit::ideal_limit;
@@ -22,9 +23,11 @@ use crate::loop_study::report::Report;
 use crate::loop_study::robustness::robustness;
 use crate::output::{Claim, OutputError, ResultFolder, Results, Subject};
 use crate::progress::Progress;
+use crate::record::{RecordSummary, warning_lines};
 
 /// Which study.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Study {
     /// Error against the ideal pair over the control rate.
     IdealLimit,
@@ -45,8 +48,7 @@ pub enum Study {
 #[command(after_help = "Examples:\n  sprag loop-study practice --out out/practice\n  \
     sprag loop-study laws --records records/*.AT2 --out out/laws\n\n\
     Writes a page NAME.md, its tables as CSV and its pictures as SVG, with --png as PNG too, and NAME.run.json, which says what they
-\
-    are of.")]
+    are of and has the records that were read. The studies ideal-limit and faults take no records.")]
 pub struct LoopStudyArguments {
     /// Which.
     #[arg(value_enum)]
@@ -54,6 +56,9 @@ pub struct LoopStudyArguments {
     /// Recorded ground motions to study beside the pulses.
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub records: Vec<PathBuf>,
+    /// How records are read.
+    #[command(flatten)]
+    pub reading: ReadArguments,
     /// Folder for the results.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
@@ -77,10 +82,14 @@ struct Page<'a> {
     #[serde(flatten)]
     subject: &'a Subject,
     version: &'static str,
+    records: &'a [RecordSummary],
+    warnings: &'a [String],
 }
 
 #[derive(Debug, thiserror::Error)]
 enum Failure {
+    #[error("--records: the study {} takes no records", study.to_possible_value().map_or_else(String::new, |name| name.get_name().to_owned()))]
+    NoRecords { study: Study },
     #[error("{0}")]
     Study(#[from] StudyError),
     #[error("{0}")]
@@ -101,21 +110,24 @@ fn run_or_fail(
     err: &mut impl Write,
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
+    if matches!(arguments.study, Study::IdealLimit | Study::Faults) && !arguments.records.is_empty() {
+        return Err(Failure::NoRecords { study: arguments.study });
+    }
     let any_accuracy = arguments.accuracy.time_budget.is_some();
     let mut folder = ResultFolder::new(arguments.out.clone(), arguments.replace.overwrite).of_any_accuracy(any_accuracy);
     let name = arguments.study.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
-    let read: Vec<(PathBuf, PathBuf)> = arguments.records.iter().map(|file| (file.clone(), file.clone())).collect();
+    let files: Vec<(PathBuf, PathBuf)> = arguments.records.iter().map(|file| (file.clone(), file.clone())).collect();
     let accuracy = arguments.accuracy.accuracy.map(|accuracy| accuracy.to_string());
-    let subject = Subject::new("loop-study", digests(&read)).with("study", &name)?.with("accuracy", &accuracy)?;
+    let subject = Subject::new("loop-study", digests(&files)).with("study", &name)?.with("accuracy", &accuracy)?;
+    let record = |file: &PathBuf| Motion::Record { file: file.clone(), reading: arguments.reading.table(), scale: 1.0 };
+    let records: Vec<Motion> = arguments.records.iter().map(record).collect();
+    // Before hours of work, not after them.
+    let read = records_of(&records)?;
     let (page, inputs) = (format!("{name}.run.json"), arguments.records.iter().map(|file| file_of(file)).collect());
     folder.open(&Claim { subject: subject.clone(), page: &page, names: &[&name], inputs })?;
+    let warnings = warned(warning_lines(&read), err);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
     let progress = Progress::new("runs");
-    let records: Vec<Motion> = arguments
-        .records
-        .iter()
-        .map(|file| Motion::Record { file: std::path::absolute(file).unwrap_or_else(|_| file.clone()), scale: 1.0 })
-        .collect();
     let study = |accuracy: Option<Accuracy>| {
         let conditions = Conditions::new(accuracy, interrupt);
         let report = pool.install(|| match arguments.study {
@@ -132,7 +144,8 @@ fn run_or_fail(
     let found = arguments.accuracy.levels(study, tell);
     progress.finish();
     let (report, worst) = found?;
-    write(&report, &subject, arguments, &mut folder, out, err)?;
+    let page = Page { subject: &subject, version: env!("CARGO_PKG_VERSION"), records: &read, warnings: &warnings };
+    write(&report, &page, arguments, &mut folder, out, err)?;
     if let Some(worst) = worst {
         let _ = writeln!(out, "accuracy: {worst}");
     }
@@ -141,7 +154,7 @@ fn run_or_fail(
 
 fn write(
     report: &Report,
-    subject: &Subject,
+    page: &Page<'_>,
     arguments: &LoopStudyArguments,
     folder: &mut ResultFolder,
     out: &mut impl Write,
@@ -153,7 +166,7 @@ fn write(
     }
     let drawing = Progress::uncounted(super::DRAWING);
     let mut results = Results::default();
-    results.add_json(&folder.join(format!("{}.run.json", report.name)), &Page { subject, version: env!("CARGO_PKG_VERSION") })?;
+    results.add_json(&folder.join(format!("{}.run.json", report.name)), page)?;
     results.add(&folder.join(format!("{}.md", report.name)), |file| file.write_all(report.text.as_bytes()))?;
     for (name, table) in &report.tables {
         results.add(&folder.join(format!("{name}.csv")), |file| file.write_all(table.csv().as_bytes()))?;

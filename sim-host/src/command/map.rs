@@ -11,6 +11,7 @@ use serde::Serialize;
 use super::format_arguments::FormatArguments;
 use super::map_boundaries::{BoundarySummary, trace, write_boundary_table};
 use super::out_arguments::{FolderArguments, claim_of_scene};
+use super::record_arguments::SceneRecordArguments;
 use super::{DRAWING, ended, resumable, warned};
 use crate::columns::{TableError, metadata_of};
 use crate::interrupt::Interrupt;
@@ -30,6 +31,8 @@ use crate::map::tally::{Counts, DeviceMap, Tally};
 use crate::output::{Digest, OutputError, Results};
 use crate::plot::PlotError;
 use crate::progress::Progress;
+use crate::record::{RecordSummary, warning_lines};
+use crate::scene::ground::GroundTable;
 use crate::scene::map::AxisTable;
 use crate::scene::schema::SceneFile;
 use crate::scene::{Scene, SceneError, text_of};
@@ -67,9 +70,9 @@ pub struct MapArguments {
     /// Most blocks that --refine follows for one device; what that leaves coarser is told.
     #[arg(long, value_name = "N", requires = "refine", default_value_t = EVALUATIONS)]
     pub evaluations: usize,
-    /// Ground motion record, in the place of the scene's.
-    #[arg(long, value_name = "FILE")]
-    pub record: Option<PathBuf>,
+    /// Records.
+    #[command(flatten)]
+    pub records: SceneRecordArguments,
     /// Where results go.
     #[command(flatten)]
     pub folder: FolderArguments,
@@ -126,6 +129,7 @@ struct Summary<'a> {
     command: &'static str,
     version: &'static str,
     scene: &'a SceneFile,
+    records: &'a [RecordSummary],
     warnings: &'a [String],
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     files: &'a BTreeMap<String, Digest>,
@@ -165,13 +169,9 @@ fn run_or_fail(
     err: &mut impl Write,
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
-    let grid = grid(arguments)?;
-    let warnings = warned(grid.scene.warnings(), err);
-    let mut file = grid.scene.file.clone();
-    if let (Some(record), Some(table)) = (&arguments.record, file.ground.iter_mut().find(|table| table.file.is_some())) {
-        // As the user wrote it, so that the summary does not depend on where it was made.
-        table.file = Some(record.clone());
-    }
+    let (grid, file) = grid(arguments)?;
+    let records = records(&grid, &file)?;
+    let warnings = warned(grid.scene.warnings().into_iter().chain(warning_lines(&records)), err);
     let (labels, mut tally) = (Labels::new(&grid)?, Tally::new(&grid));
     if arguments.refine && tally.maps.iter().any(|map| map.shown.len() != grid.columns() * grid.rows()) {
         return Err(Failure::TooManyCells);
@@ -213,7 +213,8 @@ fn run_or_fail(
     }
     let runs = tally.maps.iter().enumerate().map(|(device, map)| DeviceSummary::of(map, boundaries.get(device))).collect();
     let (command, version) = ("map", env!("CARGO_PKG_VERSION"));
-    let summary = Summary { command, version, scene: &file, warnings: &warnings, files: &subject.files, runs };
+    let (records, files) = (&records, &subject.files);
+    let summary = Summary { command, version, scene: &file, records, warnings: &warnings, files, runs };
     let made_by = metadata_of(&MadeBy { command, version, scene: &file })?;
     let formats = arguments.formats.formats;
     let mut results = Results::default();
@@ -242,8 +243,22 @@ fn run_or_fail(
     Ok(())
 }
 
-/// The scene with its overrides and axes.
-fn grid(arguments: &MapArguments) -> Result<Grid, SceneError> {
+/// The records of the first cell, by the names that `file` has for them.
+fn records(grid: &Grid, file: &SceneFile) -> Result<Vec<RecordSummary>, MapError> {
+    let mut first = grid.scene_of(0, 0)?;
+    let as_written = |tables: &mut [GroundTable], written: &[GroundTable]| {
+        for (table, written) in tables.iter_mut().zip(written) {
+            (table.file, table.of_command_line) = (written.file.clone(), written.of_command_line);
+        }
+    };
+    as_written(&mut first.file.ground, &file.ground);
+    as_written(&mut first.file.vertical, &file.vertical);
+    Ok(first.records()?)
+}
+
+/// The scene with its overrides, records and axes, and what it says with its records named as the user wrote them, so that
+/// summaries do not depend on where they were made.
+fn grid(arguments: &MapArguments) -> Result<(Grid, SceneFile), SceneError> {
     let origin = arguments.scene.display().to_string();
     let text = text_of(&arguments.scene)?;
     let mut table = Scene::table(&text, &origin)?;
@@ -258,26 +273,48 @@ fn grid(arguments: &MapArguments) -> Result<Grid, SceneError> {
             ));
         }
     }
-    if let Some(record) = &arguments.record {
-        let place = Scene::of_table(table.clone(), &origin, &changes)?;
-        let index = place.record_table()?;
-        let file = std::path::absolute(record).unwrap_or_else(|_| record.clone());
-        changes.push(format!("ground.{index}.file={:?}", file.display().to_string()));
-    }
     for change in &changes {
         crate::scene::overrides::apply(&mut table, change, &origin)?;
+    }
+    let with_records = arguments.records.is_given();
+    let mut written = None;
+    if with_records {
+        let mut place = Scene::of_table(table.clone(), &origin, &[])?;
+        arguments.records.apply(&mut place)?;
+        for (name, tables) in [("ground", &place.file.ground), ("vertical", &place.file.vertical)] {
+            put(&mut table, name, tables);
+        }
+        written = Some((place.file.ground, place.file.vertical));
     }
     if let (true, Some(toml::Value::Table(map))) = (arguments.cut, table.get_mut("map")) {
         map.remove("y");
     }
     // A scene whose file has no line for its keys any more is told from one that was read as it is.
-    let mut scene = if changes.is_empty() && !arguments.cut {
+    let mut scene = if changes.is_empty() && !with_records && !arguments.cut {
         Scene::parse(&text, &origin)?
     } else {
         Scene::of_table(table.clone(), &origin, &[])?
     };
     scene.folder = arguments.scene.parent().map(Path::to_path_buf).unwrap_or_default();
-    Grid::new(scene, table)
+    let mut file = scene.file.clone();
+    if let Some((ground, vertical)) = written {
+        (file.ground, file.vertical) = (ground, vertical);
+    }
+    Ok((Grid::new(scene, table)?, file))
+}
+
+/// Puts the motions `tables` into the scene `table` under `name`, with files that do not depend on the scene's folder.
+fn put(table: &mut toml::Table, name: &str, tables: &[GroundTable]) {
+    let Some(toml::Value::Array(places)) = table.get_mut(name) else { return };
+    for (place, motion) in places.iter_mut().zip(tables) {
+        let mut motion = motion.clone();
+        if motion.of_command_line {
+            motion.file = motion.file.map(|file| std::path::absolute(&file).unwrap_or(file));
+        }
+        if let Ok(motion) = toml::Value::try_from(motion) {
+            *place = motion;
+        }
+    }
 }
 
 fn write_table(out: &mut impl Write, maps: &[DeviceMap]) -> std::io::Result<()> {

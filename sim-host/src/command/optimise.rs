@@ -32,6 +32,7 @@ use crate::optimise::typed_tables::{DesignTable, MotionTable};
 use crate::output::{Claim, Digest, Formats, OutputError, ResultFolder, Results, Subject};
 use crate::plot::PlotError;
 use crate::progress::Progress;
+use crate::record::RecordSummary;
 use crate::scene::SceneError;
 use crate::simulation::RunError;
 
@@ -96,9 +97,9 @@ struct Document<'a> {
     version: &'static str,
     study: Resolved<'a>,
     structure: &'a StudyStructure,
-    warnings: &'a [String],
     curves: &'a [Curve],
-    records: Vec<&'a str>,
+    records: Vec<RecordSummary>,
+    warnings: &'a [String],
     files: &'a BTreeMap<String, Digest>,
     unreadable: &'a [String],
     #[serde(flatten)]
@@ -153,9 +154,9 @@ pub fn run(arguments: &OptimiseArguments, out: &mut impl Write, err: &mut impl W
 }
 
 /// A study, its records, and how it was answered.
-struct Answered {
+struct Answered<'a> {
     study: Study,
-    records: StudyRecords,
+    records: &'a StudyRecords,
     subject: Subject,
     solution: Solution,
     /// The runs as they went to the disk.
@@ -174,10 +175,21 @@ fn run_or_fail(
     }
     let any_accuracy = arguments.accuracy.time_budget.is_some();
     let mut folder = arguments.folder.folder(&arguments.input.study, "optimise").of_any_accuracy(any_accuracy);
-    let warnings = warned(arguments.input.load(None)?.warnings(), err);
+    let study = arguments.input.load(None)?;
+    let mut warnings = warned(study.warnings(), err);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
+    Choices::of(&study)?;
+    // Records do not depend on how accurately they are followed.
+    let reading = Progress::uncounted("reading records");
+    let records = pool.install(|| arguments.input.read(&study))?;
+    reading.finish();
+    for line in &records.unreadable {
+        let _ = writeln!(err, "sprag: {line}");
+    }
+    warnings.extend(warned(records.warnings(), err));
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
-    let answered = arguments.accuracy.run(|change| pool.install(|| answered(arguments, change, &mut folder, interrupt)), tell)?;
+    let once = |change| pool.install(|| answered(arguments, change, &records, &mut folder, interrupt));
+    let answered = arguments.accuracy.run(once, tell)?;
     let drawing = Progress::uncounted(DRAWING);
     let Answered { study, records, solution, .. } = &answered;
     let problem = Problem::new(Choices::of(study)?, &records.records);
@@ -189,9 +201,6 @@ fn run_or_fail(
     write(&answered, &problem, &findings, (&left_out, &warnings), (&folder, arguments.formats.formats), err)?;
     drawing.finish();
     tell_all(&problem, &findings, out);
-    for line in &records.unreadable {
-        let _ = writeln!(err, "sprag: {line}");
-    }
     for line in &left_out {
         let _ = writeln!(err, "sprag: left out: {line}");
     }
@@ -212,17 +221,15 @@ fn run_or_fail(
     Ok(well)
 }
 
-fn answered(
+fn answered<'a>(
     arguments: &OptimiseArguments,
     change: Option<String>,
+    records: &'a StudyRecords,
     folder: &mut ResultFolder,
     interrupt: &Interrupt,
-) -> Result<Answered, Failure> {
-    let reading = Progress::uncounted("reading records");
+) -> Result<Answered<'a>, Failure> {
     let study = arguments.input.load(change)?;
     let choices = Choices::of(&study)?;
-    let records = arguments.input.read(&study)?;
-    reading.finish();
     let progress = Progress::new("runs");
     let problem = Problem::new(choices, &records.records);
     let file = || arguments.input.study.clone();
@@ -263,7 +270,7 @@ fn answered(
 
 /// Writes the results.
 fn write(
-    Answered { study, records, subject, solution, .. }: &Answered,
+    Answered { study, records, subject, solution, .. }: &Answered<'_>,
     problem: &Problem<'_>,
     findings: &Findings,
     (left_out, warnings): (&[String], &[String]),
@@ -278,7 +285,7 @@ fn write(
         structure: choices.structure,
         warnings,
         curves: &choices.curves,
-        records: records.records.iter().map(|record| record.name.as_str()).collect(),
+        records: records.summaries(),
         files: &subject.files,
         unreadable: &records.unreadable,
         findings,

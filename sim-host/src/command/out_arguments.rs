@@ -52,9 +52,8 @@ pub(super) fn claim_of_scene<'a>(
     names: &'a [&'a str],
     records: &[PathBuf],
 ) -> Result<Claim<'a>, OutputError> {
-    let tables = |file: &SceneFile| file.ground.iter().chain(&file.vertical).map(|table| table.file.clone()).collect::<Vec<_>>();
-    let named = tables(file).into_iter().zip(tables(&scene.file));
-    let of_scene = named.filter_map(|(name, path)| Some((name?, scene.folder.join(path?))));
+    let tables = file.ground.iter().chain(&file.vertical);
+    let of_scene = tables.filter_map(|table| Some((table.file.clone()?, table.path(&scene.folder)?)));
     let read: Vec<(PathBuf, PathBuf)> = of_scene.chain(records.iter().map(|path| (path.clone(), path.clone()))).collect();
     let subject = Subject::new(command, digests(&read)).with("scene", file)?;
     let inputs = std::iter::once(path.to_owned()).chain(read.into_iter().map(|(_, path)| file_of(&path))).collect();

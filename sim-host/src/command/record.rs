@@ -7,9 +7,10 @@ use clap::Args;
 use serde::Serialize;
 use sprag_shared::math;
 
+use super::record_arguments::ReadArguments;
 use crate::progress::Progress;
 use crate::record::intensity::uniform_duration_s;
-use crate::record::{Component, Intensity, ReadOptions, Record, STANDARD_GRAVITY_M_S2, Units};
+use crate::record::{Intensity, Record, RecordSummary, STANDARD_GRAVITY_M_S2};
 
 /// Read, check and describe ground motion records.
 #[derive(Args, Clone, Debug)]
@@ -29,29 +30,14 @@ pub struct RecordArguments {
     /// acceleration exceeds g tan(slenderness).
     #[arg(long, value_name = "A", value_parser = slenderness)]
     pub slenderness_deg: Option<f64>,
-    /// Units of files that do not state theirs: g, m/s2, cm/s2 (gal) or in/s2.
-    #[arg(long, value_name = "U")]
-    pub units: Option<Units>,
-    /// Time step in s of files that do not state theirs, or a stated one with more digits.
-    #[arg(long, value_name = "S", value_parser = time_step)]
-    pub dt: Option<f64>,
-    /// Component of files with several: a name such as x or y, or a number from 1.
-    #[arg(long, value_name = "C", value_parser = |text: &str| Ok::<_, String>(Component::from(text)))]
-    pub component: Option<Component>,
-    /// Resample linearly to this time step in s, also from unequal steps.
-    #[arg(long, value_name = "S", value_parser = time_step)]
-    pub resample: Option<f64>,
+    /// What the files do not say.
+    #[command(flatten)]
+    pub reading: ReadArguments,
 }
 
 fn slenderness(text: &str) -> Result<f64, String> {
     let value = text.parse::<f64>().map_err(|_| "a number is due".to_owned())?;
     if value > 0.0 && value < 90.0 { Ok(value) } else { Err("above 0 and below 90 degrees are allowed".to_owned()) }
-}
-
-pub(super) fn time_step(text: &str) -> Result<f64, String> {
-    let (lowest, highest) = crate::record::TIME_STEP_RANGE_S;
-    let value = text.parse::<f64>().map_err(|_| "a number is due".to_owned())?;
-    if (lowest..=highest).contains(&value) { Ok(value) } else { Err(format!("{lowest} to {highest} s are allowed")) }
 }
 
 /// One file's entry in the JSON output.
@@ -65,19 +51,14 @@ enum Entry {
 /// A record in numbers; the fields are those of the JSON output.
 #[derive(Serialize)]
 struct Description {
-    file: String,
-    format: &'static str,
-    units: String,
-    dt_s: f64,
-    samples: usize,
-    pga_m_s2: f64,
+    #[serde(flatten)]
+    read: RecordSummary,
     pgv_m_s: f64,
     pgd_m: f64,
     arias_m_s: f64,
     d5_95_s: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     t_uni_s: Option<f64>,
-    warnings: Vec<String>,
 }
 
 impl Description {
@@ -85,19 +66,13 @@ impl Description {
         let intensity = Intensity::of(record);
         let threshold = |degrees: f64| STANDARD_GRAVITY_M_S2 * math::tan(degrees.to_radians());
         Description {
-            file: record.name.clone(),
-            format: record.format.name(),
-            units: record.units.to_string(),
-            dt_s: record.time_step_s,
-            samples: record.acceleration_m_s2.len(),
-            pga_m_s2: intensity.pga_m_s2,
+            read: RecordSummary::of(record, &record.name),
             pgv_m_s: intensity.pgv_m_s,
             pgd_m: intensity.pgd_m,
             arias_m_s: intensity.arias_m_s,
             d5_95_s: intensity.d5_95_s,
             t_uni_s: slenderness_deg
                 .map(|degrees| uniform_duration_s(&record.acceleration_m_s2, record.time_step_s, threshold(degrees))),
-            warnings: record.warnings.iter().map(ToString::to_string).collect(),
         }
     }
 }
@@ -105,12 +80,7 @@ impl Description {
 /// Runs the command and returns its exit status: 0, or 2 if a file could not be read. In text output the reasons go
 /// to `err`, in JSON output into the file's object.
 pub fn run(arguments: &RecordArguments, out: &mut impl Write, err: &mut impl Write) -> i32 {
-    let options = ReadOptions {
-        units: arguments.units,
-        time_step_s: arguments.dt,
-        component: arguments.component.clone(),
-        resample_to_s: arguments.resample,
-    };
+    let options = arguments.reading.options();
     let progress = Progress::new("files");
     progress.begin(arguments.files.len() as u64);
     let entries: Vec<Entry> = arguments
@@ -156,10 +126,10 @@ fn write_text(entries: &[Entry], out: &mut impl Write, err: &mut impl Write) -> 
     let mut table = vec![titles.into_iter().map(str::to_owned).collect::<Vec<String>>()];
     for description in &described {
         let mut row = vec![
-            description.file.clone(),
-            description.dt_s.to_string(),
-            description.samples.to_string(),
-            format!("{:.4}", description.pga_m_s2 / STANDARD_GRAVITY_M_S2),
+            description.read.file.clone(),
+            description.read.dt_s.to_string(),
+            description.read.samples.to_string(),
+            format!("{:.4}", description.read.pga_m_s2 / STANDARD_GRAVITY_M_S2),
             format!("{:.3}", description.pgv_m_s),
             format!("{:.3}", description.pgd_m),
             format!("{:.3}", description.arias_m_s),
@@ -179,8 +149,8 @@ fn write_text(entries: &[Entry], out: &mut impl Write, err: &mut impl Write) -> 
         }
     }
     for description in &described {
-        for warning in &description.warnings {
-            writeln!(out, "warning: {}: {warning}", description.file)?;
+        for warning in &description.read.warnings {
+            writeln!(out, "warning: {}: {warning}", description.read.file)?;
         }
     }
     out.flush()?;

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use super::format_arguments::PictureArguments;
 use super::out_arguments::{FolderArguments, claim_of_scene};
+use super::record_arguments::ReadArguments;
 use super::{DRAWING, ended, warned};
 use crate::accuracy::{AccuracyArguments, Worst};
 use crate::heading::of_scene;
@@ -16,6 +17,8 @@ use crate::interrupt::Interrupt;
 use crate::output::{Digest, OutputError, ResultFolder, Results, Subject};
 use crate::plot::{FigureTitle, OwnMark, PlotError, SensitivityLane, SensitivityRow, sensitivity_figure};
 use crate::progress::Progress;
+use crate::record::{RecordSummary, warning_lines};
+use crate::scene::error::Key;
 use crate::scene::ground::{GroundError, Motion};
 use crate::scene::schema::SceneFile;
 use crate::scene::{Scene, SceneError};
@@ -43,6 +46,9 @@ pub struct SensitivityArguments {
     /// horizontal motion.
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub records_vertical: Vec<PathBuf>,
+    /// How records are read.
+    #[command(flatten)]
+    pub reading: ReadArguments,
     /// Change one value of the scene, such as block.size_m=2 or device.1.mass_ratio=0.5.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
@@ -72,8 +78,8 @@ enum Failure {
     Unpaired { vertical: usize, horizontal: usize },
     #[error("{}: vertical: does not belong to the records; leave out [[vertical]] or --records", scene.display())]
     VerticalOfAnother { scene: PathBuf },
-    #[error("{}: no ground motion could be read", scene.display())]
-    NoMotion { scene: PathBuf },
+    #[error("{}: no ground motion could be read; {first}", scene.display())]
+    NoMotion { scene: PathBuf, first: String },
     #[error("the picture cannot be drawn: {0}")]
     Plot(#[from] PlotError),
     #[error("{0}")]
@@ -88,10 +94,10 @@ struct Document<'a> {
     command: &'static str,
     version: &'static str,
     scene: &'a SceneFile,
+    records: &'a [RecordSummary],
     warnings: &'a [String],
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     files: &'a BTreeMap<String, Digest>,
-    records: Vec<&'a str>,
     runs: &'a [Summary],
     left_out: &'a [String],
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -146,8 +152,10 @@ fn studied(
 ) -> Result<Studied, Failure> {
     let mut changes = arguments.set.clone();
     changes.extend(change);
-    let (scene, study) = Study::load(&arguments.scene, &changes)?;
+    let (mut scene, study) = Study::load(&arguments.scene, &changes)?;
+    arguments.reading.apply(&mut scene)?;
     let records = records(arguments, &scene)?;
+    require_files(&scene, &records)?;
     let reading = Progress::uncounted("reading records");
     let mut motions: Vec<StudyMotion> = Vec::new();
     let mut errors: Vec<String> = Vec::new();
@@ -155,17 +163,14 @@ fn studied(
     for record in &records {
         match StudyMotion::record(&scene, record) {
             Ok(motion) => motions.push(motion),
-            Err(GroundError::Record(error)) => errors.push(error.to_string()),
+            Err(error @ GroundError::Record { .. }) => errors.push(error.to_string()),
             Err(error) => return Err(error.into()),
         }
     }
     reading.finish();
-    if motions.is_empty() && errors.is_empty() {
-        // What the scene lacks, in the words of a simulation.
-        scene.ground_motions()?;
-    }
     if motions.is_empty() {
-        return Err(Failure::NoMotion { scene: arguments.scene.clone() });
+        let first = errors.first().cloned().unwrap_or_default();
+        return Err(Failure::NoMotion { scene: arguments.scene.clone(), first });
     }
     let others = [&arguments.records[..], &arguments.records_vertical].concat();
     let claim = claim_of_scene("sensitivity", &arguments.scene, &scene, &scene.file, &["sensitivity"], &others)?;
@@ -177,6 +182,21 @@ fn studied(
     let findings = pool.install(|| study.run(&motions, interrupt, &|| progress.step()));
     progress.finish();
     Ok(Studied { findings: findings?, scene, subject: claim.subject, study, motions, errors })
+}
+
+/// Refuses a scene that names no file for a record, where none takes its place.
+fn require_files(scene: &Scene, records: &[RecordFiles]) -> Result<(), SceneError> {
+    let of = [
+        ("ground", &scene.file.ground, "a record file here, or --records FILE…"),
+        ("vertical", &scene.file.vertical, "a record file here"),
+    ];
+    for (name, tables, needed) in of {
+        let without = tables.iter().position(|table| table.motion == Motion::Record && table.file.is_none());
+        if let (Some(index), true) = (without, records.is_empty()) {
+            return Err(Key { origin: scene.origin.clone(), key: format!("{name}.{index}.file") }.missing(needed));
+        }
+    }
+    Ok(())
 }
 
 /// The records, each with its vertical component.
@@ -208,7 +228,9 @@ fn write(
     let Studied { scene, subject, study, motions, findings, .. } = studied;
     let drawing = Progress::uncounted(DRAWING);
     let runs = summaries(findings, motions, &study.devices);
-    let records: Vec<&str> = motions.iter().filter(|motion| !motion.own).map(|motion| motion.name.as_str()).collect();
+    let records: Vec<RecordSummary> = motions.iter().flat_map(|motion| motion.records.iter().cloned()).collect();
+    let in_place = motions.iter().filter(|motion| !motion.own).count();
+    let warnings = [warnings, &warned(warning_lines(&records), err)].concat();
     let left_out = [&study.left_out[..], &findings.left_out, &findings.failed].concat();
     let title = &scene.file.title;
     let mut conditions = of_scene(scene);
@@ -221,9 +243,9 @@ fn write(
         command: "sensitivity",
         version: env!("CARGO_PKG_VERSION"),
         scene: &scene.file,
-        warnings,
+        records: &records,
+        warnings: &warnings,
         files: &subject.files,
-        records: records.clone(),
         runs: &runs,
         left_out: &left_out,
         accuracy: findings.worst,
@@ -233,8 +255,7 @@ fn write(
     results.add(&folder.join("sensitivity.csv"), |file| {
         write_csv(findings, motions, &study.devices, file).map_err(std::io::Error::other)
     })?;
-    results
-        .add(&folder.join("sensitivity.md"), |file| file.write_all(page(title, &runs, records.len(), &left_out).as_bytes()))?;
+    results.add(&folder.join("sensitivity.md"), |file| file.write_all(page(title, &runs, in_place, &left_out).as_bytes()))?;
     results.add_picture(folder, "sensitivity", &figure, arguments.pictures.formats())?;
     results.commit_telling(err)?;
     drawing.finish();

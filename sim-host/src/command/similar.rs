@@ -10,12 +10,14 @@ use sprag_shared::error::ParameterError;
 
 use super::format_arguments::PictureArguments;
 use super::out_arguments::{FolderArguments, claim_of_scene};
+use super::record_arguments::SceneRecordArguments;
 use super::{ended, warned};
 use crate::heading::of_scenes;
 use crate::interrupt::Interrupt;
 use crate::output::{Digest, OutputError, Results};
 use crate::plot::{Chart, ChartPanel, FigureTitle, Line, PlotError, Scale, chart_figure};
 use crate::progress::Progress;
+use crate::record::{RecordSummary, warning_lines};
 use crate::scene::ground::GroundError;
 use crate::scene::schema::SceneFile;
 use crate::scene::{Scene, SceneError};
@@ -39,6 +41,9 @@ pub struct SimilarArguments {
     /// Change one value of the scene for all blocks.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
+    /// Records.
+    #[command(flatten)]
+    pub records: SceneRecordArguments,
     /// Where results go.
     #[command(flatten)]
     pub folder: FolderArguments,
@@ -70,6 +75,7 @@ struct Block {
     name: String,
     scene: Scene,
     groups: Vec<Group>,
+    records: Vec<RecordSummary>,
     runs: Vec<DeviceRun>,
     responses: Vec<Response>,
 }
@@ -80,6 +86,7 @@ struct Summary<'a> {
     command: &'static str,
     version: &'static str,
     scene: &'a SceneFile,
+    records: &'a [RecordSummary],
     warnings: &'a [String],
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     files: &'a BTreeMap<String, Digest>,
@@ -133,7 +140,14 @@ fn run_or_fail(
         progress.step();
     }
     progress.finish();
-    let warnings = warned(blocks.iter().flat_map(|block| block.scene.warnings()), err);
+    let mut records: Vec<RecordSummary> = Vec::new();
+    for record in blocks.iter().flat_map(|block| &block.records) {
+        if !records.contains(record) {
+            records.push(record.clone());
+        }
+    }
+    let of_blocks = blocks.iter().flat_map(|block| block.scene.warnings());
+    let warnings = warned(of_blocks.chain(warning_lines(&records)), err);
     let figure = figure(&blocks)?;
     let first = &blocks[0];
     let of = |block: &'_ Block, device: usize| {
@@ -145,10 +159,9 @@ fn run_or_fail(
         unequal_groups: unequal(first, block),
         runs: block.runs.iter().enumerate().map(|(device, run)| RunSummary { run, departure: of(block, device) }).collect(),
     });
-    let version = env!("CARGO_PKG_VERSION");
-    let (scene, files, with) = (&first.scene.file, &claim.subject.files, &arguments.with[..]);
-    let summaries = summaries.collect();
-    let summary = Summary { command: "similar", version, scene, warnings: &warnings, files, with, blocks: summaries };
+    let (command, version, with) = ("similar", env!("CARGO_PKG_VERSION"), &arguments.with[..]);
+    let (scene, files, summaries) = (&first.scene.file, &claim.subject.files, summaries.collect());
+    let summary = Summary { command, version, scene, records: &records, warnings: &warnings, files, with, blocks: summaries };
     let mut results = Results::default();
     results.add_json(&folder.join("summary.json"), &summary)?;
     results.add(&folder.join("similar.csv"), |file| write_csv(&blocks, file))?;
@@ -178,6 +191,7 @@ fn block(arguments: &SimilarArguments, changes: &str, first: Option<&Block>, int
     let mut overrides = arguments.set.clone();
     overrides.extend(changes.split(',').map(str::trim).filter(|change| !change.is_empty()).map(str::to_owned));
     let mut scene = Scene::load(&arguments.scene, &overrides)?;
+    arguments.records.apply(&mut scene)?;
     if first.is_some_and(|first| first.scene.devices.len() != scene.devices.len()) {
         return Err(Failure::Devices(changes.to_owned()));
     }
@@ -189,7 +203,7 @@ fn block(arguments: &SimilarArguments, changes: &str, first: Option<&Block>, int
     let runs = simulate(&scene, &ground, interrupt)?;
     let responses = runs.iter().map(|run| Response::of(&run.history, step)).collect();
     let name = if changes.is_empty() { "first block".to_owned() } else { changes.replace(',', ", ") };
-    Ok(Block { name, groups: groups(&scene)?, scene, runs, responses })
+    Ok(Block { name, groups: groups(&scene)?, scene, records: ground.records, runs, responses })
 }
 
 /// Names of the groups of `other` that are not those of `first`.

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use super::format_arguments::PictureArguments;
 use super::out_arguments::{FolderArguments, claim_of_scene};
+use super::record_arguments::SceneRecordArguments;
 use super::{DRAWING, ended, warned};
 use crate::accuracy::AccuracyArguments;
 use crate::heading::title;
@@ -17,7 +18,8 @@ use crate::interrupt::Interrupt;
 use crate::output::{Digest, OutputError, ResultFolder, Results, Subject};
 use crate::plot::{PlotError, TimeAxis, energy_figure, history_figure};
 use crate::progress::Progress;
-use crate::scene::ground::{GroundError, Motion};
+use crate::record::{RecordSummary, warning_lines};
+use crate::scene::ground::GroundError;
 use crate::scene::schema::{SceneFile, TimeAxisName};
 use crate::scene::{Scene, SceneError};
 use crate::simulation::energy::write_energy;
@@ -38,12 +40,9 @@ pub struct SimulateArguments {
     /// Change one value of the scene, such as block.size_m=2 or device.1.mass_ratio=0.5.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Ground motion record, in the place of the scene's.
-    #[arg(long, value_name = "FILE")]
-    pub record: Option<PathBuf>,
-    /// The vertical record, in the place of the scene's.
-    #[arg(long, value_name = "FILE")]
-    pub record_vertical: Option<PathBuf>,
+    /// Records.
+    #[command(flatten)]
+    pub records: SceneRecordArguments,
     /// Where results go.
     #[command(flatten)]
     pub folder: FolderArguments,
@@ -78,6 +77,7 @@ struct Summary<'a> {
     command: &'static str,
     version: &'static str,
     scene: &'a SceneFile,
+    records: &'a [RecordSummary],
     warnings: &'a [String],
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     files: &'a BTreeMap<String, Digest>,
@@ -98,10 +98,11 @@ fn run_or_fail(
 ) -> Result<(), Failure> {
     let any_accuracy = arguments.accuracy.time_budget.is_some();
     let mut folder = arguments.folder.folder(&arguments.scene, "simulate").of_any_accuracy(any_accuracy);
-    let warnings = warned(Scene::load(&arguments.scene, &arguments.set)?.warnings(), err);
+    let mut warnings = warned(Scene::load(&arguments.scene, &arguments.set)?.warnings(), err);
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
-    let Simulated { scene, file, subject, mut runs } =
+    let Simulated { scene, subject, records, mut runs } =
         arguments.accuracy.run(|change| simulated(arguments, change, &mut folder, interrupt), tell)?;
+    warnings.extend(warned(warning_lines(&records), err));
     let drawing = Progress::uncounted(DRAWING);
     let rows: Vec<SummaryRow> = runs.iter().map(row).collect();
     let axis = match scene.file.output.time_axis {
@@ -110,8 +111,9 @@ fn run_or_fail(
     };
     let histories: Vec<History> = runs.iter_mut().map(|run| std::mem::take(&mut run.history)).collect();
     let figure = history_figure(title(&scene), &histories, axis)?;
-    let (version, files) = (env!("CARGO_PKG_VERSION"), &subject.files);
-    let summary = Summary { command: "simulate", version, scene: &file, warnings: &warnings, files, runs: &runs };
+    let (command, version, files) = ("simulate", env!("CARGO_PKG_VERSION"), &subject.files);
+    let (records, warnings) = (&records, &warnings);
+    let summary = Summary { command, version, scene: &scene.file, records, warnings, files, runs: &runs };
     let formats = arguments.pictures.formats();
     let mut results = Results::default();
     results.add_json(&folder.join("summary.json"), &summary)?;
@@ -151,9 +153,8 @@ fn run_or_fail(
 /// A scene that was run.
 struct Simulated {
     scene: Scene,
-    /// As the user wrote it.
-    file: SceneFile,
     subject: Subject,
+    records: Vec<RecordSummary>,
     runs: Vec<DeviceRun>,
 }
 
@@ -168,25 +169,13 @@ fn simulated(
     changes.extend(change);
     let mut scene = Scene::load(&arguments.scene, &changes)?;
     let _simulating = Progress::uncounted("simulating");
-    if let Some(record) = &arguments.record {
-        scene.use_record(record)?;
-    }
-    if let Some(record) = &arguments.record_vertical {
-        scene.use_vertical_record(record)?;
-    }
+    arguments.records.apply(&mut scene)?;
     let ground = scene.ground_motions()?;
     // Where the results go is tried before the work, not after it.
-    let mut file = scene.file.clone();
-    // As the user wrote them, so that the summary does not depend on where it was made.
-    for (tables, record) in [(&mut file.ground, &arguments.record), (&mut file.vertical, &arguments.record_vertical)] {
-        if let (Some(table), Some(record)) = (tables.iter_mut().find(|table| table.motion == Motion::Record), record) {
-            table.file = Some(record.clone());
-        }
-    }
-    let claim = claim_of_scene("simulate", &arguments.scene, &scene, &file, &["history", "energy"], &[])?;
+    let claim = claim_of_scene("simulate", &arguments.scene, &scene, &scene.file, &["history", "energy"], &[])?;
     folder.open(&claim)?;
     let runs = simulate(&scene, &ground, interrupt)?;
-    Ok(Simulated { scene, file, subject: claim.subject, runs })
+    Ok(Simulated { scene, subject: claim.subject, records: ground.records, runs })
 }
 
 fn row(run: &DeviceRun) -> SummaryRow {

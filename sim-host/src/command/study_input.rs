@@ -5,12 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::out_arguments::file_of;
-use super::record::time_step;
+use super::record_arguments::ReadArguments;
 use crate::cloud::records::{StudyRecord, StudyRecords};
 use crate::cloud::study::{Study, StudyError};
-use crate::cloud::study_file::RecordTable;
 use crate::output::{Digest, Subject};
-use crate::record::{Record, Units};
+use crate::record::Record;
 use crate::scene::SceneError;
 
 /// A study and its records.
@@ -22,18 +21,9 @@ pub struct StudyArguments {
     /// Records and folders of them, in the place of the study's.
     #[arg(long, value_name = "PATH", num_args = 1..)]
     pub records: Vec<PathBuf>,
-    /// Units of files that do not state theirs: g, m/s2, cm/s2 (gal) or in/s2.
-    #[arg(long, value_name = "U")]
-    pub units: Option<Units>,
-    /// Time step in s of files that do not state theirs, or a stated one with more digits.
-    #[arg(long, value_name = "S", value_parser = time_step)]
-    pub dt: Option<f64>,
-    /// Component of files with several: a name such as x or y, or a number from 1.
-    #[arg(long, value_name = "C")]
-    pub component: Option<String>,
-    /// Resample linearly to this time step in s, also from unequal steps.
-    #[arg(long, value_name = "S", value_parser = time_step)]
-    pub resample: Option<f64>,
+    /// How they are read.
+    #[command(flatten)]
+    pub reading: ReadArguments,
     /// Change one value of the study's scene, such as block.size_m=2 or device.1.mass_ratio=0.5.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
@@ -67,12 +57,7 @@ impl StudyArguments {
         let mut changes = self.set.clone();
         changes.extend(change);
         let mut study = Study::load(&self.study, &changes, &self.records)?;
-        study.apply_record_options(&RecordTable {
-            units: self.units.map(|units| units.to_string()),
-            time_step_s: self.dt,
-            component: self.component.clone(),
-            resample_to_s: self.resample,
-        });
+        study.apply_record_options(&self.reading.table());
         Ok(study)
     }
 

@@ -8,9 +8,11 @@ use rayon::prelude::*;
 use crate::accuracy::{Accuracy, Closeness, Worst};
 use crate::closed_loop::run::Ending;
 use crate::closed_loop::{LoopFailure, LoopTask};
+use crate::cloud::study_file::RecordTable;
 use crate::interrupt::Interrupt;
 use crate::outcome::Outcome;
 use crate::progress::Progress;
+use crate::record::RecordSummary;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::ground::GroundError;
@@ -30,8 +32,10 @@ pub enum Motion {
     },
     /// A recorded one.
     Record {
-        /// File.
+        /// File, from where the user stands.
         file: PathBuf,
+        /// What the file does not say.
+        reading: RecordTable,
         /// Factor on its accelerations.
         scale: f64,
     },
@@ -45,9 +49,10 @@ impl Motion {
                 "[[ground]]\nmotion = \"{shape}\"\nfrequency_ratio = {frequency:?}\namplitude_ratio = {amplitude:?}\n\
                  [run]\nfree_time_ratio = 10.0\n"
             ),
-            Motion::Record { file, scale } => {
-                let file = file.display().to_string().replace('\\', "/");
-                format!("[[ground]]\nmotion = \"record\"\nfile = {file:?}\nscale = {scale:?}\n[run]\nfree_time_s = 5.0\n")
+            Motion::Record { file, reading, scale } => {
+                let file = toml::Value::String(file.display().to_string().replace('\\', "/"));
+                let reading = toml::to_string(reading).unwrap_or_default();
+                format!("[[ground]]\nmotion = \"record\"\nfile = {file}\nscale = {scale:?}\n{reading}[run]\nfree_time_s = 5.0\n")
             }
         }
     }
@@ -137,6 +142,23 @@ pub fn scene_of(motion: &Motion, variant: &Variant) -> Result<Scene, StudyError>
     let mut scene = Scene::parse_with(&text, "study", &variant.overrides)?;
     scene.folder = PathBuf::new();
     Ok(scene)
+}
+
+/// What the record files of `motions` hold.
+///
+/// # Errors
+/// [`StudyError::Ground`] names the first file that cannot be read.
+pub fn records_of(motions: &[Motion]) -> Result<Vec<RecordSummary>, StudyError> {
+    let mut records = Vec::new();
+    for motion in motions {
+        let scene = scene_of(motion, &Variant::new("records", &[]))?;
+        // The scene is the study's own, and has no keys for a user.
+        records.extend(scene.records().map_err(|error| match error {
+            GroundError::Record { error, .. } => GroundError::Record { error, key: None },
+            error => error,
+        })?);
+    }
+    Ok(records)
 }
 
 /// Under what the loops of a study are run.

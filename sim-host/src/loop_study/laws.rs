@@ -51,7 +51,9 @@ fn overturned(results: &[LoopResult]) -> usize {
 fn scaled(records: &[Motion]) -> Vec<Motion> {
     let scale = |factor: f64| {
         records.iter().filter_map(move |motion| match motion {
-            Motion::Record { file, .. } => Some(Motion::Record { file: file.clone(), scale: factor }),
+            Motion::Record { file, reading, .. } => {
+                Some(Motion::Record { file: file.clone(), reading: reading.clone(), scale: factor })
+            }
             Motion::Pulse { .. } => None,
         })
     };

@@ -7,6 +7,7 @@
 use super::contents::{Contents, Format, Header, StatedStep, bad_field, header_units, reject_other_quantity};
 use super::error::RecordError;
 use super::number::{append_numbers, last_digit, leading_number};
+use super::warning::Warning;
 
 /// Characters per sample in PEER files; only used where fields touch.
 const FIELD_WIDTH: usize = 15;
@@ -49,6 +50,9 @@ pub(super) fn read(name: &str, lines: &[&str], counts_index: usize) -> Result<Co
     }
     let header: Vec<(usize, &str)> = lines[..first_data].iter().copied().enumerate().collect();
     contents.units = header_units(name, &header)?;
+    if counts.samples.and_then(whole_number).is_none() {
+        contents.warnings.extend(unreadable_samples(lines[counts_index]));
+    }
     for (index, line) in header.iter().filter(|(_, line)| line.to_ascii_uppercase().contains("TIME ")) {
         reject_other_quantity(name, *index, line)?;
     }
@@ -68,6 +72,16 @@ pub(super) fn read(name: &str, lines: &[&str], counts_index: usize) -> Result<Co
 pub(super) fn stated_counts(line: &str) -> (Option<u64>, Option<StatedStep>) {
     let counts = counts_in(line);
     (counts.samples.and_then(whole_number), counts.step)
+}
+
+/// A warning, if the line says NPTS and then no number of samples: `NPTS= ****, DT= .0050 SEC`.
+pub(super) fn unreadable_samples(line: &str) -> Option<Warning> {
+    const LONGEST: usize = 20;
+    let upper = line.to_ascii_uppercase();
+    let after = &line[word_at(&upper, "NPTS")? + "NPTS".len()..];
+    let word = after.trim_start_matches([' ', '\t', '=', ':']).split([' ', '\t', ',', ';']).next().unwrap_or_default();
+    let unreadable = stated_counts(line).0.is_none();
+    unreadable.then(|| Warning::SamplesUnreadable { text: word.chars().take(LONGEST).collect() })
 }
 
 fn whole_number(value: f64) -> Option<u64> {
@@ -91,7 +105,12 @@ fn counts_in(line: &str) -> Counts {
         samples: after("NPTS").and_then(leading_number).map(|(value, _)| value),
         step: after("DT").and_then(leading_number).map(stated),
     };
-    if counts.samples.is_some() || (counts.step.is_some() && after("NPTS").is_none()) {
+    // `NPTS= ****, DT= .0050`: what stands there is the number of samples, unreadable as it is.
+    let unreadable = |text: &str| {
+        text.trim_start_matches([' ', '\t', '=', ':']).starts_with(|c: char| !c.is_alphabetic() && !matches!(c, ',' | ';'))
+    };
+    let apart = after("NPTS").is_none_or(unreadable);
+    if counts.samples.is_some() || (counts.step.is_some() && apart) {
         return counts;
     }
     // `12400 0.0050 NPTS, DT` or `NPTS, DT: 12400, 0.0050`: two numbers in the order of the words.
@@ -154,6 +173,30 @@ mod tests {
             }
             assert_eq!((record.acceleration_m_s2.len(), record.time_step_s, record.header.samples), (4, 0.005, Some(4)));
         }
+    }
+
+    #[test]
+    fn an_unreadable_number_of_samples_is_said() {
+        let text = |counts: &str| format!("PEER\nE\nACCELERATION IN UNITS OF G\n{counts}\n .1 .2\n");
+        for (counts, shown) in [
+            ("NPTS=  ****, DT= .005 SEC", "****"),
+            ("NPTS= 99999999999999999999, DT= .005 SEC", "99999999999999999999"),
+            ("NPTS= -4, DT= .005", "-4"),
+        ] {
+            let record = read_text(&text(counts)).unwrap();
+            assert!(
+                record.warnings.contains(&Warning::SamplesUnreadable { text: shown.into() }),
+                "{counts}: {:?}",
+                record.warnings
+            );
+        }
+        for counts in ["NPTS= 2, DT= .005", "2 .005 NPTS, DT", "npts= 2\ndt= .005", "2 NPTS\n.005 DT"] {
+            let options = ReadOptions { time_step_s: Some(0.005), ..ReadOptions::default() };
+            let record = Record::parse("test.AT2", text(counts).as_bytes(), &options).unwrap();
+            assert!(!record.warnings.iter().any(|warning| matches!(warning, Warning::SamplesUnreadable { .. })), "{counts}");
+        }
+        let comment = "# NPTS = ****, DT = 0.005, units: g\n0.1\n0.2\n";
+        assert!(read_text(comment).unwrap().warnings.contains(&Warning::SamplesUnreadable { text: "****".into() }));
     }
 
     #[test]

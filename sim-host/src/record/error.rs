@@ -24,6 +24,12 @@ pub enum RecordError {
         /// File as named by the caller.
         file: String,
     },
+    /// A pipe, a socket or a device was given in place of a file.
+    #[error("{file}: is a pipe or a device; records are read from files")]
+    NotAFile {
+        /// File as named by the caller.
+        file: String,
+    },
     /// The file is larger than [`super::MAXIMUM_FILE_BYTES`].
     #[error("{file}: {bytes} bytes; a record file may have up to {limit} bytes")]
     TooLarge {
@@ -86,6 +92,16 @@ pub enum RecordError {
         /// Largest magnitude allowed (m/s²).
         limit: f64,
     },
+    /// Commas that seem to be decimal marks, where commas may part fields as well.
+    #[error(
+        "{file}: line {line}: decimal commas: they cannot be told from commas between fields; write decimal points, or part the fields by semicolons"
+    )]
+    DecimalCommas {
+        /// File as named by the caller.
+        file: String,
+        /// First line with such a comma, from 1.
+        line: usize,
+    },
     /// A row of a table has another number of columns than the rows before.
     #[error("{file}: line {line}: {found} column(s) where {expected} are due")]
     RaggedRow {
@@ -105,7 +121,7 @@ pub enum RecordError {
         file: String,
     },
     /// The file names a unit that is not one of acceleration.
-    #[error("{file}: line {line}: units `{value}`; allowed are {}", Units::ALLOWED)]
+    #[error("{file}: line {line}: unit {value} is not known ({})", Units::ALLOWED)]
     UnknownUnits {
         /// File as named by the caller.
         file: String,
@@ -198,4 +214,18 @@ pub enum RecordError {
         /// What is wrong and what is due.
         problem: String,
     },
+}
+
+impl RecordError {
+    /// The key of a `[[ground]]` table, or of a study's `[record]`, that says what the file does not; named as the option is in
+    /// the message.
+    pub fn key(&self) -> Option<&'static str> {
+        match self {
+            RecordError::MissingTimeStep { .. } => Some("time_step_s"),
+            RecordError::MissingUnits { .. } => Some("units"),
+            RecordError::Component { .. } => Some("component"),
+            RecordError::UnequalSteps { .. } => Some("resample_to_s"),
+            _ => None,
+        }
+    }
 }

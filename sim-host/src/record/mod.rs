@@ -7,16 +7,19 @@
 mod at2;
 pub mod checks;
 mod contents;
+mod decimal_comma;
 mod error;
 pub mod intensity;
 mod number;
 mod resample;
 mod simcenter;
 mod smc;
+mod summary;
 mod table;
 mod text;
 mod time_axis;
 mod units;
+mod vertical;
 mod warning;
 
 #[cfg(test)]
@@ -30,6 +33,7 @@ use std::path::Path;
 pub use contents::{Format, Header, StatedStep};
 pub use error::RecordError;
 pub use intensity::Intensity;
+pub use summary::{RecordSummary, warning_lines};
 pub use units::{STANDARD_GRAVITY_M_S2, Units};
 pub use warning::Warning;
 
@@ -144,15 +148,24 @@ impl Record {
         let text = text::decode(name, bytes)?;
         let lines = text::lines(&text);
         let ending = name.split('#').next().and_then(|file| file.rsplit('.').next()).unwrap_or("").to_lowercase();
-        let contents = if text.trim_start().starts_with('{') || ending == "json" {
-            simcenter::read(name, &text, options.component.as_ref())?
-        } else if smc::recognises(&lines) || ending == "smc" {
+        if text.trim_start().starts_with('{') || ending == "json" {
+            return finish(name, simcenter::read(name, &text, options.component.as_ref())?, options);
+        }
+        let with_points = decimal_comma::with_points(name, &lines)?;
+        let lines: Vec<&str> = match &with_points {
+            Some(with_points) => with_points.iter().map(String::as_str).collect(),
+            None => lines,
+        };
+        let mut contents = if smc::recognises(&lines) || ending == "smc" {
             smc::read(name, &lines)?
         } else if let Some(counts_line) = at2::counts_line(&lines) {
             at2::read(name, &lines, counts_line)?
         } else {
             table::read(name, &lines, options)?
         };
+        if with_points.is_some() {
+            contents.warnings.push(Warning::DecimalCommas);
+        }
         finish(name, contents, options)
     }
 
@@ -167,6 +180,10 @@ fn file_bytes(path: &Path, name: &str) -> Result<Vec<u8>, RecordError> {
     let metadata = std::fs::metadata(path).map_err(unreadable)?;
     if metadata.is_dir() {
         return Err(RecordError::Folder { file: name.to_owned() });
+    }
+    // Opening a pipe waits for somebody who writes into it.
+    if !metadata.is_file() {
+        return Err(RecordError::NotAFile { file: name.to_owned() });
     }
     let too_large = |bytes| RecordError::TooLarge { file: name.to_owned(), bytes, limit: MAXIMUM_FILE_BYTES };
     if metadata.len() > MAXIMUM_FILE_BYTES {

@@ -1,10 +1,10 @@
 //! Plain text and CSV: values alone in any number of columns, or a time column with one or more components.
 
 use super::at2;
-use super::contents::{Contents, Format, Header, StatedStep, bad_field, header_units, reject_other_quantity};
+use super::contents::{Contents, Format, Header, StatedStep, bad_field, header_units};
 use super::error::RecordError;
 use super::number::{append_numbers, last_digit};
-use super::units::{StatedUnits, stated_in};
+use super::units::{StatedUnits, Units, stated_in};
 use super::warning::Warning;
 use super::{Component, ReadOptions, resample, time_axis};
 
@@ -58,6 +58,7 @@ fn rows<'a>(name: &str, lines: &[&'a str]) -> Result<Rows<'a>, RecordError> {
 pub(super) fn read(name: &str, lines: &[&str], options: &ReadOptions) -> Result<Contents, RecordError> {
     let mut rows = rows(name, lines)?;
     let (samples, step) = stated_counts(&rows);
+    let unreadable_samples = rows.header.iter().find_map(|(_, line)| at2::unreadable_samples(line)).filter(|_| samples.is_none());
     let stated_first_row = take_counts_row(&mut rows, lines);
     let header = Header {
         title: rows.header.iter().map(|(_, line)| *line).find(|line| !line.is_empty()).unwrap_or("").chars().take(200).collect(),
@@ -65,24 +66,35 @@ pub(super) fn read(name: &str, lines: &[&str], options: &ReadOptions) -> Result<
         peak_m_s2: None,
         time_step: stated_first_row.1.or(step),
     };
-    let names = column_names(&rows);
+    let (names_line, names) = column_names(&rows).map_or((0, None), |(line, names)| (line, Some(names)));
     let time_column = match &names {
         Some(names) => names.iter().position(|name| is_time(name)).or_else(|| looks_like_time(&rows).then_some(0)),
         None => looks_like_time(&rows).then_some(0),
     };
-    match (time_column, names) {
-        (None, Some(names)) if names.len() > 1 => read_columns(name, lines, &rows, header, None, Some(names), options),
+    let mut contents = match (time_column, names) {
+        (None, Some(names)) if names.len() > 1 => {
+            read_columns(name, lines, &rows, header, (None, Some((names_line, names))), options)
+        }
         (None, names) => {
             let mut contents = Contents::new(Format::Values);
-            contents.units = match names.as_deref().and_then(|names| names.first()).and_then(|column| stated_in(column)) {
-                Some(StatedUnits::Known(units)) => Some(units),
-                _ => header_units(name, &rows.header)?,
-            };
+            let column = names.as_deref().and_then(|names| names.first()).copied().unwrap_or_default();
+            contents.units = units_of(name, column, names_line, &rows)?;
             contents.header = header;
             contents.values = rows.values;
             Ok(contents)
         }
-        (time, names) => read_columns(name, lines, &rows, header, time, names, options),
+        (time, names) => read_columns(name, lines, &rows, header, (time, names.map(|names| (names_line, names))), options),
+    }?;
+    contents.warnings.splice(0..0, unreadable_samples);
+    Ok(contents)
+}
+
+/// Units of a column, by its name in line `line` from 0 or else by the header.
+fn units_of(name: &str, column: &str, line: usize, rows: &Rows<'_>) -> Result<Option<Units>, RecordError> {
+    match stated_in(column) {
+        Some(StatedUnits::Known(units)) => Ok(Some(units)),
+        Some(StatedUnits::Unknown(value)) => Err(RecordError::UnknownUnits { file: name.to_owned(), line: line + 1, value }),
+        None => header_units(name, &rows.header),
     }
 }
 
@@ -120,11 +132,11 @@ fn take_counts_row(rows: &mut Rows<'_>, lines: &[&str]) -> (Option<u64>, Option<
     (Some(after as u64), step)
 }
 
-/// Names in the last header line that has as many fields as the first row has columns.
-fn column_names<'a>(rows: &Rows<'a>) -> Option<Vec<&'a str>> {
+/// Names in the last header line that has as many fields as the first row has columns, and the index of that line.
+fn column_names<'a>(rows: &Rows<'a>) -> Option<(usize, Vec<&'a str>)> {
     let width = rows.row(0).len();
     let first_row = rows.starts.first()?.0;
-    rows.header.iter().rev().filter(|(index, line)| *index < first_row && !line.is_empty()).find_map(|(_, line)| {
+    rows.header.iter().rev().filter(|(index, line)| *index < first_row && !line.is_empty()).find_map(|(index, line)| {
         let parted = line.contains([',', ';', '\t']);
         let names: Vec<&str> = if parted {
             line.split([',', ';', '\t']).map(|field| field.trim().trim_matches('"')).collect()
@@ -132,7 +144,7 @@ fn column_names<'a>(rows: &Rows<'a>) -> Option<Vec<&'a str>> {
             line.split_whitespace().collect()
         };
         let named = names.iter().any(|name| is_time(name) || is_acceleration(name));
-        (names.len() == width && named).then_some(names)
+        (names.len() == width && named).then_some((*index, names))
     })
 }
 
@@ -140,13 +152,29 @@ fn first_word(name: &str) -> String {
     name.trim().split(|c: char| !c.is_alphanumeric()).next().unwrap_or("").to_lowercase()
 }
 
-fn is_time(name: &str) -> bool {
+/// Whether a column of this name holds times.
+pub(super) fn is_time(name: &str) -> bool {
     matches!(first_word(name).as_str(), "time" | "times" | "t" | "sec" | "seconds")
 }
 
-fn is_acceleration(name: &str) -> bool {
+/// Whether a column of this name holds accelerations.
+pub(super) fn is_acceleration(name: &str) -> bool {
     let word = first_word(name);
     word.starts_with("acc") || matches!(word.as_str(), "a" | "ag")
+}
+
+/// What a column holds, if its name says that it is no acceleration.
+fn other_quantity(name: &str) -> Option<&'static str> {
+    let words = || name.split(|c: char| !c.is_alphanumeric()).map(str::to_lowercase);
+    if words().any(|word| word.starts_with("acc")) {
+        return None;
+    }
+    words().find_map(|word| match word.as_str() {
+        word if word.starts_with("disp") || word.contains("displac") => Some("displacement"),
+        word if word.contains("veloc") || matches!(word, "vel" | "vels") => Some("velocity"),
+        word if word.contains("spectr") => Some("a spectrum"),
+        _ => None,
+    })
 }
 
 /// Seconds in one unit of a time column, by its name.
@@ -191,8 +219,7 @@ fn read_columns(
     lines: &[&str],
     rows: &Rows<'_>,
     header: Header,
-    time_column: Option<usize>,
-    names: Option<Vec<&str>>,
+    (time_column, names): (Option<usize>, Option<(usize, Vec<&str>)>),
     options: &ReadOptions,
 ) -> Result<Contents, RecordError> {
     let width = rows.row(0).len();
@@ -205,7 +232,7 @@ fn read_columns(
     let columns: Vec<usize> = (0..width).filter(|column| Some(*column) != time_column).collect();
     let numbered: Vec<String> = (1..=columns.len()).map(|number| number.to_string()).collect();
     let labels: Vec<&str> = match &names {
-        Some(names) => columns.iter().map(|column| names[*column]).collect(),
+        Some((_, names)) => columns.iter().map(|column| names[*column]).collect(),
         None => numbered.iter().map(String::as_str).collect(),
     };
     let chosen = choose(name, &columns, &labels, options.component.as_ref())?;
@@ -214,17 +241,16 @@ fn read_columns(
     let mut contents = Contents::new(if time_column.is_some() { Format::Table } else { Format::Values });
     contents.header = header;
     contents.component = (columns.len() > 1).then(|| labels[chosen].to_owned());
-    if names.is_some() {
-        reject_other_quantity(name, rows.header.last().map_or(0, |header| header.0), labels[chosen])?;
+    let names_line = names.as_ref().map_or(0, |names| names.0);
+    if let (Some(_), Some(quantity)) = (&names, other_quantity(labels[chosen])) {
+        let quantity = format!("{quantity} in column {}", labels[chosen].chars().take(40).collect::<String>());
+        return Err(RecordError::NotAcceleration { file: name.to_owned(), line: names_line + 1, quantity });
     }
-    contents.units = match stated_in(labels[chosen]) {
-        Some(StatedUnits::Known(units)) => Some(units),
-        _ => header_units(name, &rows.header)?,
-    };
+    contents.units = units_of(name, labels[chosen], names_line, rows)?;
     contents.values = column(columns[chosen]).collect();
     let Some(time_column) = time_column else { return Ok(contents) };
 
-    let scale = names.as_ref().map_or(1.0, |names| seconds_per_unit(names[time_column]));
+    let scale = names.as_ref().map_or(1.0, |(_, names)| seconds_per_unit(names[time_column]));
     let times: Vec<f64> = column(time_column).map(|time| time * scale).collect();
     let resolution = rows.starts.iter().map(|start| field_resolution(lines[start.0], time_column)).fold(0.0, f64::max) * scale;
     if times.len() < 2 {

@@ -42,7 +42,7 @@ fn values_alone_need_a_step_and_units() {
     assert!((record.acceleration_m_s2[1] + 2.0).abs() < 1e-12);
     assert_eq!(
         read(text, &step).unwrap_err().to_string(),
-        "t.txt: no units in the file: say them with --units (g, m/s2, cm/s2 (gal), in/s2)"
+        "t.txt: no units in the file: say them with --units (g, m/s2, cm/s2 (gal), mm/s2, in/s2, ft/s2)"
     );
     assert_eq!(
         read("1\n2\n3\n", &ReadOptions { units: Some(Units::StandardGravity), ..ReadOptions::default() })
@@ -79,6 +79,38 @@ fn components_of_a_table_are_chosen_by_name_or_number() {
 }
 
 #[test]
+fn columns_of_other_quantities_are_refused() {
+    let text = "time_s,acc_g,disp_m,vel_m_s,x_disp\n0,0.1,5,1,1\n1,0.2,6,1,1\n";
+    for component in ["disp_m", "disp", "vel_m_s", "x_disp", "3"] {
+        let options =
+            ReadOptions { units: Some(Units::StandardGravity), component: Some(component.into()), ..ReadOptions::default() };
+        let error = read(text, &options).unwrap_err();
+        assert!(matches!(error, RecordError::NotAcceleration { line: 1, .. }), "{component}: {error}");
+    }
+    let options = ReadOptions { units: Some(Units::StandardGravity), ..ReadOptions::default() };
+    let error = read("t,disp_m\n0,0.1\n1,0.2\n", &options).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "t.txt: line 1: the header says displacement in column disp_m; only acceleration histories are read"
+    );
+}
+
+#[test]
+fn the_unit_of_a_column_is_the_end_of_its_name() {
+    let text = "time_s,acc_x_g,acc_y_mm_s2,acc_z_mg\n0,0.1,100,1\n1,0.2,-200,2\n";
+    let of = |component: &str| read(text, &ReadOptions { component: Some(component.into()), ..ReadOptions::default() });
+    assert_eq!(of("acc_x_g").unwrap().units, Units::StandardGravity);
+    assert_eq!(of("y").unwrap().acceleration_m_s2, [0.1, -0.2]);
+    assert_eq!(
+        of("z").unwrap_err().to_string(),
+        "t.txt: line 1: unit mg is not known (g, m/s2, cm/s2 (gal), mm/s2, in/s2, ft/s2)"
+    );
+    // An option does not overrule what the file says.
+    let options = ReadOptions { units: Some(Units::StandardGravity), ..ReadOptions::default() };
+    assert!(matches!(read("time_s,acc_%g\n0,0.1\n1,0.2\n", &options), Err(RecordError::UnknownUnits { line: 1, .. })));
+}
+
+#[test]
 fn unequal_steps_are_an_error_and_resampled_only_on_request() {
     let text = "# time_s,acc_g\n0.00,0.0\n0.01,0.1\n0.02,0.2\n0.04,0.4\n0.05,0.5\n";
     assert_eq!(
@@ -107,7 +139,10 @@ fn damage_is_named_with_its_line() {
     assert_eq!(message("# time_s,acc_g\n0,,0\n"), "t.txt: 0 sample(s); a record needs at least 2");
     assert_eq!(message(""), "t.txt: 0 sample(s); a record needs at least 2");
     assert_eq!(message("# time_s,acc_g\n0,0.1\n"), "t.txt: 1 sample(s); a record needs at least 2");
-    assert_eq!(message("# units: furlong\n1\n2\n"), "t.txt: line 1: units `furlong`; allowed are g, m/s2, cm/s2 (gal), in/s2");
+    assert_eq!(
+        message("# units: furlong\n1\n2\n"),
+        "t.txt: line 1: unit furlong is not known (g, m/s2, cm/s2 (gal), mm/s2, in/s2, ft/s2)"
+    );
     assert!(message("# time_s,acc_g\n0,1\n0.01,1e7\n").contains("sample 2 is 9.80665e7 m/s2"));
 }
 

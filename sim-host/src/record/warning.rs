@@ -14,6 +14,11 @@ pub enum Warning {
         /// Number of samples read.
         present: usize,
     },
+    /// The header's number of samples cannot be read, so that the samples present are not compared with it.
+    SamplesUnreadable {
+        /// What stands in the place of the number, shortened.
+        text: String,
+    },
     /// The header's peak is neither the largest value nor the largest magnitude.
     PeakDisagrees {
         /// Peak in the header (m/s²).
@@ -110,6 +115,13 @@ pub enum Warning {
         /// Step of the file (s).
         stated_s: f64,
     },
+    /// The commas of the file were read as decimal marks.
+    DecimalCommas,
+    /// A motion that is taken as horizontal, though its name or the file says that it is vertical.
+    VerticalComponent {
+        /// What says so.
+        sign: String,
+    },
     /// The samples were interpolated linearly to another step; nothing was filtered.
     Resampled {
         /// Mean step before (s).
@@ -123,6 +135,9 @@ impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Warning::SamplesDisagree { stated, present } => write!(f, "the header says {stated} samples, {present} are present"),
+            Warning::SamplesUnreadable { text } => {
+                write!(f, "the header's number of samples cannot be read (NPTS `{text}`), and is not compared with those present")
+            }
             Warning::PeakDisagrees { stated_m_s2, found_m_s2 } => {
                 write!(f, "the header says a peak of {stated_m_s2:.4} m/s2, the samples have {found_m_s2:.4} m/s2")
             }
@@ -158,6 +173,10 @@ impl fmt::Display for Warning {
             Warning::UnitsNotUsed { given, stated } => write!(f, "units {given} not used: the file says {stated}"),
             Warning::TimeStepNotUsed { given_s, stated_s } => {
                 write!(f, "time step {given_s} s not used: the file says {stated_s} s")
+            }
+            Warning::DecimalCommas => write!(f, "its commas are read as decimal marks"),
+            Warning::VerticalComponent { sign } => {
+                write!(f, "seems to be a vertical component ({sign}), and is taken as a horizontal motion")
             }
             Warning::Resampled { from_s, to_s } => {
                 write!(f, "resampled linearly from a mean step of {from_s} s to {to_s} s, without a filter")

@@ -10,7 +10,7 @@ use sprag_shared::ground::{Harmonics, Linear, Ricker};
 use super::error::{Key, SceneError};
 use super::schema::KeyOf;
 use crate::ground_motion::{Component, Smooth};
-use crate::record::{Component as RecordComponent, ReadOptions, Record, RecordError, Units};
+use crate::record::{Component as RecordComponent, ReadOptions, Record, RecordError, RecordSummary, TIME_STEP_RANGE_S, Units};
 
 /// One `[[ground]]` or `[[vertical]]` table.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -51,6 +51,9 @@ pub struct GroundTable {
     /// Record file, relative to the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<PathBuf>,
+    /// Whether the file is one of the command line, whose paths are relative to where the user stands.
+    #[serde(skip)]
+    pub of_command_line: bool,
     /// Units of a record that does not state its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub units: Option<String>,
@@ -60,6 +63,9 @@ pub struct GroundTable {
     /// Component of a record file with several.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub component: Option<String>,
+    /// Time step to which a record is resampled linearly, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub resample_to_s: Option<f64>,
     /// Factor on the whole motion.
     #[serde(default = "one")]
     pub scale: f64,
@@ -108,8 +114,13 @@ pub enum GroundError {
     #[error("{0}")]
     Scene(#[from] SceneError),
     /// A record.
-    #[error("{0}")]
-    Record(#[from] RecordError),
+    #[error("{error}{}", key.as_ref().map_or_else(String::new, |Key { origin, key }| format!(", or {key} in {origin}")))]
+    Record {
+        /// What is wrong with it.
+        error: RecordError,
+        /// The key of the scene that repairs it, if one does.
+        key: Option<Key>,
+    },
 }
 
 /// x of the Ricker wavelet's first and last instant: e^{-x²} is 1e-16 there.
@@ -138,6 +149,7 @@ impl GroundTable {
             ("units", self.units.is_some()),
             ("time_step_s", self.time_step_s.is_some()),
             ("component", self.component.is_some()),
+            ("resample_to_s", self.resample_to_s.is_some()),
         ];
         const AMPLITUDES: [&str; 3] = ["amplitude_ratio", "amplitude_g", "amplitude_m_s2"];
         let amplitude = if direction == Direction::Vertical { &AMPLITUDES[1..] } else { &AMPLITUDES[..] };
@@ -147,7 +159,7 @@ impl GroundTable {
             Motion::Sine | Motion::Cosine | Motion::HalfSine | Motion::Ricker => (&[amplitude, &FREQUENCY], &[]),
             Motion::Rectangular => (&[amplitude, &DURATION], &[]),
             Motion::MavroeidisPapageorgiou => (&[&["velocity_amplitude_m_s"], &FREQUENCY, &["oscillations"]], &["phase_deg"]),
-            Motion::Record => (&[], &["file", "units", "time_step_s", "component"]),
+            Motion::Record => (&[], &["file", "units", "time_step_s", "component", "resample_to_s"]),
         };
         for (name, is_given) in given {
             if is_given && !optional.contains(&name) && !one_of_each.iter().any(|group| group.contains(&name)) {
@@ -178,6 +190,8 @@ impl GroundTable {
         within("oscillations", self.oscillations, 1.0 + 1e-9, 100.0, "above 1 and at most 100")?;
         within("phase_deg", self.phase_deg, -360.0, 360.0, "from -360 to 360 degrees")?;
         within("time_step_s", self.time_step_s, 1e-6, 10.0, "from 1e-6 to 10 s")?;
+        let (shortest, longest) = TIME_STEP_RANGE_S;
+        within("resample_to_s", self.resample_to_s, shortest, longest, &format!("from {shortest} to {longest} s"))?;
         within("scale", Some(self.scale), -1e3, 1e3, "from -1000 to 1000")?;
         within("start_s", Some(self.start_s), 0.0, 1e4, "from 0 to 10000 s")?;
         if let Some(units) = &self.units
@@ -187,7 +201,7 @@ impl GroundTable {
                 origin: key("units").origin,
                 key: key("units").key,
                 value: format!("{units:?}"),
-                range: "g, m/s2, cm/s2 or in/s2".to_owned(),
+                range: Units::ALLOWED.to_owned(),
             });
         }
         Ok(())
@@ -200,13 +214,14 @@ impl GroundTable {
         )
     }
 
-    /// The motion's smooth pieces, for a block that uplifts at `uplift` (g).
+    /// The motion's smooth pieces, for a block that uplifts at `uplift` (g); what was read of a record goes to `records`.
     pub(super) fn component(
         &self,
         block: &Block,
         uplift: f64,
-        folder: &Path,
+        (folder, direction): (&Path, Direction),
         key: &dyn Fn(&str) -> Key,
+        records: &mut Vec<RecordSummary>,
     ) -> Result<Component, GroundError> {
         let p = block.frequency_parameter();
         let amplitude = self.scale
@@ -242,7 +257,8 @@ impl GroundTable {
                 one(wavelet.duration(), Smooth::Triple(wavelet.harmonics()))
             }
             Motion::Record => {
-                let record = self.record(folder, key)?;
+                let record = self.record(folder, direction, key)?;
+                records.extend(self.file.as_ref().map(|file| RecordSummary::of(&record, file.display())));
                 Component::record(
                     self.start_s,
                     record.time_step_s,
@@ -252,18 +268,28 @@ impl GroundTable {
         })
     }
 
+    /// Where the file of a record is, for a scene in `folder`.
+    pub fn path(&self, folder: &Path) -> Option<PathBuf> {
+        self.file.as_ref().map(|file| if self.of_command_line { file.clone() } else { folder.join(file) })
+    }
+
     /// The record of a motion of kind "record", before it is scaled.
     ///
     /// # Errors
     /// [`GroundError`] when no file is named, or it cannot be read.
-    pub fn record(&self, folder: &Path, key: &KeyOf<'_>) -> Result<Record, GroundError> {
-        let file = self.file.as_ref().ok_or_else(|| key("file").missing("a record file here, or --record FILE"))?;
+    pub fn record(&self, folder: &Path, direction: Direction, key: &KeyOf<'_>) -> Result<Record, GroundError> {
+        let needed = match direction {
+            Direction::Horizontal => "a record file here, or --record FILE",
+            Direction::Vertical => "a record file here, or --record-vertical FILE",
+        };
+        let file = self.path(folder).ok_or_else(|| key("file").missing(needed))?;
         let options = ReadOptions {
             units: self.units.as_ref().and_then(|units| units.parse().ok()),
             time_step_s: self.time_step_s,
             component: self.component.as_deref().map(RecordComponent::from),
-            ..ReadOptions::default()
+            resample_to_s: self.resample_to_s,
         };
-        Ok(Record::read(folder.join(file), &options)?)
+        let record = Record::read(file, &options).map_err(|error| GroundError::Record { key: error.key().map(key), error })?;
+        Ok(if direction == Direction::Horizontal { record.as_horizontal() } else { record })
     }
 }

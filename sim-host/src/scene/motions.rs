@@ -4,11 +4,11 @@ use std::path::Path;
 
 use super::Scene;
 use super::error::{Key, SceneError};
-use super::ground::{GroundError, GroundTable, Motion};
+use super::ground::{Direction, GroundError, GroundTable, Motion};
 use crate::ground_motion::{Component, GroundMotion};
-use crate::record::Record;
+use crate::record::{Record, RecordSummary};
 
-const NEEDS_RECORD: &str = "--record needs a [[ground]] table with motion = \"record\"";
+const NEEDS_RECORD: &str = "a record from the command line needs a [[ground]] table with motion = \"record\"";
 
 /// How the ground moves, in both directions.
 #[derive(Clone, Debug)]
@@ -17,6 +17,8 @@ pub struct GroundMotions {
     pub horizontal: GroundMotion,
     /// v̈_g, positive upwards, if the scene has one; its segments are those of the horizontal motion.
     pub vertical: Option<GroundMotion>,
+    /// The records that were read for it, the vertical ones last.
+    pub records: Vec<RecordSummary>,
 }
 
 impl Scene {
@@ -26,11 +28,12 @@ impl Scene {
     /// [`GroundError`] names the file and what is wrong with it, or the instant at which the vertical motion would take the
     /// ground away from under the block (1 + v̈_g/g ≤ 0).
     pub fn ground_motions(&self) -> Result<GroundMotions, GroundError> {
-        let horizontal = self.components("ground", &self.file.ground)?;
+        let mut records = Vec::new();
+        let horizontal = self.components(Direction::Horizontal, &mut records)?;
         if self.file.vertical.is_empty() {
-            return Ok(GroundMotions { horizontal: GroundMotion::sum(&horizontal), vertical: None });
+            return Ok(GroundMotions { horizontal: GroundMotion::sum(&horizontal), vertical: None, records });
         }
-        let vertical = self.components("vertical", &self.file.vertical)?;
+        let vertical = self.components(Direction::Vertical, &mut records)?;
         let [horizontal, vertical] = GroundMotion::aligned(&horizontal, &vertical);
         let (lowest, time) = vertical.lowest();
         if 1.0 + lowest <= 0.0 {
@@ -40,7 +43,18 @@ impl Scene {
             );
             return Err(self.key("vertical").conflict(&reason).into());
         }
-        Ok(GroundMotions { horizontal, vertical: Some(vertical) })
+        Ok(GroundMotions { horizontal, vertical: Some(vertical), records })
+    }
+
+    /// What its record files hold.
+    ///
+    /// # Errors
+    /// [`GroundError`] names the file that cannot be read.
+    pub fn records(&self) -> Result<Vec<RecordSummary>, GroundError> {
+        let mut records = Vec::new();
+        self.components(Direction::Horizontal, &mut records)?;
+        self.components(Direction::Vertical, &mut records)?;
+        Ok(records)
     }
 
     /// The only record that shakes the block, before it is scaled; none where anything else does.
@@ -50,7 +64,7 @@ impl Scene {
     pub fn only_record(&self) -> Result<Option<Record>, GroundError> {
         match (&self.file.ground[..], &self.file.vertical[..]) {
             ([table], []) if table.motion == Motion::Record => {
-                table.record(&self.folder, &|key| self.key(&format!("ground.0.{key}"))).map(Some)
+                table.record(&self.folder, Direction::Horizontal, &|key| self.key(&format!("ground.0.{key}"))).map(Some)
             }
             _ => Ok(None),
         }
@@ -73,15 +87,6 @@ impl Scene {
         replace_record(&mut self.file.ground, file).ok_or(missing)
     }
 
-    /// Number of the `[[ground]]` table that takes a record.
-    ///
-    /// # Errors
-    /// [`SceneError::Missing`] when the scene has none.
-    pub fn record_table(&self) -> Result<usize, SceneError> {
-        let place = self.file.ground.iter().position(|table| table.motion == Motion::Record);
-        place.ok_or_else(|| self.key("ground").missing(NEEDS_RECORD))
-    }
-
     /// Puts `file` in the place of the scene's vertical record.
     ///
     /// # Errors
@@ -91,22 +96,27 @@ impl Scene {
         replace_record(&mut self.file.vertical, file).ok_or(missing)
     }
 
-    fn components(&self, name: &str, tables: &[GroundTable]) -> Result<Vec<Component>, GroundError> {
+    fn components(&self, direction: Direction, records: &mut Vec<RecordSummary>) -> Result<Vec<Component>, GroundError> {
+        let (name, tables) = match direction {
+            Direction::Horizontal => ("ground", &self.file.ground),
+            Direction::Vertical => ("vertical", &self.file.vertical),
+        };
         let components = tables.iter().enumerate().map(|(index, table)| {
             let key = |key: &str| self.key(&format!("{name}.{index}.{key}"));
-            table.component(&self.block, self.uplift_threshold(), &self.folder, &key)
+            table.component(&self.block, self.uplift_threshold(), (&self.folder, direction), &key, records)
         });
         components.collect()
     }
 
-    fn key(&self, key: &str) -> Key {
+    /// The place of `key`, for messages.
+    pub(crate) fn key(&self, key: &str) -> Key {
         Key { origin: self.origin.clone(), key: key.to_owned() }
     }
 }
 
 fn replace_record(tables: &mut [GroundTable], file: &Path) -> Option<()> {
     let table = tables.iter_mut().find(|table| table.motion == Motion::Record)?;
-    // The command line's paths are relative to where the user stands, not to the scene.
-    table.file = Some(std::path::absolute(file).unwrap_or_else(|_| file.to_owned()));
+    table.file = Some(file.to_owned());
+    table.of_command_line = true;
     Some(())
 }

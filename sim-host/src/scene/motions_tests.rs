@@ -43,7 +43,7 @@ fn horizontal_and_vertical_motions_have_the_same_segments() {
     let folder = tempfile::tempdir().unwrap();
     let mut scene = scene(&[]).unwrap();
     scene.use_vertical_record(&record(&folder, 0.25)).unwrap();
-    let GroundMotions { horizontal, vertical } = motions(&scene).unwrap();
+    let GroundMotions { horizontal, vertical, .. } = motions(&scene).unwrap();
     let vertical = vertical.unwrap();
     assert_eq!(horizontal.segments().len(), vertical.segments().len());
     assert!((horizontal.duration() - 1.3).abs() < 1e-12 && vertical.duration() == horizontal.duration());
@@ -58,7 +58,7 @@ fn horizontal_and_vertical_motions_have_the_same_segments() {
 #[test]
 fn without_a_vertical_motion_the_horizontal_one_is_cut_at_its_own_kinks() {
     let scene = scene(&["vertical=[]"]).unwrap();
-    let GroundMotions { horizontal, vertical } = motions(&scene).unwrap();
+    let GroundMotions { horizontal, vertical, .. } = motions(&scene).unwrap();
     assert!(vertical.is_none() && horizontal.segments().len() == 1);
 }
 
@@ -89,7 +89,7 @@ fn vertical_tables_are_checked_like_horizontal_ones() {
         assert!(words.iter().all(|word| message.contains(word)), "{item}: {message}");
     }
     let message = motions(&scene(&[]).unwrap()).unwrap_err();
-    assert!(message.contains("vertical.1.file is missing"), "{message}");
+    assert!(message.contains("vertical.1.file is missing") && message.contains("--record-vertical FILE"), "{message}");
     let mut without = scene(&["vertical=[]"]).unwrap();
     let message = without.use_vertical_record("x.csv".as_ref()).unwrap_err().to_string();
     assert!(message.contains("[[vertical]]") && message.contains("--record-vertical"), "{message}");

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::variants::VERTICAL_RATIO;
+use crate::record::RecordSummary;
 use crate::scene::Scene;
 use crate::scene::ground::{GroundError, Motion};
 use crate::scene::motions::GroundMotions;
@@ -18,6 +19,8 @@ pub struct StudyMotion {
     pub ground: GroundMotions,
     /// With a vertical motion beside it, or why there is none.
     pub with_vertical: Result<GroundMotions, String>,
+    /// The records that were read for both.
+    pub records: Vec<RecordSummary>,
 }
 
 /// A record in the place of the scene's.
@@ -56,10 +59,14 @@ impl StudyMotion {
         let ground = scene.ground_motions()?;
         let with_vertical = match with_vertical(scene, vertical).ground_motions() {
             Ok(ground) => Ok(ground),
-            Err(GroundError::Record(error)) => return Err(error.into()),
+            Err(error @ GroundError::Record { .. }) => return Err(error),
             Err(GroundError::Scene(error)) => Err(error.to_string()),
         };
-        Ok(StudyMotion { own, name, ground, with_vertical })
+        let mut records = ground.records.clone();
+        if let (Some(_), Ok(both)) = (vertical, &with_vertical) {
+            records.clone_from(&both.records);
+        }
+        Ok(StudyMotion { own, name, ground, with_vertical, records })
     }
 }
 
@@ -79,7 +86,7 @@ pub fn with_vertical(scene: &Scene, record: Option<&Path>) -> Scene {
         scene.file.vertical.retain(|table| table.motion == Motion::Record);
         scene.file.vertical.truncate(1);
         for table in &mut scene.file.vertical {
-            table.file = Some(std::path::absolute(record).unwrap_or_else(|_| record.to_owned()));
+            (table.file, table.of_command_line) = (Some(record.to_owned()), true);
             table.component = None;
         }
     }
