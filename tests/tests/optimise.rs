@@ -20,6 +20,7 @@ use sprag_sim_host::optimise::problem::{Choices, Problem, Solution};
 use sprag_sim_host::optimise::tried::{MOST_ROWS, Tried, TriedError};
 use sprag_sim_host::optimise::typed_tables::{DesignTable, MotionTable};
 use sprag_sim_host::outcome::Outcome;
+use sprag_sim_host::output::Subject;
 use sprag_sim_host::scene::Scene;
 use sprag_sim_host::simulation::{DeviceRun, RunError, simulate};
 use sprag_sim_host::statistics::quantile;
@@ -253,7 +254,7 @@ fn an_interrupted_search_goes_on() {
     let whole = problem.solve(&mut (), &Interrupt::default(), &|_| (), &|| ()).unwrap();
 
     let folder = tempfile::tempdir().unwrap();
-    let origin = || Origin::new("optimise", &0, BTreeMap::new(), MOST_ROWS).unwrap();
+    let origin = || Origin::new(Subject::new("optimise", BTreeMap::new()), MOST_ROWS);
     let mut made = 0;
     let mut part = |start: Start, most: usize| {
         let mut tried = Tried::begin(folder.path(), origin(), start, problem.motions.len()).unwrap();
