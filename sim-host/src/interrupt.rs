@@ -47,6 +47,7 @@ impl Interrupt {
                 // Nothing is drawn any more after the last line.
                 without_bar(|| {
                     seen.write(&mut std::io::stderr());
+                    crate::output::remove_empty_folders();
                     std::process::exit(seen.exit_code());
                 });
             }

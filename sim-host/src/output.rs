@@ -24,7 +24,7 @@ mod target;
 #[cfg(test)]
 mod tests;
 
-pub use folder::{Claim, ResultFolder};
+pub use folder::{Claim, ResultFolder, remove_empty_folders};
 pub use formats::{Formats, FormatsError};
 pub use same_file::{is_at, is_standard_output};
 pub use subject::{Digest, Subject, difference};

@@ -3,6 +3,7 @@
 use std::fs;
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use serde_json::Value;
 
@@ -11,6 +12,15 @@ use super::{OutputError, REPLACE, Subject};
 
 /// Endings of results.
 const ENDINGS: [&str; 6] = ["csv", "parquet", "svg", "png", "md", "txt"];
+
+/// Every folder that this process has made, for [`remove_empty_folders`].
+static MADE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Removes the folders that this process has made and that hold nothing: for a process that ends where it is.
+pub fn remove_empty_folders() {
+    let made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    made.iter().rev().for_each(|folder| _ = fs::remove_dir(folder));
+}
 
 /// What a command is about to write into its folder.
 #[derive(Clone, Debug)]
@@ -138,7 +148,10 @@ impl ResultFolder {
         let mut missing: Vec<&Path> = folder.ancestors().filter(named).take_while(|folder| !folder.is_dir()).collect();
         while let Some(next) = missing.pop() {
             match fs::create_dir(next) {
-                Ok(()) => self.made.push(next.to_owned()),
+                Ok(()) => {
+                    self.made.push(next.to_owned());
+                    MADE.lock().unwrap_or_else(PoisonError::into_inner).push(next.to_owned());
+                }
                 // Another process has made it.
                 Err(_) if next.is_dir() => {}
                 Err(_) if next.exists() => {
