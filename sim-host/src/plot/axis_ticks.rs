@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use sprag_shared::math;
+
 use super::ticks::{Scale, TickText, decade_texts, decade_ticks, round_ticks, tick_text};
 
 /// Font size of labels (px).
@@ -129,8 +131,8 @@ impl Axis {
 
     /// The label of the end at `value`, written as the labels of `inner` are: at a value of few digits close to it.
     fn end(&self, value: f64, inner: &[Label]) -> Label {
-        let number = if self.scale == Scale::Logarithmic { sprag_shared::math::pow(10.0, value) } else { value };
-        let at = |number: f64| if self.scale == Scale::Logarithmic { sprag_shared::math::log10(number) } else { number };
+        let number = if self.scale == Scale::Logarithmic { math::pow(10.0, value) } else { value };
+        let at = |number: f64| if self.scale == Scale::Logarithmic { math::log10(number) } else { number };
         let rounded = |digits: usize| format!("{number:.*e}", digits - 1).parse::<f64>().unwrap_or(number);
         // No farther away than the edge of the axis, or than can be seen.
         let seen = UNSEEN_PX / self.length_px * (self.range.end - self.range.start);
@@ -186,9 +188,9 @@ mod tests {
         assert_eq!(texts(&frequency), ["0.2", "1", "2", "3", "4", "5", "6", "7", "8"]);
         let decades = axis(Scale::Logarithmic, (-2.0, 1.0), 0.01, Way::Across, 286.0);
         assert_eq!(texts(&decades), ["10^\u{2212}2</tspan>", "10^\u{2212}1</tspan>", "10^0</tspan>", "10^1</tspan>"]);
-        let short = axis(Scale::Logarithmic, (0.5_f64.log10(), 8.0_f64.log10()), 0.01, Way::Across, 286.0);
+        let short = axis(Scale::Logarithmic, (math::log10(0.5), math::log10(8.0)), 0.01, Way::Across, 286.0);
         assert_eq!(texts(&short), ["0.5", "1", "2", "5", "8"]);
-        let wide = axis(Scale::Logarithmic, (0.3_f64.log10(), 4e7_f64.log10()), 0.01, Way::Across, 286.0);
+        let wide = axis(Scale::Logarithmic, (math::log10(0.3), math::log10(4e7)), 0.01, Way::Across, 286.0);
         let wide = texts(&wide);
         assert_eq!((wide[0].as_str(), wide[wide.len() - 1].as_str()), ("0.3", "4·10^7</tspan>"));
     }

@@ -224,6 +224,8 @@ fn write_cells(svg: &mut String, panel: &Panel<'_>, map: &CellMap, classes: &[Cl
 
 #[cfg(test)]
 mod tests {
+    use sprag_shared::math;
+
     use super::*;
     use crate::plot::Cell;
     use crate::plot::synthetic::{assert_texts_apart, assert_well_formed};
@@ -294,7 +296,7 @@ mod tests {
     #[test]
     fn no_texts_collide_whatever_the_axes() {
         let linear = [(0.2, 8.0), (5.0, 40.0), (0.0, 0.1), (-0.013, 0.97), (1.0, 1.000_01), (12_345.6, 98_765.4)];
-        let logarithmic = [(-2.0, 1.0), (0.3_f64.log10(), 8.0_f64.log10()), (-6.0, 7.0), (0.1, 0.15), (-0.01, 1.99)];
+        let logarithmic = [(-2.0, 1.0), (math::log10(0.3), math::log10(8.0)), (-6.0, 7.0), (0.1, 0.15), (-0.01, 1.99)];
         let spans = |scale: Scale| if scale == Scale::Linear { &linear[..] } else { &logarithmic[..] };
         for (count, columns, cells) in [(1, 1, 8), (2, 2, 3), (3, 3, 20), (7, 7, 2)] {
             for scales in

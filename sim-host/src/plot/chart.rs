@@ -299,7 +299,7 @@ impl<'a> Looks<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::synthetic::assert_well_formed;
+    use crate::plot::synthetic::{assert_texts_apart, assert_well_formed};
 
     fn line(name: &str, exponent: i32) -> Line {
         let points = (0..10).map(|k| (f64::from(1 << k), 1e-2 * (0..k * exponent).fold(1.0, |value, _| 0.5 * value)));
@@ -329,6 +329,7 @@ mod tests {
         for scale in [Scale::Linear, Scale::Logarithmic] {
             for columns in [0, 1, 2, 5] {
                 let svg = chart_figure(&chart(scale, columns)).unwrap();
+                assert_texts_apart(&svg);
                 assert_well_formed(&svg);
                 assert!(svg.contains("A &lt;title&gt;") && svg.contains("two &amp; a half"));
                 // Once in the legend, in spite of three panels.

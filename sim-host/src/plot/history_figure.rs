@@ -111,7 +111,9 @@ pub fn history_figure(title: impl Into<FigureTitle>, histories: &[History], axes
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::synthetic::{assert_well_formed, at_rest, overturning, safe, with_clutched_pair, with_inerter};
+    use crate::plot::synthetic::{
+        assert_texts_apart, assert_well_formed, at_rest, overturning, safe, with_clutched_pair, with_inerter,
+    };
 
     fn three() -> Vec<History> {
         vec![
@@ -129,6 +131,7 @@ mod tests {
     fn three_devices_fill_four_panels() {
         for axes in [TimeAxis::Seconds, TimeAxis::TimesFrequencyParameter] {
             let svg = history_figure("A <title> & more", &three(), axes).unwrap();
+            assert_texts_apart(&svg);
             assert_well_formed(&svg);
             assert_eq!(panel_titles(&svg), 4);
             assert_eq!(svg.matches(">overturns<").count(), 1);

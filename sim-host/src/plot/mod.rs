@@ -1,6 +1,6 @@
 //! Figures as SVG text: responses, energies, sensitivities, closed loops, maps of outcomes, clouds of runs, trade-offs, charts of lines.
 //!
-//! plotters draws axes and curves; clip, dash patterns, tints and formula labels are SVG around its output. [`png()`] makes dots of it.
+//! plotters draws curves and guide lines; axes, clip, dash patterns, tints and texts are SVG around its output. [`png()`] makes dots of it.
 
 mod axis_ticks;
 mod cell;

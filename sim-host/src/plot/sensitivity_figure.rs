@@ -3,7 +3,7 @@
 use plotters::style::RGBColor;
 
 use super::layer::{Anchor, Text, document, escape, units, write_disc, write_rect};
-use super::legend::write_heading;
+use super::legend::{BOLD_WIDTH, write_heading};
 use super::palette::{GROUND, GUIDE, INK, device_look, hex};
 use super::text_width::text_width_px;
 use super::ticks::{round_ticks, tick_text};
@@ -11,10 +11,12 @@ use super::{FigureTitle, PlotError};
 
 const WIDTH_PX: f64 = 900.0;
 const MARGIN_PX: f64 = 12.0;
-/// Left of the axis, for effects and variants.
-const LABELS_PX: f64 = 395.0;
-/// Where variants start, right of their effects.
+/// Left of the axis, for effects and variants, at least.
+const LABELS_PX: f64 = 280.0;
+/// Where variants start, right of their effects, at least.
 const VARIANT_PX: f64 = 96.0;
+/// Right of labels, where a triangle may stick out of the axis (px).
+const LABEL_GAP_PX: f64 = 12.0;
 /// Right of the axis, for one column of counts.
 const COUNT_PX: f64 = 62.0;
 const LANE_PX: f64 = 13.0;
@@ -94,15 +96,20 @@ pub fn sensitivity_figure(
         }
     }
     let mut body = String::new();
-    let (left_px, width_px) = (MARGIN_PX, WIDTH_PX - 2.0 * MARGIN_PX);
+    // Long labels make the figure wider, not its axis narrower.
+    let widest = |texts: &dyn Fn(&SensitivityRow) -> f64| rows.iter().map(texts).fold(0.0, f64::max);
+    let variant_px = (widest(&|row| text_width_px(&row.effect, FONT_PX)) / BOLD_WIDTH + LABEL_GAP_PX).max(VARIANT_PX);
+    let labels_px = (variant_px + widest(&|row| text_width_px(&row.variant, FONT_PX)) + LABEL_GAP_PX).max(LABELS_PX);
+    let figure_px = WIDTH_PX + labels_px - LABELS_PX;
+    let (left_px, width_px) = (MARGIN_PX, figure_px - 2.0 * MARGIN_PX);
     let heading_px = write_heading(&mut body, &title, &[], (left_px, width_px), MARGIN_PX);
     let used: Vec<usize> = (0..devices.len()).filter(|index| lanes().any(|lane| lane.device == *index)).collect();
     let legend_px = write_legend(&mut body, devices, &used, (left_px, width_px), heading_px - 2.0);
 
     let row_px = |row: &SensitivityRow| row.lanes.len().max(1) as f64 * LANE_PX + ROW_GAP_PX;
     let axis = Axis {
-        left_px: left_px + LABELS_PX,
-        width_px: width_px - LABELS_PX - 2.0 * COUNT_PX,
+        left_px: left_px + labels_px,
+        width_px: width_px - labels_px - 2.0 * COUNT_PX,
         top_px: legend_px + 34.0,
         bottom_px: legend_px + 34.0 + rows.iter().map(row_px).sum::<f64>(),
         limit: limit(lanes().flat_map(SensitivityLane::values)),
@@ -122,7 +129,7 @@ pub fn sensitivity_figure(
             let text = Text::new(&text, (left_px + 4.0, baseline), FONT_PX);
             Text { attributes: " font-weight=\"bold\"", ..text }.write(&mut marks, false);
         }
-        Text::new(&escape(&row.variant), (left_px + VARIANT_PX, baseline), FONT_PX).write(&mut marks, false);
+        Text::new(&escape(&row.variant), (left_px + variant_px, baseline), FONT_PX).write(&mut marks, false);
         for (number, lane) in row.lanes.iter().enumerate() {
             let middle = top_px + 0.5 * ROW_GAP_PX + (number as f64 + 0.5) * LANE_PX;
             write_lane(&mut marks, &axis, lane, middle);
@@ -133,7 +140,7 @@ pub fn sensitivity_figure(
     body.push_str(&marks);
 
     let height_px = axis.bottom_px + 46.0;
-    Ok(document(&title.text, (WIDTH_PX, height_px), &body))
+    Ok(document(&title.text, (figure_px, height_px), &body))
 }
 
 impl SensitivityLane {
@@ -315,6 +322,7 @@ fn write_legend(svg: &mut String, devices: &[String], used: &[usize], (left_px, 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plot::synthetic::assert_texts_apart;
 
     fn rows() -> Vec<SensitivityRow> {
         let lane = |device: usize, change: f64| SensitivityLane {
@@ -345,6 +353,32 @@ mod tests {
         assert_eq!(svg.matches("<text").count(), svg.matches("</text>").count());
         assert_eq!(svg.matches(">impact<").count(), 1);
         assert_eq!(svg, sensitivity_figure("A & B", &devices, &rows()).unwrap());
+    }
+
+    #[test]
+    fn long_labels_have_room() {
+        let devices = ["none", "pair"].map(str::to_owned);
+        let width = |rows: &[SensitivityRow]| {
+            let svg = sensitivity_figure("A study", &devices, rows).unwrap();
+            assert_texts_apart(&svg);
+            svg.split("<svg ")
+                .nth(1)
+                .unwrap()
+                .split(" width=\"")
+                .nth(1)
+                .unwrap()
+                .split('"')
+                .next()
+                .unwrap()
+                .parse::<f64>()
+                .unwrap()
+        };
+        let mut rows = rows();
+        let plain = width(&rows);
+        rows[1].variant = "capacity of a tenth of the block's weight, released flywheels stopped by an instant brake".to_owned();
+        rows[2].effect = "friction of the rack".to_owned();
+        let needed = text_width_px(&rows[1].variant, FONT_PX);
+        assert!(width(&rows) - plain > needed - LABELS_PX + VARIANT_PX);
     }
 
     #[test]
