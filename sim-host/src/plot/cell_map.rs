@@ -298,7 +298,7 @@ mod tests {
         let linear = [(0.2, 8.0), (5.0, 40.0), (0.0, 0.1), (-0.013, 0.97), (1.0, 1.000_01), (12_345.6, 98_765.4)];
         let logarithmic = [(-2.0, 1.0), (math::log10(0.3), math::log10(8.0)), (-6.0, 7.0), (0.1, 0.15), (-0.01, 1.99)];
         let spans = |scale: Scale| if scale == Scale::Linear { &linear[..] } else { &logarithmic[..] };
-        for (count, columns, cells) in [(1, 1, 8), (2, 2, 3), (3, 3, 20), (7, 7, 2)] {
+        for (count, columns, cells) in [(1, 1, 8), (3, 3, 20), (7, 7, 2)] {
             for scales in
                 [Scale::Linear, Scale::Logarithmic].into_iter().flat_map(|x| [(x, Scale::Linear), (x, Scale::Logarithmic)])
             {
