@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::{scene, sprag};
+use super::{errors, said, scene, sprag};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
@@ -14,7 +14,7 @@ const QUOTED: &str = "device.1.name=\"one, \\\"inerter\\\"\"";
 /// Runs `sprag` with `--out`, expects that it ends well and says nothing on the side, and gives the names of its files.
 fn written(arguments: &[&str], out: &Path) -> Vec<String> {
     let output = sprag(&[arguments, &["--out", out.to_str().unwrap()]].concat());
-    assert!(output.status.success() && output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success() && errors(&said(&output)).is_empty(), "{}", said(&output));
     let mut names: Vec<String> =
         fs::read_dir(out).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
