@@ -235,7 +235,7 @@ fn read_options(table: &RecordTable, scene: &Scene) -> ReadOptions {
         units: table.units.as_ref().or(own.units.as_ref()).and_then(|units| units.parse().ok()),
         time_step_s: table.time_step_s.or(own.time_step_s),
         component: table.component.as_deref().or(own.component.as_deref()).map(Component::from),
-        resample_to_s: table.resample_to_s,
+        resample_to_s: table.resample_to_s.or(own.resample_to_s),
     }
 }
 

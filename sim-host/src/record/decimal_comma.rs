@@ -65,7 +65,7 @@ fn is_decimal(field: &str) -> bool {
 
 /// Digits that no whole number has: `05`, with a zero before other digits.
 fn is_fraction_only(text: &str) -> bool {
-    text.len() > 1 && text.starts_with('0') && text.bytes().nth(1).is_some_and(|byte| byte.is_ascii_digit())
+    matches!(text.as_bytes(), [b'0', b'0'..=b'9', ..])
 }
 
 /// The line with its decimal commas as points. In a line of text they are the commas between two digits.
