@@ -15,6 +15,7 @@ use sprag_sim_host::closed_loop::driver::Driver;
 use sprag_sim_host::closed_loop::plant::Extremes;
 use sprag_sim_host::closed_loop::run::{Ending, Tick};
 use sprag_sim_host::command::loop_scene::LoopScene;
+use sprag_sim_host::command::record_arguments::SceneRecordArguments;
 use sprag_sim_host::device::driver::{DeviceDriver, DeviceTick};
 use sprag_sim_host::device::emulator::{Emulator, Way};
 use sprag_sim_host::device::faulty::{Direction, Fate, FaultyLine};
@@ -31,7 +32,7 @@ pub fn scene_file(name: &str) -> PathBuf {
 /// A scene with changes.
 pub fn scene(name: &str, set: &[&str]) -> LoopScene {
     let set: Vec<String> = set.iter().map(|&set| set.to_owned()).collect();
-    LoopScene::load(&scene_file(name), &set, None).unwrap()
+    LoopScene::load(&scene_file(name), &set, &SceneRecordArguments::default()).unwrap()
 }
 
 /// The scene `controller.toml` with a sine pulse (ω/p = 4, 3 thresholds) in the place of the record, which is over sooner.
@@ -44,7 +45,7 @@ pub fn pulse(set: &[&str]) -> LoopScene {
     let path = folder.path().join("pulse.toml");
     std::fs::write(&path, text.replace(record, sine)).unwrap();
     let set: Vec<String> = ["run.free_time_s=1.5"].iter().chain(set).map(|&set| set.to_owned()).collect();
-    LoopScene::load(&path, &set, None).unwrap()
+    LoopScene::load(&path, &set, &SceneRecordArguments::default()).unwrap()
 }
 
 /// A line on which nothing happens to frames.

@@ -25,7 +25,7 @@ mod map_boundaries;
 pub mod optimise;
 pub mod out_arguments;
 pub mod record;
-mod record_arguments;
+pub mod record_arguments;
 pub mod sensitivity;
 pub mod similar;
 pub mod simulate;

@@ -1,5 +1,6 @@
 //! What summaries of results say of the records behind them.
 
+use std::collections::BTreeMap;
 use std::fmt::Display;
 
 use serde::Serialize;
@@ -47,17 +48,32 @@ impl RecordSummary {
     }
 }
 
-/// The warnings of `records` as lines for a screen, `FILE: …`: all of a few, else the first ones and how many more there are.
+/// The warnings of `records` as lines for a screen, `FILE: …`: all of a few, else those of the rarest kinds and how many more
+/// there are.
 pub fn warning_lines(records: &[RecordSummary]) -> Vec<String> {
-    let all = || records.iter().flat_map(|record| record.warnings.iter().map(move |warning| (&record.file, warning)));
-    let total = all().count();
+    let mut all: Vec<(&str, &str)> = Vec::new();
+    for record in records {
+        all.extend(record.warnings.iter().map(|warning| (record.file.as_str(), warning.as_str())));
+    }
+    let total = all.len();
+    if total > MOST_LINES {
+        // What is said of nearly every record must not hide what is said of one.
+        let mut kinds = BTreeMap::<String, usize>::new();
+        all.iter().for_each(|(_, warning)| *kinds.entry(kind(warning)).or_default() += 1);
+        all.sort_by_key(|(_, warning)| kinds[&kind(warning)]);
+    }
     let shown = if total > MOST_LINES { MOST_LINES - 1 } else { total };
-    let mut lines: Vec<String> = all().take(shown).map(|(file, warning)| format!("{file}: {warning}")).collect();
+    let mut lines: Vec<String> = all.iter().take(shown).map(|(file, warning)| format!("{file}: {warning}")).collect();
     if total > shown {
         let files = records.iter().filter(|record| !record.warnings.is_empty()).count();
         lines.push(format!("{} more warnings; summary.json has all {total} of {files} records", total - shown));
     }
     lines
+}
+
+/// Its first word: warnings of one kind begin alike.
+fn kind(warning: &str) -> String {
+    warning.split(|c: char| !c.is_alphabetic()).find(|word| !word.is_empty()).unwrap_or_default().to_owned()
 }
 
 #[cfg(test)]
@@ -73,6 +89,10 @@ mod tests {
         let each = summary.warnings.len();
         let lines = warning_lines(std::slice::from_ref(&summary));
         assert!(lines.len() == each && lines.iter().all(|line| line.starts_with("a.csv: ")), "{lines:?}");
+        let mut odd = summary.clone();
+        (odd.file, odd.warnings) = ("odd.csv".to_owned(), vec!["clipped: 7 samples".to_owned()]);
+        let mixed = warning_lines(&[vec![summary.clone(); 50], vec![odd], vec![summary.clone(); 50]].concat());
+        assert_eq!((mixed.len(), mixed[0].as_str()), (MOST_LINES, "odd.csv: clipped: 7 samples"));
         let many = warning_lines(&vec![summary; 200]);
         let last = format!("{} more warnings; summary.json has all {} of 200 records", 200 * each - MOST_LINES + 1, 200 * each);
         assert_eq!((many.len(), many.last()), (MOST_LINES, Some(&last)));
