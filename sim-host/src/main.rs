@@ -1,13 +1,16 @@
 //! The `sprag` command.
 
+use std::io::Write;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::error::ErrorKind;
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use sprag_sim_host::command::wrong_line::{command_named, wrong_line};
+use sprag_sim_host::command::{
+    BAD_INPUT, batch, cloud, effects, explain, map, optimise, record, sensitivity, similar, simulate, synthesize,
+};
 #[cfg(feature = "effects")]
 use sprag_sim_host::command::{accuracy, closed_loop, device, hil, loop_study};
-use sprag_sim_host::command::{
-    batch, cloud, effects, explain, map, optimise, record, sensitivity, similar, simulate, synthesize,
-};
 use sprag_sim_host::interrupt::Interrupt;
 use sprag_sim_host::streams::{Errors, Output};
 
@@ -45,31 +48,59 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let line = Line::parse();
     let interrupt = Interrupt::installed();
     let (mut out, mut err) = (Output::default(), Errors::default());
-    let code = match &line.command {
-        Command::Simulate(arguments) => simulate::run(arguments, &mut out, &mut err, &interrupt),
-        Command::Batch(arguments) => batch::run(arguments, &mut err, &interrupt),
-        Command::Similar(arguments) => similar::run(arguments, &mut out, &mut err, &interrupt),
-        Command::Cloud(arguments) => cloud::run(arguments, &mut out, &mut err, &interrupt),
-        Command::Optimise(arguments) => optimise::run(arguments, &mut out, &mut err, &interrupt),
-        Command::Map(arguments) => map::run(arguments, &mut out, &mut err, &interrupt),
-        Command::Sensitivity(arguments) => sensitivity::run(arguments, &mut out, &mut err, &interrupt),
-        #[cfg(feature = "effects")]
-        Command::Accuracy(arguments) => accuracy::run(arguments, &mut out, &mut err, &interrupt),
-        #[cfg(feature = "effects")]
-        Command::Loop(arguments) => closed_loop::run(arguments, &mut out, &mut err, &interrupt),
-        #[cfg(feature = "effects")]
-        Command::Hil(arguments) => hil::run(arguments, &mut out, &mut err, &interrupt),
-        #[cfg(feature = "effects")]
-        Command::Device(arguments) => device::run(arguments, &mut out, &mut err, &interrupt),
-        #[cfg(feature = "effects")]
-        Command::LoopStudy(arguments) => loop_study::run(arguments, &mut out, &mut err, &interrupt),
-        Command::Record(arguments) => record::run(arguments, &mut out, &mut err),
-        Command::Synthesize(arguments) => synthesize::run(arguments, &mut out, &mut err),
-        Command::Effects(arguments) => effects::run(arguments, &mut out, &mut err),
-        Command::Explain(arguments) => explain::run(arguments, &mut out, &mut err),
+    let code = match read_line() {
+        Ok(line) => run(&line.command, &mut out, &mut err, &interrupt),
+        Err(error) if !error.use_stderr() || error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            let _ = out.noted(error.print());
+            error.exit_code()
+        }
+        Err(error) => {
+            let command = command_named(&Line::command(), std::env::args_os().skip(1));
+            let _ = writeln!(err, "sprag: {}; see {command} --help", wrong_line(&error));
+            BAD_INPUT
+        }
     };
     ExitCode::from(u8::try_from(out.finish(code, &mut err)).unwrap_or(1))
+}
+
+/// The command line as it was given.
+fn read_line() -> Result<Line, clap::Error> {
+    Line::from_arg_matches(&with_negative_numbers(Line::command()).try_get_matches()?)
+}
+
+/// A negative number is a value, of which its option says whether it is allowed.
+fn with_negative_numbers(command: clap::Command) -> clap::Command {
+    let number = |arg: clap::Arg| {
+        let takes_values = arg.get_action().takes_values();
+        if takes_values { arg.allow_negative_numbers(true) } else { arg }
+    };
+    command.mut_args(number).mut_subcommands(with_negative_numbers)
+}
+
+fn run(command: &Command, out: &mut Output, err: &mut Errors, interrupt: &Interrupt) -> i32 {
+    match command {
+        Command::Simulate(arguments) => simulate::run(arguments, out, err, interrupt),
+        Command::Batch(arguments) => batch::run(arguments, err, interrupt),
+        Command::Similar(arguments) => similar::run(arguments, out, err, interrupt),
+        Command::Cloud(arguments) => cloud::run(arguments, out, err, interrupt),
+        Command::Optimise(arguments) => optimise::run(arguments, out, err, interrupt),
+        Command::Map(arguments) => map::run(arguments, out, err, interrupt),
+        Command::Sensitivity(arguments) => sensitivity::run(arguments, out, err, interrupt),
+        #[cfg(feature = "effects")]
+        Command::Accuracy(arguments) => accuracy::run(arguments, out, err, interrupt),
+        #[cfg(feature = "effects")]
+        Command::Loop(arguments) => closed_loop::run(arguments, out, err, interrupt),
+        #[cfg(feature = "effects")]
+        Command::Hil(arguments) => hil::run(arguments, out, err, interrupt),
+        #[cfg(feature = "effects")]
+        Command::Device(arguments) => device::run(arguments, out, err, interrupt),
+        #[cfg(feature = "effects")]
+        Command::LoopStudy(arguments) => loop_study::run(arguments, out, err, interrupt),
+        Command::Record(arguments) => record::run(arguments, out, err),
+        Command::Synthesize(arguments) => synthesize::run(arguments, out, err),
+        Command::Effects(arguments) => effects::run(arguments, out, err),
+        Command::Explain(arguments) => explain::run(arguments, out, err),
+    }
 }

@@ -11,7 +11,11 @@ pub struct Output {
 }
 
 impl Output {
-    fn noted<T>(&mut self, result: io::Result<T>) -> io::Result<T> {
+    /// `result` of writing to standard output, which is remembered.
+    ///
+    /// # Errors
+    /// That of `result`.
+    pub fn noted<T>(&mut self, result: io::Result<T>) -> io::Result<T> {
         if let Err(error) = &result
             && error.kind() != io::ErrorKind::Interrupted
         {

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use clap::Args;
 
-use super::budget::{self, Afforded};
+use super::budget;
 use super::level::Accuracy;
 
 /// How accurate, and how long it may take.
@@ -13,7 +13,8 @@ pub struct AccuracyArguments {
     /// fast, normal, tight, or the relative error wanted of the peak rotation, such as 1e-6; reports errors with the results.
     #[arg(long, value_name = "LEVEL")]
     pub accuracy: Option<Accuracy>,
-    /// Be as accurate as this many seconds allow; says what accuracy that is, so that --accuracy gives the same again.
+    /// Be as accurate as this many seconds allow, with all runs that errors are estimated by; says what accuracy that is, so that --accuracy
+    /// gives the same again, and where even the least takes longer.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub time_budget: Option<Duration>,
 }
@@ -47,9 +48,7 @@ impl AccuracyArguments {
     ) -> Result<R, F> {
         let Some(seconds) = self.time_budget else { return command(self.accuracy) };
         let found = budget::within(seconds, self.accuracy, |accuracy| command(Some(accuracy)))?;
-        let Afforded { accuracy, took, reached, .. } = &found;
-        let more = if *reached { "" } else { "; more accuracy would take longer than there is" };
-        tell(&format!("the time affords --accuracy {accuracy}, which took {:.3} s{more}", took.as_secs_f64()));
+        tell(&found.words(seconds));
         Ok(found.result)
     }
 }

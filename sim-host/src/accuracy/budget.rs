@@ -19,8 +19,27 @@ pub struct Afforded<R> {
     pub result: R,
     /// How long it took.
     pub took: Duration,
+    /// How long all took that were run, this one the last.
+    pub elapsed: Duration,
     /// Nothing more accurate was asked for.
     pub reached: bool,
+}
+
+impl<R> Afforded<R> {
+    /// What `budget` affords, or that this is more than it does.
+    pub fn words(&self, budget: Duration) -> String {
+        let Afforded { accuracy, took, elapsed, reached, .. } = self;
+        let took = format!("--accuracy {accuracy}, which took {:.3} s", took.as_secs_f64());
+        if *elapsed > budget {
+            let all = if elapsed == &self.took {
+                String::new()
+            } else {
+                format!(" ({:.3} s with what was tried before)", elapsed.as_secs_f64())
+            };
+            return format!("--time-budget {} does not suffice for {took}{all}", budget.as_secs_f64());
+        }
+        format!("the time affords {took}{}", if *reached { "" } else { "; more accuracy would take longer than there is" })
+    }
 }
 
 /// Runs level after level, up to `asked` or the most accurate, as long as the next one is likely to end within `budget`. The first is
@@ -56,7 +75,7 @@ fn within_by<R, F>(
         let next = levels.next();
         match next {
             Some(next) if now + took.mul_f64(GROWTH) <= budget => accuracy = next,
-            _ => return Ok(Afforded { accuracy, result, took, reached: next.is_none() }),
+            _ => return Ok(Afforded { accuracy, result, took, elapsed: now, reached: next.is_none() }),
         }
     }
 }
@@ -68,16 +87,29 @@ pub struct Plan {
     pub accuracy: Accuracy,
     /// How long all of the work is likely to take, s.
     pub seconds: f64,
-    /// The relative error of the peak rotation that 95 % of the sample stay below.
+    /// The relative error of the peak rotation that [`Plan::of`] stays below.
     pub error: f64,
+    /// What of the work the error is of.
+    pub of: &'static str,
+}
+
+/// A part of the work, done to learn what all of it takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// How long all of the work is likely to take, s.
+    pub seconds: f64,
+    /// The relative error of the peak rotation that [`Sample::of`] stays below.
+    pub error: f64,
+    /// What of the work the error is of.
+    pub of: &'static str,
 }
 
 impl std::fmt::Display for Plan {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(
             formatter,
-            "--accuracy {} affords a relative error below {:.1e} for 95 % of the cases in some {:.2} s",
-            self.accuracy, self.error, self.seconds
+            "--accuracy {} affords a relative error below {:.1e} for {} in some {:.2} s",
+            self.accuracy, self.error, self.of, self.seconds
         )
     }
 }
@@ -86,7 +118,9 @@ impl std::fmt::Display for Plan {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TooLittleTime {
     /// Not even at the least accuracy.
-    #[error("--time-budget: the work takes some {seconds:.2} s at the least accuracy, more than the {budget:.3} s given")]
+    #[error(
+        "--time-budget: the work with its error estimates takes some {seconds:.2} s at the least accuracy, more than the {budget} s given"
+    )]
     ForAnything {
         /// What it takes, s.
         seconds: f64,
@@ -94,7 +128,7 @@ pub enum TooLittleTime {
         budget: f64,
     },
     /// Not as accurately as asked.
-    #[error("--accuracy {asked} takes some {seconds:.2} s, more than the {budget:.3} s of --time-budget; {affordable}")]
+    #[error("--accuracy {asked} takes some {seconds:.2} s, more than the {budget} s of --time-budget; {affordable}")]
     ForSoMuch {
         /// What was asked.
         asked: Accuracy,
@@ -107,35 +141,35 @@ pub enum TooLittleTime {
     },
 }
 
-/// The most accurate level, up to `asked` if that is given, at which `share` times the work of `sample` is likely to end within `budget`.
-/// `sample` does a share of the work and gives its error.
+/// The most accurate level, up to `asked` if that is given, at which all of the work, of which `sample` does a part, is likely to end within
+/// `budget`, the time that sampling takes included.
 ///
 /// # Errors
-/// [`TooLittleTime`], with what the time affords.
-pub fn plan(
+/// [`TooLittleTime`], with what the time affords, and those of `sample`.
+pub fn plan<F: From<TooLittleTime>>(
     budget: Duration,
     asked: Option<Accuracy>,
-    share: f64,
-    mut sample: impl FnMut(Accuracy) -> f64,
-) -> Result<Plan, TooLittleTime> {
-    let mut timed = |accuracy: Accuracy| {
-        let start = Instant::now();
-        let error = sample(accuracy);
-        Plan { accuracy, seconds: share * start.elapsed().as_secs_f64(), error }
-    };
-    // What is touched for the first time is slow.
-    timed(Accuracy::Fast);
-    choose(budget.as_secs_f64(), asked, timed)
+    mut sample: impl FnMut(Accuracy) -> Result<Sample, F>,
+) -> Result<Plan, F> {
+    let start = Instant::now();
+    choose(budget.as_secs_f64(), asked, |accuracy| {
+        let Sample { seconds, error, of } = sample(accuracy)?;
+        Ok(Plan { accuracy, seconds: start.elapsed().as_secs_f64() + seconds, error, of })
+    })
 }
 
 /// [`plan`] by known costs.
-fn choose(budget: f64, asked: Option<Accuracy>, mut cost: impl FnMut(Accuracy) -> Plan) -> Result<Plan, TooLittleTime> {
+fn choose<F: From<TooLittleTime>>(
+    budget: f64,
+    asked: Option<Accuracy>,
+    mut cost: impl FnMut(Accuracy) -> Result<Plan, F>,
+) -> Result<Plan, F> {
     let mut affordable: Option<Plan> = None;
     let goal = asked.unwrap_or(Accuracy::Tight);
     let below = Accuracy::LEVELS.into_iter().filter(|level| level.tolerance() > goal.tolerance());
     let mut dearest = 0.0;
     for level in below.chain([goal]) {
-        let plan = cost(level);
+        let plan = cost(level)?;
         dearest = plan.seconds;
         if plan.seconds > budget {
             break;
@@ -143,9 +177,9 @@ fn choose(budget: f64, asked: Option<Accuracy>, mut cost: impl FnMut(Accuracy) -
         affordable = Some(plan);
     }
     match (affordable, asked) {
-        (None, _) => Err(TooLittleTime::ForAnything { seconds: dearest, budget }),
+        (None, _) => Err(TooLittleTime::ForAnything { seconds: dearest, budget }.into()),
         (Some(plan), Some(asked)) if plan.accuracy != asked => {
-            Err(TooLittleTime::ForSoMuch { asked, seconds: cost(asked).seconds, budget, affordable: plan })
+            Err(TooLittleTime::ForSoMuch { asked, seconds: cost(asked)?.seconds, budget, affordable: plan }.into())
         }
         (Some(plan), _) => Ok(plan),
     }
@@ -181,9 +215,22 @@ mod tests {
     }
 
     /// 1, 2 and 3 s for the levels, 2.5 s for anything else.
-    fn cost(accuracy: Accuracy) -> Plan {
+    fn cost(accuracy: Accuracy) -> Result<Plan, TooLittleTime> {
         let seconds = Accuracy::LEVELS.iter().position(|level| *level == accuracy).map_or(2.5, |index| 1.0 + index as f64);
-        Plan { accuracy, seconds, error: accuracy.tolerance() }
+        Ok(Plan { accuracy, seconds, error: accuracy.tolerance(), of: "all" })
+    }
+
+    #[test]
+    fn what_took_longer_than_there_was_is_not_called_afforded() {
+        let second = Duration::from_secs(1);
+        let line = afforded(0.1, None).words(second / 10);
+        assert!(line.contains("--time-budget 0.1 does not suffice for --accuracy fast, which took 1.000 s"), "{line}");
+        assert_eq!(
+            afforded(7.0, None).words(7 * second),
+            "the time affords --accuracy normal, which took 2.000 s; more accuracy would take longer than there is"
+        );
+        // The next level took more than was foreseen.
+        assert!(afforded(7.0, None).words(2 * second).contains("(3.000 s with what was tried before)"));
     }
 
     #[test]

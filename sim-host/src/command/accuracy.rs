@@ -29,7 +29,7 @@ use crate::scene::{Scene, SceneError};
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag accuracy scenes/figure10.toml\n  \
     sprag accuracy scenes/near_fault.toml --smallest-step 1e-3 --qemu\n\n\
-    Writes accuracy.csv, accuracy.md, summary.json and the pictures work_precision.svg, order.svg, sines.svg, wrong_outcomes.svg and,\n\
+    Writes accuracy.csv, accuracy.md, summary.json and the pictures work_precision.svg, order.svg, sines.svg, wrong_outcomes.svg and, \
     with --qemu, board.svg; with --png as .png too. Times are of this machine; everything else is the same on any.")]
 pub struct AccuracyCommandArguments {
     /// Scene file, of ideal devices over horizontal ground.

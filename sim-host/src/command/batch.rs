@@ -2,7 +2,7 @@
 
 use std::io::{BufReader, Read, Write};
 use std::path::PathBuf;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use clap::Args;
 use rayon::prelude::*;
@@ -34,7 +34,7 @@ pub struct BatchArguments {
     #[command(flatten)]
     pub replace: OverwriteArguments,
     /// Threads; all cores by default. The result does not depend on it.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = super::threads)]
     pub threads: Option<u16>,
     /// Size of the last terms of the series over the rotation that matters, 1e-20 to 0.01; without errors.
     #[arg(long, value_name = "T", default_value_t = TIGHT, value_parser = tolerance, conflicts_with_all = ["accuracy", "time_budget"])]
@@ -85,18 +85,23 @@ type Row = (CaseResult, Option<ErrorEstimate>);
 
 /// What `seconds` afford, found by trying some of the cases, evenly spread.
 fn plan(seconds: Duration, accuracy: Option<Accuracy>, cases: &[(String, Case)]) -> Result<budget::Plan, budget::TooLittleTime> {
-    let sample: Vec<&Case> = cases.iter().step_by(cases.len().div_ceil(SAMPLE)).map(|(_, case)| case).collect();
-    let share = cases.len() as f64 / sample.len() as f64;
-    budget::plan(seconds, accuracy, share, |accuracy| {
+    let some: Vec<&Case> = cases.iter().step_by(cases.len().div_ceil(SAMPLE).max(1)).map(|(_, case)| case).collect();
+    let share = cases.len() as f64 / some.len().max(1) as f64;
+    let sample = |accuracy: Accuracy| {
+        let start = Instant::now();
         // A case that cannot be run is reported when all are.
-        let mut errors: Vec<f64> = sample
+        let mut errors: Vec<f64> = some
             .par_iter()
             .filter_map(|case| case.answer(accuracy).ok())
             .map(|answer| answer.error.relative(answer.result.compared().peak_rotation))
             .collect();
         errors.sort_by(f64::total_cmp);
-        errors.get(errors.len() * 95 / 100).copied().unwrap_or(0.0)
-    })
+        let error = errors.get(errors.len() * 95 / 100).copied().unwrap_or(0.0);
+        Ok(budget::Sample { seconds: share * start.elapsed().as_secs_f64(), error, of: "95 % of the cases" })
+    };
+    // What is touched for the first time is slow.
+    let _ = sample(Accuracy::Fast);
+    budget::plan(seconds, accuracy, sample)
 }
 
 /// Runs the command; errors go to `err`.
@@ -133,6 +138,7 @@ fn run_or_fail(arguments: &BatchArguments, err: &mut impl Write, interrupt: &Int
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
     let AccuracyArguments { mut accuracy, time_budget } = arguments.accuracy;
     if let Some(seconds) = time_budget {
+        let _trying = Progress::uncounted(super::TRYING);
         let plan = pool.install(|| plan(seconds, accuracy, &cases))?;
         let _ = writeln!(err, "sprag: {plan}");
         accuracy = Some(plan.accuracy);

@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::time::Instant;
 
 use clap::Args;
+use rayon::ThreadPool;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -14,14 +16,15 @@ use super::loop_scene::{LoopScene, LoopSceneError};
 use super::out_arguments::{FolderArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
 use super::{DRAWING, ended, warned};
-use crate::accuracy::AccuracyArguments;
+use crate::accuracy::{AccuracyArguments, budget};
 use crate::closed_loop::LoopFailure;
 use crate::closed_loop::answered::Looped;
 use crate::closed_loop::plant::Extremes;
 use crate::closed_loop::report::{LoopReport, LoopSummary, loop_trace, write_history};
-use crate::closed_loop::run::Tick;
+use crate::closed_loop::run::{Ending, Tick};
 use crate::heading::of_scene;
 use crate::interrupt::Interrupt;
+use crate::outcome::Outcome;
 use crate::output::{Digest, OutputError, ResultFolder, Results, Subject};
 use crate::plot::{FigureTitle, PlotError, loop_figure};
 use crate::progress::Progress;
@@ -47,11 +50,11 @@ pub struct LoopArguments {
     #[command(flatten)]
     pub records: SceneRecordArguments,
     /// Run so many specimens of the sensors, each with noise and errors of its own.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = specimen_count)]
     pub monte_carlo: Option<NonZeroUsize>,
     /// Threads of --monte-carlo; all processors by default. Results do not depend on it.
-    #[arg(long, value_name = "N")]
-    pub threads: Option<NonZeroUsize>,
+    #[arg(long, value_name = "N", value_parser = super::threads)]
+    pub threads: Option<u16>,
     /// Where results go.
     #[command(flatten)]
     pub folder: FolderArguments,
@@ -61,6 +64,14 @@ pub struct LoopArguments {
     /// How accurate.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
+}
+
+/// The most specimens of the sensors.
+const MOST_SPECIMENS: u64 = 1_000_000_000;
+
+fn specimen_count(text: &str) -> Result<NonZeroUsize, String> {
+    let count = super::whole_number(text, 1, MOST_SPECIMENS)?;
+    NonZeroUsize::new(count as usize).ok_or_else(|| "must not be 0".to_owned())
 }
 
 #[derive(Debug, thiserror::Error)]
@@ -75,6 +86,8 @@ enum Failure {
     Output(#[from] OutputError),
     #[error("no threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
+    #[error("{0}")]
+    Budget(#[from] budget::TooLittleTime),
     #[error("interrupted")]
     Interrupted,
 }
@@ -109,14 +122,24 @@ fn run_or_fail(
     let mut folder = arguments.folder.folder(&arguments.scene, "loop").of_any_accuracy(any_accuracy);
     let plain = Scene::load(&arguments.scene, &arguments.set).map_err(LoopSceneError::from)?;
     let mut warnings = warned(plain.warnings(), err);
-    let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
-    let (desk, subject, mut reports) =
-        arguments.accuracy.run(|change| looped(arguments, change, &mut folder, interrupt), tell)?;
+    let mut tell = |line: &str| _ = writeln!(err, "sprag: {line}");
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
+    let mut run = |change| looped(arguments, change, &mut folder, interrupt);
+    let (desk, subject, mut reports) = match (arguments.monte_carlo, arguments.accuracy.time_budget) {
+        (Some(count), Some(seconds)) => {
+            let plan = budget::plan(seconds, arguments.accuracy.accuracy, |accuracy| {
+                sample(&pool, count, || run(Some(AccuracyArguments::change(accuracy))), interrupt)
+            })?;
+            tell(&plan.to_string());
+            run(Some(AccuracyArguments::change(plan.accuracy)))?
+        }
+        _ => arguments.accuracy.run(run, tell)?,
+    };
     let scene = &desk.scene;
     warnings.extend(warned(warning_lines(&desk.ground.records), err));
     let mut results = Results::default();
     if let Some(count) = arguments.monte_carlo {
-        let table = monte_carlo(arguments, &desk, &mut reports, count, interrupt)?;
+        let table = monte_carlo(&pool, &desk, &mut reports, count, interrupt)?;
         results.add(&folder.join("monte_carlo.csv"), |file| file.write_all(table.as_bytes()))?;
     }
     let drawing = Progress::uncounted(DRAWING);
@@ -178,44 +201,78 @@ pub(super) fn heading(scene: &Scene, report: &LoopReport) -> FigureTitle {
     FigureTitle { text, conditions: of_scene(scene) }
 }
 
+/// One specimen of the sensors.
+struct Specimen {
+    seed: u64,
+    outcome: Outcome,
+    peak: f64,
+    ending: Ending,
+}
+
+/// Runs the first `count` specimens with pair `index`; `done` hears of each.
+fn specimens(
+    pool: &ThreadPool,
+    desk: &LoopScene,
+    index: usize,
+    count: usize,
+    interrupt: &Interrupt,
+    done: impl Fn() + Sync,
+) -> Result<Vec<Specimen>, Failure> {
+    let alpha = desk.scene.block.slenderness();
+    let one = |number: u64| {
+        let seed = desk.controller.sensors.seed().wrapping_add(number);
+        let mut extremes = Extremes::default();
+        let ending = desk.task(index, seed, interrupt).run(&mut extremes, &mut ());
+        done();
+        let outcome = |ending: &Ending| Outcome::of(&ending.motion, &extremes.peaks);
+        ending.map(|ending| Specimen { seed, outcome: outcome(&ending), peak: extremes.peaks.rotation / alpha, ending })
+    };
+    let runs: Vec<_> = pool.install(|| (0..count as u64).into_par_iter().map(one).collect());
+    let failed = |failure| Failure::Loop { device: desk.scene.devices[index].name.clone(), failure };
+    runs.into_iter().map(|run| run.map_err(failed)).collect()
+}
+
+/// Specimens of a pair and a thread that are tried to learn what all of them take.
+const SAMPLE: usize = 4;
+
+/// Runs the loops by `run` and some of `count` specimens, to learn what all of that takes.
+fn sample(
+    pool: &ThreadPool,
+    count: NonZeroUsize,
+    run: impl FnOnce() -> Result<(LoopScene, Subject, Vec<LoopReport>), Failure>,
+    interrupt: &Interrupt,
+) -> Result<budget::Sample, Failure> {
+    let start = Instant::now();
+    let (desk, _, reports) = run()?;
+    let loops = start.elapsed();
+    let _trying = Progress::uncounted(super::TRYING);
+    let some = count.get().min(SAMPLE * pool.current_num_threads());
+    let start = Instant::now();
+    for &index in &desk.pairs {
+        specimens(pool, &desk, index, some, interrupt, || ())?;
+    }
+    let each = start.elapsed().as_secs_f64() / some as f64;
+    let errors = reports.iter().filter_map(|report| Some(report.summary.error?.estimate.relative(report.summary.peak_rotation)));
+    let error = errors.fold(0.0, f64::max);
+    Ok(budget::Sample { seconds: loops.as_secs_f64() + count.get() as f64 * each, error, of: "the loop itself" })
+}
+
 /// Runs `count` specimens of the sensors, puts quantiles into the reports, and returns the table of all.
 fn monte_carlo(
-    arguments: &LoopArguments,
+    pool: &ThreadPool,
     desk: &LoopScene,
     reports: &mut [LoopReport],
     count: NonZeroUsize,
     interrupt: &Interrupt,
 ) -> Result<String, Failure> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
     let pairs = &desk.pairs;
     let progress = Progress::new("specimens");
     progress.begin((count.get() * pairs.len()) as u64);
     let mut table = String::from("device,seed,outcome,peak_rotation,wrong_share,switches,chatter,faults\n");
-    let alpha = desk.scene.block.slenderness();
     for (report, &index) in reports.iter_mut().zip(pairs) {
-        let runs: Vec<_> = pool.install(|| {
-            (0..count.get() as u64)
-                .into_par_iter()
-                .map(|specimen| {
-                    let seed = desk.controller.sensors.seed().wrapping_add(specimen);
-                    let mut extremes = Extremes::default();
-                    let ending = desk.task(index, seed, interrupt).run(&mut extremes, &mut ());
-                    progress.step();
-                    ending.map(|ending| {
-                        (
-                            seed,
-                            crate::outcome::Outcome::of(&ending.motion, &extremes.peaks),
-                            extremes.peaks.rotation / alpha,
-                            ending,
-                        )
-                    })
-                })
-                .collect()
-        });
+        let runs = specimens(pool, desk, index, count.get(), interrupt, || progress.step())?;
         let (mut peaks, mut overturned) = (Vec::new(), 0);
-        for run in runs {
-            let (seed, outcome, peak, ending) =
-                run.map_err(|failure| Failure::Loop { device: report.summary.device.clone(), failure })?;
+        for Specimen { seed, outcome, peak, ending } in runs {
             if outcome.overturned() {
                 overturned += 1;
             } else {

@@ -39,10 +39,10 @@ use crate::simulation::RunError;
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag cloud scenes/cloud.toml --records records/\n  \
     sprag cloud study.toml --records near_fault/*.AT2 --out out/near_fault\n\n\
-    Runs every structure of the study under every record, scaled as it says, with every device. Writes the tables runs, demand,\n\
-    fragility and ranking as .csv and .parquet, the last three as .md too, the pictures demand and fragility as .svg and .png,\n\
-    and summary.json. A record that cannot be read and a run that fails are named, the others are still done, and the exit\n\
-    code is 2. Runs go to the disk as they are made, runs.run.json says what they come from, and Ctrl-C leaves them there for\n\
+    Runs every structure of the study under every record, scaled as it says, with every device. Writes the tables runs, demand, \
+    fragility and ranking as .csv and .parquet, the last three as .md too, the pictures demand and fragility as .svg and .png, \
+    and summary.json. A record that cannot be read and a run that fails are named, the others are still done, and the exit \
+    code is 2. Runs go to the disk as they are made, runs.run.json says what they come from, and Ctrl-C leaves them there for \
     --resume.")]
 pub struct CloudArguments {
     /// The study.
@@ -52,7 +52,7 @@ pub struct CloudArguments {
     #[command(flatten)]
     pub folder: FolderArguments,
     /// Threads; all cores by default. The result does not depend on it.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = super::threads)]
     pub threads: Option<u16>,
     /// What is written.
     #[command(flatten)]

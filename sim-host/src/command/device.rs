@@ -29,7 +29,7 @@ use crate::output::{OutputError, Results, claim_file, is_standard_output};
     sprag device parameters --port /dev/ttyUSB0 --set law=passive --store\n  \
     sprag device log --port /dev/ttyUSB0 --csv events.csv\n  \
     sprag device watch --port /dev/ttyUSB0\n\n\
-    With --qemu a new device is started for each command, so nothing is left of what was told to the one before; and since it has no\n\
+    With --qemu a new device is started for each command, so nothing is left of what was told to the one before; and since it has no \
     sensors of its own it stays in Boot and then goes into Fault.")]
 pub struct DeviceArguments {
     #[command(subcommand)]
@@ -39,18 +39,27 @@ pub struct DeviceArguments {
 #[derive(Subcommand, Clone, Debug)]
 enum DeviceCommand {
     /// Show who the device is and how it is.
+    #[command(after_help = "Examples:\n  sprag device info --port /dev/ttyUSB0\n  sprag device info --qemu")]
     Info(InfoArguments),
     /// Show, change, save and restore its parameters.
     Parameters(ParameterArguments),
     /// Make it test its clutches and calibrate its sensors again, and wait for the outcome; it must be Armed.
+    #[command(after_help = "Example:\n  sprag device self-test --port /dev/ttyUSB0")]
     SelfTest(InfoArguments),
     /// Show its event log.
+    #[command(
+        after_help = "Examples:\n  sprag device log --port /dev/ttyUSB0\n  sprag device log --port /dev/ttyUSB0 --csv events.csv"
+    )]
     Log(LogArguments),
     /// Make it leave Fault, once what was wrong has been seen to; it must be at rest.
+    #[command(after_help = "Example:\n  sprag device clear --port /dev/ttyUSB0")]
     Clear(InfoArguments),
     /// Plot rotation, velocity and commands as they come; CSV lines where the output is not a terminal. Ends with Ctrl-C.
     ///
     /// The emulated device has no sensors of its own: with --qemu there is a device in Boot and then in Fault to be seen.
+    #[command(
+        after_help = "Examples:\n  sprag device watch --port /dev/ttyUSB0\n  sprag device watch --port /dev/ttyUSB0 --seconds 60 > motion.csv"
+    )]
     Watch(WatchArguments),
 }
 
@@ -66,7 +75,7 @@ struct InfoArguments {
     sprag device parameters --port /dev/ttyUSB0 --scene scenes/controller.toml --set law=sign-table --store\n  \
     sprag device parameters --port /dev/ttyUSB0 --out pier.toml\n  \
     sprag device parameters --port /dev/ttyUSB0 --file pier.toml --store\n\n\
-    Changes are checked as a whole before any is sent: first those of --scene, then those of --file, then those of --set. The device\n\
+    Changes are checked as a whole before any is sent: first those of --scene, then those of --file, then those of --set. The device \
     takes them while nothing moves, and starts its controller anew. A scene says nothing of how the board is wired: board.* stays.")]
 struct ParameterArguments {
     #[command(flatten)]

@@ -36,14 +36,9 @@ pub fn run(arguments: &ExplainArguments, out: &mut impl Write, err: &mut impl Wr
         }
     };
     warned(scene.warnings(), err);
-    match write_scene(&scene, out) {
-        // A reader that stops early, such as `head`, has what it wanted.
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            let _ = writeln!(err, "sprag: the output cannot be written: {error}");
-            BAD_INPUT
-        }
-        _ => 0,
-    }
+    // What keeps it from being written is reported where standard output is.
+    let _ = write_scene(&scene, out);
+    0
 }
 
 fn write_scene(scene: &Scene, out: &mut impl Write) -> io::Result<()> {

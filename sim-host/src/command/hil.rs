@@ -39,8 +39,8 @@ use crate::simulation::ErrorReport;
 #[command(after_help = "Examples:\n  sprag hil scenes/controller.toml --qemu\n  \
     sprag hil scenes/controller.toml --qemu --log info --set controller.law=sign-table\n  \
     sprag hil scenes/controller.toml --port /dev/ttyUSB0\n\n\
-    --qemu builds the firmware and starts the emulator itself. The device gets its settings from the scene. Writes what `sprag loop`\n\
-    writes, the host's own loop as the dashed line, and device.csv with every tick of the device.")]
+    --qemu builds the firmware and starts the emulator itself. The device gets its settings from the scene. Writes what `sprag loop` \
+    writes, the host's own loop as the thick line (the dashed one is the ideal pair), and device.csv with every tick of the device.")]
 pub struct HilArguments {
     /// Scene file with a clutched pair and a controller table.
     #[arg(value_name = "SCENE.toml")]

@@ -1,7 +1,6 @@
 //! `sprag loop-study`: the studies of the controller, made again.
 
 use std::io::Write;
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
@@ -66,8 +65,8 @@ pub struct LoopStudyArguments {
     #[command(flatten)]
     pub replace: OverwriteArguments,
     /// Threads; all processors by default. Results do not depend on it.
-    #[arg(long, value_name = "N")]
-    pub threads: Option<NonZeroUsize>,
+    #[arg(long, value_name = "N", value_parser = super::threads)]
+    pub threads: Option<u16>,
     /// How accurate.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,

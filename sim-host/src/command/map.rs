@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::io::Write;
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -64,11 +63,12 @@ pub struct MapArguments {
     /// Leave out the axis up: a cut along x.
     #[arg(long, conflicts_with = "y")]
     pub cut: bool,
-    /// Trace the boundaries between outcomes to a relative 1e-6 of the axes' values: boundaries.csv and boundaries.svg.
+    /// Trace the boundaries between outcomes to a relative 1e-6 of the axes' values: boundaries.csv and boundaries.svg. Takes many times as
+    /// long as the map, a minute and more for 512 x 512 cells.
     #[arg(long)]
     pub refine: bool,
     /// Most blocks that --refine follows for one device; what that leaves coarser is told.
-    #[arg(long, value_name = "N", requires = "refine", default_value_t = EVALUATIONS)]
+    #[arg(long, value_name = "N", requires = "refine", default_value_t = EVALUATIONS, value_parser = evaluations)]
     pub evaluations: usize,
     /// Records.
     #[command(flatten)]
@@ -77,14 +77,18 @@ pub struct MapArguments {
     #[command(flatten)]
     pub folder: FolderArguments,
     /// Threads; as many as the machine has by default.
-    #[arg(long, value_name = "N")]
-    pub threads: Option<NonZeroUsize>,
+    #[arg(long, value_name = "N", value_parser = super::threads)]
+    pub threads: Option<u16>,
     /// What is written.
     #[command(flatten)]
     pub formats: FormatArguments,
     /// Which of the cells, and whether some are there.
     #[command(flatten)]
     pub long_run: LongRunArguments,
+}
+
+fn evaluations(text: &str) -> Result<usize, String> {
+    super::whole_number(text, 0, u32::MAX.into()).map(|evaluations| evaluations as usize)
 }
 
 #[derive(Debug, thiserror::Error)]

@@ -31,6 +31,7 @@ pub mod similar;
 pub mod simulate;
 pub mod study_input;
 pub mod synthesize;
+pub mod wrong_line;
 
 use std::fmt::Display;
 use std::io::Write;
@@ -41,8 +42,22 @@ use crate::interrupt::Interrupt;
 /// Exit code for bad input, and for output that cannot be written.
 pub const BAD_INPUT: i32 = 2;
 
+/// A whole number from `low` to `high`, as an option has it.
+fn whole_number(text: &str, low: u64, high: u64) -> Result<u64, String> {
+    let number = text.parse().ok().filter(|number| (low..=high).contains(number));
+    number.ok_or_else(|| format!("must be a whole number from {low} to {high}"))
+}
+
+/// A number of threads.
+fn threads(text: &str) -> Result<u16, String> {
+    whole_number(text, 1, 1024).map(|threads| threads as u16)
+}
+
 /// What is shown while results are made from finished runs.
 const DRAWING: &str = "drawing and writing results";
+
+/// What is shown while a time budget is planned.
+const TRYING: &str = "trying what the time affords";
 
 /// How an interrupted command goes on from the `rows` in `place`.
 fn resumable(rows: &str, place: &Path) -> String {

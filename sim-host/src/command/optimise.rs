@@ -40,10 +40,10 @@ use crate::simulation::RunError;
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag optimise scenes/optimise.toml --records records/\n  \
     sprag optimise study.toml --records near_fault/*.AT2 --set block.size_m=3 --out out/pier\n\n\
-    Tries devices on a grid of mass ratios, for every law and mount of the study's [optimise] table, under every record, scaled\n\
-    as the study says; then more where a limit is reached and around the best. Writes the tables designs and motions as .csv and\n\
-    .parquet, the picture trade_off as .svg and .png, optimise.md and summary.json. Runs go to the disk as they are made, and Ctrl-C leaves\n\
-    them there for --resume. The exit code is 2 when no device respects the limits, and when a record cannot be read or\n\
+    Tries devices on a grid of mass ratios, for every law and mount of the study's [optimise] table, under every record, scaled \
+    as the study says; then more where a limit is reached and around the best. Writes the tables designs and motions as .csv and \
+    .parquet, the picture trade_off as .svg and .png, optimise.md and summary.json. Runs go to the disk as they are made, and Ctrl-C leaves \
+    them there for --resume. The exit code is 2 when no device respects the limits, and when a record cannot be read or \
     a run fails; results are written all the same.")]
 pub struct OptimiseArguments {
     /// The study.
@@ -53,7 +53,7 @@ pub struct OptimiseArguments {
     #[command(flatten)]
     pub folder: FolderArguments,
     /// Threads; all cores by default. The result does not depend on it.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = super::threads)]
     pub threads: Option<u16>,
     /// What is written.
     #[command(flatten)]

@@ -7,6 +7,7 @@ use clap::Args;
 use serde::Serialize;
 use sprag_shared::math;
 
+use super::BAD_INPUT;
 use super::record_arguments::ReadArguments;
 use crate::progress::Progress;
 use crate::record::intensity::uniform_duration_s;
@@ -93,21 +94,9 @@ pub fn run(arguments: &RecordArguments, out: &mut impl Write, err: &mut impl Wri
         .inspect(|_| progress.step())
         .collect();
     progress.finish();
-    let written = if arguments.json { write_json(&entries, out) } else { write_text(&entries, out, err) };
-    match written {
-        // A reader that stops early, such as `head`, has what it wanted.
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            let _ = writeln!(err, "error: the output cannot be written: {error}");
-            2
-        }
-        _ => {
-            if entries.iter().any(|entry| matches!(entry, Entry::Failure { .. })) {
-                2
-            } else {
-                0
-            }
-        }
-    }
+    // What keeps it from being written is reported where standard output is.
+    let _ = if arguments.json { write_json(&entries, out) } else { write_text(&entries, out, err) };
+    if entries.iter().any(|entry| matches!(entry, Entry::Failure { .. })) { BAD_INPUT } else { 0 }
 }
 
 fn write_json(entries: &[Entry], out: &mut impl Write) -> io::Result<()> {
@@ -138,28 +127,28 @@ fn write_text(entries: &[Entry], out: &mut impl Write, err: &mut impl Write) -> 
         row.extend(description.t_uni_s.map(|seconds| format!("{seconds:.3}")));
         table.push(row);
     }
+    let mut written = Ok(());
     if !described.is_empty() {
         let columns = table[0].len();
         let widths: Vec<usize> =
             (0..columns).map(|column| table.iter().map(|row| row[column].chars().count()).max().unwrap_or(0)).collect();
-        for row in &table {
+        written = table.iter().try_for_each(|row| {
             let (name, numbers) = row.split_at(1);
             let numbers: String = numbers.iter().zip(&widths[1..]).map(|(cell, width)| format!("  {cell:>width$}")).collect();
-            writeln!(out, "{:<width$}{numbers}", name[0], width = widths[0])?;
-        }
+            writeln!(out, "{:<width$}{numbers}", name[0], width = widths[0])
+        });
     }
     for description in &described {
         for warning in &description.read.warnings {
-            writeln!(out, "warning: {}: {warning}", description.read.file)?;
+            let _ = writeln!(err, "sprag: warning: {}: {warning}", description.read.file);
         }
     }
-    out.flush()?;
     for entry in entries {
         if let Entry::Failure { error, .. } = entry {
-            let _ = writeln!(err, "error: {error}");
+            let _ = writeln!(err, "sprag: {error}");
         }
     }
-    Ok(())
+    written
 }
 
 #[cfg(test)]
@@ -214,10 +203,11 @@ mod tests {
     fn text_is_aligned_and_errors_go_to_the_error_stream() {
         let (_folder, good, bad) = folder();
         let (status, out, err) = run_line(&[&good, &bad, &good]);
-        let rows: Vec<&str> = out.lines().filter(|line| !line.starts_with("warning")).collect();
-        assert_eq!((status, rows.len(), err.lines().count()), (2, 3, 1));
+        let rows: Vec<&str> = out.lines().collect();
+        let errors: Vec<&str> = err.lines().filter(|line| !line.starts_with("sprag: warning: ")).collect();
+        assert_eq!((status, rows.len(), errors.len()), (2, 3, 1));
         assert!(rows.iter().all(|row| row.chars().count() == rows[0].chars().count()), "{out}");
-        assert!(err.starts_with(&format!("error: {bad}: line 3")), "{err}");
+        assert!(errors[0].starts_with(&format!("sprag: {bad}: line 3")), "{err}");
     }
 
     #[test]

@@ -32,8 +32,8 @@ use crate::simulation::RunError;
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag sensitivity scenes/near_fault.toml\n  \
     sprag sensitivity scenes/near_fault.toml --records records/*.AT2 --out out/sensitivity\n\n\
-    Runs every device under the scene's ground motion and under each record in its place, as it is and with each variant.\n\
-    Writes sensitivity.csv, sensitivity.md, sensitivity.svg (with --png sensitivity.png) and summary.json. A record that cannot be read and a run that\n\
+    Runs every device under the scene's ground motion and under each record in its place, as it is and with each variant. \
+    Writes sensitivity.csv, sensitivity.md, sensitivity.svg (with --png sensitivity.png) and summary.json. A record that cannot be read and a run that \
     fails are named, the others are still done, and the exit code is 2.")]
 pub struct SensitivityArguments {
     /// Scene file.
@@ -56,7 +56,7 @@ pub struct SensitivityArguments {
     #[command(flatten)]
     pub folder: FolderArguments,
     /// Threads; all cores by default. The result does not depend on it.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = super::threads)]
     pub threads: Option<u16>,
     /// Pictures.
     #[command(flatten)]

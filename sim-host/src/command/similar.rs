@@ -29,7 +29,7 @@ use crate::simulation::{DeviceRun, RunError, simulate};
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag similar scenes/figure06.toml --with block.size_m=5,block.slenderness_deg=5\n  \
     sprag similar scenes/figure07.toml --with block.size_m=5,block.slenderness_deg=20 --with block.size_m=2,block.slenderness_deg=15\n\n\
-    Writes summary.json, similar.csv and similar.svg, with --png similar.png too. Groups that are not equal are named: amplitudes and frequencies\n\
+    Writes summary.json, similar.csv and similar.svg, with --png similar.png too. Groups that are not equal are named: amplitudes and frequencies \
     should be ratios (amplitude_ratio, frequency_ratio).")]
 pub struct SimilarArguments {
     /// Scene file: the first block.

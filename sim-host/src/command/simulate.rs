@@ -31,7 +31,7 @@ use crate::summary_table::{SummaryRow, summary_table};
 #[command(after_help = "Examples:\n  sprag simulate scenes/near_fault.toml\n  \
     sprag simulate scenes/record.toml --record RSN181_IMPVALL.H_H-E06230.AT2 --out out/imperial\n  \
     sprag simulate scenes/figure10.toml --set accuracy.method=runge-kutta-4 --set accuracy.step_ratio=1e-3\n\n\
-    Writes summary.json, history.csv and history.svg; with output.energy also energy.csv and energy.svg; with --png the pictures\n\
+    Writes summary.json, history.csv and history.svg; with output.energy also energy.csv and energy.svg; with --png the pictures \
     as .png too.")]
 pub struct SimulateArguments {
     /// Scene file.

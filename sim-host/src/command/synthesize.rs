@@ -86,7 +86,7 @@ pub fn run(arguments: &SynthesizeArguments, out: &mut impl Write, err: &mut impl
             0
         }
         Err(message) => {
-            let _ = writeln!(err, "error: {message}");
+            let _ = writeln!(err, "sprag: {message}");
             2
         }
     }
@@ -154,6 +154,6 @@ mod tests {
             assert!(err.contains(path.to_str().unwrap()) && err.contains("cannot be written"), "{err}");
         }
         let (status, _, err) = run_line(&["--out", folder.path().join("a.csv").to_str().unwrap(), "--rate", "10"]);
-        assert_eq!((status, err.as_str()), (2, "error: --rate 10: allowed are 50 to 1000\n"));
+        assert_eq!((status, err.as_str()), (2, "sprag: --rate 10: allowed are 50 to 1000\n"));
     }
 }

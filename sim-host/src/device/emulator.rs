@@ -89,8 +89,8 @@ impl Emulator {
     /// Why it has gone, as far as it says.
     fn gone(&mut self) -> DeviceError {
         let said = self.errors.recv_timeout(Duration::from_millis(200)).unwrap_or_default();
-        let said = said.trim().replace('\n', "; ");
-        DeviceError::Gone(if said.is_empty() { String::new() } else { format!(": {said}") })
+        // What follows the first line is the state of the emulated processor.
+        DeviceError::Gone(said.trim().lines().next().map_or_else(String::new, |line| format!(": {line}")))
     }
 
     /// The next bytes, or none within `patience`.

@@ -1,5 +1,7 @@
 //! Building the firmware for the emulator.
 
+use std::fs::File;
+use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -9,6 +11,35 @@ use super::line::DeviceError;
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../firmware")
 }
+
+/// Whether `path` can be an image for the emulator: an ELF file for ARM.
+///
+/// # Errors
+/// [`DeviceError::Image`] where it is not.
+pub fn check(path: &Path) -> Result<(), DeviceError> {
+    let failed = |reason: String| DeviceError::Image { path: path.to_owned(), reason };
+    if !path.is_file() {
+        return Err(failed("there is no such file".to_owned()));
+    }
+    let mut header = [0; 20];
+    let read = File::open(path).and_then(|mut file| file.read_exact(&mut header));
+    if let Err(error) = read
+        && error.kind() != ErrorKind::UnexpectedEof
+    {
+        return Err(failed(error.to_string()));
+    }
+    if header.starts_with(ELF_32_LITTLE_ENDIAN) && header[MACHINE..] == ARM {
+        Ok(())
+    } else {
+        Err(failed("is not a firmware for the emulator: it must be an ELF file for ARM".to_owned()))
+    }
+}
+
+/// How an ELF file of 32 bits begins, least significant byte first.
+const ELF_32_LITTLE_ENDIAN: &[u8] = b"\x7fELF\x01\x01";
+/// Where it has the machine that it is for, and what that is for ARM.
+const MACHINE: usize = 18;
+const ARM: [u8; 2] = [40, 0];
 
 /// Builds the firmware for the emulator, with logs from `log` (`trace`, `debug`, `info`, `warn`, `error`) on if there is one, and gives the
 /// path of its ELF file. Cargo's own progress goes to the standard error stream.

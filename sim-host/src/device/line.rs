@@ -1,5 +1,6 @@
 //! Bytes to and from a device.
 
+use std::path::PathBuf;
 use std::time::Duration;
 
 use sprag_shared::link::{FrameError, Pace, Refusal};
@@ -13,6 +14,14 @@ pub enum DeviceError {
     /// It could not be started.
     #[error("the emulator cannot be started: {0}")]
     Emulator(String),
+    /// It cannot be run in the emulator.
+    #[error("{}: {reason}", path.display())]
+    Image {
+        /// Its file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
     /// There is no such port.
     #[error("port {port}: {reason}")]
     Port {

@@ -24,13 +24,19 @@ impl Serial {
     /// [`DeviceError::Port`].
     pub fn open(name: &str) -> Result<Serial, DeviceError> {
         let port = serialport::new(name, BAUD).open();
-        let port = port.map_err(|error| DeviceError::Port { port: name.to_owned(), reason: error.to_string() })?;
+        let port = port.map_err(|error| DeviceError::Port { port: name.to_owned(), reason: plain(&error) })?;
         Ok(Serial { port, name: name.to_owned() })
     }
 
     fn failed(&self, reason: &dyn std::fmt::Display) -> DeviceError {
         DeviceError::Port { port: self.name.clone(), reason: reason.to_string() }
     }
+}
+
+/// Why a port cannot be opened; systems speak of typewriters and ioctls where a file is no port.
+fn plain(error: &serialport::Error) -> String {
+    let text = error.to_string();
+    if ["typewriter", "ioctl"].iter().any(|word| text.contains(word)) { "is not a serial port".to_owned() } else { text }
 }
 
 impl Line for Serial {

@@ -155,3 +155,37 @@ fn the_study_writes_its_tables_and_pictures() {
     assert_eq!(beyond.status.code(), Some(2));
     assert!(said(&beyond).contains("device.2"), "{}", said(&beyond));
 }
+
+#[test]
+fn a_time_budget_counts_all_specimens_and_is_not_said_to_suffice_where_it_does_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let controller = scene("controller");
+    let specimens = ["loop", &controller, "--monte-carlo", "1000000000", "--time-budget", "1", "--out", out.to_str().unwrap()];
+    let refused = sprag(&specimens);
+    let line = said(&refused);
+    assert_eq!(refused.status.code(), Some(2), "{line}");
+    assert!(
+        line.contains("--time-budget: the work with its error estimates takes some") && line.matches('\n').count() == 1,
+        "{line}"
+    );
+    // The same with time enough says what it is going to do, and does it.
+    let few = [
+        "loop",
+        &controller,
+        "--monte-carlo",
+        "2",
+        "--time-budget",
+        "3600",
+        "--accuracy",
+        "fast",
+        "--out",
+        out.to_str().unwrap(),
+    ];
+    let done = sprag(&few);
+    assert!(done.status.success() && said(&done).contains("--accuracy fast affords"), "{}", said(&done));
+    let scene = scene("near_fault");
+    let late = sprag(&["simulate", &scene, "--time-budget", "0.001", "--out", out.to_str().unwrap()]);
+    let line = said(&late);
+    assert!(late.status.success() && line.contains("--time-budget 0.001 does not suffice for --accuracy fast"), "{line}");
+}

@@ -12,6 +12,7 @@ mod runs;
 mod studies;
 #[cfg(unix)]
 mod terminal;
+mod usage;
 
 use std::fs;
 use std::path::{Path, PathBuf};
