@@ -96,7 +96,7 @@ fn a_killed_run_goes_on() {
 #[test]
 fn control_c_leaves_what_is_finished() {
     let (_root, folder, _) = folders();
-    let large = ["--set", "map.x.cells=3000", "--set", "map.y.cells=3000"];
+    let large = ["--set", "map.x.cells=3000", "--set", "map.y.cells=3000", "--set", "ground.0.motion=\"half-sine\""];
     let process = map(&folder, &large).stderr(Stdio::piped()).spawn().unwrap();
     begun(&folder);
     let sent = Command::new("kill").args(["-INT", &process.id().to_string()]).status().unwrap();
