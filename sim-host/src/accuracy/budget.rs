@@ -119,7 +119,8 @@ impl std::fmt::Display for Plan {
 pub enum TooLittleTime {
     /// Not even at the least accuracy.
     #[error(
-        "--time-budget: the work with its error estimates takes some {seconds:.2} s at the least accuracy, more than the {budget} s given"
+        "--time-budget: the work with its error estimates takes some {seconds:.2} s at the least accuracy, more than the {budget} s given; \
+         without --time-budget and --accuracy it takes less, and no errors are estimated"
     )]
     ForAnything {
         /// What it takes, s.
