@@ -185,7 +185,8 @@ fn a_time_budget_counts_all_specimens_and_is_not_said_to_suffice_where_it_does_n
     let done = sprag(&few);
     assert!(done.status.success() && said(&done).contains("--accuracy fast affords"), "{}", said(&done));
     let scene = scene("near_fault");
-    let late = sprag(&["simulate", &scene, "--time-budget", "0.001", "--out", out.to_str().unwrap()]);
+    let other = folder.path().join("other");
+    let late = sprag(&["simulate", &scene, "--time-budget", "0.001", "--out", other.to_str().unwrap()]);
     let line = said(&late);
     assert!(late.status.success() && line.contains("--time-budget 0.001 does not suffice for --accuracy fast"), "{line}");
 }

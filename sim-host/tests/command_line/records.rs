@@ -176,7 +176,8 @@ fn a_summary_names_records_as_the_user_did_wherever_it_was_made() {
     folder.file("up.csv", &pulse(0.05));
     let run = |line: &[&str]| {
         let program = env!("CARGO_BIN_EXE_sprag");
-        let output = Command::new(program).current_dir(folder.0.path()).args(line).args(["--out", "out"]).output().unwrap();
+        let place = ["--overwrite", "--out", "out"];
+        let output = Command::new(program).current_dir(folder.0.path()).args(line).args(place).output().unwrap();
         assert!(output.status.success(), "{line:?}: {}", said(&output));
         fs::read_to_string(folder.path("out/summary.json")).unwrap()
     };

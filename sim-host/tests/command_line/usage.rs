@@ -24,7 +24,7 @@ fn a_wrong_command_line_costs_one_line_and_points_to_the_help() {
         (&["map"] as &[&str], &["<SCENE.toml>", "see sprag map --help"] as &[&str]),
         (&["mapp"], &["'mapp'", "'map'", "see sprag --help"]),
         (&["batch", "c.csv", "--outt", "x.csv"], &["'--outt'", "'--out'", "see sprag batch --help"]),
-        (&["loop", &figure, "--dt", "1"], &["'--dt'", "see sprag loop --help"]),
+        (&["loop", &figure, "--rate", "1"], &["'--rate'", "see sprag loop --help"]),
         (&["device", "log", "--qemu", "--port", "x"], &["'--qemu'", "'--port <DEV>'", "see sprag device log --help"]),
         (&["hil", &figure, "--qemu", "--way", "air"], &["'air'", "streams, usart"]),
         (&["hil", &figure], &["--port <DEV>", "--qemu"]),
