@@ -39,6 +39,7 @@ struct Place {
     threshold: f64,
     impacts: u32,
     first_impact: Option<f64>,
+    first_counted_impact: Option<f64>,
     /// It rests, or has overturned, since then.
     ended: Option<f64>,
 }
@@ -134,7 +135,15 @@ impl<'a, 'b> Lanes<'a, 'b> {
             self.bounds.tolerance.0[lane] = TOLERANCE * alpha;
             self.lines.step.0[lane] = block.step();
             self.lines.rate.0[lane] = 1.0 / block.step();
-            self.at[lane] = Some(Place { index, sample: 0, threshold, impacts: 0, first_impact: None, ended: None });
+            self.at[lane] = Some(Place {
+                index,
+                sample: 0,
+                threshold,
+                impacts: 0,
+                first_impact: None,
+                first_counted_impact: None,
+                ended: None,
+            });
             self.blocks.renew(lane);
             self.uplift::<M>(lane, first);
             return;
@@ -179,7 +188,12 @@ impl<'a, 'b> Lanes<'a, 'b> {
             if first.at(lane) {
                 place.first_impact = Some(self.seconds(&place, self.lines.time.0[lane]));
             }
-            place.impacts += u32::from(counted.at(lane));
+            if counted.at(lane) {
+                place.impacts += 1;
+                if place.first_counted_impact.is_none() {
+                    place.first_counted_impact = Some(self.seconds(&place, self.lines.time.0[lane]));
+                }
+            }
             self.at[lane] = Some(place);
             if weak.at(lane) {
                 match self.weak_impact::<M, C>(lane, place) {
@@ -252,6 +266,7 @@ impl<'a, 'b> Lanes<'a, 'b> {
                 acceleration: self.blocks.peak_acceleration.0[lane] * p * p,
                 rocked: true,
                 first_impact: place.first_impact,
+                first_counted_impact: place.first_counted_impact,
                 ended: place.ended,
                 origin: 0.0,
             },

@@ -133,11 +133,12 @@ fn check(run: &DeviceRun, end: f64, text: &str) {
         run.end_time_s
     );
     assert_eq!(run.peak_rotation.is_none(), run.outcome.overturned(), "{text}");
+    assert_eq!(run.impacts > 0, run.first_impact_time_s.is_some(), "{text}");
     match run.outcome {
         Outcome::NoRocking => assert_eq!((run.impacts, run.peak_rotation), (0, Some(0.0)), "{text}"),
-        Outcome::OverturnedWithoutImpact => assert_eq!((run.impacts, run.first_impact_time_s), (0, None), "{text}"),
-        Outcome::OverturnedAfterImpact => assert!(run.first_impact_time_s.is_some(), "{text}"),
-        Outcome::Safe => assert!(run.impacts == 0 || run.first_impact_time_s.is_some(), "{text}"),
+        Outcome::OverturnedWithoutImpact => assert_eq!(run.impacts, 0, "{text}"),
+        // An impact too weak to count is one, too.
+        Outcome::OverturnedAfterImpact | Outcome::Safe => {}
     }
     if let Some(energy) = &run.energy {
         assert!(energy.entries.residual.is_finite(), "{:?}\n{text}", energy.entries);

@@ -8,6 +8,9 @@
 //! with a horizontal device, where F/(mg) is the force at the rack and n the pulley's ratio; a vertical device pulls the
 //! raised corner down by n F, which adds s n F to V instead. Slender: sin δ → δ, cos δ → 1. The model does not slide while
 //! |H|/V stays below the friction that there is, and keeps its toe on the ground while V > 0.
+//!
+//! A block that overturns is watched up to its fall: to where it passes |θ| = α without coming back. What it asks for while it falls
+//! says nothing of the device, and grows without bound.
 
 mod report;
 
@@ -31,7 +34,7 @@ const LOOKS: usize = 10;
 const SEARCH_STEPS: u32 = 32;
 
 /// Watches reactions, forces and travel. Its [`Report`] holds extremes while the block rocks; a block that stands asks for
-/// a friction of |ü_g/g|/(1 + v̈_g/g), which is below tan α.
+/// a friction of |ü_g/g|/(1 + v̈_g/g), which is below tan α; one that has overturned counts up to its fall.
 #[derive(Clone, Copy, Debug)]
 pub struct Checks<S> {
     /// Time of the present piece's start from the origin, s; the caller sets it.
@@ -54,6 +57,8 @@ pub struct Checks<S> {
     rack_mass_ratio: S,
     last: Option<Snapshot<S>>,
     impact: Option<Impact<S>>,
+    /// What was found up to where |θ| last passed α; none below it.
+    before_fall: Option<Report<S>>,
 }
 
 /// An impact whose flywheels are not known yet.
@@ -103,6 +108,7 @@ impl<S: Real> Checks<S> {
             rack_mass_ratio: S::of(account.rack_mass_ratio),
             last: None,
             impact: None,
+            before_fall: None,
         })
     }
 
@@ -168,8 +174,24 @@ impl<S: Real> Checks<S> {
     }
 }
 
-impl<S: Real> DeviceObserver<S> for Checks<S> {
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+impl<S: Real> Checks<S> {
+    /// Notes what was found up to where |θ| passes α, in case the block never comes back. `found` is what was found up to the stretch.
+    fn note_fall(&mut self, found: Checks<S>, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        let beyond = |rotation: S| stretch.side.times(rotation) - self.slenderness;
+        let (first, last) = (beyond(stretch.first.rotation), beyond(stretch.last.rotation));
+        if last <= S::ZERO {
+            self.before_fall = None;
+        } else if first >= S::ZERO {
+            self.before_fall.get_or_insert(found.report());
+        } else {
+            let passes = locate_by_value(stretch.from, stretch.to, Sign::Negative, |t| beyond(arc.snapshot(t).motion.rotation));
+            let mut up_to_it = found;
+            up_to_it.watch(arc, &Stretch { to: passes, last: arc.snapshot(passes).motion, ..*stretch });
+            self.before_fall = Some(up_to_it.report);
+        }
+    }
+
+    fn watch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
         let side = stretch.side;
         let start = self.origin + stretch.start;
         let step = (stretch.to - stretch.from) / S::of(LOOKS as f64 - 1.0);
@@ -223,6 +245,14 @@ impl<S: Real> DeviceObserver<S> for Checks<S> {
         }
         self.last = Some(arc.snapshot(stretch.to));
     }
+}
+
+impl<S: Real> DeviceObserver<S> for Checks<S> {
+    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        let found = *self;
+        self.watch(arc, stretch);
+        self.note_fall(found, arc, stretch);
+    }
 
     fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
         match (event, self.last) {
@@ -231,6 +261,7 @@ impl<S: Real> DeviceObserver<S> for Checks<S> {
                 self.impact = Some(Impact { time: self.origin + time, before, velocity: state.velocity });
             }
             (Event::Rest, _) => self.settle_impact(None),
+            (Event::Overturned, _) => self.report = self.before_fall.unwrap_or(self.report),
             _ => {}
         }
     }

@@ -125,8 +125,10 @@ pub struct Peaks<S> {
     pub acceleration: S,
     /// The block has uplifted.
     pub rocked: bool,
-    /// Time of the first impact, s from the origin.
+    /// Time of the first impact however weak, s from the origin: whether the block has hit the ground at all.
     pub first_impact: Option<S>,
+    /// Time of the first of the impacts that are counted ([`State::impacts`]), s from the origin.
+    pub first_counted_impact: Option<S>,
     /// Time at which the block came to rest or overturned, s from the origin.
     pub ended: Option<S>,
     /// Time of the present piece's start from the origin, s; the caller sets it.
@@ -152,13 +154,19 @@ impl<S: Real> Observer<S> for Peaks<S> {
     }
 
     #[inline]
-    fn event(&mut self, event: Event, time: S, _state: &State<S>) {
+    fn event(&mut self, event: Event, time: S, state: &State<S>) {
         match event {
             Event::Uplift => {
                 self.rocked = true;
                 self.ended = None;
             }
-            Event::Impact if self.first_impact.is_none() => self.first_impact = Some(self.origin + time),
+            Event::Impact => {
+                let at = Some(self.origin + time);
+                self.first_impact = self.first_impact.or(at);
+                if state.impacts > 0 {
+                    self.first_counted_impact = self.first_counted_impact.or(at);
+                }
+            }
             Event::Rest | Event::Overturned => self.ended = Some(self.origin + time),
             _ => {}
         }

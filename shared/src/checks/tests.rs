@@ -288,10 +288,61 @@ fn contact_is_lost_where_the_block_would_fly() {
     let (_, report) = go(0.999, 3.0);
     assert!(report.contact_lost.is_none() && report.vertical.unwrap().value > 0.8, "{report:?}");
     for energy in [1.1, 1.3] {
-        let (_, report) = go(energy, 3.0);
+        // While it has not overturned, nothing says that this is its fall.
+        let lost = |report: &Report<f64>| report.contact_lost.is_some();
+        let report = (1..300).map(|k| go(energy, 0.01 * f64::from(k)).1).find(lost).unwrap();
         let (there, _) = go(energy, report.contact_lost.unwrap());
         let expected = alpha + math::acos((energy + math::square_root(energy * energy - 1.0)) / 3.0);
         assert!((there - expected).abs() < 1e-9, "{there} {expected}");
         assert!(report.vertical.unwrap().value < 0.0);
     }
+}
+
+/// A pulse throws the block over: its demands are those up to |θ| = α, whatever the fall asks for, with every kind of device.
+#[test]
+fn a_fall_is_not_looked_at() {
+    for geometry in [Geometry::Full, Geometry::Slender] {
+        for kind in KINDS {
+            let structure = structure(12.0, geometry, kind, KinematicsKind::Consistent, Mount::CentreOfMass);
+            let alpha = structure.block.slenderness();
+            let go =
+                |ground: &[(Shake, f64)]| Run { structure: &structure, ground, from: None, observer: checks(&structure) }.go();
+            let whole = pulse(&structure.block, 6.0, 2.0, 20.0);
+            let (state, seen) = go(&whole);
+            assert_eq!(state.phase, crate::rocking::Phase::Overturned, "{geometry:?} {kind:?}");
+            let report = seen.report();
+            assert!(report.contact_lost.is_none() && report.friction.unwrap().value < 10.0, "{report:?}");
+            let stroke = report.stroke().unwrap();
+            let limit = checks(&structure).travel(Sign::of(state.rotation, Sign::Positive), state.side.times(alpha)).abs();
+            assert!((stroke.value - limit).abs() < 1e-9, "{stroke:?} {limit}");
+            // The same motion cut where it passes α found the same.
+            let (cycle, free) = (whole[0].1, stroke.time - whole[0].1);
+            let cut = [(whole[0].0, cycle.min(stroke.time)), (whole[1].0, free.max(0.0))];
+            let (passing, seen) = go(if free > 0.0 { &cut } else { &cut[..1] });
+            assert!((passing.rotation.abs() - alpha).abs() < 1e-9);
+            let near = |a: Option<Extreme<f64>>, b: Option<Extreme<f64>>| match (a, b) {
+                (Some(a), Some(b)) => assert!((a.value - b.value).abs() < 1e-6 * (1.0 + a.value.abs()), "{a:?} {b:?}"),
+                (a, b) => assert_eq!(a, b),
+            };
+            let up_to_it = seen.report();
+            near(report.friction, up_to_it.friction);
+            near(report.vertical, up_to_it.vertical);
+            near(report.force[0], up_to_it.force[0]);
+            near(report.force[1], up_to_it.force[1]);
+        }
+    }
+}
+
+/// Beyond α and back: nothing of a block that stands is left out.
+#[test]
+fn a_block_that_comes_back_from_beyond_its_slenderness_is_looked_at_all_the_way() {
+    let structure = structure(12.0, Geometry::Full, DeviceKind::None, KinematicsKind::Paper, Mount::CentreOfMass);
+    let (alpha, p) = (structure.block.slenderness(), structure.block.frequency_parameter());
+    // Pushed back by a constant ground acceleration until it is well below.
+    let ground = [(Shake::Line(Linear::constant(0.6)), 1.0 / p)];
+    let from = Some((1.05 * alpha, 0.1 * p * alpha));
+    let (state, seen) = Run { structure: &structure, ground: &ground, from, observer: checks(&structure) }.go();
+    assert!(state.phase == crate::rocking::Phase::Rocking && state.rotation.abs() < alpha, "{state:?}");
+    let stroke = seen.report().stroke().unwrap().value;
+    assert!(stroke > checks(&structure).travel(Sign::Positive, 1.05 * alpha), "{stroke}");
 }

@@ -56,7 +56,7 @@ pub struct CaseResult {
     pub peak_acceleration: f64,
     /// Impacts that came in with more than 1e-6 pα.
     pub impacts: u32,
-    /// First impact, if any.
+    /// The first of them, if any.
     pub first_impact_time: Option<f64>,
     /// Rest, the proof of overturning, or the end of the free time.
     pub end_time: f64,
@@ -178,7 +178,7 @@ impl<const N: usize> WithSystem<f64> for Run<'_, N> {
             peak_rotation: peaks.rotation / case.slenderness,
             peak_acceleration: peaks.acceleration / case.slenderness,
             impacts: state.impacts,
-            first_impact_time: peaks.first_impact,
+            first_impact_time: peaks.first_counted_impact,
             end_time: peaks.ended.unwrap_or(if peaks.rocked { duration + case.free_time } else { duration }),
         })
     }

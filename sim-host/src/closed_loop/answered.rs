@@ -45,7 +45,7 @@ impl<T> Comparable for Looped<T> {
             peak_rotation: stands.then_some(peaks.rotation / self.slenderness),
             // Nobody looks for it in a loop.
             peak_acceleration: None,
-            first_impact_time: peaks.first_impact,
+            first_impact_time: peaks.first_counted_impact,
         }
     }
 }

@@ -245,7 +245,9 @@ impl<'a> LoopTask<'a> {
             // A level leaves the method to the program: the one for stiff clutches, where there are any.
             exponential: self.scene.file.accuracy.method == MethodName::ExponentialMidpoint || self.closeness.is_some(),
         };
-        let closed = ClosedLoop { clock, suite: self.suite, seed: self.seed, disturbance, interrupt: self.interrupt };
+        let slenderness = loaded.block.slenderness();
+        let closed =
+            ClosedLoop { clock, suite: self.suite, seed: self.seed, disturbance, slenderness, interrupt: self.interrupt };
         let next = Running { closed, driver, watcher, observer };
         self.drivetrain().resolve(
             &self.scene.structure(self.index),

@@ -67,9 +67,9 @@ pub struct LoopSummary {
     pub decisions: DecisionReport,
     /// Engagements that the clutches missed.
     pub missed_engagements: u32,
-    /// State of the controller at the end.
+    /// State of the controller at the end, or when the fall began.
     pub controller_state: String,
-    /// Faults.
+    /// Faults, but for those of a fall.
     pub faults: Vec<FaultEntry>,
     /// How accurate it is, where that was asked for.
     #[serde(rename = "error_estimate", skip_serializing_if = "Option::is_none")]
@@ -140,7 +140,8 @@ impl fmt::Display for LoopSummary {
             milliseconds(*delay_median_s),
             milliseconds(*delay_95_s)
         )?;
-        writeln!(out, "  controller   {} after {} ticks", self.controller_state, self.ticks)?;
+        let when = if self.outcome.overturned() { "when the fall began" } else { "at the end" };
+        writeln!(out, "  controller   {} {when}; {} ticks in all", self.controller_state, self.ticks)?;
         for fault in &self.faults {
             writeln!(out, "  fault {}     at {:.4} s: {}", fault.code, fault.time_s, fault.fault)?;
         }

@@ -84,9 +84,10 @@ pub struct Ending {
     pub decisions: DecisionReport,
     /// From a change of the law to the clutch's movement, s.
     pub delays: Vec<f64>,
-    /// The controller's last state.
+    /// The controller's last state; of a block that has overturned, that in which its fall began.
     pub phase: ControllerPhase,
-    /// Faults in the order in which they were entered, and when, s.
+    /// Faults in the order in which they were entered, and when, s; none of a fall: sensors on a falling block read what no rocking
+    /// explains.
     pub faults: Vec<(f64, Fault)>,
     /// Engagements that the clutches missed.
     pub missed: u32,
@@ -102,6 +103,8 @@ pub struct ClosedLoop<'a> {
     pub seed: u64,
     /// What goes wrong on purpose.
     pub disturbance: &'a mut dyn Disturbance,
+    /// α of the block with what it carries, rad: beyond it a block that overturns has begun to fall.
+    pub slenderness: f64,
     /// Ctrl-C.
     pub interrupt: &'a Interrupt,
 }
@@ -126,6 +129,8 @@ impl ClosedLoop<'_> {
         let fine = clock.period / f64::from(clock.substeps);
         let mut decisions = Decisions::default();
         let mut faults = Vec::new();
+        // Faults so far and the state when |θ| last passed α.
+        let mut fall = None;
         let mut last_fault = None;
         let mut phase = ControllerPhase::Boot;
         let mut tick: u64 = 0;
@@ -148,6 +153,11 @@ impl ClosedLoop<'_> {
             self.disturbance.disturb(time, &mut sample, &mut circumstances);
             let decision = driver.tick(&sample, circumstances);
             let ideal = driver.ideal(&whereabouts) != Wish::Release;
+            if whereabouts.motion.rotation.abs() < self.slenderness {
+                fall = None;
+            } else if fall.is_none() {
+                fall = Some((faults.len(), phase));
+            }
             let rocks = whereabouts.motion.phase == Phase::Rocking;
             let engaged = whereabouts.engaged[0] || whereabouts.engaged[1];
             decisions.add(Moment { time, rocks, velocity: whereabouts.motion.velocity, ideal, engaged });
@@ -167,6 +177,10 @@ impl ClosedLoop<'_> {
             tick += 1;
         }
         let end = plant.whereabouts();
+        if let (Phase::Overturned, Some((entered, state))) = (end.motion.phase, fall) {
+            faults.truncate(entered);
+            phase = state;
+        }
         Ok(Ending {
             motion: end.motion,
             ticks: tick,

@@ -183,7 +183,12 @@ fn show(session: &mut Talk, out: &mut impl Write) -> Result<(), Failure> {
     let identity = session.identify()?;
     let state = session.state()?;
     let State { calibration, .. } = state;
-    writeln!(out, "device        {}{}", firmware(&identity), if identity.rehearsal { ", for rehearsals" } else { "" })?;
+    writeln!(
+        out,
+        "device        {}{}",
+        firmware(&identity),
+        if identity.rehearsal { ", a test build that takes orders to fail on purpose" } else { "" }
+    )?;
     writeln!(out, "state         {}, {} ticks after its start", phase_text(state.phase, state.fault), state.ticks)?;
     writeln!(out, "start         {:?}", state.cause)?;
     writeln!(out, "parameters    {}, check {:08x}", identity.settings, identity.check)?;

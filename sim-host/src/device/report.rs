@@ -60,11 +60,22 @@ impl fmt::Display for DeviceSummary {
         )?;
         writeln!(
             out,
-            "  device       {}: {} ticks, {} other than the host's, {:.0} ticks a second ({:.1} times real time)",
-            self.firmware, self.device_ticks, self.ticks_differing, self.ticks_per_second, self.times_real_time
+            "  device       {}: {} ticks, {}, {:.0} ticks a second ({:.1} times real time)",
+            self.firmware,
+            self.device_ticks,
+            match self.ticks_differing {
+                0 => "all decided as by the host".to_owned(),
+                differing => format!("{differing} of them decided otherwise than by the host"),
+            },
+            self.ticks_per_second,
+            self.times_real_time
         )?;
         if let (Some(median), Some(worst)) = (self.instructions_per_tick, self.instructions_per_tick_worst) {
-            writeln!(out, "               {median} counts a tick (median), {worst} at worst; stack {} bytes", self.stack_bytes)?;
+            writeln!(
+                out,
+                "               a tick took {median} counts (median), {worst} at most: instructions in the emulator, cycles on a board; stack {} bytes",
+                self.stack_bytes
+            )?;
         }
         Ok(())
     }

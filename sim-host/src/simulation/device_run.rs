@@ -26,9 +26,9 @@ pub struct DeviceRun {
     pub peak_rotation: Option<f64>,
     /// max |θ̈|/(p²α); null when overturned.
     pub peak_acceleration: Option<f64>,
-    /// Impacts.
+    /// Impacts that came in with more than 1e-6 pα.
     pub impacts: u32,
-    /// First impact.
+    /// The first of them.
     pub first_impact_time_s: Option<f64>,
     /// Rest, overturning or the end of the run.
     pub end_time_s: f64,
@@ -159,7 +159,7 @@ impl DeviceRun {
             peak_rotation: safe(peaks.rotation).map(|peak| peak / alpha),
             peak_acceleration: safe(peaks.acceleration).map(|peak| peak / (p * p * alpha)),
             impacts: state.impacts,
-            first_impact_time_s: peaks.first_impact.map(Real::to_f64),
+            first_impact_time_s: peaks.first_counted_impact.map(Real::to_f64),
             end_time_s: peaks.ended.map_or(task.end(), Real::to_f64),
             clutch_switches: found.clutch_switches,
             missed_engagements: found.missed_engagements,

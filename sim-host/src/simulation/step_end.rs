@@ -86,6 +86,7 @@ pub fn follow<S: Real, R, E: Switched<S>, C: Clutch>(
                 trace.state.impacts += 1;
                 trace.impacts.push(at);
                 trace.peaks.first_impact = trace.peaks.first_impact.or(Some(S::of(at)));
+                trace.peaks.first_counted_impact = trace.peaks.first_impact;
             }
             let followed = state.rotation.is_finite() && state.velocity.is_finite();
             let falls = !followed || (state.rotation.abs() >= overturned && state.rotation * state.velocity > S::ZERO);

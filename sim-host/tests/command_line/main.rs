@@ -13,6 +13,7 @@ mod studies;
 #[cfg(unix)]
 mod terminal;
 mod usage;
+mod warnings;
 
 use std::fs;
 use std::path::{Path, PathBuf};
