@@ -120,8 +120,6 @@ fn run_or_fail(
 ) -> Result<(), Failure> {
     let any_accuracy = arguments.accuracy.time_budget.is_some();
     let mut folder = arguments.folder.folder(&arguments.scene, "loop").of_any_accuracy(any_accuracy);
-    let plain = Scene::load(&arguments.scene, &arguments.set).map_err(LoopSceneError::from)?;
-    let mut warnings = warned(plain.warnings(), err);
     let mut tell = |line: &str| _ = writeln!(err, "sprag: {line}");
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
     let mut run = |change| looped(arguments, change, &mut folder, interrupt);
@@ -136,7 +134,7 @@ fn run_or_fail(
         _ => arguments.accuracy.run(run, tell)?,
     };
     let scene = &desk.scene;
-    warnings.extend(warned(warning_lines(&desk.ground.records), err));
+    let warnings = warned(desk.scene.warnings().into_iter().chain(warning_lines(&desk.ground.records)), err);
     let mut results = Results::default();
     if let Some(count) = arguments.monte_carlo {
         let table = monte_carlo(&pool, &desk, &mut reports, count, interrupt)?;

@@ -185,7 +185,7 @@ fn studied<'a>(
     let progress = Progress::new("runs");
     // Where the results go is tried before the work, not after it.
     let subject = study_subject("cloud", &records.records).with("study", &study.file)?.with("structures", &study.structures)?;
-    let inputs = arguments.input.files(&study, &records);
+    let inputs = arguments.input.files(&study, records);
     folder.open(&Claim { subject: subject.clone(), page: "summary.json", names: &NAMES, inputs })?;
     if arguments.accuracy.time_budget.is_some() {
         // Runs of several accuracies are tried; only the last are worth keeping.

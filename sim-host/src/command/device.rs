@@ -15,6 +15,7 @@ use super::ended;
 use super::loop_scene::{LoopScene, LoopSceneError};
 use super::out_arguments::OverwriteArguments;
 use super::record_arguments::SceneRecordArguments;
+use super::warned;
 use crate::device::event_table::{what, write_csv, write_table};
 use crate::device::line::{DeviceError, Line};
 use crate::device::session::Session;
@@ -75,15 +76,19 @@ struct InfoArguments {
     sprag device parameters --port /dev/ttyUSB0 --scene scenes/controller.toml --set law=sign-table --store\n  \
     sprag device parameters --port /dev/ttyUSB0 --out pier.toml\n  \
     sprag device parameters --port /dev/ttyUSB0 --file pier.toml --store\n\n\
-    Changes are checked as a whole before any is sent: first those of --scene, then those of --file, then those of --set. The device \
-    takes them while nothing moves, and starts its controller anew. A scene says nothing of how the board is wired: board.* stays.")]
+    A block of another size, slenderness (rad), inertia ratio, mass ratio or restitution: frequency, uplift, coupling and the like follow.\n  \
+    sprag device parameters --port /dev/ttyUSB0 --set model.size=2.5 --set model.slenderness=0.2\n  \
+    sprag device parameters --port /dev/ttyUSB0 --set model.mass_ratio=0.8 --set model.inertia_ratio=1.4 --store\n\n\
+    Changes are checked as a whole before any is sent: first those of --scene, then those of --file, then those of --set; values that \
+    contradict each other are refused. Gains and limits that a scene's sensors decide stay: --scene designs them, too. The device takes \
+    changes while nothing moves, and starts its controller anew. A scene says nothing of how the board is wired: board.* stays.")]
 struct ParameterArguments {
     #[command(flatten)]
     line: LineArguments,
-    /// Show the value of this one only.
+    /// Show the value of this one only, such as law or model.inertia_ratio.
     #[arg(long, value_name = "NAME")]
     get: Vec<String>,
-    /// Change one, such as model.size=2.5.
+    /// Change one, such as model.size=2.5, and those that follow from it.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Take all from the controller of a scene.
@@ -145,7 +150,7 @@ pub fn run(arguments: &DeviceArguments, out: &mut impl Write, err: &mut impl Wri
     interrupt.keep("what was changed in the device stays as it is");
     let outcome = match &arguments.command {
         DeviceCommand::Info(info) => with_device(&info.line, out, |session, out| show(session, out)),
-        DeviceCommand::Parameters(given) => change(given, out, interrupt),
+        DeviceCommand::Parameters(given) => change(given, out, err, interrupt),
         DeviceCommand::SelfTest(info) => with_device(&info.line, out, |session, out| self_test(session, out, interrupt)),
         DeviceCommand::Log(given) => log_to(given, out),
         DeviceCommand::Clear(info) => with_device(&info.line, out, clear),
@@ -218,19 +223,19 @@ fn duration(counts: u32, identity: &Identity) -> String {
     format!("{counts} counts, {microseconds:.1} µs")
 }
 
-fn change(given: &ParameterArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+fn change(given: &ParameterArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
     // Whatever can be wrong here is found before the device is looked for.
     for name in &given.get {
-        setting_text::find(name).map_err(Failure::Input)?;
+        setting_text::value(&Settings::default(), name).map_err(Failure::Input)?;
     }
-    let mut trial = Settings::default();
-    given.set.iter().try_for_each(|text| setting_text::assign(&mut trial, text)).map_err(Failure::Input)?;
-    let scene = given.scene.as_ref().map(|path| of_scene(path, interrupt)).transpose()?;
+    let set: Vec<(&str, &str)> =
+        given.set.iter().map(|text| setting_text::assignment(text)).collect::<Result<_, _>>().map_err(Failure::Input)?;
+    let scene = given.scene.as_ref().map(|path| of_scene(path, err, interrupt)).transpose()?;
     let file = given.file.as_ref().map(|path| {
         let name = path.display().to_string();
         let text = std::fs::read_to_string(path).map_err(|error| Failure::Input(format!("{name}: {error}")))?;
-        setting_text::from_toml(&trial, &name, &text).map_err(Failure::Input)?;
-        Ok::<_, Failure>((name, text))
+        let assignments = setting_text::of_toml(&name, &text).map_err(Failure::Input)?;
+        Ok::<_, Failure>((name, assignments))
     });
     let file = file.transpose()?;
     if let Some(path) = &given.out {
@@ -241,10 +246,11 @@ fn change(given: &ParameterArguments, out: &mut impl Write, interrupt: &Interrup
     with_device(&given.line, out, |session, out| {
         let before = parameters::read(session)?;
         let mut wanted = scene.map_or(before, |scene| setting_text::with_board_of(&scene, &before));
-        if let Some((name, text)) = &file {
-            wanted = setting_text::from_toml(&wanted, name, text).map_err(Failure::Input)?;
+        if let Some((name, assignments)) = &file {
+            let each = assignments.iter().map(|(name, text)| (name.as_str(), text.as_str()));
+            setting_text::assign(&mut wanted, each).map_err(|error| Failure::Input(format!("{name}: {error}")))?;
         }
-        given.set.iter().try_for_each(|text| setting_text::assign(&mut wanted, text)).map_err(Failure::Input)?;
+        setting_text::assign(&mut wanted, set).map_err(Failure::Input)?;
         let changes = given.store || wanted != before;
         if changes {
             setting_text::check(&wanted).map_err(Failure::Input)?;
@@ -266,8 +272,8 @@ fn change(given: &ParameterArguments, out: &mut impl Write, interrupt: &Interrup
 /// What was asked for, or what has changed, or where neither is the case everything.
 fn report(given: &ParameterArguments, before: &Settings, now: &Settings, out: &mut impl Write) -> std::io::Result<()> {
     for name in &given.get {
-        if let Ok((index, description)) = setting_text::find(name) {
-            writeln!(out, "{}", description.show(now.get(index).unwrap_or(description.default)))?;
+        if let Ok(value) = setting_text::value(now, name) {
+            writeln!(out, "{value}")?;
         }
     }
     let told = given.store || given.scene.is_some() || given.file.is_some() || !given.set.is_empty();
@@ -288,8 +294,9 @@ fn report(given: &ParameterArguments, before: &Settings, now: &Settings, out: &m
     Ok(())
 }
 
-fn of_scene(path: &Path, interrupt: &Interrupt) -> Result<Settings, Failure> {
+fn of_scene(path: &Path, err: &mut impl Write, interrupt: &Interrupt) -> Result<Settings, Failure> {
     let desk = LoopScene::load(path, &[], &SceneRecordArguments::default())?;
+    warned(desk.scene.warnings(), err);
     let Some(&index) = desk.pairs.first() else { return Err(Failure::Input(format!("{}: no clutched pair", path.display()))) };
     let settings = desk.task(index, desk.controller.sensors.seed(), interrupt).settings();
     settings.map_err(|error| Failure::Input(format!("{}: {error}", path.display())))

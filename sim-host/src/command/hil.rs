@@ -30,7 +30,6 @@ use crate::output::{Digest, OutputError, ResultFolder, Results, Subject};
 use crate::plot::{PlotError, loop_figure};
 use crate::progress::Progress;
 use crate::record::{RecordSummary, warning_lines};
-use crate::scene::Scene;
 use crate::scene::schema::SceneFile;
 use crate::simulation::ErrorReport;
 
@@ -107,11 +106,9 @@ fn run_or_fail(
 ) -> Result<(), Failure> {
     let any_accuracy = arguments.accuracy.time_budget.is_some();
     let mut folder = arguments.folder.folder(&arguments.scene, "hil").of_any_accuracy(any_accuracy);
-    let plain = Scene::load(&arguments.scene, &arguments.set).map_err(LoopSceneError::from)?;
-    let mut warnings = warned(plain.warnings(), err);
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
     let (desk, subject, hosts) = arguments.accuracy.run(|change| on_host(arguments, change, &mut folder, interrupt), tell)?;
-    warnings.extend(warned(warning_lines(&desk.ground.records), err));
+    let warnings = warned(desk.scene.warnings().into_iter().chain(warning_lines(&desk.ground.records)), err);
     let mut results = Results::default();
     let (mut reports, mut summaries, mut ticks) = (Vec::new(), Vec::new(), Vec::new());
     for (number, (&index, host)) in desk.pairs.iter().zip(hosts).enumerate() {

@@ -241,7 +241,7 @@ fn answered<'a>(
     let subject = study_subject("optimise", &records.records)
         .with("study", &Resolved::of(&study, choices))?
         .with("structure", choices.structure)?;
-    let inputs = arguments.input.files(&study, &records);
+    let inputs = arguments.input.files(&study, records);
     let names = &["designs", "motions", "optimise", "trade_off"];
     folder.open(&Claim { subject: subject.clone(), page: "summary.json", names, inputs })?;
     let (begin, done) = (|runs| progress.begin(runs), || progress.step());

@@ -2,10 +2,12 @@
 //!
 //! - [`mod@line`]: bytes to and from it; [`emulator`], [`serial`]: the two kinds; [`faulty`]: one that loses and damages frames;
 //! - [`image`]: building what runs in it; [`log`]: what it logs;
-//! - [`session`]: requests and replies; [`parameters`]: its settings, [`setting_text`]: as text; [`event_table`]: its event log;
+//! - [`session`]: requests and replies; [`parameters`]: its settings, [`setting_text`]: as text, [`derived`]: those that follow
+//!   from others; [`event_table`]: its event log;
 //! - [`strip_chart`]: its last seconds, drawn in the terminal;
 //! - [`driver`]: it in the place of the host's controller, compared with it at every tick; [`report`]: what that comes to.
 
+pub mod derived;
 pub mod driver;
 pub mod emulator;
 pub mod event_table;
