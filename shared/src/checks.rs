@@ -9,8 +9,8 @@
 //! raised corner down by n F, which adds s n F to V instead. Slender: sin δ → δ, cos δ → 1. The model does not slide while
 //! |H|/V stays below the friction that there is, and keeps its toe on the ground while V > 0.
 //!
-//! A block that overturns is watched up to its fall: to where it passes |θ| = α without coming back. What it asks for while it falls
-//! says nothing of the device, and grows without bound.
+//! The fall of a block that overturns begins where it passes |θ| = α without coming back. What it asks for from there on says nothing of
+//! how it rocks, and grows without bound: [`Checks::before_fall`] leaves it out.
 
 mod report;
 
@@ -34,7 +34,7 @@ const LOOKS: usize = 10;
 const SEARCH_STEPS: u32 = 32;
 
 /// Watches reactions, forces and travel. Its [`Report`] holds extremes while the block rocks; a block that stands asks for
-/// a friction of |ü_g/g|/(1 + v̈_g/g), which is below tan α; one that has overturned counts up to its fall.
+/// a friction of |ü_g/g|/(1 + v̈_g/g), which is below tan α.
 #[derive(Clone, Copy, Debug)]
 pub struct Checks<S> {
     /// Time of the present piece's start from the origin, s; the caller sets it.
@@ -58,7 +58,8 @@ pub struct Checks<S> {
     last: Option<Snapshot<S>>,
     impact: Option<Impact<S>>,
     /// What was found up to where |θ| last passed α; none below it.
-    before_fall: Option<Report<S>>,
+    up_to_slenderness: Option<Report<S>>,
+    overturned: bool,
 }
 
 /// An impact whose flywheels are not known yet.
@@ -108,7 +109,8 @@ impl<S: Real> Checks<S> {
             rack_mass_ratio: S::of(account.rack_mass_ratio),
             last: None,
             impact: None,
-            before_fall: None,
+            up_to_slenderness: None,
+            overturned: false,
         })
     }
 
@@ -117,6 +119,11 @@ impl<S: Real> Checks<S> {
         let mut seen = *self;
         seen.settle_impact(None);
         seen.report
+    }
+
+    /// As [`Checks::report`]; of a block that has overturned, what was found before its fall.
+    pub fn before_fall(&self) -> Report<S> {
+        self.up_to_slenderness.filter(|_| self.overturned).unwrap_or_else(|| self.report())
     }
 
     /// sin δ and cos δ, or what stands for them in the slender model.
@@ -180,14 +187,14 @@ impl<S: Real> Checks<S> {
         let beyond = |rotation: S| stretch.side.times(rotation) - self.slenderness;
         let (first, last) = (beyond(stretch.first.rotation), beyond(stretch.last.rotation));
         if last <= S::ZERO {
-            self.before_fall = None;
+            self.up_to_slenderness = None;
         } else if first >= S::ZERO {
-            self.before_fall.get_or_insert(found.report());
+            self.up_to_slenderness.get_or_insert(found.report());
         } else {
             let passes = locate_by_value(stretch.from, stretch.to, Sign::Negative, |t| beyond(arc.snapshot(t).motion.rotation));
             let mut up_to_it = found;
             up_to_it.watch(arc, &Stretch { to: passes, last: arc.snapshot(passes).motion, ..*stretch });
-            self.before_fall = Some(up_to_it.report);
+            self.up_to_slenderness = Some(up_to_it.report);
         }
     }
 
@@ -261,7 +268,7 @@ impl<S: Real> DeviceObserver<S> for Checks<S> {
                 self.impact = Some(Impact { time: self.origin + time, before, velocity: state.velocity });
             }
             (Event::Rest, _) => self.settle_impact(None),
-            (Event::Overturned, _) => self.report = self.before_fall.unwrap_or(self.report),
+            (Event::Overturned, _) => self.overturned = true,
             _ => {}
         }
     }

@@ -151,7 +151,7 @@ fn injected(image: &std::path::Path, scene: &LoopScene, failing: Failing, from: 
     let does =
         fault.map_or_else(|| "not seen before all is still".to_owned(), |fault| format!("Fault {}: {fault}", fault.code()));
     row(
-        &format!("{failing:?}"),
+        &format!("{failing}"),
         if failing == Failing::Refuses {
             "clutches, from before the motion on"
         } else {
@@ -219,7 +219,7 @@ fn a_sensor_that_recovers_is_trusted_again_after_the_motion() {
     let fault = course.ticks[begun..].iter().find_map(|tick| tick.applied.fault).unwrap();
     assert_eq!(fault.recovery(), Recovery::WhenGood);
     row(
-        &format!("{failing:?} for 50 ms"),
+        &format!("{failing} for 50 ms"),
         "samples, from mid-swing on",
         &format!("Fault {}: {fault}; by itself through a new calibration, once nothing moves", fault.code()),
         safe,

@@ -20,7 +20,7 @@ impl<S: Real> Extreme<S> {
     }
 }
 
-/// Extremes over the time in which the block rocks, its fall left out; none where it never did.
+/// Extremes over the time in which the block rocks; none where it never did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Report<S> {
     /// Largest |H|/V while V > 0: the friction without which the toe would slide. At uplift it is tan α (slender: α) or

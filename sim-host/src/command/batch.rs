@@ -12,7 +12,7 @@ use super::ended;
 use super::out_arguments::OverwriteArguments;
 use crate::accuracy::answer::Comparable;
 use crate::accuracy::{Accuracy, AccuracyArguments, ErrorEstimate, budget};
-use crate::batch::case::{Case, CaseError, CaseResult, TERMS, TIGHT};
+use crate::batch::case::{Case, CaseError, CaseResult, TERMS};
 use crate::batch::table::{CASE_COLUMNS, ERROR_COLUMNS, RESULT_COLUMNS, TableError, read_cases, shown, write_result};
 use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, claim_file};
@@ -37,7 +37,7 @@ pub struct BatchArguments {
     #[arg(long, value_name = "N", value_parser = super::threads)]
     pub threads: Option<u16>,
     /// Size of the last terms of the series over the rotation that matters, 1e-20 to 0.01; without errors.
-    #[arg(long, value_name = "T", default_value_t = TIGHT, value_parser = tolerance, conflicts_with_all = ["accuracy", "time_budget"])]
+    #[arg(long, value_name = "T", default_value = "1e-15", value_parser = tolerance, conflicts_with_all = ["accuracy", "time_budget"])]
     pub tolerance: f64,
     /// How accurate.
     #[command(flatten)]

@@ -11,8 +11,9 @@ use sprag_shared::error::ParameterError;
 use super::format_arguments::PictureArguments;
 use super::out_arguments::{FolderArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
-use super::{ended, warned};
+use super::{ended, results_folder, warned};
 use crate::heading::of_scenes;
+use crate::effect::number::number;
 use crate::interrupt::Interrupt;
 use crate::output::{Digest, OutputError, Results};
 use crate::plot::{Chart, ChartPanel, FigureTitle, Line, PlotError, Scale, chart_figure};
@@ -62,6 +63,8 @@ enum Failure {
     Parameter(#[from] ParameterError),
     #[error("{0}")]
     Run(#[from] RunError),
+    #[error("--with: names nothing that differs; give KEY=VALUE, such as block.size_m=2")]
+    Same,
     #[error("--with {0}: the block has another number of devices than the first")]
     Devices(String),
     #[error("the picture cannot be drawn: {0}")]
@@ -122,6 +125,9 @@ fn run_or_fail(
     err: &mut impl Write,
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
+    if arguments.with.iter().any(|changes| changes.split(',').all(|change| change.trim().is_empty())) {
+        return Err(Failure::Same);
+    }
     let mut folder = arguments.folder.folder(&arguments.scene, "similar");
     let progress = Progress::new("blocks");
     progress.begin(1 + arguments.with.len() as u64);
@@ -173,17 +179,33 @@ fn run_or_fail(
     let _ = writeln!(out, "largest departure of θ/α from the first block");
     for block in &blocks[1..] {
         for (device, run) in block.runs.iter().enumerate() {
-            let Departure { largest, at_frequency_parameter_time, relative } =
-                Departure::between(&first.responses[device], &block.responses[device]);
-            let share = relative.map_or_else(String::new, |share| format!(" ({:.2} % of the peak)", 100.0 * share));
-            let _ =
-                writeln!(out, "{}, {}: {largest:.3e} at p t = {at_frequency_parameter_time:.2}{share}", block.name, run.device);
+            let departure = Departure::between(&first.responses[device], &block.responses[device]);
+            let overturned = [&first.runs[device], run].map(|run| run.outcome.overturned());
+            let _ = writeln!(out, "{}, {}: {}", block.name, run.device, in_words(&departure, overturned));
         }
     }
     if let Some(picture) = picture {
         let _ = writeln!(out, "{}", picture.display());
     }
     Ok(())
+}
+
+/// How far a block departs from the first, and which of the two overturns.
+fn in_words(departure: &Departure, overturned: [bool; 2]) -> String {
+    let Departure { largest, at_frequency_parameter_time: at, relative } = departure;
+    let share = match relative.map(|share| 100.0 * share) {
+        None => String::new(),
+        Some(0.0) => " (0 % of the peak)".to_owned(),
+        Some(percent) if percent < 0.01 => " (less than 0.01 % of the peak)".to_owned(),
+        Some(percent) => format!(" ({percent:.2} % of the peak)"),
+    };
+    let ends = match overturned {
+        [false, false] => "",
+        [true, true] => "; both overturn",
+        [true, false] => "; the first block overturns, and this one does not",
+        [false, true] => "; this block overturns, and the first one does not",
+    };
+    format!("{} at p t = {at:.2}{share}{ends}", number(*largest))
 }
 
 /// The scene with `changes`, simulated; `first` is the block that it is compared with.
@@ -254,4 +276,26 @@ fn write_csv(blocks: &[Block], out: &mut impl Write) -> std::io::Result<()> {
         }
     }
     table.flush()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn departures_are_plain_numbers_and_name_the_block_that_overturns() {
+        let of = |largest, relative| Departure { largest, at_frequency_parameter_time: 3.0, relative };
+        for (departure, overturned, words) in [
+            (
+                of(4.005, Some(2.5)),
+                [false, true],
+                "4.005 at p t = 3.00 (250.00 % of the peak); this block overturns, and the first one does not",
+            ),
+            (of(0.0, Some(0.0)), [false; 2], "0 at p t = 3.00 (0 % of the peak)"),
+            (of(0.012, Some(1e-6)), [true; 2], "0.012 at p t = 3.00 (less than 0.01 % of the peak); both overturn"),
+            (of(0.5, None), [true, false], "0.5 at p t = 3.00; the first block overturns, and this one does not"),
+        ] {
+            assert_eq!(in_words(&departure, overturned), words);
+        }
+    }
 }

@@ -1,5 +1,7 @@
 //! Every class of fault, at rest, at uplift, in mid-swing and at an impact.
 
+use std::fmt;
+
 use sprag_shared::control::controller::Circumstances;
 use sprag_shared::control::sample::Sample;
 
@@ -63,6 +65,31 @@ pub const ALL: [Failing; 16] = [
     Failing::Refuses,
     Failing::Sticks,
 ];
+
+impl fmt::Display for Part {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Part::Gyroscope => "gyroscope",
+            Part::Ground => "ground accelerometer",
+            Part::Encoder => "encoder",
+        })
+    }
+}
+
+impl fmt::Display for Failing {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Failing::Stale(part) => write!(formatter, "{part} delivers nothing new"),
+            Failing::Stuck(part) => write!(formatter, "{part} is stuck"),
+            Failing::Saturated(part) => write!(formatter, "{part} is saturated"),
+            Failing::NotFinite(part) => write!(formatter, "{part} reads NaN"),
+            Failing::Contradicts(part) => write!(formatter, "{part} is off"),
+            Failing::Overrun => formatter.write_str("ticks come late"),
+            Failing::Refuses => formatter.write_str("clutches stay open"),
+            Failing::Sticks => formatter.write_str("a clutch stays engaged"),
+        }
+    }
+}
 
 /// When it begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -261,7 +288,7 @@ pub fn faults(progress: &Progress, conditions: &Conditions<'_>) -> Result<Report
     for (failing, row) in ALL.iter().zip(&results) {
         let time =
             |result: &FaultResult| result.detected.as_ref().map_or_else(|| "-".to_owned(), |(time, _)| cell(1e3 * time, 1));
-        let mut cells = vec![format!("{failing:?}")];
+        let mut cells = vec![failing.to_string()];
         cells.extend(row.iter().map(time));
         cells.push(row[2].detected.as_ref().map_or_else(String::new, |(_, words)| words.clone()));
         for harm in 0..3 {

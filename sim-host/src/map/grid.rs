@@ -358,7 +358,7 @@ mod tests {
         let refused = |axes: &str| grid(axes).unwrap_err().to_string();
         assert!(refused("").contains("map.x is missing"));
         assert!(refused("map.x = { key = 'block.colour', from = 0, to = 1, cells = 3 }").contains("unknown field `colour`"));
-        assert!(refused("map.x = { key = 'device.0.kind', from = 0, to = 1, cells = 3 }").contains("device[0].kind"));
+        assert!(refused("map.x = { key = 'device.0.kind', from = 0, to = 1, cells = 3 }").contains("device.0.kind"));
         let beyond = refused("map.x = { key = 'block.restitution', from = 0.5, to = 1.5, cells = 3 }");
         assert!(beyond.contains("block.restitution is 1.5"), "{beyond}");
     }

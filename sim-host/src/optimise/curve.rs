@@ -74,7 +74,11 @@ pub(super) fn curves(
             let ends = [table.mass_ratio.from, table.mass_ratio.to];
             match ends.into_iter().try_for_each(|mass_ratio| curve.scene(scene, mass_ratio).map(|_| ())) {
                 Ok(()) => curves.push(curve),
-                Err(error) => reasons.push(format!("{}: {error}", curve.name())),
+                // The device is none of the scene's, so that its key would name another one.
+                Err(error) => {
+                    let reason = error.to_string().replacen(&format!("{}: ", scene.origin), "", 1).replace("device.0.", "");
+                    reasons.push(format!("{}: {reason}", curve.name()));
+                }
             }
         }
     }

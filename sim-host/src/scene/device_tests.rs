@@ -233,7 +233,7 @@ fn a_value_outside_its_range_is_named_by_its_key() {
         ("device.2.actuation.miss_seed=-1", "miss_seed", "u64"),
         ("device.1.weight.rack_ratio=11", "device.1.weight.rack_ratio is 11", "from 0 to 10"),
         ("device.1.weight.rack_kg=-1", "device.1.weight.rack_kg over block.mass_kg is -0.001", "from 0 to 10"),
-        ("device.2.engagement=magnetic", "device[2].engagement", "overrunning"),
+        ("device.2.engagement=magnetic", "device.2.engagement", "overrunning"),
         ("checks.friction_coefficient=0", "checks.friction_coefficient is 0", "above 0, to 10"),
         ("checks.largest_force_ratio=-1", "checks.largest_force_ratio is -1", "above 0"),
         ("checks.largest_stroke_m=0", "checks.largest_stroke_m is 0", "above 0"),

@@ -114,9 +114,44 @@ impl SceneError {
             .filter(|_| !text.is_empty())
             .map(|span| text.as_bytes()[..span.start.min(text.len())].iter().filter(|b| **b == b'\n').count() + 1);
         let message = one_line(error.message());
-        let message = if path.is_empty() || path == "." { message } else { format!("{path}: {message}") };
+        let path = dotted(path);
+        let message = match (in_words(&message), path.as_str()) {
+            (None, "" | ".") => message,
+            (None, path) => format!("{path}: {message}"),
+            (Some(words), "" | ".") => format!("the scene {words}"),
+            (Some(words), path) => format!("{path} {words}"),
+        };
         SceneError::Syntax { origin: origin.to_owned(), line, message }
     }
+}
+
+/// `device.1.kind` for `device[1].kind`, as `--set` and every other message have it.
+fn dotted(path: &str) -> String {
+    path.replace('[', ".").replace(']', "")
+}
+
+/// A complaint about the kind of a value, `invalid type: integer `5`, expected f64`, in the words of a person; `None` for any other.
+fn in_words(message: &str) -> Option<String> {
+    let (found, wanted) = message.strip_prefix("invalid type: ")?.split_once(", expected ")?;
+    let found = match found {
+        "map" => "a table".to_owned(),
+        "sequence" => "a list".to_owned(),
+        other => ["string ", "integer ", "floating point ", "boolean "]
+            .iter()
+            .find_map(|kind| other.strip_prefix(kind))
+            .map_or_else(|| other.to_owned(), |value| value.trim_matches('`').to_owned()),
+    };
+    let wanted = match wanted {
+        "f64" => "a number",
+        "a string" | "path string" => "a text in quotes",
+        "a sequence" => "a list; of tables name one by its number, from 0, as in --set ground.0.scale=2",
+        "a map" => "a table",
+        "a boolean" => "true or false",
+        _ if wanted.starts_with("struct ") => "a table",
+        _ if wanted.starts_with(['u', 'i']) && wanted[1..].parse::<u8>().is_ok() || wanted == "usize" => "a whole number",
+        other => other,
+    };
+    Some(format!("is {found}, but must be {wanted}"))
 }
 
 /// Folds a message into one line.

@@ -5,10 +5,12 @@ use toml::{Table, Value};
 use super::SceneError;
 
 /// Sets the key of `item` (`block.size_m=2`, `device.1.mass_ratio=0.5`) in `table`. The value is read as TOML, and as a
-/// plain string where it is none.
+/// plain string where it is none. Without a value (`block.size_m=`) the key is left out. The number after the last of a list, or 0 where
+/// there is none, adds a table to it (`vertical.0.motion=sine`).
 ///
 /// # Errors
-/// [`SceneError::Conflict`] when `item` has no `=`, or its key leads through a value that is not a table or an array.
+/// [`SceneError::Conflict`] when `item` has no `=`, its key leads through a value that is not a table or an array, or what shall be left
+/// out is not there.
 pub fn apply(table: &mut Table, item: &str, origin: &str) -> Result<(), SceneError> {
     let refuse =
         |key: &str, reason: String| SceneError::Conflict { origin: origin.to_owned(), key: format!("--set {key}"), reason };
@@ -24,24 +26,14 @@ pub fn apply(table: &mut Table, item: &str, origin: &str) -> Result<(), SceneErr
         .filter(|parsed| parsed.len() == 1)
         .and_then(|mut parsed| parsed.remove("value"))
         .unwrap_or_else(|| Value::String(text.to_owned()));
-    let (parents, last) = path.rsplit_once('.').map_or((None, path), |(parents, last)| (Some(parents), last));
+    let last = path.rsplit('.').next().unwrap_or(path);
     let mut place = Place::Table(table);
-    for part in parents.into_iter().flat_map(|parents| parents.split('.')) {
-        place = place.descend(part).map_err(|reason| refuse(path, reason))?;
+    let mut parts = path.split('.').peekable();
+    while let (Some(part), Some(next)) = (parts.next(), parts.peek()) {
+        place = place.descend(part, next).map_err(|reason| refuse(path, reason))?;
     }
-    match place {
-        Place::Table(table) => {
-            table.insert(last.to_owned(), value);
-            Ok(())
-        }
-        Place::Array(array) => {
-            let length = array.len();
-            let slot = last.parse::<usize>().ok().and_then(|index| array.get_mut(index));
-            let slot = slot.ok_or_else(|| refuse(path, format!("`{last}` must be a number below {length}")))?;
-            *slot = value;
-            Ok(())
-        }
-    }
+    let given = (!text.trim().is_empty()).then_some(value);
+    place.put(path, last, given).map_err(|reason| refuse(path, reason))
 }
 
 enum Place<'a> {
@@ -50,13 +42,17 @@ enum Place<'a> {
 }
 
 impl<'a> Place<'a> {
-    fn descend(self, part: &str) -> Result<Place<'a>, String> {
+    /// What `part` leads to, made where it is not there; `next` follows.
+    fn descend(self, part: &str, next: &str) -> Result<Place<'a>, String> {
+        let empty = || if next.parse::<usize>().is_ok() { Value::Array(Vec::new()) } else { Value::Table(Table::new()) };
         let value = match self {
-            Place::Table(table) => table.entry(part).or_insert_with(|| Value::Table(Table::new())),
+            Place::Table(table) => table.entry(part).or_insert_with(empty),
             Place::Array(array) => {
-                let length = array.len();
-                let index = part.parse::<usize>().ok();
-                index.and_then(|index| array.get_mut(index)).ok_or_else(|| format!("`{part}` must be a number below {length}"))?
+                let index = index_in(array, part)?;
+                if index == array.len() {
+                    array.push(empty());
+                }
+                &mut array[index]
             }
         };
         match value {
@@ -65,6 +61,35 @@ impl<'a> Place<'a> {
             _ => Err(format!("`{part}` is a value, not a table")),
         }
     }
+
+    /// Sets `last` to `value`, or leaves it out.
+    fn put(self, path: &str, last: &str, value: Option<Value>) -> Result<(), String> {
+        let absent = || format!("{path} is not there, so it cannot be left out; `KEY=` is a key without a value");
+        match (self, value) {
+            (Place::Table(table), Some(value)) => _ = table.insert(last.to_owned(), value),
+            (Place::Table(table), None) => _ = table.remove(last).ok_or_else(absent)?,
+            (Place::Array(array), value) => {
+                let index = index_in(array, last)?;
+                match (value, index < array.len()) {
+                    (Some(value), true) => array[index] = value,
+                    (Some(value), false) => array.push(value),
+                    (None, true) => _ = array.remove(index),
+                    (None, false) => return Err(absent()),
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The index that `part` names: of an element of `array`, or of the next one.
+fn index_in(array: &[Value], part: &str) -> Result<usize, String> {
+    let length = array.len();
+    let index = part.parse::<usize>().ok().filter(|index| *index <= length);
+    index.ok_or_else(|| match length {
+        0 => format!("`{part}` must be 0, for there is none yet"),
+        _ => format!("`{part}` must be a number from 0 to {}, or {length} to add one", length - 1),
+    })
 }
 
 #[cfg(test)]
@@ -85,8 +110,18 @@ mod tests {
     #[test]
     fn a_path_that_leads_nowhere_is_refused() {
         let mut table: Table = toml::from_str("a = 1\n[[b]]\nc = 2").unwrap();
-        for item in ["a", "=1", "a.b=1", "b.1.c=2", "b.x=2", "a..b=1"] {
+        for item in ["a", "=1", "a.b=1", "b.2.c=2", "b.x=2", "a..b=1", "d.1.e=1", "e=", "b.1=", "b.0.d="] {
             assert!(apply(&mut table, item, "scene").is_err(), "{item}");
         }
+    }
+
+    #[test]
+    fn lists_grow_at_their_ends_and_keys_can_be_left_out() {
+        let mut table: Table = toml::from_str("a = 1\nz = 2\n[[b]]\nc = 2").unwrap();
+        for item in ["b.1.c=3", "d.0.e=4", "d.1={e=5}", "a=", "b.0= "] {
+            apply(&mut table, item, "scene").unwrap_or_else(|error| panic!("{item}: {error}"));
+        }
+        let expected: Table = toml::from_str("z = 2\n[[b]]\nc = 3\n[[d]]\ne = 4\n[[d]]\ne = 5").unwrap();
+        assert_eq!(table, expected);
     }
 }

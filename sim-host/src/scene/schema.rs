@@ -144,7 +144,10 @@ impl BlockTable {
                 GRAVITY / (ratio * p * p)
             }
             (None, None) => return Err(key("block.size_m").missing("size_m or frequency_parameter_1_s")),
-            _ => return Err(key("block.size_m").conflict("give only one of size_m and frequency_parameter_1_s")),
+            _ => {
+                return Err(key("block.size_m")
+                    .conflict("give only one of size_m and frequency_parameter_1_s; --set KEY= leaves a key out"));
+            }
         };
         if let Some(mass) = self.mass_kg {
             key("block.mass_kg").require(mass, mass > 0.0, "above 0 kg")?;

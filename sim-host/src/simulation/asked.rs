@@ -36,7 +36,7 @@ impl<S: Real> Asked<S> {
     /// What they found.
     pub(super) fn results(self, task: &Task<'_>) -> (Option<Demand>, Option<EnergyReport>) {
         let table = task.scene.file.checks.as_ref();
-        let demand = self.checks.zip(table).map(|(checks, table)| Demand::of(task, table, &checks.report()));
+        let demand = self.checks.zip(table).map(|(checks, table)| Demand::of(task, table, &checks));
         let energy = self.energy.map(|energy| {
             let barrier = energy.ledger.barrier().to_f64();
             let last = energy.ledger.entries().each(Real::to_f64);

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use sprag_shared::block::GRAVITY;
-use sprag_shared::checks::{Extreme, Report};
+use sprag_shared::checks::{Checks, Extreme, Report};
 use sprag_shared::gear::{Gear, tooth_load_ratios};
 use sprag_shared::inertance::Flywheel;
 use sprag_shared::scalar::Real;
@@ -11,7 +11,7 @@ use super::run::Task;
 use crate::scene::checks::ChecksTable;
 use crate::scene::device::FlywheelTable;
 
-/// The results of `[checks]`; none where the block never rocked.
+/// The results of `[checks]`, the fall of a block that overturns left out; none where the block never rocked.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Demand {
     /// Coefficient of friction without which the toe would slide.
@@ -26,6 +26,9 @@ pub struct Demand {
     pub contact_lost_time_s: Option<f64>,
     /// Largest |F|/(mg) of a flywheel's drive at the rack.
     pub force_ratio: Option<f64>,
+    /// The same with the fall of a block that overturns, up to where it lies on the ground.
+    #[serde(skip)]
+    pub force_ratio_with_fall: Option<f64>,
     /// Farthest travel of the terminals to one side, m.
     pub stroke_m: Option<f64>,
     /// Largest bending stress at the root of a tooth, each mesh from the rack on, MPa.
@@ -36,21 +39,22 @@ pub struct Demand {
 }
 
 impl Demand {
-    /// Of a report about the device of `task`.
-    pub(super) fn of<S: Real>(task: &Task<'_>, table: &ChecksTable, report: &Report<S>) -> Demand {
+    /// Of what `checks` found about the device of `task`.
+    pub(super) fn of<S: Real>(task: &Task<'_>, table: &ChecksTable, checks: &Checks<S>) -> Demand {
+        let report = checks.before_fall();
         let number = |extreme: &Option<Extreme<S>>| extreme.map(|extreme| extreme.value.to_f64());
         let time = |extreme: &Option<Extreme<S>>| extreme.map(|extreme| extreme.time.to_f64());
         // Forces of the report are over the weight of the loaded block; results are over that of the bare one.
         let heavier = 1.0 + task.device().carried.mass_ratio;
-        let forces: Vec<f64> = report.force.iter().filter_map(number).map(|force| force * heavier).collect();
-        let force_ratio = forces.iter().copied().reduce(f64::max);
+        let largest = |report: &Report<S>| report.force.iter().filter_map(number).map(|force| force * heavier).reduce(f64::max);
         let mut demand = Demand {
             friction_needed: number(&report.friction),
             friction_needed_time_s: time(&report.friction),
             impact_friction_needed: number(&report.impact_friction),
             smallest_vertical_reaction_ratio: number(&report.vertical),
             contact_lost_time_s: report.contact_lost.map(Real::to_f64),
-            force_ratio,
+            force_ratio: largest(&report),
+            force_ratio_with_fall: largest(&checks.report()),
             stroke_m: report.stroke().map(|extreme| extreme.value.to_f64()),
             tooth_stress_mpa: Vec::new(),
             warnings: Vec::new(),

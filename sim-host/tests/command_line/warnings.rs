@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::{said, scene, sprag};
+use super::{refused, said, scene, sprag};
 
 fn summary(folder: &Path) -> serde_json::Value {
     serde_json::from_str(&fs::read_to_string(folder.join("summary.json")).unwrap()).unwrap()
@@ -100,4 +100,48 @@ fn the_first_impact_is_the_first_that_counts() {
     let at_it = speeds.filter(|row| row[time].parse() == Ok(first)).map(|row| row[velocity].parse::<f64>().unwrap().abs());
     // 1e-6 pα of this pier.
     assert!(at_it.fold(0.0, f64::max) > 1e-6 * 1.9177 * 0.17453);
+}
+
+#[test]
+fn messages_are_in_words_that_need_no_rust() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let figure = scene("figure05");
+    let set = |item: &str, words: &[&str]| {
+        refused(&["simulate", &figure, "--out", out.to_str().unwrap(), "--set", item], &out, words);
+    };
+    set("block.slenderness_deg=ten", &["block.slenderness_deg is \"ten\", but must be a number"]);
+    set("ground={motion=\"sine\"}", &["ground is a table, but must be a list"]);
+    set("device.1.kind=5", &["device.1.kind"]);
+    set("vertical.1.motion=sine", &["--set vertical.1.motion", "`1` must be 0, for there is none yet"]);
+    set("ground.2.scale=1", &["`2` must be a number from 0 to 0, or 1 to add one"]);
+    set("block.size_m=3", &["give only one of size_m and frequency_parameter_1_s", "--set KEY="]);
+    set("block.colour=", &["block.colour is not there"]);
+    set("block.restitution=1e308", &["block.restitution is 1e308, but"]);
+    set("block.inertia_ratio=1e-308", &["block.inertia_ratio is 1e-308, but"]);
+}
+
+#[test]
+fn tables_can_be_added_and_keys_left_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let sets = ["block.frequency_parameter_1_s=", "block.size_m=3", "device.3={kind=\"inerter\",mass_ratio=0.1,name=\"fourth\"}"];
+    let sets: Vec<&str> = sets.iter().flat_map(|set| ["--set", set]).collect();
+    let output = sprag(&[&["simulate", &scene("figure05"), "--out", out][..], &sets].concat());
+    assert!(output.status.success(), "{}", said(&output));
+    let summary = summary(folder.path());
+    assert_eq!(summary["scene"]["block"]["size_m"], 3.0);
+    assert_eq!(summary["runs"][3]["device"], "fourth");
+}
+
+#[test]
+fn a_comparison_with_nothing_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    for nothing in ["", " , "] {
+        let arguments = ["similar", &scene("figure06"), "--with", nothing, "--out", out.to_str().unwrap()];
+        refused(&arguments, &out, &["--with: names nothing that differs"]);
+    }
+    let help = String::from_utf8(sprag(&["batch", "--help"]).stdout).unwrap();
+    assert!(help.contains("[default: 1e-15]"), "{help}");
 }
