@@ -68,7 +68,7 @@ fn subscript(characters: &mut std::iter::Peekable<std::str::Chars<'_>>) -> Strin
     }
 }
 
-/// `text` in markup that [`formula`] writes as it is, such as a name that a user has given.
+/// `text` in the markup of formulas that is written as it is, such as a name that a user has given.
 pub fn literal(text: &str) -> String {
     text.chars()
         .flat_map(|character| ['*', '_', '\'', '\\'].contains(&character).then_some('\\').into_iter().chain([character]))
