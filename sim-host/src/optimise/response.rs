@@ -26,8 +26,8 @@ impl Response {
         Response {
             outcome: run.outcome,
             peak_rotation: run.peak_rotation,
-            force_ratio: checks.and_then(|checks| checks.force_ratio_with_fall).unwrap_or(0.0),
-            stroke_m: checks.and_then(|checks| checks.stroke_m).unwrap_or(0.0),
+            force_ratio: checks.and_then(|checks| checks.with_fall.force_ratio).unwrap_or(0.0),
+            stroke_m: checks.and_then(|checks| checks.with_fall.stroke_m).unwrap_or(0.0),
             error: run.error.map(|report| report.estimate),
         }
     }

@@ -26,9 +26,6 @@ pub struct Demand {
     pub contact_lost_time_s: Option<f64>,
     /// Largest |F|/(mg) of a flywheel's drive at the rack.
     pub force_ratio: Option<f64>,
-    /// The same with the fall of a block that overturns, up to where it lies on the ground.
-    #[serde(skip)]
-    pub force_ratio_with_fall: Option<f64>,
     /// Farthest travel of the terminals to one side, m.
     pub stroke_m: Option<f64>,
     /// Largest bending stress at the root of a tooth, each mesh from the rack on, MPa.
@@ -36,17 +33,30 @@ pub struct Demand {
     pub tooth_stress_mpa: Vec<f64>,
     /// The assumptions that fail, in words.
     pub warnings: Vec<String>,
+    /// With the fall.
+    #[serde(skip)]
+    pub with_fall: WithFall,
+}
+
+/// What a motion asks of the device with the fall of a block that overturns, up to where it lies on the ground.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WithFall {
+    /// As [`Demand::force_ratio`].
+    pub force_ratio: Option<f64>,
+    /// As [`Demand::stroke_m`].
+    pub stroke_m: Option<f64>,
 }
 
 impl Demand {
     /// Of what `checks` found about the device of `task`.
     pub(super) fn of<S: Real>(task: &Task<'_>, table: &ChecksTable, checks: &Checks<S>) -> Demand {
-        let report = checks.before_fall();
+        let (report, whole) = (checks.before_fall(), checks.report());
         let number = |extreme: &Option<Extreme<S>>| extreme.map(|extreme| extreme.value.to_f64());
         let time = |extreme: &Option<Extreme<S>>| extreme.map(|extreme| extreme.time.to_f64());
         // Forces of the report are over the weight of the loaded block; results are over that of the bare one.
         let heavier = 1.0 + task.device().carried.mass_ratio;
         let largest = |report: &Report<S>| report.force.iter().filter_map(number).map(|force| force * heavier).reduce(f64::max);
+        let farthest = |report: &Report<S>| report.stroke().map(|extreme| extreme.value.to_f64());
         let mut demand = Demand {
             friction_needed: number(&report.friction),
             friction_needed_time_s: time(&report.friction),
@@ -54,10 +64,10 @@ impl Demand {
             smallest_vertical_reaction_ratio: number(&report.vertical),
             contact_lost_time_s: report.contact_lost.map(Real::to_f64),
             force_ratio: largest(&report),
-            force_ratio_with_fall: largest(&checks.report()),
-            stroke_m: report.stroke().map(|extreme| extreme.value.to_f64()),
+            stroke_m: farthest(&report),
             tooth_stress_mpa: Vec::new(),
             warnings: Vec::new(),
+            with_fall: WithFall { force_ratio: largest(&whole), stroke_m: farthest(&whole) },
         };
         demand.teeth(task, table);
         demand.warn(table);
