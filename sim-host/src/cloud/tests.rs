@@ -53,7 +53,7 @@ fn what_is_wrong_is_named_with_its_key_and_range() {
         ("[stripes]\nmeasure = 'pga'\nlevels = [1, -1]", "stripes.levels.1 is -1, but must be above 0, to 1e6"),
         ("[stripes]\nmeasure = 'frequency'\nlevels = [1]", "stripes.measure: frequency does not change when a record is scaled"),
         ("measures = []", "measures is missing: one measure to rank or more"),
-        ("measures = ['sa']", "measures[0]: unknown variant `sa`, expected one of"),
+        ("measures = ['sa']", "measures.0: unknown variant `sa`, expected one of"),
         ("speed = 1", "unknown field `speed`"),
         ("[bootstrap]\nlevel = 1.0", "bootstrap.level is 1, but must be above 0 and below 1"),
         ("[bootstrap]\nresamples = 0", "bootstrap.resamples is 0, but must be from 1 to 1000000"),

@@ -136,6 +136,8 @@ fn in_words(message: &str) -> Option<String> {
     let found = match found {
         "map" => "a table".to_owned(),
         "sequence" => "a list".to_owned(),
+        // What a choice of words says of any number.
+        "unit variant" => "no text".to_owned(),
         other => ["string ", "integer ", "floating point ", "boolean "]
             .iter()
             .find_map(|kind| other.strip_prefix(kind))
@@ -143,7 +145,7 @@ fn in_words(message: &str) -> Option<String> {
     };
     let wanted = match wanted {
         "f64" => "a number",
-        "a string" | "path string" => "a text in quotes",
+        "a string" | "path string" | "string only" => "a text in quotes",
         "a sequence" => "a list; of tables name one by its number, from 0, as in --set ground.0.scale=2",
         "a map" => "a table",
         "a boolean" => "true or false",
