@@ -174,7 +174,7 @@ mod tests {
         axis.ticks()
             .labelled
             .iter()
-            .map(|label| label.text.svg().replace("<tspan dy=\"-0.45em\" font-size=\"75%\">", "^"))
+            .map(|label| label.text.svg().replace("<tspan dy=\"-0.45em\" font-size=\"0.75em\">", "^"))
             .collect()
     }
 

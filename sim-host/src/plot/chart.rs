@@ -350,7 +350,7 @@ mod tests {
         assert_well_formed(&svg);
         assert_eq!(svg.matches("<circle").count(), 10 + 1);
         for power in ["\u{2212}3", "0", "1", "2"] {
-            assert!(svg.contains(&format!("10<tspan dy=\"-0.45em\" font-size=\"75%\">{power}</tspan>")), "{power}");
+            assert!(svg.contains(&format!("10<tspan dy=\"-0.45em\" font-size=\"0.75em\">{power}</tspan>")), "{power}");
         }
         chart.panels[0].lines[0].points = vec![(1.0, -1.0)];
         assert!(matches!(chart_figure(&chart), Err(PlotError::NothingToDraw { .. })));

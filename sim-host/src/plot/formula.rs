@@ -29,7 +29,7 @@ pub(super) fn formula(markup: &str) -> String {
             }
             '_' => {
                 let subscript = escape(&subscript(&mut characters));
-                svg.push_str(&format!("<tspan dy=\"0.25em\" font-size=\"75%\">{subscript}</tspan>"));
+                svg.push_str(&format!("<tspan dy=\"0.25em\" font-size=\"0.75em\">{subscript}</tspan>"));
                 return_shift = UP_FROM_SUBSCRIPT;
             }
             '\'' if characters.next_if_eq(&'\'').is_some() => {

@@ -141,7 +141,7 @@ impl TickText {
         if self.exponent.is_empty() {
             return self.base.clone();
         }
-        format!("{}<tspan dy=\"-0.45em\" font-size=\"75%\">{}</tspan>", self.base, self.exponent)
+        format!("{}<tspan dy=\"-0.45em\" font-size=\"0.75em\">{}</tspan>", self.base, self.exponent)
     }
 
     /// Width (px) at `font_px`.
@@ -279,7 +279,7 @@ mod tests {
         assert_eq!(minor.len(), 7, "{minor:?}");
         assert_eq!(texts(&[math::log10(0.2), math::log10(0.5), 0.0]), ["0.2", "0.5", "1"]);
         assert_eq!(close_range(std::iter::empty()), None);
-        assert_eq!(TickText::power_of_ten(-3.0).svg(), "10<tspan dy=\"-0.45em\" font-size=\"75%\">\u{2212}3</tspan>");
+        assert_eq!(TickText::power_of_ten(-3.0).svg(), "10<tspan dy=\"-0.45em\" font-size=\"0.75em\">\u{2212}3</tspan>");
     }
 
     #[test]
