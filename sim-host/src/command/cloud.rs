@@ -10,7 +10,7 @@ use serde::Serialize;
 use super::format_arguments::FormatArguments;
 use super::out_arguments::FolderArguments;
 use super::study_input::{StudyArguments, StudyInputError, study_subject};
-use super::{DRAWING, ended, resumable, warned};
+use super::{DRAWING, ended, resumable};
 use crate::accuracy::{AccuracyArguments, Worst};
 use crate::cloud::figures::{demand_picture, fragility_picture};
 use crate::cloud::findings::Findings;
@@ -145,16 +145,9 @@ fn run_or_fail(
     let any_accuracy = arguments.accuracy.time_budget.is_some();
     let mut folder = arguments.folder.folder(&arguments.input.study, "cloud").of_any_accuracy(any_accuracy);
     let study = arguments.input.load(None)?;
-    let mut warnings = warned(study.warnings(), err);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
     // Records do not depend on how accurately they are followed.
-    let reading = Progress::uncounted("reading records");
-    let records = pool.install(|| arguments.input.read(&study))?;
-    reading.finish();
-    for line in &records.unreadable {
-        let _ = writeln!(err, "sprag: {line}");
-    }
-    warnings.extend(warned(records.warnings(), err));
+    let (records, warnings) = arguments.input.read(&study, &pool, err)?;
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
     let once = |change| pool.install(|| studied(arguments, change, &records, &mut folder, interrupt));
     let studied = arguments.accuracy.run(once, tell)?;

@@ -1,14 +1,18 @@
 //! What commands that run a study over records have in common: the study, its records, and what is said of them on the command line.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use rayon::ThreadPool;
 
 use super::out_arguments::file_of;
 use super::record_arguments::ReadArguments;
+use super::warned;
 use crate::cloud::records::{StudyRecord, StudyRecords};
 use crate::cloud::study::{Study, StudyError};
 use crate::output::{Digest, Subject};
+use crate::progress::Progress;
 use crate::record::Record;
 use crate::scene::SceneError;
 
@@ -61,17 +65,28 @@ impl StudyArguments {
         Ok(study)
     }
 
-    /// The records of `study`, one at least.
+    /// The records of `study`, one at least, and the warnings of both; `err` gets these and what cannot be read.
     ///
     /// # Errors
-    /// [`StudyInputError`] for what the study says of them, and where none can be read.
-    pub fn read(&self, study: &Study) -> Result<StudyRecords, StudyInputError> {
-        let records = StudyRecords::read(study)?;
+    /// [`StudyInputError`] for what the study says of its records, and where none can be read.
+    pub(super) fn read(
+        &self,
+        study: &Study,
+        pool: &ThreadPool,
+        err: &mut impl Write,
+    ) -> Result<(StudyRecords, Vec<String>), StudyInputError> {
+        let reading = Progress::uncounted("reading records");
+        let records = pool.install(|| StudyRecords::read(study))?;
+        reading.finish();
         if records.records.is_empty() {
             let first = records.unreadable.first().cloned();
             return Err(StudyInputError::NoRecord { study: self.study.clone(), first });
         }
-        Ok(records)
+        for line in &records.unreadable {
+            let _ = writeln!(err, "sprag: {line}");
+        }
+        let warnings = warned(study.warnings().into_iter().chain(records.warnings()), err);
+        Ok((records, warnings))
     }
 
     /// The files that were read: the study, its scene and its records.
