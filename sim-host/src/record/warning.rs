@@ -155,8 +155,8 @@ impl fmt::Display for Warning {
             }
             Warning::VelocityDrift { final_m_s, fraction } => write!(
                 f,
-                "velocity from rest ends at {final_m_s:.4} m/s, {:.0} % of PGV: the baseline seems uncorrected",
-                100.0 * fraction
+                "velocity from rest ends at {final_m_s:.4} m/s, {fraction:.2} times PGV about a straight baseline: the baseline seems \
+                 uncorrected"
             ),
             Warning::TimeStepRounded { printed_s, relative } => write!(
                 f,
