@@ -92,6 +92,8 @@ impl<S: Real> EnergyHistory<S> {
     /// Writes down the entries at `time` (s).
     fn write(&mut self, time: f64) {
         let entries = self.ledger.entries();
+        // Where two pieces of ground motion meet, their own times may differ in the last bit.
+        let time = self.samples.last().map_or(time, |last| time.max(last.0));
         self.samples.push((time, entries.each(Real::to_f64)));
     }
 }
@@ -115,5 +117,24 @@ impl<S: Real> DeviceObserver<S> for EnergyHistory<S> {
         if event != Event::Turn {
             self.write(at);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sprag_shared::block::{Block, Geometry};
+    use sprag_shared::ledger::{Account, Clutching};
+
+    use super::*;
+
+    #[test]
+    fn times_of_a_ledger_do_not_go_back() {
+        let account = Account { clutching: Clutching::Permanent, mass_ratio: 0.0, rack_mass_ratio: 0.0 };
+        let block = Block::new(2.0, 0.2, 4.0 / 3.0).unwrap();
+        let mut history = EnergyHistory::<f64>::new(Ledger::new(&block, Geometry::Slender, &account), 0.01);
+        // The end of one piece of ground motion, and the start of the next.
+        history.write(1.0 + f64::EPSILON);
+        history.write(1.0);
+        assert!(history.samples.is_sorted_by_key(|sample| sample.0));
     }
 }
