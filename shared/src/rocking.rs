@@ -78,20 +78,42 @@ pub struct System<S, R, E, C> {
 }
 
 /// Why a piece was not finished.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stopped {
     /// More events than [`Limits::events`] in one piece.
-    TooManyEvents,
+    TooManyEvents {
+        /// Time in the piece, s.
+        time: f64,
+        /// The mode of block and clutches then.
+        mode: &'static str,
+    },
     /// A state that is not finite.
-    NotFinite,
+    NotFinite {
+        /// Time in the piece, s.
+        time: f64,
+    },
+}
+
+impl Stopped {
+    /// The same, with times from the start of a motion in which the piece begins at `start` (s).
+    pub fn after(self, start: f64) -> Stopped {
+        match self {
+            Stopped::TooManyEvents { time, mode } => Stopped::TooManyEvents { time: start + time, mode },
+            Stopped::NotFinite { time } => Stopped::NotFinite { time: start + time },
+        }
+    }
 }
 
 impl core::fmt::Display for Stopped {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        formatter.write_str(match self {
-            Stopped::TooManyEvents => "more events in one stretch of ground motion than the limit allows",
-            Stopped::NotFinite => "the motion is no longer finite",
-        })
+        match self {
+            Stopped::TooManyEvents { time, mode } => write!(
+                formatter,
+                "at {time:.6} s, while {mode}, events follow one another without end; a dwell of the clutches, or a fixed step, goes \
+                 past them"
+            ),
+            Stopped::NotFinite { time } => write!(formatter, "at {time:.6} s the motion is no longer finite"),
+        }
     }
 }
 
@@ -215,10 +237,10 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
             }
             events += 1;
             if !(state.rotation.is_finite() && state.velocity.is_finite()) {
-                return Err(Stopped::NotFinite);
+                return Err(Stopped::NotFinite { time: time.to_f64() });
             }
             if events >= limits.events {
-                return Err(Stopped::TooManyEvents);
+                return Err(Stopped::TooManyEvents { time: time.to_f64(), mode: "the block rocks" });
             }
         }
         Ok(())

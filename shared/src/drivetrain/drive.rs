@@ -103,9 +103,6 @@ pub trait Drive<S: Real, const X: usize, const G: usize>: Copy {
     /// Σ k engaged while a block without ground motion falls back (`inward`) or rises.
     fn swing_coupling(&self, inward: bool) -> S;
 
-    /// Dry friction at the rack that holds a standing block; `prompt` says that a clutch engages as soon as it starts to move.
-    fn standing_friction(&self, prompt: bool) -> S;
-
     /// The parameters, where there are any.
     fn gears(&self) -> Option<&Gears<S>>;
 

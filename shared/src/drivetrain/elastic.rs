@@ -233,12 +233,6 @@ impl<S: Real> Drive<S, 4, 3> for ElasticPair<S> {
         if inward { self.0.inertance + self.0.rack_coupling } else { self.0.rack_coupling }
     }
 
-    #[inline(always)]
-    fn standing_friction(&self, _prompt: bool) -> S {
-        // A spring has to be wound up before it holds.
-        self.0.standing_friction(false)
-    }
-
     fn account<B: Body<S>>(&self, at: &MomentOf<'_, S, B, S, 4>, acceleration: S, device: &Device<S>) -> Account<S> {
         let spins = [at.extra[0], at.extra[1]];
         let mut account = account(at, &self.0, acceleration, device, spins);

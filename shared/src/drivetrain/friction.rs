@@ -157,14 +157,6 @@ impl<S: Real> Drive<S, 2, 3> for FrictionPair<S> {
         if inward { self.0.inertance + self.0.rack_coupling } else { self.0.rack_coupling }
     }
 
-    #[inline(always)]
-    fn standing_friction(&self, prompt: bool) -> S {
-        // Plates carry no more than their capacity, which a slow clutch does not have at once.
-        let gears = &self.0;
-        let carried = if gears.rise_time > S::ZERO { S::ZERO } else { gears.capacity };
-        gears.standing_friction(prompt).smaller(gears.rack_dry + carried)
-    }
-
     fn account<B: Body<S>>(&self, at: &MomentOf<'_, S, B, S, 2>, acceleration: S, device: &Device<S>) -> Account<S> {
         let mut account = account(at, &self.0, acceleration, device, at.extra);
         let rack = at.body.along(&at.posture, at.velocity);

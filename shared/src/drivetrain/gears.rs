@@ -30,6 +30,8 @@ pub struct Gears<S> {
     pub stops_at_once: bool,
     /// Capacity of the plates, 1/s²; infinite without plates.
     pub capacity: S,
+    /// What they carry at first contact, 1/s²: enough to tell stick from slip there.
+    pub contact: S,
     /// Time to full capacity, s.
     pub rise_time: S,
     /// Stiffness of the clutch, 1/s².
@@ -68,6 +70,7 @@ impl<S: Real> Gears<S> {
             brake: S::of(if stops_at_once { 0.0 } else { flywheel.brake_deceleration / size }),
             stops_at_once,
             capacity: S::of(capacity),
+            contact: S::of(if actuation.rise_time > 0.0 { capacity } else { 0.0 }) * S::EPSILON.square_root(),
             rise_time: S::of(actuation.rise_time),
             stiffness: S::of(stiffness),
             damping: S::of(damping),
@@ -81,8 +84,8 @@ impl<S: Real> Gears<S> {
         if wheel.engaged_for >= self.rise_time {
             return (self.capacity, S::ZERO);
         }
-        let growth = self.capacity / self.rise_time;
-        (growth * wheel.engaged_for, growth)
+        let growth = (self.capacity - self.contact) / self.rise_time;
+        (self.contact + growth * wheel.engaged_for, growth)
     }
 
     /// The law of rack, bearings, brakes and plates in the present mode.
@@ -113,10 +116,13 @@ impl<S: Real> Gears<S> {
         law
     }
 
-    /// Dry friction of the rack, and of the bearings of a flywheel that is locked to it; 1/s².
+    /// Dry friction at the rack of a standing flywheel that is coupled to it, and its growth: that of the bearings, as far as the
+    /// plates carry it; 1/s² and 1/s³.
     #[inline]
-    pub fn standing_friction(&self, locked: bool) -> S {
-        if locked { self.rack_dry + self.inertance * self.bearing_dry } else { self.rack_dry }
+    pub fn standing_friction(&self, wheel: &Wheel<S>) -> (S, S) {
+        let bearing = self.inertance * self.bearing_dry;
+        let (capacity, growth) = self.capacity_of(wheel);
+        if bearing <= capacity { (bearing, S::ZERO) } else { (capacity, growth) }
     }
 
     /// Deceleration of an idle or engaged flywheel by dry friction, 1/s².
@@ -135,6 +141,9 @@ impl<S: Real> Gears<S> {
             Some(Sign::Negative)
         } else if force.abs() > dry {
             Some(Sign::of(force, Sign::Positive))
+        } else if let (true, Coupling::Slipping(sign) | Coupling::Saturated(sign)) = (dry == S::ZERO, wheel.coupling) {
+            // Plates whose capacity rises from zero.
+            Some(sign)
         } else {
             None
         };

@@ -85,11 +85,6 @@ impl<S: Real> Drive<S, 0, 0> for Alone {
     }
 
     #[inline(always)]
-    fn standing_friction(&self, _prompt: bool) -> S {
-        S::ZERO
-    }
-
-    #[inline(always)]
     fn gears(&self) -> Option<&Gears<S>> {
         None
     }
@@ -140,11 +135,6 @@ impl<S: Real, const FRICTION: bool> Drive<S, 0, 0> for Single<S, FRICTION> {
     #[inline(always)]
     fn swing_coupling(&self, _inward: bool) -> S {
         self.0.inertance + self.0.rack_coupling
-    }
-
-    #[inline(always)]
-    fn standing_friction(&self, _prompt: bool) -> S {
-        self.0.standing_friction(true)
     }
 
     #[inline(always)]
@@ -207,11 +197,6 @@ impl<S: Real, const FRICTION: bool> Drive<S, 0, 1> for IdealPair<S, FRICTION> {
     #[inline(always)]
     fn swing_coupling(&self, inward: bool) -> S {
         if inward { self.0.inertance + self.0.rack_coupling } else { self.0.rack_coupling }
-    }
-
-    #[inline(always)]
-    fn standing_friction(&self, prompt: bool) -> S {
-        self.0.standing_friction(prompt)
     }
 
     #[inline(always)]

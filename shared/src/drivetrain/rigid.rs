@@ -99,11 +99,6 @@ impl<S: Real> Drive<S, 2, 1> for RigidPair<S> {
     }
 
     #[inline(always)]
-    fn standing_friction(&self, prompt: bool) -> S {
-        self.0.standing_friction(prompt)
-    }
-
-    #[inline(always)]
     fn account<B: Body<S>>(&self, at: &MomentOf<'_, S, B, S, 2>, acceleration: S, device: &Device<S>) -> Account<S> {
         account(at, &self.0, acceleration, device, at.extra)
     }

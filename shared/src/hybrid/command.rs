@@ -56,29 +56,30 @@ const MOST_ANSWERS: usize = 4;
 impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {
     /// Gives the commands that the present signs ask for, and carries out those that are due.
     pub(super) fn command(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
-        if !D::COMMANDED || state.motion.phase != Phase::Rocking || state.held {
+        if !D::COMMANDED || state.motion.phase != Phase::Rocking {
             return;
         }
         for _ in 0..MOST_ANSWERS {
             let motion = &state.motion;
             let resists = motion.direction == motion.drive;
             let wheel = wheel_for(motion.direction);
-            if !self.actuator.controlled {
+            // A block that friction holds has no motion to resist: its commands stay.
+            if !self.actuator.controlled && !state.held {
                 for index in 0..2 {
                     self.give(state, index, resists && index == wheel);
                 }
             }
             let (velocity, direction) = (state.motion.velocity, state.motion.direction);
-            let mut engages = false;
+            let mut holds = false;
             for index in 0..2 {
                 if state.device.wheels[index].pending == S::ZERO {
-                    engages |= state.device.wheels[index].commanded;
+                    holds |= state.held || (state.device.wheels[index].commanded && state.motion.rotation != S::ZERO);
                     self.carry_out(state, index, time, observer);
                 }
             }
             if state.motion.velocity == velocity {
-                if engages && D::HOLDS && velocity == S::ZERO && state.motion.rotation != S::ZERO {
-                    // The bearings of a wheel that has just been engaged may hold the block.
+                if holds && D::HOLDS && velocity == S::ZERO {
+                    // The bearings of a wheel that has just been engaged may hold the block, those of a released one let it go.
                     state.free = false;
                     self.turned(state);
                 }
@@ -102,10 +103,10 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                     self.give(state, index, wish);
                 }
             }
-            if state.motion.phase == Phase::Rocking && !state.held {
+            if state.motion.phase == Phase::Rocking {
                 self.command(state, S::ZERO, observer);
             } else if state.motion.phase == Phase::Rest {
-                self.carry_out_at_rest(state, observer);
+                self.carry_out_at_rest(state, S::ZERO, observer);
             }
         }
     }
@@ -123,10 +124,10 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// Commands to the clutches of a standing block that are due.
-    pub(super) fn carry_out_at_rest(&self, state: &mut MachineState<S>, observer: &mut dyn DeviceObserver<S>) {
+    pub(super) fn carry_out_at_rest(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         for index in 0..2 {
             if state.device.wheels[index].pending == S::ZERO {
-                self.carry_out(state, index, S::ZERO, observer);
+                self.carry_out(state, index, time, observer);
                 state.motion.velocity = S::ZERO;
             }
         }

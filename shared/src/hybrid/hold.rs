@@ -1,58 +1,34 @@
-//! Dry friction of rack and bearings may hold a tilted block where it turns.
+//! Dry friction of rack and bearings may hold a block: tilted, where it turns, or on its base, where clutches engage as it starts.
 
-use super::impact::Threshold;
 use super::path::Shaking;
+use super::threshold::Threshold;
 use super::{Machine, MachineState};
 use crate::arc::{Arc, Motion};
 use crate::body::Body;
 use crate::drivetrain::device::Coupling;
 use crate::drivetrain::drive::Drive;
 use crate::ground::Piece;
-use crate::observer::Stretch;
+use crate::observer::{Event, Stretch};
 use crate::scalar::{Real, Sign};
 use crate::snapshot::{DeviceArc, DeviceObserver, Snapshot};
 
 impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {
-    /// What moves a block that stands tilted towards `sign`, against the friction of what moves with the rack. Forces of
-    /// slipping or stretched clutches are taken as they are now.
-    fn breakaway(&self, state: &MachineState<S>, sign: Sign) -> Threshold<S> {
-        let motion = &state.motion;
-        let posture = self.body.posture(motion.side.unit(), motion.rotation);
-        let (horizontal, vertical) = self.body.factors(&posture);
-        let arm = self.body.arm(&posture);
-        let (mut push, mut dry, mut force) = (S::ZERO, S::ZERO, S::ZERO);
-        if let Some(gears) = self.drive.gears() {
-            (push, dry) = (gears.rack_push, gears.rack_dry);
-            let law = self.drive.law(motion.direction, motion.drive, &state.device);
-            let still = Motion { rotation: motion.rotation, velocity: S::ZERO, acceleration: S::ZERO };
-            let moment = self.moment(&law, motion.side, &still, self.drive.load(&state.device), state.ground, S::ZERO);
-            let account = self.drive.account(&moment, S::ZERO, &state.device);
-            for (wheel, &carried) in state.device.wheels.iter().zip(&account.force) {
-                match wheel.coupling {
-                    Coupling::Locked => dry = dry + gears.inertance * gears.bearing_dry,
-                    Coupling::Open => {}
-                    _ => force = force + carried,
-                }
-            }
-        }
-        Threshold {
-            horizontal: sign.times(horizontal - arm * push),
-            vertical: sign.times(vertical),
-            constant: -(arm * dry) - sign.times(arm * force),
-        }
-    }
-
     /// At θ̇ = 0: the way on, if friction lets the block go.
     pub(super) fn turned(&self, state: &mut MachineState<S>) {
-        let on = self.breakaway(state, state.motion.direction).at(state.ground);
-        if on > S::ZERO {
-            return;
-        }
-        let back = self.breakaway(state, state.motion.direction.opposite()).at(state.ground);
-        if back > S::ZERO {
-            state.motion.direction = state.motion.direction.opposite();
-        } else if D::HOLDS {
-            state.held = true;
+        let (side, direction) = (state.motion.side, state.motion.direction);
+        // A block on its base goes nowhere but up.
+        let on = if state.motion.rotation == S::ZERO { side } else { direction };
+        let on_base = D::HOLDS && state.motion.rotation == S::ZERO;
+        let goes = |sign: Sign| {
+            let threshold = self.breakaway(state, side, sign);
+            if D::HOLDS { threshold.is_exceeded(state.ground) } else { threshold.at(state.ground) > S::ZERO }
+        };
+        let (goes_on, goes_back) = (goes(on), !on_base && goes(direction.opposite()));
+        state.held = D::HOLDS && !goes_on && !goes_back;
+        if on_base {
+            state.motion.direction = side;
+        } else if !goes_on && goes_back {
+            state.motion.direction = direction.opposite();
         }
     }
 
@@ -65,22 +41,14 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         stop: S,
         observer: &mut dyn DeviceObserver<S>,
     ) -> S {
-        let ways = [Sign::Positive, Sign::Negative].map(|sign| {
-            let free = self.breakaway(state, sign).exceeded::<B, P, Q>(shaking, time, stop);
-            (free, sign)
-        });
-        let (free, sign) = match ways {
-            [(Some(a), _), (Some(b), negative)] if b.0 < a.0 => (Some(b), negative),
-            [(Some(a), positive), _] => (Some(a), positive),
-            [_, (b, negative)] => (b, negative),
-        };
-        let until = free.map_or(stop, |(at, _)| at);
+        let end = self.let_go(state, shaking, time, stop);
+        let until = end.map_or(stop, |(at, _)| at);
         // A flywheel that comes to a stop on the way kinks the powers that watchers integrate.
         let whole = until - time;
         let wheels =
             self.drive.gears().into_iter().flat_map(|gears| state.device.wheels.iter().map(|w| gears.stops_within(w, whole)));
-        let shortest = wheels.flatten().fold(whole, Real::smaller);
-        let (until, free) = if shortest < whole { (time + shortest, None) } else { (until, free) };
+        let length = wheels.flatten().fold(whole, Real::smaller);
+        let (until, end) = if length < whole { (time + length, None) } else { (until, end) };
         if until > time {
             let still = Motion { rotation: state.motion.rotation, velocity: S::ZERO, acceleration: S::ZERO };
             let stretch = Stretch {
@@ -94,17 +62,62 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 direction: state.motion.direction,
             };
             observer.device_stretch(&Still { machine: self, state: &*state, shaking, time, length: until - time }, &stretch);
-            self.idle(state, until - time);
         }
+        // What the clock cannot tell from now still stops a flywheel.
+        self.idle(state, length);
         state.ground = shaking.at::<S, B>(until);
-        if let Some((_, crossing)) = free {
-            (state.held, state.free) = (false, crossing);
-            state.motion.direction = sign;
-            state.motion.drive = if D::COMMANDED { self.drive_sign(state) } else { state.motion.drive };
-            self.settle(state, until, observer);
+        match end {
+            Some((_, LetGo::Moves { sign, crossing })) => {
+                (state.held, state.free) = (false, crossing);
+                state.motion.direction = sign;
+                state.motion.drive = if D::COMMANDED { self.drive_sign(state) } else { state.motion.drive };
+                self.settle(state, until, observer);
+            }
+            Some((_, LetGo::Rests)) => {
+                *state = self.standing(state);
+                observer.device_event(Event::Rest, until, &state.motion);
+            }
+            None => {}
         }
         until
     }
+
+    /// When a held block is let go before `stop`, and how. On its base it can only go up, and its weight alone may hold it again.
+    fn let_go<P: Piece<S>, Q: Piece<S>>(
+        &self,
+        state: &MachineState<S>,
+        shaking: Shaking<'_, P, Q>,
+        time: S,
+        stop: S,
+    ) -> Option<(S, LetGo)> {
+        let side = state.motion.side;
+        let first = |threshold: Threshold<S>| threshold.exceeded::<B, P, Q>(shaking, time, stop);
+        let moves = |sign| first(self.breakaway(state, side, sign)).map(|(at, crossing)| (at, LetGo::Moves { sign, crossing }));
+        let ends = if state.motion.rotation == S::ZERO {
+            let weight = self.breakaway(&self.standing(state), side, side).opposite();
+            [moves(side), first(weight).map(|(at, _)| (at, LetGo::Rests))]
+        } else {
+            [moves(Sign::Positive), moves(Sign::Negative)]
+        };
+        match ends {
+            [Some(a), Some(b)] => Some(if b.0 < a.0 { b } else { a }),
+            [a, b] => a.or(b),
+        }
+    }
+}
+
+/// What lets a held block go.
+#[derive(Clone, Copy, Debug)]
+enum LetGo {
+    /// The push overcomes friction.
+    Moves {
+        /// Towards.
+        sign: Sign,
+        /// By crossing the threshold, not by a jump.
+        crossing: bool,
+    },
+    /// On its base, the weight alone holds it.
+    Rests,
 }
 
 /// A block that does not move.

@@ -14,7 +14,9 @@ pub mod path;
 mod quantity;
 pub mod resolve;
 pub mod series;
+mod standing;
 pub mod steps;
+mod threshold;
 
 pub use command::Actuator;
 
@@ -65,7 +67,7 @@ pub struct MachineState<S> {
     pub ground: [S; 2],
     /// The watched functions that are zero here, by an event just handled.
     fresh: [bool; 3],
-    /// The ground has just set a standing block free: what moves it is zero here and about to grow.
+    /// What moves a block that stood has just passed what held it.
     free: bool,
 }
 
@@ -78,6 +80,25 @@ const AT_ONCE: f64 = 1e-9;
 
 /// How far a graze is followed without guards, in 1/p: what they watch stays below the square of that.
 const GRAZE: f64 = 1e-6;
+
+/// The error of a state that events do not let go.
+fn too_many<S: Real>(state: &MachineState<S>, time: S) -> Stopped {
+    let has = |is: fn(&Coupling) -> bool| state.device.wheels.iter().any(|wheel| is(&wheel.coupling));
+    let mode = if state.motion.phase == Phase::Rest {
+        "the block stands"
+    } else if state.held {
+        "friction holds the block"
+    } else if has(|coupling| matches!(coupling, Coupling::Slipping(_) | Coupling::Saturated(_))) {
+        "a clutch slips"
+    } else if has(|coupling| matches!(coupling, Coupling::InPlay | Coupling::Elastic(_))) {
+        "a clutch stretches"
+    } else if has(|coupling| *coupling == Coupling::Locked) {
+        "a clutch holds"
+    } else {
+        "the clutches are open"
+    };
+    Stopped::TooManyEvents { time: time.to_f64(), mode }
+}
 
 /// What ended a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -134,14 +155,23 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         self.ground_at_start(state, shaking.at::<S, B>(S::ZERO), observer);
         while time < duration && state.motion.phase != Phase::Overturned {
             if state.motion.phase == Phase::Rest {
-                let uplift = self.uplift_time(shaking, time, duration);
-                let until = uplift.map_or(duration, |(at, _)| at);
+                let stop = self.stands_until(state, time, duration);
+                let uplift = self.uplift_time(state, shaking, time, stop);
+                let until = uplift.map_or(stop, |(at, _)| at);
                 self.idle(state, until - time);
                 time = until;
-                let Some((_, crossing)) = uplift else { break };
-                self.uplift(state, shaking.at::<S, B>(time), crossing);
-                observer.device_event(Event::Uplift, time, &state.motion);
-                self.command(state, time, observer);
+                if let Some((_, crossing)) = uplift {
+                    self.uplift(state, shaking.at::<S, B>(time), time, crossing, observer);
+                } else if time < duration {
+                    self.carry_out_at_rest(state, time, observer);
+                    events += 1;
+                    if events >= limits.events {
+                        return Err(too_many(state, time));
+                    }
+                    continue;
+                } else {
+                    break;
+                }
             }
             let outward = state.motion.side == state.motion.direction
                 && state.motion.side.times(state.motion.rotation) >= limits.overturned;
@@ -177,10 +207,10 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             self.command(state, time, observer);
             events += 1;
             if !(state.motion.rotation.is_finite() && state.motion.velocity.is_finite()) {
-                return Err(Stopped::NotFinite);
+                return Err(Stopped::NotFinite { time: time.to_f64() });
             }
             if events >= limits.events {
-                return Err(Stopped::TooManyEvents);
+                return Err(too_many(state, time));
             }
         }
         state.ground = shaking.at::<S, B>(duration);
@@ -211,7 +241,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             extra: self.drive.load(&state.device),
             time: *time,
             length: stop - *time,
-            balanced: state.free,
+            freed: state.free,
             scale: self.slenderness,
             speed: self.speed,
         };

@@ -61,8 +61,8 @@ pub struct PathStart<'a, S, B, D, P, Q, const X: usize> {
     pub time: S,
     /// How far the step may reach, s; above 0.
     pub length: S,
-    /// θ̈ is zero here and about to leave zero, because an event was located on it; its rounding error must not count.
-    pub balanced: bool,
+    /// The block has just been set free where what moves it passed what held it: θ̈ has the direction of the motion, or is zero.
+    pub freed: bool,
     /// Size of a rotation that matters (rad), for tolerances.
     pub scale: S,
     /// Size of an angular velocity that matters, rad/s.
@@ -70,6 +70,12 @@ pub struct PathStart<'a, S, B, D, P, Q, const X: usize> {
 }
 
 impl<S: Real, B: Body<S>, D, P: Piece<S>, Q: Piece<S>, const X: usize> PathStart<'_, S, B, D, P, Q, X> {
+    /// θ̈ at the start, from the equation's `acceleration`: the rounding of a zero must not push a freed block back.
+    #[inline(always)]
+    pub fn first(&self, acceleration: S) -> S {
+        if self.freed && self.law.direction * acceleration < S::ZERO { S::ZERO } else { acceleration }
+    }
+
     /// θ̈ and the rates of the device's unknowns a time `t` after the start.
     #[inline(never)]
     pub fn rates<const G: usize>(&self, t: S, rotation: S, velocity: S, extra: &[S; X]) -> (S, [S; X])

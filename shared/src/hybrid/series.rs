@@ -120,8 +120,8 @@ impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
                 clock: given(4),
             };
             let (acceleration, rates) = start.drive.flow(&at);
-            if k == 0 && start.balanced {
-                acceleration.0.set_last(S::ZERO);
+            if k == 0 {
+                acceleration.0.set_last(start.first(acceleration.0.last()));
             }
             let a = acceleration.0.last();
             let reciprocal = S::of(RECIPROCALS[(k + 1) & 63]);

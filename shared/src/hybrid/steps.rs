@@ -39,7 +39,7 @@ impl<S: Real> Stepper<S> for RungeKutta4<S> {
             extra
         };
         let (first, r1) = start.rates::<G>(S::ZERO, theta, omega, &start.extra);
-        let a1 = if start.balanced { S::ZERO } else { first };
+        let a1 = start.first(first);
         let omega_2 = omega + half * a1;
         let (a2, r2) = start.rates::<G>(half, theta + half * omega, omega_2, &shifted(&r1, half));
         let omega_3 = omega + half * a2;

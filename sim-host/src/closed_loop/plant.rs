@@ -240,7 +240,9 @@ where
                 let (horizontal, vertical) = (horizontal.after(offset), vertical.after(offset));
                 let shaking = Shaking { horizontal: &horizontal, vertical: &vertical };
                 let mut both = Both(watcher, &mut self.shocks);
-                self.machine.advance(&self.tracer, &mut self.state, shaking, end - self.time, &self.limits, &mut both)?;
+                let ended =
+                    self.machine.advance(&self.tracer, &mut self.state, shaking, end - self.time, &self.limits, &mut both);
+                ended.map_err(|stopped| stopped.after(self.time))?;
             }
             self.time = end;
         }

@@ -125,18 +125,20 @@ impl Course<'_> {
             }
             let duration = S::of(segment.duration);
             // One type for every shape: a branch a call costs less than a second copy of every stepper.
-            system.advance(method, state, &ShapePiece::of(&segment.shape), duration, &limits, observer)?;
+            let piece = ShapePiece::of(&segment.shape);
+            system.advance(method, state, &piece, duration, &limits, observer).map_err(|end| end.after(segment.start))?;
         }
         if state.phase == Phase::Overturned || !goes_on() {
             return Ok(());
         }
         observer.segment(self.ground.duration(), None);
         let (limits, duration) = (self.limits(0.0), S::of(self.free_time));
-        if O::EVERY_SWING {
+        let ended = if O::EVERY_SWING {
             system.advance(method, state, &ShapePiece::Linear(Linear::constant(S::ZERO)), duration, &limits, observer)
         } else {
             system.advance(method, state, &Quiet, duration, &limits, observer)
-        }
+        };
+        ended.map_err(|end| end.after(self.ground.duration()))
     }
 
     /// Follows a device with a memory as [`Course::follow`] an ideal one, and tells `observer` of every swing.
@@ -170,13 +172,15 @@ impl Course<'_> {
             let horizontal = ShapePiece::of(&segment.shape);
             let up = vertical.and_then(|segments| segments.get(index)).map(|segment| ShapePiece::of(&segment.shape));
             let shaking = Shaking { horizontal: &horizontal, vertical: up.as_ref().unwrap_or(&still) };
-            machine.advance(tracer, state, shaking, S::of(segment.duration), &limits(segment.bound), observer)?;
+            let (duration, limits) = (S::of(segment.duration), limits(segment.bound));
+            machine.advance(tracer, state, shaking, duration, &limits, observer).map_err(|end| end.after(segment.start))?;
         }
         if state.motion.phase == Phase::Overturned || !goes_on() {
             return Ok(());
         }
         observer.segment(self.ground.duration(), None);
         let shaking = Shaking { horizontal: &still, vertical: &still };
-        machine.advance(tracer, state, shaking, S::of(self.free_time), &limits(0.0), observer)
+        let ended = machine.advance(tracer, state, shaking, S::of(self.free_time), &limits(0.0), observer);
+        ended.map_err(|end| end.after(self.ground.duration()))
     }
 }

@@ -5,6 +5,7 @@ mod energy;
 mod ground;
 mod limits;
 mod methods;
+mod standing;
 
 use std::vec::Vec;
 
