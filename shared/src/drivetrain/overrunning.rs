@@ -73,20 +73,22 @@ impl<S: Real> Drive<S, 2, 1> for OverrunningPair<S> {
         if at.device.wheels[other].coupling == Coupling::Locked {
             open(&self.0, at, other);
         }
-        let resists = at.direction.times(force_if_locked(self, &self.0, at, wheel)) > S::ZERO;
+        let resists = |at: &Instant<'_, S, B>| at.direction.times(force_if_locked(self, &self.0, at, wheel)) > S::ZERO;
         // What stands still is held by the clutch until the push overcomes the bearings.
         let stands = rack == S::ZERO;
-        if at.device.wheels[wheel].coupling == Coupling::Locked {
-            if !resists && !stands {
-                open(&self.0, at, wheel);
+        let spin = at.device.wheels[wheel].spin;
+        if at.device.wheels[wheel].coupling != Coupling::Locked {
+            let ahead = at.direction.times(spin - rack);
+            if ahead > S::ZERO {
+                return;
+            } else if ahead < S::ZERO {
+                jolt(&self.0, at, wheel);
+            } else {
+                at.device.wheels[wheel].coupling = Coupling::Locked;
             }
-            return;
         }
-        let ahead = at.direction.times(at.device.wheels[wheel].spin - rack);
-        if ahead < S::ZERO {
-            jolt(&self.0, at, wheel);
-        } else if ahead == S::ZERO && (resists || stands) {
-            at.device.wheels[wheel].coupling = Coupling::Locked;
+        if !resists(at) && !stands {
+            open(&self.0, at, wheel);
         }
     }
 

@@ -5,6 +5,7 @@ use crate::body::Body;
 use crate::drivetrain::Actuation;
 use crate::drivetrain::device::{Coupling, Watch, Wheel};
 use crate::drivetrain::drive::Drive;
+use crate::drivetrain::gears::Gears;
 use crate::drivetrain::overrunning::wheel_for;
 use crate::rocking::Phase;
 use crate::scalar::{Real, Sign};
@@ -52,6 +53,19 @@ impl<S: Real> Actuator<S> {
 
 /// Most answers to one event: a jolt may change the signs that caused it.
 const MOST_ANSWERS: usize = 4;
+
+/// Until a rising capacity is full, or overcomes the friction that holds a standing flywheel.
+fn ramp_due<S: Real>(gears: &Gears<S>, wheel: &Wheel<S>, block_held: bool) -> Option<S> {
+    if wheel.coupling == Coupling::Open || wheel.engaged_for >= gears.rise_time {
+        return None;
+    }
+    let full = gears.rise_time - wheel.engaged_for;
+    let (capacity, growth) = gears.capacity_of(wheel);
+    let slips = matches!(wheel.coupling, Coupling::Slipping(_) | Coupling::Saturated(_));
+    let held = (slips && wheel.turning.is_none()) || (block_held && wheel.coupling == Coupling::Locked);
+    let starts = (gears.inertance * gears.dry_of(wheel) - capacity) / growth;
+    Some(if held && starts > S::ZERO && starts < full { starts } else { full })
+}
 
 impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {
     /// Gives the commands that the present signs ask for, and carries out those that are due.
@@ -177,24 +191,12 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let mut due = state.device.next_due().filter(|time| *time > S::ZERO);
         if let Some(gears) = self.drive.gears().filter(|gears| gears.rise_time > S::ZERO) {
             for wheel in &state.device.wheels {
-                if let Some(time) = self.ramp_due(gears, wheel) {
+                if let Some(time) = ramp_due(gears, wheel, state.held) {
                     due = Some(due.map_or(time, |sooner: S| sooner.smaller(time)));
                 }
             }
         }
         due
-    }
-
-    /// Until a rising capacity is full, or overcomes the friction that holds a standing flywheel.
-    fn ramp_due(&self, gears: &crate::drivetrain::gears::Gears<S>, wheel: &Wheel<S>) -> Option<S> {
-        if wheel.coupling == Coupling::Open || wheel.engaged_for >= gears.rise_time {
-            return None;
-        }
-        let full = gears.rise_time - wheel.engaged_for;
-        let (capacity, growth) = gears.capacity_of(wheel);
-        let held = wheel.turning.is_none() && matches!(wheel.coupling, Coupling::Slipping(_) | Coupling::Saturated(_));
-        let starts = (gears.inertance * gears.dry_of(wheel) - capacity) / growth;
-        Some(if held && starts > S::ZERO && starts < full { starts } else { full })
     }
 
     /// A clock has run out: a rising capacity may start a flywheel that stood.

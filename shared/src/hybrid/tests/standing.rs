@@ -178,3 +178,30 @@ fn a_second_uplift_feels_the_spinning_flywheels() {
         assert!(entries.residual().abs() < 1e-12 * entries.input.abs(), "{engagement:?}: {entries:?}");
     }
 }
+
+/// A flywheel that a block in motion has just brought to its speed is let go at once where the block slows down.
+#[test]
+fn an_overrunning_clutch_that_has_just_gripped_does_not_push() {
+    struct Start;
+    impl WithMachine<f64> for Start {
+        type Output = [f64; 2];
+
+        fn with<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
+            self,
+            machine: Machine<f64, B, D, X, G>,
+        ) -> [f64; 2] {
+            // Outward, against the weight.
+            let state = machine.released_at(0.0, 0.1, [0.0; 2]);
+            let now = machine.now(&state);
+            [now.motion.velocity, now.force[0]]
+        }
+    }
+    let structure = structure(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
+    let drivetrain = Drivetrain { engagement: Engagement::Overrunning, ..Drivetrain::default() };
+    let [velocity, force] = drivetrain.resolve(&structure, false, Start).unwrap();
+    // 1 + kℓ² times as much is shaken off with the flywheel at rest before.
+    let lever = math::cos(10.0_f64.to_radians());
+    let k = 0.5 / structure.block.inertia_ratio();
+    assert!((velocity * (1.0 + k * lever * lever) / 0.1 - 1.0).abs() < 1e-13, "{velocity}");
+    assert_eq!(force, 0.0);
+}
