@@ -122,7 +122,8 @@ impl<S: Real> Gears<S> {
     pub fn standing_friction(&self, wheel: &Wheel<S>) -> (S, S) {
         let bearing = self.inertance * self.bearing_dry;
         let (capacity, growth) = self.capacity_of(wheel);
-        if bearing <= capacity { (bearing, S::ZERO) } else { (capacity, growth) }
+        // The instant at which both are equal counts as past it.
+        if bearing <= capacity * (S::ONE + S::EPSILON * S::of(16.0)) { (bearing, S::ZERO) } else { (capacity, growth) }
     }
 
     /// Deceleration of an idle or engaged flywheel by dry friction, 1/s².

@@ -63,8 +63,10 @@ fn ramp_due<S: Real>(gears: &Gears<S>, wheel: &Wheel<S>, block_held: bool) -> Op
     let (capacity, growth) = gears.capacity_of(wheel);
     let slips = matches!(wheel.coupling, Coupling::Slipping(_) | Coupling::Saturated(_));
     let held = (slips && wheel.turning.is_none()) || (block_held && wheel.coupling == Coupling::Locked);
-    let starts = (gears.inertance * gears.dry_of(wheel) - capacity) / growth;
-    Some(if held && starts > S::ZERO && starts < full { starts } else { full })
+    if !held || gears.standing_friction(wheel).1 == S::ZERO {
+        return Some(full);
+    }
+    Some(((gears.inertance * gears.bearing_dry - capacity) / growth).smaller(full))
 }
 
 impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {

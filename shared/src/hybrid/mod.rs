@@ -241,7 +241,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             extra: self.drive.load(&state.device),
             time: *time,
             length: stop - *time,
-            freed: state.free,
+            freed: state.free && motion.velocity == S::ZERO,
             scale: self.slenderness,
             speed: self.speed,
         };

@@ -116,8 +116,10 @@ fn plates_hold_with_what_they_carry() {
     let [alone, held] = thresholds();
     let weak = uplift(&plates(1e-3, 0.0), None, 0.0);
     assert!((weak - alone - 1e-3).abs() < 1e-12, "{weak}");
-    let fast = uplift(&plates(0.1, 0.01), None, 0.0);
-    assert!((fast - held).abs() < 1e-12, "{fast} for {held}");
+    for rise_time in [0.01, 0.5] {
+        let fast = uplift(&plates(0.1, rise_time), None, 0.0);
+        assert!((fast - held).abs() < 1e-12, "{fast} for {held}");
+    }
     // A capacity that grows by less than the push lets the block go at once.
     let slow = uplift(&plates(0.1, 5.0), None, 0.0);
     assert!((slow - alone).abs() < 1e-8, "{slow} for {alone}");
