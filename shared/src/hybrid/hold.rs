@@ -49,7 +49,9 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             self.drive.gears().into_iter().flat_map(|gears| state.device.wheels.iter().map(|w| gears.stops_within(w, whole)));
         let length = wheels.flatten().fold(whole, Real::smaller);
         let (until, end) = if length < whole { (time + length, None) } else { (until, end) };
-        if until > time {
+        // On its base it stands, as watchers see it.
+        let on_base = state.motion.rotation == S::ZERO;
+        if until > time && !on_base {
             let still = Motion { rotation: state.motion.rotation, velocity: S::ZERO, acceleration: S::ZERO };
             let stretch = Stretch {
                 start: time,
@@ -70,13 +72,14 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             Some((_, LetGo::Moves { sign, crossing })) => {
                 (state.held, state.free) = (false, crossing);
                 state.motion.direction = sign;
+                if on_base {
+                    observer.device_event(Event::Uplift, until, &state.motion);
+                    observer.device_event(Event::Switch, until, &state.motion);
+                }
                 state.motion.drive = if D::COMMANDED { self.drive_sign(state) } else { state.motion.drive };
                 self.settle(state, until, observer);
             }
-            Some((_, LetGo::Rests)) => {
-                *state = self.standing(state);
-                observer.device_event(Event::Rest, until, &state.motion);
-            }
+            Some((_, LetGo::Rests)) => *state = self.standing(state),
             None => {}
         }
         until

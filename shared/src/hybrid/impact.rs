@@ -50,7 +50,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         }
         let standing = self.standing(state);
         if self.uplifting(&standing, state.ground) > S::ZERO {
-            self.stay_on_base(state);
+            self.stay_on_base(state, time, observer);
             return time;
         }
         let tail = self.accumulation(&standing, velocity.abs());

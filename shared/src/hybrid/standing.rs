@@ -109,7 +109,18 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             State { phase: Phase::Rocking, side, direction: side, drive: side, push: side, impacts, ..State::default() };
         state.ground = ground;
         (state.fresh, state.free) = ([D::COMMANDED, false, false], crossing);
-        observer.device_event(Event::Uplift, time, &state.motion);
+        let mut started = *state;
+        self.start_clutches(&mut started, time, &mut ());
+        if started.held {
+            *state = started;
+        } else {
+            observer.device_event(Event::Uplift, time, &state.motion);
+            self.start_clutches(state, time, observer);
+        }
+    }
+
+    /// The clutches answer an uplift, and may hold the block on its base.
+    fn start_clutches(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         let before = state.device.wheels.map(|wheel| wheel.coupling);
         self.settle(state, time, observer);
         self.command(state, time, observer);
@@ -119,7 +130,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// A block that falls back on its base under a push to which it would rise, stays there while its clutches hold it.
-    pub(super) fn stay_on_base(&self, state: &mut MachineState<S>) {
+    pub(super) fn stay_on_base(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         let mut held = *state;
         (held.motion.rotation, held.motion.velocity) = (S::ZERO, S::ZERO);
         let [positive, negative] = [Sign::Positive, Sign::Negative].map(|side| self.breakaway(&held, side, side));
@@ -128,6 +139,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             held.motion.side = if to_positive { Sign::Positive } else { Sign::Negative };
             (held.motion.direction, held.held) = (held.motion.side, true);
             *state = held;
+            observer.device_event(Event::Rest, time, &state.motion);
         }
     }
 }

@@ -207,3 +207,20 @@ fn an_overrunning_clutch_that_has_just_gripped_does_not_push() {
     assert!((velocity * (1.0 + k * lever * lever) / 0.1 - 1.0).abs() < 1e-13, "{velocity}");
     assert_eq!(force, 0.0);
 }
+
+/// A push that the bearings of an engaging clutch withstand is no uplift.
+#[test]
+fn a_block_that_is_held_on_its_base_has_not_rocked() {
+    let block = structure(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
+    let [alone, held] = thresholds();
+    for (push, uplifts) in [(0.5 * (alone + held), 0), (held + 1e-4, 1)] {
+        // Half a sine, so that it comes and goes.
+        let pieces = std::vec![(Ground::sine(push, 2.0), core::f64::consts::FRAC_PI_2)];
+        let shake = Shake { structure: block.clone(), pieces, free_time: 1.0 };
+        for engagement in [Engagement::Ideal, Engagement::Rigid, Engagement::Friction { capacity_ratio: 0.1 }] {
+            let seen = shake.machine(&bearings(engagement), &tight());
+            let count = seen.events.iter().filter(|(event, _)| *event == Event::Uplift).count();
+            assert_eq!((count, seen.peak > 0.0), (uplifts, uplifts > 0), "{engagement:?} {push}: {:?}", seen.events);
+        }
+    }
+}
