@@ -1,0 +1,180 @@
+//! What an instant does to the clutches: commands carried out, springs and plates settled, flywheels started and held.
+
+use crate::actuation::give;
+use crate::device::Coupling;
+use crate::equation::{Model, Shaking};
+use crate::ledger::energy;
+use crate::mode::{BlockMode, Link, State, wheel_for};
+use crate::step::{BRAKE, CLUTCH, CREATED, SPIN, TWIST, VELOCITY};
+
+impl Model {
+    /// Speed of the rack now.
+    pub fn rack_now(&self, state: &State) -> f64 {
+        self.rack_speed(&self.pose(state.side(), state.rotation()), state.velocity())
+    }
+
+    /// Locked flywheels have the rack's speed.
+    pub fn follow_rack(&self, state: &mut State) {
+        let rack = self.rack_now(state);
+        for i in 0..2 {
+            if state.wheels[i].link == Link::Locked {
+                state.values[SPIN + i] = rack;
+            }
+        }
+    }
+
+    /// Commands by Eq. 10 for the present direction, and all that is due. Returns whether a clutch moved.
+    pub fn command(&self, state: &mut State) -> bool {
+        if let Some(direction) = state.direction() {
+            let resists = state.drive == direction;
+            for i in 0..2 {
+                give(&self.device, state, i, resists && i == wheel_for(direction));
+            }
+        }
+        self.carry_out(state)
+    }
+
+    /// Commands whose time has come. Releases first, so that two that change places are never both engaged.
+    pub fn carry_out(&self, state: &mut State) -> bool {
+        let mut moved = false;
+        for engage in [false, true] {
+            for i in 0..2 {
+                let command = &mut state.wheels[i].command;
+                if command.wanted != engage || command.due.is_none_or(|due| due > state.time) {
+                    continue;
+                }
+                command.due = None;
+                command.stays_until = state.time + self.device.dwell;
+                command.engaged_at = state.time;
+                if engage {
+                    self.engage(state, i);
+                } else {
+                    self.release(state, i);
+                }
+                moved = true;
+            }
+        }
+        moved
+    }
+
+    fn engage(&self, state: &mut State, i: usize) {
+        let before = energy(self, state);
+        match self.device.coupling {
+            Coupling::Ideal => {
+                state.wheels[i].link = Link::Locked;
+                self.follow_rack(state);
+                state.values[CREATED] += energy(self, state) - before;
+            }
+            Coupling::Plates => state.wheels[i].link = Link::Slipping((self.rack_now(state) - state.spin(i)).signum()),
+            Coupling::Elastic { half_play, .. } => {
+                state.values[TWIST + i] = 0.0;
+                state.wheels[i].link = if half_play > 0.0 { Link::Play } else { Link::Contact(1.0) };
+            }
+            _ => self.jolt(state, i),
+        }
+    }
+
+    /// Block and flywheel exchange momentum: (λ + (K + σ)ℓ²) θ̇⁺ = (λ + Kℓ²) θ̇⁻ + σℓ w/R, K what is locked already.
+    pub fn jolt(&self, state: &mut State, i: usize) {
+        let before = energy(self, state);
+        let pose = self.pose(state.side(), state.rotation());
+        let locked = state.wheels.iter().filter(|wheel| wheel.link == Link::Locked).count() as f64;
+        let square = pose.lever * pose.lever;
+        let inertia = self.block.inertia + (self.device.guided + locked * self.device.inertance) * square;
+        let momentum = inertia * state.velocity() + self.device.inertance * pose.lever * state.spin(i) / self.block.size;
+        let velocity = momentum / (inertia + self.device.inertance * square);
+        state.values[VELOCITY] = velocity;
+        state.wheels[i].link = Link::Locked;
+        if let (BlockMode::Rocking { side, .. }, true) = (state.block, velocity != 0.0) {
+            let direction = velocity.signum();
+            let side = if state.rotation() == 0.0 { direction } else { side };
+            state.block = BlockMode::Rocking { side, direction };
+        }
+        self.follow_rack(state);
+        state.values[CLUTCH] += before - energy(self, state);
+    }
+
+    fn release(&self, state: &mut State, i: usize) {
+        let before = energy(self, state);
+        state.values[TWIST + i] = 0.0;
+        state.wheels[i].link = Link::Open;
+        state.values[CLUTCH] += before - energy(self, state);
+        if self.device.coupling == Coupling::Ideal || self.device.brake.is_infinite() {
+            let before = energy(self, state);
+            state.values[SPIN + i] = 0.0;
+            state.values[BRAKE] += before - energy(self, state);
+        }
+    }
+
+    /// The clutches of a standing block are open and not commanded.
+    pub fn part_at_rest(&self, state: &mut State) {
+        for i in 0..2 {
+            if self.device.is_commanded() {
+                let command = &mut state.wheels[i].command;
+                (command.wanted, command.due) = (false, None);
+                if state.wheels[i].link != Link::Open {
+                    self.release(state, i);
+                }
+            } else if self.device.coupling == Coupling::Overrunning {
+                state.wheels[i].link = Link::Open;
+            }
+        }
+    }
+
+    /// Springs and the plates in series with them: the force without slip decides.
+    pub fn settle_springs(&self, state: &mut State) {
+        let Coupling::Elastic { stiffness, damping, half_play } = self.device.coupling else { return };
+        let rack = self.rack_now(state);
+        for i in 0..2 {
+            let relative = rack - state.spin(i);
+            let twist = state.twist(i);
+            let (capacity, growth) = self.capacity(&state.wheels[i], state.time);
+            let side = match state.wheels[i].link {
+                Link::Contact(side) | Link::Saturated(side, _) => side,
+                Link::Play if twist.abs() >= half_play && twist * relative > 0.0 => twist.signum(),
+                _ => continue,
+            };
+            let force = stiffness * (twist - side * half_play) + damping * relative;
+            let slips = if damping > 0.0 {
+                force.abs() > capacity
+            } else {
+                // Without a damper the force at the limit is the capacity itself: the rates decide.
+                force.abs() >= capacity * (1.0 - 1e-12) && force.signum() * stiffness * relative > growth
+            };
+            let sign = force.signum();
+            state.wheels[i].link = match slips {
+                false => Link::Contact(side),
+                // Teeth that a damper pulls apart with such a force have parted.
+                true if half_play > 0.0 && sign != side => {
+                    let before = energy(self, state);
+                    state.values[TWIST + i] = side * half_play;
+                    state.wheels[i].link = Link::Play;
+                    state.values[CLUTCH] += before - energy(self, state);
+                    Link::Play
+                }
+                true => Link::Saturated(side, sign),
+            };
+        }
+    }
+
+    /// Which way flywheels turn that are not locked, and which are held by their friction.
+    pub fn settle_flywheels(&self, state: &mut State, _shaking: Shaking) {
+        let rack = self.rack_now(state);
+        for i in 0..2 {
+            let wheel = state.wheels[i];
+            let (spin, dry) = (state.spin(i), self.dry(wheel.link));
+            if wheel.link == Link::Locked {
+                continue;
+            }
+            let force = self.link_force(&wheel, state.twist(i), rack - spin, state.time);
+            let idle = wheel.link == Link::Open && (self.device.coupling == Coupling::Ideal || dry.is_infinite());
+            state.wheels[i].turning = if spin != 0.0 {
+                Some(spin.signum())
+            } else if idle || self.device.inertance == 0.0 || (dry > 0.0 && force.abs() <= self.device.inertance * dry) {
+                None
+            } else {
+                Some(if force == 0.0 { 1.0 } else { force.signum() })
+            };
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! What each event does (`docs/modes.md`), and the way on from an instant.
+
+use crate::consistent::{solve, way_of};
+use crate::device::Coupling;
+use crate::equation::{Model, Shaking};
+use crate::guard::Guard;
+use crate::ledger::energy;
+use crate::mode::{BlockMode, Link, State};
+use crate::step::{IMPACT, ROTATION, SPIN, VELOCITY};
+
+/// Answers to one instant: a jolt may change the signs that caused it.
+const MOST_ANSWERS: usize = 8;
+
+impl Model {
+    /// A guard has reached zero.
+    pub fn answer(&self, state: &mut State, guard: Guard, shaking: Shaking) {
+        match guard {
+            Guard::Impact => return self.impact(state, shaking),
+            Guard::Turn => {
+                state.values[VELOCITY] = 0.0;
+                self.follow_rack(state);
+            }
+            Guard::Overturn => state.block = BlockMode::Overturned,
+            Guard::Command => state.drive = -state.drive,
+            Guard::Join(i) => state.values[SPIN + i] = self.rack_now(state),
+            Guard::Stop(i) => state.values[SPIN + i] = 0.0,
+            Guard::Touch(i) => {
+                // Beyond the edge by less than the clock resolves.
+                let twist = state.twist(i);
+                state.wheels[i].link = Link::Contact(twist.signum());
+            }
+            Guard::Loosen(i) => state.wheels[i].link = Link::Play,
+            Guard::Leave | Guard::Slip(_) | Guard::Part(_) | Guard::Start(_) | Guard::Saturate(_) | Guard::Hold(_) => {}
+        }
+        self.settle(state, shaking);
+    }
+
+    /// θ = 0: θ̇⁺ = η θ̇⁻. What is locked by a clutch that only locks keeps the rack's speed, all else its own.
+    fn impact(&self, state: &mut State, shaking: Shaking) {
+        state.values[ROTATION] = 0.0;
+        let locked = state.wheels.iter().filter(|wheel| wheel.link == Link::Locked).count();
+        let before = energy(self, state);
+        let direction = state.velocity().signum();
+        let counted = if self.device.only_locks() { locked } else { 0 };
+        state.values[VELOCITY] *= self.device.restitution(&self.block, self.restitution, counted);
+        state.block = BlockMode::Rocking { side: direction, direction };
+        if self.device.only_locks() {
+            self.follow_rack(state);
+        } else if state.velocity() != 0.0 {
+            for i in 0..2 {
+                if state.wheels[i].link == Link::Locked {
+                    state.wheels[i].link = match self.device.coupling {
+                        Coupling::Overrunning => Link::Open,
+                        _ => Link::Slipping(1.0),
+                    };
+                }
+            }
+        }
+        state.values[IMPACT] += before - energy(self, state);
+        self.look_at_drive(state, shaking);
+        if state.velocity().abs() <= self.rest_speed {
+            let mut rest = state.clone();
+            let before = energy(self, &rest);
+            rest.values[VELOCITY] = 0.0;
+            self.follow_rack(&mut rest);
+            rest.values[IMPACT] += before - energy(self, &rest);
+            rest.block = BlockMode::Standing;
+            self.part_at_rest(&mut rest);
+            self.settle(&mut rest, shaking);
+            if rest.block == BlockMode::Standing {
+                *state = rest;
+                return;
+            }
+        }
+        self.settle(state, shaking);
+    }
+
+    /// Takes the sign of Eq. 10's acceleration as it is; where it is zero, as it was.
+    pub fn look_at_drive(&self, state: &mut State, shaking: Shaking) {
+        let drive = self.drive(state, shaking);
+        if drive != 0.0 {
+            state.drive = drive.signum();
+        }
+        state.armed = true;
+    }
+
+    /// Leaves a state in modes that are consistent with one another.
+    pub fn settle(&self, state: &mut State, shaking: Shaking) {
+        for _ in 0..MOST_ANSWERS {
+            if state.block == BlockMode::Overturned {
+                return;
+            }
+            if let BlockMode::Held { .. } = state.block {
+                self.carry_out(state);
+            }
+            self.settle_springs(state);
+            self.catch_up(state);
+            if state.velocity() == 0.0 {
+                self.way_on(state, shaking);
+            }
+            if let Some(direction) = state.direction() {
+                let found = solve(self, state, shaking, direction);
+                for i in 0..2 {
+                    state.wheels[i].link = found.links[i];
+                }
+                self.follow_rack(state);
+            }
+            self.settle_flywheels(state, shaking);
+            let Some(direction) = state.direction().filter(|_| self.device.is_commanded()) else { return };
+            let velocity = state.velocity();
+            if !self.command(state) {
+                return;
+            }
+            // A jolt that only slows the block down keeps the sign that asked for it.
+            if state.direction() != Some(direction) {
+                self.look_at_drive(state, shaking);
+            } else if state.velocity() != velocity {
+                state.armed = state.drive * self.drive(state, shaking) > 0.0;
+            }
+        }
+    }
+
+    /// An overrunning clutch that the rack would overtake exchanges momentum: only at the start of a run with a velocity.
+    fn catch_up(&self, state: &mut State) {
+        if self.device.coupling != Coupling::Overrunning {
+            return;
+        }
+        for i in 0..2 {
+            if state.wheels[i].link == Link::Open && way_of(i) * (state.spin(i) - self.rack_now(state)) < 0.0 {
+                self.jolt(state, i);
+            }
+        }
+    }
+
+    /// From θ̇ = 0. The block goes where it accelerates, both with its clutches as they are and with what going there makes
+    /// engage at once; where it goes nowhere it stands or is held.
+    fn way_on(&self, state: &mut State, shaking: Shaking) {
+        let still = match state.block {
+            _ if state.rotation() == 0.0 => BlockMode::Standing,
+            _ => BlockMode::Held { side: state.rotation().signum() },
+        };
+        if state.rotation() != 0.0 {
+            self.look_at_drive(state, shaking);
+        }
+        for direction in [1.0, -1.0] {
+            if direction * solve(self, state, shaking, direction).acceleration <= 0.0 {
+                continue;
+            }
+            let going = self.going(state, direction);
+            let (ahead, back) = [direction, -direction].map(|way| way * solve(self, &going, shaking, way).acceleration).into();
+            if going.velocity() != 0.0 || ahead > 0.0 {
+                *state = going;
+                return;
+            }
+            if back <= 0.0 && still != BlockMode::Standing {
+                // The bearings of what has just engaged hold the block.
+                *state = going;
+            }
+            break;
+        }
+        state.block = still;
+    }
+
+    /// `state` as it would be on its way in `direction`: with what that makes engage or release at once.
+    fn going(&self, state: &State, direction: f64) -> State {
+        let mut going = state.clone();
+        let mut side = state.side();
+        if state.rotation() == 0.0 {
+            (side, going.drive, going.armed) = (direction, direction, true);
+        }
+        going.block = BlockMode::Rocking { side, direction };
+        if self.device.is_commanded() {
+            self.command(&mut going);
+            self.settle_springs(&mut going);
+        }
+        going
+    }
+
+    /// How much what pushes a block at rest exceeds what holds it, as the angular acceleration that it would have; negative
+    /// while it stays.
+    pub fn readiness(&self, state: &State, shaking: Shaking) -> f64 {
+        let mut still = state.clone();
+        let mut most = f64::NEG_INFINITY;
+        if state.rotation() != 0.0 {
+            self.look_at_drive(&mut still, shaking);
+        }
+        for direction in [1.0, -1.0] {
+            let mut ready = direction * solve(self, &still, shaking, direction).acceleration;
+            let going = self.going(&still, direction);
+            if going.velocity() == 0.0 {
+                ready = ready.min(direction * solve(self, &going, shaking, direction).acceleration);
+            }
+            most = most.max(ready);
+        }
+        most
+    }
+}

@@ -1,0 +1,138 @@
+//! Random devices: every coupling, mount, loss, delay and weight that go together.
+
+use std::fmt::Write;
+
+use crate::random::Random;
+
+/// Writes a `[[device]]` table for a block whose centre of mass is at `height` (m). Returns its family.
+pub fn write(text: &mut String, random: &mut Random, height: f64) -> &'static str {
+    let family = random.pick(&[
+        "none", "inerter", "ideal", "ideal", "rigid", "rigid", "overrunning", "plates", "plates", "plates", "elastic", "elastic",
+    ]);
+    text.push_str("\n[[device]]\n");
+    if family == "none" {
+        text.push_str("kind = \"none\"\n");
+        return family;
+    }
+    let memory = matches!(family, "rigid" | "overrunning" | "plates" | "elastic");
+    let kind = if family == "inerter" { "inerter" } else { "clutched-pair" };
+    let _ = writeln!(text, "kind = \"{kind}\"\nmass_ratio = {}", random.between(0.1, 1.2));
+    // An ideal pair with delays needs a horizontal mount too.
+    let actuated = family != "inerter" && family != "overrunning" && random.chance(0.35);
+    let corners = mount(text, random, height, !memory && !actuated);
+    if memory || random.chance(0.4) {
+        text.push_str("kinematics = \"consistent\"\n");
+    }
+    let mut capacity = false;
+    match family {
+        "rigid" | "overrunning" => drop(writeln!(text, "engagement = \"{family}\"")),
+        "plates" => {
+            capacity = true;
+            let _ = writeln!(text, "clutch = {{ capacity_ratio = {} }}", random.logarithmic(0.01, 0.3));
+        }
+        "elastic" => {
+            let mut keys = vec![format!("stiffness_ratio = {}", random.logarithmic(300.0, 3e4))];
+            if random.chance(0.7) {
+                keys.push(format!("damping_ratio = {}", random.between(0.05, 0.4)));
+            }
+            if random.chance(0.5) {
+                keys.push(format!("backlash_m = {}", random.logarithmic(1e-4, 5e-3)));
+            }
+            if random.chance(0.5) {
+                capacity = true;
+                keys.push(format!("capacity_ratio = {}", random.logarithmic(0.03, 0.3)));
+            }
+            let _ = writeln!(text, "clutch = {{ {} }}", keys.join(", "));
+        }
+        _ => {}
+    }
+    flywheel(text, random, family);
+    if random.chance(0.25) {
+        let mut keys = Vec::new();
+        if random.chance(0.6) {
+            keys.push(format!("viscous_1_s = {}", random.logarithmic(0.01, 0.3)));
+        }
+        if random.chance(0.6) {
+            keys.push(format!("dry_friction_ratio = {}", random.logarithmic(0.001, 0.02)));
+        }
+        let _ = writeln!(text, "rack = {{ {} }}", keys.join(", "));
+    }
+    if actuated {
+        actuation(text, random, capacity);
+    }
+    if random.chance(0.2) {
+        weight(text, random, corners);
+    }
+    family
+}
+
+fn mount(text: &mut String, random: &mut Random, height: f64, corners: bool) -> bool {
+    match random.next_u64() % 10 {
+        0..=5 => false,
+        6 | 7 if corners => {
+            let _ = writeln!(text, "mount = \"base-corners\"\npulley_ratio = {}", random.between(0.5, 3.0));
+            true
+        }
+        _ => {
+            let _ = writeln!(
+                text,
+                "mount = \"tying-point\"\nmount_height_m = {}\npulley_ratio = {}",
+                height * random.between(0.5, 2.0),
+                random.between(0.5, 1.5)
+            );
+            false
+        }
+    }
+}
+
+fn flywheel(text: &mut String, random: &mut Random, family: &str) {
+    let mut keys = Vec::new();
+    if random.chance(0.3) {
+        keys.push(format!("viscous_rate_1_s = {}", random.logarithmic(0.01, 1.0)));
+    }
+    if random.chance(0.35) {
+        keys.push(format!("dry_deceleration_m_s2 = {}", random.logarithmic(0.005, 0.3)));
+    }
+    if matches!(family, "rigid" | "plates" | "elastic") && random.chance(0.5) {
+        keys.push(match random.chance(0.4) {
+            true => "brake_deceleration_m_s2 = \"instant\"".to_owned(),
+            false => format!("brake_deceleration_m_s2 = {}", random.logarithmic(0.3, 20.0)),
+        });
+    }
+    if !keys.is_empty() {
+        let _ = writeln!(text, "flywheel = {{ {} }}", keys.join(", "));
+    }
+}
+
+fn actuation(text: &mut String, random: &mut Random, capacity: bool) {
+    let mut keys = Vec::new();
+    if random.chance(0.7) {
+        keys.push(format!("engagement_delay_s = {}", random.logarithmic(0.002, 0.06)));
+    }
+    if random.chance(0.7) {
+        keys.push(format!("release_delay_s = {}", random.logarithmic(0.002, 0.06)));
+    }
+    if random.chance(0.25) {
+        keys.push(format!("dwell_s = {}", random.logarithmic(0.01, 0.15)));
+    }
+    if random.chance(0.2) {
+        keys.push(format!("miss_probability = {}", random.between(0.05, 0.6)));
+        keys.push(format!("miss_seed = {}", random.next_u64() % 1000));
+    }
+    if capacity && random.chance(0.5) {
+        keys.push(format!("rise_time_s = {}", random.logarithmic(0.005, 0.12)));
+    }
+    if keys.is_empty() {
+        keys.push("engagement_delay_s = 0.01".to_owned());
+    }
+    let _ = writeln!(text, "actuation = {{ {} }}", keys.join(", "));
+}
+
+fn weight(text: &mut String, random: &mut Random, corners: bool) {
+    let ratio = random.logarithmic(0.003, 0.1);
+    let _ = match random.next_u64() % 3 {
+        0 => writeln!(text, "weight = {{ flywheels_ratio = {ratio}, flywheels_on = \"block\" }}"),
+        1 if !corners => writeln!(text, "weight = {{ rack_ratio = {ratio} }}"),
+        _ => writeln!(text, "weight = {{ rack_ratio = {ratio}, rack_on = \"block\" }}"),
+    };
+}
