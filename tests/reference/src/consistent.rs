@@ -24,15 +24,20 @@ pub fn way_of(wheel: usize) -> f64 {
     [1.0, -1.0][wheel]
 }
 
-/// What wheel `i` may do now.
-fn options(model: &Model, state: &State, i: usize, rack: f64) -> Vec<Link> {
+/// What wheel `i` may do now, of a block that goes in `direction`.
+fn options(model: &Model, state: &State, i: usize, rack: f64, direction: f64) -> Vec<Link> {
     let link = state.wheels[i].link;
     let one_speed = link == Link::Locked || state.spin(i) == rack;
     match (model.device.coupling, link) {
+        (Coupling::Plates, Link::Locked | Link::Slipping(_)) if one_speed && state.slipped == Some(i) => {
+            vec![Link::Slipping(1.0), Link::Slipping(-1.0)]
+        }
         (Coupling::Plates, Link::Locked | Link::Slipping(_)) if one_speed => {
             vec![Link::Locked, Link::Slipping(1.0), Link::Slipping(-1.0)]
         }
         (Coupling::Plates, Link::Slipping(_)) => vec![Link::Slipping((rack - state.spin(i)).signum())],
+        // A rack that is about to move leaves the flywheel of the other direction behind.
+        (Coupling::Overrunning, _) if one_speed && state.velocity() == 0.0 && way_of(i) != direction => vec![Link::Open],
         (Coupling::Overrunning, _) if one_speed => vec![Link::Locked, Link::Open],
         _ => vec![link],
     }
@@ -44,7 +49,7 @@ pub fn solve(model: &Model, state: &State, shaking: Shaking, direction: f64) -> 
     let side = if rotation == 0.0 && velocity == 0.0 { direction } else { state.side() };
     let pose = model.pose(side, rotation);
     let rack = model.rack_speed(&pose, velocity);
-    let free = [0, 1].map(|i| options(model, state, i, rack));
+    let free = [0, 1].map(|i| options(model, state, i, rack, direction));
     let joined = [0, 1].map(|i| free[i].len() > 1);
     let mut best = (f64::INFINITY, Found { acceleration: 0.0, links: [Link::Open; 2] });
     for &first in &free[0] {

@@ -10,6 +10,8 @@ use crate::step::{IMPACT, ROTATION, SPIN, VELOCITY};
 
 /// Answers to one instant: a jolt may change the signs that caused it.
 const MOST_ANSWERS: usize = 8;
+/// Ways on that are looked at where one clutch lets the block go and another stops it.
+const MOST_TURNS: usize = 3;
 
 impl Model {
     /// A guard has reached zero.
@@ -30,9 +32,11 @@ impl Model {
                 state.wheels[i].link = Link::Contact(twist.signum());
             }
             Guard::Loosen(i) => state.wheels[i].link = Link::Play,
-            Guard::Leave | Guard::Slip(_) | Guard::Part(_) | Guard::Start(_) | Guard::Saturate(_) | Guard::Hold(_) => {}
+            Guard::Slip(i) => state.slipped = Some(i),
+            Guard::Leave | Guard::Part(_) | Guard::Start(_) | Guard::Saturate(_) | Guard::Hold(_) => {}
         }
         self.settle(state, shaking);
+        state.slipped = None;
     }
 
     /// θ = 0: θ̇⁺ = η θ̇⁻. What is locked by a clutch that only locks keeps the rack's speed, all else its own.
@@ -127,38 +131,51 @@ impl Model {
         }
         for i in 0..2 {
             if state.wheels[i].link == Link::Open && way_of(i) * (state.spin(i) - self.rack_now(state)) < 0.0 {
-                self.jolt(state, i);
+                if state.velocity() == 0.0 {
+                    // A rack that stands has stopped it; what it had is rounding.
+                    state.values[SPIN + i] = 0.0;
+                } else {
+                    self.jolt(state, i);
+                }
             }
         }
     }
 
     /// From θ̇ = 0. The block goes where it accelerates, both with its clutches as they are and with what going there makes
-    /// engage at once; where it goes nowhere it stands or is held.
+    /// engage or release at once; where it goes nowhere it stands or is held. What a release sets free may go the other way:
+    /// then that way is looked at, and a clutch that contradicts itself both ways holds the block as it was.
     fn way_on(&self, state: &mut State, shaking: Shaking) {
-        let still = match state.block {
-            _ if state.rotation() == 0.0 => BlockMode::Standing,
-            _ => BlockMode::Held { side: state.rotation().signum() },
-        };
-        if state.rotation() != 0.0 {
+        let stands = state.rotation() == 0.0;
+        state.block = if stands { BlockMode::Standing } else { BlockMode::Held { side: state.rotation().signum() } };
+        if !stands {
             self.look_at_drive(state, shaking);
         }
-        for direction in [1.0, -1.0] {
-            if direction * solve(self, state, shaking, direction).acceleration <= 0.0 {
-                continue;
+        let mut now = state.clone();
+        let mut way = self.way_of_block(&now, shaking);
+        for _ in 0..MOST_TURNS {
+            if way == 0.0 {
+                break;
             }
-            let going = self.going(state, direction);
-            let (ahead, back) = [direction, -direction].map(|way| way * solve(self, &going, shaking, way).acceleration).into();
-            if going.velocity() != 0.0 || ahead > 0.0 {
+            let going = self.going(&now, way);
+            let next = self.way_of_block(&going, shaking);
+            if going.velocity() != 0.0 || next == way {
                 *state = going;
                 return;
             }
-            if back <= 0.0 && still != BlockMode::Standing {
-                // The bearings of what has just engaged hold the block.
-                *state = going;
-            }
-            break;
+            (now, way) = (going, next);
         }
-        state.block = still;
+        if way == 0.0 && !stands {
+            // Held, perhaps by the bearings of what has just engaged.
+            let block = state.block;
+            *state = now;
+            state.block = block;
+        }
+    }
+
+    /// The direction in which a block at θ̇ = 0 accelerates, or 0.
+    fn way_of_block(&self, state: &State, shaking: Shaking) -> f64 {
+        let goes = |way: f64| way * solve(self, state, shaking, way).acceleration > 0.0;
+        [1.0, -1.0].into_iter().find(|way| goes(*way)).unwrap_or(0.0)
     }
 
     /// `state` as it would be on its way in `direction`: with what that makes engage or release at once.

@@ -14,7 +14,9 @@ use crate::scene::Scene;
 use crate::step::{ROTATION, SIZE, VELOCITY, step};
 
 /// Fastest rate times step.
-const RESOLUTION: f64 = 0.01;
+pub const RESOLUTION: f64 = 0.01;
+/// Longest step at that resolution, s.
+const LONGEST: f64 = 5e-4;
 /// Events within this time (s) of one another count as one instant …
 const INSTANT: f64 = 1e-10;
 /// … of which so many are a mode that contradicts itself.
@@ -45,6 +47,14 @@ pub struct Run {
 /// # Errors
 /// A scene that cannot be read, or a mode that contradicts itself, in words.
 pub fn run(scene: &Scene, index: usize, folder: &Path) -> Result<Run, String> {
+    run_at(scene, index, folder, RESOLUTION)
+}
+
+/// As [`run`], with another product of fastest rate and step: what changes is the error of the steps.
+///
+/// # Errors
+/// As there.
+pub fn run_at(scene: &Scene, index: usize, folder: &Path, resolution: f64) -> Result<Run, String> {
     let (bare, restitution) = Block::of(&scene.block)?;
     let (block, device) = Device::of(&scene.device[index], &bare, &scene.block)?;
     let horizontal = Ground::of(&scene.ground, &bare, folder)?;
@@ -59,7 +69,7 @@ pub fn run(scene: &Scene, index: usize, folder: &Path) -> Result<Run, String> {
     let rotation = scene.block.initial_rotation_ratio * bare.slenderness;
     let velocity = scene.block.initial_velocity_ratio * unit;
     let interval = scene.output.interval_s.unwrap_or(end / 2000.0);
-    let mut runner = Runner::new(&model, rotation, velocity);
+    let mut runner = Runner::new(&model, rotation, velocity, resolution);
     let mut run = runner.follow(end, interval, 1e-6 * unit)?;
     // Nothing pushes a slender block any more that leans outward beyond its balance.
     let state = &runner.state;
@@ -97,7 +107,7 @@ struct Runner<'a> {
 }
 
 impl<'a> Runner<'a> {
-    fn new(model: &'a Model, rotation: f64, velocity: f64) -> Runner<'a> {
+    fn new(model: &'a Model, rotation: f64, velocity: f64, resolution: f64) -> Runner<'a> {
         let link = if model.device.coupling == Coupling::Inerter { Link::Locked } else { Link::Open };
         let wheel = Wheel { link, turning: None, command: Command::default() };
         let mut other = wheel;
@@ -112,11 +122,11 @@ impl<'a> Runner<'a> {
             (false, _) => BlockMode::Rocking { side: sign(rotation), direction },
         };
         let state =
-            State { time: 0.0, values, block, wheels: [wheel, other], drive: direction, armed: true, engagements: 0 };
+            State { time: 0.0, values, block, wheels: [wheel, other], drive: direction, armed: true, engagements: 0, slipped: None };
         let mut kinks = [model.horizontal.kinks(), model.vertical.kinks()].concat();
         kinks.sort_by(f64::total_cmp);
         kinks.dedup_by(|later, sooner| *later - *sooner < 1e-12);
-        let mut runner = Runner { model, state, largest: largest_step(model), kinks, next_kink: 0, within: 0.0 };
+        let mut runner = Runner { model, state, largest: largest_step(model, resolution), kinks, next_kink: 0, within: 0.0 };
         runner.enter_piece();
         runner
     }
@@ -278,7 +288,7 @@ impl<'a> Runner<'a> {
 }
 
 /// Step that resolves the fastest rate of block, ground and device.
-fn largest_step(model: &Model) -> f64 {
+fn largest_step(model: &Model, resolution: f64) -> f64 {
     let (block, device) = (&model.block, &model.device);
     let mut rate = 5.0 * block.frequency_parameter();
     rate = rate.max(3.0 * model.horizontal.rate().max(model.vertical.rate()));
@@ -291,5 +301,5 @@ fn largest_step(model: &Model) -> f64 {
             rate = rate.max(0.5 * stiffness / damping);
         }
     }
-    (RESOLUTION / rate).min(5e-4)
+    (resolution / rate).min(LONGEST * resolution / RESOLUTION)
 }
