@@ -179,12 +179,13 @@ impl<'a> Runner<'a> {
 
     fn follow(&mut self, end: f64, interval: f64, counted: f64) -> Result<Run, String> {
         let model = self.model;
+        // What is always locked moves with the block from the start.
+        model.follow_rack(&mut self.state);
         let initial = energy(model, &self.state);
         let (mut impacts, mut peak, mut moved) = (0, self.state.rotation().abs(), false);
         let (mut samples, mut events) = (Vec::new(), Vec::new());
         let mut at_once = 0;
         if self.state.block != BlockMode::Standing {
-            model.follow_rack(&mut self.state);
             let shaking = self.shaking(0.0);
             model.look_at_drive(&mut self.state, shaking);
         }

@@ -1,7 +1,7 @@
 //! Compares this program with a `sprag` binary on random scenes, or on given ones:
 //!
 //! `compare SPRAG COUNT SEED KEEP` keeps the scenes that differ in the folder KEEP; `compare SPRAG SCENE.toml…` tells of each;
-//! with `EVENTS` or `HISTORY` in the environment it lists those of this program.
+//! with `EVENTS` or `HISTORY` in the environment it lists those of this program, `RESOLUTION` changes its steps.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use std::process::Command;
 use sprag_reference::compare::{Difference, Other, check, compare};
 use sprag_reference::generate::scene;
 use sprag_reference::scene::Scene;
-use sprag_reference::simulate::{RESOLUTION, Run, run, run_at};
+use sprag_reference::simulate::{RESOLUTION, Run, run_at};
 
 /// Differences beyond this are told.
 const HISTORY: f64 = 1e-6;
@@ -71,8 +71,9 @@ fn single(sprag: &str, path: &Path) -> Result<(), String> {
     let parsed = Scene::parse(&text)?;
     let folder = path.parent().map(PathBuf::from).unwrap_or_default();
     for index in 0..parsed.device.len() {
-        let ours = run(&parsed, index, &folder)?;
-        let finer = run_at(&parsed, index, &folder, RESOLUTION / 2.0)?;
+        let resolution = std::env::var("RESOLUTION").ok().and_then(|text| text.parse().ok()).unwrap_or(RESOLUTION);
+        let ours = run_at(&parsed, index, &folder, resolution)?;
+        let finer = run_at(&parsed, index, &folder, resolution / 2.0)?;
         let slenderness = parsed.block.slenderness_deg.to_radians();
         println!(
             "{}: device {index}: {}, peak {:.9} α, {} impacts, residual {:.1e}",
@@ -84,7 +85,7 @@ fn single(sprag: &str, path: &Path) -> Result<(), String> {
         );
         println!("  half the step: {:?}", compare(&ours, &as_other(&finer), slenderness));
         if std::env::var_os("EVENTS").is_some() {
-            ours.events.iter().for_each(|(time, guard)| println!("  {time:.9} {guard:?}"));
+            ours.events.iter().for_each(|(time, guard)| println!("  {time:.15} {guard:?}"));
         }
         if std::env::var_os("HISTORY").is_some() {
             ours.samples.iter().for_each(|[time, rotation, velocity]| println!("{time},{rotation},{velocity}"));

@@ -42,6 +42,8 @@ pub fn scene(seed: u64, number: u64) -> Generated {
     }
     if random.chance(0.15) {
         let _ = writeln!(text, "initial_rotation_ratio = {}", random.between(-0.8, 0.8));
+    } else if random.chance(0.1) {
+        let _ = writeln!(text, "initial_velocity_ratio = {}", random.between(-0.6, 0.6));
     }
     let p = (crate::block::GRAVITY / (inertia * size)).sqrt();
     let family = device::write(&mut text, &mut random, size * slenderness.to_radians().cos());
@@ -52,6 +54,8 @@ pub fn scene(seed: u64, number: u64) -> Generated {
         motion::vertical(&mut text, &mut random);
     }
     let free = random.between(2.0, 4.0);
-    let _ = writeln!(text, "\n[run]\nfree_time_s = {free}\n\n[output]\ninterval_s = {INTERVAL}\nenergy = true");
+    // With flywheels that spin while the block stands, what it was like to come to rest matters by about this ratio.
+    let _ = writeln!(text, "\n[run]\nfree_time_s = {free}\nrest_speed_ratio = 1e-9");
+    let _ = writeln!(text, "\n[output]\ninterval_s = {INTERVAL}\nenergy = true");
     Generated { text, files, family }
 }
