@@ -95,12 +95,7 @@ impl Block {
         let centre = (centre + mass * height) / total;
         let size = half_width.hypot(centre);
         let about_toe = self.inertia * self.size * self.size + mass * (half_width * half_width + height * height);
-        Block {
-            size,
-            slenderness: half_width.atan2(centre),
-            inertia: about_toe / (total * size * size),
-            geometry: self.geometry,
-        }
+        Block { size, slenderness: half_width.atan2(centre), inertia: about_toe / (total * size * size), geometry: self.geometry }
     }
 
     /// η of the block alone by its moment of momentum about the new toe.

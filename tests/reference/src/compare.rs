@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::generate::Generated;
 use crate::scene::Scene;
-use crate::simulate::{Run, run};
+use crate::simulate::{RESOLUTION, Run, run_at};
 
 /// What another program says of a scene's only device.
 #[derive(Clone, Debug, Default)]
@@ -54,6 +54,26 @@ pub fn compare(ours: &Run, theirs: &Other, slenderness: f64) -> Difference {
     Difference { same_outcome: ours.outcome == theirs.outcome, history, since, residual }
 }
 
+/// What a comparison comes to.
+#[derive(Clone, Copy, Debug)]
+pub enum Verdict {
+    /// Outcome and history agree.
+    Agree(Difference),
+    /// They do not, and neither does this program with itself at half the step: rounding decides this motion.
+    Chaotic(Difference),
+    /// They do not.
+    Differ(Difference),
+}
+
+/// Differences up to which runs agree.
+#[derive(Clone, Copy, Debug)]
+pub struct Tolerance {
+    /// |Δθ|/α.
+    pub history: f64,
+    /// Residual of the ledger over what came in.
+    pub residual: f64,
+}
+
 /// Writes a scene and its records into `folder`, lets `other` run it there, and compares. `other` gets the scene's path.
 ///
 /// # Errors
@@ -61,8 +81,9 @@ pub fn compare(ours: &Run, theirs: &Other, slenderness: f64) -> Difference {
 pub fn check(
     scene: &Generated,
     folder: &Path,
+    tolerance: Tolerance,
     other: impl FnOnce(&Path) -> Result<Other, String>,
-) -> Result<Difference, String> {
+) -> Result<Verdict, String> {
     let path = folder.join("scene.toml");
     let write = |path: &Path, text: &str| std::fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()));
     write(&path, &scene.text)?;
@@ -71,6 +92,27 @@ pub fn check(
     }
     let parsed = Scene::parse(&scene.text)?;
     let theirs = other(&path).map_err(|error| format!("theirs: {error}"))?;
-    let ours = run(&parsed, 0, folder).map_err(|error| format!("ours: {error}"))?;
-    Ok(compare(&ours, &theirs, parsed.block.slenderness_deg.to_radians()))
+    let at = |resolution: f64| run_at(&parsed, 0, folder, resolution).map_err(|error| format!("ours: {error}"));
+    let slenderness = parsed.block.slenderness_deg.to_radians();
+    let ours = at(RESOLUTION)?;
+    let difference = compare(&ours, &theirs, slenderness);
+    if difference.same_outcome && difference.history <= tolerance.history && difference.residual <= tolerance.residual {
+        return Ok(Verdict::Agree(difference));
+    }
+    let finer = at(RESOLUTION / 2.0)?;
+    let own = compare(&ours, &Other::from(&finer), slenderness);
+    // What one program loses to rounding, the other loses elsewhere: a tenth of the difference is enough to tell.
+    let own_noise = own.history > 0.1 * difference.history || own.history > tolerance.history || !own.same_outcome;
+    Ok(if own_noise && difference.residual <= tolerance.residual {
+        Verdict::Chaotic(difference)
+    } else {
+        Verdict::Differ(difference)
+    })
+}
+
+impl From<&Run> for Other {
+    fn from(run: &Run) -> Other {
+        let history = run.samples.iter().map(|[time, rotation, _]| [*time, *rotation]);
+        Other { outcome: run.outcome.to_owned(), history: history.collect() }
+    }
 }

@@ -58,7 +58,11 @@ pub fn solve(model: &Model, state: &State, shaking: Shaking, direction: f64) -> 
             let locked = links.iter().filter(|link| **link == Link::Locked).count() as f64;
             let forces = [0, 1].map(|i| {
                 let wheel = crate::mode::Wheel { link: links[i], ..state.wheels[i] };
-                if links[i] == Link::Locked { 0.0 } else { model.link_force(&wheel, state.twist(i), rack - state.spin(i), state.time) }
+                if links[i] == Link::Locked {
+                    0.0
+                } else {
+                    model.link_force(&wheel, state.twist(i), rack - state.spin(i), state.time)
+                }
             });
             let acceleration = model.acceleration(&pose, velocity, shaking, direction, locked, forces[0] + forces[1]);
             let of_rack = model.rack_acceleration(&pose, velocity, acceleration);

@@ -139,10 +139,7 @@ impl Device {
             }
             other => return Err(format!("device {other:?}")),
         };
-        let remembers = matches!(
-            coupling,
-            Coupling::Rigid | Coupling::Overrunning | Coupling::Plates | Coupling::Elastic { .. }
-        );
+        let remembers = matches!(coupling, Coupling::Rigid | Coupling::Overrunning | Coupling::Plates | Coupling::Elastic { .. });
         let consistent = if remembers || table.kinematics.as_deref() == Some("consistent") { 1.0 } else { 0.0 };
         let capacity = either(clutch.capacity_ratio, clutch.capacity_n, GRAVITY)?.map_or(f64::INFINITY, |ratio| ratio * GRAVITY);
         let brake = match &table.flywheel.brake_deceleration_m_s2 {

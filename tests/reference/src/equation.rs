@@ -9,9 +9,7 @@ use crate::block::{Block, GRAVITY, Restitution};
 use crate::device::{Coupling, Device};
 use crate::ground::Ground;
 use crate::mode::{BlockMode, Link, State, Wheel};
-use crate::step::{
-    BEARING, BRAKE, CLUTCH, INPUT, KINEMATICS, RACK, ROTATION, SIZE, SPIN, TWIST, VELOCITY,
-};
+use crate::step::{BEARING, BRAKE, CLUTCH, INPUT, KINEMATICS, RACK, ROTATION, SIZE, SPIN, TWIST, VELOCITY};
 
 /// Block, device and ground.
 #[derive(Clone, Debug)]
@@ -162,9 +160,7 @@ impl Model {
     pub fn spin_rate(&self, wheel: &Wheel, spin: f64, force: f64) -> f64 {
         match wheel.turning {
             None => 0.0,
-            Some(sign) => {
-                force / self.device.inertance - self.device.bearing_viscous * spin - self.dry(wheel.link) * sign
-            }
+            Some(sign) => force / self.device.inertance - self.device.bearing_viscous * spin - self.dry(wheel.link) * sign,
         }
     }
 

@@ -121,8 +121,16 @@ impl<'a> Runner<'a> {
             (true, false) => BlockMode::Rocking { side: direction, direction },
             (false, _) => BlockMode::Rocking { side: sign(rotation), direction },
         };
-        let state =
-            State { time: 0.0, values, block, wheels: [wheel, other], drive: direction, armed: true, engagements: 0, slipped: None };
+        let state = State {
+            time: 0.0,
+            values,
+            block,
+            wheels: [wheel, other],
+            drive: direction,
+            armed: true,
+            engagements: 0,
+            slipped: None,
+        };
         let mut kinks = [model.horizontal.kinks(), model.vertical.kinks()].concat();
         kinks.sort_by(f64::total_cmp);
         kinks.dedup_by(|later, sooner| *later - *sooner < 1e-12);
@@ -149,9 +157,8 @@ impl<'a> Runner<'a> {
     fn ahead(&self, h: f64) -> State {
         let start = self.state.time;
         let mut state = self.state.clone();
-        state.values = step(&self.state.values, h, |t, values| {
-            self.model.rates(&self.state, start + t, values, self.shaking(start + t))
-        });
+        state.values =
+            step(&self.state.values, h, |t, values| self.model.rates(&self.state, start + t, values, self.shaking(start + t)));
         state.time = start + h;
         self.model.follow_rack(&mut state);
         state

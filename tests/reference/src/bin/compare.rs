@@ -7,15 +7,13 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use sprag_reference::compare::{Difference, Other, check, compare};
+use sprag_reference::compare::{Other, Tolerance, Verdict, check, compare};
 use sprag_reference::generate::scene;
 use sprag_reference::scene::Scene;
-use sprag_reference::simulate::{RESOLUTION, Run, run_at};
+use sprag_reference::simulate::{RESOLUTION, run_at};
 
-/// Differences beyond this are told.
-const HISTORY: f64 = 1e-6;
-/// As are residuals beyond this.
-const RESIDUAL: f64 = 1e-9;
+/// Differences beyond these are told.
+const TOLERANCE: Tolerance = Tolerance { history: 1e-6, residual: 1e-9 };
 
 fn main() -> Result<(), String> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -30,27 +28,31 @@ fn main() -> Result<(), String> {
 }
 
 fn random(sprag: &str, count: u64, seed: u64, keep: &Path) -> Result<(), String> {
-    let mut tally: BTreeMap<&str, [usize; 4]> = BTreeMap::new();
+    let mut tally: BTreeMap<&str, [usize; 5]> = BTreeMap::new();
     let mut histories = Vec::new();
     for number in 0..count {
         let generated = scene(seed, number);
         let folder = keep.join(format!("{seed}-{number}"));
         std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
-        let verdict = check(&generated, &folder, |path| sprag_run(sprag, path, &folder.join("out")));
+        let verdict = check(&generated, &folder, TOLERANCE, |path| sprag_run(sprag, path, &folder.join("out")));
         let row = tally.entry(generated.family).or_default();
         row[0] += 1;
         let told = match verdict {
-            Ok(Difference { same_outcome: true, history, residual, .. }) if history < HISTORY && residual < RESIDUAL => {
-                histories.push(history);
+            Ok(Verdict::Agree(difference)) => {
+                histories.push(difference.history);
                 row[1] += 1;
                 None
             }
-            Ok(difference) => {
+            Ok(Verdict::Chaotic(_)) => {
                 row[2] += 1;
+                None
+            }
+            Ok(Verdict::Differ(difference)) => {
+                row[3] += 1;
                 Some(format!("{difference:?}"))
             }
             Err(error) => {
-                row[3] += 1;
+                row[4] += 1;
                 Some(error.lines().next().unwrap_or_default().chars().take(260).collect())
             }
         };
@@ -59,7 +61,7 @@ fn random(sprag: &str, count: u64, seed: u64, keep: &Path) -> Result<(), String>
             None => drop(std::fs::remove_dir_all(&folder)),
         }
     }
-    println!("family: scenes, agree, differ, not run\n{tally:?}");
+    println!("family: scenes, agree, chaotic, differ, not run\n{tally:?}");
     histories.sort_by(f64::total_cmp);
     let at = |share: f64| histories.get((share * (histories.len().max(1) - 1) as f64) as usize).copied().unwrap_or(0.0);
     println!("histories that agree: median {:.1e}, 90 % {:.1e}, largest {:.1e}", at(0.5), at(0.9), at(1.0));
@@ -83,7 +85,7 @@ fn single(sprag: &str, path: &Path) -> Result<(), String> {
             ours.impacts,
             ours.ledger.residual() / ours.ledger.income()
         );
-        println!("  half the step: {:?}", compare(&ours, &as_other(&finer), slenderness));
+        println!("  half the step: {:?}", compare(&ours, &Other::from(&finer), slenderness));
         if std::env::var_os("EVENTS").is_some() {
             ours.events.iter().for_each(|(time, guard)| println!("  {time:.15} {guard:?}"));
         }
@@ -98,10 +100,6 @@ fn single(sprag: &str, path: &Path) -> Result<(), String> {
         }
     }
     Ok(())
-}
-
-fn as_other(run: &Run) -> Other {
-    Other { outcome: run.outcome.to_owned(), history: run.samples.iter().map(|[time, rotation, _]| [*time, *rotation]).collect() }
 }
 
 /// Runs `sprag simulate` and reads what it wrote.

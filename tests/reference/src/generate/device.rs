@@ -7,7 +7,18 @@ use crate::random::Random;
 /// Writes a `[[device]]` table for a block whose centre of mass is at `height` (m). Returns its family.
 pub fn write(text: &mut String, random: &mut Random, height: f64) -> &'static str {
     let family = random.pick(&[
-        "none", "inerter", "ideal", "ideal", "rigid", "rigid", "overrunning", "plates", "plates", "plates", "elastic", "elastic",
+        "none",
+        "inerter",
+        "ideal",
+        "ideal",
+        "rigid",
+        "rigid",
+        "overrunning",
+        "plates",
+        "plates",
+        "plates",
+        "elastic",
+        "elastic",
     ]);
     text.push_str("\n[[device]]\n");
     if family == "none" {

@@ -1,0 +1,35 @@
+//! Random scenes: the same seed makes the same scene, every family occurs, and whatever runs keeps its ledger.
+
+use std::collections::BTreeSet;
+
+use sprag_reference::generate::scene;
+use sprag_reference::scene::Scene;
+use sprag_reference::simulate::run;
+
+#[test]
+fn a_seed_and_a_number_decide_a_scene() {
+    for number in 0..20 {
+        assert_eq!(scene(7, number), scene(7, number));
+        assert_ne!(scene(7, number), scene(8, number));
+        assert_ne!(scene(7, number), scene(7, number + 1));
+    }
+    let families: BTreeSet<&str> = (0..100).map(|number| scene(7, number).family).collect();
+    assert_eq!(families.len(), 7, "{families:?}");
+}
+
+#[test]
+fn ledgers_close() {
+    let folder = std::env::temp_dir().join(format!("sprag-reference-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    for number in 0..40 {
+        let generated = scene(11, number);
+        for (name, text) in &generated.files {
+            std::fs::write(folder.join(name), text).expect("a record");
+        }
+        let parsed = Scene::parse(&generated.text).expect("a scene");
+        let ledger = run(&parsed, 0, &folder).expect("a run").ledger;
+        let residual = ledger.residual().abs() / ledger.income().max(1e-6);
+        assert!(residual < 1e-9, "scene {number}, {}: {residual:e}", generated.family);
+    }
+    std::fs::remove_dir_all(&folder).expect("a folder that was there");
+}
