@@ -108,6 +108,8 @@ impl Model {
                     state.wheels[i].link = found.links[i];
                 }
                 self.follow_rack(state);
+            } else {
+                self.stick_at_rest(state);
             }
             self.settle_flywheels(state, shaking);
             let Some(direction) = state.direction().filter(|_| self.device.is_commanded()) else { return };
@@ -120,6 +122,15 @@ impl Model {
                 self.look_at_drive(state, shaking);
             } else if state.velocity() != velocity {
                 state.armed = state.drive * self.drive(state, shaking) > 0.0;
+            }
+        }
+    }
+
+    /// Nothing slips on a rack that stands, once it stands too.
+    fn stick_at_rest(&self, state: &mut State) {
+        for i in 0..2 {
+            if matches!(state.wheels[i].link, Link::Slipping(_)) && state.spin(i) == 0.0 {
+                state.wheels[i].link = Link::Locked;
             }
         }
     }

@@ -19,7 +19,11 @@ pub const RESOLUTION: f64 = 0.01;
 const LONGEST: f64 = 5e-4;
 /// Events within this time (s) of one another count as one instant …
 const INSTANT: f64 = 1e-10;
-/// … of which so many are a mode that contradicts itself.
+/// … of which so many at standstill are rounding that decides between what holds and what pushes: both are as good as equal.
+const GRAZE: usize = 20;
+/// A block that grazes stands still for this long (s); then the faster of both has won.
+const PAUSE: f64 = 1e-9;
+/// So many events in one instant are a mode that contradicts itself.
 const MOST_AT_ONCE: usize = 100;
 
 /// How a run ended, in Sprag's words.
@@ -226,6 +230,9 @@ impl<'a> Runner<'a> {
                 }
                 let shaking = self.shaking(self.state.time);
                 model.answer(&mut self.state, guard, shaking);
+                if at_once > GRAZE && self.state.velocity().abs() < 1e-6 * counted {
+                    self.pause();
+                }
                 continue;
             }
             self.state = next;
@@ -252,6 +259,19 @@ impl<'a> Runner<'a> {
         };
         let ledger = Ledger { initial, present: energy(model, &self.state), values: self.state.values };
         Ok(Run { outcome, peak, impacts, samples, ledger, events })
+    }
+
+    /// A block on the verge of moving stands for a moment, with its clutches as they are.
+    fn pause(&mut self) {
+        self.state.values[VELOCITY] = 0.0;
+        self.model.follow_rack(&mut self.state);
+        self.state.block = match self.state.rotation() == 0.0 {
+            true => BlockMode::Standing,
+            false => BlockMode::Held { side: self.state.rotation().signum() },
+        };
+        self.state = self.ahead(PAUSE);
+        let shaking = self.shaking(self.state.time);
+        self.model.settle(&mut self.state, shaking);
     }
 
     /// Kinks of the ground and clocks at a stop.
