@@ -2,10 +2,30 @@
 
 use std::fmt::Write;
 
+use crate::block::GRAVITY;
 use crate::random::Random;
 
-/// Writes a `[[device]]` table for a block whose centre of mass is at `height` (m). Returns its family.
-pub fn write(text: &mut String, random: &mut Random, height: f64) -> &'static str {
+/// What a device is tied to.
+#[derive(Clone, Copy, Debug)]
+pub struct Site {
+    /// Height of the centre of mass, m.
+    pub height: f64,
+    /// The block's mass (kg), where values are absolute.
+    pub mass: Option<f64>,
+}
+
+impl Site {
+    /// A key as a ratio, or as a number of `unit` (m/s², 1) times the mass.
+    fn key(self, name: &str, absolute: &str, ratio: f64, unit: f64) -> String {
+        match self.mass {
+            None => format!("{name} = {ratio}"),
+            Some(mass) => format!("{absolute} = {}", ratio * mass * unit),
+        }
+    }
+}
+
+/// Writes a `[[device]]` table. Returns its family.
+pub fn write(text: &mut String, random: &mut Random, site: Site) -> &'static str {
     let family = random.pick(&[
         "none",
         "inerter",
@@ -27,10 +47,10 @@ pub fn write(text: &mut String, random: &mut Random, height: f64) -> &'static st
     }
     let memory = matches!(family, "rigid" | "overrunning" | "plates" | "elastic");
     let kind = if family == "inerter" { "inerter" } else { "clutched-pair" };
-    let _ = writeln!(text, "kind = \"{kind}\"\nmass_ratio = {}", random.between(0.1, 1.2));
+    let _ = writeln!(text, "kind = \"{kind}\"\n{}", site.key("mass_ratio", "inertance_kg", random.between(0.1, 1.2), 1.0));
     // An ideal pair with delays needs a horizontal mount too.
     let actuated = family != "inerter" && family != "overrunning" && random.chance(0.35);
-    let corners = mount(text, random, height, !memory && !actuated);
+    let corners = mount(text, random, site.height, !memory && !actuated);
     if memory || random.chance(0.4) {
         text.push_str("kinematics = \"consistent\"\n");
     }
@@ -39,7 +59,8 @@ pub fn write(text: &mut String, random: &mut Random, height: f64) -> &'static st
         "rigid" | "overrunning" => drop(writeln!(text, "engagement = \"{family}\"")),
         "plates" => {
             capacity = true;
-            let _ = writeln!(text, "clutch = {{ capacity_ratio = {} }}", random.logarithmic(0.01, 0.3));
+            let key = site.key("capacity_ratio", "capacity_n", random.logarithmic(0.01, 0.3), GRAVITY);
+            let _ = writeln!(text, "clutch = {{ {key} }}");
         }
         "elastic" => {
             let mut keys = vec![format!("stiffness_ratio = {}", random.logarithmic(300.0, 3e4))];
@@ -51,7 +72,7 @@ pub fn write(text: &mut String, random: &mut Random, height: f64) -> &'static st
             }
             if random.chance(0.5) {
                 capacity = true;
-                keys.push(format!("capacity_ratio = {}", random.logarithmic(0.03, 0.3)));
+                keys.push(site.key("capacity_ratio", "capacity_n", random.logarithmic(0.03, 0.3), GRAVITY));
             }
             let _ = writeln!(text, "clutch = {{ {} }}", keys.join(", "));
         }
@@ -61,10 +82,10 @@ pub fn write(text: &mut String, random: &mut Random, height: f64) -> &'static st
     if random.chance(0.25) {
         let mut keys = Vec::new();
         if random.chance(0.6) {
-            keys.push(format!("viscous_1_s = {}", random.logarithmic(0.01, 0.3)));
+            keys.push(site.key("viscous_1_s", "viscous_n_s_m", random.logarithmic(0.01, 0.3), 1.0));
         }
         if random.chance(0.6) {
-            keys.push(format!("dry_friction_ratio = {}", random.logarithmic(0.001, 0.02)));
+            keys.push(site.key("dry_friction_ratio", "dry_friction_n", random.logarithmic(0.001, 0.02), GRAVITY));
         }
         let _ = writeln!(text, "rack = {{ {} }}", keys.join(", "));
     }
@@ -72,7 +93,7 @@ pub fn write(text: &mut String, random: &mut Random, height: f64) -> &'static st
         actuation(text, random, capacity);
     }
     if random.chance(0.2) {
-        weight(text, random, corners);
+        weight(text, random, corners, site);
     }
     family
 }
@@ -139,11 +160,13 @@ fn actuation(text: &mut String, random: &mut Random, capacity: bool) {
     let _ = writeln!(text, "actuation = {{ {} }}", keys.join(", "));
 }
 
-fn weight(text: &mut String, random: &mut Random, corners: bool) {
+fn weight(text: &mut String, random: &mut Random, corners: bool, site: Site) {
     let ratio = random.logarithmic(0.003, 0.1);
+    let rack = site.key("rack_ratio", "rack_kg", ratio, 1.0);
+    let flywheels = site.key("flywheels_ratio", "flywheels_kg", ratio, 1.0);
     let _ = match random.next_u64() % 3 {
-        0 => writeln!(text, "weight = {{ flywheels_ratio = {ratio}, flywheels_on = \"block\" }}"),
-        1 if !corners => writeln!(text, "weight = {{ rack_ratio = {ratio} }}"),
-        _ => writeln!(text, "weight = {{ rack_ratio = {ratio}, rack_on = \"block\" }}"),
+        0 => writeln!(text, "weight = {{ {flywheels}, flywheels_on = \"block\" }}"),
+        1 if !corners => writeln!(text, "weight = {{ {rack} }}"),
+        _ => writeln!(text, "weight = {{ {rack}, rack_on = \"block\" }}"),
     };
 }

@@ -46,7 +46,12 @@ pub fn scene(seed: u64, number: u64) -> Generated {
         let _ = writeln!(text, "initial_velocity_ratio = {}", random.between(-0.6, 0.6));
     }
     let p = (crate::block::GRAVITY / (inertia * size)).sqrt();
-    let family = device::write(&mut text, &mut random, size * slenderness.to_radians().cos());
+    let mass = random.chance(0.2).then(|| random.logarithmic(500.0, 5e4));
+    if let Some(mass) = mass {
+        let _ = writeln!(text, "mass_kg = {mass}");
+    }
+    let site = device::Site { height: size * slenderness.to_radians().cos(), mass };
+    let family = device::write(&mut text, &mut random, site);
     let mut files = Vec::new();
     let threshold = crate::block::GRAVITY * slenderness.to_radians().tan();
     motion::horizontal(&mut text, &mut files, &mut random, threshold, p);
