@@ -38,6 +38,7 @@ fn options(model: &Model, state: &State, i: usize, rack: f64, direction: f64) ->
         (Coupling::Plates, Link::Slipping(_)) => vec![Link::Slipping((rack - state.spin(i)).signum())],
         // A rack that is about to move leaves the flywheel of the other direction behind.
         (Coupling::Overrunning, _) if one_speed && state.velocity() == 0.0 && way_of(i) != direction => vec![Link::Open],
+        (Coupling::Overrunning, _) if one_speed && state.slipped == Some(i) => vec![Link::Open],
         (Coupling::Overrunning, _) if one_speed => vec![Link::Locked, Link::Open],
         _ => vec![link],
     }

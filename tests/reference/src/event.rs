@@ -24,6 +24,7 @@ impl Model {
             }
             Guard::Overturn => state.block = BlockMode::Overturned,
             Guard::Command => state.drive = -state.drive,
+            Guard::Retire => self.part_at_rest(state),
             Guard::Join(i) => state.values[SPIN + i] = self.rack_now(state),
             Guard::Stop(i) => state.values[SPIN + i] = 0.0,
             Guard::Touch(i) => {
@@ -32,8 +33,8 @@ impl Model {
                 state.wheels[i].link = Link::Contact(twist.signum());
             }
             Guard::Loosen(i) => state.wheels[i].link = Link::Play,
-            Guard::Slip(i) => state.slipped = Some(i),
-            Guard::Leave | Guard::Part(_) | Guard::Start(_) | Guard::Saturate(_) | Guard::Hold(_) => {}
+            Guard::Slip(i) | Guard::Part(i) => state.slipped = Some(i),
+            Guard::Leave | Guard::Start(_) | Guard::Saturate(_) | Guard::Hold(_) => {}
         }
         self.settle(state, shaking);
         state.slipped = None;
@@ -175,7 +176,12 @@ impl Model {
             }
             (now, way) = (going, next);
         }
-        if way == 0.0 && !stands {
+        let engaged_and_slips = |i: usize| now.wheels[i].link != Link::Open && now.spin(i) != 0.0;
+        if stands && (engaged_and_slips(0) || engaged_and_slips(1)) {
+            // A flywheel that spins the wrong way holds the block down until the plates have stopped it.
+            *state = now;
+            state.block = BlockMode::Standing;
+        } else if way == 0.0 && !stands {
             // Held, perhaps by the bearings of what has just engaged.
             let block = state.block;
             *state = now;
@@ -204,6 +210,16 @@ impl Model {
         going
     }
 
+    /// How much what pushes a standing block to one side exceeds its weight and the rack's friction, with open clutches.
+    pub fn open_readiness(&self, state: &State, shaking: Shaking) -> f64 {
+        let mut open = state.clone();
+        for wheel in &mut open.wheels {
+            wheel.link = Link::Open;
+        }
+        let ready = |way: f64| way * solve(self, &open, shaking, way).acceleration;
+        ready(1.0).max(ready(-1.0))
+    }
+
     /// How much what pushes a block at rest exceeds what holds it, as the angular acceleration that it would have; negative
     /// while it stays.
     pub fn readiness(&self, state: &State, shaking: Shaking) -> f64 {
@@ -215,7 +231,11 @@ impl Model {
         for direction in [1.0, -1.0] {
             let mut ready = direction * solve(self, &still, shaking, direction).acceleration;
             let going = self.going(&still, direction);
-            if going.velocity() == 0.0 {
+            // What has just engaged and slips on a flywheel that spins is an event of its own: it may hold the block down.
+            let slips =
+                |i: usize| still.wheels[i].link == Link::Open && going.wheels[i].link != Link::Open && going.spin(i) != 0.0;
+            let held_down = state.rotation() == 0.0 && (slips(0) || slips(1));
+            if going.velocity() == 0.0 && !held_down {
                 ready = ready.min(direction * solve(self, &going, shaking, direction).acceleration);
             }
             most = most.max(ready);

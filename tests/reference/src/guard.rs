@@ -18,6 +18,8 @@ pub enum Guard {
     Command,
     /// Standing or held: what pushes exceeds what holds.
     Leave,
+    /// Standing with an engaged clutch that holds it down: weight alone would hold it again.
+    Retire,
     /// Flywheel: |F| = F_c of plates that stick.
     Slip(usize),
     /// ẋ = w of plates that slip, or of an overrunning clutch that had parted.
@@ -61,6 +63,10 @@ pub fn guards(model: &Model, state: &State, shaking: Shaking) -> Vec<(Guard, f64
         }
     } else if state.block != BlockMode::Overturned {
         all.push((Guard::Leave, -model.readiness(state, shaking)));
+        let engaged = device.is_commanded() && state.wheels.iter().any(|wheel| wheel.link != Link::Open);
+        if state.block == BlockMode::Standing && engaged {
+            all.push((Guard::Retire, model.open_readiness(state, shaking)));
+        }
     }
     let moves = matches!(state.block, BlockMode::Rocking { .. });
     for (i, wheel) in state.wheels.iter().enumerate() {

@@ -69,7 +69,8 @@ pub struct State {
     pub armed: bool,
     /// Engagements commanded so far.
     pub engagements: u32,
-    /// The flywheel whose force has just reached the capacity of its plates: it slips, whatever rounding says.
+    /// The flywheel whose force has just reached the capacity of its plates, or zero (overrunning): it slips or parts, whatever
+    /// rounding says.
     pub slipped: Option<usize>,
 }
 
