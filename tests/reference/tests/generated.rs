@@ -1,6 +1,7 @@
 //! Random scenes: the same seed makes the same scene, every family occurs, and whatever runs keeps its ledger.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
 use sprag_reference::generate::scene;
 use sprag_reference::scene::Scene;
@@ -32,4 +33,22 @@ fn ledgers_close() {
         assert!(residual < 1e-9, "scene {number}, {}: {residual:e}", generated.family);
     }
     std::fs::remove_dir_all(&folder).expect("a folder that was there");
+}
+
+/// Scenes that had told two programs apart (`scenes/`, whose first lines say by what): this one runs them.
+#[test]
+fn scenes_that_told_programs_apart_run() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let mut count = 0;
+    for entry in std::fs::read_dir(&folder).expect("a folder").flatten() {
+        if entry.path().extension().is_none_or(|extension| extension != "toml") {
+            continue;
+        }
+        let text = std::fs::read_to_string(entry.path()).expect("a text");
+        let ledger = run(&Scene::parse(&text).expect("a scene"), 0, &folder).expect("a run").ledger;
+        let residual = ledger.residual().abs() / ledger.income();
+        assert!(residual < 2e-9, "{}: {residual:e}", entry.path().display());
+        count += 1;
+    }
+    assert!(count >= 10);
 }

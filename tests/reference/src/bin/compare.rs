@@ -104,7 +104,7 @@ fn single(sprag: &str, path: &Path) -> Result<(), String> {
 
 /// Runs `sprag simulate` and reads what it wrote.
 fn sprag_run(sprag: &str, scene: &Path, out: &Path) -> Result<Other, String> {
-    let output = Command::new(sprag).arg("simulate").arg(scene).arg("--out").arg(out).output();
+    let output = Command::new(sprag).arg("simulate").arg(scene).args(["--overwrite", "--out"]).arg(out).output();
     let output = output.map_err(|error| format!("{sprag}: {error}"))?;
     if !output.status.success() {
         let text = String::from_utf8_lossy(&output.stderr);
