@@ -324,7 +324,7 @@ fn largest_step(model: &Model, resolution: f64) -> f64 {
     if let Coupling::Elastic { stiffness, damping, .. } = device.coupling {
         let (lever, _) = device.lever.at(1.0, 0.0);
         let inverse_mass = 1.0 / device.inertance + lever * lever / block.inertia;
-        rate = rate.max(0.7 * (2.0 * stiffness * inverse_mass).sqrt()).max(damping * inverse_mass);
+        rate = rate.max(1.2 * (2.0 * stiffness * inverse_mass).sqrt()).max(damping * inverse_mass);
         if damping > 0.0 && device.capacity.is_finite() {
             rate = rate.max(0.5 * stiffness / damping);
         }
