@@ -120,13 +120,13 @@ impl Model {
         }
     }
 
-    /// Rate of the twist.
-    pub fn twist_rate(&self, wheel: &Wheel, twist: f64, relative: f64, time: f64) -> f64 {
+    /// Rate of the twist at `time`, in a step that began at `start`: the capacity's growth is that of the step, also at its end.
+    pub fn twist_rate(&self, wheel: &Wheel, twist: f64, relative: f64, time: f64, start: f64) -> f64 {
         let Coupling::Elastic { stiffness, damping, half_play } = self.device.coupling else { return 0.0 };
         match wheel.link {
             Link::Play | Link::Contact(_) => relative,
             Link::Saturated(side, sign) => {
-                let (capacity, growth) = self.capacity(wheel, time);
+                let (capacity, growth) = (self.capacity(wheel, time).0, self.capacity(wheel, start).1);
                 if damping > 0.0 {
                     (sign * capacity - stiffness * (twist - side * half_play)) / damping
                 } else {
@@ -180,7 +180,7 @@ impl Model {
             } else if device.inertance > 0.0 {
                 let relative = rack - spin;
                 let force = self.link_force(wheel, twist, relative, time);
-                let twisting = self.twist_rate(wheel, twist, relative, time);
+                let twisting = self.twist_rate(wheel, twist, relative, time, state.time);
                 rates[SPIN + i] = self.spin_rate(wheel, spin, force);
                 rates[TWIST + i] = twisting;
                 rates[CLUTCH] += over * (force * relative - self.spring_force(wheel, twist) * twisting);

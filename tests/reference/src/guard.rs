@@ -87,7 +87,7 @@ pub fn guards(model: &Model, state: &State, shaking: Shaking) -> Vec<(Guard, f64
                 all.push((Guard::Saturate(i), capacity - force.abs()));
             }
             (Link::Saturated(_, sign), _) => {
-                let slip = rack - spin - model.twist_rate(wheel, twist, rack - spin, state.time);
+                let slip = rack - spin - model.twist_rate(wheel, twist, rack - spin, state.time, state.time);
                 all.push((Guard::Hold(i), sign * slip));
             }
             _ => {}

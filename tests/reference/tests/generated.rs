@@ -30,7 +30,7 @@ fn ledgers_close() {
         let parsed = Scene::parse(&generated.text).expect("a scene");
         let ledger = run(&parsed, 0, &folder).expect("a run").ledger;
         let residual = ledger.residual().abs() / ledger.income().max(1e-6);
-        assert!(residual < 1e-9, "scene {number}, {}: {residual:e}", generated.family);
+        assert!(residual < 3e-10, "scene {number}, {}: {residual:e}", generated.family);
     }
     std::fs::remove_dir_all(&folder).expect("a folder that was there");
 }
@@ -47,7 +47,7 @@ fn scenes_that_told_programs_apart_run() {
         let text = std::fs::read_to_string(entry.path()).expect("a text");
         let ledger = run(&Scene::parse(&text).expect("a scene"), 0, &folder).expect("a run").ledger;
         let residual = ledger.residual().abs() / ledger.income();
-        assert!(residual < 2e-9, "{}: {residual:e}", entry.path().display());
+        assert!(residual < 1e-10, "{}: {residual:e}", entry.path().display());
         count += 1;
     }
     assert!(count >= 10);
