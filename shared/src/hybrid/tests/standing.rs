@@ -216,7 +216,7 @@ fn a_block_that_is_held_on_its_base_has_not_rocked() {
     for (push, uplifts) in [(0.5 * (alone + held), 0), (held + 1e-4, 1)] {
         // Half a sine, so that it comes and goes.
         let pieces = std::vec![(Ground::sine(push, 2.0), core::f64::consts::FRAC_PI_2)];
-        let shake = Shake { structure: block.clone(), pieces, free_time: 1.0 };
+        let shake = Shake { structure: block, pieces, free_time: 1.0 };
         for engagement in [Engagement::Ideal, Engagement::Rigid, Engagement::Friction { capacity_ratio: 0.1 }] {
             let seen = shake.machine(&bearings(engagement), &tight());
             let count = seen.events.iter().filter(|(event, _)| *event == Event::Uplift).count();
