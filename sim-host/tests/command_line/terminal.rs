@@ -104,7 +104,7 @@ fn counts(text: &str) -> BTreeSet<u64> {
         let (before, _) = line.split_once(" of ").or_else(|| line.split_once(" blocks (at most"))?;
         before.rsplit(' ').next()?.replace(',', "").parse().ok().filter(|count| *count > 0)
     };
-    drawn(text).into_iter().filter_map(count).collect()
+    drawn(text).into_iter().filter(|line| !line.starts_with("sprag: warning: ")).filter_map(count).collect()
 }
 
 /// A bar was drawn and has moved, and something was said of time.
