@@ -55,7 +55,7 @@ fuzz_target!(|input: &[u8]| -> Corpus {
             one_line(&error.to_string());
             // A fixed step may be too long for what it has to follow; a step of the series' own choice never is.
             let own_step = scene.file.accuracy.step_s.is_none();
-            let not_finite = matches!(error, RunError::Stopped { error: Stopped::NotFinite, .. });
+            let not_finite = matches!(error, RunError::Stopped { error: Stopped::NotFinite { .. }, .. });
             assert!(!(own_step && not_finite), "{error}\n{text}");
         }
     }
