@@ -71,7 +71,7 @@ impl WithMachine<f32> for Runner<'_, '_, '_> {
         }
     }
 
-    fn with_elastic<B: Body<f32>>(self, machine: Machine<f32, B, ElasticPair<f32>, 4, 3>) -> Self::Output {
+    fn with_elastic<B: Body<f32>>(self, machine: Machine<f32, B, ElasticPair<f32>, 4, 5>) -> Self::Output {
         let step = self.case.step;
         match self.case.method {
             FixedMethod::ExponentialMidpoint => self.run(&machine, &ExponentialMidpoint { step }),

@@ -119,7 +119,7 @@ pub struct Law<S> {
     /// Rate at which the twist of a saturated clutch relaxes, 1/s.
     pub relaxation: [S; 2],
     /// What the guards watch.
-    pub watch: [Watch<S>; 3],
+    pub watch: [Watch<S>; WATCHES],
 }
 
 /// A function that is positive for as long as a mode lasts.
@@ -142,11 +142,12 @@ pub enum Watch<S> {
     Play(S, usize),
     /// sign · (twist − contact): in contact.
     Contact(S, usize),
-    /// sign · (twist − contact) · (bound² − force²): in contact below a bound of the force.
-    Bounded(S, S, usize),
-    /// bound² − force²: without play.
-    Below(S, usize),
+    /// bound² − force² of a clutch in contact, with the bound and its growth.
+    Below(S, S, usize),
 }
+
+/// Most functions that a device watches: the command, and two of each flywheel.
+pub const WATCHES: usize = 5;
 
 impl<S: Real> Law<S> {
     /// Nothing engaged, nothing lost, motion in `direction`.
@@ -167,7 +168,7 @@ impl<S: Real> Law<S> {
             rest_twist: none,
             follows: none,
             relaxation: none,
-            watch: [Watch::Nothing; 3],
+            watch: [Watch::Nothing; WATCHES],
         }
     }
 }

@@ -5,7 +5,7 @@
 //! C ẋ = F − K (x − o), and the plates slip at ℓθ̇ − w − ẋ. The contact ends where the spring is without force, so that a
 //! damper may pull for an instant (the classical dead zone).
 
-use super::device::{Coupling, Device, Law, Watch, Wheel};
+use super::device::{Coupling, Device, Law, WATCHES, Watch, Wheel};
 use super::drive::{Account, Drive, Instant, MomentOf, acceleration, account, command, moment, open};
 use super::gears::Gears;
 use crate::body::Body;
@@ -17,13 +17,15 @@ use crate::value::Value;
 pub struct ElasticPair<S>(pub Gears<S>);
 
 impl<S: Real> ElasticPair<S> {
-    /// Largest force that leaves the mode as it is: the plates' capacity, or the bearing friction of a flywheel that stands.
-    fn bound(&self, wheel: &Wheel<S>) -> S {
-        let capacity = self.0.capacity_of(wheel).0;
-        match wheel.turning {
-            Some(_) => capacity,
-            None => capacity.smaller(self.0.inertance * self.0.bearing_dry),
-        }
+    /// Largest force that leaves the mode as it is, and its growth: the plates' capacity, or the bearing friction of a flywheel that
+    /// stands; 1/s² and 1/s³.
+    fn bound(&self, wheel: &Wheel<S>) -> (S, S) {
+        if wheel.turning.is_some() { self.0.capacity_of(wheel) } else { self.0.standing_friction(wheel) }
+    }
+
+    /// Rate of the twist at which plates of rising capacity wind up a spring without a damper, 1/s.
+    fn creep(&self, law: &Law<S>, wheel: usize) -> S {
+        if self.0.damping > S::ZERO { S::ZERO } else { law.slip_growth[wheel] / self.0.stiffness }
     }
 
     /// Force of a clutch in contact.
@@ -49,7 +51,7 @@ impl<S: Real> ElasticPair<S> {
     }
 }
 
-impl<S: Real> Drive<S, 4, 3> for ElasticPair<S> {
+impl<S: Real> Drive<S, 4, WATCHES> for ElasticPair<S> {
     const COMMANDED: bool = true;
     const HOLDS: bool = true;
 
@@ -91,13 +93,13 @@ impl<S: Real> Drive<S, 4, 3> for ElasticPair<S> {
                     law.stiffness[i] = gears.stiffness;
                     law.damping[i] = gears.damping;
                     law.rest_twist[i] = side.times(gears.half_play);
-                    let bound = self.bound(wheel);
-                    law.watch[i + 1] = match (plays, bound.is_finite()) {
-                        (true, true) => Watch::Bounded(side.unit(), bound, i),
-                        (true, false) => Watch::Contact(side.unit(), i),
-                        (false, true) => Watch::Below(bound, i),
-                        (false, false) => Watch::Nothing,
-                    };
+                    if plays {
+                        law.watch[i + 1] = Watch::Contact(side.unit(), i);
+                    }
+                    let (bound, growth) = self.bound(wheel);
+                    if bound.is_finite() {
+                        law.watch[i + 3] = Watch::Below(bound, growth, i);
+                    }
                 }
                 Coupling::Saturated(side) => {
                     law.rest_twist[i] = side.times(gears.half_play);
@@ -123,7 +125,7 @@ impl<S: Real> Drive<S, 4, 3> for ElasticPair<S> {
             [0, 1].map(|i| force[i].scale(law.moves[i] * self.0.mobility).offset(-law.drag[i]) - at.extra[i].scale(law.decay[i]));
         let slides = [0, 1].map(|i| {
             let relaxes = (plates[i] - twist[i].scale(self.0.stiffness)).scale(law.relaxation[i]);
-            relative[i].scale(law.follows[i]) + relaxes
+            relative[i].scale(law.follows[i]) + relaxes.offset(self.creep(law, i))
         });
         let acceleration = acceleration::<S, V, B, 4, true>(at, self.0.rack_push, Some(force[0] + force[1]));
         (acceleration, [spin[0], spin[1], slides[0], slides[1]])
@@ -134,21 +136,19 @@ impl<S: Real> Drive<S, 4, 3> for ElasticPair<S> {
         let law = at.law;
         let relative = |i: usize| at.body.along(&at.posture, at.velocity) - at.extra[i & 1];
         let twist = |i: usize| at.extra[(i & 1) + 2].offset(-law.rest_twist[i & 1]);
-        let below = |bound: S, i: usize| {
-            let force = twist(i).scale(self.0.stiffness) + relative(i).scale(self.0.damping);
-            (-force.square()).offset(bound * bound)
-        };
         match watch {
             Watch::Command(sign) => command::<S, V, B, 4, true>(at, self.0.rack_push, sign),
             Watch::Play(half, i) => (-at.extra[(i & 1) + 2].square()).offset(half * half),
             Watch::Contact(sign, i) => twist(i).scale(sign),
-            Watch::Bounded(sign, bound, i) => twist(i).scale(sign) * below(bound, i),
-            Watch::Below(bound, i) => below(bound, i),
+            Watch::Below(bound, growth, i) => {
+                let force = twist(i).scale(self.0.stiffness) + relative(i).scale(self.0.damping);
+                at.clock.scale(growth).offset(bound).square() - force.square()
+            }
             Watch::Slip(sign, i) => {
                 let j = i & 1;
                 let plates = at.clock.scale(law.slip_growth[j]).offset(law.slip[j]);
                 let relaxes = (plates - twist(i).scale(self.0.stiffness)).scale(law.relaxation[j]);
-                (relative(i) - relaxes).scale(sign)
+                (relative(i) - relaxes.offset(self.creep(law, j))).scale(sign)
             }
             _ => acceleration,
         }
@@ -180,18 +180,7 @@ impl<S: Real> Drive<S, 4, 3> for ElasticPair<S> {
                 self.settle_contact(at, i & 1);
             }
             Watch::Contact(_, i) => self.part(at, i & 1),
-            Watch::Bounded(_, bound, i) => {
-                let i = i & 1;
-                let wheel = &at.device.wheels[i];
-                let Coupling::Elastic(side) = wheel.coupling else { return };
-                let reach = self.0.stiffness * (wheel.twist - side.times(self.0.half_play)).abs();
-                if reach < (bound - self.force(at, i).abs()).abs() {
-                    self.part(at, i);
-                } else {
-                    self.overcome(at, i);
-                }
-            }
-            Watch::Below(_, i) => self.overcome(at, i & 1),
+            Watch::Below(.., i) => self.overcome(at, i & 1),
             Watch::Slip(_, i) => {
                 let wheel = &mut at.device.wheels[i & 1];
                 if let Coupling::Saturated(side) = wheel.coupling {
@@ -244,7 +233,7 @@ impl<S: Real> Drive<S, 4, 3> for ElasticPair<S> {
             let relative = rack - at.extra[i];
             let force = at.law.stiffness[i] * twist + at.law.damping[i] * relative + plates;
             let spring = self.0.stiffness * twist;
-            let rate = at.law.follows[i] * relative + at.law.relaxation[i] * (plates - spring);
+            let rate = at.law.follows[i] * relative + at.law.relaxation[i] * (plates - spring) + self.creep(at.law, i);
             account.force[i] = force;
             account.stored = account.stored + S::HALF * spring * twist;
             account.spent.clutch = account.spent.clutch + force * relative - spring * rate;
@@ -268,7 +257,7 @@ impl<S: Real> ElasticPair<S> {
     fn overcome<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, i: usize) {
         let force = self.force(at, i);
         let wheel = &mut at.device.wheels[i];
-        if wheel.turning.is_none() && self.bound(wheel) < self.0.capacity_of(wheel).0 {
+        if wheel.turning.is_none() && self.bound(wheel).0 < self.0.capacity_of(wheel).0 {
             wheel.turning = Some(Sign::of(force, Sign::Positive));
             return;
         }
@@ -285,6 +274,9 @@ impl<S: Real> ElasticPair<S> {
         }
         wheel.coupling = Coupling::Saturated(sign);
         let held = sign.times(self.0.capacity_of(wheel).0);
+        if self.0.damping == S::ZERO {
+            wheel.twist = sign.times(self.0.half_play) + held / self.0.stiffness;
+        }
         self.0.settle(wheel, held);
     }
 }

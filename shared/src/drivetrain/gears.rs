@@ -42,6 +42,13 @@ pub struct Gears<S> {
     pub half_play: S,
 }
 
+/// A growing `value` (0 or more) where it is compared with what it shall exceed: the instant at which both are equal but for rounding
+/// counts as past it.
+#[inline]
+pub(crate) fn rounded_up<S: Real>(value: S) -> S {
+    value * (S::ONE + S::EPSILON * S::of(16.0))
+}
+
 impl<S: Real> Gears<S> {
     /// Of `block`, which weighs `heavier` times as much as the one that the drivetrain's ratios refer to, with σ of its own.
     pub fn of(drivetrain: &Drivetrain, block: &Block, mass_ratio: f64, heavier: f64) -> Gears<S> {
@@ -122,8 +129,7 @@ impl<S: Real> Gears<S> {
     pub fn standing_friction(&self, wheel: &Wheel<S>) -> (S, S) {
         let bearing = self.inertance * self.bearing_dry;
         let (capacity, growth) = self.capacity_of(wheel);
-        // The instant at which both are equal counts as past it.
-        if bearing <= capacity * (S::ONE + S::EPSILON * S::of(16.0)) { (bearing, S::ZERO) } else { (capacity, growth) }
+        if bearing <= rounded_up(capacity) { (bearing, S::ZERO) } else { (capacity, growth) }
     }
 
     /// Deceleration of an idle or engaged flywheel by dry friction, 1/s².
@@ -142,9 +148,6 @@ impl<S: Real> Gears<S> {
             Some(Sign::Negative)
         } else if force.abs() > dry {
             Some(Sign::of(force, Sign::Positive))
-        } else if let (true, Coupling::Slipping(sign) | Coupling::Saturated(sign)) = (dry == S::ZERO, wheel.coupling) {
-            // Plates whose capacity rises from zero.
-            Some(sign)
         } else {
             None
         };

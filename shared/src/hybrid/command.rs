@@ -3,9 +3,9 @@
 use super::{Machine, MachineState};
 use crate::body::Body;
 use crate::drivetrain::Actuation;
-use crate::drivetrain::device::{Coupling, Watch, Wheel};
+use crate::drivetrain::device::{Coupling, WATCHES, Watch, Wheel};
 use crate::drivetrain::drive::Drive;
-use crate::drivetrain::gears::Gears;
+use crate::drivetrain::gears::{Gears, rounded_up};
 use crate::drivetrain::overrunning::wheel_for;
 use crate::rocking::Phase;
 use crate::scalar::{Real, Sign};
@@ -61,8 +61,11 @@ fn ramp_due<S: Real>(gears: &Gears<S>, wheel: &Wheel<S>, block_held: bool) -> Op
     }
     let full = gears.rise_time - wheel.engaged_for;
     let (capacity, growth) = gears.capacity_of(wheel);
-    let slips = matches!(wheel.coupling, Coupling::Slipping(_) | Coupling::Saturated(_));
-    let held = (slips && wheel.turning.is_none()) || (block_held && wheel.coupling == Coupling::Locked);
+    let held = match wheel.coupling {
+        Coupling::Slipping(_) | Coupling::Saturated(_) | Coupling::Elastic(_) => wheel.turning.is_none(),
+        Coupling::Locked => block_held,
+        _ => false,
+    };
     if !held || gears.standing_friction(wheel).1 == S::ZERO {
         return Some(full);
     }
@@ -182,11 +185,11 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 drive.release(at, index);
             }
         });
-        state.fresh = [false; 3];
+        state.fresh = [false; WATCHES];
     }
 
     /// Time until something happens by the clock alone, s.
-    pub(super) fn next_due(&self, state: &MachineState<S>) -> Option<S> {
+    fn next_due(&self, state: &MachineState<S>) -> Option<S> {
         if !D::COMMANDED {
             return None;
         }
@@ -201,14 +204,24 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         due
     }
 
+    /// `stop`, or the instant before it at which something happens by the clock alone.
+    pub(super) fn until_due(&self, state: &mut MachineState<S>, time: S, stop: S) -> S {
+        let Some(due) = self.next_due(state) else { return stop };
+        let stop = stop.smaller(time + due);
+        if stop <= time {
+            // What the clock cannot tell from now is due now.
+            state.device.elapse(due);
+        }
+        stop
+    }
+
     /// A clock has run out: a rising capacity may start a flywheel that stood.
     pub(super) fn ramps(&self, state: &mut MachineState<S>) {
         let Some(gears) = self.drive.gears().filter(|gears| gears.rise_time > S::ZERO) else { return };
         for wheel in &mut state.device.wheels {
             if let (Coupling::Slipping(sign) | Coupling::Saturated(sign), None) = (wheel.coupling, wheel.turning) {
                 let capacity = gears.capacity_of(wheel).0;
-                // The instant at which both are equal is the start.
-                gears.settle(wheel, sign.times(capacity * (S::ONE + S::EPSILON * S::of(16.0))));
+                gears.settle(wheel, sign.times(rounded_up(capacity)));
             }
         }
     }

@@ -1,16 +1,17 @@
 //! Dry friction of rack and bearings may hold a block: tilted, where it turns, or on its base, where clutches engage as it starts.
 
 use super::path::Shaking;
-use super::threshold::Threshold;
+use super::seen::Still;
+use super::threshold::{Threshold, earlier};
 use super::{Machine, MachineState};
-use crate::arc::{Arc, Motion};
+use crate::arc::Motion;
 use crate::body::Body;
 use crate::drivetrain::device::Coupling;
 use crate::drivetrain::drive::Drive;
 use crate::ground::Piece;
 use crate::observer::{Event, Stretch};
 use crate::scalar::{Real, Sign};
-use crate::snapshot::{DeviceArc, DeviceObserver, Snapshot};
+use crate::snapshot::DeviceObserver;
 
 impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {
     /// At θ̇ = 0: the way on, if friction lets the block go.
@@ -102,10 +103,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         } else {
             [moves(Sign::Positive), moves(Sign::Negative)]
         };
-        match ends {
-            [Some(a), Some(b)] => Some(if b.0 < a.0 { b } else { a }),
-            [a, b] => a.or(b),
-        }
+        earlier(ends)
     }
 }
 
@@ -121,44 +119,4 @@ enum LetGo {
     },
     /// On its base, the weight alone holds it.
     Rests,
-}
-
-/// A block that does not move.
-struct Still<'a, S, B, D, P, Q, const X: usize, const G: usize> {
-    machine: &'a Machine<S, B, D, X, G>,
-    state: &'a MachineState<S>,
-    shaking: Shaking<'a, P, Q>,
-    time: S,
-    length: S,
-}
-
-impl<S: Real, B, D, P, Q, const X: usize, const G: usize> Arc<S> for Still<'_, S, B, D, P, Q, X, G> {
-    fn length(&self) -> S {
-        self.length
-    }
-
-    fn at(&self, _time: S) -> Motion<S> {
-        Motion { rotation: self.state.motion.rotation, velocity: S::ZERO, acceleration: S::ZERO }
-    }
-
-    fn switching(&self, _time: S) -> S {
-        S::ZERO
-    }
-}
-
-impl<S, B, D, P, Q, const X: usize, const G: usize> DeviceArc<S> for Still<'_, S, B, D, P, Q, X, G>
-where
-    S: Real,
-    B: Body<S>,
-    D: Drive<S, X, G>,
-    P: Piece<S>,
-    Q: Piece<S>,
-{
-    fn snapshot(&self, time: S) -> Snapshot<S> {
-        let ground = self.shaking.at::<S, B>(self.time + time);
-        let mut state = *self.state;
-        self.machine.idle(&mut state, time);
-        let law = self.machine.drive.law(state.motion.direction, state.motion.drive, &state.device);
-        self.machine.snapshot(&law, &state, self.at(time), self.machine.drive.load(&state.device), ground, S::ZERO)
-    }
 }

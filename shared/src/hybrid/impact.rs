@@ -4,6 +4,7 @@ use super::path::Shaking;
 use super::{Machine, MachineState};
 use crate::accumulation::Accumulation;
 use crate::body::Body;
+use crate::drivetrain::device::WATCHES;
 use crate::drivetrain::drive::Drive;
 use crate::ground::Piece;
 use crate::observer::Event;
@@ -115,7 +116,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 state.held = false;
                 self.turned(state);
             }
-            state.fresh = [false; 3];
+            state.fresh = [false; WATCHES];
             self.settle(state, S::ZERO, observer);
             self.command(state, S::ZERO, observer);
         }

@@ -7,12 +7,14 @@
 //! As there, signs are part of the state, so that an event just handled is not found again.
 
 mod command;
+mod crowding;
 pub mod exponential;
 mod hold;
 mod impact;
 pub mod path;
 mod quantity;
 pub mod resolve;
+mod seen;
 pub mod series;
 mod standing;
 pub mod steps;
@@ -22,7 +24,7 @@ pub use command::Actuator;
 
 use crate::arc::{Arc, Motion};
 use crate::body::Body;
-use crate::drivetrain::device::{Coupling, Device, Law, Watch};
+use crate::drivetrain::device::{Coupling, Device, Law, WATCHES, Watch};
 use crate::drivetrain::drive::{Drive, Instant, Moment, MomentOf};
 use crate::grid::next_stop;
 use crate::ground::Piece;
@@ -30,8 +32,10 @@ use crate::locate::locate;
 use crate::observer::{Event, Stretch};
 use crate::rocking::{Limits, Phase, State, Stopped};
 use crate::scalar::{Real, Sign};
-use crate::snapshot::{DeviceArc, DeviceObserver, Snapshot, Spent};
+use crate::snapshot::{DeviceObserver, Snapshot, Spent};
+use crowding::{AT_ONCE, GRAZE, MOST_AT_ONCE, too_many};
 use path::{Path, PathStart, Shaking, Tracer};
+use seen::Seen;
 
 /// A block with its device, resolved into exactly what they need.
 #[derive(Clone, Copy, Debug)]
@@ -61,43 +65,14 @@ pub struct MachineState<S> {
     pub motion: State<S>,
     /// The device's.
     pub device: Device<S>,
-    /// Friction holds the tilted block at a turn.
+    /// Friction holds the block: tilted, at a turn, or on its base, where clutches engaged as it started.
     pub held: bool,
     /// Ground acceleration at the end of the last piece, in g.
     pub ground: [S; 2],
     /// The watched functions that are zero here, by an event just handled.
-    fresh: [bool; 3],
+    fresh: [bool; WATCHES],
     /// What moves a block that stood has just passed what held it.
     free: bool,
-}
-
-/// Events that may follow one another at once before that is taken for a graze: a guard touches zero, and rounding decides in which mode
-/// the motion goes on, anew each time.
-const MOST_AT_ONCE: u32 = 16;
-
-/// How far apart events at once are, in 1/p.
-const AT_ONCE: f64 = 1e-9;
-
-/// How far a graze is followed without guards, in 1/p: what they watch stays below the square of that.
-const GRAZE: f64 = 1e-6;
-
-/// The error of a state that events do not let go.
-fn too_many<S: Real>(state: &MachineState<S>, time: S) -> Stopped {
-    let has = |is: fn(&Coupling) -> bool| state.device.wheels.iter().any(|wheel| is(&wheel.coupling));
-    let mode = if state.motion.phase == Phase::Rest {
-        "the block stands"
-    } else if state.held {
-        "friction holds the block"
-    } else if has(|coupling| matches!(coupling, Coupling::Slipping(_) | Coupling::Saturated(_))) {
-        "a clutch slips"
-    } else if has(|coupling| matches!(coupling, Coupling::InPlay | Coupling::Elastic(_))) {
-        "a clutch stretches"
-    } else if has(|coupling| *coupling == Coupling::Locked) {
-        "a clutch holds"
-    } else {
-        "the clutches are open"
-    };
-    Stopped::TooManyEvents { time: time.to_f64(), mode }
 }
 
 /// What ended a step.
@@ -116,7 +91,8 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     pub fn at_rest(&self) -> MachineState<S> {
         let motion = State::default();
         let ground = [S::ZERO; 2];
-        let mut state = MachineState { motion, device: Device::at_rest(), held: false, ground, fresh: [false; 3], free: false };
+        let mut state =
+            MachineState { motion, device: Device::at_rest(), held: false, ground, fresh: [false; WATCHES], free: false };
         self.part_at_rest(&mut state);
         state
     }
@@ -154,6 +130,10 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let unit = self.slenderness / self.speed;
         self.ground_at_start(state, shaking.at::<S, B>(S::ZERO), observer);
         while time < duration && state.motion.phase != Phase::Overturned {
+            if events >= limits.events {
+                return Err(too_many(state, time));
+            }
+            events += 1;
             if state.motion.phase == Phase::Rest {
                 let stop = self.stands_until(state, time, duration);
                 let uplift = self.uplift_time(state, shaking, time, stop);
@@ -164,10 +144,6 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                     self.uplift(state, shaking.at::<S, B>(time), time, crossing, observer);
                 } else if time < duration {
                     self.carry_out_at_rest(state, time, observer);
-                    events += 1;
-                    if events >= limits.events {
-                        return Err(too_many(state, time));
-                    }
                     continue;
                 } else {
                     break;
@@ -180,17 +156,8 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 observer.device_event(Event::Overturned, time, &state.motion);
                 break;
             }
-            let mut stop = match tracer.step() {
-                Some(step) => next_stop(&mut tick, step, time, duration),
-                None => duration,
-            };
-            if let Some(due) = self.next_due(state) {
-                stop = stop.smaller(time + due);
-                if stop <= time {
-                    // What the clock cannot tell from now is due now.
-                    state.device.elapse(due);
-                }
-            }
+            let step = tracer.step().map_or(duration, |step| next_stop(&mut tick, step, time, duration));
+            let mut stop = self.until_due(state, time, step);
             let before = time;
             let grazes = at_once >= MOST_AT_ONCE;
             if grazes {
@@ -205,12 +172,8 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             at_once = if time - before > S::of(AT_ONCE) * unit { 0 } else { at_once + 1 };
             self.ramps(state);
             self.command(state, time, observer);
-            events += 1;
             if !(state.motion.rotation.is_finite() && state.motion.velocity.is_finite()) {
                 return Err(Stopped::NotFinite { time: time.to_f64() });
-            }
-            if events >= limits.events {
-                return Err(too_many(state, time));
             }
         }
         state.ground = shaking.at::<S, B>(duration);
@@ -305,7 +268,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let posture = self.body.posture(motion.side.unit(), motion.rotation);
         self.drive.store(&mut state.device, &extra, self.body.along(&posture, motion.velocity));
         state.device.elapse(until);
-        (state.fresh, state.free) = ([false; 3], false);
+        (state.fresh, state.free) = ([false; WATCHES], false);
         let ground = shaking.at::<S, B>(*time);
         state.ground = ground;
         match end {
@@ -336,16 +299,16 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 motion.phase = Phase::Overturned;
                 observer.device_event(Event::Overturned, *time, &state.motion);
             }
-            End::Guard(index) => match law.watch[index] {
-                Watch::Command(_) => {
-                    motion.drive = motion.drive.opposite();
-                    state.fresh[index] = true;
+            End::Guard(index) => {
+                match law.watch[index] {
+                    Watch::Command(_) => motion.drive = motion.drive.opposite(),
+                    watch => self.with_instant(state, *time, observer, |drive, at| drive.reached(at, watch)),
                 }
-                watch => {
-                    self.with_instant(state, *time, observer, |drive, at| drive.reached(at, watch));
-                    state.fresh[index] = true;
+                // Whatever is watched of a flywheel may be zero where its mode changes.
+                for (other, fresh) in state.fresh.iter_mut().enumerate() {
+                    *fresh |= (other == 0) == (index == 0) && other % 2 == index % 2;
                 }
-            },
+            }
             End::Stopped(wheel) => self.stopped(state, wheel),
         }
     }
@@ -456,53 +419,6 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             spent: Spent { kinematics, ..account.spent },
             terminal_velocity: self.body.along(&moment.posture, motion.velocity),
         }
-    }
-}
-
-/// A path as watchers see it.
-struct Seen<'a, S, B, D, A, P, Q, const X: usize, const G: usize> {
-    machine: &'a Machine<S, B, D, X, G>,
-    path: &'a A,
-    law: &'a Law<S>,
-    state: &'a MachineState<S>,
-    shaking: Shaking<'a, P, Q>,
-    time: S,
-}
-
-impl<S: Real, B, D, A: Arc<S>, P, Q, const X: usize, const G: usize> Arc<S> for Seen<'_, S, B, D, A, P, Q, X, G> {
-    #[inline(always)]
-    fn length(&self) -> S {
-        self.path.length()
-    }
-
-    #[inline(always)]
-    fn at(&self, time: S) -> Motion<S> {
-        self.path.at(time)
-    }
-
-    #[inline(always)]
-    fn switching(&self, time: S) -> S {
-        self.path.switching(time)
-    }
-
-    #[inline(always)]
-    fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
-        self.path.largest_acceleration(from, to, floor)
-    }
-}
-
-impl<S, B, D, A, P, Q, const X: usize, const G: usize> DeviceArc<S> for Seen<'_, S, B, D, A, P, Q, X, G>
-where
-    S: Real,
-    B: Body<S>,
-    D: Drive<S, X, G>,
-    A: Path<S, X>,
-    P: Piece<S>,
-    Q: Piece<S>,
-{
-    fn snapshot(&self, time: S) -> Snapshot<S> {
-        let ground = self.shaking.at::<S, B>(self.time + time);
-        self.machine.snapshot(self.law, self.state, self.path.at(time), self.path.extra(time), ground, time)
     }
 }
 

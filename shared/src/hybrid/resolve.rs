@@ -31,7 +31,7 @@ pub trait WithMachine<S: Real>: Sized {
     -> Self::Output;
 
     /// Goes on with a `machine` that has an elastic clutch, for which there are more methods.
-    fn with_elastic<B: Body<S>>(self, machine: Machine<S, B, ElasticPair<S>, 4, 3>) -> Self::Output {
+    fn with_elastic<B: Body<S>>(self, machine: Machine<S, B, ElasticPair<S>, 4, 5>) -> Self::Output {
         self.with(machine)
     }
 }

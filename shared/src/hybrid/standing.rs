@@ -1,9 +1,10 @@
 //! A block that stands on its base: what uplifts it, and what may still hold it there.
 
 use super::path::Shaking;
+use super::threshold::{Threshold, earlier};
 use super::{Machine, MachineState};
 use crate::body::Body;
-use crate::drivetrain::device::Coupling;
+use crate::drivetrain::device::{Coupling, WATCHES};
 use crate::drivetrain::drive::{Drive, open};
 use crate::ground::Piece;
 use crate::observer::Event;
@@ -49,23 +50,21 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         });
     }
 
-    /// Both sides' thresholds at an instant: the larger of the two moments.
+    /// The side to which the ground would lift a block on its base, and the threshold there.
+    fn lifted(&self, state: &MachineState<S>, ground: [S; 2]) -> (Sign, Threshold<S>) {
+        let [positive, negative] = [Sign::Positive, Sign::Negative].map(|side| self.breakaway(state, side, side));
+        if positive.at(ground) >= negative.at(ground) { (Sign::Positive, positive) } else { (Sign::Negative, negative) }
+    }
+
+    /// The moment that lifts a block on its base, over its inertia about the toe; 1/s².
     pub(super) fn uplifting(&self, state: &MachineState<S>, ground: [S; 2]) -> S {
-        let at = |side| self.breakaway(state, side, side).at(ground);
-        at(Sign::Positive).larger(at(Sign::Negative))
+        self.lifted(state, ground).1.at(ground)
     }
 
     /// How long the clutches of a standing block stay as they are, from `time` to `duration` at most.
     pub(super) fn stands_until(&self, state: &mut MachineState<S>, time: S, duration: S) -> S {
         let Some(gears) = self.drive.gears().filter(|_| self.actuator.controlled) else { return duration };
-        let mut stop = duration;
-        if let Some(due) = self.next_due(state) {
-            stop = stop.smaller(time + due);
-            if stop <= time {
-                // What the clock cannot tell from now is due now.
-                state.device.elapse(due);
-            }
-        }
+        let mut stop = self.until_due(state, time, duration);
         for wheel in state.device.wheels.iter_mut().filter(|wheel| matches!(wheel.coupling, Coupling::Slipping(_))) {
             match gears.stops_within(wheel, stop - time) {
                 Some(stops) if time + stops > time => stop = time + stops,
@@ -85,12 +84,8 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         from: S,
         to: S,
     ) -> Option<(S, bool)> {
-        let [first, second] =
-            [Sign::Positive, Sign::Negative].map(|side| self.breakaway(state, side, side).exceeded::<B, P, Q>(shaking, from, to));
-        match (first, second) {
-            (Some(a), Some(b)) => Some(if b.0 < a.0 { b } else { a }),
-            (a, b) => a.or(b),
-        }
+        let first = |side| self.breakaway(state, side, side).exceeded::<B, P, Q>(shaking, from, to);
+        earlier([Sign::Positive, Sign::Negative].map(first))
     }
 
     /// Sets the block in motion, to the side to which the ground pushes it. Clutches that engage as it starts may hold it.
@@ -102,13 +97,13 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         crossing: bool,
         observer: &mut dyn DeviceObserver<S>,
     ) {
-        let [positive, negative] = [Sign::Positive, Sign::Negative].map(|side| self.breakaway(state, side, side).at(ground));
-        let side = if positive >= negative { Sign::Positive } else { Sign::Negative };
+        let (side, _) = self.lifted(state, ground);
         let impacts = state.motion.impacts;
         state.motion =
             State { phase: Phase::Rocking, side, direction: side, drive: side, push: side, impacts, ..State::default() };
         state.ground = ground;
-        (state.fresh, state.free) = ([D::COMMANDED, false, false], crossing);
+        (state.fresh, state.free) = ([false; WATCHES], crossing);
+        state.fresh[0] = D::COMMANDED;
         let mut started = *state;
         self.start_clutches(&mut started, time, &mut ());
         if started.held {
@@ -133,11 +128,9 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     pub(super) fn stay_on_base(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         let mut held = *state;
         (held.motion.rotation, held.motion.velocity) = (S::ZERO, S::ZERO);
-        let [positive, negative] = [Sign::Positive, Sign::Negative].map(|side| self.breakaway(&held, side, side));
-        if D::HOLDS && !positive.is_exceeded(state.ground) && !negative.is_exceeded(state.ground) {
-            let to_positive = positive.at(state.ground) >= negative.at(state.ground);
-            held.motion.side = if to_positive { Sign::Positive } else { Sign::Negative };
-            (held.motion.direction, held.held) = (held.motion.side, true);
+        let (side, threshold) = self.lifted(&held, state.ground);
+        if D::HOLDS && !threshold.is_exceeded(state.ground) {
+            (held.motion.side, held.motion.direction, held.held) = (side, side, true);
             *state = held;
             observer.device_event(Event::Rest, time, &state.motion);
         }

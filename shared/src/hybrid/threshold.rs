@@ -4,7 +4,7 @@ use super::path::Shaking;
 use super::{Machine, MachineState};
 use crate::arc::Motion;
 use crate::body::Body;
-use crate::drivetrain::device::Coupling;
+use crate::drivetrain::device::{Coupling, Wheel};
 use crate::drivetrain::drive::Drive;
 use crate::ground::Piece;
 use crate::polynomial::first_zero_of;
@@ -16,11 +16,19 @@ const ROUNDINGS: f64 = 64.0;
 /// a ü_g/g + b (1 + v̈_g/g) + c + d t: the moment that moves the block to one side, over its inertia about the toe; 1/s².
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Threshold<S> {
-    pub(super) horizontal: S,
-    pub(super) vertical: S,
-    pub(super) constant: S,
+    horizontal: S,
+    vertical: S,
+    constant: S,
     /// As the plates of engaged clutches close on, 1/s³.
-    pub(super) growth: S,
+    growth: S,
+}
+
+/// The earlier of two instants, with what is known of it.
+pub(super) fn earlier<S: Real, T>(instants: [Option<(S, T)>; 2]) -> Option<(S, T)> {
+    match instants {
+        [Some(a), Some(b)] => Some(if b.0 < a.0 { b } else { a }),
+        [a, b] => a.or(b),
+    }
 }
 
 impl<S: Real> Threshold<S> {
@@ -89,16 +97,23 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let add = |(a, b): (S, S), (c, d): (S, S)| (a + c, b + d);
         if let Some(gears) = self.drive.gears() {
             (push, dry) = (gears.rack_push, (gears.rack_dry, S::ZERO));
-            let law = self.drive.law(state.motion.direction, state.motion.drive, &state.device);
-            let still = Motion { rotation: state.motion.rotation, velocity: S::ZERO, acceleration: S::ZERO };
-            let moment = self.moment(&law, side, &still, self.drive.load(&state.device), state.ground, S::ZERO);
-            let account = self.drive.account(&moment, S::ZERO, &state.device);
-            for (i, wheel) in state.device.wheels.iter().enumerate() {
-                match wheel.coupling {
-                    Coupling::Open => {}
-                    Coupling::Locked => dry = add(dry, gears.standing_friction(wheel)),
-                    Coupling::Slipping(_) if wheel.spin == S::ZERO => dry = add(dry, gears.standing_friction(wheel)),
-                    _ => force = add(force, (account.force[i], law.slip_growth[i])),
+            let sticks = |wheel: &Wheel<S>| match wheel.coupling {
+                Coupling::Locked => true,
+                Coupling::Slipping(_) => wheel.spin == S::ZERO,
+                _ => false,
+            };
+            let wheels = &state.device.wheels;
+            for wheel in wheels.iter().filter(|wheel| sticks(wheel)) {
+                dry = add(dry, gears.standing_friction(wheel));
+            }
+            let pulls = |wheel: &Wheel<S>| wheel.coupling != Coupling::Open && !sticks(wheel);
+            if wheels.iter().any(pulls) {
+                let law = self.drive.law(state.motion.direction, state.motion.drive, &state.device);
+                let still = Motion { rotation: state.motion.rotation, velocity: S::ZERO, acceleration: S::ZERO };
+                let moment = self.moment(&law, side, &still, self.drive.load(&state.device), state.ground, S::ZERO);
+                let account = self.drive.account(&moment, S::ZERO, &state.device);
+                for (i, _) in wheels.iter().enumerate().filter(|(_, wheel)| pulls(wheel)) {
+                    force = add(force, (account.force[i], law.slip_growth[i]));
                 }
             }
         }

@@ -119,7 +119,7 @@ impl<W: WithPlant<Output = Result<R, E>>, R, E: From<ParameterError>> WithMachin
         self.next.with(&mut MachinePlant::new(machine, RungeKutta4 { step }, self.surroundings))
     }
 
-    fn with_elastic<B: Body<f64>>(self, machine: Machine<f64, B, ElasticPair<f64>, 4, 3>) -> Self::Output {
+    fn with_elastic<B: Body<f64>>(self, machine: Machine<f64, B, ElasticPair<f64>, 4, 5>) -> Self::Output {
         let step = self.surroundings.step;
         if self.surroundings.exponential {
             self.next.with(&mut MachinePlant::new(machine, ExponentialMidpoint { step }, self.surroundings))

@@ -84,7 +84,7 @@ impl<S: Real> WithMachine<S> for Stiff<'_, S> {
         self.0.with(machine)
     }
 
-    fn with_elastic<B: Body<S>>(self, machine: Machine<S, B, ElasticPair<S>, 4, 3>) -> Self::Output {
+    fn with_elastic<B: Body<S>>(self, machine: Machine<S, B, ElasticPair<S>, 4, 5>) -> Self::Output {
         follow(self.0.task, &machine, &ExponentialMidpoint { step: self.0.tracer.step })
     }
 }

@@ -98,7 +98,7 @@ impl<S: Real> WithMachine<S> for Run<'_, S> {
         unreachable!("the drivetrain has elastic clutches")
     }
 
-    fn with_elastic<B: Body<S>>(self, machine: Machine<S, B, ElasticPair<S>, 4, 3>) -> ElasticEnd<S> {
+    fn with_elastic<B: Body<S>>(self, machine: Machine<S, B, ElasticPair<S>, 4, 5>) -> ElasticEnd<S> {
         let Run { structure, pulse: (amplitude, frequency), free_time, step } = self;
         let energy = Energy::of(structure);
         let mut watch =

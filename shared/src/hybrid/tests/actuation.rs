@@ -5,7 +5,9 @@ use std::vec::Vec;
 use super::{Seen, pair, tight};
 use crate::block::Geometry;
 use crate::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses};
-use crate::observer::Event;
+use crate::observer::{Event, Stretch};
+use crate::rocking::State;
+use crate::snapshot::{DeviceArc, DeviceObserver};
 
 fn with(actuation: Actuation) -> Drivetrain {
     Drivetrain { actuation, ..Drivetrain::default() }
@@ -98,4 +100,41 @@ fn a_capacity_that_rises_slowly_carries_less() {
     let (at_once, short, never) = (peak(0.0), peak(1e-6), alone.ideal().peak);
     assert!((short / at_once - 1.0).abs() < 1e-4, "{short} and {at_once}");
     assert!((peak(9.0) / never - 1.0).abs() < 0.05, "{} and {never}", peak(9.0));
+}
+
+/// A spring without a damper passes on what its twist says: the force does not jump where plates of rising capacity begin or end to slip.
+#[test]
+fn the_force_of_a_spring_does_not_jump_with_its_plates() {
+    #[derive(Default)]
+    struct Forces {
+        last: Option<[f64; 2]>,
+        slips: u32,
+        jump: f64,
+    }
+    impl DeviceObserver<f64> for Forces {
+        fn device_stretch(&mut self, arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
+            let first = arc.snapshot(stretch.from).force;
+            for (before, after) in self.last.into_iter().flatten().zip(first) {
+                self.jump = self.jump.max((after - before).abs());
+            }
+            self.last = Some(arc.snapshot(stretch.to).force);
+        }
+
+        fn device_event(&mut self, event: Event, _time: f64, _state: &State<f64>) {
+            self.slips += u32::from(event == Event::Coupling);
+            if matches!(event, Event::Switch | Event::Rest) {
+                self.last = None;
+            }
+        }
+    }
+    let engagement = Engagement::Elastic { stiffness: 2e4, damping: 0.0, backlash: 0.0, capacity_ratio: 0.05 };
+    for rise_time in [0.0, 0.05, 0.2] {
+        let shake = pair(Geometry::Full, 3.0, 5.0);
+        let mut forces = Forces::default();
+        let actuation = Actuation { engagement_delay: 0.01, release_delay: 0.02, rise_time, ..Actuation::default() };
+        shake.watched(&Drivetrain { engagement, actuation, ..Drivetrain::default() }, &tight(), &mut forces);
+        let capacity = 0.05 * shake.structure.block.frequency_parameter_squared();
+        assert!(forces.slips > 10, "{} slips", forces.slips);
+        assert!(forces.jump < 1e-9 * capacity, "rise {rise_time}: {:e} of the capacity", forces.jump / capacity);
+    }
 }

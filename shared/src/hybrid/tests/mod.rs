@@ -230,7 +230,7 @@ impl Shake {
             ) -> Seen {
                 panic!("not an elastic clutch")
             }
-            fn with_elastic<B: Body<f64>>(self, machine: Machine<f64, B, ElasticPair<f64>, 4, 3>) -> Seen {
+            fn with_elastic<B: Body<f64>>(self, machine: Machine<f64, B, ElasticPair<f64>, 4, 5>) -> Seen {
                 self.0.follow(&machine, &ExponentialMidpoint { step: self.1 }, &mut ())
             }
         }

@@ -1,0 +1,98 @@
+//! What watchers see: a block on its path, and one that does not move.
+
+use super::path::{Path, Shaking};
+use super::{Machine, MachineState};
+use crate::arc::{Arc, Motion};
+use crate::body::Body;
+use crate::drivetrain::device::Law;
+use crate::drivetrain::drive::Drive;
+use crate::ground::Piece;
+use crate::scalar::Real;
+use crate::snapshot::{DeviceArc, Snapshot};
+
+/// A path as watchers see it.
+pub(super) struct Seen<'a, S, B, D, A, P, Q, const X: usize, const G: usize> {
+    pub(super) machine: &'a Machine<S, B, D, X, G>,
+    pub(super) path: &'a A,
+    pub(super) law: &'a Law<S>,
+    pub(super) state: &'a MachineState<S>,
+    pub(super) shaking: Shaking<'a, P, Q>,
+    pub(super) time: S,
+}
+
+impl<S: Real, B, D, A: Arc<S>, P, Q, const X: usize, const G: usize> Arc<S> for Seen<'_, S, B, D, A, P, Q, X, G> {
+    #[inline(always)]
+    fn length(&self) -> S {
+        self.path.length()
+    }
+
+    #[inline(always)]
+    fn at(&self, time: S) -> Motion<S> {
+        self.path.at(time)
+    }
+
+    #[inline(always)]
+    fn switching(&self, time: S) -> S {
+        self.path.switching(time)
+    }
+
+    #[inline(always)]
+    fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
+        self.path.largest_acceleration(from, to, floor)
+    }
+}
+
+impl<S, B, D, A, P, Q, const X: usize, const G: usize> DeviceArc<S> for Seen<'_, S, B, D, A, P, Q, X, G>
+where
+    S: Real,
+    B: Body<S>,
+    D: Drive<S, X, G>,
+    A: Path<S, X>,
+    P: Piece<S>,
+    Q: Piece<S>,
+{
+    fn snapshot(&self, time: S) -> Snapshot<S> {
+        let ground = self.shaking.at::<S, B>(self.time + time);
+        self.machine.snapshot(self.law, self.state, self.path.at(time), self.path.extra(time), ground, time)
+    }
+}
+
+/// A block that does not move.
+pub(super) struct Still<'a, S, B, D, P, Q, const X: usize, const G: usize> {
+    pub(super) machine: &'a Machine<S, B, D, X, G>,
+    pub(super) state: &'a MachineState<S>,
+    pub(super) shaking: Shaking<'a, P, Q>,
+    pub(super) time: S,
+    pub(super) length: S,
+}
+
+impl<S: Real, B, D, P, Q, const X: usize, const G: usize> Arc<S> for Still<'_, S, B, D, P, Q, X, G> {
+    fn length(&self) -> S {
+        self.length
+    }
+
+    fn at(&self, _time: S) -> Motion<S> {
+        Motion { rotation: self.state.motion.rotation, velocity: S::ZERO, acceleration: S::ZERO }
+    }
+
+    fn switching(&self, _time: S) -> S {
+        S::ZERO
+    }
+}
+
+impl<S, B, D, P, Q, const X: usize, const G: usize> DeviceArc<S> for Still<'_, S, B, D, P, Q, X, G>
+where
+    S: Real,
+    B: Body<S>,
+    D: Drive<S, X, G>,
+    P: Piece<S>,
+    Q: Piece<S>,
+{
+    fn snapshot(&self, time: S) -> Snapshot<S> {
+        let ground = self.shaking.at::<S, B>(self.time + time);
+        let mut state = *self.state;
+        self.machine.idle(&mut state, time);
+        let law = self.machine.drive.law(state.motion.direction, state.motion.drive, &state.device);
+        self.machine.snapshot(&law, &state, self.at(time), self.machine.drive.load(&state.device), ground, S::ZERO)
+    }
+}
