@@ -71,6 +71,20 @@ impl ErrorEstimate {
         }
     }
 
+    /// Takes the errors so large that they reach from `found` to `other`, which a method of another kind found.
+    pub fn widen<O: PartialEq>(&mut self, found: &Compared<O>, other: &Compared<O>) {
+        let (factor, _) = Checks::Closer(0.0).margins();
+        let reach = |error: &mut f64, value: fn(&Compared<O>) -> Option<f64>| {
+            if let (Some(own), Some(other)) = (value(found), value(other)) {
+                *error = error.max(factor * (own - other).abs());
+            }
+        };
+        reach(&mut self.peak_rotation, |of| of.peak_rotation);
+        reach(&mut self.peak_acceleration, |of| of.peak_acceleration);
+        reach(&mut self.first_impact_time, |of| of.first_impact_time);
+        self.outcome_certain &= found.outcome == other.outcome;
+    }
+
     /// The relative error of the peak rotation `peak`; infinite where the outcome itself is in doubt.
     pub fn relative(&self, peak: Option<f64>) -> f64 {
         match peak {

@@ -2,13 +2,14 @@
 //!
 //! - [`level`]: the user's words for it; [`arguments`]: the same on the command line.
 //! - [`estimate`]: the error of a result, from the same motion followed more closely; [`mod@answer`]: a result with its error, made as accurate as
-//!   asked; [`budget`]: as accurate as a time affords.
+//!   asked; [`second_method`]: the same error, looked at by another method; [`budget`]: as accurate as a time affords.
 
 pub mod answer;
 pub mod arguments;
 pub mod budget;
 pub mod estimate;
 pub mod level;
+pub mod second_method;
 pub mod worst;
 
 pub use answer::{Answer, Closeness, answer};

@@ -15,11 +15,12 @@ use super::drive::{Course, Overturning};
 use super::recorder::Recorder;
 use super::watchers::Watchers;
 use super::{ideal, machine};
+use crate::accuracy::answer::Comparable;
 use crate::accuracy::{Accuracy, answer};
 use crate::ground_motion::GroundMotion;
 use crate::interrupt::Interrupt;
 use crate::scene::Scene;
-use crate::scene::accuracy::AccuracyTable;
+use crate::scene::accuracy::{AccuracyTable, MethodName};
 use crate::scene::device::SceneDevice;
 use crate::scene::motions::GroundMotions;
 
@@ -28,6 +29,9 @@ const SAMPLES: f64 = 2000.0;
 
 /// Most samples that a history may have.
 const MOST_SAMPLES: f64 = 5e6;
+
+/// Step of the second method that looks at a result, in 1/p.
+const SECOND_STEP: f64 = 0.02;
 
 /// Why a device could not be simulated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -131,13 +135,28 @@ impl<'a> Task<'a> {
         if self.is_ideal() { ideal::run(self) } else { machine::run(self) }
     }
 
-    /// Its run as accurately as `level` asks, with its error.
+    /// Its run as accurately as `level` asks, with its error; that of a device with a memory is looked at by a second method.
     fn answer(&self, level: Accuracy) -> Result<DeviceRun, Failure> {
         let mut scene = self.scene.clone();
-        let found = answer(level, |closeness| {
+        let mut found = answer(level, |closeness| {
             scene.file.accuracy = AccuracyTable::as_close(closeness);
             Task { scene: &scene, ..*self }.run()
         })?;
+        if !self.is_ideal() {
+            let elastic = matches!(self.device().drivetrain.engagement, Engagement::Elastic { .. });
+            let method = if elastic { MethodName::ExponentialMidpoint } else { MethodName::RungeKutta4 };
+            scene.file.output.energy = false;
+            scene.file.checks = None;
+            found.confirm(level, |factor| {
+                scene.file.accuracy =
+                    AccuracyTable { method, step_ratio: Some(factor * SECOND_STEP), ..AccuracyTable::default() };
+                match (Task { scene: &scene, ..*self }).run() {
+                    Ok(run) => Ok(Some(run.compared())),
+                    Err(Failure::Stopped(_)) => Ok(None),
+                    Err(failure) => Err(failure),
+                }
+            })?;
+        }
         Ok(DeviceRun { error: Some(ErrorReport::of(&found)), ..found.result })
     }
 
