@@ -164,10 +164,16 @@ fn uplift(subject: &Subject<'_>) -> String {
     let weight = if subject.has_vertical() { "(g + v̈_g)" } else { "g" };
     let threshold = geometry.uplift_threshold(block);
     let slope = if geometry == Geometry::Full { "tan α" } else { "α" };
-    // Flywheels of a pair are released at rest, so that only a single inerter's bearing holds.
-    let bearing = match structure.device.kind {
-        DeviceKind::Inerter => structure.device.mass_ratio * drivetrain.flywheel.dry_deceleration / GRAVITY,
-        DeviceKind::None | DeviceKind::ClutchedPair => 0.0,
+    // A pair's flywheel is taken on as the block goes: at once without a delay, and a spring that is not wound up yet holds nothing.
+    let friction = structure.device.mass_ratio * drivetrain.flywheel.dry_deceleration / GRAVITY;
+    let (bearing, term) = match (structure.device.kind, drivetrain.engagement) {
+        (DeviceKind::Inerter, _) => (friction, " + σ d ℓ"),
+        (DeviceKind::None, _) | (_, Engagement::Elastic { .. }) => (0.0, ""),
+        (DeviceKind::ClutchedPair, _) if drivetrain.actuation.engagement_delay > 0.0 => (0.0, ""),
+        (DeviceKind::ClutchedPair, Engagement::Friction { capacity_ratio }) if subject.per_mass(capacity_ratio) < friction => {
+            (subject.per_mass(capacity_ratio), " + F_c ℓ")
+        }
+        (DeviceKind::ClutchedPair, _) => (friction, " + σ d ℓ"),
     };
     let dry = subject.per_mass(drivetrain.rack.dry_ratio) + bearing;
     let guided = subject.per_mass(drivetrain.rack.guided_mass_ratio);
@@ -179,7 +185,7 @@ fn uplift(subject: &Subject<'_>) -> String {
         Geometry::Slender => ("α", "1"),
     };
     let push = if guided == 0.0 { format!("{cos} |ü_g|") } else { format!("({cos} + μ_g ℓ) |ü_g|") };
-    let terms = [(drivetrain.rack.dry_ratio, " + μ_r g ℓ"), (bearing, " + σ d ℓ")];
+    let terms = [(drivetrain.rack.dry_ratio, " + μ_r g ℓ"), (bearing, term)];
     let hold: String = terms.iter().filter(|(value, _)| *value != 0.0).map(|(_, term)| *term).collect();
     let lever = structure.device.mount.lever_at(block, geometry, 0.0).unwrap_or(0.0);
     let moments = match geometry {

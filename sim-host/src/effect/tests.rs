@@ -130,3 +130,22 @@ fn an_explanation_has_the_numbers_of_the_scene() {
         }
     }
 }
+
+#[test]
+fn an_uplift_names_the_friction_that_holds_the_block() {
+    let near_fault = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/near_fault.toml"));
+    let uplift = |settings: &[&str]| {
+        let settings =
+            ["flywheel.dry_deceleration_m_s2=0.05"].iter().chain(settings).map(|setting| format!("device.2.{setting}"));
+        let scene = Scene::load(near_fault, &settings.collect::<Vec<_>>()).unwrap();
+        let text = text_of(&Explanation::of(&scene, 2));
+        text.lines().find(|line| line.contains("uplifts from rest")).unwrap().to_owned()
+    };
+    for held in [&[][..], &["clutch.capacity_ratio=0.1"], &["engagement=\"overrunning\""]] {
+        assert!(uplift(held).contains("+ σ d ℓ"), "{held:?}");
+    }
+    assert!(uplift(&["clutch.capacity_ratio=0.001"]).contains("+ F_c ℓ"));
+    for free in ["actuation.engagement_delay_s=0.01", "clutch={stiffness_ratio=1e3, capacity_ratio=0.1}"] {
+        assert!(!uplift(&[free]).contains(" + "), "{free}");
+    }
+}
