@@ -31,8 +31,10 @@ pub enum Clutching {
     /// The paper's clutch: at release the flywheel's energy goes to its brake at once, and engagement creates what the
     /// flywheel then has.
     Ideal,
-    /// A clutch that exchanges momentum: what a jolt takes is dissipated in it.
+    /// A clutch that exchanges momentum: what a jolt takes is dissipated in it. It passes no impulse of an impact on.
     Real,
+    /// One that does: block and flywheel go through an impact as one.
+    Rigid,
 }
 
 /// The masses and the clutch that a ledger has to know of.
@@ -204,7 +206,7 @@ impl<S: Real> Ledger<S> {
         match self.clutching {
             Clutching::Permanent => entries.impact = entries.impact + flywheels,
             Clutching::Ideal => entries.brake = entries.brake + flywheels,
-            Clutching::Real => return,
+            Clutching::Real | Clutching::Rigid => return,
         }
         last.flywheel = [S::ZERO; 2];
     }
@@ -258,7 +260,7 @@ impl<S: Real> DeviceObserver<S> for Ledger<S> {
                 self.since.impact = true;
             }
             Event::Switch | Event::Coupling | Event::Uplift => {
-                if self.clutching == Clutching::Real {
+                if matches!(self.clutching, Clutching::Real | Clutching::Rigid) {
                     self.entries.clutch = self.entries.clutch + last.kinetic - kinetic;
                     last.kinetic = kinetic;
                 }

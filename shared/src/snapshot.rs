@@ -46,6 +46,14 @@ pub struct Snapshot<S> {
     pub spent: Spent<S>,
 }
 
+impl<S: Real> Snapshot<S> {
+    /// F₁ + F₂, what both flywheels together press on their support; F/(λmR), 1/s². Friction of the rack's guides is not in it.
+    #[inline]
+    pub fn support_force(&self) -> S {
+        self.force[0] + self.force[1]
+    }
+}
+
 /// An arc on which the device can be asked too.
 pub trait DeviceArc<S: Real>: Arc<S> {
     /// Block and device at `time` after the start of the arc.

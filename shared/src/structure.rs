@@ -72,7 +72,7 @@ pub struct Structure {
     /// Impacts.
     pub restitution: Restitution,
     /// θ̇/(pα) below which an impact may end in rest; 1e-12 to 1e-2, [`REST_SPEED`] by default. What remains after it is
-    /// summed in closed form, so that results do not depend on it.
+    /// summed in closed form. Flywheels that coast then see weaker impacts: peaks differ by up to 7e-6 at the default, 0.4 % at 1e-3.
     pub rest_speed: f64,
 }
 

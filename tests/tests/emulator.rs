@@ -10,7 +10,7 @@ use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::carried::Carried;
 use sprag_shared::case::{self, Case, Ending, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::digest::Digest;
-use sprag_shared::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses, Rack};
+use sprag_shared::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
 use sprag_shared::ground::Harmonics;
 use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, Restitution, Structure};
 use sprag_tests::emulation::{emulate, firmware, kernels};
@@ -186,6 +186,7 @@ fn effects() -> Vec<Effect> {
     let late = Actuation {
         engagement_delay: 0.02,
         release_delay: 0.01,
+        delay: Delay::Transport,
         rise_time: 0.0,
         dwell: 0.03,
         miss_probability: 0.25,

@@ -2,7 +2,7 @@
 
 use super::CaseError;
 use super::codec::{Reader, Writer};
-use crate::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses, Rack};
+use crate::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
 
 pub(super) fn encode(drivetrain: &Drivetrain, out: &mut Writer<'_>) -> Result<(), CaseError> {
     let Drivetrain { engagement, flywheel, rack, actuation } = drivetrain;
@@ -19,10 +19,11 @@ pub(super) fn encode(drivetrain: &Drivetrain, out: &mut Writer<'_>) -> Result<()
     out.numbers(&numbers)?;
     out.numbers(&[flywheel.viscous_rate, flywheel.dry_deceleration, flywheel.brake_deceleration])?;
     out.numbers(&[rack.guided_mass_ratio, rack.viscous, rack.dry_ratio])?;
-    let Actuation { engagement_delay, release_delay, rise_time, dwell, miss_probability, miss_seed } = *actuation;
+    let Actuation { engagement_delay, release_delay, delay, rise_time, dwell, miss_probability, miss_seed } = *actuation;
     out.numbers(&[engagement_delay, release_delay, rise_time, dwell, miss_probability])?;
     out.word(miss_seed as u32)?;
-    out.word((miss_seed >> 32) as u32)
+    out.word((miss_seed >> 32) as u32)?;
+    out.word(u32::from(delay == Delay::Transport))
 }
 
 pub(super) fn decode(input: &mut Reader<'_>) -> Result<Drivetrain, CaseError> {
@@ -49,10 +50,12 @@ pub(super) fn decode(input: &mut Reader<'_>) -> Result<Drivetrain, CaseError> {
     let actuation = Actuation {
         engagement_delay: input.number("engagement_delay")?,
         release_delay: input.number("release_delay")?,
+        delay: Delay::Inertial,
         rise_time: input.number("rise_time")?,
         dwell: input.number("dwell")?,
         miss_probability: input.number("miss_probability")?,
         miss_seed: u64::from(input.word("miss_seed")?) | u64::from(input.word("the upper half of miss_seed")?) << 32,
     };
-    Ok(Drivetrain { engagement, flywheel, rack, actuation })
+    let delay = input.kind("delay", &[Delay::Inertial, Delay::Transport])?;
+    Ok(Drivetrain { engagement, flywheel, rack, actuation: Actuation { delay, ..actuation } })
 }

@@ -4,7 +4,7 @@ use crate::block::{Block, Geometry};
 use crate::carried::Carried;
 use crate::clutch::Clutch;
 use crate::digest::Digest;
-use crate::drivetrain::{Actuation, Engagement, FlywheelLosses, Rack};
+use crate::drivetrain::{Actuation, Delay, Engagement, FlywheelLosses, Rack};
 use crate::equation::Equation;
 use crate::ground::harmonic::MavroeidisPapageorgiou;
 use crate::ground::{Harmonics, Linear, Quiet, Ricker};
@@ -117,18 +117,19 @@ fn bad_words_are_named() {
         (8, "mount"),
         (11, "kinematics"),
         (14, "engagement"),
-        (32, "restitution"),
-        (35, "start"),
-        (38, "method"),
-        (41, "ground"),
-        (43, "vertical motion"),
-        (44, "shape"),
+        (32, "delay"),
+        (33, "restitution"),
+        (36, "start"),
+        (39, "method"),
+        (42, "ground"),
+        (44, "vertical motion"),
+        (45, "shape"),
     ] {
         for word in [9, u32::MAX] {
             assert_eq!(with(index, word), CaseError::Kind { of, word });
         }
     }
-    assert_eq!(with(42, 9), CaseError::TooManyPieces(9));
+    assert_eq!(with(43, 9), CaseError::TooManyPieces(9));
     let parameter = |index: usize, number: f32| match with(index, number.to_bits()) {
         CaseError::Parameter(error) => error.parameter,
         other => panic!("{other}"),
@@ -139,13 +140,13 @@ fn bad_words_are_named() {
     assert_eq!(parameter(7, -1.0), "mass_ratio");
     assert_eq!(parameter(12, 10.5), "carried mass_ratio");
     assert_eq!(parameter(13, -1.0), "carried height");
-    assert_eq!(parameter(33, 1.5), "restitution");
-    assert_eq!(parameter(34, 0.0), "rest_speed");
-    assert_eq!(parameter(39, 0.0), "step");
-    assert_eq!(parameter(40, f32::INFINITY), "free_time");
-    assert_eq!(parameter(45, -1.0), "duration");
-    assert_eq!(parameter(47, f32::NAN), "number of a shape");
-    assert_eq!(with(39, 1e-7_f32.to_bits()), CaseError::TooManySteps);
+    assert_eq!(parameter(34, 1.5), "restitution");
+    assert_eq!(parameter(35, 0.0), "rest_speed");
+    assert_eq!(parameter(40, 0.0), "step");
+    assert_eq!(parameter(41, f32::INFINITY), "free_time");
+    assert_eq!(parameter(46, -1.0), "duration");
+    assert_eq!(parameter(48, f32::NAN), "number of a shape");
+    assert_eq!(with(40, 1e-7_f32.to_bits()), CaseError::TooManySteps);
 }
 
 /// Half of the mass at the base doubles the stability angle: a block that moves on beyond its own comes back.

@@ -30,11 +30,17 @@ pub struct Report<S> {
     pub vertical: Option<Extreme<S>>,
     /// When V first falls to 0, s: from there on the block would fly, and the motion is not one that it can have.
     pub contact_lost: Option<S>,
-    /// Largest ratio of the impulses along and normal to the ground at an impact; for a bare block
-    /// (1 − η)/((1 + η) tan α).
+    /// Largest ratio of the impulses along and normal to the ground at an impact: the friction without which the toe would slide there.
     pub impact_friction: Option<Extreme<S>>,
+    /// The same of jolts that press the toe down.
+    pub jolt_friction: Option<Extreme<S>>,
+    /// Largest impulse by which the ground would have to pull the toe down at a jolt, over the block's mass, m/s. None where no jolt
+    /// would lift it.
+    pub jolt_pull: Option<Extreme<S>>,
     /// Largest |F|/(mg) of each flywheel at the rack.
     pub force: [Option<Extreme<S>>; 2],
+    /// Largest |F₁ + F₂|/(mg): what both together press on their support.
+    pub support: Option<Extreme<S>>,
     /// Farthest travel of the terminals in the positive and in the negative direction, both positive, m.
     pub travel: [Option<Extreme<S>>; 2],
 }
@@ -48,12 +54,13 @@ impl<S: Real> Report<S> {
         }
     }
 
-    /// The record of a quantity in the order of the readings: friction, −V, forces.
+    /// The record of a quantity in the order of the readings: friction, −V, the forces of the flywheels, that on the support.
     pub(super) fn record(&self, quantity: usize) -> Option<S> {
         match quantity {
             0 => self.friction.map(|extreme| extreme.value),
             1 => self.vertical.map(|extreme| -extreme.value),
-            _ => self.force[(quantity - 2) & 1].map(|extreme| extreme.value),
+            2 | 3 => self.force[quantity & 1].map(|extreme| extreme.value),
+            _ => self.support.map(|extreme| extreme.value),
         }
     }
 
@@ -66,7 +73,8 @@ impl<S: Real> Report<S> {
                     self.vertical = Some(Extreme { value: -value, time });
                 }
             }
-            _ => Extreme::raise(&mut self.force[(quantity - 2) & 1], value, time),
+            2 | 3 => Extreme::raise(&mut self.force[quantity & 1], value, time),
+            _ => Extreme::raise(&mut self.support, value, time),
         }
     }
 }

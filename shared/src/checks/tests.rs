@@ -1,6 +1,8 @@
 use super::*;
 use crate::block::GRAVITY;
 use crate::ground::Linear;
+use crate::ledger::Clutching;
+use crate::math;
 use crate::structure::{DeviceKind, KinematicsKind, Restitution, Structure};
 use crate::watched::tests::{Placed, Run, Shake, pulse, structure};
 use std::vec::Vec;
@@ -72,7 +74,7 @@ impl DeviceObserver<f64> for Probe {
             let [before, now, after] = [place(time - step), place(time), place(time + step)];
             let path = [0, 1].map(|i| (after[i] - 2.0 * now[i] + before[i]) / (step * step));
             let snapshot = arc.snapshot(time);
-            let reactions = self.checks.reactions(stretch.side, &snapshot);
+            let reactions = self.checks.toe.reactions(stretch.side, &snapshot);
             self.looks.push(Look { side, snapshot, reactions, path });
         }
     }
@@ -187,7 +189,7 @@ fn the_travel_is_the_integral_of_the_lever() {
                     .sum();
                 let expected = block.size() * sum * step / 3.0;
                 let side = Sign::of(rotation, Sign::Positive);
-                assert!((checks.travel(side, rotation) - expected).abs() < 1e-12, "{mount:?} {geometry:?} {rotation}");
+                assert!((checks.toe.travel(side, rotation) - expected).abs() < 1e-12, "{mount:?} {geometry:?} {rotation}");
             }
         }
     }
@@ -199,6 +201,7 @@ struct Dense {
     friction: f64,
     vertical: f64,
     force: [f64; 2],
+    support: f64,
     travel: [f64; 2],
 }
 
@@ -210,14 +213,15 @@ impl DeviceObserver<f64> for DenseWatch {
     fn device_stretch(&mut self, arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
         for i in 0..=2000 {
             let snapshot = arc.snapshot(stretch.from + (stretch.to - stretch.from) * f64::from(i) / 2000.0);
-            let [horizontal, vertical] = self.0.reactions(stretch.side, &snapshot);
-            let travel = self.0.travel(stretch.side, snapshot.motion.rotation);
+            let [horizontal, vertical] = self.0.toe.reactions(stretch.side, &snapshot);
+            let travel = self.0.toe.travel(stretch.side, snapshot.motion.rotation);
             let dense = &mut self.1;
             dense.friction = dense.friction.max(horizontal.abs() / vertical);
             dense.vertical = dense.vertical.min(vertical);
             for (most, force) in dense.force.iter_mut().zip(snapshot.force) {
-                *most = most.max(force.abs() * self.0.per_weight);
+                *most = most.max(self.0.toe.over_weight(force).abs());
             }
+            dense.support = dense.support.max(self.0.toe.over_weight(snapshot.force[0] + snapshot.force[1]).abs());
             dense.travel = [dense.travel[0].max(travel), dense.travel[1].max(-travel)];
         }
     }
@@ -238,6 +242,7 @@ fn the_extremes_are_those_of_a_dense_history() {
         near(report.friction, dense.friction);
         near(report.force[0], dense.force[0]);
         near(report.force[1], dense.force[1]);
+        near(report.support, dense.support);
         near(report.travel[0], dense.travel[0]);
         near(report.travel[1], dense.travel[1]);
         let vertical = report.vertical.unwrap().value;
@@ -247,6 +252,31 @@ fn the_extremes_are_those_of_a_dense_history() {
         assert_eq!(dense.force[1] > 0.0, structure.device.kind == DeviceKind::ClutchedPair);
         assert_eq!(report.contact_lost, None);
     });
+}
+
+/// A brief look finds the same force and impulses, and nothing else.
+#[test]
+fn a_brief_look_finds_what_a_full_one_does() {
+    each_full(|structure| {
+        let ground = pulse(&structure.block, 1.8, 4.0, 6.0);
+        let full = watch(structure, &ground);
+        let (_, seen) = Run { structure, ground: &ground, from: None, observer: checks(structure).brief() }.go();
+        let Report { impact_friction, support, .. } = full;
+        let support = support.filter(|_| structure.device.kind != DeviceKind::None);
+        assert_eq!(seen.report(), Report { impact_friction, support, ..Report::default() });
+    });
+}
+
+/// (1 − η)/(1 + η) (1 + σ)/tan α of a block of 10° with η = 0.85: 0.15/1.85/0.176327 = 0.4598, and half as much again with σ = 0.5.
+#[test]
+fn the_usual_restitution_needs_a_rough_base() {
+    for (kind, expected) in
+        [(DeviceKind::None, 0.459_834), (DeviceKind::ClutchedPair, 0.459_834), (DeviceKind::Inerter, 0.689_750)]
+    {
+        let structure = structure(10.0, Geometry::Full, kind, KinematicsKind::Consistent, Mount::CentreOfMass);
+        let found = watch(&structure, &pulse(&structure.block, 1.8, 4.0, 3.0)).impact_friction.unwrap().value;
+        assert!((found - expected).abs() < 1e-6, "{kind:?}: {found}");
+    }
 }
 
 #[test]
@@ -312,7 +342,7 @@ fn a_fall_can_be_left_out() {
             assert!(report.contact_lost.is_none() && report.friction.unwrap().value < 10.0, "{report:?}");
             let stroke = report.stroke().unwrap();
             assert!(seen.report().stroke().unwrap().value > 1.5 * stroke.value);
-            let limit = checks(&structure).travel(Sign::of(state.rotation, Sign::Positive), state.side.times(alpha)).abs();
+            let limit = checks(&structure).toe.travel(Sign::of(state.rotation, Sign::Positive), state.side.times(alpha)).abs();
             assert!((stroke.value - limit).abs() < 1e-9, "{stroke:?} {limit}");
             // The same motion cut where it passes α found the same.
             let (cycle, free) = (whole[0].1, stroke.time - whole[0].1);
@@ -344,5 +374,5 @@ fn a_block_that_comes_back_from_beyond_its_slenderness_is_looked_at_all_the_way(
     assert!(state.phase == crate::rocking::Phase::Rocking && state.rotation.abs() < alpha, "{state:?}");
     assert_eq!(seen.before_fall(), seen.report());
     let stroke = seen.report().stroke().unwrap().value;
-    assert!(stroke > checks(&structure).travel(Sign::Positive, 1.05 * alpha), "{stroke}");
+    assert!(stroke > checks(&structure).toe.travel(Sign::Positive, 1.05 * alpha), "{stroke}");
 }

@@ -1,5 +1,6 @@
 //! What a device remembers, and the numbers that its present mode puts into the equations.
 
+use super::under_way::UnderWay;
 use crate::scalar::{Real, Sign};
 
 /// How one flywheel hangs on the rack at an instant.
@@ -37,6 +38,8 @@ pub struct Wheel<S> {
     pub obeys: bool,
     /// Time until the pending command takes effect, s; negative without one.
     pub pending: S,
+    /// The commands that take effect by a transport delay, that one included.
+    pub under_way: UnderWay<S>,
     /// Time for which it may not move again, s.
     pub dwell: S,
     /// Time since it began to engage, s.

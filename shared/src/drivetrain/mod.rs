@@ -11,6 +11,7 @@ pub mod gears;
 pub mod ideal;
 pub mod overrunning;
 pub mod rigid;
+pub mod under_way;
 
 use crate::error::{ParameterError, require};
 
@@ -67,6 +68,17 @@ pub enum Engagement {
     },
 }
 
+/// What becomes of a command that another one follows before its delay is over; the two delays of hardware description languages
+/// (IEEE 1076).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Delay {
+    /// It is lost, as with a coil: its current must build up or decay before the armature moves, and one that is cut short never moves it.
+    #[default]
+    Inertial,
+    /// Every command takes effect after its delay, in order, as over a link or by a valve at the far end of a line.
+    Transport,
+}
+
 /// What lies between a command and a clutch that has obeyed it. Ideal: all zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Actuation {
@@ -74,6 +86,8 @@ pub struct Actuation {
     pub engagement_delay: f64,
     /// From the command to release, s; 0 to 10.
     pub release_delay: f64,
+    /// Whether these two are inertial.
+    pub delay: Delay,
     /// From first contact to full capacity, linearly, s; 0 to 10. Needs a capacity.
     pub rise_time: f64,
     /// A clutch that has just moved stays so for this long, s; 0 to 10.

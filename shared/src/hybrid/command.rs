@@ -2,11 +2,12 @@
 
 use super::{Machine, MachineState};
 use crate::body::Body;
-use crate::drivetrain::Actuation;
 use crate::drivetrain::device::{Coupling, WATCHES, Watch, Wheel};
 use crate::drivetrain::drive::Drive;
 use crate::drivetrain::gears::{Gears, rounded_up};
 use crate::drivetrain::overrunning::wheel_for;
+use crate::drivetrain::under_way::UnderWay;
+use crate::drivetrain::{Actuation, Delay};
 use crate::rocking::Phase;
 use crate::scalar::{Real, Sign};
 use crate::snapshot::DeviceObserver;
@@ -18,6 +19,8 @@ pub struct Actuator<S> {
     pub engagement_delay: S,
     /// s.
     pub release_delay: S,
+    /// A command that another one follows before its delay is over takes effect nevertheless.
+    pub transport: bool,
     /// s.
     pub dwell: S,
     /// An engagement is missed when its number draws less than this out of 2³².
@@ -34,6 +37,7 @@ impl<S: Real> Actuator<S> {
         Actuator {
             engagement_delay: S::of(actuation.engagement_delay),
             release_delay: S::of(actuation.release_delay),
+            transport: actuation.delay == Delay::Transport,
             dwell: S::of(actuation.dwell),
             misses: (actuation.miss_probability * 4_294_967_296.0) as u64,
             seed: actuation.miss_seed,
@@ -91,8 +95,9 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             let (velocity, direction) = (state.motion.velocity, state.motion.direction);
             let mut holds = false;
             for index in 0..2 {
-                if state.device.wheels[index].pending == S::ZERO {
-                    holds |= state.held || (state.device.wheels[index].commanded && state.motion.rotation != S::ZERO);
+                while state.device.wheels[index].pending == S::ZERO {
+                    let engages = self.due_command(&state.device.wheels[index]);
+                    holds |= state.held || (engages && state.motion.rotation != S::ZERO);
                     self.carry_out(state, index, time, observer);
                 }
             }
@@ -134,7 +139,8 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     pub fn preset(&self, state: &mut MachineState<S>, engaged: [bool; 2]) {
         for (index, &engage) in engaged.iter().enumerate() {
             let wheel = &mut state.device.wheels[index & 1];
-            (wheel.commanded, wheel.obeys, wheel.pending, wheel.dwell) = (engage, true, -S::ONE, S::ZERO);
+            (wheel.commanded, wheel.obeys, wheel.dwell) = (engage, true, S::ZERO);
+            (wheel.pending, wheel.under_way) = (-S::ONE, UnderWay::default());
             if engage {
                 self.with_instant(state, S::ZERO, &mut (), |drive, at| drive.engage(at, index));
             }
@@ -145,7 +151,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     /// Commands to the clutches of a standing block that are due.
     pub(super) fn carry_out_at_rest(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         for index in 0..2 {
-            if state.device.wheels[index].pending == S::ZERO {
+            while state.device.wheels[index].pending == S::ZERO {
                 self.carry_out(state, index, time, observer);
                 state.motion.velocity = S::ZERO;
             }
@@ -169,15 +175,35 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         } else {
             self.actuator.release_delay
         };
+        if self.actuator.transport {
+            if wheel.obeys || !engage {
+                let soonest = if wheel.pending < S::ZERO { delay.larger(wheel.dwell) } else { delay };
+                wheel.pending = wheel.under_way.send(engage, soonest, wheel.pending);
+            }
+            return;
+        }
         // Where it is already what it shall be, an older command is only taken back.
         let moves = if engage { open && wheel.obeys } else { !open };
         wheel.pending = if moves { delay.larger(wheel.dwell) } else { -S::ONE };
     }
 
+    /// Whether the command that is due is one to engage.
+    fn due_command(&self, wheel: &Wheel<S>) -> bool {
+        if self.actuator.transport { wheel.under_way.first() } else { wheel.commanded }
+    }
+
     fn carry_out(&self, state: &mut MachineState<S>, index: usize, time: S, observer: &mut dyn DeviceObserver<S>) {
         let wheel = &mut state.device.wheels[index];
-        (wheel.pending, wheel.dwell, wheel.engaged_for) = (-S::ONE, self.actuator.dwell, S::ZERO);
-        let engage = wheel.commanded;
+        let engage = self.due_command(wheel);
+        // By a transport delay a command may find the clutch as it shall be: the one before it was missed.
+        let moves = engage == (wheel.coupling == Coupling::Open);
+        if moves {
+            (wheel.dwell, wheel.engaged_for) = (self.actuator.dwell, S::ZERO);
+        }
+        wheel.pending = if self.actuator.transport { wheel.under_way.arrived(wheel.dwell) } else { -S::ONE };
+        if !moves {
+            return;
+        }
         self.with_instant(state, time, observer, |drive, at| {
             if engage {
                 drive.engage(at, index);

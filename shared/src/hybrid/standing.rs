@@ -6,6 +6,7 @@ use super::{Machine, MachineState};
 use crate::body::Body;
 use crate::drivetrain::device::{Coupling, WATCHES};
 use crate::drivetrain::drive::{Drive, open};
+use crate::drivetrain::under_way::UnderWay;
 use crate::ground::Piece;
 use crate::observer::Event;
 use crate::rocking::{Phase, State};
@@ -45,7 +46,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                     open(gears, at, wheel);
                 }
                 let wheel = &mut at.device.wheels[wheel];
-                (wheel.commanded, wheel.pending) = (false, -S::ONE);
+                (wheel.commanded, wheel.pending, wheel.under_way) = (false, -S::ONE, UnderWay::default());
             }
         });
     }

@@ -96,7 +96,8 @@ impl ControllerTable {
 
 impl<'a> LoopTask<'a> {
     fn task(&self) -> Task<'a> {
-        Task { scene: self.scene, ground: self.ground, index: self.index, interval: f64::INFINITY, interrupt: self.interrupt }
+        let LoopTask { scene, ground, index, interrupt, .. } = *self;
+        Task { scene, ground, index, interval: f64::INFINITY, reports: false, interrupt }
     }
 
     fn drivetrain(&self) -> Drivetrain {

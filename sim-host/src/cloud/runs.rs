@@ -17,7 +17,7 @@ use crate::long_run::in_order::in_order;
 use crate::outcome::Outcome;
 use crate::scene::Scene;
 use crate::scene::motions::GroundMotions;
-use crate::simulation::{RunError, simulate};
+use crate::simulation::{RunError, simulate_for_study};
 
 /// One run.
 #[derive(Clone, Debug, PartialEq)]
@@ -306,7 +306,7 @@ impl Subject<'_> {
 
     /// The run of one device by itself.
     fn alone(&self, device: usize, ground: &GroundMotions, interrupt: &Interrupt) -> Result<Answer, String> {
-        let runs = simulate(&self.scenes[device], ground, interrupt).map_err(|error| error.to_string())?;
+        let runs = simulate_for_study(&self.scenes[device], ground, interrupt).map_err(|error| error.to_string())?;
         runs.first().map(Answer::of).ok_or_else(|| "no device".to_owned())
     }
 }

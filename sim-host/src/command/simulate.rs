@@ -135,6 +135,9 @@ fn run_or_fail(
             let _ = writeln!(out, "{}: {}", run.device, error.words(run.peak_rotation));
         }
     }
+    if scene.file.checks.as_ref().is_none_or(|checks| checks.friction_coefficient.is_none()) {
+        friction_lines(&runs).iter().for_each(|line| _ = writeln!(out, "{line}"));
+    }
     for run in &runs {
         for warning in run.checks.iter().flat_map(|checks| &checks.warnings) {
             let _ = writeln!(err, "sprag: warning: {}: {warning}", run.device);
@@ -178,6 +181,20 @@ fn simulated(
     Ok(Simulated { scene, subject: claim.subject, records: ground.records, runs })
 }
 
+/// The friction that impacts and jolts need under the toe, device by device, where nobody has said how much there is.
+fn friction_lines(runs: &[DeviceRun]) -> Vec<String> {
+    let line = |what: &str, value: &dyn Fn(&DeviceRun) -> Option<String>| {
+        let of: Vec<String> = runs.iter().filter_map(|run| value(run).map(|value| format!("{value} ({})", run.device))).collect();
+        (!of.is_empty()).then(|| format!("friction needed at {what}: {}", of.join(", ")))
+    };
+    let impact = |run: &DeviceRun| run.impulses.impact_friction_needed.map(|needed| format!("{needed:.3}"));
+    let jolt = |run: &DeviceRun| match (run.impulses.jolt_pull_m_s, run.impulses.jolt_friction_needed) {
+        (Some(_), _) => Some("none is enough, the toe lifts".to_owned()),
+        (None, needed) => needed.map(|needed| format!("{needed:.3}")),
+    };
+    [line("impacts", &impact), line("jolts", &jolt)].into_iter().flatten().collect()
+}
+
 fn row(run: &DeviceRun) -> SummaryRow {
     SummaryRow {
         device: run.device.clone(),
@@ -186,6 +203,6 @@ fn row(run: &DeviceRun) -> SummaryRow {
         peak_acceleration_ratio: run.peak_acceleration,
         impacts: run.impacts as usize,
         first_impact_s: run.first_impact_time_s,
-        peak_force_ratio: Some(run.peak_force_ratio).filter(|force| *force > 0.0),
+        peak_force_ratio: run.peak_force_ratio.filter(|force| *force > 0.0),
     }
 }

@@ -41,6 +41,8 @@ pub const IMPACT: Effect = Effect {
         "θ̇⁺ = η θ̇⁻",
         "geometric:        η = 1 − 2 sin²α/λ",
         "momentum-balance: (λ + n σ ℓ₊²) θ̇⁺ = (λ η_geometric + n σ ℓ₊ ℓ₋) θ̇⁻, n flywheels locked to the rack through the impact",
+        "friction needed:  (1 − η)/(1 + η) (cos α + n (Σσ + μ_g) ℓ(0))/sin α, Σσ locked to the rack, n of the pulley; horizontal",
+        "                  0.46 for η = 0.85 and α = 10°, 0.69 with σ = 0.5 engaged at the centre of mass",
     ],
     source: "Eq. 3 of the paper; Housner 1963; moment of momentum about the new toe with the inerter's impulse, derived here",
     keys: &[EffectKey { key: "block.restitution", default: "0.85", range: "from 0 to 1, \"geometric\" or \"momentum-balance\"" }],

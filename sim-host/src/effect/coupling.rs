@@ -55,11 +55,16 @@ pub const CLUTCH: Effect = Effect {
 pub const ACTUATION: Effect = Effect {
     name: "actuation",
     summary: "delays, a gradual engagement, a dwell and missed engagements of a clutch that obeys Eq. 10",
-    equation: &["engaged(t) follows the command at t − delay; F_c(t) = F_c min(1, t_e/rise) after t_e of engagement"],
-    source: "dead time and ramp of an actuator; misses drawn from the seed",
+    equation: &[
+        "inertial delay:  a command takes effect after its delay if it has lasted that long; a shorter one is lost",
+        "transport delay: every command takes effect after its delay, in order; up to 8 under way, a ninth takes back the newest",
+        "F_c(t) = F_c min(1, t_e/rise) after t_e of engagement",
+    ],
+    source: "inertial: the current of a coil must build up before the armature moves; misses drawn from the seed",
     keys: &[
         EffectKey { key: "device.N.actuation.engagement_delay_s", default: "0", range: "from 0 to 10 s" },
         EffectKey { key: "device.N.actuation.release_delay_s", default: "0", range: "from 0 to 10 s" },
+        EffectKey { key: "device.N.actuation.delay", default: "\"inertial\"", range: "\"inertial\" or \"transport\"" },
         EffectKey { key: "device.N.actuation.rise_time_s", default: "0", range: "from 0 to 10 s; needs a capacity" },
         EffectKey { key: "device.N.actuation.dwell_s", default: "0", range: "from 0 to 10 s" },
         EffectKey { key: "device.N.actuation.miss_probability", default: "0", range: "from 0 to 1" },

@@ -9,9 +9,11 @@ pub const CHECKS: Effect = Effect {
     equation: &[
         "toe, horizontal device: H = ü_g/g + (R/g) (cos δ θ̈ + sin δ θ̇²) + n F,  V = 1 + v̈_g/g + (R/g) (sin δ θ̈ − cos δ θ̇²)",
         "vertical device: s n F in V instead;  no sliding while |H|/V stays below the friction available",
-        "gear: σ_b = F_t/(b m Y),  Y = 0.484 − 2.87/z; first mesh F_t = F, others with the train of flywheels",
+        "impact: friction needed as in `sprag effects impact`;  jolt of a rigid clutch: H = (cos δ − n λ/ℓ) m R Δθ̇,  V = sin δ m R Δθ̇",
+        "force on the support: F₁ + F₂ of both flywheels",
+        "gear: σ_b = F_t/(b m Y),  Y = 0.484 − 2.87/z; first mesh F_t = F of one flywheel, others with the train",
     ],
-    source: "equilibrium of the block; Lewis 1893 for the bending stress of teeth",
+    source: "equilibrium and momentum of the block; Lewis 1893 for the bending stress of teeth",
     keys: &[
         EffectKey { key: "checks.friction_coefficient", default: "-", range: "above 0, to 10; without, only reported" },
         EffectKey { key: "checks.gear.module_mm", default: "-", range: "above 0, to 100 mm; needs block.mass_kg" },

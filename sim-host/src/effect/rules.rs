@@ -1,7 +1,7 @@
 //! The flywheels' own equations and the rules at engagement, uplift, impact and rest, as text with a scene's numbers.
 
 use sprag_shared::block::{GRAVITY, Geometry};
-use sprag_shared::drivetrain::{Actuation, Engagement};
+use sprag_shared::drivetrain::{Actuation, Delay, Engagement};
 use sprag_shared::math;
 use sprag_shared::restitution::{Restitution, momentum_balance};
 use sprag_shared::structure::DeviceKind;
@@ -110,7 +110,8 @@ pub(super) fn engagement(subject: &Subject<'_>) -> Vec<String> {
         }
         .to_owned(),
     );
-    let Actuation { engagement_delay, release_delay, rise_time, dwell, miss_probability, miss_seed } = drivetrain.actuation;
+    let Actuation { engagement_delay, release_delay, delay, rise_time, dwell, miss_probability, miss_seed } =
+        drivetrain.actuation;
     if drivetrain.actuation != Actuation::default() {
         let mut parts = Vec::new();
         for (value, text) in [
@@ -123,6 +124,9 @@ pub(super) fn engagement(subject: &Subject<'_>) -> Vec<String> {
             if value != 0.0 {
                 parts.push(text.replace("{}", &number(value)));
             }
+        }
+        if delay == Delay::Transport {
+            parts.push("every command arrives, however short".to_owned());
         }
         if miss_probability != 0.0 {
             parts.push(format!("seed {miss_seed}"));

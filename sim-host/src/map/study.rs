@@ -17,7 +17,7 @@ use crate::long_run::rows::Rows;
 use crate::progress::Progress;
 use crate::scene::ground::GroundError;
 use crate::scene::{Scene, SceneError};
-use crate::simulation::{DeviceRun, RunError, simulate};
+use crate::simulation::{DeviceRun, RunError, simulate_for_study};
 
 /// Why a map could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -187,7 +187,7 @@ pub fn results_at(grid: &Grid, device: usize, places: &[Values], interrupt: &Int
 /// A block simulated as the scene that it is, which has one device; `place` says where it is on the map.
 fn simulated(scene: &Scene, place: impl Fn() -> String, interrupt: &Interrupt) -> Result<PulseResult, MapError> {
     let ground = scene.ground_motions()?;
-    let runs = simulate(scene, &ground, interrupt).map_err(|error| match error {
+    let runs = simulate_for_study(scene, &ground, interrupt).map_err(|error| match error {
         RunError::Interrupted => MapError::Interrupted,
         error => MapError::Run { place: place(), error },
     })?;

@@ -8,7 +8,7 @@ use super::design::Score;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Quantity {
-    /// |F|/(mg) of a flywheel's drive at the rack.
+    /// |F|/(mg) of the device on its support.
     Force,
     /// Travel of the terminals to one side, m.
     Stroke,

@@ -19,7 +19,7 @@ use crate::scene::accuracy::EventTreatment;
 use crate::scene::error::Key;
 use crate::scene::schema::{DeviceTable, Kind};
 use crate::scene::{Scene, SceneError};
-use crate::simulation::{RunError, simulate};
+use crate::simulation::{RunError, simulate_for_study};
 
 /// Designs that are tried at a time: enough for many threads, and no more than an interrupt may cost.
 const TOGETHER: usize = 8;
@@ -194,7 +194,7 @@ impl<'a> Problem<'a> {
                 if interrupt.is_set() {
                     return Err(RunError::Interrupted.to_string());
                 }
-                let runs = simulate(scene, &ground, interrupt).map_err(|error| error.to_string())?;
+                let runs = simulate_for_study(scene, &ground, interrupt).map_err(|error| error.to_string())?;
                 done();
                 runs.first().map(Response::of).ok_or_else(|| "no device".to_owned())
             };

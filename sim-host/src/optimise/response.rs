@@ -11,7 +11,7 @@ pub struct Response {
     pub outcome: Outcome,
     /// max |θ|/α; `None` when overturned.
     pub peak_rotation: Option<f64>,
-    /// max |F|/(mg) of a flywheel's drive at the rack, until the end of the run or overturning; 0 where the block never rocks.
+    /// max |F|/(mg) of the device on its support, until the end of the run or overturning; 0 where the block never rocks.
     pub force_ratio: f64,
     /// Farthest travel of the terminals to one side until then, m.
     pub stroke_m: f64,
@@ -22,12 +22,11 @@ pub struct Response {
 impl Response {
     /// Of a run with checks.
     pub fn of(run: &DeviceRun) -> Response {
-        let checks = run.checks.as_ref();
         Response {
             outcome: run.outcome,
             peak_rotation: run.peak_rotation,
-            force_ratio: checks.and_then(|checks| checks.with_fall.force_ratio).unwrap_or(0.0),
-            stroke_m: checks.and_then(|checks| checks.with_fall.stroke_m).unwrap_or(0.0),
+            force_ratio: run.peak_force_ratio.unwrap_or(0.0),
+            stroke_m: run.checks.as_ref().and_then(|checks| checks.stroke_with_fall_m).unwrap_or(0.0),
             error: run.error.map(|report| report.estimate),
         }
     }

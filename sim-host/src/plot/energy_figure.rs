@@ -256,6 +256,7 @@ mod tests {
     use crate::history::History;
     use crate::outcome::Outcome;
     use crate::plot::synthetic::assert_well_formed;
+    use crate::simulation::demand::Impulses;
     use crate::simulation::energy::EnergyReport;
 
     const NOTHING: Shares = Shares {
@@ -286,7 +287,8 @@ mod tests {
             end_time_s: 10.0,
             clutch_switches: 0,
             missed_engagements: 0,
-            peak_force_ratio: 0.0,
+            peak_force_ratio: None,
+            impulses: Impulses::default(),
             checks: None,
             energy: Some(EnergyReport { entries, history }),
             error: None,

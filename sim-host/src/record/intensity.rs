@@ -109,9 +109,14 @@ pub fn significant_duration_s(acceleration_m_s2: &[f64], step_s: f64, from: f64,
     (instant(to) - instant(from)).max(0.0)
 }
 
-/// Cumulative absolute velocity (m/s): CAV = ∫|a| dt, by trapezoids of |a| (m/s²).
+/// Cumulative absolute velocity (m/s): CAV = ∫|a| dt of an acceleration (m/s²) that is linear between samples. A line from a₀
+/// to a₁ of one sign has the mean (|a₀| + |a₁|)/2; one that changes sign leaves two triangles, of mean (a₀² + a₁²)/(2(|a₀| + |a₁|)).
 pub fn cumulative_absolute_velocity_m_s(acceleration_m_s2: &[f64], step_s: f64) -> f64 {
-    acceleration_m_s2.windows(2).map(|pair| 0.5 * (pair[0].abs() + pair[1].abs())).sum::<f64>() * step_s
+    let mean = |a0: f64, a1: f64| {
+        let sum = a0.abs() + a1.abs();
+        if (a0 < 0.0) == (a1 < 0.0) || sum == 0.0 { 0.5 * sum } else { 0.5 * (a0 / sum * a0 + a1 / sum * a1) }
+    };
+    acceleration_m_s2.windows(2).map(|pair| mean(pair[0], pair[1])).sum::<f64>() * step_s
 }
 
 /// Uniform duration t_uni (s), the paper's Figure 14: the total time during which |a| exceeds a threshold, there
@@ -186,6 +191,17 @@ mod tests {
         // The mean square of a sine is 1/2 at any number of samples per cycle above two.
         let sine: Vec<f64> = (0..=30).map(|i| math::sin(2.0 * PI * f64::from(i) / 3.0)).collect();
         assert!((arias_intensity_m_s(&sine, 0.1) - PI / (2.0 * 9.80665) * 0.5 * 3.0).abs() < 1e-12);
+    }
+
+    /// CAV of a zigzag between ±A is the area of its triangles, A/2 a second; trapezoids of |a| would say A.
+    #[test]
+    fn the_cumulative_absolute_velocity_is_that_of_straight_lines() {
+        let zigzag: Vec<f64> = (0..=10).map(|i| if i % 2 == 0 { 3.0 } else { -3.0 }).collect();
+        assert!((cumulative_absolute_velocity_m_s(&zigzag, 0.1) - 1.5).abs() < 1e-12);
+        // −1 to 3 crosses zero after a quarter: triangles of 1/8 and 9/8. 3 to 1 is a trapezoid of 2, 1 to 0 a triangle of 1/2.
+        let line = |samples: &[f64]| cumulative_absolute_velocity_m_s(samples, 1.0);
+        assert!((line(&[-1.0, 3.0, 1.0, 0.0]) - 3.75).abs() < 1e-12);
+        assert_eq!((line(&[0.0, 0.0]), line(&[0.0, -2.0]), line(&[-2.0, 0.0]), line(&[-2.0, -4.0])), (0.0, 1.0, 1.0, 3.0));
     }
 
     #[test]

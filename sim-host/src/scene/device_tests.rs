@@ -1,7 +1,7 @@
 //! What goes beyond the ideal device: every table, and every refusal.
 
 use sprag_shared::carried::Carried;
-use sprag_shared::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses, Rack};
+use sprag_shared::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
 
 use super::*;
 
@@ -101,13 +101,14 @@ fn rack_and_actuation_are_the_drivetrains() {
     close(absolute.dry_ratio, 0.002);
     let scene = parsed(&[
         "device.2.clutch.capacity_ratio=0.3",
-        "device.2.actuation={ engagement_delay_s = 0.01, release_delay_s = 0.02, rise_time_s = 0.03, dwell_s = 0.04 }",
+        "device.2.actuation={ engagement_delay_s = 0.01, release_delay_s = 0.02, delay = 'transport', rise_time_s = 0.03, dwell_s = 0.04 }",
         "device.2.actuation.miss_probability=0.5",
         "device.2.actuation.miss_seed=7",
     ]);
     let expected = Actuation {
         engagement_delay: 0.01,
         release_delay: 0.02,
+        delay: Delay::Transport,
         rise_time: 0.03,
         dwell: 0.04,
         miss_probability: 0.5,

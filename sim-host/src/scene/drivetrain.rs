@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use sprag_shared::block::{Block, GRAVITY};
-use sprag_shared::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses, Rack};
+use sprag_shared::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
 use sprag_shared::lever::Mount;
 use sprag_shared::math;
 use sprag_shared::structure::Device;
@@ -118,6 +118,26 @@ pub struct RackTable {
     pub dry_friction_n: Option<f64>,
 }
 
+/// Of a clutch's delays.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DelayName {
+    /// A command shorter than the delay is lost.
+    #[default]
+    Inertial,
+    /// Every command takes effect after its delay.
+    Transport,
+}
+
+impl From<DelayName> for Delay {
+    fn from(name: DelayName) -> Delay {
+        match name {
+            DelayName::Inertial => Delay::Inertial,
+            DelayName::Transport => Delay::Transport,
+        }
+    }
+}
+
 /// `actuation`: what lies between a command and a clutch that has obeyed it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -126,6 +146,8 @@ pub struct ActuationTable {
     pub engagement_delay_s: f64,
     /// From the command to release, s.
     pub release_delay_s: f64,
+    /// Whether these two are inertial.
+    pub delay: DelayName,
     /// From first contact to full capacity, s.
     pub rise_time_s: f64,
     /// A clutch that has just moved stays so for this long, s.
@@ -268,6 +290,12 @@ impl DeviceTable {
         Ok(Actuation {
             engagement_delay: table.engagement_delay_s,
             release_delay: table.release_delay_s,
+            // Of no delay there is one kind.
+            delay: if table.engagement_delay_s == 0.0 && table.release_delay_s == 0.0 {
+                Delay::Inertial
+            } else {
+                table.delay.into()
+            },
             rise_time: table.rise_time_s,
             dwell: table.dwell_s,
             miss_probability: table.miss_probability,

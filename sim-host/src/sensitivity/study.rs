@@ -10,7 +10,7 @@ use crate::accuracy::{ErrorEstimate, Worst};
 use crate::interrupt::Interrupt;
 use crate::outcome::Outcome;
 use crate::scene::{Scene, SceneError};
-use crate::simulation::{RunError, simulate};
+use crate::simulation::{RunError, simulate_for_study};
 
 /// Peak |θ|/α of the scene as it is from which a change is reported: below it a block hardly rocks, and ratios are of nothing.
 pub const ROCKS_FROM: f64 = 0.05;
@@ -197,7 +197,7 @@ impl Setup {
             Err(reason) if vertical => return Err(Missing::Impossible(reason.clone())),
             _ => &motion.ground,
         };
-        let runs = simulate(&self.scene, ground, interrupt).map_err(|error| match error {
+        let runs = simulate_for_study(&self.scene, ground, interrupt).map_err(|error| match error {
             RunError::Interrupted => Missing::Interrupted,
             error => Missing::Failed(error.to_string()),
         })?;

@@ -1,6 +1,5 @@
-//! What a scene asks for beyond history and peaks: the energy ledger and the checks.
+//! What a scene asks for beyond history, peaks and checks: the energy ledger.
 
-use sprag_shared::checks::Checks;
 use sprag_shared::ledger::{Entries, Ledger};
 use sprag_shared::observer::{Event, Stretch};
 use sprag_shared::rocking::State;
@@ -8,36 +7,28 @@ use sprag_shared::scalar::Real;
 use sprag_shared::snapshot::{DeviceArc, DeviceObserver};
 use sprag_shared::structure::Structure;
 
-use super::demand::Demand;
 use super::drive::Segmented;
 use super::energy::EnergyReport;
 use super::run::{Failure, Task};
 use crate::ground_motion::Segment;
 
-/// Those of them that the scene asks for.
+/// The ledger, where the scene asks for it.
 #[derive(Debug)]
 pub struct Asked<S> {
     energy: Option<EnergyHistory<S>>,
-    checks: Option<Checks<S>>,
 }
 
 impl<S: Real> Asked<S> {
     /// Of `task`, whose block with what it carries is `loaded`.
     pub(super) fn of(task: &Task<'_>, loaded: &Structure) -> Result<Asked<S>, Failure> {
-        let (geometry, account, file) = (task.scene.geometry(), task.account(loaded), &task.scene.file);
-        let energy = || EnergyHistory::new(Ledger::new(&loaded.block, geometry, &account), task.interval);
-        let checks = match file.checks {
-            Some(_) => Some(Checks::new(&loaded.block, geometry, &loaded.device.mount, &account)?),
-            None => None,
-        };
-        Ok(Asked { energy: file.output.energy.then(energy), checks })
+        let energy =
+            || EnergyHistory::new(Ledger::new(&loaded.block, task.scene.geometry(), &task.account(loaded)), task.interval);
+        Ok(Asked { energy: task.scene.file.output.energy.then(energy) })
     }
 
-    /// What they found.
-    pub(super) fn results(self, task: &Task<'_>) -> (Option<Demand>, Option<EnergyReport>) {
-        let table = task.scene.file.checks.as_ref();
-        let demand = self.checks.zip(table).map(|(checks, table)| Demand::of(task, table, &checks));
-        let energy = self.energy.map(|energy| {
+    /// What it found.
+    pub(super) fn results(self) -> Option<EnergyReport> {
+        self.energy.map(|energy| {
             let barrier = energy.ledger.barrier().to_f64();
             let last = energy.ledger.entries().each(Real::to_f64);
             let shares = |entries: Entries<f64>| entries.scaled(1.0 / barrier);
@@ -45,20 +36,17 @@ impl<S: Real> Asked<S> {
                 entries: shares(last).into(),
                 history: energy.samples.iter().map(|(time, entries)| (*time, shares(*entries).into())).collect(),
             }
-        });
-        (demand, energy)
+        })
     }
 }
 
 impl<S: Real> DeviceObserver<S> for Asked<S> {
     fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
         self.energy.device_stretch(arc, stretch);
-        self.checks.device_stretch(arc, stretch);
     }
 
     fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
         self.energy.device_event(event, time, state);
-        self.checks.device_event(event, time, state);
     }
 }
 
@@ -66,9 +54,6 @@ impl<S: Real> Segmented for Asked<S> {
     fn segment(&mut self, start: f64, _segment: Option<&Segment>) {
         if let Some(energy) = &mut self.energy {
             energy.origin = start;
-        }
-        if let Some(checks) = &mut self.checks {
-            checks.origin = S::of(start);
         }
     }
 }

@@ -18,13 +18,11 @@ pub struct Demand {
     pub friction_needed: Option<f64>,
     /// When, s.
     pub friction_needed_time_s: Option<f64>,
-    /// The same over the impulses of impacts.
-    pub impact_friction_needed: Option<f64>,
     /// Smallest vertical reaction over the weight.
     pub smallest_vertical_reaction_ratio: Option<f64>,
     /// When the toe would leave the ground, s.
     pub contact_lost_time_s: Option<f64>,
-    /// Largest |F|/(mg) of a flywheel's drive at the rack.
+    /// Largest |F|/(mg) of both flywheels together on their support.
     pub force_ratio: Option<f64>,
     /// Farthest travel of the terminals to one side, m.
     pub stroke_m: Option<f64>,
@@ -33,49 +31,88 @@ pub struct Demand {
     pub tooth_stress_mpa: Vec<f64>,
     /// The assumptions that fail, in words.
     pub warnings: Vec<String>,
-    /// With the fall.
+    /// As `stroke_m`, with the fall of a block that overturns, up to where it lies on the ground.
     #[serde(skip)]
-    pub with_fall: WithFall,
+    pub stroke_with_fall_m: Option<f64>,
 }
 
-/// What a motion asks of the device with the fall of a block that overturns, up to where it lies on the ground.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct WithFall {
-    /// As [`Demand::force_ratio`].
-    pub force_ratio: Option<f64>,
-    /// As [`Demand::stroke_m`].
-    pub stroke_m: Option<f64>,
+/// What impacts and jolts ask of the toe, the fall of a block that overturns left out; each none where there is none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Impulses {
+    /// Coefficient of friction without which the toe would slide at an impact.
+    pub impact_friction_needed: Option<f64>,
+    /// The same at a jolt that presses the toe down.
+    pub jolt_friction_needed: Option<f64>,
+    /// Largest impulse over the block's mass (m/s) by which the ground would have to pull the toe down at a jolt.
+    pub jolt_pull_m_s: Option<f64>,
+}
+
+impl Impulses {
+    /// Of what checks found.
+    pub(super) fn of<S: Real>(report: &Report<S>) -> Impulses {
+        Impulses {
+            impact_friction_needed: number(&report.impact_friction),
+            jolt_friction_needed: number(&report.jolt_friction),
+            jolt_pull_m_s: number(&report.jolt_pull),
+        }
+    }
+
+    /// The assumptions that fail where the coefficient of friction is `available`.
+    fn warnings(&self, available: Option<f64>) -> Vec<String> {
+        let slides = |needed: Option<f64>, what: &str| {
+            let (needed, available) = needed.zip(available).filter(|(needed, available)| needed > available)?;
+            Some(format!("the toe would slide at {what}: {needed:.3} is needed, {available} is there"))
+        };
+        let lifts = self.jolt_pull_m_s.map(|pull| {
+            format!("the toe would lift at a jolt: the ground would have to pull it down by {pull:.2e} m/s times the mass")
+        });
+        [slides(self.impact_friction_needed, "an impact"), slides(self.jolt_friction_needed, "a jolt"), lifts]
+            .into_iter()
+            .flatten()
+            .collect()
+    }
+}
+
+fn number<S: Real>(extreme: &Option<Extreme<S>>) -> Option<f64> {
+    extreme.map(|extreme| extreme.value.to_f64())
+}
+
+/// Forces of a report are over the weight of the loaded block; results are over that of the bare one.
+fn heavier(task: &Task<'_>) -> f64 {
+    1.0 + task.device().carried.mass_ratio
+}
+
+/// Largest |F|/(mg) of both flywheels together on their support.
+pub(super) fn support_force_ratio<S: Real>(task: &Task<'_>, report: &Report<S>) -> Option<f64> {
+    number(&report.support).map(|force| force * heavier(task))
 }
 
 impl Demand {
     /// Of what `checks` found about the device of `task`.
     pub(super) fn of<S: Real>(task: &Task<'_>, table: &ChecksTable, checks: &Checks<S>) -> Demand {
         let (report, whole) = (checks.before_fall(), checks.report());
-        let number = |extreme: &Option<Extreme<S>>| extreme.map(|extreme| extreme.value.to_f64());
-        let time = |extreme: &Option<Extreme<S>>| extreme.map(|extreme| extreme.time.to_f64());
-        // Forces of the report are over the weight of the loaded block; results are over that of the bare one.
-        let heavier = 1.0 + task.device().carried.mass_ratio;
-        let largest = |report: &Report<S>| report.force.iter().filter_map(number).map(|force| force * heavier).reduce(f64::max);
         let farthest = |report: &Report<S>| report.stroke().map(|extreme| extreme.value.to_f64());
         let mut demand = Demand {
             friction_needed: number(&report.friction),
-            friction_needed_time_s: time(&report.friction),
-            impact_friction_needed: number(&report.impact_friction),
+            friction_needed_time_s: report.friction.map(|extreme| extreme.time.to_f64()),
             smallest_vertical_reaction_ratio: number(&report.vertical),
             contact_lost_time_s: report.contact_lost.map(Real::to_f64),
-            force_ratio: largest(&report),
+            force_ratio: support_force_ratio(task, &report),
             stroke_m: farthest(&report),
             tooth_stress_mpa: Vec::new(),
             warnings: Vec::new(),
-            with_fall: WithFall { force_ratio: largest(&whole), stroke_m: farthest(&whole) },
+            stroke_with_fall_m: farthest(&whole),
         };
-        demand.teeth(task, table);
-        demand.warn(table);
+        // The teeth of the rack mesh with the drive of one flywheel each.
+        let drive = report.force.iter().filter_map(number).reduce(f64::max);
+        demand.teeth(task, table, drive.map(|force| force * heavier(task)));
+        demand.warn(table, &Impulses::of(&report));
         demand
     }
 
-    fn teeth(&mut self, task: &Task<'_>, table: &ChecksTable) {
-        let (Some(gear), Some(mass), Some(force)) = (&table.gear, task.scene.file.block.mass_kg, self.force_ratio) else {
+    /// Stresses under the force `drive`, |F|/(mg) of a flywheel's drive at the rack.
+    fn teeth(&mut self, task: &Task<'_>, table: &ChecksTable, drive: Option<f64>) {
+        let (Some(gear), Some(mass), Some(force)) = (&table.gear, task.scene.file.block.mass_kg, drive) else {
             return;
         };
         let tooth = Gear {
@@ -100,23 +137,21 @@ impl Demand {
         }
     }
 
-    fn warn(&mut self, table: &ChecksTable) {
+    fn warn(&mut self, table: &ChecksTable, impulses: &Impulses) {
         let mut warn = |message: String| self.warnings.push(message);
         if let Some(time) = self.contact_lost_time_s {
             warn(format!("the toe would leave the ground at {time:.4} s: from there on the model does not hold"));
         }
-        if let Some(available) = table.friction_coefficient {
-            if let Some(needed) = self.friction_needed.filter(|needed| *needed > available) {
-                warn(format!("the toe would slide: a coefficient of friction of {needed:.3} is needed, {available} is there"));
-            }
-            if let Some(needed) = self.impact_friction_needed.filter(|needed| *needed > available) {
-                warn(format!("the toe would slide at an impact: {needed:.3} is needed, {available} is there"));
-            }
+        if let Some(available) = table.friction_coefficient
+            && let Some(needed) = self.friction_needed.filter(|needed| *needed > available)
+        {
+            warn(format!("the toe would slide: a coefficient of friction of {needed:.3} is needed, {available} is there"));
         }
+        impulses.warnings(table.friction_coefficient).into_iter().for_each(&mut warn);
         if let (Some(limit), Some(force)) = (table.largest_force_ratio, self.force_ratio)
             && force > limit
         {
-            warn(format!("the device's force reaches {force:.4} of the block's weight; the limit is {limit}"));
+            warn(format!("the force on the device's support reaches {force:.4} of the block's weight; the limit is {limit}"));
         }
         if let (Some(limit), Some(stroke)) = (table.largest_stroke_m, self.stroke_m)
             && stroke > limit

@@ -5,7 +5,7 @@ use sprag_shared::observer::Peaks;
 use sprag_shared::rocking::State;
 use sprag_shared::scalar::Real;
 
-use super::demand::Demand;
+use super::demand::{Demand, Impulses, support_force_ratio};
 use super::energy::EnergyReport;
 use super::run::Task;
 use super::step_end::Trace;
@@ -37,8 +37,12 @@ pub struct DeviceRun {
     /// Engagements that the clutch missed.
     #[serde(skip_serializing_if = "is_zero")]
     pub missed_engagements: u32,
-    /// max |F|/(mg) of the inerter's terminals on their support.
-    pub peak_force_ratio: f64,
+    /// max |F|/(mg) of both flywheels together on their support, between samples too; at step ends where events are looked for there. None
+    /// where nobody looked.
+    pub peak_force_ratio: Option<f64>,
+    /// What impacts and jolts ask of the toe; none where events are looked for at step ends.
+    #[serde(flatten)]
+    pub impulses: Impulses,
     /// What the motion asks of toe, device and gears, where the scene has `[checks]`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub checks: Option<Demand>,
@@ -112,7 +116,8 @@ pub(super) struct Found {
     pub impacts_s: Vec<f64>,
     pub clutch_switches: u32,
     pub missed_engagements: u32,
-    pub peak_force_ratio: f64,
+    pub peak_force_ratio: Option<f64>,
+    pub impulses: Impulses,
     pub checks: Option<Demand>,
     pub energy: Option<EnergyReport>,
 }
@@ -120,16 +125,16 @@ pub(super) struct Found {
 impl Found {
     /// By those who watched.
     pub fn watched<S: Real>(task: &Task<'_>, watchers: Watchers<'_, S>) -> Found {
-        let Watchers { recorder, asked, .. } = watchers;
-        let (checks, energy) = asked.results(task);
+        let Watchers { recorder, checks, asked, .. } = watchers;
         Found {
             samples: recorder.samples,
             impacts_s: recorder.impacts,
             clutch_switches: recorder.switches,
             missed_engagements: 0,
-            peak_force_ratio: recorder.peak_force,
-            checks,
-            energy,
+            peak_force_ratio: checks.map(|checks| support_force_ratio(task, &checks.report()).unwrap_or(0.0)),
+            impulses: checks.map(|checks| Impulses::of(&checks.before_fall())).unwrap_or_default(),
+            checks: checks.zip(task.scene.file.checks.as_ref()).map(|(checks, table)| Demand::of(task, table, &checks)),
+            energy: asked.results(),
         }
     }
 }
@@ -140,7 +145,7 @@ impl<S> From<Trace<S>> for Found {
             samples: trace.samples,
             impacts_s: trace.impacts,
             clutch_switches: trace.switches,
-            peak_force_ratio: trace.peak_force,
+            peak_force_ratio: Some(trace.peak_force),
             ..Found::default()
         }
     }
@@ -164,6 +169,7 @@ impl DeviceRun {
             clutch_switches: found.clutch_switches,
             missed_engagements: found.missed_engagements,
             peak_force_ratio: found.peak_force_ratio,
+            impulses: found.impulses,
             checks: found.checks,
             energy: found.energy,
             error: None,

@@ -4,6 +4,8 @@
 mod asked;
 #[cfg_attr(not(feature = "effects"), allow(dead_code, reason = "only effects demand anything"))]
 pub mod demand;
+#[cfg(all(test, feature = "effects"))]
+mod demand_tests;
 pub mod device_run;
 pub mod drive;
 pub mod energy;
@@ -16,7 +18,7 @@ pub mod step_end;
 pub mod watchers;
 
 pub use device_run::{DeviceRun, ErrorReport};
-pub use run::{RunError, simulate};
+pub use run::{RunError, simulate, simulate_for_study};
 
 /// Terms of the series in f32: more would only add rounding.
 const TERMS_F32: usize = 12;

@@ -19,8 +19,6 @@ pub struct Recorder<'a> {
     pub impacts: Vec<f64>,
     /// Clutch switches.
     pub switches: u32,
-    /// Largest |F|/(mg) of the flywheels at samples and at the ends of stretches.
-    pub peak_force: f64,
     force_scale: f64,
     stays_engaged: bool,
     interval: f64,
@@ -39,7 +37,6 @@ impl<'a> Recorder<'a> {
             samples: Vec::new(),
             impacts: Vec::new(),
             switches: 0,
-            peak_force: 0.0,
             force_scale,
             stays_engaged,
             interval,
@@ -68,10 +65,9 @@ impl<'a> Recorder<'a> {
         self.segments.get(index).map_or(0.0, |s| s.shape.acceleration(time - s.start) * GRAVITY)
     }
 
-    fn sample<S: Real>(&mut self, time: f64, snapshot: &Snapshot<S>) -> Sample {
+    fn sample<S: Real>(&self, time: f64, snapshot: &Snapshot<S>) -> Sample {
         let Snapshot { motion, ground, force, engaged, .. } = snapshot;
         let force_ratio = force.map(|force| force.to_f64() * self.force_scale);
-        self.peak_force = self.peak_force.max((force_ratio[0] + force_ratio[1]).abs());
         Sample {
             time_s: time,
             ground_m_s2: ground[0].to_f64() * GRAVITY,

@@ -1,6 +1,7 @@
 //! `simulate`: every device of a scene under its ground motion.
 
 use sprag_shared::block::Block;
+use sprag_shared::checks::Checks;
 use sprag_shared::drivetrain::Engagement;
 use sprag_shared::error::ParameterError;
 use sprag_shared::ledger::{Account, Clutching};
@@ -71,11 +72,23 @@ pub enum RunError {
     Interrupted,
 }
 
-/// Runs every device of `scene`.
+/// Runs every device of `scene`, for a report of each.
 ///
 /// # Errors
 /// [`RunError`] names the device.
 pub fn simulate(scene: &Scene, ground: &GroundMotions, interrupt: &Interrupt) -> Result<Vec<DeviceRun>, RunError> {
+    runs(scene, ground, true, interrupt)
+}
+
+/// As [`simulate`], for studies, which report no forces and impulses: they are looked at where the scene has `[checks]` only.
+///
+/// # Errors
+/// As there.
+pub fn simulate_for_study(scene: &Scene, ground: &GroundMotions, interrupt: &Interrupt) -> Result<Vec<DeviceRun>, RunError> {
+    runs(scene, ground, false, interrupt)
+}
+
+fn runs(scene: &Scene, ground: &GroundMotions, reports: bool, interrupt: &Interrupt) -> Result<Vec<DeviceRun>, RunError> {
     let duration = ground.horizontal.duration() + scene.free_time_s();
     let interval = scene.file.output.interval_s.unwrap_or((duration / SAMPLES).max(1e-9));
     if duration / interval > MOST_SAMPLES {
@@ -83,7 +96,7 @@ pub fn simulate(scene: &Scene, ground: &GroundMotions, interrupt: &Interrupt) ->
     }
     let run = |index: usize| {
         let device = &scene.devices[index].name;
-        let task = Task { scene, ground, index, interval, interrupt };
+        let task = Task { scene, ground, index, interval, reports, interrupt };
         let run = match scene.file.accuracy.level {
             Some(level) => task.answer(level),
             None => task.run(),
@@ -121,6 +134,8 @@ pub(crate) struct Task<'a> {
     pub index: usize,
     /// Between samples, s.
     pub interval: f64,
+    /// Forces and impulses are looked at without `[checks]` too.
+    pub reports: bool,
     pub interrupt: &'a Interrupt,
 }
 
@@ -150,7 +165,7 @@ impl<'a> Task<'a> {
             found.confirm(level, |factor| {
                 scene.file.accuracy =
                     AccuracyTable { method, step_ratio: Some(factor * SECOND_STEP), ..AccuracyTable::default() };
-                match (Task { scene: &scene, ..*self }).run() {
+                match (Task { scene: &scene, reports: false, ..*self }).run() {
                     Ok(run) => Ok(Some(run.compared())),
                     Err(Failure::Stopped(_)) => Ok(None),
                     Err(failure) => Err(failure),
@@ -212,12 +227,12 @@ impl<'a> Task<'a> {
     }
 
     /// What a ledger and checks have to know of the device.
-    #[cfg_attr(not(feature = "effects"), allow(dead_code, reason = "for those only"))]
     pub fn account(&self, loaded: &Structure) -> Account {
         let device = self.device();
         Account {
             clutching: match (device.device.kind, device.drivetrain.engagement) {
                 (DeviceKind::ClutchedPair, Engagement::Ideal) => Clutching::Ideal,
+                (DeviceKind::ClutchedPair, Engagement::Rigid) => Clutching::Rigid,
                 (DeviceKind::ClutchedPair, _) => Clutching::Real,
                 _ => Clutching::Permanent,
             },
@@ -230,9 +245,13 @@ impl<'a> Task<'a> {
     pub fn watchers<S: Real>(&self, loaded: &Structure) -> Result<Watchers<'a, S>, Failure> {
         let stays_engaged = self.device().device.kind == DeviceKind::Inerter;
         let segments = self.ground.horizontal.segments();
+        let all = self.scene.file.checks.is_some();
+        let checks = || Checks::new(&loaded.block, self.scene.geometry(), &loaded.device.mount, &self.account(loaded));
+        let checks = if all || self.reports { Some(checks()?) } else { None };
         Ok(Watchers {
             recorder: Recorder::new(self.force_scale(loaded), stays_engaged, self.interval, segments),
             peaks: Peaks { rocked: self.released().is_some(), ..Peaks::default() },
+            checks: if all { checks } else { checks.map(Checks::brief) },
             asked: Asked::of(self, loaded)?,
         })
     }

@@ -1,4 +1,4 @@
-//! In a program without effects a scene can ask for nothing beyond history and peaks.
+//! In a program without effects a scene can ask for nothing beyond history, peaks, and what is always checked.
 
 use std::marker::PhantomData;
 
@@ -6,7 +6,6 @@ use sprag_shared::scalar::Real;
 use sprag_shared::snapshot::DeviceObserver;
 use sprag_shared::structure::Structure;
 
-use super::demand::Demand;
 use super::drive::Segmented;
 use super::energy::EnergyReport;
 use super::run::{Failure, Task};
@@ -24,8 +23,8 @@ impl<S: Real> Asked<S> {
     }
 
     /// Nothing.
-    pub(super) fn results(self, _task: &Task<'_>) -> (Option<Demand>, Option<EnergyReport>) {
-        (None, None)
+    pub(super) fn results(self) -> Option<EnergyReport> {
+        None
     }
 }
 

@@ -1,5 +1,6 @@
-//! Everyone who watches a run: the history, the peaks, and what the scene asks for beyond them.
+//! Everyone who watches a run: the history, the peaks, the checks, and what the scene asks for beyond them.
 
+use sprag_shared::checks::Checks;
 use sprag_shared::clutch::Clutch;
 use sprag_shared::equation::Equation;
 use sprag_shared::ground::Linear;
@@ -21,6 +22,8 @@ pub struct Watchers<'a, S> {
     pub recorder: Recorder<'a>,
     /// Largest values.
     pub peaks: Peaks<S>,
+    /// Forces and impulses where they are reported; all of the checks where the scene asks for them.
+    pub checks: Option<Checks<S>>,
     /// What the scene asks for beyond them.
     pub asked: Asked<S>,
 }
@@ -29,12 +32,14 @@ impl<S: Real> DeviceObserver<S> for Watchers<'_, S> {
     fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
         self.recorder.device_stretch(arc, stretch);
         self.peaks.stretch(&arc, stretch);
+        self.checks.device_stretch(arc, stretch);
         self.asked.device_stretch(arc, stretch);
     }
 
     fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
         DeviceObserver::<S>::device_event(&mut self.recorder, event, time, state);
         self.peaks.event(event, time, state);
+        self.checks.device_event(event, time, state);
         self.asked.device_event(event, time, state);
     }
 }
@@ -43,6 +48,9 @@ impl<S: Real> Segmented for Watchers<'_, S> {
     fn segment(&mut self, start: f64, segment: Option<&Segment>) {
         self.recorder.segment(start, segment);
         self.peaks.segment(start, segment);
+        if let Some(checks) = &mut self.checks {
+            checks.origin = S::of(start);
+        }
         self.asked.segment(start, segment);
     }
 }

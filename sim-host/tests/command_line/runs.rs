@@ -15,6 +15,7 @@ fn simulate_writes_its_three_files_and_a_summary() {
     for device in ["none", "inerter", "clutched pair"] {
         assert!(table.contains(device), "{table}");
     }
+    assert!(table.contains("friction needed at impacts: 0.460 (none), 0.690 (inerter), 0.460 (clutched pair)"), "{table}");
     let mut files: Vec<_> = fs::read_dir(&out).unwrap().map(|file| file.unwrap().file_name()).collect();
     files.sort();
     assert_eq!(files, ["history.csv", "history.svg", "summary.json"]);

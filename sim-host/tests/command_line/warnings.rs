@@ -60,6 +60,7 @@ fn checks_say_nothing_of_a_fall() {
     let set = ["--set", "checks.friction_coefficient=0.9", "--set", "checks.largest_stroke_m=1"];
     let output = sprag(&[&["simulate", &scene("near_fault"), "--out", folder.path().to_str().unwrap()], &set[..]].concat());
     assert_eq!(said(&output), "");
+    assert!(!String::from_utf8_lossy(&output.stdout).contains("friction needed"), "there is enough");
     let run = &summary(folder.path())["runs"][0];
     assert_eq!(run["outcome"], "overturned-after-impact");
     assert!(run["checks"]["contact_lost_time_s"].is_null());

@@ -37,21 +37,24 @@ impl Model {
     /// Commands whose time has come. Releases first, so that two that change places are never both engaged.
     pub fn carry_out(&self, state: &mut State) -> bool {
         let mut moved = false;
-        for engage in [false, true] {
-            for i in 0..2 {
-                let command = &mut state.wheels[i].command;
-                if command.wanted != engage || command.due.is_none_or(|due| due > state.time) {
-                    continue;
+        // By a transport delay several commands to one clutch may be due at once.
+        let due = |state: &State| state.wheels.iter().any(|wheel| wheel.command.arrives(&self.device, state.time).is_some());
+        while due(state) {
+            for engage in [false, true] {
+                for i in 0..2 {
+                    let wheel = &mut state.wheels[i];
+                    if wheel.command.arrives(&self.device, state.time) != Some(engage) {
+                        continue;
+                    }
+                    let moves = engage == (wheel.link == Link::Open);
+                    wheel.command.done(&self.device, state.time, moves);
+                    match (moves, engage) {
+                        (false, _) => continue,
+                        (true, true) => self.engage(state, i),
+                        (true, false) => self.release(state, i),
+                    }
+                    moved = true;
                 }
-                command.due = None;
-                command.stays_until = state.time + self.device.dwell;
-                command.engaged_at = state.time;
-                if engage {
-                    self.engage(state, i);
-                } else {
-                    self.release(state, i);
-                }
-                moved = true;
             }
         }
         moved
@@ -111,7 +114,7 @@ impl Model {
         for i in 0..2 {
             if self.device.is_commanded() {
                 let command = &mut state.wheels[i].command;
-                (command.wanted, command.due) = (false, None);
+                command.withdraw();
                 if state.wheels[i].link != Link::Open {
                     self.release(state, i);
                 }

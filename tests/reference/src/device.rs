@@ -60,6 +60,8 @@ pub struct Device {
     pub engagement_delay: f64,
     /// Delay from a command to release, s.
     pub release_delay: f64,
+    /// Commands that are shorter than these arrive too.
+    pub transport: bool,
     /// Time for which a clutch that moved stays, s.
     pub dwell: f64,
     /// Probability of a missed engagement.
@@ -148,8 +150,13 @@ impl Device {
             Some(NumberOr::Word(word)) if word == "instant" => f64::INFINITY,
             Some(NumberOr::Word(word)) => return Err(format!("brake {word}")),
         };
-        let ActuationTable { engagement_delay_s, release_delay_s, rise_time_s, dwell_s, miss_probability, miss_seed } =
+        let ActuationTable { engagement_delay_s, release_delay_s, rise_time_s, dwell_s, miss_probability, miss_seed, .. } =
             table.actuation;
+        let transport = match table.actuation.delay.as_deref() {
+            None | Some("inertial") => false,
+            Some("transport") => true,
+            Some(other) => return Err(format!("delay {other}")),
+        };
         let viscous = either(table.rack.viscous_1_s, table.rack.viscous_n_s_m, 1.0)?.unwrap_or(0.0);
         let dry = either(table.rack.dry_friction_ratio, table.rack.dry_friction_n, GRAVITY)?.unwrap_or(0.0);
         let device = Device {
@@ -167,6 +174,7 @@ impl Device {
             rise: rise_time_s,
             engagement_delay: engagement_delay_s,
             release_delay: release_delay_s,
+            transport,
             dwell: dwell_s,
             miss_probability,
             miss_seed,

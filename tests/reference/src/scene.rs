@@ -135,6 +135,7 @@ pub struct RackTable {
 pub struct ActuationTable {
     pub engagement_delay_s: f64,
     pub release_delay_s: f64,
+    pub delay: Option<String>,
     pub rise_time_s: f64,
     pub dwell_s: f64,
     pub miss_probability: f64,

@@ -18,6 +18,7 @@ pub fn drivetrains() -> [Drivetrain; 6] {
     let actuation = Actuation {
         engagement_delay: 0.015625,
         release_delay: 0.0078125,
+        delay: Delay::Transport,
         rise_time: 0.03125,
         dwell: 0.0625,
         miss_probability: 0.25,

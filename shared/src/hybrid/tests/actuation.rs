@@ -2,9 +2,13 @@
 
 use std::vec::Vec;
 
-use super::{Seen, pair, tight};
+use super::{Ground, Machine, Seen, Watcher, pair, tight};
 use crate::block::Geometry;
-use crate::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses};
+use crate::body::Body;
+use crate::drivetrain::drive::Drive;
+use crate::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses};
+use crate::hybrid::path::Shaking;
+use crate::hybrid::resolve::WithMachine;
 use crate::observer::{Event, Stretch};
 use crate::rocking::State;
 use crate::snapshot::{DeviceArc, DeviceObserver};
@@ -37,6 +41,66 @@ fn a_release_comes_late_by_its_delay() {
     let late = switches(&shake.machine(&with(Actuation { release_delay: delay, ..Actuation::default() }), &tight()));
     // Engaged at uplift, released at the first zero of the acceleration: so far both are one motion.
     assert!((late[1] - prompt[1] - delay).abs() < 1e-9, "{late:?} and {prompt:?}");
+}
+
+/// When a clutch moves that is commanded to engage at 0 and to release 5 ms later, and what the last command wants, after 0.1 s.
+struct Pulse;
+
+impl WithMachine<f64> for Pulse {
+    type Output = (Vec<f64>, bool);
+
+    fn with<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
+        self,
+        mut machine: Machine<f64, B, D, X, G>,
+    ) -> Self::Output {
+        machine.actuator.controlled = true;
+        let mut state = machine.released_at(0.1, 0.0, [0.0; 2]);
+        let mut watcher = Watcher::default();
+        let shaking = Shaking { horizontal: &Ground::QUIET, vertical: &Ground::QUIET };
+        let limits = pair(Geometry::Full, 1.0, 1.0).limits(true);
+        for (wanted, until) in [([false, true], 0.005), ([false, false], 0.095)] {
+            machine.order(&mut state, wanted, &mut watcher);
+            machine.advance(&tight(), &mut state, shaking, until, &limits, &mut watcher).unwrap();
+            watcher.peaks.origin += until;
+        }
+        (watcher.switches.iter().map(|(time, ..)| *time).collect(), state.device.wheels[1].commanded)
+    }
+}
+
+/// A coil never moves for a command that is shorter than its delay; what comes over a line arrives as it was sent, each with its delay.
+#[test]
+fn a_command_shorter_than_the_delay_is_lost_or_late() {
+    let structure = pair(Geometry::Full, 1.0, 1.0).structure;
+    let moves = |delay, engagement_delay, release_delay| {
+        let actuation = Actuation { delay, engagement_delay, release_delay, ..Actuation::default() };
+        with(actuation).resolve(&structure, false, Pulse).unwrap().0
+    };
+    let near = |found: Vec<f64>, expected: &[f64]| {
+        let close = found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-12);
+        assert!(close && found.len() == expected.len(), "{found:?} {expected:?}");
+    };
+    near(moves(Delay::Inertial, 0.02, 0.03), &[]);
+    near(moves(Delay::Transport, 0.02, 0.03), &[0.02, 0.035]);
+    // A command does not overtake the one before it.
+    near(moves(Delay::Transport, 0.02, 0.001), &[0.02, 0.02]);
+    for delay in [Delay::Inertial, Delay::Transport] {
+        near(moves(delay, 0.002, 0.03), &[0.002, 0.035]);
+    }
+}
+
+/// Where every command outlasts its delay, both kinds are one, to the last bit. The last swings of a dying motion are shorter than any delay.
+#[test]
+fn delays_that_cut_nothing_short_are_one() {
+    let shake = pair(Geometry::Full, 3.0, 5.0);
+    let run = |delay| {
+        let actuation = Actuation { delay, engagement_delay: 1e-3, release_delay: 1e-3, dwell: 0.01, ..Actuation::default() };
+        let seen = shake.machine(&with(actuation), &tight());
+        let early: Vec<f64> = switches(&seen).into_iter().filter(|time| *time < 4.0).collect();
+        (early, seen.peak.to_bits())
+    };
+    let (moves, peak) = run(Delay::Inertial);
+    assert!(moves.len() > 10);
+    assert_eq!((moves, peak), run(Delay::Transport));
 }
 
 /// No delay is no delay, to the last bit.

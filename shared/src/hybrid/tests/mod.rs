@@ -1,6 +1,7 @@
 //! The loop for devices with a memory, against the loop for ideal ones, closed forms, limits and other methods.
 
 mod actuation;
+mod demands;
 mod energy;
 mod ground;
 mod limits;

@@ -12,7 +12,7 @@ use sprag_shared::{
     body::{Body, FullBody},
     case::Shape,
     drivetrain::{
-        Actuation, Drivetrain, Engagement, FlywheelLosses, Rack,
+        Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack,
         drive::Drive,
         elastic::ElasticPair,
         friction::FrictionPair,
@@ -46,14 +46,28 @@ const BEARINGS: FlywheelLosses = FlywheelLosses { viscous_rate: 0.05, dry_decele
 const BRAKED: FlywheelLosses = FlywheelLosses { brake_deceleration: 5.0, ..BEARINGS };
 
 /// A clutch that is late, and sometimes deaf.
-const LATE: Actuation =
-    Actuation { engagement_delay: 0.02, release_delay: 0.01, rise_time: 0.02, dwell: 0.03, miss_probability: 0.1, miss_seed: 1 };
+const LATE: Actuation = Actuation {
+    engagement_delay: 0.02,
+    release_delay: 0.01,
+    rise_time: 0.02,
+    dwell: 0.03,
+    miss_probability: 0.1,
+    miss_seed: 1,
+    ..PROMPT
+};
 
 const IDEAL: Drivetrain = Drivetrain { engagement: Engagement::Ideal, flywheel: NO_LOSSES, rack: NO_RACK, actuation: PROMPT };
 const NO_LOSSES: FlywheelLosses = FlywheelLosses { viscous_rate: 0.0, dry_deceleration: 0.0, brake_deceleration: 0.0 };
 const NO_RACK: Rack = Rack { guided_mass_ratio: 0.0, viscous: 0.0, dry_ratio: 0.0 };
-const PROMPT: Actuation =
-    Actuation { engagement_delay: 0.0, release_delay: 0.0, rise_time: 0.0, dwell: 0.0, miss_probability: 0.0, miss_seed: 0 };
+const PROMPT: Actuation = Actuation {
+    engagement_delay: 0.0,
+    release_delay: 0.0,
+    delay: Delay::Inertial,
+    rise_time: 0.0,
+    dwell: 0.0,
+    miss_probability: 0.0,
+    miss_seed: 0,
+};
 const ROUGH: Drivetrain = Drivetrain { flywheel: BEARINGS, rack: RACK, ..IDEAL };
 const RIGID: Drivetrain = Drivetrain { engagement: Engagement::Rigid, flywheel: BRAKED, ..IDEAL };
 const OVERRUNNING: Drivetrain = Drivetrain { engagement: Engagement::Overrunning, flywheel: BEARINGS, ..IDEAL };

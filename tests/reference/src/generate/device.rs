@@ -144,6 +144,9 @@ fn actuation(text: &mut String, random: &mut Random, capacity: bool) {
     if random.chance(0.7) {
         keys.push(format!("release_delay_s = {}", random.logarithmic(0.002, 0.06)));
     }
+    if !keys.is_empty() && random.chance(0.3) {
+        keys.push("delay = \"transport\"".to_owned());
+    }
     if random.chance(0.25) {
         keys.push(format!("dwell_s = {}", random.logarithmic(0.01, 0.15)));
     }

@@ -1,0 +1,67 @@
+use super::*;
+use crate::interrupt::Interrupt;
+use crate::scene::Scene;
+
+/// A block of 2 m and 10° under a cycle of sine of `amplitude`, with a device of σ = 0.5 and what `device` says of it.
+fn runs(amplitude: f64, device: &str, more: &str) -> Vec<DeviceRun> {
+    let scene = scene(amplitude, device, more);
+    simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap()
+}
+
+fn scene(amplitude: f64, device: &str, more: &str) -> Scene {
+    let text = format!(
+        "[block]\nsize_m = 2\nslenderness_deg = 10\nrestitution = 0.85\n[[device]]\nmass_ratio = 0.5\n{device}\n[[ground]]\nmotion = \"sine\"\n\
+         amplitude_ratio = {amplitude}\nfrequency_ratio = 9\n[run]\nfree_time_s = 2\n{more}"
+    );
+    Scene::parse(&text, "scene.toml").unwrap()
+}
+
+/// The force of a stiff clutch swings fast: a history that is sampled twenty times as finely has larger samples, the located peak stays.
+#[test]
+fn the_peak_force_lies_between_samples_too() {
+    let clutch = "kind = 'clutched-pair'\nclutch = { stiffness_ratio = 1e5, damping_ratio = 0.02 }\nactuation = { engagement_delay_s = 0.02 }";
+    let [coarse, fine] = ["0.01", "0.0002"].map(|interval| {
+        let run = runs(5.0, clutch, &format!("[output]\ninterval_s = {interval}")).remove(0);
+        (run.peak_force_ratio.unwrap(), run.history.peak_force_ratio())
+    });
+    assert!(fine.1 > 1.02 * coarse.1, "a history of the one must show what that of the other does not: {coarse:?} {fine:?}");
+    assert_eq!(coarse.0, fine.0);
+    assert!(fine.1 <= fine.0 * (1.0 + 1e-12) && fine.1 > 0.99 * fine.0, "{fine:?}");
+}
+
+/// Slipping plates pull with their capacity, and with twice that while a release comes late.
+#[test]
+fn a_limit_of_the_force_is_one_on_the_support() {
+    let clutch = "kind = 'clutched-pair'\nclutch = { capacity_ratio = 0.02 }\nflywheel = { brake_deceleration_m_s2 = 'instant' }\n\
+                  actuation = { engagement_delay_s = 0.02, release_delay_s = 0.3 }";
+    let run = runs(5.0, clutch, "[checks]\nlargest_force_ratio = 0.03").remove(0);
+    let checks = run.checks.unwrap();
+    assert!((checks.force_ratio.unwrap() - 0.04).abs() < 1e-9, "{checks:?}");
+    assert_eq!(checks.force_ratio, run.peak_force_ratio);
+    assert!(checks.warnings.iter().any(|warning| warning.contains("0.0400") && warning.contains("limit is 0.03")), "{checks:?}");
+}
+
+/// (1 − η)/(1 + η) (1 + σ)/tan α with what is locked through the impact, without a table of checks.
+#[test]
+fn every_run_says_what_friction_an_impact_needs() {
+    for (device, expected) in [
+        ("kind = 'inerter'", 0.689_750),
+        ("kind = 'clutched-pair'", 0.459_834),
+        ("kind = 'clutched-pair'\nengagement = 'rigid'\nflywheel = { brake_deceleration_m_s2 = 'instant' }", 0.689_750),
+        (
+            "kind = 'clutched-pair'\nclutch = { capacity_ratio = 0.1 }\nflywheel = { brake_deceleration_m_s2 = 'instant' }",
+            0.459_834,
+        ),
+    ] {
+        let run = runs(5.0, device, "").remove(0);
+        let needed = run.impulses.impact_friction_needed.unwrap();
+        assert!((needed - expected).abs() < 1e-6 && run.checks.is_none(), "{device}: {needed}");
+    }
+}
+
+#[test]
+fn a_study_does_not_pay_for_what_it_does_not_report() {
+    let scene = scene(5.0, "kind = 'inerter'", "");
+    let run = simulate_for_study(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0);
+    assert_eq!((run.peak_force_ratio, run.impulses), (None, demand::Impulses::default()));
+}
