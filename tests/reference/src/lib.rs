@@ -26,3 +26,4 @@ pub mod record;
 pub mod scene;
 pub mod simulate;
 pub mod step;
+pub mod tally;

@@ -13,8 +13,8 @@ use crate::mode::{BlockMode, Link, State, Wheel};
 use crate::scene::Scene;
 use crate::step::{ROTATION, SIZE, VELOCITY, step};
 
-/// Fastest rate times step.
-pub const RESOLUTION: f64 = 0.01;
+/// Fastest rate times step, where nothing else is asked for.
+const RESOLUTION: f64 = 0.01;
 /// Longest step at that resolution, s.
 const LONGEST: f64 = 5e-4;
 /// Events within this time (s) of one another count as one instant …
@@ -26,6 +26,29 @@ const PAUSE: f64 = 1e-9;
 /// So many events in one instant are a mode that contradicts itself.
 const MOST_AT_ONCE: usize = 100;
 
+/// What a run may cost.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Fastest rate times step: what changes with it is the error of the steps.
+    pub resolution: f64,
+    /// Events. A motion without an end has more than this, and so has one whose modes do not get on.
+    pub events: usize,
+}
+
+impl Default for Effort {
+    /// Events for ten times those of the busiest of ten thousand random scenes.
+    fn default() -> Effort {
+        Effort { resolution: RESOLUTION, events: 20_000 }
+    }
+}
+
+impl Effort {
+    /// With half the step.
+    pub fn finer(self) -> Effort {
+        Effort { resolution: self.resolution / 2.0, ..self }
+    }
+}
+
 /// How a run ended, in Sprag's words.
 pub type Outcome = &'static str;
 
@@ -34,6 +57,8 @@ pub type Outcome = &'static str;
 pub struct Run {
     /// `no-rocking`, `safe`, `overturned-without-impact` or `overturned-after-impact`.
     pub outcome: Outcome,
+    /// Longest step, s.
+    pub step: f64,
     /// Largest |θ|, rad.
     pub peak: f64,
     /// Impacts that came in with more than 1e-6 pα.
@@ -49,16 +74,16 @@ pub struct Run {
 /// Runs device `index` of a scene whose records lie in `folder`.
 ///
 /// # Errors
-/// A scene that cannot be read, or a mode that contradicts itself, in words.
+/// A scene that cannot be read; a mode that contradicts itself or comes to no end, with the instant.
 pub fn run(scene: &Scene, index: usize, folder: &Path) -> Result<Run, String> {
-    run_at(scene, index, folder, RESOLUTION)
+    run_with(scene, index, folder, Effort::default())
 }
 
-/// As [`run`], with another product of fastest rate and step: what changes is the error of the steps.
+/// As [`run`], with an effort of one's own.
 ///
 /// # Errors
 /// As there.
-pub fn run_at(scene: &Scene, index: usize, folder: &Path, resolution: f64) -> Result<Run, String> {
+pub fn run_with(scene: &Scene, index: usize, folder: &Path, effort: Effort) -> Result<Run, String> {
     let (bare, restitution) = Block::of(&scene.block)?;
     let (block, device) = Device::of(&scene.device[index], &bare, &scene.block)?;
     let horizontal = Ground::of(&scene.ground, &bare, folder)?;
@@ -73,7 +98,7 @@ pub fn run_at(scene: &Scene, index: usize, folder: &Path, resolution: f64) -> Re
     let rotation = scene.block.initial_rotation_ratio * bare.slenderness;
     let velocity = scene.block.initial_velocity_ratio * unit;
     let interval = scene.output.interval_s.unwrap_or(end / 2000.0);
-    let mut runner = Runner::new(&model, rotation, velocity, resolution);
+    let mut runner = Runner::new(&model, rotation, velocity, effort);
     let mut run = runner.follow(end, interval, 1e-6 * unit)?;
     // Nothing pushes a slender block any more that leans outward beyond its balance.
     let state = &runner.state;
@@ -104,6 +129,7 @@ struct Runner<'a> {
     model: &'a Model,
     state: State,
     largest: f64,
+    events: usize,
     kinks: Vec<f64>,
     next_kink: usize,
     /// An instant inside the present piece of ground motion.
@@ -111,7 +137,7 @@ struct Runner<'a> {
 }
 
 impl<'a> Runner<'a> {
-    fn new(model: &'a Model, rotation: f64, velocity: f64, resolution: f64) -> Runner<'a> {
+    fn new(model: &'a Model, rotation: f64, velocity: f64, effort: Effort) -> Runner<'a> {
         let link = if model.device.coupling == Coupling::Inerter { Link::Locked } else { Link::Open };
         let wheel = Wheel { link, turning: None, command: Command::default() };
         let mut other = wheel;
@@ -138,7 +164,15 @@ impl<'a> Runner<'a> {
         let mut kinks = [model.horizontal.kinks(), model.vertical.kinks()].concat();
         kinks.sort_by(f64::total_cmp);
         kinks.dedup_by(|later, sooner| *later - *sooner < 1e-12);
-        let mut runner = Runner { model, state, largest: largest_step(model, resolution), kinks, next_kink: 0, within: 0.0 };
+        let mut runner = Runner {
+            model,
+            state,
+            largest: largest_step(model, effort.resolution),
+            events: effort.events,
+            kinks,
+            next_kink: 0,
+            within: 0.0,
+        };
         runner.enter_piece();
         runner
     }
@@ -203,9 +237,15 @@ impl<'a> Runner<'a> {
         let shaking = self.shaking(0.0);
         model.settle(&mut self.state, shaking);
         samples.push([0.0, self.state.rotation(), self.state.velocity()]);
+        // Steps, with one more for whatever may cut one in two.
+        let mut left = end / self.largest + end / interval + self.kinks.len() as f64 + self.events as f64;
         while self.state.time < end && self.state.block != BlockMode::Overturned {
             moved |= self.state.block != BlockMode::Standing;
             let time = self.state.time;
+            left -= 1.0;
+            if left < 0.0 {
+                return Err(format!("no end by {time} s: {:?}, {:?}", events.last(), self.state));
+            }
             let sample = samples.len() as f64 * interval;
             let kink = self.kinks.get(self.next_kink).copied().unwrap_or(f64::INFINITY);
             let clock = self.next_clock();
@@ -225,6 +265,10 @@ impl<'a> Runner<'a> {
                 self.state = at;
                 peak = peak.max(self.state.rotation().abs());
                 events.push((self.state.time, guard));
+                if events.len() > self.events {
+                    let most = self.events;
+                    return Err(format!("more than {most} events by {} s: {guard:?}, {:?}", self.state.time, self.state));
+                }
                 if at_once > MOST_AT_ONCE {
                     return Err(format!("the modes contradict themselves at {} s: {guard:?}, {:?}", self.state.time, self.state));
                 }
@@ -258,7 +302,7 @@ impl<'a> Runner<'a> {
             _ => "safe",
         };
         let ledger = Ledger { initial, present: energy(model, &self.state), values: self.state.values };
-        Ok(Run { outcome, peak, impacts, samples, ledger, events })
+        Ok(Run { outcome, step: self.largest, peak, impacts, samples, ledger, events })
     }
 
     /// A block on the verge of moving stands for a moment, with its clutches as they are.
