@@ -3,7 +3,6 @@
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
-use crate::generate::Generated;
 use crate::scene::Scene;
 use crate::simulate::{Effort, Run, run_with};
 
@@ -92,12 +91,12 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// Runs a scene whose records lie in `folder`.
+    /// Runs the scene in `text`, whose records lie in `folder`.
     ///
     /// # Errors
     /// What this program says when it cannot run the scene.
-    pub fn of(scene: &Generated, folder: &Path) -> Result<Subject, String> {
-        let scene = Scene::parse(&scene.text)?;
+    pub fn of(text: &str, folder: &Path) -> Result<Subject, String> {
+        let scene = Scene::parse(text)?;
         let ours = run_with(&scene, 0, folder, Effort::default()).map_err(|error| format!("ours: {error}"))?;
         Ok(Subject { scene, folder: folder.to_owned(), ours, finer: OnceCell::new() })
     }
@@ -122,7 +121,8 @@ impl Subject {
         let finer = self.finer.get_or_init(finer).as_ref().map_err(|error| format!("ours: {error}"))?;
         let own = compare(&self.ours, &Other::from(finer), slenderness);
         // What one program loses to rounding, the other loses elsewhere: a tenth of the difference is enough to tell.
-        let own_noise = own.history > 0.1 * difference.history || own.history > tolerance.history || !own.same_outcome;
+        let telling = if difference.history > tolerance.history { 0.1 * difference.history } else { tolerance.history };
+        let own_noise = own.history > telling || own.history > tolerance.history || !own.same_outcome;
         Ok(if own_noise && closes { Verdict::Chaotic(difference) } else { Verdict::Differ(difference) })
     }
 }

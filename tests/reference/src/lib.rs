@@ -19,6 +19,7 @@ pub mod generate;
 pub mod ground;
 pub mod guard;
 pub mod ledger;
+pub mod method;
 pub mod mode;
 pub mod pulse;
 pub mod random;

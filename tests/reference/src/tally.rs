@@ -35,10 +35,9 @@ impl Tally {
         }
     }
 
-    /// Scenes that agree, over all.
-    pub fn agreeing(&self) -> (usize, usize) {
-        let agree = self.0.values().map(|row| row.agree).sum();
-        (agree, self.0.values().map(|row| row.agree + row.chaotic + row.differ + row.refused).sum())
+    /// Scenes that rounding decides, of all families.
+    pub fn chaotic(&self) -> usize {
+        self.0.values().map(|row| row.chaotic).sum()
     }
 }
 

@@ -7,9 +7,10 @@ use std::sync::mpsc;
 
 use sprag_reference::compare::{Subject, Verdict};
 use sprag_reference::generate::scene;
+use sprag_reference::method::Method;
 use sprag_reference::tally::Tally;
 
-use crate::sprag::{Method, simulate};
+use crate::sprag::simulate;
 
 /// What became of a scene: its family, and a verdict for each method.
 type Checked = (&'static str, Vec<Result<Verdict, String>>);
@@ -78,7 +79,7 @@ fn check(sprag: &Path, seed: u64, number: u64, keep: &Path, methods: &[Method]) 
         std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
         std::fs::write(&path, &generated.text).map_err(|error| error.to_string())?;
         generated.write_records(&folder)?;
-        Subject::of(&generated, &folder)
+        Subject::of(&generated.text, &folder)
     };
     let verdicts: Vec<_> = match subject() {
         Err(error) => methods.iter().map(|_| Err(error.clone())).collect(),

@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use sprag_reference::compare::{Other, compare as difference};
+use sprag_reference::method::Method;
 use sprag_reference::scene::Scene;
 use sprag_reference::simulate::{Effort, run_with};
 
-use crate::sprag::{Method, simulate};
+use crate::sprag::simulate;
 
 /// Tells of every device of a scene; of its only one also beside `sprag`.
 ///

@@ -3,47 +3,18 @@
 use std::path::Path;
 use std::process::Command;
 
-use sprag_reference::compare::{Other, Tolerance};
+use sprag_reference::compare::Other;
+use sprag_reference::method::Method;
 
-/// One of Sprag's methods.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
-    /// Taylor series in steps of their own choice.
-    Series,
-    /// Order 4 in fixed steps.
-    RungeKutta,
-}
-
-impl Method {
-    /// Both.
-    pub const ALL: [Method; 2] = [Method::Series, Method::RungeKutta];
-
-    /// As scenes spell it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Method::Series => "taylor",
-            Method::RungeKutta => "runge-kutta-4",
-        }
-    }
-
-    /// Differences beyond these are told.
-    pub fn tolerance(self) -> Tolerance {
-        match self {
-            Method::Series => Tolerance { history: 1e-6, residuals: [1e-9, 1e-10] },
-            Method::RungeKutta => Tolerance { history: 1e-5, residuals: [1e-9, 1e-6] },
-        }
-    }
-}
-
-/// Runs `sprag simulate` on a scene of one device; `step` (s) is for the method that has fixed ones.
+/// Runs `sprag simulate` on a scene of one device; `step` (s) is that of this program.
 ///
 /// # Errors
 /// What it printed.
 pub fn simulate(sprag: &Path, scene: &Path, out: &Path, method: Method, step: f64) -> Result<Other, String> {
     let mut command = Command::new(sprag);
     command.arg("simulate").arg(scene).args(["--overwrite", "--out"]).arg(out);
-    if method == Method::RungeKutta {
-        command.args(["--set", "accuracy.method=runge-kutta-4", "--set", &format!("accuracy.step_s={step:e}")]);
+    for (key, value) in method.keys(step) {
+        command.arg("--set").arg(format!("accuracy.{key}={value}"));
     }
     let output = command.output().map_err(|error| format!("{}: {error}", sprag.display()))?;
     if !output.status.success() {
