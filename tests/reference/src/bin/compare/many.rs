@@ -18,7 +18,7 @@ type Checked = (&'static str, Vec<Result<Verdict, String>>);
 /// Compares scenes 0 up to `count` of `seed` with `sprag`, and keeps those that differ in `keep`.
 ///
 /// # Errors
-/// An unknown method.
+/// An unknown method, or how many verdicts were not as they should be.
 pub fn compare(sprag: &Path, count: u64, seed: u64, keep: &Path) -> Result<(), String> {
     let asked = std::env::var("METHOD").ok();
     let methods: Vec<Method> =
@@ -27,6 +27,7 @@ pub fn compare(sprag: &Path, count: u64, seed: u64, keep: &Path) -> Result<(), S
         return Err(format!("METHOD: {}", asked.unwrap_or_default()));
     }
     let mut tallies: Vec<Tally> = methods.iter().map(|_| Tally::default()).collect();
+    let mut wrong = 0;
     let mut tell = |number: u64, (family, verdicts): Checked| {
         for ((method, verdict), tally) in methods.iter().zip(&verdicts).zip(&mut tallies) {
             tally.add(family, verdict);
@@ -35,6 +36,7 @@ pub fn compare(sprag: &Path, count: u64, seed: u64, keep: &Path) -> Result<(), S
                 Err(error) => error.lines().next().unwrap_or_default().chars().take(260).collect(),
                 Ok(_) => continue,
             };
+            wrong += 1;
             println!("{seed}-{number} {family:12} {:14} {told}", method.name());
         }
     };
@@ -67,7 +69,7 @@ pub fn compare(sprag: &Path, count: u64, seed: u64, keep: &Path) -> Result<(), S
     for (method, tally) in methods.iter().zip(&tallies) {
         println!("\n{}:\n{tally}", method.name());
     }
-    Ok(())
+    if wrong == 0 { Ok(()) } else { Err(format!("{wrong} comparisons differ or could not be made")) }
 }
 
 /// Runs one scene by both programs in a folder of its own, which stays if they differ.
