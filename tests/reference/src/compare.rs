@@ -3,8 +3,9 @@
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
+use crate::effort::Effort;
 use crate::scene::Scene;
-use crate::simulate::{Effort, Run, run_with};
+use crate::simulate::{Run, run_with};
 
 /// What another program says of a scene's only device.
 #[derive(Clone, Debug, Default)]

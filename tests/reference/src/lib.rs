@@ -13,6 +13,7 @@ pub mod chain;
 pub mod compare;
 pub mod consistent;
 pub mod device;
+pub mod effort;
 pub mod equation;
 pub mod event;
 pub mod generate;

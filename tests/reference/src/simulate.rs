@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::actuation::Command;
 use crate::block::{Block, GRAVITY, Geometry};
 use crate::device::{Coupling, Device};
+use crate::effort::Effort;
 use crate::equation::{Model, Shaking};
 use crate::ground::Ground;
 use crate::guard::{Guard, guards};
@@ -13,10 +14,6 @@ use crate::mode::{BlockMode, Link, State, Wheel};
 use crate::scene::Scene;
 use crate::step::{ROTATION, SIZE, VELOCITY, step};
 
-/// Fastest rate times step, where nothing else is asked for.
-const RESOLUTION: f64 = 0.01;
-/// Longest step at that resolution, s.
-const LONGEST: f64 = 5e-4;
 /// Events within this time (s) of one another count as one instant …
 const INSTANT: f64 = 1e-10;
 /// … of which so many at standstill are rounding that decides between what holds and what pushes: both are as good as equal.
@@ -25,29 +22,6 @@ const GRAZE: usize = 20;
 const PAUSE: f64 = 1e-9;
 /// So many events in one instant are a mode that contradicts itself.
 const MOST_AT_ONCE: usize = 100;
-
-/// What a run may cost.
-#[derive(Clone, Copy, Debug)]
-pub struct Effort {
-    /// Fastest rate times step: what changes with it is the error of the steps.
-    pub resolution: f64,
-    /// Events. A motion without an end has more than this, and so has one whose modes do not get on.
-    pub events: usize,
-}
-
-impl Default for Effort {
-    /// Events for ten times those of the busiest of ten thousand random scenes.
-    fn default() -> Effort {
-        Effort { resolution: RESOLUTION, events: 20_000 }
-    }
-}
-
-impl Effort {
-    /// With half the step.
-    pub fn finer(self) -> Effort {
-        Effort { resolution: self.resolution / 2.0, ..self }
-    }
-}
 
 /// How a run ended, in Sprag's words.
 pub type Outcome = &'static str;
@@ -164,15 +138,8 @@ impl<'a> Runner<'a> {
         let mut kinks = [model.horizontal.kinks(), model.vertical.kinks()].concat();
         kinks.sort_by(f64::total_cmp);
         kinks.dedup_by(|later, sooner| *later - *sooner < 1e-12);
-        let mut runner = Runner {
-            model,
-            state,
-            largest: largest_step(model, effort.resolution),
-            events: effort.events,
-            kinks,
-            next_kink: 0,
-            within: 0.0,
-        };
+        let mut runner =
+            Runner { model, state, largest: effort.largest_step(model), events: effort.events, kinks, next_kink: 0, within: 0.0 };
         runner.enter_piece();
         runner
     }
@@ -357,21 +324,4 @@ impl<'a> Runner<'a> {
         let guard = self.fired(&state).unwrap_or(Guard::Turn);
         (guard, state)
     }
-}
-
-/// Step that resolves the fastest rate of block, ground and device.
-fn largest_step(model: &Model, resolution: f64) -> f64 {
-    let (block, device) = (&model.block, &model.device);
-    let mut rate = 5.0 * block.frequency_parameter();
-    rate = rate.max(3.0 * model.horizontal.rate().max(model.vertical.rate()));
-    rate = rate.max(device.rack_viscous).max(2.0 * device.bearing_viscous);
-    if let Coupling::Elastic { stiffness, damping, .. } = device.coupling {
-        let (lever, _) = device.lever.at(1.0, 0.0);
-        let inverse_mass = 1.0 / device.inertance + lever * lever / block.inertia;
-        rate = rate.max(1.2 * (2.0 * stiffness * inverse_mass).sqrt()).max(damping * inverse_mass);
-        if damping > 0.0 && device.capacity.is_finite() {
-            rate = rate.max(0.5 * stiffness / damping);
-        }
-    }
-    (resolution / rate).min(LONGEST * resolution / RESOLUTION)
 }

@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use sprag_reference::effort::Effort;
 use sprag_reference::generate::scene;
 use sprag_reference::scene::Scene;
-use sprag_reference::simulate::{Effort, run, run_with};
+use sprag_reference::simulate::{run, run_with};
 
 #[test]
 fn a_seed_and_a_number_decide_a_scene() {

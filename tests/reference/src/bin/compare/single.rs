@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use sprag_reference::compare::{Other, compare as difference};
+use sprag_reference::effort::Effort;
 use sprag_reference::method::Method;
 use sprag_reference::scene::Scene;
-use sprag_reference::simulate::{Effort, run_with};
+use sprag_reference::simulate::run_with;
 
 use crate::sprag::simulate;
 
