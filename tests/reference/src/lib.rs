@@ -25,6 +25,7 @@ pub mod mode;
 pub mod pulse;
 pub mod random;
 pub mod record;
+mod runner;
 pub mod scene;
 pub mod simulate;
 pub mod step;
