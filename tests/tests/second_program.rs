@@ -27,6 +27,7 @@ const PARTING: &str = "a parting of the teeth is passed over";
 const MISSED: &str = "an uplift that ends at once and comes again draws anew whether an engagement is missed";
 const ROUNDING: &str = "rounding of the acceleration at the uplift makes an impact";
 const FROZEN: &str = "springs are frozen while friction or a spring holds the block, and so are their flywheels";
+const PRODUCT: &str = "parting and capacity are one guard, a product, whose two zeros within a step cancel";
 const ILL_CONDITIONED: &str = "no damper: every error of a located parting grows";
 
 /// Random scenes on which Sprag's methods differ from the second program, and why.
@@ -53,6 +54,7 @@ const SCENES: [&[(&str, &str)]; 2] = [
         ("jolt_at_a_zero_of_the_command", JOLT),
         ("spring_holds_the_block_down", FROZEN),
         ("spring_of_a_held_block", FROZEN),
+        ("two_guards_in_a_step", PRODUCT),
         ("undamped_spring_rising_plates", UNDAMPED),
         ("uplift_without_impact", ROUNDING),
     ],
