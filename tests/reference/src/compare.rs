@@ -1,10 +1,11 @@
 //! Comparing a run of this program with one of another.
 
-use std::path::Path;
+use std::cell::OnceCell;
+use std::path::{Path, PathBuf};
 
-use crate::generate::Generated;
+use crate::effort::Effort;
 use crate::scene::Scene;
-use crate::simulate::{RESOLUTION, Run, run_at};
+use crate::simulate::{Run, run_with};
 
 /// What another program says of a scene's only device.
 #[derive(Clone, Debug, Default)]
@@ -13,6 +14,8 @@ pub struct Other {
     pub outcome: String,
     /// Times (s) and rotations (rad); of two rows at one time either will do.
     pub history: Vec<[f64; 2]>,
+    /// Residual of its ledger over what came in, if it keeps one.
+    pub residual: Option<f64>,
 }
 
 /// How far two runs are apart.
@@ -24,8 +27,8 @@ pub struct Difference {
     pub history: f64,
     /// When it was first beyond a thousandth of that, s.
     pub since: f64,
-    /// Residual of this program's ledger over what came in.
-    pub residual: f64,
+    /// Residuals of both ledgers over what came in, this program's first.
+    pub residuals: [f64; 2],
 }
 
 /// Rotations (over α) beyond which a fall is not compared: nothing comes back from there, and differences grow without bound.
@@ -49,15 +52,14 @@ pub fn compare(ours: &Run, theirs: &Other, slenderness: f64) -> Difference {
     }
     let history = pairs.iter().fold(0.0_f64, |most, (_, apart)| most.max(*apart));
     let since = pairs.iter().find(|(_, apart)| *apart > 1e-3 * history).map_or(0.0, |(time, _)| *time);
-    let income = ours.ledger.income().max(f64::MIN_POSITIVE);
-    let residual = ours.ledger.residual().abs() / income;
-    Difference { same_outcome: ours.outcome == theirs.outcome, history, since, residual }
+    let residuals = [ours.ledger.relative_residual(), theirs.residual.unwrap_or(0.0)];
+    Difference { same_outcome: ours.outcome == theirs.outcome, history, since, residuals }
 }
 
 /// What a comparison comes to.
 #[derive(Clone, Copy, Debug)]
 pub enum Verdict {
-    /// Outcome and history agree.
+    /// Outcome, history and ledgers agree.
     Agree(Difference),
     /// They do not, and neither does this program with itself at half the step: rounding decides this motion.
     Chaotic(Difference),
@@ -70,49 +72,65 @@ pub enum Verdict {
 pub struct Tolerance {
     /// |Δθ|/α.
     pub history: f64,
-    /// Residual of the ledger over what came in.
-    pub residual: f64,
+    /// Residuals of ledgers over what came in: this program's, and the other's.
+    pub residuals: [f64; 2],
 }
 
-/// Writes a scene and its records into `folder`, lets `other` run it there, and compares. `other` gets the scene's path.
-///
-/// # Errors
-/// What either program says when it cannot run the scene.
-pub fn check(
-    scene: &Generated,
-    folder: &Path,
-    tolerance: Tolerance,
-    other: impl FnOnce(&Path) -> Result<Other, String>,
-) -> Result<Verdict, String> {
-    let path = folder.join("scene.toml");
-    let write = |path: &Path, text: &str| std::fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()));
-    write(&path, &scene.text)?;
-    for (name, text) in &scene.files {
-        write(&folder.join(name), text)?;
+impl Tolerance {
+    fn ledgers_close(self, difference: &Difference) -> bool {
+        self.residuals.iter().zip(difference.residuals).all(|(most, residual)| residual <= *most)
     }
-    let parsed = Scene::parse(&scene.text)?;
-    let theirs = other(&path).map_err(|error| format!("theirs: {error}"))?;
-    let at = |resolution: f64| run_at(&parsed, 0, folder, resolution).map_err(|error| format!("ours: {error}"));
-    let slenderness = parsed.block.slenderness_deg.to_radians();
-    let ours = at(RESOLUTION)?;
-    let difference = compare(&ours, &theirs, slenderness);
-    if difference.same_outcome && difference.history <= tolerance.history && difference.residual <= tolerance.residual {
-        return Ok(Verdict::Agree(difference));
+}
+
+/// A scene and what this program makes of it.
+#[derive(Debug)]
+pub struct Subject {
+    scene: Scene,
+    folder: PathBuf,
+    ours: Run,
+    finer: OnceCell<Result<Run, String>>,
+}
+
+impl Subject {
+    /// Runs the scene in `text`, whose records lie in `folder`.
+    ///
+    /// # Errors
+    /// What this program says when it cannot run the scene.
+    pub fn of(text: &str, folder: &Path) -> Result<Subject, String> {
+        let scene = Scene::parse(text)?;
+        let ours = run_with(&scene, 0, folder, Effort::default()).map_err(|error| format!("ours: {error}"))?;
+        Ok(Subject { scene, folder: folder.to_owned(), ours, finer: OnceCell::new() })
     }
-    let finer = at(RESOLUTION / 2.0)?;
-    let own = compare(&ours, &Other::from(&finer), slenderness);
-    // What one program loses to rounding, the other loses elsewhere: a tenth of the difference is enough to tell.
-    let own_noise = own.history > 0.1 * difference.history || own.history > tolerance.history || !own.same_outcome;
-    Ok(if own_noise && difference.residual <= tolerance.residual {
-        Verdict::Chaotic(difference)
-    } else {
-        Verdict::Differ(difference)
-    })
+
+    /// The step of this program (s), which resolves the fastest rate.
+    pub fn step(&self) -> f64 {
+        self.ours.step
+    }
+
+    /// Compares with the run of another program.
+    ///
+    /// # Errors
+    /// What this program says when it cannot run the scene with half the step.
+    pub fn against(&self, theirs: &Other, tolerance: Tolerance) -> Result<Verdict, String> {
+        let slenderness = self.scene.block.slenderness_deg.to_radians();
+        let difference = compare(&self.ours, theirs, slenderness);
+        let closes = tolerance.ledgers_close(&difference);
+        if difference.same_outcome && difference.history <= tolerance.history && closes {
+            return Ok(Verdict::Agree(difference));
+        }
+        let finer = || run_with(&self.scene, 0, &self.folder, Effort::default().finer());
+        let finer = self.finer.get_or_init(finer).as_ref().map_err(|error| format!("ours: {error}"))?;
+        let own = compare(&self.ours, &Other::from(finer), slenderness);
+        // What one program loses to rounding, the other loses elsewhere: a tenth of the difference is enough to tell.
+        let telling = if difference.history > tolerance.history { 0.1 * difference.history } else { tolerance.history };
+        let own_noise = own.history > telling || own.history > tolerance.history || !own.same_outcome;
+        Ok(if own_noise && closes { Verdict::Chaotic(difference) } else { Verdict::Differ(difference) })
+    }
 }
 
 impl From<&Run> for Other {
     fn from(run: &Run) -> Other {
         let history = run.samples.iter().map(|[time, rotation, _]| [*time, *rotation]);
-        Other { outcome: run.outcome.to_owned(), history: history.collect() }
+        Other { outcome: run.outcome.to_owned(), history: history.collect(), residual: Some(run.ledger.relative_residual()) }
     }
 }

@@ -28,7 +28,12 @@ pub fn way_of(wheel: usize) -> f64 {
 fn options(model: &Model, state: &State, i: usize, rack: f64, direction: f64) -> Vec<Link> {
     let link = state.wheels[i].link;
     let one_speed = link == Link::Locked || state.spin(i) == rack;
+    // A rack that is about to move cannot fall behind a flywheel that stands.
+    let stand = state.velocity() == 0.0 && state.spin(i) == 0.0;
     match (model.device.coupling, link) {
+        (Coupling::Plates, Link::Locked | Link::Slipping(_)) if stand && state.slipped != Some(i) => {
+            vec![Link::Locked, Link::Slipping(direction)]
+        }
         (Coupling::Plates, Link::Locked | Link::Slipping(_)) if one_speed && state.slipped == Some(i) => {
             vec![Link::Slipping(1.0), Link::Slipping(-1.0)]
         }

@@ -95,7 +95,8 @@ impl Model {
             if state.block == BlockMode::Overturned {
                 return;
             }
-            if let BlockMode::Held { .. } = state.block {
+            // Commands need a direction of motion; those that were given before have their clocks.
+            if state.direction().is_none() {
                 self.carry_out(state);
             }
             self.settle_springs(state);

@@ -48,4 +48,9 @@ impl Ledger {
         let went = values[RACK] + values[BEARING] + values[BRAKE] + values[CLUTCH] + values[IMPACT];
         came - went - self.present
     }
+
+    /// [`Ledger::residual`] over what came in.
+    pub fn relative_residual(&self) -> f64 {
+        self.residual().abs() / self.income().max(f64::MIN_POSITIVE)
+    }
 }

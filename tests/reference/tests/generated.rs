@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use sprag_reference::effort::Effort;
 use sprag_reference::generate::scene;
 use sprag_reference::scene::Scene;
-use sprag_reference::simulate::run;
+use sprag_reference::simulate::{run, run_with};
 
 #[test]
 fn a_seed_and_a_number_decide_a_scene() {
@@ -51,4 +52,15 @@ fn scenes_that_told_programs_apart_run() {
         count += 1;
     }
     assert!(count >= 10);
+}
+
+/// Every event of this free rocking is known: the run stops at the one too many, and says which and when.
+#[test]
+fn a_run_with_more_events_than_it_may_have_names_the_instant_and_the_mode() {
+    let text = "[block]\nsize_m = 2\nslenderness_deg = 10\ninitial_rotation_ratio = 0.3\n[[device]]\nkind = \"none\"\n";
+    let scene = Scene::parse(text).expect("a scene");
+    let (time, _) = run(&scene, 0, Path::new(".")).expect("a run").events[4];
+    let few = Effort { events: 4, ..Effort::default() };
+    let Err(error) = run_with(&scene, 0, Path::new("."), few) else { panic!("a run of more than 4 events") };
+    assert!(error.starts_with(&format!("more than 4 events by {time} s: Impact")) && error.contains("Rocking"), "{error}");
 }

@@ -6,6 +6,7 @@ mod device;
 mod motion;
 
 use std::fmt::Write;
+use std::path::Path;
 
 use crate::random::Random;
 
@@ -18,6 +19,19 @@ pub struct Generated {
     pub files: Vec<(String, String)>,
     /// How its flywheels are coupled, for tables.
     pub family: &'static str,
+}
+
+impl Generated {
+    /// Writes its records into `folder`.
+    ///
+    /// # Errors
+    /// In words.
+    pub fn write_records(&self, folder: &Path) -> Result<(), String> {
+        self.files.iter().try_for_each(|(name, text)| {
+            let path = folder.join(name);
+            std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
+        })
+    }
 }
 
 /// Seconds between samples of the history.

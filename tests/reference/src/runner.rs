@@ -1,0 +1,256 @@
+//! From stop to stop: steps, guards after each, bisection by stepping anew.
+
+use crate::actuation::Command;
+use crate::device::Coupling;
+use crate::effort::Effort;
+use crate::equation::{Model, Shaking};
+use crate::guard::{Guard, guards};
+use crate::ledger::{Ledger, energy};
+use crate::mode::{BlockMode, Link, State, Wheel};
+use crate::simulate::{Run, overturned_after};
+use crate::step::{ROTATION, SIZE, VELOCITY, step};
+
+/// Events within this time (s) of one another count as one instant …
+const INSTANT: f64 = 1e-10;
+/// … of which so many at standstill are rounding that decides between what holds and what pushes: both are as good as equal.
+const GRAZE: usize = 20;
+/// A block that grazes stands still for this long (s); then the faster of both has won.
+const PAUSE: f64 = 1e-9;
+/// So many events in one instant are a mode that contradicts itself.
+const MOST_AT_ONCE: usize = 100;
+
+/// A model on its way.
+#[derive(Debug)]
+pub(crate) struct Runner<'a> {
+    model: &'a Model,
+    state: State,
+    largest: f64,
+    events: usize,
+    kinks: Vec<f64>,
+    next_kink: usize,
+    /// An instant inside the present piece of ground motion.
+    within: f64,
+}
+
+impl<'a> Runner<'a> {
+    /// At the start, with θ and θ̇.
+    pub fn new(model: &'a Model, rotation: f64, velocity: f64, effort: Effort) -> Runner<'a> {
+        let link = if model.device.coupling == Coupling::Inerter { Link::Locked } else { Link::Open };
+        let wheel = Wheel { link, turning: None, command: Command::default() };
+        let mut other = wheel;
+        other.link = Link::Open;
+        let mut values = [0.0; SIZE];
+        (values[ROTATION], values[VELOCITY]) = (rotation, velocity);
+        let sign = |value: f64| if value < 0.0 { -1.0 } else { 1.0 };
+        let direction = if velocity != 0.0 { sign(velocity) } else { -sign(rotation) };
+        let block = match (rotation == 0.0, velocity == 0.0) {
+            (true, true) => BlockMode::Standing,
+            (true, false) => BlockMode::Rocking { side: direction, direction },
+            (false, _) => BlockMode::Rocking { side: sign(rotation), direction },
+        };
+        let state = State {
+            time: 0.0,
+            values,
+            block,
+            wheels: [wheel, other],
+            drive: direction,
+            armed: true,
+            engagements: 0,
+            slipped: None,
+        };
+        let mut kinks = [model.horizontal.kinks(), model.vertical.kinks()].concat();
+        kinks.sort_by(f64::total_cmp);
+        kinks.dedup_by(|later, sooner| *later - *sooner < 1e-12);
+        let mut runner =
+            Runner { model, state, largest: effort.largest_step(model), events: effort.events, kinks, next_kink: 0, within: 0.0 };
+        runner.enter_piece();
+        runner
+    }
+
+    /// The piece of ground motion that begins now.
+    fn enter_piece(&mut self) {
+        let time = self.state.time;
+        while self.next_kink < self.kinks.len() && self.kinks[self.next_kink] <= time {
+            self.next_kink += 1;
+        }
+        let end = self.kinks.get(self.next_kink).copied().unwrap_or(time + 1.0);
+        self.within = time + (end - time) / 2.0;
+    }
+
+    fn shaking(&self, time: f64) -> Shaking {
+        self.model.shaking(time, self.within)
+    }
+
+    /// The state a time `h` later, in the present modes.
+    fn ahead(&self, h: f64) -> State {
+        let start = self.state.time;
+        let mut state = self.state.clone();
+        state.values =
+            step(&self.state.values, h, |t, values| self.model.rates(&self.state, start + t, values, self.shaking(start + t)));
+        state.time = start + h;
+        self.model.follow_rack(&mut state);
+        state
+    }
+
+    fn fired(&self, state: &State) -> Option<Guard> {
+        let all = guards(self.model, state, self.shaking(state.time));
+        all.into_iter().find(|(_, value)| *value < 0.0).map(|(guard, _)| guard)
+    }
+
+    /// The next instant at which a clock runs out.
+    fn next_clock(&self) -> f64 {
+        let mut next = f64::INFINITY;
+        for wheel in &self.state.wheels {
+            if let Some(due) = wheel.command.due {
+                next = next.min(due);
+            }
+            let full = wheel.command.full_at(&self.model.device);
+            if self.model.device.rise > 0.0 && wheel.link != Link::Open && full > self.state.time {
+                next = next.min(full);
+            }
+        }
+        next
+    }
+
+    /// Where it is.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Runs to `end`, with samples at multiples of `interval`; impacts from the speed `counted` (rad/s) on count.
+    pub fn follow(&mut self, end: f64, interval: f64, counted: f64) -> Result<Run, String> {
+        let model = self.model;
+        // What is always locked moves with the block from the start.
+        model.follow_rack(&mut self.state);
+        let initial = energy(model, &self.state);
+        let (mut impacts, mut peak, mut moved) = (0, self.state.rotation().abs(), false);
+        let (mut samples, mut events) = (Vec::new(), Vec::new());
+        let mut at_once = 0;
+        if self.state.block != BlockMode::Standing {
+            let shaking = self.shaking(0.0);
+            model.look_at_drive(&mut self.state, shaking);
+        }
+        let shaking = self.shaking(0.0);
+        model.settle(&mut self.state, shaking);
+        samples.push([0.0, self.state.rotation(), self.state.velocity()]);
+        // Steps, with one more for whatever may cut one in two.
+        let mut left = end / self.largest + end / interval + self.kinks.len() as f64 + self.events as f64;
+        while self.state.time < end && self.state.block != BlockMode::Overturned {
+            moved |= self.state.block != BlockMode::Standing;
+            let time = self.state.time;
+            left -= 1.0;
+            if left < 0.0 {
+                return Err(format!("no end by {time} s: {:?}, {:?}", events.last(), self.state));
+            }
+            let sample = samples.len() as f64 * interval;
+            let kink = self.kinks.get(self.next_kink).copied().unwrap_or(f64::INFINITY);
+            let clock = self.next_clock();
+            let stop = end.min(sample).min(kink).min(clock).max(time);
+            let h = self.largest.min(stop - time);
+            let mut next = self.ahead(h);
+            let whole = h == stop - time;
+            if whole {
+                next.time = stop;
+            }
+            if h > 0.0 && self.fired(&next).is_some() {
+                let (guard, at) = self.locate(h);
+                if let (Guard::Impact, true) = (guard, at.velocity().abs() >= counted) {
+                    impacts += 1;
+                }
+                at_once = if at.time - time > INSTANT { 0 } else { at_once + 1 };
+                self.state = at;
+                peak = peak.max(self.state.rotation().abs());
+                events.push((self.state.time, guard));
+                if events.len() > self.events {
+                    let most = self.events;
+                    return Err(format!("more than {most} events by {} s: {guard:?}, {:?}", self.state.time, self.state));
+                }
+                if at_once > MOST_AT_ONCE {
+                    return Err(format!("the modes contradict themselves at {} s: {guard:?}, {:?}", self.state.time, self.state));
+                }
+                let shaking = self.shaking(self.state.time);
+                model.answer(&mut self.state, guard, shaking);
+                if at_once > GRAZE && self.state.velocity().abs() < 1e-6 * counted {
+                    self.pause();
+                }
+                continue;
+            }
+            self.state = next;
+            peak = peak.max(self.state.rotation().abs());
+            let shaking = self.shaking(self.state.time);
+            if !self.state.armed && self.state.drive * model.drive(&self.state, shaking) > 0.0 {
+                self.state.armed = true;
+            }
+            if !self.state.values.iter().all(|value| value.is_finite()) {
+                return Err(format!("not finite at {} s", self.state.time));
+            }
+            if whole {
+                if stop >= sample {
+                    samples.push([stop, self.state.rotation(), self.state.velocity()]);
+                }
+                self.pass(stop, kink, clock);
+            }
+        }
+        moved |= self.state.block != BlockMode::Standing;
+        let outcome = match (self.state.block, moved) {
+            (BlockMode::Overturned, _) => overturned_after(impacts),
+            (_, false) => "no-rocking",
+            _ => "safe",
+        };
+        let ledger = Ledger { initial, present: energy(model, &self.state), values: self.state.values };
+        Ok(Run { outcome, step: self.largest, peak, impacts, samples, ledger, events })
+    }
+
+    /// A block on the verge of moving stands for a moment, with its clutches as they are.
+    fn pause(&mut self) {
+        self.state.values[VELOCITY] = 0.0;
+        self.model.follow_rack(&mut self.state);
+        self.state.block = match self.state.rotation() == 0.0 {
+            true => BlockMode::Standing,
+            false => BlockMode::Held { side: self.state.rotation().signum() },
+        };
+        self.state = self.ahead(PAUSE);
+        let shaking = self.shaking(self.state.time);
+        self.model.settle(&mut self.state, shaking);
+    }
+
+    /// Kinks of the ground and clocks at a stop.
+    fn pass(&mut self, stop: f64, kink: f64, clock: f64) {
+        let model = self.model;
+        if stop >= kink {
+            let before = self.shaking(stop);
+            self.enter_piece();
+            let after = self.shaking(stop);
+            let jump = (after.horizontal - before.horizontal).abs() + (after.vertical - before.vertical).abs();
+            if jump > 1e-9 {
+                if self.state.velocity() != 0.0 {
+                    model.look_at_drive(&mut self.state, after);
+                }
+                model.settle(&mut self.state, after);
+            }
+        }
+        if stop >= clock {
+            let shaking = self.shaking(stop);
+            model.settle(&mut self.state, shaking);
+        }
+    }
+
+    /// The first guard that fires within `h`, and the state just after.
+    fn locate(&self, h: f64) -> (Guard, State) {
+        let (mut before, mut after) = (0.0, h);
+        for _ in 0..100 {
+            let middle = 0.5 * (before + after);
+            if middle <= before || middle >= after || after - before < 1e-17 {
+                break;
+            }
+            if self.fired(&self.ahead(middle)).is_some() {
+                after = middle;
+            } else {
+                before = middle;
+            }
+        }
+        let state = self.ahead(after);
+        let guard = self.fired(&state).unwrap_or(Guard::Turn);
+        (guard, state)
+    }
+}
