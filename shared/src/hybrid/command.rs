@@ -105,13 +105,21 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 if holds && D::HOLDS && velocity == S::ZERO {
                     // The bearings of a wheel that has just been engaged may hold the block, those of a released one let it go.
                     state.free = false;
+                    let was_held = state.held;
                     self.turned(state);
+                    if was_held && !state.held {
+                        // It has a motion again, which Eq. 10 looks at.
+                        self.look_at_drive(state);
+                        continue;
+                    }
                 }
                 return;
             }
-            // A jolt that only slows the block down leaves the sign that asked for it, or a clutch would chatter at its zero.
             if state.motion.direction != direction {
-                state.motion.drive = self.drive_sign(state);
+                self.look_at_drive(state);
+            } else {
+                // A jolt that only slows the block down leaves the sign that asked for it, or a clutch would chatter at its zero.
+                state.jolted = self.drive_sign(state) != state.motion.drive;
             }
             self.settle(state, time, observer);
         }
@@ -252,8 +260,15 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         }
     }
 
+    /// Takes the sign of the terminals' acceleration as it is now.
+    pub(super) fn look_at_drive(&self, state: &mut MachineState<S>) {
+        if D::COMMANDED {
+            (state.motion.drive, state.jolted) = (self.drive_sign(state), false);
+        }
+    }
+
     /// Sign of the terminals' acceleration under weight and ground in the present state; where it is zero, as it was.
-    pub(super) fn drive_sign(&self, state: &MachineState<S>) -> Sign {
+    fn drive_sign(&self, state: &MachineState<S>) -> Sign {
         let motion = &state.motion;
         let law = self.drive.law(motion.direction, Sign::Positive, &state.device);
         let now = crate::arc::Motion { rotation: motion.rotation, velocity: motion.velocity, acceleration: S::ZERO };

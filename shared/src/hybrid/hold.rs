@@ -77,7 +77,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                     observer.device_event(Event::Uplift, until, &state.motion);
                     observer.device_event(Event::Switch, until, &state.motion);
                 }
-                state.motion.drive = if D::COMMANDED { self.drive_sign(state) } else { state.motion.drive };
+                self.look_at_drive(state);
                 self.settle(state, until, observer);
             }
             Some((_, LetGo::Rests)) => *state = self.standing(state),

@@ -39,7 +39,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let engaged = self.drive.engaged_at_impact(&state.device);
         motion.velocity = self.restitution[engaged.min(2)] * incoming;
         motion.side = motion.direction;
-        state.motion.drive = self.drive_sign_after_jump(state);
+        self.look_at_drive(state);
         let velocity = state.motion.velocity;
         observer.device_event(Event::Impact, time, &state.motion);
         self.with_instant(state, time, observer, |drive, at| {
@@ -70,10 +70,6 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         ends
     }
 
-    fn drive_sign_after_jump(&self, state: &MachineState<S>) -> Sign {
-        if D::COMMANDED { self.drive_sign(state) } else { state.motion.drive }
-    }
-
     /// The infinitely many impacts that follow a weak one ([`crate::accumulation`]).
     fn accumulation(&self, standing: &MachineState<S>, speed: S) -> Accumulation<S> {
         let side = standing.motion.side;
@@ -94,7 +90,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     pub(super) fn start(&self, state: &mut MachineState<S>) {
         let inward = state.motion.side.opposite();
         state.motion.drive = inward;
-        state.motion.drive = self.drive_sign_after_jump(state);
+        self.look_at_drive(state);
         if state.motion.velocity == S::ZERO {
             self.turned(state);
         }
@@ -111,7 +107,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         state.ground = ground;
         let size = ground[0].abs().larger(ground[1].abs()).larger(S::EPSILON);
         if state.motion.phase == Phase::Rocking && jump > size * S::EPSILON * S::of(4096.0) {
-            state.motion.drive = self.drive_sign_after_jump(state);
+            self.look_at_drive(state);
             if state.motion.velocity == S::ZERO {
                 state.held = false;
                 self.turned(state);

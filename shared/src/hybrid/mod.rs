@@ -73,6 +73,8 @@ pub struct MachineState<S> {
     fresh: [bool; WATCHES],
     /// What moves a block that stood has just passed what held it.
     free: bool,
+    /// The sign of Eq. 10 is one that a jolt left; the acceleration does not agree with it yet.
+    jolted: bool,
 }
 
 /// What ended a step.
@@ -91,8 +93,15 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     pub fn at_rest(&self) -> MachineState<S> {
         let motion = State::default();
         let ground = [S::ZERO; 2];
-        let mut state =
-            MachineState { motion, device: Device::at_rest(), held: false, ground, fresh: [false; WATCHES], free: false };
+        let mut state = MachineState {
+            motion,
+            device: Device::at_rest(),
+            held: false,
+            ground,
+            fresh: [false; WATCHES],
+            free: false,
+            jolted: false,
+        };
         self.part_at_rest(&mut state);
         state
     }
@@ -192,7 +201,8 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         observer: &mut dyn DeviceObserver<S>,
     ) {
         let motion = &state.motion;
-        let law = self.drive.law(motion.direction, motion.drive, &state.device);
+        let watched = if state.jolted { motion.drive.opposite() } else { motion.drive };
+        let law = self.drive.law(motion.direction, watched, &state.device);
         let start = PathStart {
             body: &self.body,
             drive: &self.drive,
@@ -277,6 +287,9 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 motion.velocity = S::ZERO;
                 observer.device_event(Event::Turn, *time, &state.motion);
                 state.motion.direction = state.motion.direction.opposite();
+                if state.jolted {
+                    self.look_at_drive(state);
+                }
                 self.settle(state, *time, observer);
                 // What the clutches of one way let go may move the block the other way, whose clutches then hold it.
                 for _ in 0..2 {
@@ -301,6 +314,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             }
             End::Guard(index) => {
                 match law.watch[index] {
+                    Watch::Command(_) if state.jolted => state.jolted = false,
                     Watch::Command(_) => motion.drive = motion.drive.opposite(),
                     watch => self.with_instant(state, *time, observer, |drive, at| drive.reached(at, watch)),
                 }

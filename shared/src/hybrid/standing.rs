@@ -103,7 +103,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         state.motion =
             State { phase: Phase::Rocking, side, direction: side, drive: side, push: side, impacts, ..State::default() };
         state.ground = ground;
-        (state.fresh, state.free) = ([false; WATCHES], crossing);
+        (state.fresh, state.free, state.jolted) = ([false; WATCHES], crossing, false);
         state.fresh[0] = D::COMMANDED;
         let mut started = *state;
         self.start_clutches(&mut started, time, &mut ());
