@@ -176,7 +176,7 @@ impl Disturbance for Injected {
 struct Seen {
     from: f64,
     detected: Option<(f64, String)>,
-    /// Both clutches were commanded at once.
+    /// Both clutches were commanded at once while the block moved.
     both: bool,
     /// An estimate or its push was not a number while the controller decided.
     not_a_number: bool,
@@ -190,7 +190,7 @@ impl TickObserver for Seen {
         if tick.plant.time >= self.from && self.detected.is_none() {
             self.detected = decision.fault.map(|fault| (tick.plant.time - self.from, fault.to_string()));
         }
-        self.both |= decision.command == [true; 2];
+        self.both |= decision.command == [true; 2] && !decision.estimate.standing;
         let finite = decision.estimate.rotation.is_finite() && decision.estimate.velocity.is_finite();
         self.not_a_number |= !finite && decision.fault.is_none();
         self.unsafe_after |= decision.fault.is_some() && decision.command != [false; 2];
@@ -202,7 +202,7 @@ impl TickObserver for Seen {
 pub struct FaultResult {
     /// s after its beginning, and its name.
     pub detected: Option<(f64, String)>,
-    /// Both clutches at once, a number that is none, or a clutch engaged after the detection.
+    /// Both clutches at once in motion, a number that is none, or a clutch engaged after the detection.
     pub harm: [bool; 3],
     /// Outcome.
     pub outcome: Outcome,
@@ -281,7 +281,7 @@ pub fn faults(progress: &Progress, conditions: &Conditions<'_>) -> Result<Report
         "mid-swing",
         "at impact",
         "in words",
-        "both engaged",
+        "both engaged in motion",
         "not a number",
         "engaged after",
     ]);
