@@ -4,9 +4,10 @@ use sprag_shared::drivetrain::overrunning::wheel_for;
 use sprag_sim_host::closed_loop::plant::Extremes;
 use sprag_sim_host::closed_loop::run::Tick;
 use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::loop_study::bench::{Conditions, Motion, Variant, each, run_ideal, run_loop, with_loop};
+use sprag_sim_host::loop_study::bench::{Conditions, Variant, each, run_ideal, run_loop, with_loop};
 use sprag_sim_host::loop_study::faults::{self, Failing, INSTANTS, Instant, Part};
 use sprag_sim_host::loop_study::ideal_limit;
+use sprag_sim_host::loop_study::motion::{Motion, grid};
 use sprag_sim_host::loop_study::practice::Comparison;
 use sprag_sim_host::progress::Progress;
 use sprag_sim_host::scene::controller::{EstimatorName, LawName};
@@ -146,8 +147,7 @@ fn the_first_motion_decides_which_flywheel_resists() {
 fn a_mirrored_motion_has_a_mirrored_run() {
     for shape in ["sine", "cosine"] {
         let variant = Variant::new("mirrored", &BRAKED);
-        let [one, other] =
-            [3.0, -3.0].map(|amplitude| watched(&Motion::Pulse { shape, frequency: 4.0, amplitude }, &variant).0);
+        let [one, other] = [3.0, -3.0].map(|amplitude| watched(&Motion::Pulse { shape, frequency: 4.0, amplitude }, &variant).0);
         assert_eq!(one.len(), other.len());
         for (one, other) in one.iter().zip(&other) {
             let ([first, second], motion) = (one.decision.command, other.plant.motion);
@@ -194,7 +194,7 @@ fn faults_are_detected_and_do_no_harm() {
 fn there_are_better_laws_than_eq_10_under_sine_pulses() {
     let (progress, interrupt) = quiet();
     let conditions = Conditions::new(None, &interrupt);
-    let motions = sprag_sim_host::loop_study::bench::grid("sine", 10, (0.5, 7.5), (1.5, 9.5));
+    let motions = grid("sine", 10, (0.5, 7.5), (1.5, 9.5));
     let variants = [LawName::Resisting, LawName::AlwaysEngaged, LawName::GatedTable, LawName::LookAhead].map(|law| {
         Variant::new(
             law.name(),

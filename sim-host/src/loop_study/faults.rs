@@ -5,7 +5,8 @@ use std::fmt;
 use sprag_shared::control::controller::Circumstances;
 use sprag_shared::control::sample::Sample;
 
-use super::bench::{Conditions, Motion, StudyError, Variant, each, with_loop};
+use super::bench::{Conditions, StudyError, Variant, each, with_loop};
+use super::motion::Motion;
 use super::report::{Report, Table};
 use super::statistics::cell;
 use crate::closed_loop::disturbance::Disturbance;
@@ -271,7 +272,7 @@ pub fn faults(progress: &Progress, conditions: &Conditions<'_>) -> Result<Report
     let results = results(progress, conditions)?;
     let mut report = Report::new("faults", "Faults in the closed loop");
     report.paragraph(
-        "A sine pulse (ω/p = 4, 3 thresholds), ICM-42688-P, 2 kHz, model-aided, safe state: released. Time from the beginning of the fault \
+        "Motion: one one-cycle sine pulse (ω/p 4, a peak of 3 uplift thresholds).\n\nR = 2 m, α = 10°, σ = 0.5, ICM-42688-P, 2 kHz, model-aided, safe state: released. Time from the beginning of the fault \
          to the fault code, ms, and the code's words where it begins in mid-swing. A dash: not detected in the run.",
     );
     let mut table = Table::new(&[
