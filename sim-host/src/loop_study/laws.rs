@@ -28,13 +28,13 @@ const AMPLITUDES: (f64, f64) = (1.0, 10.0);
 /// Peaks of records over g tan α.
 const THRESHOLDS: [f64; 3] = [2.0, 3.0, 4.5];
 /// Cells along each axis, of the base …
-const CELLS: usize = 20;
+const CELLS: usize = 16;
 /// … and of other blocks and devices.
-const FEW_CELLS: usize = 10;
+const FEW_CELLS: usize = 8;
 /// Specimens of the sensors.
 const SPECIMENS: usize = 32;
 /// Pulses of each family and specimen.
-const PULSES: usize = 8;
+const PULSES: usize = 4;
 
 /// Motions of one kind.
 struct Kind {
