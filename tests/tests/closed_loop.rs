@@ -1,9 +1,13 @@
 //! The controller in closed loop: its limit, its worth with real sensors, its faults.
 
+use sprag_shared::drivetrain::overrunning::wheel_for;
+use sprag_sim_host::closed_loop::plant::Extremes;
+use sprag_sim_host::closed_loop::run::Tick;
 use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::loop_study::bench::{Conditions, Motion, Variant, each, run_ideal, run_loop};
+use sprag_sim_host::loop_study::bench::{Conditions, Variant, each, run_ideal, run_loop, with_loop};
 use sprag_sim_host::loop_study::faults::{self, Failing, INSTANTS, Instant, Part};
 use sprag_sim_host::loop_study::ideal_limit;
+use sprag_sim_host::loop_study::motion::{Motion, grid};
 use sprag_sim_host::loop_study::practice::Comparison;
 use sprag_sim_host::progress::Progress;
 use sprag_sim_host::scene::controller::{EstimatorName, LawName};
@@ -91,6 +95,68 @@ fn a_run_is_its_seed() {
     }
 }
 
+/// A clutch with a jolt, flywheels braked at 2 m/s² once released, 3 ms from sample to clutch.
+const BRAKED: [&str; 8] = [
+    "block.slenderness_deg=20.0",
+    "device.0.engagement=\"rigid\"",
+    "device.0.flywheel.viscous_rate_1_s=0.05",
+    "device.0.flywheel.brake_deceleration_m_s2=2.0",
+    "device.0.actuation.engagement_delay_s=0.002",
+    "device.0.actuation.release_delay_s=0.002",
+    "controller.rate_hz=1000.0",
+    "controller.latency_s=0.001",
+];
+
+/// Every tick of a loop, and its largest |θ|/α.
+fn watched(motion: &Motion, variant: &Variant) -> (Vec<Tick>, f64) {
+    let (_, interrupt) = quiet();
+    with_loop(motion, variant, &Conditions::new(None, &interrupt), |task| {
+        let (mut ticks, mut extremes) = (Vec::new(), Extremes::default());
+        task.run(&mut extremes, &mut ticks)?;
+        Ok((ticks, extremes.peaks.rotation / task.scene.block.slenderness()))
+    })
+    .unwrap()
+}
+
+/// The noise of a block at rest decides nothing: both flywheels wait, and under every specimen of the sensors and either sign of the motion
+/// the one of the first motion's direction keeps its turn, the other one is let go before the block has got anywhere. So a pulse between
+/// outcomes has one outcome.
+#[test]
+fn the_first_motion_decides_which_flywheel_resists() {
+    for law in ["resisting-predicted", "gated-table"] {
+        let mut outcomes = Vec::new();
+        for (seed, amplitude) in (1..=8).flat_map(|seed| [(seed, 7.97), (seed, -7.97)]) {
+            let noisy = ["controller.sensors.suite=\"adis16470\"", &format!("controller.law=\"{law}\"")];
+            let variant = Variant { seed, ..Variant::new(law, &[&BRAKED[..], &noisy].concat()) };
+            let (ticks, peak) = watched(&Motion::Pulse { shape: "sine", frequency: 4.73, amplitude }, &variant);
+            assert_eq!(ticks[0].plant.engaged, [true; 2]);
+            let single = ticks.iter().find(|tick| tick.plant.engaged != [true; 2]).unwrap();
+            let wheel = wheel_for(single.plant.motion.side);
+            assert!(single.plant.engaged[wheel] && !single.plant.engaged[1 - wheel], "{law}, seed {seed}: {single:?}");
+            assert!(single.plant.motion.rotation.abs() < 1e-3, "{law}, seed {seed}: {single:?}");
+            let both = |tick: &&Tick| tick.plant.time > single.plant.time && tick.decision.command == [true; 2];
+            assert!(!ticks.iter().filter(both).any(|tick| !tick.decision.estimate.standing));
+            outcomes.push(peak > 2.0);
+        }
+        assert!(outcomes.iter().all(|outcome| *outcome == outcomes[0]), "{law}: {outcomes:?}");
+    }
+}
+
+/// With sensors without an error a mirrored motion is a mirrored run: side, clutches and all.
+#[test]
+fn a_mirrored_motion_has_a_mirrored_run() {
+    for shape in ["sine", "cosine"] {
+        let variant = Variant::new("mirrored", &BRAKED);
+        let [one, other] = [3.0, -3.0].map(|amplitude| watched(&Motion::Pulse { shape, frequency: 4.0, amplitude }, &variant).0);
+        assert_eq!(one.len(), other.len());
+        for (one, other) in one.iter().zip(&other) {
+            let ([first, second], motion) = (one.decision.command, other.plant.motion);
+            assert_eq!([second, first], other.decision.command, "{shape} at {} s", one.plant.time);
+            assert!((one.plant.motion.rotation + motion.rotation).abs() < 1e-9, "{shape} at {} s", one.plant.time);
+        }
+    }
+}
+
 fn rayon_pool(threads: usize) -> rayon::ThreadPool {
     rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap()
 }
@@ -128,7 +194,7 @@ fn faults_are_detected_and_do_no_harm() {
 fn there_are_better_laws_than_eq_10_under_sine_pulses() {
     let (progress, interrupt) = quiet();
     let conditions = Conditions::new(None, &interrupt);
-    let motions = sprag_sim_host::loop_study::bench::grid("sine", 10, (0.5, 7.5), (1.5, 9.5));
+    let motions = grid("sine", 10, (0.5, 7.5), (1.5, 9.5));
     let variants = [LawName::Resisting, LawName::AlwaysEngaged, LawName::GatedTable, LawName::LookAhead].map(|law| {
         Variant::new(
             law.name(),

@@ -97,11 +97,9 @@ fn a_bias_that_wanders_turns_no_standing_block_in_an_hour() {
     });
 }
 
-/// From the tick after that of the calibration on: before it nobody knows where the count is 0. Which of the two flywheels begins is not
-/// looked at, since it may go back to then.
+/// From the tick after that of the calibration on: before it nobody knows where the count is 0.
 fn armed(decisions: Vec<Decision>) -> Vec<Decision> {
-    let either = |decision: Decision| Decision { command: [decision.command != [false; 2], false], ..decision };
-    decisions.into_iter().skip_while(|decision| decision.phase != Phase::Armed).skip(1).map(either).collect()
+    decisions.into_iter().skip_while(|decision| decision.phase != Phase::Armed).skip(1).collect()
 }
 
 /// Numbers of readings and counts of the encoder mean nothing but their differences: wherever they start, and wherever they wrap, every

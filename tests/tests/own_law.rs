@@ -6,7 +6,8 @@
 use sprag_shared::control::law::{Law, Situation, Wish};
 use sprag_sim_host::closed_loop::plant::Extremes;
 use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::loop_study::bench::{Conditions, Motion, Variant, run_loop, with_loop};
+use sprag_sim_host::loop_study::bench::{Conditions, Variant, run_loop, with_loop};
+use sprag_sim_host::loop_study::motion::Motion;
 
 /// Resists only a block that moves outward.
 #[derive(Clone, Copy)]

@@ -37,8 +37,8 @@ pub struct Controller<B, L> {
     pub horizon: f32,
     /// Width of the hysteresis of signs in standard deviations of the estimate.
     pub bands: f32,
-    /// A clutch may be engaged while the block stands, so that the flywheel resists from the first instant of uplift, without a delay. A
-    /// flywheel that is taken on at rest costs nothing but the coil's holding current.
+    /// Both clutches are engaged while the block stands, so that a flywheel resists from the first instant of uplift to either side, without
+    /// a delay. A flywheel that is taken on at rest costs nothing but the coil's holding current. Otherwise neither is.
     pub engaged_at_rest: bool,
     /// Minimum dwell.
     pub gate: Gate,
@@ -53,6 +53,8 @@ pub struct ControllerState {
     estimator: EstimatorState,
     calibration: Calibration,
     signs: Signs,
+    /// The block stood at the last tick.
+    stood: bool,
     turns: TurnsState,
     gate: GateState,
     drift: f32,
@@ -116,6 +118,7 @@ impl<B: KnownBody, L: Law<B>> Controller<B, L> {
             estimator: self.estimator.start(),
             calibration: Calibration::default(),
             signs: Signs::default(),
+            stood: true,
             turns: TurnsState::default(),
             gate: GateState::default(),
             drift: 0.0,
@@ -126,9 +129,10 @@ impl<B: KnownBody, L: Law<B>> Controller<B, L> {
     /// From the beginning, with the event log of before.
     // In place: a second state would be most of a microcontroller's stack.
     pub fn restart(&self, state: &mut ControllerState) {
-        let ControllerState { instruments, estimator, calibration, signs, turns, gate, drift, supervisor } = state;
+        let ControllerState { instruments, estimator, calibration, signs, stood, turns, gate, drift, supervisor } = state;
         (*instruments, *estimator, *calibration) = (InstrumentsState::default(), self.estimator.start(), Calibration::default());
-        (*signs, *turns, *gate, *drift) = (Signs::default(), TurnsState::default(), GateState::default(), 0.0);
+        (*signs, *stood, *turns) = (Signs::default(), true, TurnsState::default());
+        (*gate, *drift) = (GateState::default(), 0.0);
         supervisor.restart();
     }
 
@@ -174,13 +178,10 @@ impl<B: KnownBody, L: Law<B>> Controller<B, L> {
         state.turns.spin_at(model, rack, engaged, self.instruments.period);
         let ahead =
             if self.law.predicts() { predict_from(model, &posture, estimate, count(engaged), self.horizon) } else { *estimate };
-        state.signs = if estimate.standing {
-            // The way it goes when the ground sets it free: Eq. 10 engages from the start.
-            let side = Sign::of(-estimate.ground[0], Sign::Positive);
-            Signs { rotation: side, velocity: side, push: side, ground: side.opposite(), quiet: false }
-        } else {
-            state.signs.after(&ahead, self.bands)
-        };
+        // The motion begins to the side that the estimator has found; noise of the time before says nothing of it.
+        let before = if estimate.standing || state.stood { Signs::at_uplift(estimate.side) } else { state.signs };
+        state.signs = if estimate.standing { before } else { before.after(&ahead, self.bands) };
+        state.stood = estimate.standing;
         let elapsed = self.model.facts.frequency * self.instruments.period;
         state.drift = (state.drift + elapsed * estimate.ground[0]) * (1.0 - elapsed / DRIFT_TIME);
         let situation = Situation {
@@ -195,7 +196,10 @@ impl<B: KnownBody, L: Law<B>> Controller<B, L> {
             Wish::Resist if estimate.standing && !self.engaged_at_rest => Wish::Release,
             wish => wish,
         };
-        let wanted = state.turns.take(model, wish, state.signs.velocity, &ahead);
+        let wanted = match wish {
+            Wish::Resist if estimate.standing => state.turns.wait(model),
+            _ => state.turns.take(model, wish, state.signs.velocity, &ahead),
+        };
         (wish, self.gate.step(&mut state.gate, wanted))
     }
 
@@ -212,6 +216,7 @@ impl<B: KnownBody, L: Law<B>> Controller<B, L> {
         let input = SupervisorInput {
             sample,
             wish: wanted,
+            standing: estimate.standing,
             estimate: (estimate.rotation, estimate.velocity),
             lateness: circumstances.lateness,
             requests: circumstances.requests,

@@ -22,6 +22,13 @@ pub struct Signs {
 }
 
 impl Signs {
+    /// Of a block that the ground sets free to `side`: Eq. 10 engages from the start.
+    #[inline]
+    #[must_use]
+    pub fn at_uplift(side: Sign) -> Signs {
+        Signs { rotation: side, velocity: side, push: side, ground: side.opposite(), quiet: false }
+    }
+
     /// The signs of `estimate` after these, changed only where it is beyond `bands` standard deviations.
     #[inline]
     #[must_use]

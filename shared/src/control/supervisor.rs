@@ -203,18 +203,18 @@ impl Supervisor {
         }
     }
 
-    /// What is to be sent. Never both where that is not allowed: what was sent before then stays.
+    /// What is to be sent. Never both to a block that moves, where that is not allowed: what was sent before then stays.
     fn command(&self, state: &SupervisorState, input: &SupervisorInput<'_>) -> [bool; 2] {
         match state.phase {
-            Phase::Armed | Phase::Rocking if self.too_many(input.wish) => state.sent,
+            Phase::Armed | Phase::Rocking if self.too_many(input) => state.sent,
             Phase::Armed | Phase::Rocking => input.wish,
             Phase::SelfTest if self.self_test => state.self_test.command(),
             _ => self.safe,
         }
     }
 
-    fn too_many(&self, wish: [bool; 2]) -> bool {
-        wish == [true; 2] && !self.both_allowed
+    fn too_many(&self, input: &SupervisorInput<'_>) -> bool {
+        input.wish == [true; 2] && !self.both_allowed && !input.standing
     }
 
     #[inline(never)]

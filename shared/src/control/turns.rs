@@ -33,6 +33,14 @@ impl TurnsState {
         }
     }
 
+    /// The clutches of a block that stands and is to be resisted as soon as it moves. Which way it will move nobody knows, so both flywheels
+    /// wait on the rack, and the first motion gives the turn to the one of its direction. One that still spins would push the block.
+    #[inline]
+    pub fn wait<B: KnownBody>(&mut self, model: &Model<B>) -> [bool; 2] {
+        self.turn = None;
+        self.spins.map(|spin| spin.abs() <= AHEAD * model.facts.slenderness)
+    }
+
     /// The clutches that carry out `wish` for motion in `direction` at θ̇ = `velocity`. A flywheel keeps its turn for as long as the
     /// wish lasts, also through a turn of the motion: there the rack stands, and changing wheels would only open a gap. A new turn goes
     /// to the flywheel of the direction, unless it still runs ahead of the rack, so that taking it on would drive the block; then to the
@@ -90,6 +98,19 @@ mod tests {
         assert_eq!(turns.take(&model, Wish::Resist, Sign::Positive, &moving(0.1)), [false, false], "both would drive");
         turns = TurnsState { spins: [0.3, 0.25], turn: None };
         assert_eq!(turns.take(&model, Wish::Resist, Sign::Positive, &moving(0.4)), [true, false], "the rack is faster");
+    }
+
+    #[test]
+    fn both_wait_for_a_block_that_stands_and_the_first_motion_decides() {
+        let model = spinning_model();
+        for (direction, command) in [(Sign::Positive, [true, false]), (Sign::Negative, [false, true])] {
+            let mut turns = TurnsState { turn: Some(0), ..TurnsState::default() };
+            assert_eq!(turns.wait(&model), [true; 2]);
+            let first = moving(direction.times(1e-6));
+            assert_eq!(turns.take(&model, Wish::Resist, direction, &first), command);
+        }
+        let mut turns = TurnsState { spins: [0.0, -0.3], turn: None };
+        assert_eq!(turns.wait(&model), [true, false], "the second one still spins");
     }
 
     #[test]

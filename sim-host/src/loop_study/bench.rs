@@ -4,11 +4,12 @@ use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
+use sprag_shared::block::Block;
 
+use super::motion::Motion;
 use crate::accuracy::{Accuracy, Closeness, Worst};
 use crate::closed_loop::run::Ending;
 use crate::closed_loop::{LoopFailure, LoopTask};
-use crate::cloud::study_file::RecordTable;
 use crate::interrupt::Interrupt;
 use crate::outcome::Outcome;
 use crate::progress::Progress;
@@ -17,46 +18,6 @@ use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::ground::GroundError;
 use crate::simulation::ErrorReport;
-
-/// A ground motion of a study.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Motion {
-    /// A one-cycle pulse.
-    Pulse {
-        /// "sine" or "cosine".
-        shape: &'static str,
-        /// ω_g/p.
-        frequency: f64,
-        /// a_g/(g tan α).
-        amplitude: f64,
-    },
-    /// A recorded one.
-    Record {
-        /// File, from where the user stands.
-        file: PathBuf,
-        /// What the file does not say.
-        reading: RecordTable,
-        /// Factor on its accelerations.
-        scale: f64,
-    },
-}
-
-impl Motion {
-    /// `[[ground]]` and `[run]` of a scene.
-    fn tables(&self) -> String {
-        match self {
-            Motion::Pulse { shape, frequency, amplitude } => format!(
-                "[[ground]]\nmotion = \"{shape}\"\nfrequency_ratio = {frequency:?}\namplitude_ratio = {amplitude:?}\n\
-                 [run]\nfree_time_ratio = 10.0\n"
-            ),
-            Motion::Record { file, reading, scale } => {
-                let file = toml::Value::String(file.display().to_string().replace('\\', "/"));
-                let reading = toml::to_string(reading).unwrap_or_default();
-                format!("[[ground]]\nmotion = \"record\"\nfile = {file}\nscale = {scale:?}\n{reading}[run]\nfree_time_s = 5.0\n")
-            }
-        }
-    }
-}
 
 /// A structure with its device and controller, in the words of a scene; without a ground motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,6 +58,12 @@ mass_ratio = 0.5
 substeps = 1
 ";
 
+/// Eq. 10 predicted, which is what the ideal pair does.
+pub const EQUATION_10: &str = "controller.law=\"resisting-predicted\"";
+
+/// A ground that does not move.
+const STILL: &str = "[[ground]]\nmotion = \"sine\"\nfrequency_ratio = 1.0\namplitude_ratio = 0.0\n[run]\nfree_time_ratio = 1.0\n";
+
 /// What one closed loop came to.
 #[derive(Clone, Debug)]
 pub struct LoopResult {
@@ -133,12 +100,20 @@ pub enum StudyError {
     Plot(#[from] crate::plot::PlotError),
 }
 
+/// The block of a variant, which pulses are measured by.
+///
+/// # Errors
+/// [`StudyError`] for a scene that cannot be.
+pub fn block_of(variant: &Variant) -> Result<Block, StudyError> {
+    Ok(Scene::parse_with(&format!("{BASE}{STILL}"), "study", &variant.overrides)?.block)
+}
+
 /// The scene of a motion and a variant.
 ///
 /// # Errors
 /// [`StudyError`] for a scene that cannot be.
 pub fn scene_of(motion: &Motion, variant: &Variant) -> Result<Scene, StudyError> {
-    let text = format!("{BASE}{}", motion.tables());
+    let text = format!("{BASE}{}", motion.tables(&block_of(variant)?));
     let mut scene = Scene::parse_with(&text, "study", &variant.overrides)?;
     scene.folder = PathBuf::new();
     Ok(scene)
@@ -243,34 +218,38 @@ pub fn run_ideal(motion: &Motion, variant: &Variant, conditions: &Conditions<'_>
     })
 }
 
-/// Does `work` for every pair of a motion and a variant, in parallel; results by variant, then by motion.
+/// Does `work` for every one of `jobs`, in parallel and in their order.
 ///
 /// # Errors
 /// The first error by order, not by time.
+pub fn all<J: Sync, R: Send>(
+    jobs: &[J],
+    progress: &Progress,
+    work: impl Fn(&J) -> Result<R, StudyError> + Sync,
+) -> Result<Vec<R>, StudyError> {
+    progress.begin(jobs.len() as u64);
+    let results: Vec<Result<R, StudyError>> = jobs
+        .par_iter()
+        .map(|job| {
+            let result = work(job);
+            progress.step();
+            result
+        })
+        .collect();
+    results.into_iter().collect()
+}
+
+/// Does `work` for every pair of a motion and a variant, in parallel; results by variant, then by motion.
+///
+/// # Errors
+/// As [`all`].
 pub fn each<R: Send>(
     motions: &[Motion],
     variants: &[Variant],
     progress: &Progress,
     work: impl Fn(&Motion, &Variant) -> Result<R, StudyError> + Sync,
 ) -> Result<Vec<Vec<R>>, StudyError> {
-    progress.begin((motions.len() * variants.len()) as u64);
-    let results: Vec<Result<R, StudyError>> = (0..motions.len() * variants.len())
-        .into_par_iter()
-        .map(|index| {
-            let result = work(&motions[index % motions.len()], &variants[index / motions.len()]);
-            progress.step();
-            result
-        })
-        .collect();
-    let mut results = results.into_iter();
-    let by_variant = |_| results.by_ref().take(motions.len()).collect::<Result<Vec<R>, StudyError>>();
-    (0..variants.len()).map(by_variant).collect()
-}
-
-/// A grid of pulses, both shapes: ω/p from `frequencies` and amplitudes from `amplitudes`, first and last included.
-pub fn grid(shape: &'static str, count: usize, frequencies: (f64, f64), amplitudes: (f64, f64)) -> Vec<Motion> {
-    let at = |(from, to): (f64, f64), index: usize| from + (to - from) * index as f64 / (count.max(2) - 1) as f64;
-    (0..count * count)
-        .map(|index| Motion::Pulse { shape, frequency: at(frequencies, index % count), amplitude: at(amplitudes, index / count) })
-        .collect()
+    let jobs: Vec<_> = variants.iter().flat_map(|variant| motions.iter().map(move |motion| (motion, variant))).collect();
+    let mut results = all(&jobs, progress, |(motion, variant)| work(motion, variant))?.into_iter();
+    Ok(variants.iter().map(|_| results.by_ref().take(motions.len()).collect()).collect())
 }

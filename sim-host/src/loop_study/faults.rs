@@ -5,7 +5,8 @@ use std::fmt;
 use sprag_shared::control::controller::Circumstances;
 use sprag_shared::control::sample::Sample;
 
-use super::bench::{Conditions, Motion, StudyError, Variant, each, with_loop};
+use super::bench::{Conditions, StudyError, Variant, each, with_loop};
+use super::motion::Motion;
 use super::report::{Report, Table};
 use super::statistics::cell;
 use crate::closed_loop::disturbance::Disturbance;
@@ -176,7 +177,7 @@ impl Disturbance for Injected {
 struct Seen {
     from: f64,
     detected: Option<(f64, String)>,
-    /// Both clutches were commanded at once.
+    /// Both clutches were commanded at once while the block moved.
     both: bool,
     /// An estimate or its push was not a number while the controller decided.
     not_a_number: bool,
@@ -190,7 +191,7 @@ impl TickObserver for Seen {
         if tick.plant.time >= self.from && self.detected.is_none() {
             self.detected = decision.fault.map(|fault| (tick.plant.time - self.from, fault.to_string()));
         }
-        self.both |= decision.command == [true; 2];
+        self.both |= decision.command == [true; 2] && !decision.estimate.standing;
         let finite = decision.estimate.rotation.is_finite() && decision.estimate.velocity.is_finite();
         self.not_a_number |= !finite && decision.fault.is_none();
         self.unsafe_after |= decision.fault.is_some() && decision.command != [false; 2];
@@ -202,7 +203,7 @@ impl TickObserver for Seen {
 pub struct FaultResult {
     /// s after its beginning, and its name.
     pub detected: Option<(f64, String)>,
-    /// Both clutches at once, a number that is none, or a clutch engaged after the detection.
+    /// Both clutches at once in motion, a number that is none, or a clutch engaged after the detection.
     pub harm: [bool; 3],
     /// Outcome.
     pub outcome: Outcome,
@@ -271,7 +272,7 @@ pub fn faults(progress: &Progress, conditions: &Conditions<'_>) -> Result<Report
     let results = results(progress, conditions)?;
     let mut report = Report::new("faults", "Faults in the closed loop");
     report.paragraph(
-        "A sine pulse (ω/p = 4, 3 thresholds), ICM-42688-P, 2 kHz, model-aided, safe state: released. Time from the beginning of the fault \
+        "Motion: one one-cycle sine pulse (ω/p 4, a peak of 3 uplift thresholds).\n\nR = 2 m, α = 10°, σ = 0.5, ICM-42688-P, 2 kHz, model-aided, safe state: released. Time from the beginning of the fault \
          to the fault code, ms, and the code's words where it begins in mid-swing. A dash: not detected in the run.",
     );
     let mut table = Table::new(&[
@@ -281,7 +282,7 @@ pub fn faults(progress: &Progress, conditions: &Conditions<'_>) -> Result<Report
         "mid-swing",
         "at impact",
         "in words",
-        "both engaged",
+        "both engaged in motion",
         "not a number",
         "engaged after",
     ]);

@@ -1,6 +1,7 @@
 //! The ideal limit: with ideal sensors and no delay the loop becomes the ideal pair as its rate grows.
 
-use super::bench::{Conditions, Motion, StudyError, Variant, each, run_ideal, run_loop};
+use super::bench::{Conditions, StudyError, Variant, each, run_ideal, run_loop};
+use super::motion::Motion;
 use super::report::{Report, Table};
 use crate::plot::{Chart, ChartPanel, Line, Scale, chart_figure};
 use crate::progress::Progress;
@@ -76,7 +77,8 @@ pub fn ideal_limit(progress: &Progress, conditions: &Conditions<'_>) -> Result<R
         each(&motions, &[Variant::new("ideal", &[])], progress, |motion, variant| run_ideal(motion, variant, conditions))?;
     let mut report = Report::new("ideal-limit", "The ideal limit");
     report.paragraph(&format!(
-        "Ideal sensors, no delay, no hysteresis, Eq. 10: mean error of the peak rotation of {} pulses (R = 2 m, α = 10°, σ = 0.5) \
+        "Motions: {} one-cycle sine and cosine pulses under which the ideal pair stands (ω/p 2 to 5, peaks of 1.6 to 3 uplift thresholds).\n\n\
+         Ideal sensors, no delay, no hysteresis, Eq. 10: mean error of the peak rotation (R = 2 m, α = 10°, σ = 0.5) \
          against the ideal pair with located events, over the control rate. The order is the slope of a straight line through the \
          logarithms over the control period.",
         motions.len()

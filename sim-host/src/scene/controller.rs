@@ -131,7 +131,7 @@ pub struct ControllerTable {
     pub hysteresis: f64,
     /// Minimum dwell of a command, s.
     pub dwell_s: f64,
-    /// A clutch may be engaged while the block stands, so that the flywheel resists from the start of uplift.
+    /// Both clutches are engaged while the block stands, so that a flywheel resists from the start of uplift to either side.
     pub engaged_at_rest: bool,
     /// What the clutches do after a fault.
     pub safe_state: SafeStateName,

@@ -43,6 +43,8 @@ pub struct SupervisorInput<'a> {
     pub sample: &'a Sample,
     /// Clutches that the law wants engaged.
     pub wish: [bool; 2],
+    /// The block stands, by the estimate: both clutches may be engaged, because nothing turns.
+    pub standing: bool,
     /// θ, rad, and θ̇, rad/s, as last estimated.
     pub estimate: (f32, f32),
     /// How late this tick came, s; 0 or less where it was in time.

@@ -33,7 +33,7 @@ impl Supervisor {
         let sick = || findings.faults.into_iter().flatten().any(|fault| self.acted_upon(fault));
         // An estimate from a bad sensor is that sensor's fault.
         let lost = deciding && !(rotation.is_finite() && velocity.is_finite()) && !sick();
-        let both = deciding && self.too_many(input.wish);
+        let both = deciding && self.too_many(input);
         if findings.nothing() && clutch.is_none() && !overrun && !lost && !both && !state.any_active {
             return (None, false);
         }

@@ -75,7 +75,7 @@ pub struct Parameters {
     pub required: Required,
     /// Default: released, which puts no force on the block that nobody watches.
     pub safe_state: SafeState,
-    /// Whether both clutches may be engaged at once. Default: no.
+    /// Whether both clutches may be engaged at once while the block moves. Default: no.
     pub both_allowed: bool,
     /// Whether the clutches are pulsed before the controller is armed. Default: yes.
     pub self_test_clutches: bool,

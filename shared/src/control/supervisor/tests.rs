@@ -172,6 +172,13 @@ fn both_at_once_only_where_allowed() {
     }
     let warning = Kind::Warning(Fault::BothClutches.code());
     assert_eq!(rig.complaints(), [warning, warning]);
+    // At rest nothing turns, and what has been engaged there is left alone when the block begins to move.
+    let mut rig = Rig::armed(&parameters());
+    (rig.wish, rig.standing) = ([true; 2], true);
+    assert_eq!(rig.run(100).command, [true; 2]);
+    (rig.wish, rig.standing) = ([false, true], false);
+    assert_eq!((rig.run(100).command, rig.run(1).fault), ([false, true], None));
+    assert_eq!(rig.complaints(), []);
     let mut rig = Rig::armed(&Parameters { both_allowed: true, ..parameters() });
     rig.wish = [true; 2];
     assert_eq!(rig.run(100).command, [true; 2]);

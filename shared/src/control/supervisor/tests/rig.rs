@@ -51,6 +51,7 @@ pub struct Rig {
     pub spike: f32,
     pub impacts: u32,
     pub wish: [bool; 2],
+    pub standing: bool,
     pub requests: Requests,
     pub lateness: f32,
     pub estimate_lost: bool,
@@ -78,6 +79,7 @@ impl Rig {
             spike: 300.0,
             impacts: 0,
             wish: [false; 2],
+            standing: false,
             requests: Requests::default(),
             lateness: 0.0,
             estimate_lost: false,
@@ -176,12 +178,13 @@ impl Rig {
         let input = SupervisorInput {
             sample: &sample,
             wish: self.wish,
+            standing: self.standing,
             estimate: (self.rotation + lost, self.velocity),
             lateness: self.lateness,
             requests: self.requests,
         };
         let verdict = self.supervisor.step(&mut self.state, &input);
-        assert!(verdict.command != [true; 2] || self.supervisor.both_allowed);
+        assert!(verdict.command != [true; 2] || self.supervisor.both_allowed || self.standing);
         self.sent.remove(0);
         self.sent.push(verdict.command);
         verdict

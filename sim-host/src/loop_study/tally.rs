@@ -1,0 +1,103 @@
+//! Overturned runs counted by specimen of the sensors, and how sure their mean is.
+
+use sprag_shared::math::square_root;
+
+use super::statistics::cell;
+use crate::statistics::Level;
+
+/// A mean over specimens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mean {
+    /// The mean, …
+    pub value: f64,
+    /// … and the half-width of its 95 % band by Student's t; 0 where there is but one specimen.
+    pub half: f64,
+}
+
+impl Mean {
+    /// Of `values`, one a specimen.
+    pub fn of(values: &[f64]) -> Mean {
+        let count = values.len() as f64;
+        let value = values.iter().sum::<f64>() / count;
+        let square = values.iter().map(|each| (each - value) * (each - value)).sum::<f64>();
+        let freedom = values.len().saturating_sub(1);
+        let error = square_root(square / (freedom.max(1) as f64 * count));
+        Mean { value, half: if freedom > 0 { Level::COMMON.student(freedom as u32) * error } else { 0.0 } }
+    }
+
+    /// 0 lies outside of the band.
+    pub fn differs(&self) -> bool {
+        self.value.abs() > self.half
+    }
+
+    /// In percent, with its half-width where there is one.
+    pub fn percent(&self, sign: bool) -> String {
+        let value = cell(100.0 * self.value, 1);
+        let value = if sign && self.value > 0.0 { format!("+{value}") } else { value };
+        if self.half > 0.0 { format!("{value} ± {}", cell(100.0 * self.half, 1)) } else { value }
+    }
+}
+
+/// Which of the runs of one law overturned; run i is one of specimen i mod the number of specimens.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tally {
+    /// By run.
+    pub overturned: Vec<bool>,
+    /// Specimens.
+    pub specimens: usize,
+}
+
+impl Tally {
+    /// How many.
+    pub fn count(&self) -> usize {
+        self.overturned.iter().filter(|&&overturned| overturned).count()
+    }
+
+    /// The share of each specimen.
+    fn shares(&self) -> Vec<f64> {
+        let of = |specimen: usize| self.overturned.iter().skip(specimen).step_by(self.specimens);
+        let count = |specimen: usize| of(specimen).filter(|&&overturned| overturned).count();
+        (0..self.specimens).map(|specimen| count(specimen) as f64 / of(specimen).count().max(1) as f64).collect()
+    }
+
+    /// The mean share.
+    pub fn share(&self) -> Mean {
+        Mean::of(&self.shares())
+    }
+
+    /// How much larger the share is than that of `other` under the same motions and specimens.
+    pub fn beyond(&self, other: &Tally) -> Mean {
+        Mean::of(&self.shares().iter().zip(other.shares()).map(|(own, other)| own - other).collect::<Vec<f64>>())
+    }
+}
+
+/// The tallies with the fewest overturned runs: first the least, then those that specimens do not tell apart from it.
+pub fn fewest(tallies: &[Tally]) -> Vec<usize> {
+    let Some(least) = (0..tallies.len()).min_by_key(|&index| tallies[index].count()) else { return Vec::new() };
+    let alike = |&index: &usize| index != least && !tallies[index].beyond(&tallies[least]).differs();
+    std::iter::once(least).chain((0..tallies.len()).filter(alike)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bands_are_those_of_student() {
+        // 1 to 5: standard error √(2.5/5), t(4) = 2.776.
+        let mean = Mean::of(&[1.0, 2.0, 3.0, 4.0, 5.0]);
+        assert!((mean.value - 3.0).abs() < 1e-12 && (mean.half - 2.776_445 * 0.5_f64.sqrt()).abs() < 1e-5);
+        assert_eq!(Mean::of(&[0.25]), Mean { value: 0.25, half: 0.0 });
+        assert_eq!((Mean::of(&[0.25]).percent(true), mean.percent(false)), ("+25.0".to_owned(), "300.0 ± 196.3".to_owned()));
+    }
+
+    #[test]
+    fn runs_belong_to_specimens_and_are_compared_in_pairs() {
+        let tally = |bits: [u8; 8]| Tally { overturned: bits.iter().map(|&bit| bit == 1).collect(), specimens: 4 };
+        let (one, other) = (tally([1, 0, 1, 0, 1, 0, 0, 0]), tally([1, 1, 1, 1, 1, 1, 0, 0]));
+        assert_eq!((one.count(), one.shares()), (3, vec![1.0, 0.0, 0.5, 0.0]));
+        assert!((one.beyond(&other).value + 0.375).abs() < 1e-12);
+        assert_eq!(fewest(&[other.clone(), one.clone()]), [1, 0], "four specimens are few");
+        assert_eq!(fewest(&[one.clone(), one.clone(), tally([1; 8])]), [0, 1]);
+    }
+}
