@@ -18,46 +18,17 @@ const SEED: u64 = 16;
 /// Scenes by the series, and by the Runge-Kutta method, whose steps take six times as long.
 const COUNTS: [u64; 2] = [300, 100];
 
-const JOLT: &str =
-    "the search for the next change of sign does not wait until the acceleration agrees with the sign that a jolt leaves";
-const HOLD: &str = "a block that friction held is not commanded at the instant at which a clutch lets it go";
-const CAPACITY: &str = "the guard of the spring's force has the capacity of the beginning of the step, though it rises";
-const UNDAMPED: &str = "an undamped spring is wound up by the capacity as it rises";
-const PARTING: &str = "a parting of the teeth is passed over";
-const MISSED: &str = "an uplift that ends at once and comes again draws anew whether an engagement is missed";
 const ROUNDING: &str = "rounding of the acceleration at the uplift makes an impact";
 const FROZEN: &str = "springs are frozen while friction or a spring holds the block, and so are their flywheels";
-const PRODUCT: &str = "parting and capacity are one guard, a product, whose two zeros within a step cancel";
 const ILL_CONDITIONED: &str = "no damper: every error of a located parting grows";
 
 /// Random scenes on which Sprag's methods differ from the second program, and why.
-const RANDOM: [&[(u64, &str)]; 2] = [&[(153, JOLT)], &[]];
+const RANDOM: [&[(u64, &str)]; 2] = [&[], &[]];
 
 /// Scenes that had told the programs apart (`tests/reference/scenes`) and still do, by method.
 const SCENES: [&[(&str, &str)]; 2] = [
-    &[
-        ("backlash_without_damper", ILL_CONDITIONED),
-        ("capacity_rises_in_contact", CAPACITY),
-        ("command_after_a_hold", HOLD),
-        ("drawn_once_at_an_uplift", MISSED),
-        ("jolt_at_a_zero_of_the_command", JOLT),
-        ("missed_at_uplift", MISSED),
-        ("parting_after_a_slip", PARTING),
-        ("release_while_held", HOLD),
-        ("spring_holds_the_block_down", FROZEN),
-        ("spring_of_a_held_block", FROZEN),
-        ("undamped_spring_rising_plates", UNDAMPED),
-    ],
-    &[
-        ("command_after_a_hold", HOLD),
-        ("drawn_once_at_an_uplift", MISSED),
-        ("jolt_at_a_zero_of_the_command", JOLT),
-        ("spring_holds_the_block_down", FROZEN),
-        ("spring_of_a_held_block", FROZEN),
-        ("two_guards_in_a_step", PRODUCT),
-        ("undamped_spring_rising_plates", UNDAMPED),
-        ("uplift_without_impact", ROUNDING),
-    ],
+    &[("backlash_without_damper", ILL_CONDITIONED), ("spring_holds_the_block_down", FROZEN)],
+    &[("spring_holds_the_block_down", FROZEN), ("uplift_without_impact", ROUNDING)],
 ];
 
 /// Runs a scene by Sprag.

@@ -2,7 +2,7 @@
 
 use super::{Machine, MachineState};
 use crate::body::Body;
-use crate::drivetrain::device::{Coupling, WATCHES, Watch, Wheel};
+use crate::drivetrain::device::{Coupling, Watch, Wheel};
 use crate::drivetrain::drive::Drive;
 use crate::drivetrain::gears::{Gears, rounded_up};
 use crate::drivetrain::overrunning::wheel_for;
@@ -219,7 +219,8 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 drive.release(at, index);
             }
         });
-        state.fresh = [false; WATCHES];
+        // What the acceleration of Eq. 10 is does not depend on the clutches.
+        state.fresh[1..].fill(false);
     }
 
     /// Time until something happens by the clock alone, s.

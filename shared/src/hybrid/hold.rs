@@ -74,10 +74,13 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 (state.held, state.free) = (false, crossing);
                 state.motion.direction = sign;
                 if on_base {
+                    // What lifts the block accelerates the terminals, and that may have been zero until now.
+                    (state.motion.drive, state.jolted, state.fresh[0]) = (sign, false, D::COMMANDED);
                     observer.device_event(Event::Uplift, until, &state.motion);
                     observer.device_event(Event::Switch, until, &state.motion);
+                } else {
+                    self.look_at_drive(state);
                 }
-                self.look_at_drive(state);
                 self.settle(state, until, observer);
             }
             Some((_, LetGo::Rests)) => *state = self.standing(state),
