@@ -97,7 +97,8 @@ mod tests {
         let (one, other) = (tally([1, 0, 1, 0, 1, 0, 0, 0]), tally([1, 1, 1, 1, 1, 1, 0, 0]));
         assert_eq!((one.count(), one.shares()), (3, vec![1.0, 0.0, 0.5, 0.0]));
         assert!((one.beyond(&other).value + 0.375).abs() < 1e-12);
-        assert_eq!(fewest(&[other.clone(), one.clone()]), [1, 0], "four specimens are few");
-        assert_eq!(fewest(&[one.clone(), one.clone(), tally([1; 8])]), [0, 1]);
+        assert_eq!(fewest(&[other, one]), [1, 0], "four specimens are few");
+        let none = tally([0; 8]);
+        assert_eq!(fewest(&[none.clone(), none, tally([1; 8])]), [0, 1], "every specimen tells them apart");
     }
 }
