@@ -197,7 +197,11 @@ impl Seen<'_> {
         if words.chars().count() <= room {
             return words;
         }
-        let left = self.left(elapsed).map_or_else(String::new, |left| format!(", {} left", in_words(left)));
+        let left = self.left(elapsed).map_or_else(String::new, |left| {
+            // The larger of its two units fits.
+            let words = in_words(left);
+            format!(", {} left", words.split(' ').take(2).collect::<Vec<_>>().join(" "))
+        });
         format!("{:.0} %{left}", (100.0 * share).floor()).chars().take(room).collect()
     }
 
@@ -246,9 +250,14 @@ mod tests {
                 assert!(line.chars().count() < columns.max(1), "{columns}: {line}");
             }
         }
-        for columns in 20..200 {
-            let line = LARGE.line(Duration::from_secs(25), columns);
-            assert!(line.ends_with("25 s left") && (line.contains("131,072") || line.contains("50 %")), "{columns}: {line}");
+        for (seconds, ends) in
+            [(25, " s left"), (824, "13 min left"), (824, "13 min 44 s left"), (7205, "2 h left"), (90_000, "1 d left")]
+        {
+            let columns = if ends.contains("44 s") { 60..200 } else { 20..25 };
+            for columns in columns {
+                let line = LARGE.line(Duration::from_secs(seconds), columns);
+                assert!(line.ends_with(ends) && (line.contains("131,072") || line.contains("50 %")), "{columns}: {line}");
+            }
         }
         assert!(LARGE.line(Duration::from_secs(25), 80).starts_with("████"));
     }

@@ -269,7 +269,15 @@ fn a_restart_does_not_touch_the_rows_of_a_running_process() {
     let (root, whole, shared) = folders();
     let slow = [&SLOW[..], &["--formats", "csv,svg"]].concat();
     well(map(&whole, &slow).output().unwrap());
-    let signal = |name: &str, id: u32| assert!(Command::new("kill").args([name, &id.to_string()]).status().unwrap().success());
+    let signal = |name: &str, id: u32| {
+        assert!(Command::new("kill").args([name, &id.to_string()]).status().unwrap().success());
+        // Every thread has stopped before the rows are read.
+        let stopped = |task: &Path| fs::read_to_string(task).map_or(true, |stat| stat.contains(") T ") || stat.contains(") Z "));
+        let tasks = || fs::read_dir(format!("/proc/{id}/task")).into_iter().flatten().flatten();
+        while name == "-STOP" && !tasks().all(|task| stopped(&task.path().join("stat"))) {
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+    };
     let first = map(&shared, &slow).args(["--threads", "1"]).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
     begun(&shared);
     signal("-STOP", first.id());

@@ -71,7 +71,7 @@ fn checks_say_nothing_of_a_fall() {
 #[test]
 fn a_fallen_block_is_no_fault_of_its_sensors() {
     let folder = tempfile::tempdir().unwrap();
-    let set = ["--set", "device.0.clutch.capacity_ratio=0.1"];
+    let set = ["--set", "device.0.clutch.capacity_ratio=0.05"];
     let output = sprag(&[&["loop", &scene("controller"), "--out", folder.path().to_str().unwrap()], &set[..]].concat());
     let run = &summary(folder.path())["runs"][0];
     assert_eq!((&run["outcome"], &run["faults"]), (&"overturned-after-impact".into(), &serde_json::json!([])));
