@@ -1,7 +1,7 @@
 //! Decision quality: estimators by sensors by delays.
 
 use super::bench::{Conditions, EQUATION_10, StudyError, Variant, each, run_loop};
-use super::motion::{Motion, grid};
+use super::motion::{Motion, and_records, grid};
 use super::report::{Report, Table};
 use super::statistics::cell;
 use crate::progress::Progress;
@@ -39,13 +39,12 @@ pub fn decisions(records: &[Motion], progress: &Progress, conditions: &Condition
     let results = each(&motions, &variants, progress, |motion, variant| run_loop(motion, variant, conditions))?;
     let mut report = Report::new("decisions", "Decision quality");
     report.paragraph(&format!(
-        "Motions: {} one-cycle sine and cosine pulses (ω/p 1.5 to 6, peaks of 1.5 to 4 uplift thresholds) and {} recorded motions, as \
-         recorded.\n\nEq. 10 predicted at 2 kHz, R = 2 m, α = 10°, σ = 0.5, among blocks that stand, against Eq. 10 on the true motion. Wrong: share of the rocking \
+        "Motions: {} one-cycle sine and cosine pulses (ω/p 1.5 to 6, peaks of 1.5 to 4 uplift thresholds){}.\n\nEq. 10 predicted at 2 kHz, R = 2 m, α = 10°, σ = 0.5, among blocks that stand, against Eq. 10 on the true motion. Wrong: share of the rocking \
          time, weighted by |θ̇|, in which the clutches are not as the law on the true motion has them, mean over the motions. Late: from \
          the instant at which that law changes to the clutch's movement, over all changes that a movement within 0.1 s belongs to. \
          Chatter: movements of the clutches beyond those of the law, a run.",
         motions.len() - records.len(),
-        records.len()
+        and_records(records.len(), ", as recorded")
     ));
     let mut table = Table::new(&[
         "estimator",

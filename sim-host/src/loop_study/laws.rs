@@ -2,7 +2,7 @@
 
 use super::bench::{Conditions, StudyError, all, run_ideal, run_loop};
 use super::law_settings::{IDEAL, SLENDERNESS_DEG, Setting};
-use super::motion::{Family, Motion, Records};
+use super::motion::{Family, Motion, Records, and_records};
 use super::report::{Report, Table};
 use super::tally::{Tally, fewest};
 use crate::outcome::Outcome;
@@ -134,17 +134,17 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
     let of_records = |motions: Vec<Motion>| (!motions.is_empty()).then(|| Kind { name: "records".to_owned(), motions });
     let base = Setting::base();
     let alpha = |setting: &Setting| setting.slenderness_deg.to_radians();
+    let thresholds = THRESHOLDS.map(|threshold| threshold.to_string()).join(", ");
     let mut report = Report::new("laws", "Beyond Eq. 10: clutch laws");
     report.paragraph(&format!(
-        "Motions: pulses of {} families (M-P: Mavroeidis-Papageorgiou) with ω/p {} to {} and peaks of {} to {} uplift thresholds g tan α, \
-         and {} recorded motions scaled to peaks of {} thresholds. A heading has the number of runs in brackets.",
+        "Motions: pulses of {} families (M-P: Mavroeidis-Papageorgiou) with ω/p {} to {} and peaks of {} to {} uplift thresholds \
+         g tan α{}. A heading has the number of runs in brackets.",
         Family::ALL.len(),
         FREQUENCIES.0,
         FREQUENCIES.1,
         AMPLITUDES.0,
         AMPLITUDES.1,
-        records.len(),
-        THRESHOLDS.map(|threshold| threshold.to_string()).join(", "),
+        and_records(records.len(), &format!(" scaled to peaks of {thresholds} thresholds")),
     ));
     report.paragraph(&format!(
         "R = 2 m, α = {SLENDERNESS_DEG}°, σ = 0.5, η = 0.85 but where a table says otherwise. Counted are overturned blocks: {} is the \

@@ -186,6 +186,11 @@ impl<'a> Records<'a> {
     }
 }
 
+/// What a page that names its pulses says of `count` recorded motions besides, and of how they are taken.
+pub fn and_records(count: usize, how: &str) -> String {
+    if count == 0 { String::new() } else { format!(" and {count} recorded motions{how}") }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

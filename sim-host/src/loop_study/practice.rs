@@ -1,7 +1,7 @@
 //! As good as the ideal pair in practice: real sensors, a real rate, a real delay.
 
 use super::bench::{Conditions, EQUATION_10, StudyError, Variant, each, run_ideal, run_loop};
-use super::motion::{Motion, grid};
+use super::motion::{Motion, and_records, grid};
 use super::report::{Report, Table};
 use super::statistics::cell;
 use crate::progress::Progress;
@@ -101,12 +101,11 @@ pub fn practice(records: &[Motion], progress: &Progress, conditions: &Conditions
     let pulses = pulses();
     let mut report = Report::new("practice", "As good as ideal in practice");
     report.paragraph(&format!(
-        "Motions: {} one-cycle sine and cosine pulses (ω/p 1 to 6, peaks of 1.2 to 5.2 uplift thresholds) and {} recorded motions, as \
-         recorded.\n\nPeak rotation of the closed loop against the ideal clutched pair (no controller, no delay): R = 2 m, α = 10°, σ = 0.5, \
+        "Motions: {} one-cycle sine and cosine pulses (ω/p 1 to 6, peaks of 1.2 to 5.2 uplift thresholds){}.\n\nPeak rotation of the closed loop against the ideal clutched pair (no controller, no delay): R = 2 m, α = 10°, σ = 0.5, \
          η = 0.85, control rate 2 kHz, 1 ms from sample to clutch but where a row says otherwise, Eq. 10 predicted. Changes among motions in \
          which both keep the block standing and the ideal pair rocks by {ROCKS} α or more.",
         pulses.len(),
-        records.len()
+        and_records(records.len(), ", as recorded")
     ));
     let parts = [
         ("Pulses", "practice-pulses", &pulses[..], &["adis16470", "icm-42688-p", "bmi088", "mpu-6050"][..]),

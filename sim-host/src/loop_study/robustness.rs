@@ -1,7 +1,7 @@
 //! Robustness: what delay, noise, rate and wrong beliefs cost, and where the loop breaks.
 
 use super::bench::{Conditions, EQUATION_10, StudyError, Variant, all, block_of, each, run_ideal, run_loop};
-use super::motion::{Motion, Records, grid};
+use super::motion::{Motion, Records, and_records, grid};
 use super::practice::{COLUMNS, Comparison, ROCKS};
 use super::report::{Report, Table};
 use super::statistics::cell;
@@ -118,15 +118,14 @@ pub fn robustness(records: &[Motion], progress: &Progress, conditions: &Conditio
     let slenderness = block_of(&Variant::new("records", &[]))?.slenderness();
     let pulses = [grid("sine", 6, (1.0, 6.0), (1.5, 5.2)), grid("cosine", 6, (1.0, 6.0), (1.5, 5.2))].concat();
     let recorded = Records::new(records)?.at_turns(&THRESHOLDS, slenderness);
+    let thresholds = THRESHOLDS.map(|threshold| threshold.to_string()).join(" and ");
     let mut report = Report::new("robustness", "Robustness of the closed loop");
     report.paragraph(&format!(
-        "Motions: {} one-cycle sine and cosine pulses (ω/p 1 to 6, peaks of 1.5 to 5.2 uplift thresholds) and {} recorded motions scaled to \
-         peaks of {} thresholds by turns.\n\nPeak rotation against the ideal pair, R = 2 m, α = 10°, σ = 0.5, η = 0.85: model-aided \
+        "Motions: {} one-cycle sine and cosine pulses (ω/p 1 to 6, peaks of 1.5 to 5.2 uplift thresholds){}.\n\nPeak rotation against the ideal pair, R = 2 m, α = 10°, σ = 0.5, η = 0.85: model-aided \
          estimator, Eq. 10 predicted, 2 kHz, 1 ms, ADIS16470, but for the one thing that is swept. Changes among motions in which both keep \
          the block standing and the ideal pair rocks by {ROCKS} α or more; faults among blocks that stand. Made by `sprag loop-study robustness`.",
         pulses.len(),
-        recorded.len(),
-        THRESHOLDS.map(|threshold| threshold.to_string()).join(" and ")
+        and_records(recorded.len(), &format!(" scaled to peaks of {thresholds} thresholds by turns"))
     ));
     let mut kinds = Vec::new();
     for (name, motions) in [("pulses", pulses), ("recorded motions", recorded)] {
