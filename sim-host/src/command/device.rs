@@ -280,7 +280,8 @@ fn report(given: &ParameterArguments, before: &Settings, now: &Settings, out: &m
     if told {
         let differing = before.words().iter().zip(now.words()).filter(|(before, now)| before != now).count();
         let until = if given.store { "and kept in flash" } else { "until the next start; --store keeps them" };
-        writeln!(out, "{differing} parameters changed; in force {until}")?;
+        let parameters = if differing == 1 { "parameter" } else { "parameters" };
+        writeln!(out, "{differing} {parameters} changed; in force {until}")?;
     }
     if let Some(path) = &given.out {
         // Not among the settings, if they are read from there.
