@@ -69,8 +69,8 @@ pub struct Ledger<S> {
 struct Balance<S> {
     kinetic: S,
     potential: S,
-    /// Rack and springs.
-    elsewhere: S,
+    rack: S,
+    springs: S,
     flywheel: [S; 2],
     engaged: [bool; 2],
     /// The flywheel turns at the rack's speed, to the last bit.
@@ -90,14 +90,28 @@ impl<S: Real> Balance<S> {
     const NOTHING: Balance<S> = Balance {
         kinetic: S::ZERO,
         potential: S::ZERO,
-        elsewhere: S::ZERO,
+        rack: S::ZERO,
+        springs: S::ZERO,
         flywheel: [S::ZERO; 2],
         engaged: [false; 2],
         locked: [false; 2],
     };
 
     fn stored(&self) -> S {
-        self.flywheel[0] + self.flywheel[1] + self.elsewhere
+        self.flywheel[0] + self.flywheel[1] + self.rack + self.springs
+    }
+
+    /// At an impact whatever is locked to the block is slowed as the block is, to `left` of its energy. Returns what is lost.
+    fn slow(&mut self, left: S, with_flywheels: bool) -> S {
+        let mut lost = self.rack * (S::ONE - left);
+        self.rack = self.rack * left;
+        for (flywheel, locked) in self.flywheel.iter_mut().zip(self.locked) {
+            if locked && with_flywheels {
+                lost = lost + *flywheel * (S::ONE - left);
+                *flywheel = *flywheel * left;
+            }
+        }
+        lost
     }
 }
 
@@ -162,7 +176,8 @@ impl<S: Real> Ledger<S> {
         Balance {
             kinetic: S::HALF * snapshot.motion.velocity * snapshot.motion.velocity,
             potential: self.potential(side, snapshot.motion.rotation),
-            elsewhere: snapshot.stored - flywheel[0] - flywheel[1],
+            rack: snapshot.stored - snapshot.sprung - flywheel[0] - flywheel[1],
+            springs: snapshot.sprung,
             flywheel,
             engaged: snapshot.engaged,
             locked: snapshot.spin.map(|spin| spin == snapshot.terminal_velocity),
@@ -172,36 +187,37 @@ impl<S: Real> Ledger<S> {
     /// What the device's energy has done between two stretches.
     fn attribute(&mut self, before: &Balance<S>, after: &Balance<S>) {
         let Since { impact, switch, stood } = self.since;
+        if !(impact || switch || stood) {
+            return;
+        }
+        let through_impacts = self.passes_impacts();
         let entries = &mut self.entries;
         for i in 0..2 {
             let lost = before.flywheel[i] - after.flywheel[i];
+            let stops_with_the_block = through_impacts && before.locked[i] && (stood || (impact && after.engaged[i]));
             let entry = match (before.engaged[i], after.engaged[i]) {
                 (false, true) if self.clutching == Clutching::Ideal => {
                     entries.created = entries.created - lost;
                     continue;
                 }
-                (true, false) if !stood && after.flywheel[i] == S::ZERO => &mut entries.brake,
-                (false, false) if stood => &mut entries.bearing,
-                (true, _) if impact || (stood && before.locked[i]) => &mut entries.impact,
-                _ if switch || stood => &mut entries.clutch,
-                _ => continue,
+                _ if stops_with_the_block => &mut entries.impact,
+                (true, false) if after.flywheel[i] == S::ZERO => &mut entries.brake,
+                _ => &mut entries.clutch,
             };
             *entry = *entry + lost;
         }
-        let lost = before.elsewhere - after.elsewhere;
-        if impact {
-            entries.impact = entries.impact + lost;
-        } else if switch || stood {
-            entries.clutch = entries.clutch + lost;
-        }
+        let rack = before.rack - after.rack;
+        let entry = if switch { &mut entries.clutch } else { &mut entries.impact };
+        *entry = *entry + rack;
+        entries.clutch = entries.clutch + before.springs - after.springs;
     }
 
-    /// The block stands: its energy is gone, and that of a device without a memory. What the flywheels of another still
-    /// have shows at the next stretch.
+    /// The block stands: its energy is gone, and that of a device without a memory. What the flywheels and springs of another still have
+    /// shows as it stands.
     fn rest(&mut self, last: &mut Balance<S>) {
         let entries = &mut self.entries;
-        entries.impact = entries.impact + last.kinetic + last.potential + last.elsewhere;
-        (last.kinetic, last.potential, last.elsewhere) = (S::ZERO, S::ZERO, S::ZERO);
+        entries.impact = entries.impact + last.kinetic + last.potential + last.rack;
+        (last.kinetic, last.potential, last.rack) = (S::ZERO, S::ZERO, S::ZERO);
         let flywheels = last.flywheel[0] + last.flywheel[1];
         match self.clutching {
             Clutching::Permanent => entries.impact = entries.impact + flywheels,
@@ -209,6 +225,11 @@ impl<S: Real> Ledger<S> {
             Clutching::Real | Clutching::Rigid => return,
         }
         last.flywheel = [S::ZERO; 2];
+    }
+
+    /// Flywheels that are locked go through an impact with the block.
+    fn passes_impacts(&self) -> bool {
+        self.clutching != Clutching::Real
     }
 
     fn state_of_affairs(&mut self, balance: Balance<S>) {
@@ -244,6 +265,10 @@ impl<S: Real> DeviceObserver<S> for Ledger<S> {
         self.state_of_affairs(self.balance(stretch.side, &arc.snapshot(stretch.to)));
     }
 
+    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        self.device_stretch(arc, stretch);
+    }
+
     fn device_event(&mut self, event: Event, _time: S, state: &State<S>) {
         let Some(mut last) = self.last else {
             // Before any motion: a block that uplifts has stood.
@@ -255,7 +280,9 @@ impl<S: Real> DeviceObserver<S> for Ledger<S> {
         let kinetic = S::HALF * state.velocity * state.velocity;
         match event {
             Event::Impact => {
-                self.entries.impact = self.entries.impact + last.kinetic - kinetic;
+                let left = if last.kinetic > S::ZERO { kinetic / last.kinetic } else { S::ONE };
+                let device = last.slow(left, self.passes_impacts());
+                self.entries.impact = self.entries.impact + last.kinetic - kinetic + device;
                 last.kinetic = kinetic;
                 self.since.impact = true;
             }

@@ -74,13 +74,29 @@ const SECOND: [f64; MAXIMUM_ORDER] = {
 ///
 /// `curvature` is M on [0, `to`] ([`curvature_bound`]).
 pub fn first_zero<S: Real>(coefficients: &[S], curvature: S, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-    let end = value(coefficients, to);
-    let function = |t: S| match coefficients {
+    let mut function = |t: S| match coefficients {
         [value, slope, ..] if t == S::ZERO => (*value, *slope),
         _ => value_and_slope(coefficients, t),
     };
-    first_zero_of(function, curvature, (from, to, end), sign, from_zero)
+    let (mut left, mut right, mut bound, mut at_zero) = (from, to, curvature, from_zero);
+    for _ in 0..MOST_SHORTER {
+        let end = value(coefficients, right);
+        match search(&mut function, bound, (left, right, end), sign, at_zero) {
+            Ok(None) if right < to => (left, right, bound, at_zero) = (right, to, curvature, false),
+            Ok(zero) => return zero,
+            // Over a shorter stretch the second derivative has a sharper bound.
+            Err(reached) => {
+                at_zero &= reached == left;
+                (left, right) = (reached, S::HALF * (reached + right));
+                bound = curvature_bound(coefficients, right);
+            }
+        }
+    }
+    first_zero_of(function, bound, (left, to, value(coefficients, to)), sign, at_zero)
 }
+
+/// Shorter stretches that [`first_zero`] tries, one after the other.
+const MOST_SHORTER: u32 = 24;
 
 /// Stretches that [`first_zero_of`] looks at before it settles for the signs at the ends; a hard case takes about 60.
 pub const MOST_STRETCHES: u32 = 400;
@@ -94,10 +110,23 @@ pub fn first_zero_of<S: Real>(
     sign: Sign,
     from_zero: bool,
 ) -> Option<S> {
+    let (_, to, end) = stretch;
+    search(&mut function, curvature, stretch, sign, from_zero)
+        .unwrap_or_else(|left| (sign.times(end) < S::ZERO).then(|| locate(left, to, sign, S::HALF * (left + to), function)))
+}
+
+/// [`first_zero_of`], or how far it was sought with [`MOST_STRETCHES`].
+fn search<S: Real>(
+    function: &mut impl FnMut(S) -> (S, S),
+    curvature: S,
+    stretch: (S, S, S),
+    sign: Sign,
+    from_zero: bool,
+) -> Result<Option<S>, S> {
     let (from, to, end) = stretch;
     let span = to - from;
     if span <= S::ZERO {
-        return None;
+        return Ok(None);
     }
     let smallest = span * S::of(1.0 / (1_u64 << 40) as f64);
     let (mut left, mut width) = (from, span);
@@ -114,14 +143,14 @@ pub fn first_zero_of<S: Real>(
         if changed {
             if (monotone && !zero_at_left) || w <= smallest {
                 let guess = left + w * S::HALF;
-                return Some(locate(left, right, sign, guess, &mut function));
+                return Ok(Some(locate(left, right, sign, guess, function)));
             }
         } else {
             let clear = !zero_at_left && sign.times(value).smaller(sign.times(right_value)) > curvature * (w * w) * S::of(0.125);
             let passes = clear || (monotone && (steep > S::ZERO || !zero_at_left)) || w <= smallest;
             if passes {
                 if right == to {
-                    return None;
+                    return Ok(None);
                 }
                 (left, value, slope) = (right, right_value, right_slope);
                 zero_at_left = sign.times(value) <= S::ZERO;
@@ -131,7 +160,7 @@ pub fn first_zero_of<S: Real>(
         }
         width = w * S::HALF;
     }
-    (sign.times(end) < S::ZERO).then(|| locate(left, to, sign, S::HALF * (left + to), function))
+    Err(left)
 }
 
 /// A smooth function of time whose extremes are sought.
@@ -244,6 +273,21 @@ mod tests {
             let sign = Sign::of(polynomial[0], Sign::Positive);
             let found = first_zero(&polynomial, curvature_bound(&polynomial, 1.0), 0.0, 1.0, sign, false).unwrap();
             assert!((found - roots[0]).abs() < 1e-11, "{roots:?}: {found}");
+        }
+    }
+
+    /// h² − x² of a twist x = bt² − ct that turns back just beyond −h, seen over a step that is a hundred times longer.
+    #[test]
+    fn a_double_crossing_at_the_start_of_a_long_stretch_is_found() {
+        let (h, b) = (2.88e-5_f64, 0.45);
+        for beyond in [1.001, 1.03, 1.5] {
+            let c = (4.0 * b * h * beyond).sqrt();
+            let polynomial = [h * h, 0.0, -c * c, 2.0 * b * c, -b * b];
+            let first = (c - (c * c - 4.0 * b * h).sqrt()) / (2.0 * b);
+            for to in [0.03, 0.46, 3.0] {
+                let found = first_zero(&polynomial, curvature_bound(&polynomial, to), 0.0, to, Sign::Positive, false).unwrap();
+                assert!((found / first - 1.0).abs() < 1e-9, "{beyond}, {to}: {found} and {first}");
+            }
         }
     }
 

@@ -42,6 +42,8 @@ pub struct Snapshot<S> {
     pub spin: [S; 2],
     /// Kinetic energy of flywheels and rack, and of springs; E/(λmR²), 1/s².
     pub stored: S,
+    /// What of it is in springs.
+    pub sprung: S,
     /// Power lost, 1/s³.
     pub spent: Spent<S>,
 }
@@ -101,6 +103,12 @@ pub trait DeviceObserver<S: Real> {
         let _ = (arc, stretch);
     }
 
+    /// The block stands on its base while its flywheels may coast, or of no length: what one event left for another at the same instant.
+    #[inline(always)]
+    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        let _ = (arc, stretch);
+    }
+
     /// An event, with the state after it.
     #[inline(always)]
     fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
@@ -120,6 +128,12 @@ impl<S: Real, A: DeviceObserver<S>, B: DeviceObserver<S>> DeviceObserver<S> for 
     }
 
     #[inline(always)]
+    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        self.0.device_stands(arc, stretch);
+        self.1.device_stands(arc, stretch);
+    }
+
+    #[inline(always)]
     fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
         self.0.device_event(event, time, state);
         self.1.device_event(event, time, state);
@@ -130,6 +144,11 @@ impl<S: Real, A: DeviceObserver<S> + ?Sized> DeviceObserver<S> for &mut A {
     #[inline(always)]
     fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
         (**self).device_stretch(arc, stretch);
+    }
+
+    #[inline(always)]
+    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        (**self).device_stands(arc, stretch);
     }
 
     #[inline(always)]
@@ -144,6 +163,13 @@ impl<S: Real, A: DeviceObserver<S>> DeviceObserver<S> for Option<A> {
     fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
         if let Some(watcher) = self {
             watcher.device_stretch(arc, stretch);
+        }
+    }
+
+    #[inline(always)]
+    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        if let Some(watcher) = self {
+            watcher.device_stands(arc, stretch);
         }
     }
 

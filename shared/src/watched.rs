@@ -120,6 +120,7 @@ impl<S: Real, A: Arc<S>, E: Equation<S>, P: Piece<S>> DeviceArc<S> for WatchedAr
             engaged: [false; 2],
             spin: [S::ZERO; 2],
             stored: S::ZERO,
+            sprung: S::ZERO,
             spent: Spent::default(),
         };
         let wheel = match self.wheel {

@@ -147,6 +147,10 @@ pub enum Watch<S> {
     Contact(S, usize),
     /// bound² − force² of a clutch in contact, with the bound and its growth.
     Below(S, S, usize),
+    /// friction² − θ̈² of a tilted block that friction holds, with the θ̈ that it would have without.
+    Stuck(S),
+    /// friction − sign · θ̈ of a block that its clutches hold on its base, likewise.
+    HeldDown(S, S),
 }
 
 /// Most functions that a device watches: the command, and two of each flywheel.

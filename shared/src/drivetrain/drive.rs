@@ -123,6 +123,8 @@ pub struct Account<S> {
     pub spin: [S; 2],
     /// Energy in flywheels, rack and springs, 1/s².
     pub stored: S,
+    /// What of it is in springs, 1/s².
+    pub sprung: S,
     /// Power lost, 1/s³; the paper's kinematics are not in it.
     pub spent: Spent<S>,
 }

@@ -150,6 +150,8 @@ impl<S: Real> Drive<S, 4, WATCHES> for ElasticPair<S> {
                 let relaxes = (plates - twist(i).scale(self.0.stiffness)).scale(law.relaxation[j]);
                 (relative(i) - relaxes.offset(self.creep(law, j))).scale(sign)
             }
+            Watch::Stuck(friction) => (-acceleration.square()).offset(friction * friction),
+            Watch::HeldDown(friction, sign) => acceleration.scale(-sign).offset(friction),
             _ => acceleration,
         }
     }
@@ -235,7 +237,8 @@ impl<S: Real> Drive<S, 4, WATCHES> for ElasticPair<S> {
             let spring = self.0.stiffness * twist;
             let rate = at.law.follows[i] * relative + at.law.relaxation[i] * (plates - spring) + self.creep(at.law, i);
             account.force[i] = force;
-            account.stored = account.stored + S::HALF * spring * twist;
+            let sprung = S::HALF * spring * twist;
+            (account.stored, account.sprung) = (account.stored + sprung, account.sprung + sprung);
             account.spent.clutch = account.spent.clutch + force * relative - spring * rate;
         }
         account

@@ -97,7 +97,16 @@ impl<S: Real> Drive<S, 2, 3> for FrictionPair<S> {
 
     fn reached<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, watch: Watch<S>) {
         match watch {
-            Watch::Slip(_, wheel) => self.stick_or_slip(at, wheel & 1),
+            Watch::Slip(_, wheel) => {
+                let (wheel, other) = (wheel & 1, 1 - (wheel & 1));
+                let both = at.device.wheels[other].coupling == Coupling::Locked;
+                self.stick_or_slip(at, wheel);
+                if both {
+                    // What joins changes the force on what sticks already, and that the force on what joins.
+                    self.stick_or_slip(at, other);
+                    self.stick_or_slip(at, wheel);
+                }
+            }
             Watch::Capacity(..) => {
                 for wheel in 0..2 {
                     if at.device.wheels[wheel].coupling == Coupling::Locked {

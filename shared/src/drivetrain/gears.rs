@@ -65,6 +65,8 @@ impl<S: Real> Gears<S> {
             }
             Engagement::Ideal | Engagement::Rigid | Engagement::Overrunning => {}
         }
+        // ε^¾: far above rounding, far below what matters.
+        let little = S::EPSILON.square_root() * S::EPSILON.square_root().square_root();
         Gears {
             inertance: S::of(k),
             mobility: S::of(if k > 0.0 { 1.0 / k } else { 0.0 }),
@@ -77,7 +79,7 @@ impl<S: Real> Gears<S> {
             brake: S::of(if stops_at_once { 0.0 } else { flywheel.brake_deceleration / size }),
             stops_at_once,
             capacity: S::of(capacity),
-            contact: S::of(if actuation.rise_time > 0.0 { capacity } else { 0.0 }) * S::EPSILON.square_root(),
+            contact: S::of(if actuation.rise_time > 0.0 { capacity } else { 0.0 }) * little,
             rise_time: S::of(actuation.rise_time),
             stiffness: S::of(stiffness),
             damping: S::of(damping),
@@ -138,7 +140,8 @@ impl<S: Real> Gears<S> {
         if wheel.coupling == Coupling::Open { self.bearing_dry + self.brake } else { self.bearing_dry }
     }
 
-    /// Decides which way a flywheel turns on which `force` (1/s²) acts: a standing one starts only beyond its dry friction.
+    /// Decides which way a flywheel turns on which `force` (1/s²) acts: a standing one starts only beyond its dry friction. Without any it
+    /// is never held, or it would miss the first of a force that grows from zero.
     #[inline]
     pub fn settle(&self, wheel: &mut Wheel<S>, force: S) {
         let dry = self.inertance * self.dry_of(wheel);
@@ -146,7 +149,7 @@ impl<S: Real> Gears<S> {
             Some(Sign::Positive)
         } else if wheel.spin < S::ZERO {
             Some(Sign::Negative)
-        } else if force.abs() > dry {
+        } else if force.abs() > dry || dry == S::ZERO {
             Some(Sign::of(force, Sign::Positive))
         } else {
             None

@@ -6,7 +6,7 @@ use crate::scalar::Real;
 pub const MOST_UNDER_WAY: usize = 8;
 
 /// Commands in order, each with its wait after the one before it. Where a new one finds no place, it takes back the newest if that is of the
-/// other kind, as with an inertial delay; else it says what has been said.
+/// other kind, as with an inertial delay; one of the same kind changes nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct UnderWay<S> {
     waits: [S; MOST_UNDER_WAY],

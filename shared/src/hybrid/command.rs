@@ -82,7 +82,10 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         if !D::COMMANDED || state.motion.phase != Phase::Rocking {
             return;
         }
-        for _ in 0..MOST_ANSWERS {
+        for answer in 0..MOST_ANSWERS {
+            if answer > 0 {
+                self.show_instant(state, time, observer);
+            }
             let motion = &state.motion;
             let resists = motion.direction == motion.drive;
             let wheel = wheel_for(motion.direction);
@@ -93,25 +96,37 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 }
             }
             let (velocity, direction) = (state.motion.velocity, state.motion.direction);
-            let mut holds = false;
+            let mut moved = false;
             for index in 0..2 {
                 while state.device.wheels[index].pending == S::ZERO {
-                    let engages = self.due_command(&state.device.wheels[index]);
-                    holds |= state.held || (engages && state.motion.rotation != S::ZERO);
+                    moved = true;
                     self.carry_out(state, index, time, observer);
+                    if state.device.wheels[index].pending == S::ZERO {
+                        // An infinite brake has the flywheel before it is engaged again.
+                        self.show_instant(state, time, observer);
+                    }
                 }
             }
             if state.motion.velocity == velocity {
-                if holds && D::HOLDS && velocity == S::ZERO {
-                    // The bearings of a wheel that has just been engaged may hold the block, those of a released one let it go.
+                if moved && D::HOLDS && velocity == S::ZERO {
+                    // The bearings of a wheel that has just been engaged may hold the block, those of a released one let it go, and a
+                    // spring that is let go moves it no more.
                     state.free = false;
                     let was_held = state.held;
                     self.turned(state);
                     if was_held && !state.held {
                         // It has a motion again, which Eq. 10 looks at.
+                        self.set_off(state, (state.motion.direction, false), time, observer);
+                        continue;
+                    }
+                    if state.motion.direction != direction {
                         self.look_at_drive(state);
                         continue;
                     }
+                }
+                if moved {
+                    // One clutch changes the force on the other.
+                    self.settle(state, time, observer);
                 }
                 return;
             }

@@ -1,15 +1,13 @@
 //! Dry friction of rack and bearings may hold a block: tilted, where it turns, or on its base, where clutches engage as it starts.
 
-use super::path::Shaking;
-use super::seen::Still;
+use super::path::{Shaking, Tracer};
 use super::threshold::{Threshold, earlier};
 use super::{Machine, MachineState};
-use crate::arc::Motion;
 use crate::body::Body;
-use crate::drivetrain::device::Coupling;
+use crate::drivetrain::device::{Coupling, Law, Watch, Wheel};
 use crate::drivetrain::drive::Drive;
 use crate::ground::Piece;
-use crate::observer::{Event, Stretch};
+use crate::rocking::Limits;
 use crate::scalar::{Real, Sign};
 use crate::snapshot::DeviceObserver;
 
@@ -44,46 +42,18 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     ) -> S {
         let end = self.let_go(state, shaking, time, stop);
         let until = end.map_or(stop, |(at, _)| at);
-        // A flywheel that comes to a stop on the way kinks the powers that watchers integrate.
         let whole = until - time;
-        let wheels =
-            self.drive.gears().into_iter().flat_map(|gears| state.device.wheels.iter().map(|w| gears.stops_within(w, whole)));
-        let length = wheels.flatten().fold(whole, Real::smaller);
+        let length = self.until_stop(state, whole);
         let (until, end) = if length < whole { (time + length, None) } else { (until, end) };
-        // On its base it stands, as watchers see it.
-        let on_base = state.motion.rotation == S::ZERO;
-        if until > time && !on_base {
-            let still = Motion { rotation: state.motion.rotation, velocity: S::ZERO, acceleration: S::ZERO };
-            let stretch = Stretch {
-                start: time,
-                from: S::ZERO,
-                to: until - time,
-                first: still,
-                last: still,
-                engaged: state.device.wheels.iter().any(|wheel| wheel.coupling != Coupling::Open),
-                side: state.motion.side,
-                direction: state.motion.direction,
-            };
-            observer.device_stretch(&Still { machine: self, state: &*state, shaking, time, length: until - time }, &stretch);
+        if until > time {
+            self.show_still(state, shaking, time, until - time, observer);
         }
         // What the clock cannot tell from now still stops a flywheel.
         self.idle(state, length);
         state.ground = shaking.at::<S, B>(until);
         match end {
-            Some((_, LetGo::Moves { sign, crossing })) => {
-                (state.held, state.free) = (false, crossing);
-                state.motion.direction = sign;
-                if on_base {
-                    // What lifts the block accelerates the terminals, and that may have been zero until now.
-                    (state.motion.drive, state.jolted, state.fresh[0]) = (sign, false, D::COMMANDED);
-                    observer.device_event(Event::Uplift, until, &state.motion);
-                    observer.device_event(Event::Switch, until, &state.motion);
-                } else {
-                    self.look_at_drive(state);
-                }
-                self.settle(state, until, observer);
-            }
-            Some((_, LetGo::Rests)) => *state = self.standing(state),
+            Some((_, LetGo::Moves { sign, crossing })) => self.set_off(state, (sign, crossing), until, observer),
+            Some((_, LetGo::Rests)) => *state = self.standing(state, until, observer),
             None => {}
         }
         until
@@ -101,12 +71,87 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let first = |threshold: Threshold<S>| threshold.exceeded::<B, P, Q>(shaking, time, stop);
         let moves = |sign| first(self.breakaway(state, side, sign)).map(|(at, crossing)| (at, LetGo::Moves { sign, crossing }));
         let ends = if state.motion.rotation == S::ZERO {
-            let weight = self.breakaway(&self.standing(state), side, side).opposite();
-            [moves(side), first(weight).map(|(at, _)| (at, LetGo::Rests))]
+            [moves(side), first(self.weight(state)).map(|(at, _)| (at, LetGo::Rests))]
         } else {
             [moves(Sign::Positive), moves(Sign::Negative)]
         };
         earlier(ends)
+    }
+
+    /// What holds a block on its base without its clutches.
+    fn weight(&self, state: &MachineState<S>) -> Threshold<S> {
+        let side = state.motion.side;
+        self.breakaway(&self.standing(state, S::ZERO, &mut ()), side, side).opposite()
+    }
+
+    /// A held block goes, towards `sign`, as what moves it passes what holds it (`crossing`) or jumps beyond.
+    pub(super) fn set_off(
+        &self,
+        state: &mut MachineState<S>,
+        (sign, crossing): (Sign, bool),
+        time: S,
+        observer: &mut dyn DeviceObserver<S>,
+    ) {
+        (state.held, state.free) = (false, crossing);
+        state.motion.direction = sign;
+        if state.motion.rotation == S::ZERO {
+            self.leave_base(state, time, observer);
+        } else {
+            self.look_at_drive(state);
+        }
+        self.settle(state, time, observer);
+    }
+
+    /// A clutch stretches or plays, so that its flywheel swings while the block is held.
+    pub(super) fn has_springs(&self, state: &MachineState<S>) -> bool {
+        let stiff = |wheel: &Wheel<S>| matches!(wheel.coupling, Coupling::Open | Coupling::Locked | Coupling::Slipping(_));
+        X >= 4 && !state.device.wheels.iter().all(stiff)
+    }
+
+    /// The equations of a held block: what its springs do moves flywheels alone, until they or the ground overcome the rack's friction.
+    pub(super) fn hold_law(&self, state: &MachineState<S>, law: &mut Law<S>) {
+        let (side, rotation) = (state.motion.side.unit(), state.motion.rotation);
+        let posture = self.body.posture(side, rotation);
+        let moment = self.body.along(&posture, law.dry.abs());
+        let friction = self.body.over_inertia(&posture, moment, law.coupling, S::ZERO);
+        law.dry = S::ZERO;
+        law.watch[0] = if rotation == S::ZERO { Watch::HeldDown(friction, side) } else { Watch::Stuck(friction) };
+    }
+
+    /// [`Machine::hold`] with springs: one step, up to its first event.
+    pub(super) fn hold_springs<T: Tracer<S>, P: Piece<S>, Q: Piece<S>>(
+        &self,
+        tracer: &T,
+        state: &mut MachineState<S>,
+        shaking: Shaking<'_, P, Q>,
+        (time, stop): (&mut S, S),
+        guarded: (&Limits<S>, bool),
+        observer: &mut dyn DeviceObserver<S>,
+    ) {
+        let on_base = state.motion.rotation == S::ZERO;
+        let rests = if on_base { self.weight(state).exceeded::<B, P, Q>(shaking, *time, stop) } else { None };
+        let end = rests.map_or(stop, |(at, _)| at);
+        if end > *time {
+            self.follow(tracer, state, shaking, (time, end), guarded, observer);
+        }
+        if rests.is_some() && *time == end {
+            *state = self.standing(state, *time, observer);
+        } else if state.held {
+            // An event of its device may let it go.
+            self.turned(state);
+            if !state.held {
+                self.set_off(state, (state.motion.direction, false), *time, observer);
+            }
+        }
+    }
+
+    /// What moves a held block has reached what holds it.
+    pub(super) fn break_away(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+        let side = state.motion.side;
+        let push = |sign| self.breakaway(state, side, sign).at(state.ground);
+        let outward = state.motion.rotation == S::ZERO || push(side) > push(side.opposite());
+        let sign = if outward { side } else { side.opposite() };
+        self.set_off(state, (sign, true), time, observer);
     }
 }
 

@@ -49,7 +49,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         if velocity.abs() > self.rest_speed {
             return time;
         }
-        let standing = self.standing(state);
+        let standing = self.standing(state, time, &mut ());
         if self.uplifting(&standing, state.ground) > S::ZERO {
             self.stay_on_base(state, time, observer);
             return time;
@@ -65,8 +65,10 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let ends = if holds { ends } else { time };
         *state = standing;
         state.motion.impacts += tail.impacts;
-        self.idle(state, ends - time);
         observer.device_event(Event::Rest, ends, &state.motion);
+        // What its clutches let go shows at once, and what coasts until then after it.
+        self.show_instant(state, time, observer);
+        self.stand(state, shaking, time, ends, observer);
         ends
     }
 
@@ -108,11 +110,14 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let size = ground[0].abs().larger(ground[1].abs()).larger(S::EPSILON);
         if state.motion.phase == Phase::Rocking && jump > size * S::EPSILON * S::of(4096.0) {
             self.look_at_drive(state);
-            if state.motion.velocity == S::ZERO {
-                state.held = false;
-                self.turned(state);
-            }
             state.fresh = [false; WATCHES];
+            if state.motion.velocity == S::ZERO {
+                let was_held = state.held;
+                self.turned(state);
+                if was_held && !state.held {
+                    self.set_off(state, (state.motion.direction, false), S::ZERO, observer);
+                }
+            }
             self.settle(state, S::ZERO, observer);
             self.command(state, S::ZERO, observer);
         }

@@ -102,7 +102,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             free: false,
             jolted: false,
         };
-        self.part_at_rest(&mut state);
+        self.part_at_rest(&mut state, S::ZERO, &mut ());
         state
     }
 
@@ -147,7 +147,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 let stop = self.stands_until(state, time, duration);
                 let uplift = self.uplift_time(state, shaking, time, stop);
                 let until = uplift.map_or(stop, |(at, _)| at);
-                self.idle(state, until - time);
+                self.stand(state, shaking, time, until, observer);
                 time = until;
                 if let Some((_, crossing)) = uplift {
                     self.uplift(state, shaking.at::<S, B>(time), time, crossing, observer);
@@ -173,8 +173,10 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 stop = stop.smaller(time + (S::of(GRAZE) * unit).larger(S::of(4.0) * S::EPSILON * time));
             }
             if stop <= time {
-            } else if state.held {
+            } else if state.held && !self.has_springs(state) {
                 time = self.hold(state, shaking, time, stop, observer);
+            } else if state.held {
+                self.hold_springs(tracer, state, shaking, (&mut time, stop), (limits, !grazes), observer);
             } else {
                 self.follow(tracer, state, shaking, (&mut time, stop), (limits, !grazes), observer);
             }
@@ -202,7 +204,10 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     ) {
         let motion = &state.motion;
         let watched = if state.jolted { motion.drive.opposite() } else { motion.drive };
-        let law = self.drive.law(motion.direction, watched, &state.device);
+        let mut law = self.drive.law(motion.direction, watched, &state.device);
+        if state.held {
+            self.hold_law(state, &mut law);
+        }
         let start = PathStart {
             body: &self.body,
             drive: &self.drive,
@@ -215,6 +220,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             time: *time,
             length: stop - *time,
             freed: state.free && motion.velocity == S::ZERO,
+            held: state.held,
             scale: self.slenderness,
             speed: self.speed,
         };
@@ -222,7 +228,9 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let length = path.length();
         let mut until = length;
         let mut end = End::Reached;
-        if let Some(turn) = path.velocity_zero(until, motion.direction, motion.velocity == S::ZERO) {
+        if !state.held
+            && let Some(turn) = path.velocity_zero(until, motion.direction, motion.velocity == S::ZERO)
+        {
             (until, end) = (turn, End::Turn);
         }
         for guard in 0..G {
@@ -233,9 +241,13 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 (until, end) = (zero, End::Guard(guard));
             }
         }
-        if X >= 2 {
+        if X >= 2
+            && let Some(gears) = self.drive.gears()
+        {
             for (i, wheel) in state.device.wheels.iter().enumerate() {
-                if let (Some(turning), true) = (wheel.turning, wheel.coupling != Coupling::Locked)
+                // Without dry friction nothing changes where a flywheel stands for an instant.
+                let stops = wheel.coupling != Coupling::Locked && gears.dry_of(wheel) > S::ZERO;
+                if let (Some(turning), true) = (wheel.turning, stops)
                     && let Some(zero) = path.extra_zero(i, until, turning, wheel.spin == S::ZERO)
                 {
                     (until, end) = (zero, End::Stopped(i));
@@ -270,7 +282,11 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             direction: motion.direction,
         };
         let seen = Seen { machine: self, path: &path, law: &law, state: &*state, shaking, time: *time };
-        observer.device_stretch(&seen, &stretch);
+        if state.held && motion.rotation == S::ZERO {
+            observer.device_stands(&seen, &stretch);
+        } else {
+            observer.device_stretch(&seen, &stretch);
+        }
         let extra = path.extra(until);
         *time = if end == End::Reached && length == stop - *time { stop } else { *time + until };
         let motion = &mut state.motion;
@@ -314,6 +330,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             }
             End::Guard(index) => {
                 match law.watch[index] {
+                    Watch::Stuck(_) | Watch::HeldDown(..) => return self.break_away(state, *time, observer),
                     Watch::Command(_) if state.jolted => state.jolted = false,
                     Watch::Command(_) => motion.drive = motion.drive.opposite(),
                     watch => self.with_instant(state, *time, observer, |drive, at| drive.reached(at, watch)),
@@ -430,6 +447,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             engaged: account.engaged,
             spin: account.spin,
             stored: account.stored,
+            sprung: account.sprung,
             spent: Spent { kinematics, ..account.spent },
             terminal_velocity: self.body.along(&moment.posture, motion.velocity),
         }

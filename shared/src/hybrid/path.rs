@@ -63,6 +63,8 @@ pub struct PathStart<'a, S, B, D, P, Q, const X: usize> {
     pub length: S,
     /// The block has just been set free where what moves it passed what held it: θ̈ has the direction of the motion, or is zero.
     pub freed: bool,
+    /// Friction holds the block: θ̈ = 0, whatever acts.
+    pub held: bool,
     /// Size of a rotation that matters (rad), for tolerances.
     pub scale: S,
     /// Size of an angular velocity that matters, rad/s.
@@ -82,7 +84,7 @@ impl<S: Real, B: Body<S>, D, P: Piece<S>, Q: Piece<S>, const X: usize> PathStart
     where
         D: Drive<S, X, G>,
     {
-        self.drive.flow(&Moment {
+        let (acceleration, rates) = self.drive.flow(&Moment {
             body: self.body,
             law: &self.law,
             posture: self.body.posture(self.side.unit(), rotation),
@@ -90,7 +92,8 @@ impl<S: Real, B: Body<S>, D, P: Piece<S>, Q: Piece<S>, const X: usize> PathStart
             extra: *extra,
             ground: self.shaking.at::<S, B>(self.time + t),
             clock: t,
-        })
+        });
+        (if self.held { S::ZERO } else { acceleration }, rates)
     }
 
     /// Watched function `index` in the given state.
@@ -108,7 +111,8 @@ impl<S: Real, B: Body<S>, D, P: Piece<S>, Q: Piece<S>, const X: usize> PathStart
             ground: self.shaking.at::<S, B>(self.time + t),
             clock: t,
         };
-        self.drive.guard(&moment, motion.acceleration, self.law.watch[index])
+        let acceleration = if self.held { self.drive.flow(&moment).0 } else { motion.acceleration };
+        self.drive.guard(&moment, acceleration, self.law.watch[index])
     }
 }
 

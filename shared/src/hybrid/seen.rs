@@ -7,6 +7,7 @@ use crate::body::Body;
 use crate::drivetrain::device::Law;
 use crate::drivetrain::drive::Drive;
 use crate::ground::Piece;
+use crate::rocking::State;
 use crate::scalar::Real;
 use crate::snapshot::{DeviceArc, Snapshot};
 
@@ -57,7 +58,7 @@ where
     }
 }
 
-/// A block that does not move.
+/// A block that does not move, or at one instant.
 pub(super) struct Still<'a, S, B, D, P, Q, const X: usize, const G: usize> {
     pub(super) machine: &'a Machine<S, B, D, X, G>,
     pub(super) state: &'a MachineState<S>,
@@ -72,7 +73,8 @@ impl<S: Real, B, D, P, Q, const X: usize, const G: usize> Arc<S> for Still<'_, S
     }
 
     fn at(&self, _time: S) -> Motion<S> {
-        Motion { rotation: self.state.motion.rotation, velocity: S::ZERO, acceleration: S::ZERO }
+        let State { rotation, velocity, .. } = self.state.motion;
+        Motion { rotation, velocity, acceleration: S::ZERO }
     }
 
     fn switching(&self, _time: S) -> S {

@@ -1,26 +1,28 @@
 //! A block that stands on its base: what uplifts it, and what may still hold it there.
 
 use super::path::Shaking;
+use super::seen::Still;
 use super::threshold::{Threshold, earlier};
 use super::{Machine, MachineState};
+use crate::arc::Motion;
 use crate::body::Body;
 use crate::drivetrain::device::{Coupling, WATCHES};
 use crate::drivetrain::drive::{Drive, open};
 use crate::drivetrain::under_way::UnderWay;
-use crate::ground::Piece;
-use crate::observer::Event;
+use crate::ground::{Linear, Piece};
+use crate::observer::{Event, Stretch};
 use crate::rocking::{Phase, State};
 use crate::scalar::{Real, Sign};
 use crate::snapshot::DeviceObserver;
 
 impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {
     /// Block and device of `state` once the block stands.
-    pub(super) fn standing(&self, state: &MachineState<S>) -> MachineState<S> {
+    pub(super) fn standing(&self, state: &MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) -> MachineState<S> {
         let State { side, direction, impacts, .. } = state.motion;
         let mut standing = *state;
         standing.motion = State { impacts, side, direction, ..State::default() };
         standing.held = false;
-        self.part_at_rest(&mut standing);
+        self.part_at_rest(&mut standing, time, observer);
         // A flywheel that a resting block has left with less than rounding stands, or its sign would decide what the next clutch does.
         for wheel in &mut standing.device.wheels {
             if wheel.spin.abs() <= self.rest_speed * S::EPSILON {
@@ -31,7 +33,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// The clutches of a standing block are open, but for those that a controller holds; a device without clutches stays engaged.
-    pub(super) fn part_at_rest(&self, state: &mut MachineState<S>) {
+    pub(super) fn part_at_rest(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         let Some(gears) = self.drive.gears() else { return };
         if !D::COMMANDED && X == 0 {
             state.device.wheels[0].coupling = Coupling::Locked;
@@ -40,7 +42,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         if self.actuator.controlled {
             return;
         }
-        self.with_instant(state, S::ZERO, &mut (), |_, at| {
+        self.with_instant(state, time, observer, |_, at| {
             for wheel in 0..2 {
                 if at.device.wheels[wheel].coupling != Coupling::Open {
                     open(gears, at, wheel);
@@ -60,6 +62,60 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     /// The moment that lifts a block on its base, over its inertia about the toe; 1/s².
     pub(super) fn uplifting(&self, state: &MachineState<S>, ground: [S; 2]) -> S {
         self.lifted(state, ground).1.at(ground)
+    }
+
+    /// Shows block and device between two changes at one instant.
+    pub(super) fn show_instant(&self, state: &MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+        let [horizontal, vertical] = state.ground.map(Linear::constant);
+        let shaking = Shaking { horizontal: &horizontal, vertical: &vertical };
+        self.show_still(state, shaking, time, S::ZERO, observer);
+    }
+
+    /// Shows a block that does not move, from `time` on for `length` (s), and its device.
+    pub(super) fn show_still<P: Piece<S>, Q: Piece<S>>(
+        &self,
+        state: &MachineState<S>,
+        shaking: Shaking<'_, P, Q>,
+        time: S,
+        length: S,
+        observer: &mut dyn DeviceObserver<S>,
+    ) {
+        let State { rotation, velocity, side, direction, .. } = state.motion;
+        let still = Motion { rotation, velocity, acceleration: S::ZERO };
+        let engaged = state.device.wheels.iter().any(|wheel| wheel.coupling != Coupling::Open);
+        let stretch = Stretch { start: time, from: S::ZERO, to: length, first: still, last: still, engaged, side, direction };
+        let arc = Still { machine: self, state, shaking, time, length };
+        if rotation == S::ZERO || length == S::ZERO {
+            observer.device_stands(&arc, &stretch);
+        } else {
+            observer.device_stretch(&arc, &stretch);
+        }
+    }
+
+    /// `time` (s), or when before that a flywheel comes to a stop, if the block does not move: it kinks the powers that watchers integrate.
+    pub(super) fn until_stop(&self, state: &MachineState<S>, time: S) -> S {
+        let Some(gears) = self.drive.gears() else { return time };
+        let stops = state.device.wheels.iter().filter_map(|wheel| gears.stops_within(wheel, time));
+        stops.fold(time, Real::smaller)
+    }
+
+    /// The block stands from `time` to `end`, and flywheels coast.
+    pub(super) fn stand<P: Piece<S>, Q: Piece<S>>(
+        &self,
+        state: &mut MachineState<S>,
+        shaking: Shaking<'_, P, Q>,
+        time: S,
+        end: S,
+        observer: &mut dyn DeviceObserver<S>,
+    ) {
+        let (mut now, mut shown) = (time, *state);
+        while now < end && shown.device.wheels.iter().any(|wheel| wheel.spin != S::ZERO) {
+            let length = self.until_stop(&shown, end - now);
+            self.show_still(&shown, shaking, now, length, observer);
+            self.idle(&mut shown, length);
+            now = now + length;
+        }
+        self.idle(state, end - time);
     }
 
     /// How long the clutches of a standing block stay as they are, from `time` to `duration` at most.
@@ -100,19 +156,26 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     ) {
         let (side, _) = self.lifted(state, ground);
         let impacts = state.motion.impacts;
-        state.motion =
-            State { phase: Phase::Rocking, side, direction: side, drive: side, push: side, impacts, ..State::default() };
+        state.motion = State { phase: Phase::Rocking, side, direction: side, push: side, impacts, ..State::default() };
         state.ground = ground;
-        (state.fresh, state.free, state.jolted) = ([false; WATCHES], crossing, false);
-        state.fresh[0] = D::COMMANDED;
-        let mut started = *state;
-        self.start_clutches(&mut started, time, &mut ());
-        if started.held {
-            *state = started;
-        } else {
-            observer.device_event(Event::Uplift, time, &state.motion);
-            self.start_clutches(state, time, observer);
+        (state.fresh, state.free) = ([false; WATCHES], crossing);
+        if D::HOLDS {
+            let mut started = *state;
+            self.leave_base(&mut started, time, &mut ());
+            self.start_clutches(&mut started, time, &mut ());
+            if started.held {
+                *state = started;
+                return;
+            }
         }
+        self.leave_base(state, time, observer);
+        self.start_clutches(state, time, observer);
+    }
+
+    /// The block leaves its base. What lifts it accelerates the terminals its way, and that may have been zero until now.
+    pub(super) fn leave_base(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+        (state.motion.drive, state.jolted, state.fresh[0]) = (state.motion.side, false, D::COMMANDED);
+        observer.device_event(Event::Uplift, time, &state.motion);
     }
 
     /// The clutches answer an uplift, and may hold the block on its base.

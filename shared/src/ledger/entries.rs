@@ -21,7 +21,7 @@ pub struct Entries<S> {
     pub clutch: S,
     /// Gone in brakes of released flywheels.
     pub brake: S,
-    /// Gone in bearings of flywheels, and in whatever else slows down an idle one while the block stands.
+    /// Gone in bearings of flywheels.
     pub bearing: S,
     /// Gone in the rack's friction.
     pub rack: S,

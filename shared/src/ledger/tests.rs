@@ -94,8 +94,8 @@ fn a_free_block_leaves_all_it_had_to_its_impacts_and_brakes() {
     }
 }
 
-/// At the first impact of the pair the flywheel has its share kℓ²/(1 + kℓ²) of all there is, and the block loses 1 − η² of
-/// the rest.
+/// At the first impact block and flywheel lose 1 − η² of all there is, and the brake then takes what the flywheel has left of its
+/// share kℓ²/(1 + kℓ²).
 #[test]
 fn the_first_impact_parts_what_there_is() {
     for (kind, share) in [(DeviceKind::None, 0.0), (DeviceKind::ClutchedPair, 0.375 / 1.375)] {
@@ -107,10 +107,10 @@ fn the_first_impact_parts_what_there_is() {
         assert_eq!(state.impacts, 1);
         let potential = structure.block.frequency_parameter_squared() * alpha * alpha * (0.4 - 0.08);
         assert!((entries.initial / potential - 1.0).abs() < 1e-14);
-        assert!((entries.brake - share * potential).abs() < 1e-13 * potential);
-        let lost = (1.0 - share) * (1.0 - 0.85 * 0.85) * potential;
-        assert!((entries.impact / lost - 1.0).abs() < 1e-13);
-        assert!((entries.mechanical() / (potential - lost - share * potential) - 1.0).abs() < 1e-13);
+        let left = 0.85 * 0.85 * potential;
+        assert!((entries.brake - share * left).abs() < 1e-13 * potential);
+        assert!((entries.impact / (potential - left) - 1.0).abs() < 1e-13);
+        assert!((entries.mechanical() / ((1.0 - share) * left) - 1.0).abs() < 1e-13);
     }
 }
 
@@ -226,6 +226,7 @@ fn snapshot(rotation: f64, velocity: f64, spin: f64, engaged: bool) -> Snapshot<
         engaged: [engaged, false],
         spin: [spin, 0.0],
         stored: 0.2 * spin * spin,
+        sprung: 0.0,
         spent: Spent::default(),
     }
 }
@@ -269,7 +270,7 @@ fn a_jolt_costs_what_the_momentum_balance_says() {
 
 #[test]
 fn what_jumps_at_an_event_goes_to_its_cause() {
-    let mut ledger = scripted(Clutching::Real, 0.0);
+    let mut ledger = scripted(Clutching::Rigid, 0.0);
     show(&mut ledger, 0.0, |_| snapshot(0.0, -2.0, -2.0, true));
     // Everything locked is slowed by 0.9.
     event(&mut ledger, Event::Impact, -1.8);
@@ -286,9 +287,28 @@ fn what_jumps_at_an_event_goes_to_its_cause() {
     event(&mut ledger, Event::Impact, -9e-4);
     event(&mut ledger, Event::Rest, 0.0);
     assert!((ledger.entries().impact - 5e-7).abs() < 1e-18 && (ledger.entries().stored - 1.8).abs() < 1e-15);
-    event(&mut ledger, Event::Uplift, 0.0);
-    show(&mut ledger, 0.0, |_| snapshot(0.0, 0.0, -1.0, false));
+    show(&mut ledger, 2.0, |time| {
+        let spin = time - 3.0;
+        Snapshot { spent: Spent { bearing: -0.4 * spin, ..Spent::default() }, ..snapshot(0.0, 0.0, spin, false) }
+    });
     assert!((ledger.entries().bearing - 0.2 * 8.0).abs() < 1e-15 && ledger.entries().residual().abs() < 1e-15);
+}
+
+#[test]
+fn a_spring_that_an_impact_lets_go_is_lost_in_its_clutch() {
+    let mut ledger = scripted(Clutching::Real, 0.3);
+    // Rack and spring beside a flywheel that turns faster than both.
+    let sprung = |velocity: f64, sprung: f64, engaged: bool| {
+        let plain = snapshot(0.0, velocity, -3.0, engaged);
+        Snapshot { stored: plain.stored + 0.12 * velocity * velocity + sprung, sprung, ..plain }
+    };
+    show(&mut ledger, 0.0, |_| sprung(-2.0, 0.7, true));
+    event(&mut ledger, Event::Impact, -1.0);
+    event(&mut ledger, Event::Switch, -1.0);
+    show(&mut ledger, 0.0, |_| sprung(-1.0, 0.0, false));
+    let Entries { impact, clutch, brake, .. } = ledger.entries();
+    assert!((impact - (0.5 + 0.12) * 3.0).abs() < 1e-15 && (clutch - 0.7).abs() < 1e-15 && brake == 0.0, "{impact} {clutch}");
+    assert!(ledger.entries().residual().abs() < 1e-15);
 }
 
 #[test]

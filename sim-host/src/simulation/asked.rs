@@ -45,6 +45,10 @@ impl<S: Real> DeviceObserver<S> for Asked<S> {
         self.energy.device_stretch(arc, stretch);
     }
 
+    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        self.energy.device_stands(arc, stretch);
+    }
+
     fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
         self.energy.device_event(event, time, state);
     }
@@ -90,6 +94,10 @@ impl<S: Real> DeviceObserver<S> for EnergyHistory<S> {
         if self.samples.last().is_none_or(|last| time >= last.0 + self.interval) {
             self.write(time);
         }
+    }
+
+    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        self.device_stretch(arc, stretch);
     }
 
     fn device_event(&mut self, event: Event, time: S, state: &State<S>) {

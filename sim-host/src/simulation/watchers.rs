@@ -36,6 +36,10 @@ impl<S: Real> DeviceObserver<S> for Watchers<'_, S> {
         self.asked.device_stretch(arc, stretch);
     }
 
+    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        self.asked.device_stands(arc, stretch);
+    }
+
     fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
         DeviceObserver::<S>::device_event(&mut self.recorder, event, time, state);
         self.peaks.event(event, time, state);

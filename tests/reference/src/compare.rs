@@ -4,6 +4,7 @@ use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
 use crate::effort::Effort;
+use crate::ledger::Shares;
 use crate::scene::Scene;
 use crate::simulate::{Run, run_with};
 
@@ -14,8 +15,8 @@ pub struct Other {
     pub outcome: String,
     /// Times (s) and rotations (rad); of two rows at one time either will do.
     pub history: Vec<[f64; 2]>,
-    /// Residual of its ledger over what came in, if it keeps one.
-    pub residual: Option<f64>,
+    /// Its ledger, if it keeps one.
+    pub ledger: Option<Shares>,
 }
 
 /// How far two runs are apart.
@@ -29,6 +30,8 @@ pub struct Difference {
     pub since: f64,
     /// Residuals of both ledgers over what came in, this program's first.
     pub residuals: [f64; 2],
+    /// Largest difference of their entries, over what came in; 0 of a block that falls, whose runs end at different angles.
+    pub entries: f64,
 }
 
 /// Rotations (over α) beyond which a fall is not compared: nothing comes back from there, and differences grow without bound.
@@ -36,13 +39,14 @@ const FALLEN: f64 = 1.5;
 
 /// Compares histories at the samples that both have.
 pub fn compare(ours: &Run, theirs: &Other, slenderness: f64) -> Difference {
+    let overturned = ours.outcome.starts_with("overturned");
     let mut pairs = Vec::new();
     let mut row = 0;
     for [time, rotation, _] in &ours.samples {
         while row < theirs.history.len() && theirs.history[row][0] < time - 1e-9 {
             row += 1;
         }
-        let falls = ours.outcome.starts_with("overturned") && rotation.abs() > FALLEN * slenderness;
+        let falls = overturned && rotation.abs() > FALLEN * slenderness;
         match theirs.history.get(row) {
             Some([at, other]) if (at - time).abs() < 1e-9 && !falls => {
                 pairs.push((*time, (other - rotation).abs() / slenderness));
@@ -52,16 +56,20 @@ pub fn compare(ours: &Run, theirs: &Other, slenderness: f64) -> Difference {
     }
     let history = pairs.iter().fold(0.0_f64, |most, (_, apart)| most.max(*apart));
     let since = pairs.iter().find(|(_, apart)| *apart > 1e-3 * history).map_or(0.0, |(time, _)| *time);
-    let residuals = [ours.ledger.relative_residual(), theirs.residual.unwrap_or(0.0)];
-    Difference { same_outcome: ours.outcome == theirs.outcome, history, since, residuals }
+    let shares = ours.ledger.shares();
+    let others = theirs.ledger.unwrap_or(shares);
+    let residuals = [shares.residual, others.residual];
+    let entries = if overturned { 0.0 } else { shares.apart(&others) };
+    Difference { same_outcome: ours.outcome == theirs.outcome, history, since, residuals, entries }
 }
 
 /// What a comparison comes to.
 #[derive(Clone, Copy, Debug)]
 pub enum Verdict {
-    /// Outcome, history and ledgers agree.
+    /// Outcomes, histories and ledgers agree.
     Agree(Difference),
-    /// They do not, and neither does this program with itself at half the step: rounding decides this motion.
+    /// They do not, and neither does this program with itself at half the step and with a block less slender by four roundings: rounding
+    /// decides this motion.
     Chaotic(Difference),
     /// They do not.
     Differ(Difference),
@@ -70,7 +78,7 @@ pub enum Verdict {
 /// Differences up to which runs agree.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerance {
-    /// |Δθ|/α.
+    /// |Δθ|/α, and entries of ledgers over what came in.
     pub history: f64,
     /// Residuals of ledgers over what came in: this program's, and the other's.
     pub residuals: [f64; 2],
@@ -115,15 +123,16 @@ impl Subject {
         let slenderness = self.scene.block.slenderness_deg.to_radians();
         let difference = compare(&self.ours, theirs, slenderness);
         let closes = tolerance.ledgers_close(&difference);
-        if difference.same_outcome && difference.history <= tolerance.history && closes {
+        let apart = difference.history.max(difference.entries);
+        if difference.same_outcome && apart <= tolerance.history && closes {
             return Ok(Verdict::Agree(difference));
         }
-        let finer = || run_with(&self.scene, 0, &self.folder, Effort::default().finer());
+        let finer = || run_with(&self.scene.nudged(), 0, &self.folder, Effort::default().finer());
         let finer = self.finer.get_or_init(finer).as_ref().map_err(|error| format!("ours: {error}"))?;
         let own = compare(&self.ours, &Other::from(finer), slenderness);
         // What one program loses to rounding, the other loses elsewhere: a tenth of the difference is enough to tell.
-        let telling = if difference.history > tolerance.history { 0.1 * difference.history } else { tolerance.history };
-        let own_noise = own.history > telling || own.history > tolerance.history || !own.same_outcome;
+        let telling = if apart > tolerance.history { (0.1 * apart).min(tolerance.history) } else { tolerance.history };
+        let own_noise = own.history.max(own.entries) > telling || !own.same_outcome;
         Ok(if own_noise && closes { Verdict::Chaotic(difference) } else { Verdict::Differ(difference) })
     }
 }
@@ -131,6 +140,6 @@ impl Subject {
 impl From<&Run> for Other {
     fn from(run: &Run) -> Other {
         let history = run.samples.iter().map(|[time, rotation, _]| [*time, *rotation]);
-        Other { outcome: run.outcome.to_owned(), history: history.collect(), residual: Some(run.ledger.relative_residual()) }
+        Other { outcome: run.outcome.to_owned(), history: history.collect(), ledger: Some(run.ledger.shares()) }
     }
 }

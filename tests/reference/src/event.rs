@@ -178,12 +178,9 @@ impl Model {
             (now, way) = (going, next);
         }
         let engaged_and_slips = |i: usize| now.wheels[i].link != Link::Open && now.spin(i) != 0.0;
-        if stands && (engaged_and_slips(0) || engaged_and_slips(1)) {
-            // A flywheel that spins the wrong way holds the block down until the plates have stopped it.
-            *state = now;
-            state.block = BlockMode::Standing;
-        } else if way == 0.0 && !stands {
-            // Held, perhaps by the bearings of what has just engaged.
+        // Held by the bearings of what has just engaged; on its base also by plates until they have stopped a flywheel that spins the
+        // wrong way.
+        if way == 0.0 || (stands && (engaged_and_slips(0) || engaged_and_slips(1))) {
             let block = state.block;
             *state = now;
             state.block = block;
@@ -217,30 +214,13 @@ impl Model {
         for wheel in &mut open.wheels {
             wheel.link = Link::Open;
         }
-        let ready = |way: f64| way * solve(self, &open, shaking, way).acceleration;
-        ready(1.0).max(ready(-1.0))
+        self.readiness(&open, shaking)
     }
 
     /// How much what pushes a block at rest exceeds what holds it, as the angular acceleration that it would have; negative
     /// while it stays.
     pub fn readiness(&self, state: &State, shaking: Shaking) -> f64 {
-        let mut still = state.clone();
-        let mut most = f64::NEG_INFINITY;
-        if state.rotation() != 0.0 {
-            self.look_at_drive(&mut still, shaking);
-        }
-        for direction in [1.0, -1.0] {
-            let mut ready = direction * solve(self, &still, shaking, direction).acceleration;
-            let going = self.going(&still, direction);
-            // What has just engaged and slips on a flywheel that spins is an event of its own: it may hold the block down.
-            let slips =
-                |i: usize| still.wheels[i].link == Link::Open && going.wheels[i].link != Link::Open && going.spin(i) != 0.0;
-            let held_down = state.rotation() == 0.0 && (slips(0) || slips(1));
-            if going.velocity() == 0.0 && !held_down {
-                ready = ready.min(direction * solve(self, &going, shaking, direction).acceleration);
-            }
-            most = most.max(ready);
-        }
-        most
+        let ready = |way: f64| way * solve(self, state, shaking, way).acceleration;
+        ready(1.0).max(ready(-1.0))
     }
 }

@@ -72,7 +72,7 @@ pub fn guards(model: &Model, state: &State, shaking: Shaking) -> Vec<(Guard, f64
     for (i, wheel) in state.wheels.iter().enumerate() {
         let (spin, twist) = (state.spin(i), state.twist(i));
         let dry = model.dry(wheel.link);
-        let capacity = model.capacity(wheel, state.time).0;
+        let (capacity, growth) = model.capacity(wheel, state.time);
         let force = if wheel.link == Link::Locked { 0.0 } else { model.link_force(wheel, twist, rack - spin, state.time) };
         match (wheel.link, device.coupling) {
             (Link::Locked, Coupling::Plates) if moves => all.push((Guard::Slip(i), capacity - locked_force.abs())),
@@ -84,7 +84,12 @@ pub fn guards(model: &Model, state: &State, shaking: Shaking) -> Vec<(Guard, f64
                 if half_play > 0.0 {
                     all.push((Guard::Loosen(i), side * twist - half_play));
                 }
-                all.push((Guard::Saturate(i), capacity - force.abs()));
+                // Without a damper the force follows the twist, and may be ahead of a capacity that catches up with it by rounding.
+                let ahead = match device.coupling {
+                    Coupling::Elastic { stiffness, damping: 0.0, .. } => growth - force.signum() * stiffness * (rack - spin),
+                    _ => f64::NEG_INFINITY,
+                };
+                all.push((Guard::Saturate(i), (capacity - force.abs()).max(ahead)));
             }
             (Link::Saturated(_, sign), _) => {
                 let slip = rack - spin - model.twist_rate(wheel, twist, rack - spin, state.time, state.time);

@@ -35,12 +35,6 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    /// Everything that came in.
-    pub fn income(&self) -> f64 {
-        let values = &self.values;
-        self.initial + values[INPUT].abs() + values[CREATED]
-    }
-
     /// What is missing: 0 but for the error of the steps.
     pub fn residual(&self) -> f64 {
         let values = &self.values;
@@ -49,8 +43,54 @@ impl Ledger {
         came - went - self.present
     }
 
-    /// [`Ledger::residual`] over what came in.
-    pub fn relative_residual(&self) -> f64 {
-        self.residual().abs() / self.income().max(f64::MIN_POSITIVE)
+    /// As Sprag names its entries.
+    fn entry(&self, name: &str) -> Option<f64> {
+        let values = &self.values;
+        Some(match name {
+            "initial" => self.initial,
+            "input" => values[INPUT],
+            "created" => values[CREATED],
+            "impact" => values[IMPACT],
+            "clutch" => values[CLUTCH],
+            "brake" => values[BRAKE],
+            "bearing" => values[BEARING],
+            "rack" => values[RACK],
+            // What the kinematics give, they take negatively.
+            "kinematics" => -values[KINEMATICS],
+            "residual" => self.residual(),
+            _ => return None,
+        })
+    }
+
+    /// Over what came in.
+    pub fn shares(&self) -> Shares {
+        Shares::of(|name| self.entry(name)).unwrap_or_default()
+    }
+}
+
+/// Where the energy of a run went, over what came in: what was there at the start, the ground's work and what ideal clutches create.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Shares {
+    /// What is missing: 0 but for errors.
+    pub residual: f64,
+    /// Created, and lost in impacts, clutches, brakes, bearings, the rack and kinematics.
+    entries: [f64; 7],
+}
+
+impl Shares {
+    /// Of the entries that `entry` knows by Sprag's names, in any unit; none if it does not know one.
+    pub fn of(entry: impl Fn(&str) -> Option<f64>) -> Option<Shares> {
+        let income = entry("initial")? + entry("input")?.abs() + entry("created")?;
+        let share = |name: &str| Some(entry(name)? / income.max(f64::MIN_POSITIVE));
+        let mut entries = [0.0; 7];
+        for (value, name) in entries.iter_mut().zip(["created", "impact", "clutch", "brake", "bearing", "rack", "kinematics"]) {
+            *value = share(name)?;
+        }
+        Some(Shares { residual: share("residual")?.abs(), entries })
+    }
+
+    /// Largest difference of an entry.
+    pub fn apart(&self, other: &Shares) -> f64 {
+        self.entries.iter().zip(other.entries).fold(0.0, |most, (ours, theirs)| most.max((ours - theirs).abs()))
     }
 }

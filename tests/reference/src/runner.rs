@@ -8,7 +8,7 @@ use crate::guard::{Guard, guards};
 use crate::ledger::{Ledger, energy};
 use crate::mode::{BlockMode, Link, State, Wheel};
 use crate::simulate::{Run, overturned_after};
-use crate::step::{ROTATION, SIZE, VELOCITY, step};
+use crate::step::{INPUT, ROTATION, SIZE, VELOCITY, step};
 
 /// Events within this time (s) of one another count as one instant …
 const INSTANT: f64 = 1e-10;
@@ -81,13 +81,15 @@ impl<'a> Runner<'a> {
         self.model.shaking(time, self.within)
     }
 
-    /// The state a time `h` later, in the present modes.
-    fn ahead(&self, h: f64) -> State {
+    /// The state at `time` (s), in the present modes. Steps go from one number of the clock to another, or the ground would move
+    /// by another step than the block.
+    fn ahead(&self, time: f64) -> State {
         let start = self.state.time;
         let mut state = self.state.clone();
-        state.values =
-            step(&self.state.values, h, |t, values| self.model.rates(&self.state, start + t, values, self.shaking(start + t)));
-        state.time = start + h;
+        state.values = step(&self.state.values, time - start, |t, values| {
+            self.model.rates(&self.state, start + t, values, self.shaking(start + t))
+        });
+        state.time = time;
         self.model.follow_rack(&mut state);
         state
     }
@@ -122,7 +124,6 @@ impl<'a> Runner<'a> {
         let model = self.model;
         // What is always locked moves with the block from the start.
         model.follow_rack(&mut self.state);
-        let initial = energy(model, &self.state);
         let (mut impacts, mut peak, mut moved) = (0, self.state.rotation().abs(), false);
         let (mut samples, mut events) = (Vec::new(), Vec::new());
         let mut at_once = 0;
@@ -132,6 +133,9 @@ impl<'a> Runner<'a> {
         }
         let shaking = self.shaking(0.0);
         model.settle(&mut self.state, shaking);
+        // The books begin with what the first instant has left.
+        self.state.values[INPUT..].fill(0.0);
+        let initial = energy(model, &self.state);
         samples.push([0.0, self.state.rotation(), self.state.velocity()]);
         // Steps, with one more for whatever may cut one in two.
         let mut left = end / self.largest + end / interval + self.kinks.len() as f64 + self.events as f64;
@@ -146,14 +150,10 @@ impl<'a> Runner<'a> {
             let kink = self.kinks.get(self.next_kink).copied().unwrap_or(f64::INFINITY);
             let clock = self.next_clock();
             let stop = end.min(sample).min(kink).min(clock).max(time);
-            let h = self.largest.min(stop - time);
-            let mut next = self.ahead(h);
-            let whole = h == stop - time;
-            if whole {
-                next.time = stop;
-            }
-            if h > 0.0 && self.fired(&next).is_some() {
-                let (guard, at) = self.locate(h);
+            let goal = stop.min(time + self.largest);
+            let next = self.ahead(goal);
+            if goal > time && self.fired(&next).is_some() {
+                let (guard, at) = self.locate(goal);
                 if let (Guard::Impact, true) = (guard, at.velocity().abs() >= counted) {
                     impacts += 1;
                 }
@@ -184,7 +184,7 @@ impl<'a> Runner<'a> {
             if !self.state.values.iter().all(|value| value.is_finite()) {
                 return Err(format!("not finite at {} s", self.state.time));
             }
-            if whole {
+            if goal == stop {
                 if stop >= sample {
                     samples.push([stop, self.state.rotation(), self.state.velocity()]);
                 }
@@ -209,7 +209,7 @@ impl<'a> Runner<'a> {
             true => BlockMode::Standing,
             false => BlockMode::Held { side: self.state.rotation().signum() },
         };
-        self.state = self.ahead(PAUSE);
+        self.state = self.ahead(self.state.time + PAUSE);
         let shaking = self.shaking(self.state.time);
         self.model.settle(&mut self.state, shaking);
     }
@@ -235,12 +235,12 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// The first guard that fires within `h`, and the state just after.
-    fn locate(&self, h: f64) -> (Guard, State) {
-        let (mut before, mut after) = (0.0, h);
+    /// The first guard that fires until `end` (s), and the state just after.
+    fn locate(&self, end: f64) -> (Guard, State) {
+        let (mut before, mut after) = (self.state.time, end);
         for _ in 0..100 {
-            let middle = 0.5 * (before + after);
-            if middle <= before || middle >= after || after - before < 1e-17 {
+            let middle = before + 0.5 * (after - before);
+            if middle <= before || middle >= after {
                 break;
             }
             if self.fired(&self.ahead(middle)).is_some() {

@@ -31,6 +31,13 @@ impl Scene {
     pub fn parse(text: &str) -> Result<Scene, String> {
         toml::from_str(text).map_err(|error| error.to_string())
     }
+
+    /// With a block that is less slender by four roundings.
+    pub fn nudged(&self) -> Scene {
+        let mut scene = self.clone();
+        scene.block.slenderness_deg *= 1.0 + 4.0 * f64::EPSILON;
+        scene
+    }
 }
 
 /// A number or a word in its place.

@@ -29,8 +29,7 @@ fn ledgers_close() {
             std::fs::write(folder.join(name), text).expect("a record");
         }
         let parsed = Scene::parse(&generated.text).expect("a scene");
-        let ledger = run(&parsed, 0, &folder).expect("a run").ledger;
-        let residual = ledger.residual().abs() / ledger.income().max(1e-6);
+        let residual = run(&parsed, 0, &folder).expect("a run").ledger.shares().residual;
         assert!(residual < 3e-10, "scene {number}, {}: {residual:e}", generated.family);
     }
     std::fs::remove_dir_all(&folder).expect("a folder that was there");
@@ -46,8 +45,7 @@ fn scenes_that_told_programs_apart_run() {
             continue;
         }
         let text = std::fs::read_to_string(entry.path()).expect("a text");
-        let ledger = run(&Scene::parse(&text).expect("a scene"), 0, &folder).expect("a run").ledger;
-        let residual = ledger.residual().abs() / ledger.income();
+        let residual = run(&Scene::parse(&text).expect("a scene"), 0, &folder).expect("a run").ledger.shares().residual;
         assert!(residual < 1e-10, "{}: {residual:e}", entry.path().display());
         count += 1;
     }

@@ -26,10 +26,11 @@ pub fn compare(sprag: &Path, path: &Path) -> Result<(), String> {
     for index in 0..parsed.device.len() {
         let ours = run_with(&parsed, index, &folder, effort)?;
         let finer = run_with(&parsed, index, &folder, effort.finer())?;
-        let (peak, residual) = (ours.peak / slenderness, ours.ledger.relative_residual());
+        let (peak, residual) = (ours.peak / slenderness, ours.ledger.shares().residual);
         let name = path.display();
         println!("{name}: device {index}: {}, peak {peak:.9} α, {} impacts, residual {residual:.1e}", ours.outcome, ours.impacts);
         println!("  half the step: {:?}", difference(&ours, &Other::from(&finer), slenderness));
+        println!("  {:?}", ours.ledger.shares());
         if std::env::var_os("EVENTS").is_some() {
             ours.events.iter().for_each(|(time, guard)| println!("  {time:.15} {guard:?}"));
         }

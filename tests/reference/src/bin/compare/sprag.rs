@@ -4,6 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use sprag_reference::compare::Other;
+use sprag_reference::ledger::Shares;
 use sprag_reference::method::Method;
 
 /// Runs `sprag simulate` on a scene of one device; `step` (s) is that of this program.
@@ -25,18 +26,13 @@ pub fn simulate(sprag: &Path, scene: &Path, out: &Path, method: Method, step: f6
     let read = |name: &str| std::fs::read_to_string(out.join(name)).map_err(|error| format!("{name}: {error}"));
     let summary = read("summary.json")?;
     let after = |key: &str| summary.split(&format!("\"{key}\": ")).nth(1);
-    let number = |key: &str| after(key)?.split([',', '\n', '}']).next()?.trim().parse::<f64>().ok();
     let outcome = after("outcome").and_then(|rest| rest.split('"').nth(1)).unwrap_or_default();
-    let residual = match (number("residual"), number("initial"), number("input"), number("created")) {
-        (Some(residual), Some(initial), Some(input), Some(created)) => {
-            Some(residual.abs() / (initial + input.abs() + created).max(f64::MIN_POSITIVE))
-        }
-        _ => None,
-    };
+    let energy = summary.split("\"energy\": {").nth(1).unwrap_or_default();
+    let entry = |name: &str| energy.split(&format!("\"{name}\": ")).nth(1)?.split([',', '\n', '}']).next()?.trim().parse().ok();
     let table = read("history.csv")?;
     let history = table.lines().skip(1).filter_map(|line| {
         let fields: Vec<&str> = line.split(',').collect();
         Some([fields.get(1)?.parse().ok()?, fields.get(3)?.parse().ok()?])
     });
-    Ok(Other { outcome: outcome.to_owned(), history: history.collect(), residual })
+    Ok(Other { outcome: outcome.to_owned(), history: history.collect(), ledger: Shares::of(entry) })
 }
