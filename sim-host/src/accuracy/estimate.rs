@@ -71,6 +71,13 @@ impl ErrorEstimate {
         }
     }
 
+    /// Takes the errors `factor` times as large.
+    pub fn enlarge(&mut self, factor: f64) {
+        for error in [&mut self.peak_rotation, &mut self.peak_acceleration, &mut self.first_impact_time] {
+            *error *= factor;
+        }
+    }
+
     /// Takes the errors so large that they reach from `found` to `other`, which a method of another kind found.
     pub fn widen<O: PartialEq>(&mut self, found: &Compared<O>, other: &Compared<O>) {
         let (factor, _) = Checks::Closer(0.0).margins();

@@ -31,6 +31,9 @@ const SAMPLES: f64 = 2000.0;
 /// Most samples that a history may have.
 const MOST_SAMPLES: f64 = 5e6;
 
+/// What the difference of two runs of a device with a memory is taken times: steps that end at the same events share a part of their error.
+const BETWEEN_EVENTS: f64 = 2.0;
+
 /// Step of the second method that looks at a result, in 1/p.
 const SECOND_STEP: f64 = 0.02;
 
@@ -158,6 +161,7 @@ impl<'a> Task<'a> {
             Task { scene: &scene, ..*self }.run()
         })?;
         if !self.is_ideal() {
+            found.error.enlarge(BETWEEN_EVENTS);
             let elastic = matches!(self.device().drivetrain.engagement, Engagement::Elastic { .. });
             let method = if elastic { MethodName::ExponentialMidpoint } else { MethodName::RungeKutta4 };
             scene.file.output.energy = false;

@@ -30,7 +30,8 @@ pub struct Difference {
     pub since: f64,
     /// Residuals of both ledgers over what came in, this program's first.
     pub residuals: [f64; 2],
-    /// Largest difference of their entries, over what came in; 0 of a block that falls, whose runs end at different angles.
+    /// Largest difference of their entries, over what came in; 0 of a block that stands, and of one that falls, whose runs end at
+    /// different angles.
     pub entries: f64,
 }
 
@@ -58,8 +59,9 @@ pub fn compare(ours: &Run, theirs: &Other, slenderness: f64) -> Difference {
     let since = pairs.iter().find(|(_, apart)| *apart > 1e-3 * history).map_or(0.0, |(time, _)| *time);
     let shares = ours.ledger.shares();
     let others = theirs.ledger.unwrap_or(shares);
-    let residuals = [shares.residual, others.residual];
-    let entries = if overturned { 0.0 } else { shares.apart(&others) };
+    let stands = ours.outcome == "no-rocking";
+    let residuals = if stands { [0.0; 2] } else { [shares.residual, others.residual] };
+    let entries = if overturned || stands { 0.0 } else { shares.apart(&others) };
     Difference { same_outcome: ours.outcome == theirs.outcome, history, since, residuals, entries }
 }
 

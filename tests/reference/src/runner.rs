@@ -16,6 +16,8 @@ const INSTANT: f64 = 1e-10;
 const GRAZE: usize = 20;
 /// A block that grazes stands still for this long (s); then the faster of both has won.
 const PAUSE: f64 = 1e-9;
+/// Rotations (rad) up to which a block has not moved: it was on the verge.
+const STANDS: f64 = 1e-15;
 /// So many events in one instant are a mode that contradicts itself.
 const MOST_AT_ONCE: usize = 100;
 
@@ -124,7 +126,7 @@ impl<'a> Runner<'a> {
         let model = self.model;
         // What is always locked moves with the block from the start.
         model.follow_rack(&mut self.state);
-        let (mut impacts, mut peak, mut moved) = (0, self.state.rotation().abs(), false);
+        let (mut impacts, mut peak) = (0, self.state.rotation().abs());
         let (mut samples, mut events) = (Vec::new(), Vec::new());
         let mut at_once = 0;
         if self.state.block != BlockMode::Standing {
@@ -140,7 +142,6 @@ impl<'a> Runner<'a> {
         // Steps, with one more for whatever may cut one in two.
         let mut left = end / self.largest + end / interval + self.kinks.len() as f64 + self.events as f64;
         while self.state.time < end && self.state.block != BlockMode::Overturned {
-            moved |= self.state.block != BlockMode::Standing;
             let time = self.state.time;
             left -= 1.0;
             if left < 0.0 {
@@ -191,8 +192,7 @@ impl<'a> Runner<'a> {
                 self.pass(stop, kink, clock);
             }
         }
-        moved |= self.state.block != BlockMode::Standing;
-        let outcome = match (self.state.block, moved) {
+        let outcome = match (self.state.block, peak > STANDS) {
             (BlockMode::Overturned, _) => overturned_after(impacts),
             (_, false) => "no-rocking",
             _ => "safe",
