@@ -116,6 +116,7 @@ pub fn first_zero_of<S: Real>(
 }
 
 /// [`first_zero_of`], or how far it was sought with [`MOST_STRETCHES`].
+#[inline(never)]
 fn search<S: Real>(
     function: &mut impl FnMut(S) -> (S, S),
     curvature: S,

@@ -85,6 +85,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// A held block goes, towards `sign`, as what moves it passes what holds it (`crossing`) or jumps beyond.
+    #[inline(never)]
     pub(super) fn set_off(
         &self,
         state: &mut MachineState<S>,

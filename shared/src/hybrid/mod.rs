@@ -203,9 +203,11 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         observer: &mut dyn DeviceObserver<S>,
     ) {
         let motion = &state.motion;
+        // Without springs a held block has no path.
+        let held = X >= 4 && state.held;
         let watched = if state.jolted { motion.drive.opposite() } else { motion.drive };
         let mut law = self.drive.law(motion.direction, watched, &state.device);
-        if state.held {
+        if held {
             self.hold_law(state, &mut law);
         }
         let start = PathStart {
@@ -220,7 +222,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             time: *time,
             length: stop - *time,
             freed: state.free && motion.velocity == S::ZERO,
-            held: state.held,
+            held,
             scale: self.slenderness,
             speed: self.speed,
         };
@@ -228,9 +230,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let length = path.length();
         let mut until = length;
         let mut end = End::Reached;
-        if !state.held
-            && let Some(turn) = path.velocity_zero(until, motion.direction, motion.velocity == S::ZERO)
-        {
+        if !held && let Some(turn) = path.velocity_zero(until, motion.direction, motion.velocity == S::ZERO) {
             (until, end) = (turn, End::Turn);
         }
         for guard in 0..G {
@@ -282,7 +282,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             direction: motion.direction,
         };
         let seen = Seen { machine: self, path: &path, law: &law, state: &*state, shaking, time: *time };
-        if state.held && motion.rotation == S::ZERO {
+        if held && motion.rotation == S::ZERO {
             observer.device_stands(&seen, &stretch);
         } else {
             observer.device_stretch(&seen, &stretch);

@@ -65,6 +65,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// Shows block and device between two changes at one instant.
+    #[inline(never)]
     pub(super) fn show_instant(&self, state: &MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         let [horizontal, vertical] = state.ground.map(Linear::constant);
         let shaking = Shaking { horizontal: &horizontal, vertical: &vertical };
@@ -72,6 +73,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// Shows a block that does not move, from `time` on for `length` (s), and its device.
+    #[inline(never)]
     pub(super) fn show_still<P: Piece<S>, Q: Piece<S>>(
         &self,
         state: &MachineState<S>,
@@ -100,6 +102,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// The block stands from `time` to `end`, and flywheels coast.
+    #[inline(never)]
     pub(super) fn stand<P: Piece<S>, Q: Piece<S>>(
         &self,
         state: &mut MachineState<S>,
