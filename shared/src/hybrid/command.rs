@@ -215,6 +215,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         if self.actuator.transport { wheel.under_way.first() } else { wheel.commanded }
     }
 
+    #[inline(never)]
     fn carry_out(&self, state: &mut MachineState<S>, index: usize, time: S, observer: &mut dyn DeviceObserver<S>) {
         let wheel = &mut state.device.wheels[index];
         let engage = self.due_command(wheel);
@@ -277,6 +278,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// Takes the sign of the terminals' acceleration as it is now.
+    #[inline(never)]
     pub(super) fn look_at_drive(&self, state: &mut MachineState<S>) {
         if D::COMMANDED {
             (state.motion.drive, state.jolted) = (self.drive_sign(state), false);
@@ -284,6 +286,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// Sign of the terminals' acceleration under weight and ground in the present state; where it is zero, as it was.
+    #[inline(never)]
     fn drive_sign(&self, state: &MachineState<S>) -> Sign {
         let motion = &state.motion;
         let law = self.drive.law(motion.direction, Sign::Positive, &state.device);

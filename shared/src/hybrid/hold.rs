@@ -13,6 +13,7 @@ use crate::snapshot::DeviceObserver;
 
 impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {
     /// At θ̇ = 0: the way on, if friction lets the block go.
+    #[inline(never)]
     pub(super) fn turned(&self, state: &mut MachineState<S>) {
         let (side, direction) = (state.motion.side, state.motion.direction);
         // A block on its base goes nowhere but up.
@@ -46,7 +47,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let length = self.until_stop(state, whole);
         let (until, end) = if length < whole { (time + length, None) } else { (until, end) };
         if until > time {
-            self.show_still(state, shaking, time, until - time, observer);
+            self.show_still(state, &|t| shaking.at::<S, B>(time + t), time, until - time, observer);
         }
         // What the clock cannot tell from now still stops a flywheel.
         self.idle(state, length);

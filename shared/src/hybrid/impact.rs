@@ -68,7 +68,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         observer.device_event(Event::Rest, ends, &state.motion);
         // What its clutches let go shows at once, and what coasts until then after it.
         self.show_instant(state, time, observer);
-        self.stand(state, shaking, time, ends, observer);
+        self.stand(state, &|t| shaking.at::<S, B>(time + t), time, ends, observer);
         ends
     }
 

@@ -147,7 +147,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 let stop = self.stands_until(state, time, duration);
                 let uplift = self.uplift_time(state, shaking, time, stop);
                 let until = uplift.map_or(stop, |(at, _)| at);
-                self.stand(state, shaking, time, until, observer);
+                self.stand(state, &|t| shaking.at::<S, B>(time + t), time, until, observer);
                 time = until;
                 if let Some((_, crossing)) = uplift {
                     self.uplift(state, shaking.at::<S, B>(time), time, crossing, observer);
@@ -395,6 +395,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// After a jump of velocity or ground: modes that it ended are left.
+    #[inline(never)]
     fn settle(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         self.with_instant(state, time, observer, |drive, at| drive.settle(at));
     }

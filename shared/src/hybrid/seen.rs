@@ -58,16 +58,16 @@ where
     }
 }
 
-/// A block that does not move, or at one instant.
-pub(super) struct Still<'a, S, B, D, P, Q, const X: usize, const G: usize> {
+/// A block that does not move, or at one instant. The ground is behind a pointer: one copy of this serves every kind of it.
+pub(super) struct Still<'a, S, B, D, const X: usize, const G: usize> {
     pub(super) machine: &'a Machine<S, B, D, X, G>,
     pub(super) state: &'a MachineState<S>,
-    pub(super) shaking: Shaking<'a, P, Q>,
-    pub(super) time: S,
+    /// Acceleration in g, horizontal and vertical, a time (s) after the start.
+    pub(super) ground: &'a dyn Fn(S) -> [S; 2],
     pub(super) length: S,
 }
 
-impl<S: Real, B, D, P, Q, const X: usize, const G: usize> Arc<S> for Still<'_, S, B, D, P, Q, X, G> {
+impl<S: Real, B, D, const X: usize, const G: usize> Arc<S> for Still<'_, S, B, D, X, G> {
     fn length(&self) -> S {
         self.length
     }
@@ -82,19 +82,12 @@ impl<S: Real, B, D, P, Q, const X: usize, const G: usize> Arc<S> for Still<'_, S
     }
 }
 
-impl<S, B, D, P, Q, const X: usize, const G: usize> DeviceArc<S> for Still<'_, S, B, D, P, Q, X, G>
-where
-    S: Real,
-    B: Body<S>,
-    D: Drive<S, X, G>,
-    P: Piece<S>,
-    Q: Piece<S>,
-{
+impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> DeviceArc<S> for Still<'_, S, B, D, X, G> {
     fn snapshot(&self, time: S) -> Snapshot<S> {
-        let ground = self.shaking.at::<S, B>(self.time + time);
         let mut state = *self.state;
         self.machine.idle(&mut state, time);
         let law = self.machine.drive.law(state.motion.direction, state.motion.drive, &state.device);
-        self.machine.snapshot(&law, &state, self.at(time), self.machine.drive.load(&state.device), ground, S::ZERO)
+        let extra = self.machine.drive.load(&state.device);
+        self.machine.snapshot(&law, &state, self.at(time), extra, (self.ground)(time), S::ZERO)
     }
 }

@@ -9,7 +9,7 @@ use crate::body::Body;
 use crate::drivetrain::device::{Coupling, WATCHES};
 use crate::drivetrain::drive::{Drive, open};
 use crate::drivetrain::under_way::UnderWay;
-use crate::ground::{Linear, Piece};
+use crate::ground::Piece;
 use crate::observer::{Event, Stretch};
 use crate::rocking::{Phase, State};
 use crate::scalar::{Real, Sign};
@@ -17,6 +17,7 @@ use crate::snapshot::DeviceObserver;
 
 impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {
     /// Block and device of `state` once the block stands.
+    #[inline(never)]
     pub(super) fn standing(&self, state: &MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) -> MachineState<S> {
         let State { side, direction, impacts, .. } = state.motion;
         let mut standing = *state;
@@ -54,6 +55,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// The side to which the ground would lift a block on its base, and the threshold there.
+    #[inline(never)]
     fn lifted(&self, state: &MachineState<S>, ground: [S; 2]) -> (Sign, Threshold<S>) {
         let [positive, negative] = [Sign::Positive, Sign::Negative].map(|side| self.breakaway(state, side, side));
         if positive.at(ground) >= negative.at(ground) { (Sign::Positive, positive) } else { (Sign::Negative, negative) }
@@ -65,19 +67,16 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// Shows block and device between two changes at one instant.
-    #[inline(never)]
     pub(super) fn show_instant(&self, state: &MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
-        let [horizontal, vertical] = state.ground.map(Linear::constant);
-        let shaking = Shaking { horizontal: &horizontal, vertical: &vertical };
-        self.show_still(state, shaking, time, S::ZERO, observer);
+        self.show_still(state, &|_| state.ground, time, S::ZERO, observer);
     }
 
     /// Shows a block that does not move, from `time` on for `length` (s), and its device.
     #[inline(never)]
-    pub(super) fn show_still<P: Piece<S>, Q: Piece<S>>(
+    pub(super) fn show_still(
         &self,
         state: &MachineState<S>,
-        shaking: Shaking<'_, P, Q>,
+        ground: &dyn Fn(S) -> [S; 2],
         time: S,
         length: S,
         observer: &mut dyn DeviceObserver<S>,
@@ -86,7 +85,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let still = Motion { rotation, velocity, acceleration: S::ZERO };
         let engaged = state.device.wheels.iter().any(|wheel| wheel.coupling != Coupling::Open);
         let stretch = Stretch { start: time, from: S::ZERO, to: length, first: still, last: still, engaged, side, direction };
-        let arc = Still { machine: self, state, shaking, time, length };
+        let arc = Still { machine: self, state, ground, length };
         if rotation == S::ZERO || length == S::ZERO {
             observer.device_stands(&arc, &stretch);
         } else {
@@ -103,10 +102,10 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
 
     /// The block stands from `time` to `end`, and flywheels coast.
     #[inline(never)]
-    pub(super) fn stand<P: Piece<S>, Q: Piece<S>>(
+    pub(super) fn stand(
         &self,
         state: &mut MachineState<S>,
-        shaking: Shaking<'_, P, Q>,
+        ground: &dyn Fn(S) -> [S; 2],
         time: S,
         end: S,
         observer: &mut dyn DeviceObserver<S>,
@@ -114,7 +113,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let (mut now, mut shown) = (time, *state);
         while now < end && shown.device.wheels.iter().any(|wheel| wheel.spin != S::ZERO) {
             let length = self.until_stop(&shown, end - now);
-            self.show_still(&shown, shaking, now, length, observer);
+            self.show_still(&shown, &|t| ground(now - time + t), now, length, observer);
             self.idle(&mut shown, length);
             now = now + length;
         }

@@ -89,6 +89,7 @@ impl<S: Real> Threshold<S> {
 impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {
     /// What moves a block that does not move, tilted to `side`, towards `sign`: weight and ground, against the friction of the rack and of
     /// the flywheels that are coupled to it. Forces of stretched clutches are taken as they are now.
+    #[inline(never)]
     pub(super) fn breakaway(&self, state: &MachineState<S>, side: Sign, sign: Sign) -> Threshold<S> {
         let posture = self.body.posture(side.unit(), state.motion.rotation);
         let (horizontal, vertical) = self.body.factors(&posture);
