@@ -281,7 +281,8 @@ impl<S: Real> DeviceObserver<S> for Ledger<S> {
         match event {
             Event::Impact => {
                 let left = if last.kinetic > S::ZERO { kinetic / last.kinetic } else { S::ONE };
-                let device = last.slow(left, self.passes_impacts());
+                // An ideal clutch lets go at the impact, or holds on: the next stretch tells.
+                let device = last.slow(left, matches!(self.clutching, Clutching::Permanent | Clutching::Rigid));
                 self.entries.impact = self.entries.impact + last.kinetic - kinetic + device;
                 last.kinetic = kinetic;
                 self.since.impact = true;

@@ -94,8 +94,8 @@ fn a_free_block_leaves_all_it_had_to_its_impacts_and_brakes() {
     }
 }
 
-/// At the first impact block and flywheel lose 1 − η² of all there is, and the brake then takes what the flywheel has left of its
-/// share kℓ²/(1 + kℓ²).
+/// At the first impact of the pair the flywheel has its share kℓ²/(1 + kℓ²) of all there is, and the block loses 1 − η² of
+/// the rest.
 #[test]
 fn the_first_impact_parts_what_there_is() {
     for (kind, share) in [(DeviceKind::None, 0.0), (DeviceKind::ClutchedPair, 0.375 / 1.375)] {
@@ -107,10 +107,10 @@ fn the_first_impact_parts_what_there_is() {
         assert_eq!(state.impacts, 1);
         let potential = structure.block.frequency_parameter_squared() * alpha * alpha * (0.4 - 0.08);
         assert!((entries.initial / potential - 1.0).abs() < 1e-14);
-        let left = 0.85 * 0.85 * potential;
-        assert!((entries.brake - share * left).abs() < 1e-13 * potential);
-        assert!((entries.impact / (potential - left) - 1.0).abs() < 1e-13);
-        assert!((entries.mechanical() / ((1.0 - share) * left) - 1.0).abs() < 1e-13);
+        assert!((entries.brake - share * potential).abs() < 1e-13 * potential);
+        let lost = (1.0 - share) * (1.0 - 0.85 * 0.85) * potential;
+        assert!((entries.impact / lost - 1.0).abs() < 1e-13);
+        assert!((entries.mechanical() / (potential - lost - share * potential) - 1.0).abs() < 1e-13);
     }
 }
 

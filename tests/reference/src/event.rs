@@ -6,7 +6,7 @@ use crate::equation::{Model, Shaking};
 use crate::guard::Guard;
 use crate::ledger::energy;
 use crate::mode::{BlockMode, Link, State};
-use crate::step::{IMPACT, ROTATION, SPIN, VELOCITY};
+use crate::step::{BRAKE, IMPACT, ROTATION, SPIN, VELOCITY};
 
 /// Answers to one instant: a jolt may change the signs that caused it.
 const MOST_ANSWERS: usize = 8;
@@ -40,8 +40,23 @@ impl Model {
         state.slipped = None;
     }
 
-    /// θ = 0: θ̇⁺ = η θ̇⁻. What is locked by a clutch that only locks keeps the rack's speed, all else its own.
+    /// θ = 0, and what that loses: a flywheel that an ideal clutch lets go at the impact takes no part in it, so that its brake has all of
+    /// its energy.
     fn impact(&self, state: &mut State, shaking: Shaking) {
+        let before = state.clone();
+        let taken = self.strike(state, shaking);
+        for i in (0..2).filter(|&i| before.wheels[i].link == Link::Locked && state.wheels[i].link == Link::Open) {
+            if self.device.coupling == Coupling::Ideal {
+                state.values[IMPACT] -= taken[i];
+                state.values[BRAKE] += taken[i];
+            }
+        }
+    }
+
+    /// θ̇⁺ = η θ̇⁻. What is locked by a clutch that only locks keeps the rack's speed, all else its own. Returns what each flywheel loses by
+    /// that, 1/s².
+    fn strike(&self, state: &mut State, shaking: Shaking) -> [f64; 2] {
+        let spins = [state.spin(0), state.spin(1)];
         state.values[ROTATION] = 0.0;
         let locked = state.wheels.iter().filter(|wheel| wheel.link == Link::Locked).count();
         let before = energy(self, state);
@@ -62,6 +77,8 @@ impl Model {
             }
         }
         state.values[IMPACT] += before - energy(self, state);
+        let half = 0.5 * self.device.inertance / (self.block.size * self.block.size);
+        let taken = [0, 1].map(|i| half * (spins[i] * spins[i] - state.spin(i) * state.spin(i)));
         self.look_at_drive(state, shaking);
         if state.velocity().abs() <= self.rest_speed {
             let mut rest = state.clone();
@@ -74,10 +91,11 @@ impl Model {
             self.settle(&mut rest, shaking);
             if rest.block == BlockMode::Standing {
                 *state = rest;
-                return;
+                return taken;
             }
         }
         self.settle(state, shaking);
+        taken
     }
 
     /// Takes the sign of Eq. 10's acceleration as it is; where it is zero, as it was.
