@@ -63,6 +63,8 @@ pub trait Drive<S: Real, const X: usize, const G: usize>: Copy {
     const COMMANDED: bool;
     /// Friction of rack and bearings may hold the block at a turn.
     const HOLDS: bool;
+    /// Clutches may stretch or play, so that flywheels swing while the block is held.
+    const SPRINGS: bool = false;
 
     /// The numbers of the present mode; `drive` is the sign of the terminals' acceleration.
     fn law(&self, direction: Sign, drive: Sign, device: &Device<S>) -> Law<S>;

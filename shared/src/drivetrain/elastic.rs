@@ -54,6 +54,7 @@ impl<S: Real> ElasticPair<S> {
 impl<S: Real> Drive<S, 4, WATCHES> for ElasticPair<S> {
     const COMMANDED: bool = true;
     const HOLDS: bool = true;
+    const SPRINGS: bool = true;
 
     #[inline(always)]
     fn load(&self, device: &Device<S>) -> [S; 4] {

@@ -112,11 +112,8 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                     // The bearings of a wheel that has just been engaged may hold the block, those of a released one let it go, and a
                     // spring that is let go moves it no more.
                     state.free = false;
-                    let was_held = state.held;
-                    self.turned(state);
-                    if was_held && !state.held {
+                    if self.try_to_set_off(state, time, observer) {
                         // It has a motion again, which Eq. 10 looks at.
-                        self.set_off(state, (state.motion.direction, false), time, observer);
                         continue;
                     }
                     if state.motion.direction != direction {

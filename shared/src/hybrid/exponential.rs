@@ -86,7 +86,7 @@ fn freeze<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, cons
 ) -> Frozen<S, X> {
     let (acceleration, rates) = soft.rates::<G>(t, *rotation, *velocity, extra);
     let arm = soft.body.arm(&soft.body.posture(soft.side.unit(), *rotation));
-    let leverage = if soft.is_held() { S::ZERO } else { arm / (S::ONE + soft.law.coupling * arm * arm) };
+    let leverage = if soft.is_held::<G>() { S::ZERO } else { arm / (S::ONE + soft.law.coupling * arm * arm) };
     Frozen { arm, leverage, acceleration, rates }
 }
 
@@ -105,11 +105,11 @@ fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, const
         *value = *value + h * rate;
     }
     let Some(gears) = start.drive.gears() else { return (rotation, velocity, extra) };
-    if X < 4 {
+    if !D::SPRINGS {
         return (rotation, velocity, extra);
     }
     // A spring between a block and a flywheel that are both held keeps its twist.
-    let contact = [0, 1].map(|i| law.stiffness[i] > S::ZERO && !(start.is_held() && law.moves[i] == S::ZERO));
+    let contact = [0, 1].map(|i| law.stiffness[i] > S::ZERO && !(start.is_held::<G>() && law.moves[i] == S::ZERO));
     let both = contact[0] && contact[1];
     let coupled = frozen.arm * frozen.leverage;
     let twist = [0, 1].map(|i| start.extra[i + 2] - law.rest_twist[i]);

@@ -104,10 +104,21 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         self.settle(state, time, observer);
     }
 
+    /// At θ̇ = 0, where what holds or moves the block has changed: a held block that nothing holds any more goes. Whether it does.
+    pub(super) fn try_to_set_off(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) -> bool {
+        let was_held = state.held;
+        self.turned(state);
+        let goes = was_held && !state.held;
+        if goes {
+            self.set_off(state, (state.motion.direction, false), time, observer);
+        }
+        goes
+    }
+
     /// A clutch stretches or plays, so that its flywheel swings while the block is held.
     pub(super) fn has_springs(&self, state: &MachineState<S>) -> bool {
         let stiff = |wheel: &Wheel<S>| matches!(wheel.coupling, Coupling::Open | Coupling::Locked | Coupling::Slipping(_));
-        X >= 4 && !state.device.wheels.iter().all(stiff)
+        D::SPRINGS && !state.device.wheels.iter().all(stiff)
     }
 
     /// The equations of a held block: what its springs do moves flywheels alone, until they or the ground overcome the rack's friction.
@@ -140,10 +151,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             *state = self.standing(state, *time, observer);
         } else if state.held {
             // An event of its device may let it go.
-            self.turned(state);
-            if !state.held {
-                self.set_off(state, (state.motion.direction, false), *time, observer);
-            }
+            self.try_to_set_off(state, *time, observer);
         }
     }
 

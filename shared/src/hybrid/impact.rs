@@ -112,11 +112,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             self.look_at_drive(state);
             state.fresh = [false; WATCHES];
             if state.motion.velocity == S::ZERO {
-                let was_held = state.held;
-                self.turned(state);
-                if was_held && !state.held {
-                    self.set_off(state, (state.motion.direction, false), S::ZERO, observer);
-                }
+                self.try_to_set_off(state, S::ZERO, observer);
             }
             self.settle(state, S::ZERO, observer);
             self.command(state, S::ZERO, observer);

@@ -204,7 +204,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     ) {
         let motion = &state.motion;
         // Without springs a held block has no path.
-        let held = X >= 4 && state.held;
+        let held = D::SPRINGS && state.held;
         let watched = if state.jolted { motion.drive.opposite() } else { motion.drive };
         let mut law = self.drive.law(motion.direction, watched, &state.device);
         if held {

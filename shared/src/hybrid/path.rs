@@ -74,8 +74,11 @@ pub struct PathStart<'a, S, B, D, P, Q, const X: usize> {
 impl<S: Real, B: Body<S>, D, P: Piece<S>, Q: Piece<S>, const X: usize> PathStart<'_, S, B, D, P, Q, X> {
     /// Whether friction holds the block; only devices with springs have a path then.
     #[inline(always)]
-    pub fn is_held(&self) -> bool {
-        X >= 4 && self.held
+    pub fn is_held<const G: usize>(&self) -> bool
+    where
+        D: Drive<S, X, G>,
+    {
+        D::SPRINGS && self.held
     }
 
     /// θ̈ at the start, from the equation's `acceleration`: the rounding of a zero must not push a freed block back.
@@ -99,7 +102,7 @@ impl<S: Real, B: Body<S>, D, P: Piece<S>, Q: Piece<S>, const X: usize> PathStart
             ground: self.shaking.at::<S, B>(self.time + t),
             clock: t,
         });
-        (if self.is_held() { S::ZERO } else { acceleration }, rates)
+        (if self.is_held::<G>() { S::ZERO } else { acceleration }, rates)
     }
 
     /// Watched function `index` in the given state.
@@ -117,7 +120,7 @@ impl<S: Real, B: Body<S>, D, P: Piece<S>, Q: Piece<S>, const X: usize> PathStart
             ground: self.shaking.at::<S, B>(self.time + t),
             clock: t,
         };
-        let acceleration = if self.is_held() { self.drive.flow(&moment).0 } else { motion.acceleration };
+        let acceleration = if self.is_held::<G>() { self.drive.flow(&moment).0 } else { motion.acceleration };
         self.drive.guard(&moment, acceleration, self.law.watch[index])
     }
 }

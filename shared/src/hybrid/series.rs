@@ -123,7 +123,7 @@ impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
             if k == 0 {
                 acceleration.0.set_last(start.first(acceleration.0.last()));
             }
-            let a = if start.is_held() { S::ZERO } else { acceleration.0.last() };
+            let a = if start.is_held::<G>() { S::ZERO } else { acceleration.0.last() };
             let reciprocal = S::of(RECIPROCALS[(k + 1) & 63]);
             let v = a * reciprocal;
             let c = v * S::of(RECIPROCALS[(k + 2) & 63]);
