@@ -172,11 +172,11 @@ impl Seen<'_> {
         let Seen { what, done, length, .. } = *self;
         match self.extent {
             Extent::Known => {
-                let left = self.left(elapsed).map_or_else(String::new, |left| format!(", {} left", in_words(left)));
+                let left = self.left(elapsed).map_or_else(String::new, |left| format!(", {} left", in_words(left, 2)));
                 format!("{} of {} {what}{left}", HumanCount(done), HumanCount(length))
             }
-            Extent::Unknown => format!("{} {what} so far, {}", HumanCount(done), in_words(elapsed)),
-            Extent::Uncounted => format!("{what}, {} so far", in_words(elapsed)),
+            Extent::Unknown => format!("{} {what} so far, {}", HumanCount(done), in_words(elapsed, 2)),
+            Extent::Uncounted => format!("{what}, {} so far", in_words(elapsed, 2)),
         }
     }
 
@@ -197,11 +197,7 @@ impl Seen<'_> {
         if words.chars().count() <= room {
             return words;
         }
-        let left = self.left(elapsed).map_or_else(String::new, |left| {
-            // The larger of its two units fits.
-            let words = in_words(left);
-            format!(", {} left", words.split(' ').take(2).collect::<Vec<_>>().join(" "))
-        });
+        let left = self.left(elapsed).map_or_else(String::new, |left| format!(", {} left", in_words(left, 1)));
         format!("{:.0} %{left}", (100.0 * share).floor()).chars().take(room).collect()
     }
 
@@ -213,16 +209,17 @@ impl Seen<'_> {
     }
 }
 
-/// A time in the two units that matter.
-fn in_words(time: Duration) -> String {
+/// A time in the largest `units` (1 or 2) that it has.
+fn in_words(time: Duration, units: usize) -> String {
     let seconds = time.as_secs();
     let (minutes, hours, days) = (seconds / 60, seconds / 3600, seconds / 86_400);
-    match () {
-        () if days > 0 => format!("{} d {} h", HumanCount(days), hours % 24),
-        () if hours > 0 => format!("{hours} h {} min", minutes % 60),
-        () if minutes > 0 => format!("{minutes} min {} s", seconds % 60),
-        () => format!("{seconds} s"),
-    }
+    let parts = match () {
+        () if days > 0 => [format!("{} d", HumanCount(days)), format!("{} h", hours % 24)],
+        () if hours > 0 => [format!("{hours} h"), format!("{} min", minutes % 60)],
+        () if minutes > 0 => [format!("{minutes} min"), format!("{} s", seconds % 60)],
+        () => return format!("{seconds} s"),
+    };
+    parts[..units].join(" ")
 }
 
 #[cfg(test)]
@@ -251,7 +248,7 @@ mod tests {
             }
         }
         for (seconds, ends) in
-            [(25, " s left"), (824, "13 min left"), (824, "13 min 44 s left"), (7205, "2 h left"), (90_000, "1 d left")]
+            [(25, ", 25 s left"), (824, "13 min left"), (824, "13 min 44 s left"), (7205, "2 h left"), (90_000, "1 d left")]
         {
             let columns = if ends.contains("44 s") { 60..200 } else { 20..25 };
             for columns in columns {
