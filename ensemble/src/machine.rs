@@ -63,7 +63,7 @@ fn go<W: Work, M: Model, C: Clutch>(work: W, registers: Registers) -> W::Output 
     let resolved = Resolved(work, std::marker::PhantomData::<(M, C)>);
     match registers {
         // Not `Arch::dispatch`: its way without wide registers would be a second copy of the one below.
-        // No unit test asks for registers (`tests/tests/lanes_*.rs` do), and every kind takes as long to build.
+        // No unit test asks for registers (`tests/tests/motion/lanes_*.rs` do), and every kind takes as long to build.
         #[cfg(all(target_arch = "x86_64", not(test)))]
         Registers::Widest => match Arch::new() {
             Arch::V4(registers) => registers.vectorize(resolved),

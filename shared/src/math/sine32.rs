@@ -6,7 +6,7 @@
 //!
 //! There is no branch and no table, so it costs the same everywhere and gives the same bits everywhere. The
 //! coefficients interpolate the functions at the Chebyshev points of y ∈ [0, π²]; the truncation error is below 2e-8
-//! of the half angle's sine. `tests/tests/sine_exhaustive.rs` bounds the whole error over every f32 in [−π, π].
+//! of the half angle's sine. `tests/tests/motion/sine_exhaustive.rs` bounds the whole error over every f32 in [−π, π].
 
 /// S(y), ascending.
 const SINE: [f32; 4] = [-0.041_666_664, 0.000_520_827_66, -3.097_303e-6, 1.029_201_7e-8];

@@ -2,8 +2,8 @@
 
 use sprag_sim_host::outcome::Outcome;
 
-use crate::say;
-use crate::spectra::{Cell, DEVICES, INERTER, KINDS, NONE, PAIR, REGION_1, REGION_2, SPECTRA, Spectra};
+use super::say;
+use super::spectra::{Cell, DEVICES, INERTER, KINDS, NONE, PAIR, REGION_1, REGION_2, SPECTRA, Spectra};
 
 /// Columns of a map, from the lowest amplitude up.
 fn columns(map: &Spectra, device: usize) -> Vec<Vec<Outcome>> {

@@ -2,7 +2,7 @@
 //!
 //! Needs what `emulator.rs` needs. What runs there is run here from the same file.
 
-#[path = "../emulated-core/src/kernels/controller/mod.rs"]
+#[path = "../../emulated-core/src/kernels/controller/mod.rs"]
 mod controller;
 
 use std::collections::BTreeMap;

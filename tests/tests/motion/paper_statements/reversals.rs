@@ -10,8 +10,8 @@ use sprag_sim_host::outcome::Outcome;
 use sprag_tests::DEVICES;
 use sprag_tests::pulse::Pulsed;
 
-use crate::say;
-use crate::spectra::{INERTER, NONE, PAIR, REGION_1, REGION_2};
+use super::say;
+use super::spectra::{INERTER, NONE, PAIR, REGION_1, REGION_2};
 
 /// What happens to a block.
 #[derive(Clone, Copy, Debug)]

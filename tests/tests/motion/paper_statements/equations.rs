@@ -9,8 +9,8 @@ use sprag_sim_host::simulation::energy::Shares;
 use sprag_tests::relative;
 use sprag_tests::shipped::{grid, responses, runs};
 
-use crate::say;
-use crate::spectra::{INERTER, NONE, PAIR, SPECTRA};
+use super::say;
+use super::spectra::{INERTER, NONE, PAIR, SPECTRA};
 
 /// A slender block with an inerter is one without, of the frequency parameter p/√(1 + 3σ/4).
 #[test]

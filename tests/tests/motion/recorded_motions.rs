@@ -1,6 +1,6 @@
 //! The block of the paper's section 6.2 (α = 10°, R = 2 m, σ = 0.5) under every recorded motion, with all three devices.
 //!
-//! `cargo test -p sprag-tests --test recorded_motions -- --nocapture` prints the reductions of peak rotation under the
+//! `cargo test -p sprag-tests --test motion recorded_motions -- --nocapture` prints the reductions of peak rotation under the
 //! pulse-like motions beside the paper's. The folder of records is not part of the repository.
 
 use std::collections::BTreeSet;

@@ -1,6 +1,6 @@
 //! A device in the emulator that is late, that starts anew in the middle of an earthquake, or that cannot start well.
 //!
-//! The numbers of `docs/faults.md` come from `cargo test -p sprag-tests --test emulated_restarts -- --nocapture`, with the image that
+//! The numbers of `docs/faults.md` come from `cargo test -p sprag-tests --test emulated restarts -- --nocapture`, with the image that
 //! `cargo xtask test` builds. What holds whatever happens is in [`Course::check`].
 
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! A device in the emulator whose supply fails while settings are written, and one that is sent rubbish.
 //!
-//! The numbers of `docs/faults.md` come from `cargo test -p sprag-tests --test emulated_storage -- --nocapture`, with the image that
+//! The numbers of `docs/faults.md` come from `cargo test -p sprag-tests --test emulated storage -- --nocapture`, with the image that
 //! `cargo xtask test` builds.
 
 use std::path::Path;

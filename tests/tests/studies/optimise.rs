@@ -1,6 +1,6 @@
 //! The choice of a device by the library: what is chosen is the best of what was tried, and does what a simulation of it does.
 //!
-//! `cargo test -p sprag-tests --test optimise -- --nocapture` prints the choice under a few recorded motions. The folder of records is
+//! `cargo test -p sprag-tests --test studies optimise -- --nocapture` prints the choice under a few recorded motions. The folder of records is
 //! not part of the repository.
 
 use std::collections::BTreeMap;

@@ -1,6 +1,6 @@
 //! Cloud analyses by the library: synthetic pulses, and the study of the paper's Section 6 under recorded pulse-like motions.
 //!
-//! `cargo test -p sprag-tests --test cloud -- --nocapture` prints reductions and fragilities beside the paper's. The folder of
+//! `cargo test -p sprag-tests --test studies cloud -- --nocapture` prints reductions and fragilities beside the paper's. The folder of
 //! records is not part of the repository.
 
 use std::collections::BTreeSet;

@@ -1,6 +1,6 @@
 //! Faults between the plant and a device in the emulator: a bad link, bad sensors, bad clutches.
 //!
-//! The numbers of `docs/faults.md` come from `cargo test -p sprag-tests --test emulated_faults -- --nocapture`, with the image that
+//! The numbers of `docs/faults.md` come from `cargo test -p sprag-tests --test emulated faults -- --nocapture`, with the image that
 //! `cargo xtask test` builds. What holds whatever happens is in [`Course::check`].
 
 use sprag_shared::control::controller::Circumstances;

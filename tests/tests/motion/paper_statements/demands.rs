@@ -1,7 +1,7 @@
 //! Section 5 and the conclusions on single pulses: demands over the maps of Figures 11 and 12, and their slender counterparts.
 
-use crate::say;
-use crate::spectra::{Cell, INERTER, NONE, PAIR, Ratios, SPECTRA, Spectra};
+use super::say;
+use super::spectra::{Cell, INERTER, NONE, PAIR, Ratios, SPECTRA, Spectra};
 
 /// Bands of amplitude.
 const BANDS: [(f64, f64); 5] = [(1.0, 2.0), (2.0, 4.0), (4.0, 6.0), (6.0, 8.0), (8.0, 10.0)];

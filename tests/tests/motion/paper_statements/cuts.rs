@@ -2,8 +2,8 @@
 
 use sprag_sim_host::outcome::Outcome;
 
-use crate::say;
-use crate::spectra::{Cell, DEVICES, INERTER, KINDS, NONE, PAIR, REGION_1, Ratios, Spectra};
+use super::say;
+use super::spectra::{Cell, DEVICES, INERTER, KINDS, NONE, PAIR, REGION_1, Ratios, Spectra};
 
 /// Over which ω_g/p blocks with both devices stand: the lowest of the uppermost stretch.
 fn from(cut: &Spectra, device: usize) -> f64 {

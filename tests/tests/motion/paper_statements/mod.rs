@@ -1,6 +1,6 @@
 //! What the paper says of single pulses (its Sections 2.3 to 5, Figures 5 to 13), statement by statement: docs/paper.md has the table, and
 //!
-//!     cargo test -p sprag-tests --test paper_statements -- --nocapture
+//!     cargo test -p sprag-tests --test motion paper_statements -- --nocapture
 //!
 //! prints its numbers, each line with the number of its statement. The tests hold the verdicts.
 

@@ -10,7 +10,7 @@ use sprag_sim_host::batch::case::PulseShape;
 use sprag_tests::pulse::Pulsed;
 use sprag_tests::{DEVICES, boundary, overturned_without_impact};
 
-use crate::say;
+use super::say;
 
 const FREQUENCY_9: f64 = 3.0;
 const FREQUENCY_10: f64 = 6.0;

@@ -1,0 +1,7 @@
+//! Estimators, laws and supervisor in closed loop.
+
+mod bad_frames;
+mod closed_loop;
+mod controller_hard_cases;
+mod own_law;
+mod sensor_failures;

@@ -1,0 +1,10 @@
+//! Core and firmware in the emulator.
+
+mod accuracy;
+mod decisions;
+mod emulator;
+mod faults;
+mod firmware;
+mod restarts;
+mod stability;
+mod storage;

@@ -1,0 +1,9 @@
+//! Many runs at once: batches, maps, clouds, optimisations.
+
+mod accuracy_study;
+mod batch_parts;
+mod cloud;
+mod maps;
+mod optimise;
+mod refine;
+mod similarity;
