@@ -81,15 +81,16 @@ impl<S: Real> Advance<S> for RungeKutta4<S> {
     }
 }
 
-/// The arc of a fixed-step method: the step, taken again for every time asked.
+/// The arc of a fixed-step method: its end, and the step taken again for every time before it.
 #[derive(Debug)]
 pub struct FixedArc<'a, S, E, P, A> {
     start: Start<'a, S, E, P>,
     first: S,
+    end: Motion<S>,
     method: core::marker::PhantomData<A>,
 }
 
-impl<'a, S: Real, E: Equation<S>, P: Piece<S>, A> FixedArc<'a, S, E, P, A> {
+impl<'a, S: Real, E: Equation<S>, P: Piece<S>, A: Advance<S>> FixedArc<'a, S, E, P, A> {
     #[inline(always)]
     pub(crate) fn new(start: Start<'a, S, E, P>) -> Self {
         let first = if start.acceleration_is_zero {
@@ -98,7 +99,15 @@ impl<'a, S: Real, E: Equation<S>, P: Piece<S>, A> FixedArc<'a, S, E, P, A> {
             let push = start.piece.acceleration(start.time);
             start.equation.acceleration(start.side.unit(), start.rotation, start.velocity, push)
         };
-        FixedArc { start, first, method: core::marker::PhantomData }
+        let end = Self::motion(&start, first, start.length);
+        FixedArc { start, first, end, method: core::marker::PhantomData }
+    }
+
+    #[inline]
+    fn motion(start: &Start<'a, S, E, P>, first: S, time: S) -> Motion<S> {
+        let (rotation, velocity) = A::advance(start, first, time);
+        let push = start.piece.acceleration(start.time + time);
+        Motion { rotation, velocity, acceleration: start.equation.acceleration(start.side.unit(), rotation, velocity, push) }
     }
 }
 
@@ -113,13 +122,7 @@ impl<S: Real, E: Equation<S>, P: Piece<S>, A: Advance<S>> Arc<S> for FixedArc<'_
         if time == S::ZERO {
             return Motion { rotation: self.start.rotation, velocity: self.start.velocity, acceleration: self.first };
         }
-        let (rotation, velocity) = A::advance(&self.start, self.first, time);
-        let push = self.start.piece.acceleration(self.start.time + time);
-        Motion {
-            rotation,
-            velocity,
-            acceleration: self.start.equation.acceleration(self.start.side.unit(), rotation, velocity, push),
-        }
+        if time == self.start.length { self.end } else { Self::motion(&self.start, self.first, time) }
     }
 
     #[inline]

@@ -154,6 +154,7 @@ fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, const
 impl<S: Real> Stepper<S> for ExponentialMidpoint<S> {
     fn advance<B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, const X: usize, const G: usize>(
         start: &PathStart<'_, S, B, D, P, Q, X>,
+        _first: &(S, [S; X]),
         h: S,
     ) -> Unknowns<S, X> {
         let soft = PathStart { law: springless(&start.law), ..*start };

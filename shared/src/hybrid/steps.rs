@@ -16,9 +16,10 @@ pub type Unknowns<S, const X: usize> = (S, S, [S; X]);
 
 /// How a fixed-step method gets from the start of a step to a time within it.
 pub trait Stepper<S: Real> {
-    /// The unknowns a time `h` after `start`.
+    /// The unknowns a time `h` after `start`, where θ̈ and the rates of the device's unknowns are `first`.
     fn advance<B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, const X: usize, const G: usize>(
         start: &PathStart<'_, S, B, D, P, Q, X>,
+        first: &(S, [S; X]),
         h: S,
     ) -> Unknowns<S, X>;
 }
@@ -27,6 +28,7 @@ impl<S: Real> Stepper<S> for RungeKutta4<S> {
     #[inline]
     fn advance<B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, const X: usize, const G: usize>(
         start: &PathStart<'_, S, B, D, P, Q, X>,
+        (first, r1): &(S, [S; X]),
         h: S,
     ) -> Unknowns<S, X> {
         let half = S::HALF * h;
@@ -38,10 +40,9 @@ impl<S: Real> Stepper<S> for RungeKutta4<S> {
             }
             extra
         };
-        let (first, r1) = start.rates::<G>(S::ZERO, theta, omega, &start.extra);
-        let a1 = start.first(first);
+        let a1 = start.first(*first);
         let omega_2 = omega + half * a1;
-        let (a2, r2) = start.rates::<G>(half, theta + half * omega, omega_2, &shifted(&r1, half));
+        let (a2, r2) = start.rates::<G>(half, theta + half * omega, omega_2, &shifted(r1, half));
         let omega_3 = omega + half * a2;
         let (a3, r3) = start.rates::<G>(half, theta + half * omega_2, omega_3, &shifted(&r2, half));
         let omega_4 = omega + h * a3;
@@ -55,30 +56,51 @@ impl<S: Real> Stepper<S> for RungeKutta4<S> {
     }
 }
 
-/// The path of a fixed-step method: the step, taken again for every time asked.
+/// The path of a fixed-step method: its ends, and the step taken again for every time between them.
 #[derive(Debug)]
 pub struct FixedPath<'a, S, B, D, P, Q, A, const X: usize, const G: usize> {
     start: PathStart<'a, S, B, D, P, Q, X>,
+    /// θ̈ and the rates of the device's unknowns at the start.
+    first: (S, [S; X]),
+    end: (Motion<S>, [S; X]),
     method: PhantomData<A>,
 }
 
-impl<'a, S, B, D, P, Q, A, const X: usize, const G: usize> FixedPath<'a, S, B, D, P, Q, A, X, G> {
-    /// From `start`.
-    pub fn of(start: PathStart<'a, S, B, D, P, Q, X>) -> Self {
-        FixedPath { start, method: PhantomData }
-    }
-}
-
-impl<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, A: Stepper<S>, const X: usize, const G: usize>
-    FixedPath<'_, S, B, D, P, Q, A, X, G>
+impl<'a, S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, A: Stepper<S>, const X: usize, const G: usize>
+    FixedPath<'a, S, B, D, P, Q, A, X, G>
 {
-    // A step is taken for every look at the motion, from many places: one copy of it keeps programs small.
+    /// From `start`.
     #[inline(never)]
-    fn state(&self, time: S) -> Unknowns<S, X> {
+    pub fn of(start: PathStart<'a, S, B, D, P, Q, X>) -> Self {
+        let first = start.rates::<G>(S::ZERO, start.rotation, start.velocity, &start.extra);
+        let still = Motion { rotation: start.rotation, velocity: start.velocity, acceleration: first.0 };
+        let extra = start.extra;
+        let mut path = FixedPath { start, first, end: (still, extra), method: PhantomData };
+        path.end = path.look(path.start.length);
+        path
+    }
+
+    /// A step of length `time`. It is taken from many places: one copy of it keeps programs small.
+    #[inline(never)]
+    fn look(&self, time: S) -> (Motion<S>, [S; X]) {
+        let (rotation, velocity, extra) = A::advance::<B, D, P, Q, X, G>(&self.start, &self.first, time);
+        let (acceleration, _) = self.start.rates::<G>(time, rotation, velocity, &extra);
+        (Motion { rotation, velocity, acceleration }, extra)
+    }
+
+    fn known(&self, time: S) -> Option<(Motion<S>, [S; X])> {
         if time == S::ZERO {
-            return (self.start.rotation, self.start.velocity, self.start.extra);
+            let PathStart { rotation, velocity, extra, .. } = self.start;
+            Some((Motion { rotation, velocity, acceleration: self.first.0 }, extra))
+        } else if time == self.start.length {
+            Some(self.end)
+        } else {
+            None
         }
-        A::advance::<B, D, P, Q, X, G>(&self.start, time)
+    }
+
+    fn state(&self, time: S) -> (Motion<S>, [S; X]) {
+        self.known(time).unwrap_or_else(|| self.look(time))
     }
 }
 
@@ -92,9 +114,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, A: Steppe
 
     #[inline(never)]
     fn at(&self, time: S) -> Motion<S> {
-        let (rotation, velocity, extra) = self.state(time);
-        let (acceleration, _) = self.start.rates::<G>(time, rotation, velocity, &extra);
-        Motion { rotation, velocity, acceleration }
+        self.state(time).0
     }
 
     #[inline]
@@ -108,14 +128,13 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, A: Steppe
 {
     #[inline]
     fn extra(&self, time: S) -> [S; X] {
-        self.state(time).2
+        self.state(time).1
     }
 
     #[inline(never)]
     fn guard(&self, index: usize, time: S) -> S {
-        let (rotation, velocity, extra) = self.state(time);
-        let (acceleration, _) = self.start.rates::<G>(time, rotation, velocity, &extra);
-        self.start.guard::<G>(index, time, &Motion { rotation, velocity, acceleration }, &extra)
+        let (motion, extra) = self.state(time);
+        self.start.guard::<G>(index, time, &motion, &extra)
     }
 }
 
