@@ -3,40 +3,10 @@
 //! As [`sprag_shared::polynomial`], but where that one halves a stretch until it knows what lies inside, these lanes ask what is plain
 //! from the coefficients ([`shape`]), and leave the rest to shorter steps or to that core.
 
+pub use sprag_shared::polynomial::{value, value_and_slope};
 use sprag_shared::scalar::Scalar;
 
 use crate::{Mask, Number, number};
-
-/// Σ c_k t^k, as two interleaved Horner chains in t².
-#[inline(always)]
-pub fn value(coefficients: &[Number], time: Number) -> Number {
-    let squared = time * time;
-    let (pairs, rest) = coefficients.as_chunks::<2>();
-    let mut even = rest.first().copied().unwrap_or(number(0.0));
-    let mut odd = number(0.0);
-    for [low, high] in pairs.iter().rev() {
-        even = even * squared + *low;
-        odd = odd * squared + *high;
-    }
-    even + odd * time
-}
-
-/// Value and derivative. With p = E(t²) + t O(t²), p' = O + 2t (E' + t O'): four chains at once.
-#[inline(always)]
-pub fn value_and_slope(coefficients: &[Number], time: Number) -> (Number, Number) {
-    let squared = time * time;
-    let (pairs, rest) = coefficients.as_chunks::<2>();
-    let zero = number(0.0);
-    let mut even = rest.first().copied().unwrap_or(zero);
-    let (mut odd, mut even_slope, mut odd_slope) = (zero, zero, zero);
-    for [low, high] in pairs.iter().rev() {
-        even_slope = even_slope * squared + even;
-        odd_slope = odd_slope * squared + odd;
-        even = even * squared + *low;
-        odd = odd * squared + *high;
-    }
-    (even + odd * time, odd + (time + time) * (even_slope + odd_slope * time))
-}
 
 /// Square root, exact to rounding as IEEE has it.
 #[inline(always)]

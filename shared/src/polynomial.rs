@@ -1,16 +1,17 @@
 //! Values, zeros and extremes of a step's series.
 
 use crate::locate::locate;
-use crate::scalar::{Real, Sign};
+use crate::scalar::{Real, Scalar, Sign};
 use crate::tape::MAXIMUM_ORDER;
 
-/// Σ c_k t^k, as two interleaved Horner chains in t².
-#[inline]
-pub fn value<S: Real>(coefficients: &[S], time: S) -> S {
+/// Σ c_k t^k, as two interleaved Horner chains in t². Written over [`Scalar`], so that lanes take it too.
+#[inline(always)]
+pub fn value<S: Scalar>(coefficients: &[S], time: S) -> S {
     let squared = time * time;
     let (pairs, rest) = coefficients.as_chunks::<2>();
-    let mut even = rest.first().copied().unwrap_or(S::ZERO);
-    let mut odd = S::ZERO;
+    let zero = S::of(0.0);
+    let mut even = rest.first().copied().unwrap_or(zero);
+    let mut odd = zero;
     for [low, high] in pairs.iter().rev() {
         even = even * squared + *low;
         odd = odd * squared + *high;
@@ -19,12 +20,13 @@ pub fn value<S: Real>(coefficients: &[S], time: S) -> S {
 }
 
 /// Value and derivative. With p = E(t²) + t O(t²), p' = O + 2t (E' + t O'): four chains at once.
-#[inline]
-pub fn value_and_slope<S: Real>(coefficients: &[S], time: S) -> (S, S) {
+#[inline(always)]
+pub fn value_and_slope<S: Scalar>(coefficients: &[S], time: S) -> (S, S) {
     let squared = time * time;
     let (pairs, rest) = coefficients.as_chunks::<2>();
-    let mut even = rest.first().copied().unwrap_or(S::ZERO);
-    let (mut odd, mut even_slope, mut odd_slope) = (S::ZERO, S::ZERO, S::ZERO);
+    let zero = S::of(0.0);
+    let mut even = rest.first().copied().unwrap_or(zero);
+    let (mut odd, mut even_slope, mut odd_slope) = (zero, zero, zero);
     for [low, high] in pairs.iter().rev() {
         even_slope = even_slope * squared + even;
         odd_slope = odd_slope * squared + odd;
