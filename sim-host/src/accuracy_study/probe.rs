@@ -44,15 +44,15 @@ pub struct Reading {
 /// Follows `subject` as `variant` says, and looks at θ at the `times` (s, ascending).
 pub fn read(subject: &Subject, variant: &Variant, times: &[f64]) -> Reading {
     match variant.number {
-        Number::F64Libm => with_any_method::<f64>(subject, variant, times),
-        Number::F32Own => with_any_method::<f32>(subject, variant, times),
+        Number::F64Libm => with_any_method::<f64, TERMS>(subject, variant, times),
+        Number::F32Own => with_any_method::<f32, TERMS_F32>(subject, variant, times),
         Number::F64Own => step_end::<Tiered<f64, OwnPolynomial>>(subject, variant, times),
         Number::F32Libm => step_end::<Tiered<f32, Libm>>(subject, variant, times),
         Number::F32Micromath => step_end::<Tiered<f32, Micromath>>(subject, variant, times),
     }
 }
 
-fn with_any_method<S: Real>(subject: &Subject, variant: &Variant, times: &[f64]) -> Reading {
+fn with_any_method<S: Real, const N: usize>(subject: &Subject, variant: &Variant, times: &[f64]) -> Reading {
     if variant.events == EventTreatment::StepEnd {
         return step_end::<S>(subject, variant, times);
     }
@@ -61,9 +61,9 @@ fn with_any_method<S: Real>(subject: &Subject, variant: &Variant, times: &[f64])
         (variant::Method::SemiImplicitEuler, _) => located(subject, times, &SemiImplicitEuler { step: step() }),
         (variant::Method::RungeKutta4, _) => located(subject, times, &RungeKutta4 { step: step() }),
         (variant::Method::ClosedForm, _) => located(subject, times, &ClosedForm { step: step() }),
-        (variant::Method::Taylor, Setting::Step(_)) => located(subject, times, &Taylor::<S, TERMS_F32>::fixed(step())),
+        (variant::Method::Taylor, Setting::Step(_)) => located(subject, times, &Taylor::<S, N>::fixed(step())),
         (variant::Method::Taylor, Setting::Tolerance(tolerance)) => {
-            located(subject, times, &Taylor::<S, TERMS>::adaptive(S::of(tolerance)))
+            located(subject, times, &Taylor::<S, N>::adaptive(S::of(tolerance)))
         }
     }
 }
