@@ -102,7 +102,7 @@ impl Digest {
 
 impl<S: Real> Observer<S> for Digest {
     #[inline]
-    fn stretch<A: Arc<S>>(&mut self, _arc: &A, stretch: &Stretch<S>) {
+    fn stretch(&mut self, _arc: &dyn Arc<S>, stretch: &Stretch<S>) {
         self.stretches = self.stretches.wrapping_add(1);
         self.instant(stretch.last.rotation, stretch.last.velocity, stretch.side, u8::from(stretch.engaged));
     }

@@ -48,11 +48,13 @@ pub struct Stretch<S> {
 /// Told of every stretch and every event, in order. Times are local to the piece of ground motion.
 pub trait Observer<S: Real> {
     /// Wants every swing of a free motion; otherwise its end is summed in closed form ([`Decay`]).
-    const EVERY_SWING: bool = true;
+    fn every_swing(&self) -> bool {
+        true
+    }
 
     /// The motion over a stretch.
     #[inline(always)]
-    fn stretch<A: Arc<S>>(&mut self, arc: &A, stretch: &Stretch<S>) {
+    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
         let _ = (arc, stretch);
     }
 
@@ -71,12 +73,16 @@ pub trait Observer<S: Real> {
 
 /// Nobody.
 impl<S: Real> Observer<S> for () {
-    const EVERY_SWING: bool = false;
+    fn every_swing(&self) -> bool {
+        false
+    }
 }
 
 /// Two observers.
 impl<S: Real, A: Observer<S>, B: Observer<S>> Observer<S> for (A, B) {
-    const EVERY_SWING: bool = A::EVERY_SWING || B::EVERY_SWING;
+    fn every_swing(&self) -> bool {
+        self.0.every_swing() || self.1.every_swing()
+    }
 
     #[inline(always)]
     fn decay(&mut self, decay: &Decay<S>) {
@@ -85,7 +91,7 @@ impl<S: Real, A: Observer<S>, B: Observer<S>> Observer<S> for (A, B) {
     }
 
     #[inline(always)]
-    fn stretch<C: Arc<S>>(&mut self, arc: &C, stretch: &Stretch<S>) {
+    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
         self.0.stretch(arc, stretch);
         self.1.stretch(arc, stretch);
     }
@@ -97,8 +103,10 @@ impl<S: Real, A: Observer<S>, B: Observer<S>> Observer<S> for (A, B) {
     }
 }
 
-impl<S: Real, O: Observer<S>> Observer<S> for &mut O {
-    const EVERY_SWING: bool = O::EVERY_SWING;
+impl<S: Real, O: Observer<S> + ?Sized> Observer<S> for &mut O {
+    fn every_swing(&self) -> bool {
+        (**self).every_swing()
+    }
 
     #[inline(always)]
     fn decay(&mut self, decay: &Decay<S>) {
@@ -106,7 +114,7 @@ impl<S: Real, O: Observer<S>> Observer<S> for &mut O {
     }
 
     #[inline(always)]
-    fn stretch<C: Arc<S>>(&mut self, arc: &C, stretch: &Stretch<S>) {
+    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
         (**self).stretch(arc, stretch);
     }
 
@@ -136,7 +144,9 @@ pub struct Peaks<S> {
 }
 
 impl<S: Real> Observer<S> for Peaks<S> {
-    const EVERY_SWING: bool = false;
+    fn every_swing(&self) -> bool {
+        false
+    }
 
     #[inline]
     fn decay(&mut self, decay: &Decay<S>) {
@@ -145,7 +155,7 @@ impl<S: Real> Observer<S> for Peaks<S> {
     }
 
     #[inline]
-    fn stretch<A: Arc<S>>(&mut self, arc: &A, stretch: &Stretch<S>) {
+    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
         // θ is monotone here; a largest value inside lies at a turn, where a stretch ends.
         let (first, last) = (&stretch.first, &stretch.last);
         self.rotation = self.rotation.larger(first.rotation.abs()).larger(last.rotation.abs());

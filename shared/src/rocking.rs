@@ -173,14 +173,14 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
     ///
     /// # Errors
     /// [`Stopped`], with the state as it was then.
-    pub fn advance<M: Method<S>, P: Piece<S>, O: Observer<S>>(
+    pub fn advance<M: Method<S>, P: Piece<S>>(
         &self,
         method: &M,
         state: &mut State<S>,
         piece: &P,
         duration: S,
         limits: &Limits<S>,
-        observer: &mut O,
+        observer: &mut dyn Observer<S>,
     ) -> Result<(), Stopped> {
         let mut time = S::ZERO;
         let mut tick = 0_u32;
@@ -226,7 +226,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
                 }
                 End::Impact => {
                     time = self.impact(state, piece, time, duration, observer);
-                    if P::QUIET && !O::EVERY_SWING && R::SWITCHES_WITH_ACCELERATION && E::SWITCHES_WITH_ACCELERATION {
+                    if P::QUIET && !observer.every_swing() && R::SWITCHES_WITH_ACCELERATION && E::SWITCHES_WITH_ACCELERATION {
                         time = self.sum_up(state, &mut swings, time, duration, observer);
                     }
                 }
@@ -249,7 +249,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
     /// One arc, up to its first event that changes the equation.
     #[expect(clippy::too_many_arguments, reason = "one call site, and each is a different thing")]
     #[inline]
-    fn follow<M: Method<S>, Q: Equation<S>, P: Piece<S>, O: Observer<S>>(
+    fn follow<M: Method<S>, Q: Equation<S>, P: Piece<S>>(
         &self,
         method: &M,
         equation: &Q,
@@ -259,7 +259,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
         time: &mut S,
         stop: S,
         limits: &Limits<S>,
-        observer: &mut O,
+        observer: &mut dyn Observer<S>,
     ) -> End {
         let arc = method.arc(Start {
             equation,

@@ -38,10 +38,8 @@ impl<S: Real, E: Equation<S>, C: Clutch, P: Piece<S>, O: DeviceObserver<S>> Watc
 }
 
 impl<S: Real, E: Equation<S>, C: Clutch, P: Piece<S>, O: DeviceObserver<S>> Observer<S> for Watched<S, E, C, P, O> {
-    const EVERY_SWING: bool = true;
-
     #[inline]
-    fn stretch<A: Arc<S>>(&mut self, arc: &A, stretch: &Stretch<S>) {
+    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
         let arc = WatchedArc {
             arc,
             equation: &self.engaged,
@@ -61,9 +59,8 @@ impl<S: Real, E: Equation<S>, C: Clutch, P: Piece<S>, O: DeviceObserver<S>> Obse
 }
 
 /// An arc and the device that works along it.
-#[derive(Debug)]
-struct WatchedArc<'a, S, A, E, P> {
-    arc: &'a A,
+struct WatchedArc<'a, S, E, P> {
+    arc: &'a dyn Arc<S>,
     equation: &'a E,
     coupling: S,
     piece: &'a P,
@@ -72,7 +69,7 @@ struct WatchedArc<'a, S, A, E, P> {
     wheel: Flywheel,
 }
 
-impl<S: Real, A: Arc<S>, E: Equation<S>, P: Piece<S>> Arc<S> for WatchedArc<'_, S, A, E, P> {
+impl<S: Real, E: Equation<S>, P: Piece<S>> Arc<S> for WatchedArc<'_, S, E, P> {
     #[inline]
     fn length(&self) -> S {
         self.arc.length()
@@ -104,7 +101,7 @@ impl<S: Real, A: Arc<S>, E: Equation<S>, P: Piece<S>> Arc<S> for WatchedArc<'_, 
     }
 }
 
-impl<S: Real, A: Arc<S>, E: Equation<S>, P: Piece<S>> DeviceArc<S> for WatchedArc<'_, S, A, E, P> {
+impl<S: Real, E: Equation<S>, P: Piece<S>> DeviceArc<S> for WatchedArc<'_, S, E, P> {
     #[inline]
     fn snapshot(&self, time: S) -> Snapshot<S> {
         let motion = self.arc.at(time);

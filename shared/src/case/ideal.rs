@@ -27,7 +27,7 @@ struct Watch<'o, O> {
 
 impl<O: Observer<f32>> Observer<f32> for Watch<'_, O> {
     #[inline]
-    fn stretch<A: Arc<f32>>(&mut self, arc: &A, stretch: &Stretch<f32>) {
+    fn stretch(&mut self, arc: &dyn Arc<f32>, stretch: &Stretch<f32>) {
         self.steps += u32::from(stretch.from == 0.0);
         self.peaks.stretch(arc, stretch);
         self.observer.stretch(arc, stretch);

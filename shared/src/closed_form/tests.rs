@@ -71,9 +71,7 @@ struct Log<S> {
 }
 
 impl<S: Real> Observer<S> for Log<S> {
-    const EVERY_SWING: bool = true;
-
-    fn stretch<A: Arc<S>>(&mut self, arc: &A, stretch: &Stretch<S>) {
+    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
         self.peaks.stretch(arc, stretch);
         self.stretches += 1;
     }

@@ -15,13 +15,13 @@ const MOST_IDLE_SWINGS: f64 = 1e3;
 impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
     /// θ = 0: the velocity is multiplied by η and the other toe takes over, or the block comes to rest. Returns the
     /// time, which rest moves on to the end of the impacts that it stands for.
-    pub(super) fn impact<P: Piece<S>, O: Observer<S>>(
+    pub(super) fn impact<P: Piece<S>>(
         &self,
         state: &mut State<S>,
         piece: &P,
         time: S,
         duration: S,
-        observer: &mut O,
+        observer: &mut dyn Observer<S>,
     ) -> S {
         let incoming = state.velocity.abs();
         if incoming >= self.counted_speed {
@@ -62,13 +62,13 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
     }
 
     /// After an impact on quiet ground: the rest of the motion in closed form, or as many whole swings as `duration` has room for.
-    pub(super) fn sum_up<O: Observer<S>>(
+    pub(super) fn sum_up(
         &self,
         state: &mut State<S>,
         swings: &mut Option<Swings<S>>,
         time: S,
         duration: S,
-        observer: &mut O,
+        observer: &mut dyn Observer<S>,
     ) -> S {
         if state.phase != Phase::Rocking {
             return time;

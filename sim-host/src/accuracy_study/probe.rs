@@ -137,7 +137,7 @@ impl<S: Real> Watch<'_, S> {
 
 impl<S: Real> Observer<S> for Watch<'_, S> {
     #[inline]
-    fn stretch<A: Arc<S>>(&mut self, arc: &A, stretch: &Stretch<S>) {
+    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
         self.steps += u64::from(stretch.from == S::ZERO);
         // θ is monotone here, so its largest value lies at an end.
         let (first, last) = (stretch.first.rotation.abs(), stretch.last.rotation.abs());

@@ -133,7 +133,7 @@ impl Course<'_> {
         }
         observer.segment(self.ground.duration(), None);
         let (limits, duration) = (self.limits(0.0), S::of(self.free_time));
-        let ended = if O::EVERY_SWING {
+        let ended = if observer.every_swing() {
             system.advance(method, state, &ShapePiece::Linear(Linear::constant(S::ZERO)), duration, &limits, observer)
         } else {
             system.advance(method, state, &Quiet, duration, &limits, observer)

@@ -108,7 +108,7 @@ struct Tally {
 }
 
 impl Observer<f32> for Tally {
-    fn stretch<A: sprag_shared::arc::Arc<f32>>(&mut self, _arc: &A, stretch: &Stretch<f32>) {
+    fn stretch(&mut self, _arc: &dyn sprag_shared::arc::Arc<f32>, stretch: &Stretch<f32>) {
         self.steps += u32::from(stretch.from == 0.0);
     }
 

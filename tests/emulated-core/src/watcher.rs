@@ -16,10 +16,8 @@ pub struct Watcher {
 }
 
 impl Observer<f32> for Watcher {
-    const EVERY_SWING: bool = <Digest as Observer<f32>>::EVERY_SWING;
-
     #[inline]
-    fn stretch<A: Arc<f32>>(&mut self, arc: &A, stretch: &Stretch<f32>) {
+    fn stretch(&mut self, arc: &dyn Arc<f32>, stretch: &Stretch<f32>) {
         if let Some(digest) = &mut self.digest {
             digest.stretch(arc, stretch);
         }

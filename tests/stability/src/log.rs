@@ -71,9 +71,11 @@ impl<S: Real, const EVERY: bool> Log<S, EVERY> {
 }
 
 impl<S: Real, const EVERY: bool> Observer<S> for Log<S, EVERY> {
-    const EVERY_SWING: bool = EVERY;
+    fn every_swing(&self) -> bool {
+        EVERY
+    }
 
-    fn stretch<A: Arc<S>>(&mut self, arc: &A, stretch: &Stretch<S>) {
+    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
         self.peaks.stretch(arc, stretch);
         if self.intervals > 0 {
             let width = stretch.to - stretch.from;

@@ -143,7 +143,7 @@ fn index(event: Event) -> usize {
 }
 
 impl<S: Real> Observer<S> for Tally<S> {
-    fn stretch<A: Arc<S>>(&mut self, arc: &A, stretch: &Stretch<S>) {
+    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
         self.peaks.stretch(arc, stretch);
         self.stretches += 1;
         self.steps += u64::from(stretch.from == S::ZERO);

@@ -169,7 +169,7 @@ impl Shake {
             fn with<R: Equation<f64>, E: Switched<f64>, C: Clutch>(self, system: System<f64, R, E, C>) -> Seen {
                 struct Every(Peaks<f64>);
                 impl crate::observer::Observer<f64> for Every {
-                    fn stretch<A: crate::arc::Arc<f64>>(&mut self, arc: &A, stretch: &crate::observer::Stretch<f64>) {
+                    fn stretch(&mut self, arc: &dyn crate::arc::Arc<f64>, stretch: &crate::observer::Stretch<f64>) {
                         self.0.stretch(arc, stretch);
                     }
                     fn event(&mut self, event: Event, time: f64, state: &State<f64>) {
