@@ -34,6 +34,8 @@ pub struct Image {
     pub workspace: &'static str,
     /// Its package.
     pub package: &'static str,
+    /// The profile of its release.
+    pub profile: &'static str,
     /// Its features, in place of the default ones.
     pub features: &'static [&'static str],
     /// The file with what it may occupy, from the root, if that is limited.
@@ -49,6 +51,7 @@ pub const CORE: Image = Image {
     name: "core",
     workspace: "",
     package: "sprag-emulated-core",
+    profile: "dist",
     features: &[],
     budget: Some("tests/emulated-core/size.budget"),
     variable: Some("SPRAG_EMULATED_CORE_ELF"),
@@ -60,6 +63,7 @@ pub const BOARD: Image = Image {
     name: "board",
     workspace: "firmware",
     package: "sprag-firmware",
+    profile: "release",
     features: &["board-f405"],
     budget: Some("firmware/size.budget"),
     variable: None,
@@ -108,7 +112,7 @@ impl Image {
     /// # Errors
     /// If the build fails.
     pub fn build(&self, root: &Path) -> Result<PathBuf, Stop> {
-        let built = executables(self.cargo(root, "build").arg("--release"))?
+        let built = executables(self.cargo(root, "build").args(["--profile", self.profile]))?
             .pop()
             .ok_or_else(|| Stop::failed(format!("cargo built {} but named no executable", self.package)))?;
         // Below the target folder: the target's name, the profile, the file.

@@ -113,8 +113,8 @@ fn kernel(variant: &Variant, geometry: Geometry, device: DeviceKind) -> String {
 /// Builds the image from the sources that this program was built from.
 fn build() -> Result<PathBuf, BoardError> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    crate::device::image::build_in(&root, &["--package", "sprag-emulated-core", "--target", "thumbv7em-none-eabihf"], None)
-        .map_err(|error| BoardError::Build(error.to_string()))
+    let arguments = ["--profile", "dist", "--package", "sprag-emulated-core", "--target", "thumbv7em-none-eabihf"];
+    crate::device::image::build_in(&root, &arguments, None).map_err(|error| BoardError::Build(error.to_string()))
 }
 
 #[cfg(test)]

@@ -48,10 +48,10 @@ const ARM: [u8; 2] = [40, 0];
 /// [`DeviceError::Build`] where there is no source, no cargo, or the build fails.
 pub fn build(log: Option<&str>) -> Result<PathBuf, DeviceError> {
     let features = if log.is_some() { "board-qemu,log" } else { "board-qemu" };
-    build_in(&folder(), &["--no-default-features", "--features", features], log)
+    build_in(&folder(), &["--release", "--no-default-features", "--features", features], log)
 }
 
-/// Builds a program for the emulator in the workspace at `folder`, by `cargo build --release` with more `arguments`; else as [`build`].
+/// Builds a program for the emulator in the workspace at `folder`, by `cargo build` with `arguments`; else as [`build`].
 ///
 /// # Errors
 /// As there.
@@ -61,7 +61,7 @@ pub fn build_in(folder: &Path, arguments: &[&str], log: Option<&str>) -> Result<
         return Err(failed(format!("{} is not there; name an image by --firmware", folder.display())));
     }
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.current_dir(folder).args(["build", "--release"]).args(arguments);
+    cargo.current_dir(folder).arg("build").args(arguments);
     cargo.arg("--message-format=json-render-diagnostics").stdin(Stdio::null()).stderr(Stdio::inherit());
     // What is set for the build of the host is not meant for the target.
     for (name, _) in std::env::vars_os() {
