@@ -5,13 +5,12 @@ use std::f64::consts::TAU;
 use sprag_shared::block::{Block, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::carried::Carried;
 use sprag_shared::clutch::Clutch;
-use sprag_shared::equation::Equation;
 use sprag_shared::error::ParameterError;
 use sprag_shared::ground::Harmonics;
 use sprag_shared::lever::Mount;
 use sprag_shared::observer::Peaks;
-use sprag_shared::rocking::{Limits, Phase, State, Stopped, System};
-use sprag_shared::structure::{Device, KinematicsKind, REST_SPEED, Restitution, Structure, WithSystem};
+use sprag_shared::rocking::{Limits, Phase, State, Stopped};
+use sprag_shared::structure::{Device, KinematicsKind, REST_SPEED, Restitution, Structure};
 use sprag_shared::taylor::Taylor;
 
 use crate::model::Model;
@@ -58,7 +57,7 @@ impl PulsedBlock {
     /// [`CaseError`] for a parameter outside its range, or a motion that cannot be followed.
     pub fn follow<M: Model, C: Clutch>(&self, method: &Taylor<f64, TERMS>) -> Result<PulseResult, CaseError> {
         let structure = self.structure()?;
-        let (state, peaks) = structure.resolve(OverThePulse { pulsed: self, structure: &structure, method })??;
+        let (state, peaks) = self.over_the_pulse(&structure, method)?;
         if !peaks.rocked {
             return Ok(PulseResult::NO_ROCKING);
         }
@@ -72,29 +71,20 @@ impl PulsedBlock {
             }
         })
     }
-}
 
-/// Follows a block by the core to the end of its pulse.
-struct OverThePulse<'a> {
-    pulsed: &'a PulsedBlock,
-    structure: &'a Structure,
-    method: &'a Taylor<f64, TERMS>,
-}
-
-impl WithSystem<f64> for OverThePulse<'_> {
-    type Output = Result<(State<f64>, Peaks<f64>), CaseError>;
-
-    fn with<R: Equation<f64>, E: Equation<f64>, C: Clutch>(self, system: System<f64, R, E, C>) -> Self::Output {
-        let PulsedBlock { pulse, frequency_ratio, amplitude_ratio, .. } = *self.pulsed;
+    /// Follows the block by the core to the end of its pulse.
+    fn over_the_pulse(&self, structure: &Structure, method: &Taylor<f64, TERMS>) -> Result<(State<f64>, Peaks<f64>), CaseError> {
+        let system = structure.resolve::<f64>()?;
+        let PulsedBlock { pulse, frequency_ratio, amplitude_ratio, .. } = *self;
         let amplitude = amplitude_ratio * system.uplift;
         let ground = match pulse {
             PulseShape::Sine => Harmonics::sine(amplitude, frequency_ratio),
             PulseShape::Cosine => Harmonics::cosine(amplitude, frequency_ratio),
         };
-        let overturned = self.structure.geometry.point_of_no_return(&self.structure.block, amplitude.abs());
+        let overturned = structure.geometry.point_of_no_return(&structure.block, amplitude.abs());
         let (mut state, mut peaks) = (State::default(), Peaks::default());
         let limits = Limits { overturned, events: 1_000_000 };
-        system.advance(self.method, &mut state, &ground, TAU / frequency_ratio, &limits, &mut peaks)?;
+        system.advance(method, &mut state, &ground, TAU / frequency_ratio, &limits, &mut peaks)?;
         Ok((state, peaks))
     }
 }

@@ -152,7 +152,7 @@ impl Blocks {
             // The sign of θ̈ does not depend on the mode.
             self.read_push(modes.released.switching(one, self.rotation, self.velocity, series.ground[0]));
         }
-        let equation = match (C::FOLLOWS_SIGNS, C::INERTER) {
+        let equation = match (C::RULE.follows_signs(), C::RULE.has_inerter()) {
             (true, _) => E::switched(!(self.outward ^ self.pushed), &modes.engaged, &modes.released),
             (false, true) => modes.engaged,
             (false, false) => modes.released,

@@ -72,7 +72,7 @@ impl PulseResult {
 impl PulsedBlock {
     /// κ k on quiet ground while it moves outward and while it moves inward.
     pub(crate) fn couplings<C: Clutch>(&self) -> (f64, f64) {
-        (if C::FOLLOWS_SIGNS { 0.0 } else { self.coupling }, self.coupling)
+        (if C::RULE.follows_signs() { 0.0 } else { self.coupling }, self.coupling)
     }
 
     pub(crate) fn stands(&self, rotation: f64, acceleration: f64) -> PulseResult {

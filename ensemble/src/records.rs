@@ -226,7 +226,7 @@ impl<'a, 'b> Lanes<'a, 'b> {
             }
             return AfterWeakImpact::Rocks;
         }
-        let outward = if C::FOLLOWS_SIGNS { 0.0 } else { block.plain.coupling };
+        let outward = if C::RULE.follows_signs() { 0.0 } else { block.plain.coupling };
         let tail = tail::<M>(push, (speed, block.plain.restitution, block.plain.slenderness), (outward, block.plain.coupling));
         let ends = time + tail.duration;
         let holds = ends <= step && push_at(ends).abs() < 1.0;

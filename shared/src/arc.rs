@@ -1,6 +1,6 @@
 //! The motion over one step, as a method sees it.
 
-use crate::equation::Equation;
+use crate::any_equation::AnyEquation;
 use crate::ground::Piece;
 use crate::locate::locate_by_value;
 use crate::scalar::{Real, Sign};
@@ -18,9 +18,9 @@ pub struct Motion<S> {
 
 /// Where a step starts and what governs it.
 #[derive(Clone, Copy, Debug)]
-pub struct Start<'a, S, E, P> {
+pub struct Start<'a, S, P> {
     /// The equation of motion in force.
-    pub equation: &'a E,
+    pub equation: &'a AnyEquation<S>,
     /// The ground motion.
     pub piece: &'a P,
     /// s.
@@ -76,12 +76,12 @@ pub trait Arc<S: Real> {
 /// A way to integrate: fixed steps or steps of its own choice.
 pub trait Method<S: Real> {
     /// Its arcs.
-    type Arc<'a, E: Equation<S> + 'a, P: Piece<S> + 'a>: Arc<S>
+    type Arc<'a, P: Piece<S> + 'a>: Arc<S>
     where
         Self: 'a;
 
     /// The arc from `start`.
-    fn arc<'a, E: Equation<S>, P: Piece<S>>(&'a self, start: Start<'a, S, E, P>) -> Self::Arc<'a, E, P>;
+    fn arc<'a, P: Piece<S>>(&'a self, start: Start<'a, S, P>) -> Self::Arc<'a, P>;
 
     /// The fixed step (s), if it has one: then steps end on whole multiples of it from the start of each piece.
     fn step(&self) -> Option<S>;

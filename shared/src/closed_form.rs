@@ -19,6 +19,7 @@
 //! Mavroeidis-Papageorgiou wavelets. [`ClosedForm::applies`] tells beforehand. Anywhere else ([`Ricker`](crate::ground::Ricker)'s wavelet, the full model)
 //! the method takes the Runge-Kutta step of the same length: never wrong, but of order 4.
 
+use crate::any_equation::AnyEquation;
 use crate::arc::{Arc, Method, Motion, Start};
 use crate::equation::{Equation, SlenderBlock};
 use crate::fixed::{FixedArc, RungeKutta4};
@@ -40,25 +41,25 @@ pub struct ClosedForm<S> {
 impl<S: Real> ClosedForm<S> {
     /// Whether motions of `equation` under `piece` have a closed form; otherwise steps are those of [`RungeKutta4`].
     #[inline]
-    pub fn applies<E: Equation<S>, P: Piece<S>>(equation: &E, piece: &P) -> bool {
+    pub fn applies<P: Piece<S>>(equation: &AnyEquation<S>, piece: &P) -> bool {
         equation.slender().is_some() && piece.elementary(S::ZERO).is_some()
     }
 }
 
 /// The motion over one step.
 #[derive(Debug)]
-pub enum ClosedFormArc<'a, S, E, P> {
+pub enum ClosedFormArc<'a, S, P> {
     /// In closed form.
     Closed(SlenderArc<S>),
     /// Where there is none.
-    Stepped(FixedArc<'a, S, E, P, RungeKutta4<S>>),
+    Stepped(FixedArc<'a, S, P, RungeKutta4<S>>),
 }
 
 impl<S: Real> Method<S> for ClosedForm<S> {
-    type Arc<'a, E: Equation<S> + 'a, P: Piece<S> + 'a> = ClosedFormArc<'a, S, E, P>;
+    type Arc<'a, P: Piece<S> + 'a> = ClosedFormArc<'a, S, P>;
 
     #[inline]
-    fn arc<'a, E: Equation<S>, P: Piece<S>>(&'a self, start: Start<'a, S, E, P>) -> ClosedFormArc<'a, S, E, P> {
+    fn arc<'a, P: Piece<S>>(&'a self, start: Start<'a, S, P>) -> ClosedFormArc<'a, S, P> {
         match (start.equation.slender(), start.piece.elementary(start.time)) {
             (Some(block), Some(ground)) => ClosedFormArc::Closed(SlenderArc::new(block, ground, &start)),
             _ => ClosedFormArc::Stepped(FixedArc::new(start)),
@@ -95,7 +96,7 @@ struct Acceleration<S> {
 }
 
 impl<S: Real> SlenderArc<S> {
-    fn new<E: Equation<S>, P: Piece<S>>(block: &SlenderBlock<S>, mut ground: Elementary<S>, start: &Start<'_, S, E, P>) -> Self {
+    fn new<P: Piece<S>>(block: &SlenderBlock<S>, mut ground: Elementary<S>, start: &Start<'_, S, P>) -> Self {
         let rate = block.frequency_squared;
         let acceleration = if start.acceleration_is_zero {
             S::ZERO
@@ -257,7 +258,7 @@ macro_rules! either {
     };
 }
 
-impl<S: Real, E: Equation<S>, P: Piece<S>> Arc<S> for ClosedFormArc<'_, S, E, P> {
+impl<S: Real, P: Piece<S>> Arc<S> for ClosedFormArc<'_, S, P> {
     #[inline(always)]
     fn length(&self) -> S {
         either!(self, arc => arc.length())

@@ -2,59 +2,80 @@
 
 use crate::scalar::Sign;
 
-/// The rule of an ideal device, as a type, so that a device without a clutch has no clutch in its loop.
-pub trait Clutch: Copy {
-    /// The scene has an inerter at all.
-    const INERTER: bool;
-    /// Engagement depends on the signs, so that their changes are events.
-    const FOLLOWS_SIGNS: bool;
+/// The rule of an ideal device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ClutchRule {
+    /// There is no inerter.
+    Without,
+    /// One inerter, always engaged.
+    Always,
+    /// Eq. 10: engaged while acceleration and velocity have one sign. Two flywheels take turns: the first works on motion in
+    /// the positive direction, the second on the negative, and each spins down while idle.
+    Resisting,
+}
+
+impl ClutchRule {
+    /// Whether there is an inerter at all.
+    #[inline(always)]
+    pub const fn has_inerter(self) -> bool {
+        !matches!(self, ClutchRule::Without)
+    }
+
+    /// Whether engagement depends on the signs, so that their changes are events.
+    #[inline(always)]
+    pub const fn follows_signs(self) -> bool {
+        matches!(self, ClutchRule::Resisting)
+    }
 
     /// Whether an inerter is engaged while the velocity has the sign `direction` and the terminals' acceleration the
     /// sign `drive`.
-    fn engaged(direction: Sign, drive: Sign) -> bool;
+    #[inline(always)]
+    pub fn engages(self, direction: Sign, drive: Sign) -> bool {
+        match self {
+            ClutchRule::Without => false,
+            ClutchRule::Always => true,
+            ClutchRule::Resisting => direction == drive,
+        }
+    }
+
+    /// The flywheel that works.
+    pub fn flywheel(self, engaged: bool, direction: Sign) -> Flywheel {
+        match (engaged, self.follows_signs(), direction) {
+            (false, _, _) => Flywheel::Idle,
+            (true, true, Sign::Negative) => Flywheel::Second,
+            _ => Flywheel::First,
+        }
+    }
 }
 
-/// The block alone.
+/// A rule as a type, so that lanes without a clutch have no clutch in their loop.
+pub trait Clutch: Copy {
+    /// The rule.
+    const RULE: ClutchRule;
+}
+
+/// [`ClutchRule::Without`] as a type.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoInerter;
 
-/// One inerter, always engaged.
+/// [`ClutchRule::Always`] as a type.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SingleInerter;
 
-/// Eq. 10: engaged while acceleration and velocity have one sign. Two flywheels take turns: the first works on motion in
-/// the positive direction, the second on the negative, and each spins down while idle.
+/// [`ClutchRule::Resisting`] as a type.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClutchedPair;
 
 impl Clutch for NoInerter {
-    const INERTER: bool = false;
-    const FOLLOWS_SIGNS: bool = false;
-
-    #[inline(always)]
-    fn engaged(_direction: Sign, _drive: Sign) -> bool {
-        false
-    }
+    const RULE: ClutchRule = ClutchRule::Without;
 }
 
 impl Clutch for SingleInerter {
-    const INERTER: bool = true;
-    const FOLLOWS_SIGNS: bool = false;
-
-    #[inline(always)]
-    fn engaged(_direction: Sign, _drive: Sign) -> bool {
-        true
-    }
+    const RULE: ClutchRule = ClutchRule::Always;
 }
 
 impl Clutch for ClutchedPair {
-    const INERTER: bool = true;
-    const FOLLOWS_SIGNS: bool = true;
-
-    #[inline(always)]
-    fn engaged(direction: Sign, drive: Sign) -> bool {
-        direction == drive
-    }
+    const RULE: ClutchRule = ClutchRule::Resisting;
 }
 
 /// Which flywheel transfers force.
@@ -69,15 +90,6 @@ pub enum Flywheel {
     Second,
 }
 
-/// The flywheel that works under rule `C`.
-pub fn flywheel<C: Clutch>(engaged: bool, direction: Sign) -> Flywheel {
-    match (engaged, C::FOLLOWS_SIGNS, direction) {
-        (false, _, _) => Flywheel::Idle,
-        (true, true, Sign::Negative) => Flywheel::Second,
-        _ => Flywheel::First,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -85,10 +97,11 @@ mod tests {
     #[test]
     fn the_pair_resists_and_never_drives() {
         use Sign::{Negative, Positive};
-        assert!(ClutchedPair::engaged(Positive, Positive) && ClutchedPair::engaged(Negative, Negative));
-        assert!(!ClutchedPair::engaged(Positive, Negative) && !ClutchedPair::engaged(Negative, Positive));
-        assert_eq!(flywheel::<ClutchedPair>(true, Negative), Flywheel::Second);
-        assert_eq!(flywheel::<SingleInerter>(true, Negative), Flywheel::First);
-        assert_eq!(flywheel::<ClutchedPair>(false, Negative), Flywheel::Idle);
+        let pair = ClutchRule::Resisting;
+        assert!(pair.engages(Positive, Positive) && pair.engages(Negative, Negative));
+        assert!(!pair.engages(Positive, Negative) && !pair.engages(Negative, Positive));
+        assert_eq!(pair.flywheel(true, Negative), Flywheel::Second);
+        assert_eq!(ClutchRule::Always.flywheel(true, Negative), Flywheel::First);
+        assert_eq!(pair.flywheel(false, Negative), Flywheel::Idle);
     }
 }

@@ -18,7 +18,7 @@ use crate::value::Value;
 pub trait Equation<S: Scalar>: Copy {
     /// Whether the clutch's switching function is the acceleration itself (paper kinematics), so that one search finds
     /// the zeros of both.
-    const SWITCHES_WITH_ACCELERATION: bool;
+    fn switches_with_acceleration(&self) -> bool;
 
     /// θ̈ (rad/s²) on `side` s = ±1 for θ (rad), θ̇ (rad/s) and the ground acceleration ü_g/g.
     fn acceleration<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V;
@@ -64,7 +64,10 @@ impl<S: Scalar> FullBlock<S> {
 }
 
 impl<S: Scalar> Equation<S> for FullBlock<S> {
-    const SWITCHES_WITH_ACCELERATION: bool = true;
+    #[inline(always)]
+    fn switches_with_acceleration(&self) -> bool {
+        true
+    }
 
     #[inline(always)]
     fn acceleration<V: Value<S>>(&self, side: S, rotation: V, _velocity: V, ground: V) -> V {
@@ -175,7 +178,10 @@ impl<S: Scalar, L: Lever<S>, K: Kinematics> FullInerter<S, L, K> {
 }
 
 impl<S: Scalar, L: Lever<S>, K: Kinematics> Equation<S> for FullInerter<S, L, K> {
-    const SWITCHES_WITH_ACCELERATION: bool = !K::CONSISTENT;
+    #[inline(always)]
+    fn switches_with_acceleration(&self) -> bool {
+        !K::CONSISTENT
+    }
 
     #[inline(always)]
     fn acceleration<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V {
@@ -244,7 +250,10 @@ pub struct SlenderBlock<S> {
 }
 
 impl<S: Scalar> Equation<S> for SlenderBlock<S> {
-    const SWITCHES_WITH_ACCELERATION: bool = true;
+    #[inline(always)]
+    fn switches_with_acceleration(&self) -> bool {
+        true
+    }
 
     #[inline(always)]
     fn acceleration<V: Value<S>>(&self, side: S, rotation: V, _velocity: V, ground: V) -> V {

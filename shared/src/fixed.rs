@@ -3,7 +3,11 @@
 //! Events inside a step are located by taking the step again with a shorter length, so an event's state has the accuracy
 //! of the method.
 
+use core::marker::PhantomData;
+
+use crate::any_equation::WithEquation;
 use crate::arc::{Arc, Method, Motion, Start};
+use crate::detected::Switched;
 use crate::equation::Equation;
 use crate::ground::Piece;
 use crate::scalar::{Real, Scalar};
@@ -48,8 +52,8 @@ pub fn runge_kutta_4<S: Scalar, E: Equation<S>>(
 
 /// How a fixed-step method gets from the start of a step to a time within it.
 pub trait Advance<S: Real> {
-    /// θ and θ̇ a time `h` after `start`, where θ̈ is `first`.
-    fn advance<E: Equation<S>, P: Piece<S>>(start: &Start<'_, S, E, P>, first: S, h: S) -> (S, S);
+    /// θ and θ̇ a time `h` after `start`, where θ̈ of `equation`, which is the start's, is `first`.
+    fn advance<E: Equation<S>, P: Piece<S>>(equation: &E, start: &Start<'_, S, P>, first: S, h: S) -> (S, S);
 
     /// The step, s.
     fn step(&self) -> S;
@@ -57,7 +61,7 @@ pub trait Advance<S: Real> {
 
 impl<S: Real> Advance<S> for SemiImplicitEuler<S> {
     #[inline(always)]
-    fn advance<E: Equation<S>, P: Piece<S>>(start: &Start<'_, S, E, P>, first: S, h: S) -> (S, S) {
+    fn advance<E: Equation<S>, P: Piece<S>>(_equation: &E, start: &Start<'_, S, P>, first: S, h: S) -> (S, S) {
         let velocity = start.velocity + h * first;
         (start.rotation + h * velocity, velocity)
     }
@@ -70,9 +74,9 @@ impl<S: Real> Advance<S> for SemiImplicitEuler<S> {
 
 impl<S: Real> Advance<S> for RungeKutta4<S> {
     #[inline(always)]
-    fn advance<E: Equation<S>, P: Piece<S>>(start: &Start<'_, S, E, P>, first: S, h: S) -> (S, S) {
+    fn advance<E: Equation<S>, P: Piece<S>>(equation: &E, start: &Start<'_, S, P>, first: S, h: S) -> (S, S) {
         let ground = [S::ZERO, start.piece.acceleration(start.time + S::HALF * h), start.piece.acceleration(start.time + h)];
-        runge_kutta_4(start.equation, start.side.unit(), (start.rotation, start.velocity), first, ground, h)
+        runge_kutta_4(equation, start.side.unit(), (start.rotation, start.velocity), first, ground, h)
     }
 
     #[inline(always)]
@@ -83,16 +87,16 @@ impl<S: Real> Advance<S> for RungeKutta4<S> {
 
 /// The arc of a fixed-step method: its end, and the step taken again for every time before it.
 #[derive(Debug)]
-pub struct FixedArc<'a, S, E, P, A> {
-    start: Start<'a, S, E, P>,
+pub struct FixedArc<'a, S, P, A> {
+    start: Start<'a, S, P>,
     first: S,
     end: Motion<S>,
-    method: core::marker::PhantomData<A>,
+    method: PhantomData<A>,
 }
 
-impl<'a, S: Real, E: Equation<S>, P: Piece<S>, A: Advance<S>> FixedArc<'a, S, E, P, A> {
+impl<'a, S: Real, P: Piece<S>, A: Advance<S>> FixedArc<'a, S, P, A> {
     #[inline(always)]
-    pub(crate) fn new(start: Start<'a, S, E, P>) -> Self {
+    pub(crate) fn new(start: Start<'a, S, P>) -> Self {
         let first = if start.acceleration_is_zero {
             S::ZERO
         } else {
@@ -100,18 +104,36 @@ impl<'a, S: Real, E: Equation<S>, P: Piece<S>, A: Advance<S>> FixedArc<'a, S, E,
             start.equation.acceleration(start.side.unit(), start.rotation, start.velocity, push)
         };
         let end = Self::motion(&start, first, start.length);
-        FixedArc { start, first, end, method: core::marker::PhantomData }
+        FixedArc { start, first, end, method: PhantomData }
     }
 
-    #[inline]
-    fn motion(start: &Start<'a, S, E, P>, first: S, time: S) -> Motion<S> {
-        let (rotation, velocity) = A::advance(start, first, time);
-        let push = start.piece.acceleration(start.time + time);
-        Motion { rotation, velocity, acceleration: start.equation.acceleration(start.side.unit(), rotation, velocity, push) }
+    #[inline(never)]
+    fn motion(start: &Start<'a, S, P>, first: S, time: S) -> Motion<S> {
+        start.equation.known(Step { start, first, time, method: PhantomData::<A> })
     }
 }
 
-impl<S: Real, E: Equation<S>, P: Piece<S>, A: Advance<S>> Arc<S> for FixedArc<'_, S, E, P, A> {
+/// One step of length `time`.
+struct Step<'s, 'a, S, P, A> {
+    start: &'s Start<'a, S, P>,
+    first: S,
+    time: S,
+    method: PhantomData<A>,
+}
+
+impl<S: Real, P: Piece<S>, A: Advance<S>> WithEquation<S> for Step<'_, '_, S, P, A> {
+    type Output = Motion<S>;
+
+    #[inline(always)]
+    fn with<E: Switched<S>>(self, equation: &E) -> Motion<S> {
+        let Step { start, first, time, .. } = self;
+        let (rotation, velocity) = A::advance(equation, start, first, time);
+        let push = start.piece.acceleration(start.time + time);
+        Motion { rotation, velocity, acceleration: equation.acceleration(start.side.unit(), rotation, velocity, push) }
+    }
+}
+
+impl<S: Real, P: Piece<S>, A: Advance<S>> Arc<S> for FixedArc<'_, S, P, A> {
     #[inline(always)]
     fn length(&self) -> S {
         self.start.length
@@ -136,10 +158,10 @@ impl<S: Real, E: Equation<S>, P: Piece<S>, A: Advance<S>> Arc<S> for FixedArc<'_
 macro_rules! fixed_step_method {
     ($method:ident) => {
         impl<S: Real> Method<S> for $method<S> {
-            type Arc<'a, E: Equation<S> + 'a, P: Piece<S> + 'a> = FixedArc<'a, S, E, P, $method<S>>;
+            type Arc<'a, P: Piece<S> + 'a> = FixedArc<'a, S, P, $method<S>>;
 
             #[inline(always)]
-            fn arc<'a, E: Equation<S>, P: Piece<S>>(&'a self, start: Start<'a, S, E, P>) -> Self::Arc<'a, E, P> {
+            fn arc<'a, P: Piece<S>>(&'a self, start: Start<'a, S, P>) -> Self::Arc<'a, P> {
                 FixedArc::new(start)
             }
 

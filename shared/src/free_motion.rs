@@ -95,35 +95,28 @@ mod tests {
     use super::*;
     use crate::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
     use crate::carried::Carried;
-    use crate::clutch::Clutch;
-    use crate::equation::Equation;
+
     use crate::first_integral::{FullIntegral, SlenderIntegral};
     use crate::ground::Quiet;
     use crate::lever::Mount;
     use crate::observer::Peaks;
-    use crate::rocking::{Limits, Phase, System};
-    use crate::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure, WithSystem};
+    use crate::rocking::{Limits, Phase};
+    use crate::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure};
     use crate::taylor::Taylor;
 
     const MASS_RATIO: f64 = 0.9;
     const COUPLING: f64 = MASS_RATIO / RECTANGLE_INERTIA_RATIO;
 
-    /// The same motion, integrated for long enough.
-    struct Followed(f64, f64, f64);
-
-    impl WithSystem<f64> for Followed {
-        type Output = (Settled, u32);
-
-        fn with<R: Equation<f64>, E: Equation<f64>, C: Clutch>(self, system: System<f64, R, E, C>) -> (Settled, u32) {
-            let Followed(rotation, velocity, alpha) = self;
-            let mut state = system.released_at(rotation, velocity, 0.0);
-            let mut peaks = Peaks { rocked: true, ..Peaks::default() };
-            let limits = Limits { overturned: 3.0 * alpha, events: 100_000 };
-            system.advance(&Taylor::<f64, 20>::adaptive(1e-17), &mut state, &Quiet, 40.0, &limits, &mut peaks).unwrap();
-            let overturned = state.phase == Phase::Overturned;
-            let impact = peaks.first_impact.is_some();
-            (Settled { overturned, impact, rotation: peaks.rotation, acceleration: peaks.acceleration }, state.impacts)
-        }
+    /// The same motion, integrated for long enough, and its impacts.
+    fn followed(structure: &Structure, rotation: f64, velocity: f64) -> (Settled, u32) {
+        let system = structure.resolve().unwrap();
+        let mut state = system.released_at(rotation, velocity, 0.0);
+        let mut peaks = Peaks { rocked: true, ..Peaks::default() };
+        let limits = Limits { overturned: 3.0 * structure.block.slenderness(), events: 100_000 };
+        system.advance(&Taylor::<f64, 20>::adaptive(1e-17), &mut state, &Quiet, 40.0, &limits, &mut peaks).unwrap();
+        let overturned = state.phase == Phase::Overturned;
+        let impact = peaks.first_impact.is_some();
+        (Settled { overturned, impact, rotation: peaks.rotation, acceleration: peaks.acceleration }, state.impacts)
     }
 
     fn compare<I: FirstIntegral>(geometry: Geometry, kind: DeviceKind, integral: impl Fn(f64) -> I) {
@@ -154,7 +147,7 @@ mod tests {
                     restitution: Restitution::Constant(0.93),
                     rest_speed: REST_SPEED,
                 };
-                let (followed, _) = structure.resolve(Followed(rotation, velocity, alpha)).unwrap();
+                let (followed, _) = followed(&structure, rotation, velocity);
                 let at = (kind, rotation / alpha, velocity / alpha);
                 assert_eq!((settled.overturned, settled.impact), (followed.overturned, followed.impact), "{at:?}");
                 let count = if settled.overturned { &mut fallen } else { &mut safe };

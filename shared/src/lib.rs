@@ -22,6 +22,7 @@
 extern crate std;
 
 pub mod accumulation;
+pub mod any_equation;
 pub mod arc;
 pub mod block;
 pub mod body;

@@ -9,10 +9,9 @@ mod impact;
 mod signs;
 mod uplift;
 
-use core::marker::PhantomData;
-
+use crate::any_equation::AnyEquation;
 use crate::arc::{Arc, Method, Start};
-use crate::clutch::Clutch;
+use crate::clutch::ClutchRule;
 use crate::equation::Equation;
 use crate::grid::next_stop;
 use crate::ground::Piece;
@@ -55,14 +54,13 @@ pub struct State<S> {
     pub impacts: u32,
 }
 
-/// A block with its device, resolved into exactly the equations that it needs: `R` with the inerter released, `E` with
-/// it engaged, and the rule `C` that chooses.
+/// A block with its device, resolved into the equations that it needs and the rule that chooses between them.
 #[derive(Clone, Copy, Debug)]
-pub struct System<S, R, E, C> {
+pub struct System<S> {
     /// Equation of motion with the inerter released.
-    pub released: R,
+    pub released: AnyEquation<S>,
     /// Equation of motion with the inerter engaged.
-    pub engaged: E,
+    pub engaged: AnyEquation<S>,
     /// Velocity after an impact over that before, 0 to 1.
     pub restitution: S,
     /// Ground acceleration (in g) above which the block uplifts.
@@ -74,7 +72,7 @@ pub struct System<S, R, E, C> {
     /// θ̇ (rad/s) below which an impact does not count; infinitely many follow in finite time.
     pub counted_speed: S,
     /// The clutch.
-    pub clutch: PhantomData<C>,
+    pub clutch: ClutchRule,
 }
 
 /// Why a piece was not finished.
@@ -143,11 +141,11 @@ enum End {
     Overturned,
 }
 
-impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
+impl<S: Real> System<S> {
     /// Whether the inerter is engaged in `state`.
     #[inline(always)]
     pub fn is_engaged(&self, state: &State<S>) -> bool {
-        state.phase == Phase::Rocking && C::engaged(state.direction, state.drive)
+        state.phase == Phase::Rocking && self.clutch.engages(state.direction, state.drive)
     }
 
     /// A block released at θ (rad, not 0) with θ̇ (rad/s) while the ground accelerates by `ground` (in g).
@@ -209,11 +207,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
                 Some(step) => next_stop(&mut tick, step, time, duration),
                 None => duration,
             };
-            let end = if self.is_engaged(state) {
-                self.follow(method, &self.engaged, true, state, piece, &mut time, stop, limits, observer)
-            } else {
-                self.follow(method, &self.released, false, state, piece, &mut time, stop, limits, observer)
-            };
+            let end = self.follow(method, state, piece, &mut time, stop, limits, observer);
             match end {
                 End::Reached => {}
                 End::Switched => observer.event(Event::Switch, time, state),
@@ -226,7 +220,11 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
                 }
                 End::Impact => {
                     time = self.impact(state, piece, time, duration, observer);
-                    if P::QUIET && !observer.every_swing() && R::SWITCHES_WITH_ACCELERATION && E::SWITCHES_WITH_ACCELERATION {
+                    if P::QUIET
+                        && !observer.every_swing()
+                        && self.released.switches_with_acceleration()
+                        && self.engaged.switches_with_acceleration()
+                    {
                         time = self.sum_up(state, &mut swings, time, duration, observer);
                     }
                 }
@@ -249,11 +247,9 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
     /// One arc, up to its first event that changes the equation.
     #[expect(clippy::too_many_arguments, reason = "one call site, and each is a different thing")]
     #[inline]
-    fn follow<M: Method<S>, Q: Equation<S>, P: Piece<S>>(
+    fn follow<M: Method<S>, P: Piece<S>>(
         &self,
         method: &M,
-        equation: &Q,
-        engaged: bool,
         state: &mut State<S>,
         piece: &P,
         time: &mut S,
@@ -261,6 +257,8 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
         limits: &Limits<S>,
         observer: &mut dyn Observer<S>,
     ) -> End {
+        let engaged = self.is_engaged(state);
+        let equation = if engaged { &self.engaged } else { &self.released };
         let arc = method.arc(Start {
             equation,
             piece,
@@ -273,7 +271,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
             scale: self.slenderness,
         });
         let length = arc.length();
-        let separate_drive = C::FOLLOWS_SIGNS && !Q::SWITCHES_WITH_ACCELERATION;
+        let separate_drive = self.clutch.follows_signs() && !equation.switches_with_acceleration();
         if *time == S::ZERO {
             let before = state.direction;
             let switched = self.jumped(equation, state, &arc, separate_drive);
@@ -355,7 +353,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
                 *time = *time + over;
                 return End::Overturned;
             }
-            if turns && C::FOLLOWS_SIGNS && from == S::ZERO && first.velocity == S::ZERO && turn <= stop * S::EPSILON {
+            if turns && self.clutch.follows_signs() && from == S::ZERO && first.velocity == S::ZERO && turn <= stop * S::EPSILON {
                 // It has just turned: back at once would go on without end. The motion shows where it goes.
                 state.direction = state.direction.opposite();
                 state.push = state.direction;
@@ -377,7 +375,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
                     }
                 }
                 observer.event(Event::Turn, *time + turn, &State { rotation: at_turn.rotation, velocity: S::ZERO, ..*state });
-                if C::FOLLOWS_SIGNS {
+                if self.clutch.follows_signs() {
                     state.rotation = at_turn.rotation;
                     state.velocity = S::ZERO;
                     state.push_is_zero = false;
@@ -397,7 +395,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
                 state.drive = state.drive.opposite();
             }
             let switches = if separate_drive { drive_zero.is_some() } else { at_push_zero };
-            if C::FOLLOWS_SIGNS && switches {
+            if self.clutch.follows_signs() && switches {
                 state.rotation = end.rotation;
                 state.velocity = end.velocity;
                 state.push_is_zero = at_push_zero;

@@ -5,13 +5,13 @@
 
 use core::marker::PhantomData;
 
+use crate::any_equation::AnyEquation;
 use crate::block::{Block, Geometry};
 use crate::carried::Carried;
-use crate::clutch::{Clutch, ClutchedPair, NoInerter, SingleInerter};
-use crate::detected::Switched;
-use crate::equation::{Consistent, Equation, FullBlock, FullInerter, Kinematics, Paper, SlenderBlock};
+use crate::clutch::ClutchRule;
+use crate::equation::{FullBlock, FullInerter, SlenderBlock};
 use crate::error::{ParameterError, require};
-use crate::lever::{CentreOfMass, Lever, Mount, TyingPoint};
+use crate::lever::{CentreOfMass, Mount, TyingPoint};
 use crate::rocking::System;
 use crate::scalar::Real;
 
@@ -82,15 +82,6 @@ pub const REST_SPEED: f64 = 1e-6;
 /// θ̇/(pα) with which an impact must come in to be counted; the impacts of a dying motion are infinitely many.
 pub const COUNTED_SPEED: f64 = 1e-6;
 
-/// What to do with the resolved system; called once, with its own types.
-pub trait WithSystem<S: Real> {
-    /// The result.
-    type Output;
-
-    /// Goes on with `system`.
-    fn with<R: Equation<S>, E: Switched<S>, C: Clutch>(self, system: System<S, R, E, C>) -> Self::Output;
-}
-
 impl Structure {
     /// The same structure as a block that carries nothing: block, mass ratio and mount are those of the loaded block
     /// ([`Carried::block`], [`Carried::device`]), `self` as it is when there is nothing to carry. Whatever the block's α, R or λ
@@ -120,111 +111,90 @@ impl Structure {
         restitution.evaluate(&block, geometry, &device)
     }
 
-    /// Resolves the structure, with what it carries, and hands the system to `next`.
+    /// The equations of the structure with what it carries, and its clutch.
     ///
     /// # Errors
     /// [`ParameterError`] names the first parameter outside its range.
-    pub fn resolve<S: Real, W: WithSystem<S>>(&self, next: W) -> Result<W::Output, ParameterError> {
+    pub fn resolve<S: Real>(&self) -> Result<System<S>, ParameterError> {
         let sigma = self.device.mass_ratio;
         require("mass_ratio", sigma, (0.0..=10_000.0).contains(&sigma), "from 0 to 10000")?;
-        self.loaded()?.compose(next)
+        self.loaded()?.compose()
     }
 
     /// The composition for a structure that carries nothing.
-    fn compose<S: Real, W: WithSystem<S>>(&self, next: W) -> Result<W::Output, ParameterError> {
+    fn compose<S: Real>(&self) -> Result<System<S>, ParameterError> {
         let p2 = self.block.frequency_parameter_squared();
         let alpha = self.block.slenderness();
         let device = &self.device;
         let coupling = device.mass_ratio / self.block.inertia_ratio();
-        let common = Common {
-            restitution: self.restitution.evaluate(&self.block, self.geometry, device)?,
-            uplift: self.geometry.uplift_threshold(&self.block),
-            slenderness: alpha,
-            speed: self.block.frequency_parameter() * alpha,
-            rest: require("rest_speed", self.rest_speed, (1e-12..=1e-2).contains(&self.rest_speed), "from 1e-12 to 1e-2")?,
+        let speed = self.block.frequency_parameter() * alpha;
+        let rest = require("rest_speed", self.rest_speed, (1e-12..=1e-2).contains(&self.rest_speed), "from 1e-12 to 1e-2")?;
+        let restitution = self.restitution.evaluate(&self.block, self.geometry, device)?;
+        let clutch = match device.kind {
+            DeviceKind::None => ClutchRule::Without,
+            DeviceKind::Inerter => ClutchRule::Always,
+            DeviceKind::ClutchedPair => ClutchRule::Resisting,
         };
-        match self.geometry {
-            Geometry::Slender => {
-                let squared = device.mount.slender_lever_squared(&self.block)?;
-                let equation = |engaged: bool| {
-                    let inertia = if engaged { 1.0 + coupling * squared } else { 1.0 };
-                    SlenderBlock {
-                        frequency_squared: S::of(p2 / inertia),
-                        slenderness: S::of(alpha),
-                        inertia: S::of(inertia),
-                        lever: S::of(crate::math::square_root(squared)),
-                    }
-                };
-                Ok(match device.kind {
-                    DeviceKind::None => next.with(common.system::<S, _, _, NoInerter>(equation(false), equation(false))),
-                    DeviceKind::Inerter => next.with(common.system::<S, _, _, SingleInerter>(equation(true), equation(true))),
-                    DeviceKind::ClutchedPair => {
-                        next.with(common.system::<S, _, _, ClutchedPair>(equation(false), equation(true)))
-                    }
-                })
-            }
-            Geometry::Full => {
-                let block = FullBlock { frequency_squared: S::of(p2), slenderness: S::of(alpha) };
-                if device.kind == DeviceKind::None {
-                    return Ok(next.with(common.system::<S, _, _, NoInerter>(block, block)));
-                }
-                let constants = device.mount.lever(&self.block)?;
-                let point = TyingPoint { along: S::of(constants.along), across: S::of(constants.across) };
-                Ok(match (device.mount, device.kinematics) {
-                    (Mount::CentreOfMass, KinematicsKind::Paper) => {
-                        common.full::<S, _, Paper, W>(device.kind, block, coupling, CentreOfMass, next)
-                    }
-                    (Mount::CentreOfMass, KinematicsKind::Consistent) => {
-                        common.full::<S, _, Consistent, W>(device.kind, block, coupling, CentreOfMass, next)
-                    }
-                    (_, KinematicsKind::Paper) => common.full::<S, _, Paper, W>(device.kind, block, coupling, point, next),
-                    (_, KinematicsKind::Consistent) => {
-                        common.full::<S, _, Consistent, W>(device.kind, block, coupling, point, next)
-                    }
-                })
-            }
-        }
-    }
-}
-
-/// What every composition shares.
-struct Common {
-    restitution: f64,
-    uplift: f64,
-    slenderness: f64,
-    speed: f64,
-    rest: f64,
-}
-
-impl Common {
-    fn system<S: Real, R, E, C>(&self, released: R, engaged: E) -> System<S, R, E, C> {
-        System {
+        let [released, engaged] = self.equations(p2, coupling)?;
+        Ok(System {
             released,
             engaged,
-            restitution: S::of(self.restitution),
-            uplift: S::of(self.uplift),
-            slenderness: S::of(self.slenderness),
-            rest_speed: S::of(self.rest * self.speed),
-            counted_speed: S::of(COUNTED_SPEED * self.speed),
-            clutch: PhantomData,
-        }
+            restitution: S::of(restitution),
+            uplift: S::of(self.geometry.uplift_threshold(&self.block)),
+            slenderness: S::of(alpha),
+            rest_speed: S::of(rest * speed),
+            counted_speed: S::of(COUNTED_SPEED * speed),
+            clutch,
+        })
     }
 
-    fn full<S: Real, L: Lever<S>, K: Kinematics, W: WithSystem<S>>(
-        &self,
-        kind: DeviceKind,
-        block: FullBlock<S>,
-        coupling: f64,
-        lever: L,
-        next: W,
-    ) -> W::Output {
-        let engaged = FullInerter { block, coupling: S::of(coupling), lever, kinematics: PhantomData::<K> };
-        match kind {
-            DeviceKind::ClutchedPair if K::CONSISTENT => {
-                next.with(self.system::<S, _, _, ClutchedPair>(engaged.with_coupling(S::of(0.0)), engaged))
-            }
-            DeviceKind::ClutchedPair => next.with(self.system::<S, _, _, ClutchedPair>(block, engaged)),
-            _ => next.with(self.system::<S, _, _, SingleInerter>(engaged, engaged)),
+    /// The equations with the inerter released and engaged; what the device cannot be is the other one again.
+    fn equations<S: Real>(&self, p2: f64, coupling: f64) -> Result<[AnyEquation<S>; 2], ParameterError> {
+        let Structure { block, device, .. } = self;
+        let alpha = block.slenderness();
+        if self.geometry == Geometry::Slender {
+            let squared = device.mount.slender_lever_squared(block)?;
+            let equation = |engaged: bool| {
+                let inertia = if engaged { 1.0 + coupling * squared } else { 1.0 };
+                AnyEquation::Slender(SlenderBlock {
+                    frequency_squared: S::of(p2 / inertia),
+                    slenderness: S::of(alpha),
+                    inertia: S::of(inertia),
+                    lever: S::of(crate::math::square_root(squared)),
+                })
+            };
+            return Ok([equation(device.kind == DeviceKind::Inerter), equation(device.kind != DeviceKind::None)]);
         }
+        let block = FullBlock { frequency_squared: S::of(p2), slenderness: S::of(alpha) };
+        let alone = AnyEquation::Block(block);
+        if device.kind == DeviceKind::None {
+            return Ok([alone; 2]);
+        }
+        let constants = device.mount.lever(&self.block)?;
+        let point = TyingPoint { along: S::of(constants.along), across: S::of(constants.across) };
+        let inerter = |coupling: f64| {
+            let coupling = S::of(coupling);
+            match (device.mount, device.kinematics) {
+                (Mount::CentreOfMass, KinematicsKind::Paper) => {
+                    AnyEquation::CentrePaper(FullInerter { block, coupling, lever: CentreOfMass, kinematics: PhantomData })
+                }
+                (Mount::CentreOfMass, KinematicsKind::Consistent) => {
+                    AnyEquation::CentreConsistent(FullInerter { block, coupling, lever: CentreOfMass, kinematics: PhantomData })
+                }
+                (_, KinematicsKind::Paper) => {
+                    AnyEquation::PointPaper(FullInerter { block, coupling, lever: point, kinematics: PhantomData })
+                }
+                (_, KinematicsKind::Consistent) => {
+                    AnyEquation::PointConsistent(FullInerter { block, coupling, lever: point, kinematics: PhantomData })
+                }
+            }
+        };
+        let engaged = inerter(coupling);
+        Ok(match (device.kind, device.kinematics) {
+            (DeviceKind::Inerter, _) => [engaged; 2],
+            // The clutch watches the terminals' acceleration, which is not that of a bare block.
+            (_, KinematicsKind::Consistent) => [inerter(0.0), engaged],
+            (_, KinematicsKind::Paper) => [alone, engaged],
+        })
     }
 }

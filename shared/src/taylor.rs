@@ -5,8 +5,9 @@
 
 use core::cell::Cell;
 
+use crate::any_equation::WithEquation;
 use crate::arc::{Arc, Method, Motion, Start};
-use crate::equation::Equation;
+use crate::detected::Switched;
 use crate::ground::Piece;
 use crate::math::RECIPROCALS;
 use crate::polynomial;
@@ -62,15 +63,10 @@ pub struct TaylorArc<S, const N: usize> {
 }
 
 impl<S: Real, const N: usize> Method<S> for Taylor<S, N> {
-    type Arc<'a, E: Equation<S> + 'a, P: Piece<S> + 'a> = TaylorArc<S, N>;
+    type Arc<'a, P: Piece<S> + 'a> = TaylorArc<S, N>;
 
     #[inline]
-    fn arc<'a, E: Equation<S>, P: Piece<S>>(&'a self, start: Start<'a, S, E, P>) -> TaylorArc<S, N> {
-        // θ, θ̇ and the ground are the first three nodes.
-        const GIVEN: usize = 3;
-        let tape = &self.tape;
-        let next = Cell::new(GIVEN);
-        let side = start.side.unit();
+    fn arc<'a, P: Piece<S>>(&'a self, start: Start<'a, S, P>) -> TaylorArc<S, N> {
         let mut arc = TaylorArc {
             length: start.length,
             terms: N,
@@ -85,12 +81,48 @@ impl<S: Real, const N: usize> Method<S> for Taylor<S, N> {
         arc.rotation[0] = start.rotation;
         arc.rotation[1] = start.velocity;
         arc.velocity[0] = start.velocity;
-        tape.set(0, 0, start.rotation);
-        tape.set(0, 1, start.velocity);
-        tape.set(1, 0, start.velocity);
-
         let tolerance = self.tolerance * start.scale.larger(start.rotation.abs());
-        let mut power = start.length * start.length;
+        let (side, length) = (start.side.unit(), start.length);
+        let in_balance = start.acceleration_is_zero;
+        start.equation.known(Expansion { tape: &self.tape, arc: &mut arc, ground: &ground, side, tolerance, in_balance });
+        if self.step.is_none() && arc.terms == N {
+            arc.length = self.reach(&arc, tolerance, length);
+        }
+        arc.curvature = polynomial::curvature_bound(&arc.acceleration[..arc.terms.min(N) - 2], arc.length);
+        arc
+    }
+
+    #[inline(always)]
+    fn step(&self) -> Option<S> {
+        self.step
+    }
+}
+
+/// The coefficients of an arc, order by order.
+struct Expansion<'a, S, const N: usize> {
+    tape: &'a Tape<S, N>,
+    arc: &'a mut TaylorArc<S, N>,
+    ground: &'a [S; N],
+    side: S,
+    tolerance: S,
+    /// θ̈ is zero at the start.
+    in_balance: bool,
+}
+
+impl<S: Real, const N: usize> WithEquation<S> for Expansion<'_, S, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with<E: Switched<S>>(self, equation: &E) {
+        // θ, θ̇ and the ground are the first three nodes.
+        const GIVEN: usize = 3;
+        let Expansion { tape, arc, ground, side, tolerance, in_balance } = self;
+        let next = Cell::new(GIVEN);
+        tape.set(0, 0, arc.rotation[0]);
+        tape.set(0, 1, arc.rotation[1]);
+        tape.set(1, 0, arc.velocity[0]);
+        let length = arc.length;
+        let mut power = length * length;
         let mut previous = S::ONE;
         let mut push_power = S::ONE;
         for k in 0..N - 2 {
@@ -98,14 +130,14 @@ impl<S: Real, const N: usize> Method<S> for Taylor<S, N> {
             next.set(GIVEN);
             let given = |slot| tape.given(&next, k, slot);
             let (theta, omega, push) = (given(0), given(1), given(2));
-            let node = start.equation.acceleration(side, theta, omega, push);
+            let node = equation.acceleration(side, theta, omega, push);
             let mut a = node.last();
-            if k == 0 && start.acceleration_is_zero {
+            if k == 0 && in_balance {
                 a = S::ZERO;
                 node.set_last(a);
             }
-            if !E::SWITCHES_WITH_ACCELERATION {
-                arc.switching[k] = start.equation.switching(side, theta, omega, push).last();
+            if !equation.switches_with_acceleration() {
+                arc.switching[k] = equation.switching(side, theta, omega, push).last();
             }
             let v = a * S::of(RECIPROCALS[(k + 1) & 63]);
             let c = v * S::of(RECIPROCALS[(k + 2) & 63]);
@@ -123,19 +155,9 @@ impl<S: Real, const N: usize> Method<S> for Taylor<S, N> {
                 break;
             }
             previous = term;
-            push_power = push_power * start.length;
-            power = power * start.length;
+            push_power = push_power * length;
+            power = power * length;
         }
-        if self.step.is_none() && arc.terms == N {
-            arc.length = self.reach(&arc, tolerance, start.length);
-        }
-        arc.curvature = polynomial::curvature_bound(&arc.acceleration[..arc.terms.min(N) - 2], arc.length);
-        arc
-    }
-
-    #[inline(always)]
-    fn step(&self) -> Option<S> {
-        self.step
     }
 }
 
@@ -198,13 +220,14 @@ impl<S: Real, const N: usize> Arc<S> for TaylorArc<S, N> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::any_equation::AnyEquation;
     use crate::equation::FullBlock;
     use crate::ground::Harmonics;
 
     /// The bound that the search for zeros rests on holds, and uses every coefficient of the step: it is that of the whole series.
     #[test]
     fn the_curvature_bound_covers_the_whole_series() {
-        let equation = FullBlock { frequency_squared: 1.0, slenderness: 0.3 };
+        let equation = AnyEquation::Block(FullBlock { frequency_squared: 1.0, slenderness: 0.3 });
         let piece = Harmonics::sine(2.0, 5.0);
         for time in [0.1, 0.5, 1.0] {
             let start = Start {

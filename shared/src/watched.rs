@@ -5,10 +5,9 @@
 //!
 //! F/(λmR) = κ k (terminals' acceleration)/R,  E/(λmR²) = ½ κ k (ℓθ̇)²,  k = σ/λ.
 
-use core::marker::PhantomData;
-
+use crate::any_equation::AnyEquation;
 use crate::arc::{Arc, Motion};
-use crate::clutch::{Clutch, Flywheel, flywheel};
+use crate::clutch::{ClutchRule, Flywheel};
 use crate::equation::Equation;
 use crate::ground::Piece;
 use crate::observer::{Event, Observer, Stretch};
@@ -16,28 +15,22 @@ use crate::rocking::State;
 use crate::scalar::{Real, Sign};
 use crate::snapshot::{DeviceArc, DeviceObserver, Snapshot, Spent};
 
-/// Shows the motion of an ideal device under the clutch rule `C` to a [`DeviceObserver`].
+/// Shows the motion of an ideal device to a [`DeviceObserver`].
 #[derive(Clone, Copy, Debug)]
-pub struct Watched<S, E, C, P, O> {
+pub struct Watched<S, P, O> {
     /// The equation of motion with the inerter engaged.
-    pub engaged: E,
+    pub engaged: AnyEquation<S>,
     /// k = σ/λ; 0 without an inerter.
     pub coupling: S,
     /// The ground motion in force, in the local time of the stretches that follow; the caller keeps it up to date.
     pub piece: P,
     /// Who watches.
     pub observer: O,
-    clutch: PhantomData<C>,
+    /// When it engages.
+    pub clutch: ClutchRule,
 }
 
-impl<S: Real, E: Equation<S>, C: Clutch, P: Piece<S>, O: DeviceObserver<S>> Watched<S, E, C, P, O> {
-    /// A device whose motion while engaged follows `engaged`, with the coupling k = σ/λ, over the ground motion `piece`.
-    pub fn new(engaged: E, coupling: S, piece: P, observer: O) -> Self {
-        Watched { engaged, coupling, piece, observer, clutch: PhantomData }
-    }
-}
-
-impl<S: Real, E: Equation<S>, C: Clutch, P: Piece<S>, O: DeviceObserver<S>> Observer<S> for Watched<S, E, C, P, O> {
+impl<S: Real, P: Piece<S>, O: DeviceObserver<S>> Observer<S> for Watched<S, P, O> {
     #[inline]
     fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
         let arc = WatchedArc {
@@ -47,7 +40,7 @@ impl<S: Real, E: Equation<S>, C: Clutch, P: Piece<S>, O: DeviceObserver<S>> Obse
             piece: &self.piece,
             start: stretch.start,
             side: stretch.side.unit(),
-            wheel: if C::INERTER { flywheel::<C>(stretch.engaged, stretch.direction) } else { Flywheel::Idle },
+            wheel: self.clutch.flywheel(stretch.engaged && self.clutch.has_inerter(), stretch.direction),
         };
         self.observer.device_stretch(&arc, stretch);
     }
@@ -59,9 +52,9 @@ impl<S: Real, E: Equation<S>, C: Clutch, P: Piece<S>, O: DeviceObserver<S>> Obse
 }
 
 /// An arc and the device that works along it.
-struct WatchedArc<'a, S, E, P> {
+struct WatchedArc<'a, S, P> {
     arc: &'a dyn Arc<S>,
-    equation: &'a E,
+    equation: &'a AnyEquation<S>,
     coupling: S,
     piece: &'a P,
     start: S,
@@ -69,7 +62,7 @@ struct WatchedArc<'a, S, E, P> {
     wheel: Flywheel,
 }
 
-impl<S: Real, E: Equation<S>, P: Piece<S>> Arc<S> for WatchedArc<'_, S, E, P> {
+impl<S: Real, P: Piece<S>> Arc<S> for WatchedArc<'_, S, P> {
     #[inline]
     fn length(&self) -> S {
         self.arc.length()
@@ -101,7 +94,7 @@ impl<S: Real, E: Equation<S>, P: Piece<S>> Arc<S> for WatchedArc<'_, S, E, P> {
     }
 }
 
-impl<S: Real, E: Equation<S>, P: Piece<S>> DeviceArc<S> for WatchedArc<'_, S, E, P> {
+impl<S: Real, P: Piece<S>> DeviceArc<S> for WatchedArc<'_, S, P> {
     #[inline]
     fn snapshot(&self, time: S) -> Snapshot<S> {
         let motion = self.arc.at(time);

@@ -9,13 +9,12 @@ use std::time::Instant;
 
 use sprag_shared::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::carried::Carried;
-use sprag_shared::clutch::Clutch;
 use sprag_shared::equation::{Equation, SlenderBlock};
 use sprag_shared::fixed::runge_kutta_4;
 use sprag_shared::lever::Mount;
 use sprag_shared::observer::Peaks;
-use sprag_shared::rocking::{State, System};
-use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure, WithSystem};
+use sprag_shared::rocking::State;
+use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure};
 use sprag_shared::taylor::Taylor;
 use sprag_sim_host::batch::case::{Case, PulseShape, TERMS, TIGHT};
 use sprag_sim_host::ground_motion::{Component, GroundMotion};
@@ -104,29 +103,21 @@ fn grid(geometry: Geometry, device: DeviceKind) {
     }
 }
 
-struct Run<'a> {
-    tolerance: f64,
-    structure: &'a Structure,
-    ground: &'a GroundMotion,
-}
-
-impl WithSystem<f64> for Run<'_> {
-    type Output = f64;
-
-    fn with<R: Equation<f64>, E: Equation<f64>, C: Clutch>(self, system: System<f64, R, E, C>) -> f64 {
-        let course = Course {
-            block: &self.structure.block,
-            geometry: self.structure.geometry,
-            ground: self.ground,
-            vertical: None,
-            free_time: 10.0,
-            overturning: Overturning::Proven,
-        };
-        let (mut state, mut peaks) = (State::default(), Peaks::default());
-        let method = Taylor::<f64, RECORD_TERMS>::adaptive(self.tolerance);
-        let _ = course.follow(&system, &method, &mut state, &mut peaks, || true);
-        peaks.rotation
-    }
+/// By the core, alone.
+fn peak(structure: &Structure, ground: &GroundMotion, tolerance: f64) -> f64 {
+    let system = structure.resolve().unwrap();
+    let course = Course {
+        block: &structure.block,
+        geometry: structure.geometry,
+        ground,
+        vertical: None,
+        free_time: 10.0,
+        overturning: Overturning::Proven,
+    };
+    let (mut state, mut peaks) = (State::default(), Peaks::default());
+    let method = Taylor::<f64, RECORD_TERMS>::adaptive(tolerance);
+    let _ = course.follow(&system, &method, &mut state, &mut peaks, || true);
+    peaks.rotation
 }
 
 /// Peak rotation of a block that stays up, so that the whole record is integrated.
@@ -141,5 +132,5 @@ fn record(ground: &GroundMotion, geometry: Geometry, kind: DeviceKind, tolerance
         restitution: Restitution::Constant(0.95),
         rest_speed: REST_SPEED,
     };
-    structure.resolve(Run { tolerance, structure: &structure, ground }).unwrap_or(f64::NAN)
+    peak(&structure, ground, tolerance)
 }

@@ -9,13 +9,11 @@ use std::time::Instant;
 
 use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::carried::Carried;
-use sprag_shared::clutch::Clutch;
-use sprag_shared::equation::Equation;
 use sprag_shared::lever::Mount;
 use sprag_shared::math;
 use sprag_shared::observer::Peaks;
-use sprag_shared::rocking::{Phase, State, System};
-use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure, WithSystem};
+use sprag_shared::rocking::{Phase, State};
+use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure};
 use sprag_shared::taylor::Taylor;
 use sprag_sim_host::batch::case::{TERMS, TIGHT};
 use sprag_sim_host::ensemble::machine::{Registers, shake};
@@ -59,7 +57,7 @@ fn main() {
                 let one = &structures[index / motions.len()];
                 let record = Component::record(0.0, STEP, asked[index].samples.values().iter().copied());
                 let ground = GroundMotion::sum(&[record]);
-                let Ok((state, peaks)) = one.resolve(Alone { structure: one, ground: &ground }) else { continue };
+                let (state, peaks) = alone(one, &ground);
                 let Some(found) = found[index] else { continue };
                 wrong += usize::from(found.phase != state.phase);
                 if state.phase == Phase::Overturned || peaks.rotation == 0.0 {
@@ -129,25 +127,18 @@ fn motion(seed: u32) -> Vec<f64> {
     (0..=(SECONDS / STEP) as usize).map(value).collect()
 }
 
-struct Alone<'a> {
-    structure: &'a Structure,
-    ground: &'a GroundMotion,
-}
-
-impl WithSystem<f64> for Alone<'_> {
-    type Output = (State<f64>, Peaks<f64>);
-
-    fn with<R: Equation<f64>, E: Equation<f64>, C: Clutch>(self, system: System<f64, R, E, C>) -> Self::Output {
-        let course = Course {
-            block: &self.structure.block,
-            geometry: self.structure.geometry,
-            ground: self.ground,
-            vertical: None,
-            free_time: FREE_TIME,
-            overturning: Overturning::Reached,
-        };
-        let (mut state, mut peaks) = (State::default(), Peaks::default());
-        let _ = course.follow(&system, &Taylor::<f64, TERMS>::adaptive(TIGHT), &mut state, &mut peaks, || true);
-        (state, peaks)
-    }
+/// By the core, alone.
+fn alone(structure: &Structure, ground: &GroundMotion) -> (State<f64>, Peaks<f64>) {
+    let system = structure.resolve().unwrap();
+    let course = Course {
+        block: &structure.block,
+        geometry: structure.geometry,
+        ground,
+        vertical: None,
+        free_time: FREE_TIME,
+        overturning: Overturning::Reached,
+    };
+    let (mut state, mut peaks) = (State::default(), Peaks::default());
+    let _ = course.follow(&system, &Taylor::<f64, TERMS>::adaptive(TIGHT), &mut state, &mut peaks, || true);
+    (state, peaks)
 }

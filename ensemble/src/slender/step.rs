@@ -120,7 +120,7 @@ impl Stepping for ClosedForm {
         // The sign of θ̈ does not depend on the mode.
         blocks.read_push(blocks.rotation - slenderness - ground * turn.0);
         let along = !(blocks.outward ^ blocks.pushed);
-        let engaged = match (C::FOLLOWS_SIGNS, C::INERTER) {
+        let engaged = match (C::RULE.follows_signs(), C::RULE.has_inerter()) {
             (true, _) => along,
             (false, true) => Mask::ALL,
             (false, false) => Mask::NONE,
@@ -136,7 +136,7 @@ impl Stepping for ClosedForm {
         let push = blocks.pushed.sign();
         let direction = blocks.outward.sign();
         // A velocity that grows before it falls has its zero, if any, after that of θ̈: without a clutch nothing happens at the latter.
-        let passed = if C::FOLLOWS_SIGNS { Mask::NONE } else { changed & along };
+        let passed = if C::RULE.follows_signs() { Mask::NONE } else { changed & along };
         let (mut rate_zero, mut turned, mut hit) = (Mask::NONE, Mask::NONE, Mask::NONE);
         let mut looked_at_rate = passed | !changed;
         loop {

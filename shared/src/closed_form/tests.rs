@@ -1,16 +1,14 @@
 use super::*;
 use crate::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use crate::carried::Carried;
-use crate::clutch::Clutch;
-use crate::detected::Switched;
 use crate::equation::FullBlock;
 use crate::ground::harmonic::{Harmonic, MavroeidisPapageorgiou};
 use crate::ground::{Harmonics, Linear, Quiet, Ricker, Sum};
 use crate::lever::Mount;
 use crate::math::{asin, exp, square_root};
 use crate::observer::{Event, Observer, Peaks, Stretch};
-use crate::rocking::{Limits, Phase, State, System};
-use crate::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure, WithSystem};
+use crate::rocking::{Limits, Phase, State};
+use crate::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure};
 use crate::taylor::Taylor;
 use core::f64::consts::TAU;
 use std::vec::Vec;
@@ -82,28 +80,6 @@ impl<S: Real> Observer<S> for Log<S> {
     }
 }
 
-struct Run<'a, M> {
-    method: &'a M,
-    segments: &'a [Segment],
-}
-
-impl<S: Real, M: Method<S>> WithSystem<S> for Run<'_, M> {
-    type Output = (State<S>, Log<S>);
-
-    fn with<R: Equation<S>, E: Switched<S>, C: Clutch>(self, system: System<S, R, E, C>) -> Self::Output {
-        let (mut state, mut log) = (State::default(), Log::default());
-        for (index, segment) in self.segments.iter().enumerate() {
-            // Nothing stronger than 1.5 g follows; on quiet ground an outward motion beyond α does not return.
-            let last = index + 1 == self.segments.len();
-            let limits = Limits { overturned: S::of(SLENDERNESS + if last { 0.0 } else { 1.5 }), events: 2_000_000 };
-            let duration = S::of(segment.duration);
-            system.advance(self.method, &mut state, &segment.ground(), duration, &limits, &mut log).unwrap();
-            log.peaks.origin = log.peaks.origin + duration;
-        }
-        (state, log)
-    }
-}
-
 /// A slender block with p = 1/s.
 fn structure(kind: DeviceKind, geometry: Geometry) -> Structure {
     Structure {
@@ -117,7 +93,21 @@ fn structure(kind: DeviceKind, geometry: Geometry) -> Structure {
 }
 
 fn run<S: Real, M: Method<S>>(kind: DeviceKind, method: &M, segments: &[Segment]) -> (State<S>, Log<S>) {
-    structure(kind, Geometry::Slender).resolve(Run { method, segments }).unwrap()
+    follow(&structure(kind, Geometry::Slender), method, segments)
+}
+
+fn follow<S: Real, M: Method<S>>(structure: &Structure, method: &M, segments: &[Segment]) -> (State<S>, Log<S>) {
+    let system = structure.resolve().unwrap();
+    let (mut state, mut log) = (State::default(), Log::default());
+    for (index, segment) in segments.iter().enumerate() {
+        // Nothing stronger than 1.5 g follows; on quiet ground an outward motion beyond α does not return.
+        let last = index + 1 == segments.len();
+        let limits = Limits { overturned: S::of(SLENDERNESS + if last { 0.0 } else { 1.5 }), events: 2_000_000 };
+        let duration = S::of(segment.duration);
+        system.advance(method, &mut state, &segment.ground(), duration, &limits, &mut log).unwrap();
+        log.peaks.origin = log.peaks.origin + duration;
+    }
+    (state, log)
 }
 
 const DEVICES: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
@@ -193,7 +183,7 @@ fn a_short_step_loses_no_digits() {
         let exact = -(slope * step * step * step / 6.0) * (1.0 - frequency * frequency / slope * step / 4.0);
         let pulse = Harmonics::sine(amplitude, frequency);
         let start = Start {
-            equation: &block,
+            equation: &AnyEquation::Slender(block),
             piece: &pulse,
             side: Sign::Negative,
             rotation: 0.0,
@@ -207,7 +197,7 @@ fn a_short_step_loses_no_digits() {
         assert!((found / exact - 1.0).abs() < 2e-5 * (step / 1e-3) * (step / 1e-3) + 1e-11, "{step}: {found:e} {exact:e}");
         let pulse = Harmonics::sine(amplitude as f32, frequency as f32);
         let start = Start {
-            equation: &single,
+            equation: &AnyEquation::Slender(single),
             piece: &pulse,
             side: Sign::Negative,
             rotation: 0.0,
@@ -224,8 +214,8 @@ fn a_short_step_loses_no_digits() {
 
 #[test]
 fn it_knows_where_it_applies() {
-    let slender = SlenderBlock { frequency_squared: 1.0, slenderness: 0.2, inertia: 1.0, lever: 1.0 };
-    let full = FullBlock { frequency_squared: 1.0, slenderness: 0.2 };
+    let slender = AnyEquation::Slender(SlenderBlock { frequency_squared: 1.0, slenderness: 0.2, inertia: 1.0, lever: 1.0 });
+    let full = AnyEquation::Block(FullBlock { frequency_squared: 1.0, slenderness: 0.2 });
     let wavelet = Ricker { amplitude: 0.5, rate: 4.0, centre: 1.0 };
     assert!(ClosedForm::applies(&slender, &Quiet) && ClosedForm::applies(&slender, &Harmonics::sine(0.3, 5.0)));
     assert!(ClosedForm::applies(&slender, &Segment::wavelet(1.4, 0.4, 0.6).ground::<f64>()));
@@ -238,8 +228,8 @@ fn elsewhere_it_is_the_runge_kutta_method() {
     let segments = &motions()[0];
     for kind in DEVICES {
         let structure = structure(kind, Geometry::Full);
-        let (state, log) = structure.resolve::<f64, _>(Run { method: &ClosedForm { step: 0.01 }, segments }).unwrap();
-        let (same, same_log) = structure.resolve::<f64, _>(Run { method: &RungeKutta4 { step: 0.01 }, segments }).unwrap();
+        let (state, log) = follow::<f64, _>(&structure, &ClosedForm { step: 0.01 }, segments);
+        let (same, same_log) = follow::<f64, _>(&structure, &RungeKutta4 { step: 0.01 }, segments);
         assert_eq!((state, log.peaks, log.events), (same, same_log.peaks, same_log.events));
     }
 }

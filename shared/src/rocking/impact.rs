@@ -1,7 +1,6 @@
 //! What an impact does, and how impacts that accumulate end in rest.
 
 use crate::accumulation::Accumulation;
-use crate::clutch::Clutch;
 use crate::decay::Swings;
 use crate::equation::Equation;
 use crate::ground::Piece;
@@ -12,7 +11,7 @@ use crate::scalar::{Real, Sign};
 /// Pairs of swings below the rest speed that are followed in one piece when their impacts do not end them.
 const MOST_IDLE_SWINGS: f64 = 1e3;
 
-impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
+impl<S: Real> System<S> {
     /// θ = 0: the velocity is multiplied by η and the other toe takes over, or the block comes to rest. Returns the
     /// time, which rest moves on to the end of the impacts that it stands for.
     pub(super) fn impact<P: Piece<S>>(
@@ -73,7 +72,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
         if state.phase != Phase::Rocking {
             return time;
         }
-        let swings = swings.get_or_insert_with(|| Swings::of(&self.released, &self.engaged, !C::FOLLOWS_SIGNS));
+        let swings = swings.get_or_insert_with(|| Swings::of(&self.released, &self.engaged, !self.clutch.follows_signs()));
         let Some(decay) = swings.decay(state.velocity.abs(), self.restitution, self.counted_speed, duration - time) else {
             return time;
         };
@@ -105,7 +104,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
                 };
                 a.abs().larger(S::EPSILON * S::EPSILON)
             };
-            (rate(C::engaged(side, side.opposite())), rate(C::engaged(side, side)))
+            (rate(self.clutch.engages(side, side.opposite())), rate(self.clutch.engages(side, side)))
         };
         Accumulation::of(rates(side), rates(side.opposite()), self.restitution, speed, self.counted_speed)
     }

@@ -1,24 +1,24 @@
 //! The signs that are part of a block's state, read anew where the ground or the equation may have jumped.
 
+use crate::any_equation::AnyEquation;
 use crate::arc::Arc;
-use crate::clutch::Clutch;
 use crate::equation::Equation;
 use crate::rocking::{State, System};
 use crate::scalar::{Real, Sign};
 
-impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
+impl<S: Real> System<S> {
     /// At the start of a piece the ground may have jumped, and the signs with it. True when the clutch follows, so that
     /// another equation is in force. Rare enough not to be copied into every loop.
     #[inline(never)]
-    pub(super) fn jumped<Q: Equation<S>, A: Arc<S>>(
+    pub(super) fn jumped<A: Arc<S>>(
         &self,
-        equation: &Q,
+        equation: &AnyEquation<S>,
         state: &mut State<S>,
         arc: &A,
         separate_drive: bool,
     ) -> bool {
         let start = arc.at(S::ZERO);
-        let before = C::engaged(state.direction, state.drive);
+        let before = self.clutch.engages(state.direction, state.drive);
         let (side, rotation, velocity) = (state.side.unit(), state.rotation, state.velocity);
         state.push = beyond_rounding(start.acceleration, state.push, || equation.acceleration(side, rotation, velocity, S::ZERO));
         state.drive = if separate_drive {
@@ -29,7 +29,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
         if start.velocity == S::ZERO {
             state.direction = state.push;
         }
-        C::FOLLOWS_SIGNS && before != C::engaged(state.direction, state.drive)
+        self.clutch.follows_signs() && before != self.clutch.engages(state.direction, state.drive)
     }
 
     /// Signs of θ̈ and of the terminals' acceleration from the equations.
@@ -44,7 +44,7 @@ impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
     #[inline(never)]
     pub(super) fn read_push_only(&self, state: &mut State<S>, ground: S) {
         let side = state.side.unit();
-        let acceleration = if C::engaged(state.direction, state.drive) {
+        let acceleration = if self.clutch.engages(state.direction, state.drive) {
             self.engaged.acceleration(side, state.rotation, state.velocity, ground)
         } else {
             self.released.acceleration(side, state.rotation, state.velocity, ground)

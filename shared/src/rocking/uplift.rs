@@ -1,13 +1,12 @@
 //! When a block at rest starts to rock, and to which side.
 
-use crate::clutch::Clutch;
 use crate::equation::Equation;
 use crate::ground::Piece;
 use crate::polynomial::first_zero_of;
 use crate::rocking::{Phase, State, System};
 use crate::scalar::{Real, Sign};
 
-impl<S: Real, R: Equation<S>, E: Equation<S>, C: Clutch> System<S, R, E, C> {
+impl<S: Real> System<S> {
     /// First instant in [`from`, `to`) at which the ground pushes harder than the weight holds, and whether it gets
     /// there by crossing the threshold (so that the bracket is zero) or by a jump.
     #[inline(never)]

@@ -1,10 +1,9 @@
 use super::*;
 use crate::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
-use crate::detected::Switched;
 use crate::ground::{Harmonics, Linear};
 use crate::lever::Mount;
 use crate::rocking::{Limits, System};
-use crate::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure, WithSystem};
+use crate::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure};
 use crate::taylor::Taylor;
 use std::vec::Vec;
 
@@ -103,14 +102,7 @@ pub(crate) struct Run<'a, O> {
 
 impl<O: Placed> Run<'_, O> {
     pub(crate) fn go(self) -> (State<f64>, O) {
-        self.structure.resolve(self).unwrap()
-    }
-}
-
-impl<O: Placed> WithSystem<f64> for Run<'_, O> {
-    type Output = (State<f64>, O);
-
-    fn with<R: Equation<f64>, E: Switched<f64>, C: Clutch>(self, system: System<f64, R, E, C>) -> Self::Output {
+        let system: System<f64> = self.structure.resolve().unwrap();
         let Run { structure, ground, from, mut observer } = self;
         let coupling = structure.device.mass_ratio / structure.block.inertia_ratio();
         let overturned = match structure.geometry {
@@ -126,7 +118,8 @@ impl<O: Placed> WithSystem<f64> for Run<'_, O> {
         let mut origin = 0.0;
         for (piece, duration) in ground {
             observer.place(origin);
-            let mut watched = Watched::<_, _, C, _, _>::new(system.engaged, coupling, *piece, &mut observer);
+            let mut watched =
+                Watched { engaged: system.engaged, clutch: system.clutch, coupling, piece: *piece, observer: &mut observer };
             system.advance(&method, &mut state, piece, *duration, &limits, &mut watched).unwrap();
             origin += duration;
         }

@@ -1,12 +1,9 @@
 //! One motion, followed in one way.
 
-use core::marker::PhantomData;
-
+use sprag_shared::any_equation::WithEquation;
 use sprag_shared::arc::{Arc, Method};
 use sprag_shared::closed_form::ClosedForm;
-use sprag_shared::clutch::Clutch;
 use sprag_shared::detected::{Detected, DetectedState, Switched};
-use sprag_shared::equation::Equation;
 use sprag_shared::fixed::{RungeKutta4, SemiImplicitEuler};
 use sprag_shared::ground::{Linear, Piece};
 use sprag_shared::math::tier::{Libm, Micromath, OwnPolynomial};
@@ -14,7 +11,6 @@ use sprag_shared::math::tiered::Tiered;
 use sprag_shared::observer::{Event, Observer, Peaks, Stretch};
 use sprag_shared::rocking::{Phase, State, System};
 use sprag_shared::scalar::Real;
-use sprag_shared::structure::WithSystem;
 use sprag_shared::taylor::Taylor;
 
 use super::subject::Subject;
@@ -74,44 +70,28 @@ fn step_of(subject: &Subject, variant: &Variant) -> f64 {
 }
 
 fn located<S: Real, M: Method<S>>(subject: &Subject, times: &[f64], method: &M) -> Reading {
-    let next = Located { subject, times, method, precision: PhantomData };
     // A structure of a scene has been resolved before.
-    subject.structure.resolve(next).unwrap_or_default()
-}
-
-struct Located<'a, S, M> {
-    subject: &'a Subject,
-    times: &'a [f64],
-    method: &'a M,
-    precision: PhantomData<S>,
-}
-
-impl<S: Real, M: Method<S>> WithSystem<S> for Located<'_, S, M> {
-    type Output = Reading;
-
-    fn with<R: Equation<S>, E: Switched<S>, C: Clutch>(self, system: System<S, R, E, C>) -> Reading {
-        let subject = self.subject;
-        let mut state = match subject.released {
-            Some((rotation, velocity, ground)) => system.released_at(S::of(rotation), S::of(velocity), S::of(ground)),
-            None => State::default(),
-        };
-        let alpha = subject.block().slenderness();
-        let mut watch = Watch::<S> {
-            peaks: Peaks { rocked: subject.released.is_some(), ..Peaks::default() },
-            steps: 0,
-            origin: 0.0,
-            alpha,
-            times: self.times,
-            samples: Vec::with_capacity(self.times.len()),
-        };
-        let done = subject.course().follow(&system, self.method, &mut state, &mut watch, || true);
-        watch.stand_until(f64::INFINITY, if state.phase == Phase::Rocking { state.rotation.to_f64() } else { 0.0 });
-        Reading {
-            outcome: done.ok().map(|()| Outcome::of(&state, &watch.peaks)),
-            peak: watch.peaks.rotation.to_f64() / alpha,
-            steps: watch.steps,
-            samples: watch.samples,
-        }
+    let Ok(system) = subject.structure.resolve::<S>() else { return Reading::default() };
+    let mut state = match subject.released {
+        Some((rotation, velocity, ground)) => system.released_at(S::of(rotation), S::of(velocity), S::of(ground)),
+        None => State::default(),
+    };
+    let alpha = subject.block().slenderness();
+    let mut watch = Watch::<S> {
+        peaks: Peaks { rocked: subject.released.is_some(), ..Peaks::default() },
+        steps: 0,
+        origin: 0.0,
+        alpha,
+        times,
+        samples: Vec::with_capacity(times.len()),
+    };
+    let done = subject.course().follow(&system, method, &mut state, &mut watch, || true);
+    watch.stand_until(f64::INFINITY, if state.phase == Phase::Rocking { state.rotation.to_f64() } else { 0.0 });
+    Reading {
+        outcome: done.ok().map(|()| Outcome::of(&state, &watch.peaks)),
+        peak: watch.peaks.rotation.to_f64() / alpha,
+        steps: watch.steps,
+        samples: watch.samples,
     }
 }
 
@@ -168,23 +148,26 @@ impl<S: Real> Segmented for Watch<'_, S> {
 
 fn step_end<S: Real>(subject: &Subject, variant: &Variant, times: &[f64]) -> Reading {
     let method = variant.method;
-    let next = StepEnd { subject, times, method, step: S::of(step_of(subject, variant)) };
-    subject.structure.resolve(next).unwrap_or_default()
+    let Ok(system) = subject.structure.resolve::<S>() else { return Reading::default() };
+    let next = StepEnd { subject, system: &system, times, method, step: S::of(step_of(subject, variant)) };
+    system.engaged.known(next)
 }
 
 struct StepEnd<'a, S> {
     subject: &'a Subject,
+    system: &'a System<S>,
     times: &'a [f64],
     method: variant::Method,
     step: S,
 }
 
-impl<S: Real> WithSystem<S> for StepEnd<'_, S> {
+impl<S: Real> WithEquation<S> for StepEnd<'_, S> {
     type Output = Reading;
 
-    fn with<R: Equation<S>, E: Switched<S>, C: Clutch>(self, system: System<S, R, E, C>) -> Reading {
-        let released = if C::FOLLOWS_SIGNS { system.engaged.without_inerter() } else { system.engaged };
-        let block = Detected { released, engaged: system.engaged, restitution: system.restitution, uplift: system.uplift };
+    fn with<E: Switched<S>>(self, engaged: &E) -> Reading {
+        let System { clutch, restitution, uplift, .. } = *self.system;
+        let released = if clutch.follows_signs() { engaged.without_inerter() } else { *engaged };
+        let block = Detected { released, engaged: *engaged, restitution, uplift };
         match self.method {
             variant::Method::SemiImplicitEuler => {
                 self.follow(|state, piece, time, end| block.semi_implicit_euler(state, piece.acceleration(time), end - time))

@@ -2,14 +2,12 @@
 
 use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::carried::Carried;
-use sprag_shared::clutch::Clutch;
-use sprag_shared::equation::Equation;
 use sprag_shared::error::ParameterError;
 use sprag_shared::ground::{Harmonics, Quiet};
 use sprag_shared::lever::Mount;
 use sprag_shared::observer::Peaks;
-use sprag_shared::rocking::{Limits, State, System};
-use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure, WithSystem};
+use sprag_shared::rocking::{Limits, State};
+use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure};
 use sprag_shared::taylor::Taylor;
 
 pub use sprag_ensemble::alone::{CaseError, TERMS, TIGHT};
@@ -106,7 +104,28 @@ impl Case {
     /// [`CaseError`] for a parameter outside its range, or a motion that cannot be followed.
     pub fn run<const N: usize>(&self, method: &Taylor<f64, N>) -> Result<CaseResult, CaseError> {
         let structure = self.structure()?;
-        structure.resolve(Run { case: self, structure: &structure, method })?
+        let system = structure.resolve::<f64>()?;
+        let amplitude = self.amplitude_ratio * system.uplift;
+        let pulse = match self.pulse {
+            PulseShape::Sine => Harmonics::sine(amplitude, self.frequency_ratio),
+            PulseShape::Cosine => Harmonics::cosine(amplitude, self.frequency_ratio),
+        };
+        let duration = core::f64::consts::TAU / self.frequency_ratio;
+        let mut state = State::default();
+        let mut peaks = Peaks::default();
+        let limits = |bound| Limits { overturned: self.geometry.point_of_no_return(&structure.block, bound), events: 1_000_000 };
+        system.advance(method, &mut state, &pulse, duration, &limits(amplitude.abs()), &mut peaks)?;
+        peaks.origin = duration;
+        system.advance(method, &mut state, &Quiet, self.free_time, &limits(0.0), &mut peaks)?;
+        let outcome = Outcome::of(&state, &peaks);
+        Ok(CaseResult {
+            outcome,
+            peak_rotation: peaks.rotation / self.slenderness,
+            peak_acceleration: peaks.acceleration / self.slenderness,
+            impacts: state.impacts,
+            first_impact_time: peaks.first_counted_impact,
+            end_time: peaks.ended.unwrap_or(if peaks.rocked { duration + self.free_time } else { duration }),
+        })
     }
 
     /// Runs the case as accurately as asked, and tells the error.
@@ -145,41 +164,5 @@ impl From<&Case> for PulsedBlock {
             frequency_ratio: case.frequency_ratio,
             amplitude_ratio: case.amplitude_ratio,
         }
-    }
-}
-
-struct Run<'a, const N: usize> {
-    case: &'a Case,
-    structure: &'a Structure,
-    method: &'a Taylor<f64, N>,
-}
-
-impl<const N: usize> WithSystem<f64> for Run<'_, N> {
-    type Output = Result<CaseResult, CaseError>;
-
-    fn with<R: Equation<f64>, E: Equation<f64>, C: Clutch>(self, system: System<f64, R, E, C>) -> Self::Output {
-        let case = self.case;
-        let amplitude = case.amplitude_ratio * system.uplift;
-        let pulse = match case.pulse {
-            PulseShape::Sine => Harmonics::sine(amplitude, case.frequency_ratio),
-            PulseShape::Cosine => Harmonics::cosine(amplitude, case.frequency_ratio),
-        };
-        let duration = core::f64::consts::TAU / case.frequency_ratio;
-        let mut state = State::default();
-        let mut peaks = Peaks::default();
-        let limits =
-            |bound| Limits { overturned: case.geometry.point_of_no_return(&self.structure.block, bound), events: 1_000_000 };
-        system.advance(self.method, &mut state, &pulse, duration, &limits(amplitude.abs()), &mut peaks)?;
-        peaks.origin = duration;
-        system.advance(self.method, &mut state, &Quiet, case.free_time, &limits(0.0), &mut peaks)?;
-        let outcome = Outcome::of(&state, &peaks);
-        Ok(CaseResult {
-            outcome,
-            peak_rotation: peaks.rotation / case.slenderness,
-            peak_acceleration: peaks.acceleration / case.slenderness,
-            impacts: state.impacts,
-            first_impact_time: peaks.first_counted_impact,
-            end_time: peaks.ended.unwrap_or(if peaks.rocked { duration + case.free_time } else { duration }),
-        })
     }
 }

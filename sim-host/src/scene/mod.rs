@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 use sprag_shared::block::{Block, Geometry};
 use sprag_shared::drivetrain::Engagement;
 use sprag_shared::error::ParameterError;
-use sprag_shared::structure::{Restitution, Structure, WithSystem};
+use sprag_shared::structure::{Restitution, Structure};
 
 pub use device::SceneDevice;
 pub use error::SceneError;
@@ -123,13 +123,8 @@ impl Scene {
             let key = |name: &str| key(&format!("device.{index}.{name}"));
             let device = SceneDevice::resolve(table, &file.device, &block, file.block.mass_kg, &key)?;
             // Everything that the core refuses is found here, before any work.
-            struct Nothing;
-            impl WithSystem<f64> for Nothing {
-                type Output = ();
-                fn with<R, E, C>(self, _: sprag_shared::rocking::System<f64, R, E, C>) {}
-            }
             let structure = structure(&file, block, restitution, &device);
-            structure.resolve(Nothing).map_err(|error| refusal(&error, origin, index))?;
+            structure.resolve::<f64>().map_err(|error| refusal(&error, origin, index))?;
             devices.push(device);
         }
         for (tables, name, direction) in

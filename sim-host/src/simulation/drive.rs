@@ -3,9 +3,7 @@
 use sprag_shared::arc::Method;
 use sprag_shared::block::{Block, Geometry};
 use sprag_shared::body::Body;
-use sprag_shared::clutch::Clutch;
 use sprag_shared::drivetrain::drive::Drive;
-use sprag_shared::equation::Equation;
 use sprag_shared::ground::{Linear, Quiet};
 use sprag_shared::hybrid::path::{Shaking, Tracer};
 use sprag_shared::hybrid::{Machine, MachineState};
@@ -96,9 +94,9 @@ impl Course<'_> {
     ///
     /// # Errors
     /// [`Stopped`] by the core. An answer of `false` ends the run early, without an error.
-    pub fn follow<S, R, E, C, M, O>(
+    pub fn follow<S, M, O>(
         &self,
-        system: &System<S, R, E, C>,
+        system: &System<S>,
         method: &M,
         state: &mut State<S>,
         observer: &mut O,
@@ -106,9 +104,6 @@ impl Course<'_> {
     ) -> Result<(), Stopped>
     where
         S: Real,
-        R: Equation<S>,
-        E: Equation<S>,
-        C: Clutch,
         M: Method<S>,
         O: Observer<S> + Segmented,
     {

@@ -1,17 +1,11 @@
 //! Runs of ideal devices, by the loop that knows nothing else.
 
-use core::marker::PhantomData;
-
 use sprag_shared::arc::Method;
-use sprag_shared::clutch::Clutch;
-use sprag_shared::detected::Switched;
-use sprag_shared::equation::Equation;
 use sprag_shared::fixed::{RungeKutta4, SemiImplicitEuler};
 use sprag_shared::ground::Linear;
 use sprag_shared::observer::Peaks;
 use sprag_shared::rocking::{Phase, State, System};
 use sprag_shared::scalar::Real;
-use sprag_shared::structure::WithSystem;
 use sprag_shared::taylor::Taylor;
 use sprag_shared::watched::Watched;
 
@@ -45,54 +39,40 @@ pub(super) fn run(task: &Task<'_>) -> Result<DeviceRun, Failure> {
 }
 
 fn with_method<S: Real, M: Method<S>>(task: &Task<'_>, method: &M) -> Result<DeviceRun, Failure> {
-    task.scene.structure(task.index).resolve(Resolved { task, method, precision: PhantomData })?
-}
-
-struct Resolved<'a, S, M> {
-    task: &'a Task<'a>,
-    method: &'a M,
-    precision: PhantomData<S>,
-}
-
-impl<S: Real, M: Method<S>> WithSystem<S> for Resolved<'_, S, M> {
-    type Output = Result<DeviceRun, Failure>;
-
-    fn with<R: Equation<S>, E: Switched<S>, C: Clutch>(self, system: System<S, R, E, C>) -> Self::Output {
-        let task = self.task;
-        let loaded = task.loaded()?;
-        let course = task.course(&loaded.block);
-        let mut state = State::default();
-        if let Some((rotation, velocity)) = task.released() {
-            let [ground, _] = task.ground_at_start();
-            state = system.released_at(S::of(rotation), S::of(velocity), S::of(ground));
-        }
-        let goes_on = || !task.interrupt.is_set();
-        let accuracy = &task.scene.file.accuracy;
-        if let (EventTreatment::StepEnd, Some(step)) = (accuracy.events, task.step()) {
-            // Per R the terminals' acceleration; σ of the loaded block weighs on the bare one.
-            let coupling = loaded.device.mass_ratio / loaded.block.inertia_ratio();
-            let force_scale = coupling * task.force_scale(&loaded);
-            let steps = Steps { method: accuracy.method, step, interval: task.interval, force_scale };
-            let trace = step_end::follow(&course, &system, &steps, (state.rotation, state.velocity), goes_on);
-            if task.interrupt.is_set() {
-                return Err(Failure::Interrupted);
-            }
-            let peaks = Peaks { rocked: trace.peaks.rocked || task.released().is_some(), ..trace.peaks };
-            let state = trace.state;
-            return Ok(DeviceRun::of(task, &state, &peaks, trace.into()));
-        }
-        let coupling = S::of(loaded.device.mass_ratio / loaded.block.inertia_ratio());
-        let mut watchers = task.watchers::<S>(&loaded)?;
-        let still = ShapePiece::Linear(Linear::constant(S::ZERO));
-        let mut watched = Watched::<S, E, C, _, _>::new(system.engaged, coupling, still, &mut watchers);
-        course.follow(&system, self.method, &mut state, &mut watched, goes_on).map_err(Failure::Stopped)?;
+    let system: System<S> = task.scene.structure(task.index).resolve()?;
+    let loaded = task.loaded()?;
+    let course = task.course(&loaded.block);
+    let mut state = State::default();
+    if let Some((rotation, velocity)) = task.released() {
+        let [ground, _] = task.ground_at_start();
+        state = system.released_at(S::of(rotation), S::of(velocity), S::of(ground));
+    }
+    let mut goes_on = || !task.interrupt.is_set();
+    let accuracy = &task.scene.file.accuracy;
+    if let (EventTreatment::StepEnd, Some(step)) = (accuracy.events, task.step()) {
+        // Per R the terminals' acceleration; σ of the loaded block weighs on the bare one.
+        let coupling = loaded.device.mass_ratio / loaded.block.inertia_ratio();
+        let force_scale = coupling * task.force_scale(&loaded);
+        let steps = Steps { method: accuracy.method, step, interval: task.interval, force_scale };
+        let trace = step_end::follow(&course, &system, &steps, (state.rotation, state.velocity), &mut goes_on);
         if task.interrupt.is_set() {
             return Err(Failure::Interrupted);
         }
-        if state.phase != Phase::Overturned {
-            watchers.recorder.finish(task.end(), state.phase == Phase::Rest);
-        }
-        let peaks = watchers.peaks;
-        Ok(DeviceRun::of(task, &state, &peaks, Found::watched(task, watchers)))
+        let peaks = Peaks { rocked: trace.peaks.rocked || task.released().is_some(), ..trace.peaks };
+        let state = trace.state;
+        return Ok(DeviceRun::of(task, &state, &peaks, trace.into()));
     }
+    let coupling = S::of(loaded.device.mass_ratio / loaded.block.inertia_ratio());
+    let mut watchers = task.watchers::<S>(&loaded)?;
+    let still = ShapePiece::Linear(Linear::constant(S::ZERO));
+    let mut watched = Watched { engaged: system.engaged, clutch: system.clutch, coupling, piece: still, observer: &mut watchers };
+    course.follow(&system, method, &mut state, &mut watched, goes_on).map_err(Failure::Stopped)?;
+    if task.interrupt.is_set() {
+        return Err(Failure::Interrupted);
+    }
+    if state.phase != Phase::Overturned {
+        watchers.recorder.finish(task.end(), state.phase == Phase::Rest);
+    }
+    let peaks = watchers.peaks;
+    Ok(DeviceRun::of(task, &state, &peaks, Found::watched(task, watchers)))
 }

@@ -1,8 +1,9 @@
 //! Runs whose impacts and clutch are looked at once a step (`accuracy.events = "step-end"`): the scheme of the paper and of
 //! most programs, kept to show what it costs ([`sprag_shared::detected`]).
 
+use sprag_shared::any_equation::WithEquation;
 use sprag_shared::block::GRAVITY;
-use sprag_shared::clutch::Clutch;
+use sprag_shared::clutch::ClutchRule;
 use sprag_shared::detected::{Detected, DetectedState, Switched};
 use sprag_shared::ground::{Linear, Piece};
 use sprag_shared::observer::Peaks;
@@ -45,15 +46,37 @@ pub struct Trace<S> {
 }
 
 /// Follows a block from rest, or from `start` (θ, θ̇), until the end of the course or `goes_on` says no.
-pub fn follow<S: Real, R, E: Switched<S>, C: Clutch>(
+pub fn follow<S: Real>(
     course: &Course<'_>,
-    system: &System<S, R, E, C>,
+    system: &System<S>,
     steps: &Steps,
     start: (S, S),
-    mut goes_on: impl FnMut() -> bool,
+    goes_on: &mut dyn FnMut() -> bool,
 ) -> Trace<S> {
-    let released = if C::FOLLOWS_SIGNS { system.engaged.without_inerter() } else { system.engaged };
-    let block = Detected { released, engaged: system.engaged, restitution: system.restitution, uplift: system.uplift };
+    system.engaged.known(Follow { course, system, steps, start, goes_on })
+}
+
+struct Follow<'a, S> {
+    course: &'a Course<'a>,
+    system: &'a System<S>,
+    steps: &'a Steps,
+    start: (S, S),
+    goes_on: &'a mut dyn FnMut() -> bool,
+}
+
+impl<S: Real> WithEquation<S> for Follow<'_, S> {
+    type Output = Trace<S>;
+
+    fn with<E: Switched<S>>(self, engaged: &E) -> Trace<S> {
+        let System { clutch, restitution, uplift, .. } = *self.system;
+        let released = if clutch.follows_signs() { engaged.without_inerter() } else { *engaged };
+        let block = Detected { released, engaged: *engaged, restitution, uplift };
+        trace(&block, clutch, self)
+    }
+}
+
+fn trace<S: Real, E: Switched<S>>(block: &Detected<S, E>, clutch: ClutchRule, follow: Follow<'_, S>) -> Trace<S> {
+    let Follow { course, steps, start, goes_on, .. } = follow;
     let mut trace = Trace::default();
     let mut state = DetectedState::at_rest();
     (state.rotation, state.velocity) = start;
@@ -101,13 +124,15 @@ pub fn follow<S: Real, R, E: Switched<S>, C: Clutch>(
                 if moving { equation.acceleration(state.side, state.rotation, state.velocity, push_at_end) } else { S::ZERO };
             trace.peaks.rotation = trace.peaks.rotation.larger(state.rotation.abs());
             trace.peaks.acceleration = trace.peaks.acceleration.larger(acceleration.abs());
-            let works = C::INERTER && moving && (!C::FOLLOWS_SIGNS || equation.inertia(state.side, state.rotation) > S::ONE);
-            trace.switches += u32::from(C::FOLLOWS_SIGNS && works != engaged);
+            let works = clutch.has_inerter()
+                && moving
+                && (!clutch.follows_signs() || equation.inertia(state.side, state.rotation) > S::ONE);
+            trace.switches += u32::from(clutch.follows_signs() && works != engaged);
             engaged = works;
             let terminal = equation.terminal_acceleration(state.side, state.rotation, state.velocity, acceleration);
             let force = if works { terminal.to_f64() * steps.force_scale } else { 0.0 };
             trace.peak_force = trace.peak_force.max(force.abs());
-            let second = C::FOLLOWS_SIGNS && state.velocity < S::ZERO;
+            let second = clutch.follows_signs() && state.velocity < S::ZERO;
             if at >= next || falls {
                 next = (at / steps.interval).floor() * steps.interval + steps.interval;
                 trace.samples.push(Sample {

@@ -1,8 +1,6 @@
 //! Everyone who watches a run: the history, the peaks, the checks, and what the scene asks for beyond them.
 
 use sprag_shared::checks::Checks;
-use sprag_shared::clutch::Clutch;
-use sprag_shared::equation::Equation;
 use sprag_shared::ground::Linear;
 use sprag_shared::observer::{Event, Observer, Peaks, Stretch};
 use sprag_shared::rocking::State;
@@ -60,7 +58,7 @@ impl<S: Real> Segmented for Watchers<'_, S> {
 }
 
 /// An ideal device as its watchers see it.
-impl<S: Real, E: Equation<S>, C: Clutch, O: DeviceObserver<S> + Segmented> Segmented for Watched<S, E, C, ShapePiece<S>, O> {
+impl<S: Real, O: DeviceObserver<S> + Segmented> Segmented for Watched<S, ShapePiece<S>, O> {
     fn segment(&mut self, start: f64, segment: Option<&Segment>) {
         self.piece = match segment {
             Some(segment) => ShapePiece::of(&segment.shape),

@@ -9,8 +9,9 @@ mod devices;
 
 use core::{fmt, hint::black_box, marker::PhantomData};
 use sprag_shared::{
+    any_equation::AnyEquation,
     arc::Method,
-    clutch::ClutchedPair,
+    clutch::ClutchRule,
     detected::{Detected, DetectedState},
     equation::{Equation, FullBlock, FullInerter, Paper, SlenderBlock},
     fixed::{RungeKutta4, SemiImplicitEuler, runge_kutta_4},
@@ -24,7 +25,6 @@ use sprag_shared::{
 };
 
 type Inerter = FullInerter<f32, CentreOfMass, Paper>;
-type Pair = System<f32, FullBlock<f32>, Inerter, ClutchedPair>;
 
 /// p² of a rectangle with R = 2 m, 1/s².
 const FREQUENCY_SQUARED: f32 = 3.677_493_7;
@@ -129,7 +129,12 @@ impl DeviceObserver<f32> for Tally {
 
 /// One cycle of a sine pulse and every event in it, located.
 #[inline(never)]
-fn passage<M: Method<f32>>(system: &Pair, method: &M, pulse: &Harmonics<f32, 1>, tally: &mut Tally) -> Result<(), Stopped> {
+fn passage<M: Method<f32>>(
+    system: &System<f32>,
+    method: &M,
+    pulse: &Harmonics<f32, 1>,
+    tally: &mut Tally,
+) -> Result<(), Stopped> {
     let limits = Limits { overturned: core::f32::consts::FRAC_PI_2, events: 10_000 };
     system.advance(method, &mut State::default(), pulse, 1.0, &limits, tally)
 }
@@ -181,15 +186,15 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
     line("libm-sinf-and-cosf", count(counter, || libm_sine(&x, &mut result)))?;
     black_box(result);
 
-    let pair = black_box(Pair {
-        released: BLOCK,
-        engaged: inerter(COUPLING),
+    let pair = black_box(System {
+        released: AnyEquation::Block(BLOCK),
+        engaged: AnyEquation::CentrePaper(inerter(COUPLING)),
         restitution: RESTITUTION,
         uplift: UPLIFT,
         slenderness: SLENDERNESS,
         rest_speed: 3e-7,
         counted_speed: 3e-7,
-        clutch: PhantomData,
+        clutch: ClutchRule::Resisting,
     });
     let pulse = black_box(Harmonics::sine(0.5, core::f32::consts::TAU));
     located("located-euler-step", &SemiImplicitEuler { step: STEP }, (&pair, &pulse), counter, out)?;
@@ -204,7 +209,7 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
 fn located<M: Method<f32>>(
     name: &str,
     method: &M,
-    (pair, pulse): (&Pair, &Harmonics<f32, 1>),
+    (pair, pulse): (&System<f32>, &Harmonics<f32, 1>),
     counter: &mut impl FnMut() -> u32,
     out: &mut impl fmt::Write,
 ) -> fmt::Result {

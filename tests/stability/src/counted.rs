@@ -3,7 +3,6 @@
 use std::cell::Cell;
 
 use sprag_shared::arc::{Arc, Method, Motion, Start};
-use sprag_shared::equation::Equation;
 use sprag_shared::ground::Piece;
 use sprag_shared::scalar::{Real, Sign};
 
@@ -68,12 +67,12 @@ impl<S: Real, A: Arc<S>> Arc<S> for CountedArc<'_, A> {
 }
 
 impl<S: Real, M: Method<S>> Method<S> for Counted<M> {
-    type Arc<'a, E: Equation<S> + 'a, P: Piece<S> + 'a>
-        = CountedArc<'a, M::Arc<'a, E, P>>
+    type Arc<'a, P: Piece<S> + 'a>
+        = CountedArc<'a, M::Arc<'a, P>>
     where
         Self: 'a;
 
-    fn arc<'a, E: Equation<S>, P: Piece<S>>(&'a self, start: Start<'a, S, E, P>) -> Self::Arc<'a, E, P> {
+    fn arc<'a, P: Piece<S>>(&'a self, start: Start<'a, S, P>) -> Self::Arc<'a, P> {
         self.arcs.set(self.arcs.get() + 1);
         CountedArc { arc: self.method.arc(start), looks: &self.looks }
     }

@@ -1,13 +1,11 @@
 //! A structure, followed through a ground motion.
 
 use sprag_shared::arc::Method;
-use sprag_shared::clutch::Clutch;
-use sprag_shared::equation::Equation;
 use sprag_shared::ground::Quiet;
 use sprag_shared::observer::Observer;
-use sprag_shared::rocking::{Limits, Phase, State, Stopped, System};
+use sprag_shared::rocking::{Limits, Phase, State, Stopped};
 use sprag_shared::scalar::Real;
-use sprag_shared::structure::{Structure, WithSystem};
+use sprag_shared::structure::Structure;
 use sprag_shared::taylor::Taylor;
 
 use crate::log::FullLog;
@@ -44,8 +42,27 @@ pub fn follow<S: Real, M: Method<S>, W: Watcher<S>>(
     segments: &[Segment<S>],
     watcher: &mut W,
 ) -> Result<State<S>, Stopped> {
-    let run = Run { structure, method, start, segments, watcher };
-    structure.resolve(run).expect("parameters within range")
+    let system = structure.resolve().expect("parameters within range");
+    let mut state = match start {
+        Start::Rest => State::default(),
+        Start::Released(rotation, velocity) => {
+            let ground = segments.first().map_or(S::ZERO, |segment| segment.ground.at_start());
+            system.released_at(rotation, velocity, ground)
+        }
+    };
+    for (index, segment) in segments.iter().enumerate() {
+        // The ground may yet push back as hard as its strongest segment still to come.
+        let bound = segments[index..].iter().fold(S::ZERO, |bound, later| bound.larger(later.bound()));
+        let limit = structure.geometry.point_of_no_return(&structure.block, bound.to_f64());
+        let limits = Limits { overturned: S::of(limit), events: 1_000_000 };
+        // Only quiet ground is told apart: one loop for all others builds in half the time.
+        match &segment.ground {
+            Ground::Quiet => system.advance(method, &mut state, &Quiet, segment.duration, &limits, watcher)?,
+            ground => system.advance(method, &mut state, ground, segment.duration, &limits, watcher)?,
+        }
+        watcher.passed(segment.duration);
+    }
+    Ok(state)
 }
 
 /// [`follow`] from rest by the tight Taylor method, with every swing integrated.
@@ -64,40 +81,4 @@ pub fn release(structure: &Structure, rotation: f64, velocity: f64, duration: f6
 /// The block has overturned, and before that no impact.
 pub fn overturned_without_impact(state: &State<f64>) -> bool {
     state.phase == Phase::Overturned && state.impacts == 0
-}
-
-struct Run<'a, S, M, W> {
-    structure: &'a Structure,
-    method: &'a M,
-    start: Start<S>,
-    segments: &'a [Segment<S>],
-    watcher: &'a mut W,
-}
-
-impl<S: Real, M: Method<S>, W: Watcher<S>> WithSystem<S> for Run<'_, S, M, W> {
-    type Output = Result<State<S>, Stopped>;
-
-    fn with<R: Equation<S>, E: Equation<S>, C: Clutch>(self, system: System<S, R, E, C>) -> Self::Output {
-        let mut state = match self.start {
-            Start::Rest => State::default(),
-            Start::Released(rotation, velocity) => {
-                let ground = self.segments.first().map_or(S::ZERO, |segment| segment.ground.at_start());
-                system.released_at(rotation, velocity, ground)
-            }
-        };
-        for (index, segment) in self.segments.iter().enumerate() {
-            // The ground may yet push back as hard as its strongest segment still to come.
-            let bound = self.segments[index..].iter().fold(S::ZERO, |bound, later| bound.larger(later.bound()));
-            let limit = self.structure.geometry.point_of_no_return(&self.structure.block, bound.to_f64());
-            let limits = Limits { overturned: S::of(limit), events: 1_000_000 };
-            let watcher = &mut *self.watcher;
-            // Only quiet ground is told apart: one loop for all others builds in half the time.
-            match &segment.ground {
-                Ground::Quiet => system.advance(self.method, &mut state, &Quiet, segment.duration, &limits, watcher)?,
-                ground => system.advance(self.method, &mut state, ground, segment.duration, &limits, watcher)?,
-            }
-            watcher.passed(segment.duration);
-        }
-        Ok(state)
-    }
 }

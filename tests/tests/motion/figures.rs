@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use sprag_shared::block::Geometry;
-use sprag_shared::clutch::{Clutch, ClutchedPair};
+use sprag_shared::clutch::ClutchRule;
 use sprag_shared::math::sin;
 use sprag_shared::rocking::{Phase, State};
 use sprag_shared::scalar::Sign;
@@ -76,7 +76,7 @@ fn stepwise_clutch_overturns(step: f64) -> bool {
     while t < 30.0 {
         let bracket = -(side - rotation + push(t));
         let sign = |x: f64| Sign::of(x, Sign::Positive);
-        let engaged = velocity != 0.0 && ClutchedPair::engaged(sign(velocity), sign(bracket));
+        let engaged = velocity != 0.0 && ClutchRule::Resisting.engages(sign(velocity), sign(bracket));
         let inertia = if engaged { 1.0 + coupling } else { 1.0 };
         let f = |t: f64, rotation: f64| -(side - rotation + push(t)) / inertia;
         let h = step;

@@ -2,13 +2,11 @@
 
 use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::carried::Carried;
-use sprag_shared::clutch::Clutch;
-use sprag_shared::equation::Equation;
 use sprag_shared::lever::Mount;
 use sprag_shared::math;
 use sprag_shared::observer::Peaks;
-use sprag_shared::rocking::{Phase, State, System};
-use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure, WithSystem};
+use sprag_shared::rocking::{Phase, State};
+use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure};
 use sprag_shared::taylor::Taylor;
 
 use sprag_ensemble::machine::{Registers, shake};
@@ -54,28 +52,15 @@ fn shaken<'a>(structure: &Structure, samples: &'a Samples, factor: f64) -> Shake
     ShakenBlock { plain, frequency_parameter: structure.block.frequency_parameter(), samples, factor }
 }
 
-struct Alone<'a> {
-    structure: &'a Structure,
-    ground: &'a GroundMotion,
-}
-
-impl WithSystem<f64> for Alone<'_> {
-    type Output = (State<f64>, Peaks<f64>);
-
-    fn with<R: Equation<f64>, E: Equation<f64>, C: Clutch>(self, system: System<f64, R, E, C>) -> Self::Output {
-        let Structure { block, geometry, .. } = self.structure;
-        let course = Course {
-            block,
-            geometry: *geometry,
-            ground: self.ground,
-            vertical: None,
-            free_time: FREE_TIME,
-            overturning: Overturning::Reached,
-        };
-        let (mut state, mut peaks) = (State::default(), Peaks::default());
-        course.follow(&system, &Taylor::<f64, TERMS>::adaptive(TIGHT), &mut state, &mut peaks, || true).unwrap();
-        (state, peaks)
-    }
+/// By the core, alone.
+fn alone(structure: &Structure, ground: &GroundMotion) -> (State<f64>, Peaks<f64>) {
+    let system = structure.resolve().unwrap();
+    let Structure { block, geometry, .. } = structure;
+    let course =
+        Course { block, geometry: *geometry, ground, vertical: None, free_time: FREE_TIME, overturning: Overturning::Reached };
+    let (mut state, mut peaks) = (State::default(), Peaks::default());
+    course.follow(&system, &Taylor::<f64, TERMS>::adaptive(TIGHT), &mut state, &mut peaks, || true).unwrap();
+    (state, peaks)
 }
 
 /// Structures of all kinds under scaled motions.
@@ -106,7 +91,7 @@ fn blocks_under_records_do_what_they_do_alone() {
                     let found = found.after(&structure, samples.duration(), FREE_TIME).unwrap();
                     let record = Component::record(0.0, STEP, samples.values().iter().map(|value| factor * value));
                     let ground = GroundMotion::sum(&[record]);
-                    let (state, peaks) = structure.resolve(Alone { structure: &structure, ground: &ground }).unwrap();
+                    let (state, peaks) = alone(&structure, &ground);
                     let case = format!("{structure:?} times {factor}: {found:?} {state:?} {peaks:?}");
                     seen[found.phase as usize] += 1;
                     assert_eq!((found.phase, found.impacts), (state.phase, state.impacts), "{case}");

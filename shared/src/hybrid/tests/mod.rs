@@ -17,20 +17,17 @@ use super::{Machine, MachineState};
 use crate::block::{Block, Geometry};
 use crate::body::Body;
 use crate::carried::Carried;
-use crate::clutch::Clutch;
-use crate::detected::Switched;
 use crate::drivetrain::drive::Drive;
 use crate::drivetrain::elastic::ElasticPair;
 use crate::drivetrain::{Drivetrain, Engagement, FlywheelLosses, Rack};
-use crate::equation::Equation;
 use crate::ground::{Harmonics, Linear, Piece, Quiet};
 use crate::hybrid::exponential::ExponentialMidpoint;
 use crate::lever::Mount;
 use crate::observer::{Event, Peaks};
 use crate::restitution::Restitution;
-use crate::rocking::{Limits, State, System};
+use crate::rocking::{Limits, State};
 use crate::snapshot::DeviceObserver;
-use crate::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Structure, WithSystem};
+use crate::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Structure};
 use crate::taylor::Taylor;
 
 /// Every ground motion of these tests as one type, so that there is one copy of every loop.
@@ -163,41 +160,35 @@ impl Shake {
 
     /// By the loop for ideal devices.
     pub fn ideal(&self) -> Seen {
-        struct Run<'a>(&'a Shake);
-        impl WithSystem<f64> for Run<'_> {
-            type Output = Seen;
-            fn with<R: Equation<f64>, E: Switched<f64>, C: Clutch>(self, system: System<f64, R, E, C>) -> Seen {
-                struct Every(Peaks<f64>);
-                impl crate::observer::Observer<f64> for Every {
-                    fn stretch(&mut self, arc: &dyn crate::arc::Arc<f64>, stretch: &crate::observer::Stretch<f64>) {
-                        self.0.stretch(arc, stretch);
-                    }
-                    fn event(&mut self, event: Event, time: f64, state: &State<f64>) {
-                        self.0.event(event, time, state);
-                    }
-                }
-                let method = Taylor::<f64, 20>::adaptive(1e-17);
-                let (mut state, mut peaks) = (State::default(), Every(Peaks::default()));
-                let mut origin = 0.0;
-                for (ground, duration) in &self.0.pieces {
-                    peaks.0.origin = origin;
-                    system.advance(&method, &mut state, ground, *duration, &self.0.limits(false), &mut peaks).unwrap();
-                    origin += duration;
-                }
-                peaks.0.origin = origin;
-                system.advance(&method, &mut state, &Quiet, self.0.free_time, &self.0.limits(true), &mut peaks).unwrap();
-                let peaks = peaks.0;
-                Seen {
-                    peak: peaks.rotation,
-                    acceleration: peaks.acceleration,
-                    impacts: state.impacts,
-                    ended: peaks.ended,
-                    state,
-                    ..Seen::default()
-                }
+        struct Every(Peaks<f64>);
+        impl crate::observer::Observer<f64> for Every {
+            fn stretch(&mut self, arc: &dyn crate::arc::Arc<f64>, stretch: &crate::observer::Stretch<f64>) {
+                self.0.stretch(arc, stretch);
+            }
+            fn event(&mut self, event: Event, time: f64, state: &State<f64>) {
+                self.0.event(event, time, state);
             }
         }
-        self.structure.resolve(Run(self)).unwrap()
+        let system = self.structure.resolve().unwrap();
+        let method = Taylor::<f64, 20>::adaptive(1e-17);
+        let (mut state, mut peaks) = (State::default(), Every(Peaks::default()));
+        let mut origin = 0.0;
+        for (ground, duration) in &self.pieces {
+            peaks.0.origin = origin;
+            system.advance(&method, &mut state, ground, *duration, &self.limits(false), &mut peaks).unwrap();
+            origin += duration;
+        }
+        peaks.0.origin = origin;
+        system.advance(&method, &mut state, &Quiet, self.free_time, &self.limits(true), &mut peaks).unwrap();
+        let peaks = peaks.0;
+        Seen {
+            peak: peaks.rotation,
+            acceleration: peaks.acceleration,
+            impacts: state.impacts,
+            ended: peaks.ended,
+            state,
+            ..Seen::default()
+        }
     }
 
     /// By the loop for devices with a memory.

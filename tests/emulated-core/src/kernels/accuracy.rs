@@ -13,11 +13,12 @@ use super::{RESTITUTION, STEP, Tally, count, mean};
 use crate::watcher::Watcher;
 use core::{f64::consts::FRAC_PI_2, fmt, hint::black_box, marker::PhantomData};
 use sprag_shared::{
+    any_equation::AnyEquation,
     block::{Block, Geometry, RECTANGLE_INERTIA_RATIO},
     carried::Carried,
     case::{Case, CaseError, FixedMethod, Ground, GroundPiece, Initially, Shape},
     closed_form::ClosedForm,
-    clutch::{Clutch, ClutchedPair, NoInerter},
+    clutch::ClutchRule,
     detected::{Detected, DetectedState, Switched},
     drivetrain::Drivetrain,
     equation::{FullBlock, FullInerter, Paper, SlenderBlock},
@@ -133,8 +134,8 @@ fn located(
 
 /// A slender block by the closed form, under the same motion.
 #[inline(never)]
-fn closed_form<C: Clutch>(
-    (released, engaged): (SlenderBlock<f32>, SlenderBlock<f32>),
+fn closed_form(
+    ([released, engaged], clutch): ([AnyEquation<f32>; 2], ClutchRule),
     method: &ClosedForm<f32>,
     tally: &mut Tally,
 ) -> Result<(), Stopped> {
@@ -146,7 +147,7 @@ fn closed_form<C: Clutch>(
         slenderness: super::SLENDERNESS,
         rest_speed: 3e-7,
         counted_speed: 3e-7,
-        clutch: PhantomData::<C>,
+        clutch,
     };
     let limits = Limits { overturned: FRAC_PI_2 as f32, events: 10_000 };
     let mut watch = (Peaks::default(), core::mem::take(tally));
@@ -203,17 +204,17 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
         }
     }
     let step = black_box(ClosedForm { step: STEP });
-    let alone = black_box((slender(1.0), slender(1.0)));
-    let pair = black_box((slender(1.0), slender(1.0 + super::COUPLING)));
+    let alone = black_box([slender(1.0); 2].map(AnyEquation::Slender));
+    let pair = black_box([slender(1.0), slender(1.0 + super::COUPLING)].map(AnyEquation::Slender));
     mean(
         "step-closed-form-located-f32-own-polynomial-slender-none",
-        |tally| closed_form::<NoInerter>(alone, &step, tally),
+        |tally| closed_form((alone, ClutchRule::Without), &step, tally),
         counter,
         out,
     )?;
     mean(
         "step-closed-form-located-f32-own-polynomial-slender-clutched-pair",
-        |tally| closed_form::<ClutchedPair>(pair, &step, tally),
+        |tally| closed_form((pair, ClutchRule::Resisting), &step, tally),
         counter,
         out,
     )

@@ -2,14 +2,13 @@
 
 use core::f64::consts::TAU;
 
+use sprag_shared::any_equation::WithEquation;
 use sprag_shared::block::Geometry;
-use sprag_shared::clutch::Clutch;
 use sprag_shared::detected::{Detected, DetectedState, Switched};
-use sprag_shared::equation::Equation;
 use sprag_shared::observer::Event;
 use sprag_shared::rocking::{Phase, System};
 use sprag_shared::scalar::Real;
-use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure, WithSystem};
+use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
 use sprag_stability::{DEVICES, Energy, GEOMETRIES, Precision, Segment, Start, Stepping, Tally, in_both_precisions, unit_block};
 
 in_both_precisions!(
@@ -95,16 +94,17 @@ fn free_rocking_in_long_steps<S: Precision>() {
 /// noticed, until the block overturns.
 fn detected<S: Precision>(structure: &Structure, rotation: S, step: f64) -> f64 {
     struct Run<S> {
+        system: System<S>,
         energy: Energy,
         rotation: S,
         step: S,
     }
-    impl<S: Real> WithSystem<S> for Run<S> {
+    impl<S: Real> WithEquation<S> for Run<S> {
         type Output = f64;
 
-        fn with<R: Equation<S>, E: Switched<S>, C: Clutch>(self, system: System<S, R, E, C>) -> f64 {
-            let System { engaged, restitution, uplift, .. } = system;
-            let block = Detected { released: engaged, engaged, restitution, uplift };
+        fn with<E: Switched<S>>(self, engaged: &E) -> f64 {
+            let System { restitution, uplift, .. } = self.system;
+            let block = Detected { released: *engaged, engaged: *engaged, restitution, uplift };
             let mut state = DetectedState { rotation: self.rotation, velocity: S::ZERO, side: S::ONE };
             let energy = |state: &DetectedState<S>| {
                 let speed = state.velocity.to_f64() / self.energy.frequency;
@@ -128,23 +128,24 @@ fn detected<S: Precision>(structure: &Structure, rotation: S, step: f64) -> f64 
             most
         }
     }
-    let run = Run { energy: Energy::of(structure), rotation, step: S::of(step) };
-    structure.resolve(run).expect("parameters within range")
+    let system = structure.resolve().expect("parameters within range");
+    system.engaged.known(Run { system, energy: Energy::of(structure), rotation, step: S::of(step) })
 }
 
 /// The scheme that looks once a step has no order to lose, but it stays finite and ends, at every step.
 fn events_looked_for_once_a_step<S: Precision>() {
     struct Run<'a, S> {
+        system: System<S>,
         structure: &'a Structure,
         step: S,
     }
-    impl<S: Real> WithSystem<S> for Run<'_, S> {
+    impl<S: Real> WithEquation<S> for Run<'_, S> {
         type Output = ();
 
-        fn with<R: Equation<S>, E: Switched<S>, C: Clutch>(self, system: System<S, R, E, C>) {
-            let System { engaged, restitution, uplift, .. } = system;
-            let released = if C::FOLLOWS_SIGNS { engaged.without_inerter() } else { engaged };
-            let block = Detected { released, engaged, restitution, uplift };
+        fn with<E: Switched<S>>(self, engaged: &E) {
+            let System { clutch, restitution, uplift, .. } = self.system;
+            let released = if clutch.follows_signs() { engaged.without_inerter() } else { *engaged };
+            let block = Detected { released, engaged: *engaged, restitution, uplift };
             let alpha = self.structure.block.slenderness();
             for amplitude in [0.9, 1.5, 8.0] {
                 let level = S::of(amplitude) * uplift;
@@ -165,7 +166,8 @@ fn events_looked_for_once_a_step<S: Precision>() {
         for geometry in GEOMETRIES.into_iter().filter(|&geometry| step >= 5e-4 || geometry == Geometry::Full) {
             for device in DEVICES.into_iter().filter(|&device| step >= 5e-4 || device == DeviceKind::ClutchedPair) {
                 let structure = structure(geometry, device, 0.85);
-                structure.resolve(Run { structure: &structure, step: S::of(step) }).expect("parameters within range");
+                let system = structure.resolve().expect("parameters within range");
+                system.engaged.known(Run { system, structure: &structure, step: S::of(step) });
                 assert_ne!(structure.device.mass_ratio, 0.0);
                 let run = S::tally(
                     &structure,

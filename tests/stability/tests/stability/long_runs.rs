@@ -4,16 +4,14 @@ use core::f32::consts::TAU;
 
 use sprag_shared::block::Geometry;
 use sprag_shared::case::{Case, FixedMethod, Ground, Initially};
-use sprag_shared::clutch::Clutch;
 use sprag_shared::digest::Digest;
 use sprag_shared::drivetrain::Drivetrain;
-use sprag_shared::equation::Equation;
 use sprag_shared::fixed::RungeKutta4;
 use sprag_shared::ground::{Linear, Piece};
 use sprag_shared::observer::{Event, Observer};
 use sprag_shared::rocking::{Limits, Phase, State, System};
 use sprag_shared::scalar::Real;
-use sprag_shared::structure::{DeviceKind, WithSystem};
+use sprag_shared::structure::DeviceKind;
 use sprag_stability::{Dice, Precision, in_both_precisions, unit_block};
 
 in_both_precisions!(a_day_of_microtremor);
@@ -57,33 +55,25 @@ impl<S: Precision> Observer<S> for Watch<S> {
     }
 }
 
-struct Day<'a, S> {
-    samples: &'a [S],
-}
-
-impl<S: Precision> WithSystem<S> for Day<'_, S> {
-    type Output = Vec<(State<S>, Watch<S>)>;
-
-    fn with<R: Equation<S>, E: Equation<S>, C: Clutch>(self, system: System<S, R, E, C>) -> Self::Output {
-        let method = RungeKutta4 { step: S::of(INTERVAL) };
-        let limits = Limits { overturned: S::ONE, events: 1_000 };
-        let mut state = State::default();
-        let mut hours = Vec::new();
-        for _ in 0..24 {
-            let mut watch = Watch::default();
-            for k in 0..HOUR {
-                watch.sample = k;
-                let line = Linear::between(self.samples[k], self.samples[(k + 1) % HOUR], S::of(INTERVAL));
-                system
-                    .advance(&method, &mut state, &line, S::of(INTERVAL), &limits, &mut watch)
-                    .unwrap_or_else(|stopped| panic!("{stopped} at sample {k}"));
-            }
-            hours.push((state, watch));
-            // Each hour counts its own impacts.
-            state.impacts = 0;
+fn day<S: Precision>(system: &System<S>, samples: &[S]) -> Vec<(State<S>, Watch<S>)> {
+    let method = RungeKutta4 { step: S::of(INTERVAL) };
+    let limits = Limits { overturned: S::ONE, events: 1_000 };
+    let mut state = State::default();
+    let mut hours = Vec::new();
+    for _ in 0..24 {
+        let mut watch = Watch::default();
+        for k in 0..HOUR {
+            watch.sample = k;
+            let line = Linear::between(samples[k], samples[(k + 1) % HOUR], S::of(INTERVAL));
+            system
+                .advance(&method, &mut state, &line, S::of(INTERVAL), &limits, &mut watch)
+                .unwrap_or_else(|stopped| panic!("{stopped} at sample {k}"));
         }
-        hours
+        hours.push((state, watch));
+        // Each hour counts its own impacts.
+        state.impacts = 0;
     }
+    hours
 }
 
 /// 17,280,000 samples, the same hour 24 times. The block starts each hour standing, so each must be the first one to the last bit,
@@ -93,7 +83,7 @@ fn a_day_of_microtremor<S: Precision>() {
     let threshold = structure.geometry.uplift_threshold(&structure.block);
     let noise = hour();
     let samples: Vec<S> = noise.iter().map(|&ratio| S::of(ratio * threshold)).collect();
-    let hours = structure.resolve(Day { samples: &samples }).expect("parameters within range");
+    let hours = day(&structure.resolve().expect("parameters within range"), &samples);
     let (first_end, first) = &hours[0];
     // Each knock passes the threshold once each way; the second may find the block still rocking.
     assert!(first.uplifts.len() >= 18 && first.uplifts.len() <= 36, "{:?}", first.uplifts.len());
@@ -165,20 +155,14 @@ fn a_standing_block_costs_a_few_looks_at_the_ground() {
             self.0.series(time, coefficients);
         }
     }
-    struct Run;
-    impl WithSystem<f32> for Run {
-        type Output = ();
-
-        fn with<R: Equation<f32>, E: Equation<f32>, C: Clutch>(self, system: System<f32, R, E, C>) {
-            let piece = Looked(Linear::between(0.05, -0.07, 0.005), Cell::new(0));
-            let limits = Limits { overturned: 1.0, events: 10 };
-            let mut state = State::default();
-            let method = RungeKutta4 { step: 1e-4 };
-            system.advance(&method, &mut state, &piece, 0.005, &limits, &mut ()).expect("rest");
-            assert_eq!(state, State::default());
-            // Both thresholds at the start and the end, whatever the step.
-            assert!(piece.1.get() <= 8, "{} looks", piece.1.get());
-        }
-    }
-    unit_block(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, 0.6).resolve(Run).expect("parameters within range");
+    let structure = unit_block(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, 0.6);
+    let system = structure.resolve().expect("parameters within range");
+    let piece = Looked(Linear::between(0.05, -0.07, 0.005), Cell::new(0));
+    let limits = Limits { overturned: 1.0, events: 10 };
+    let mut state = State::default();
+    let method = RungeKutta4 { step: 1e-4 };
+    system.advance(&method, &mut state, &piece, 0.005, &limits, &mut ()).expect("rest");
+    assert_eq!(state, State::default());
+    // Both thresholds at the start and the end, whatever the step.
+    assert!(piece.1.get() <= 8, "{} looks", piece.1.get());
 }
