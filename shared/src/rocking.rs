@@ -220,7 +220,7 @@ impl<S: Real> System<S> {
                 }
                 End::Impact => {
                     time = self.impact(state, piece, time, duration, observer);
-                    if P::QUIET
+                    if piece.is_quiet()
                         && !observer.every_swing()
                         && self.released.switches_with_acceleration()
                         && self.engaged.switches_with_acceleration()

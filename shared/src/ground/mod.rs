@@ -17,9 +17,6 @@ use crate::scalar::Real;
 
 /// A smooth stretch of ground acceleration ü_g/g over local time τ ≥ 0 (s).
 pub trait Piece<S: Real> {
-    /// The ground stands still over the whole piece, so that a free motion may be summed to its end.
-    const QUIET: bool = false;
-
     /// ü_g/g at τ.
     fn acceleration(&self, time: S) -> S;
 
@@ -31,6 +28,12 @@ pub trait Piece<S: Real> {
 
     /// Taylor coefficients of ü_g/g about τ, as many as `coefficients` holds.
     fn series(&self, time: S, coefficients: &mut [S]);
+
+    /// Whether the ground is known to stand still over the whole piece, so that a free motion may be summed to its end.
+    #[inline(always)]
+    fn is_quiet(&self) -> bool {
+        false
+    }
 
     /// How ü_g/g goes on from τ, if it is made of a line and a few sines; the same answer, yes or no, for every τ.
     #[inline(always)]
@@ -45,8 +48,6 @@ pub trait Piece<S: Real> {
 pub struct Quiet;
 
 impl<S: Real> Piece<S> for Quiet {
-    const QUIET: bool = true;
-
     #[inline(always)]
     fn acceleration(&self, _time: S) -> S {
         S::ZERO
@@ -65,6 +66,11 @@ impl<S: Real> Piece<S> for Quiet {
     #[inline(always)]
     fn series(&self, _time: S, coefficients: &mut [S]) {
         coefficients.fill(S::ZERO);
+    }
+
+    #[inline(always)]
+    fn is_quiet(&self) -> bool {
+        true
     }
 
     #[inline(always)]

@@ -5,7 +5,7 @@ use sprag_shared::arc::{Arc, Method};
 use sprag_shared::closed_form::ClosedForm;
 use sprag_shared::detected::{Detected, DetectedState, Switched};
 use sprag_shared::fixed::{RungeKutta4, SemiImplicitEuler};
-use sprag_shared::ground::{Linear, Piece};
+use sprag_shared::ground::Piece;
 use sprag_shared::math::tier::{Libm, Micromath, OwnPolynomial};
 use sprag_shared::math::tiered::Tiered;
 use sprag_shared::observer::{Event, Observer, Peaks, Stretch};
@@ -197,7 +197,7 @@ impl<S: Real> StepEnd<'_, S> {
         let segments =
             course.ground.segments().iter().map(|segment| (segment.start, segment.duration, Some(segment))).chain([quiet]);
         'all: for (origin, duration, segment) in segments {
-            let piece = segment.map_or(ShapePiece::Linear(Linear::constant(S::ZERO)), |s| ShapePiece::of(&s.shape));
+            let piece = segment.map_or(ShapePiece::Quiet, |s| ShapePiece::of(&s.shape));
             let overturned: S = course.angle(segment.map_or(0.0, |segment| segment.bound));
             let duration = S::of(duration);
             let (mut time, mut tick) = (S::ZERO, 0);

@@ -6,7 +6,6 @@ use sprag_shared::drivetrain::drive::Drive;
 use sprag_shared::drivetrain::elastic::ElasticPair;
 use sprag_shared::error::ParameterError;
 use sprag_shared::fixed::RungeKutta4;
-use sprag_shared::ground::Linear;
 use sprag_shared::hybrid::exponential::ExponentialMidpoint;
 use sprag_shared::hybrid::path::{Shaking, Tracer};
 use sprag_shared::hybrid::resolve::WithMachine;
@@ -192,7 +191,7 @@ where
     fn enter_segment(&mut self) {
         let horizontal = self.segment();
         let vertical = self.surroundings.ground.vertical.as_ref().map(GroundMotion::segments);
-        let still = || ShapePiece::Linear(Linear::constant(0.0));
+        let still = || ShapePiece::Quiet;
         let shape = |segment: Option<&Segment>| segment.map_or_else(still, |segment| ShapePiece::of(&segment.shape));
         self.pieces = Some([shape(horizontal), shape(vertical.and_then(|segments| segments.get(self.index)))]);
         let bound = horizontal.map_or(0.0, |segment| segment.bound);

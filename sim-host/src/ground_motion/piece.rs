@@ -1,7 +1,7 @@
 //! A segment's shape in the precision of a run, as the core's steppers see it.
 
 use sprag_shared::ground::harmonic::Harmonic;
-use sprag_shared::ground::{Elementary, Harmonics, Linear, Piece, Ricker};
+use sprag_shared::ground::{Elementary, Harmonics, Linear, Piece, Quiet, Ricker};
 use sprag_shared::scalar::Real;
 
 use super::{Shape, Smooth};
@@ -15,6 +15,8 @@ pub struct MixturePiece<S> {
 /// A segment's shape in the precision of a run.
 #[derive(Clone, Debug)]
 pub enum ShapePiece<S> {
+    /// None, after the ground motion.
+    Quiet,
     /// A straight line.
     Linear(Linear<S>),
     /// Anything else.
@@ -35,6 +37,7 @@ impl<S: Real> ShapePiece<S> {
     /// The same shape from `delay` (s) on, in a time of its own.
     pub fn after(&self, delay: S) -> Self {
         match self {
+            ShapePiece::Quiet => ShapePiece::Quiet,
             ShapePiece::Linear(line) => ShapePiece::Linear(Linear { start: line.acceleration(delay), slope: line.slope }),
             ShapePiece::Mixture(mixture) => ShapePiece::Mixture(MixturePiece {
                 parts: mixture.parts.iter().map(|(offset, piece)| (*offset + delay, *piece)).collect(),
@@ -47,6 +50,7 @@ impl<S: Real> Piece<S> for ShapePiece<S> {
     #[inline]
     fn acceleration(&self, time: S) -> S {
         match self {
+            ShapePiece::Quiet => S::ZERO,
             ShapePiece::Linear(line) => line.acceleration(time),
             ShapePiece::Mixture(mixture) => mixture.acceleration(time),
         }
@@ -55,6 +59,7 @@ impl<S: Real> Piece<S> for ShapePiece<S> {
     #[inline]
     fn slope(&self, time: S) -> S {
         match self {
+            ShapePiece::Quiet => S::ZERO,
             ShapePiece::Linear(line) => line.slope(time),
             ShapePiece::Mixture(mixture) => mixture.slope(time),
         }
@@ -63,7 +68,7 @@ impl<S: Real> Piece<S> for ShapePiece<S> {
     #[inline]
     fn curvature_bound(&self) -> S {
         match self {
-            ShapePiece::Linear(_) => S::ZERO,
+            ShapePiece::Quiet | ShapePiece::Linear(_) => S::ZERO,
             ShapePiece::Mixture(mixture) => mixture.curvature_bound(),
         }
     }
@@ -71,13 +76,20 @@ impl<S: Real> Piece<S> for ShapePiece<S> {
     #[inline]
     fn series(&self, time: S, coefficients: &mut [S]) {
         match self {
+            ShapePiece::Quiet => Quiet.series(time, coefficients),
             ShapePiece::Linear(line) => line.series(time, coefficients),
             ShapePiece::Mixture(mixture) => mixture.series(time, coefficients),
         }
     }
 
+    #[inline]
+    fn is_quiet(&self) -> bool {
+        matches!(self, ShapePiece::Quiet)
+    }
+
     fn elementary(&self, time: S) -> Option<Elementary<S>> {
         match self {
+            ShapePiece::Quiet => Quiet.elementary(time),
             ShapePiece::Linear(line) => line.elementary(time),
             ShapePiece::Mixture(mixture) => mixture.elementary(time),
         }

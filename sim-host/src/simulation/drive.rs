@@ -4,7 +4,6 @@ use sprag_shared::arc::Method;
 use sprag_shared::block::{Block, Geometry};
 use sprag_shared::body::Body;
 use sprag_shared::drivetrain::drive::Drive;
-use sprag_shared::ground::{Linear, Quiet};
 use sprag_shared::hybrid::path::{Shaking, Tracer};
 use sprag_shared::hybrid::{Machine, MachineState};
 use sprag_shared::observer::{Observer, Peaks};
@@ -128,11 +127,7 @@ impl Course<'_> {
         }
         observer.segment(self.ground.duration(), None);
         let (limits, duration) = (self.limits(0.0), S::of(self.free_time));
-        let ended = if observer.every_swing() {
-            system.advance(method, state, &ShapePiece::Linear(Linear::constant(S::ZERO)), duration, &limits, observer)
-        } else {
-            system.advance(method, state, &Quiet, duration, &limits, observer)
-        };
+        let ended = system.advance(method, state, &ShapePiece::Quiet, duration, &limits, observer);
         ended.map_err(|end| end.after(self.ground.duration()))
     }
 
@@ -155,7 +150,7 @@ impl Course<'_> {
         T: Tracer<S>,
         O: DeviceObserver<S> + Segmented,
     {
-        let still = ShapePiece::Linear(Linear::constant(S::ZERO));
+        let still = ShapePiece::Quiet;
         let lightest = self.lightest();
         let limits = |bound: f64| Limits { events: MOST_EVENTS, overturned: self.machine_angle(machine, bound, lightest) };
         let vertical = self.vertical.map(GroundMotion::segments);

@@ -2,7 +2,6 @@
 
 use sprag_shared::arc::Method;
 use sprag_shared::fixed::{RungeKutta4, SemiImplicitEuler};
-use sprag_shared::ground::Linear;
 use sprag_shared::observer::Peaks;
 use sprag_shared::rocking::{Phase, State, System};
 use sprag_shared::scalar::Real;
@@ -64,7 +63,7 @@ fn with_method<S: Real, M: Method<S>>(task: &Task<'_>, method: &M) -> Result<Dev
     }
     let coupling = S::of(loaded.device.mass_ratio / loaded.block.inertia_ratio());
     let mut watchers = task.watchers::<S>(&loaded)?;
-    let still = ShapePiece::Linear(Linear::constant(S::ZERO));
+    let still = ShapePiece::Quiet;
     let mut watched = Watched { engaged: system.engaged, clutch: system.clutch, coupling, piece: still, observer: &mut watchers };
     course.follow(&system, method, &mut state, &mut watched, goes_on).map_err(Failure::Stopped)?;
     if task.interrupt.is_set() {

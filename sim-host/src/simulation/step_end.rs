@@ -5,7 +5,7 @@ use sprag_shared::any_equation::WithEquation;
 use sprag_shared::block::GRAVITY;
 use sprag_shared::clutch::ClutchRule;
 use sprag_shared::detected::{Detected, DetectedState, Switched};
-use sprag_shared::ground::{Linear, Piece};
+use sprag_shared::ground::Piece;
 use sprag_shared::observer::Peaks;
 use sprag_shared::rocking::{Phase, State, System};
 use sprag_shared::scalar::{Real, Sign};
@@ -87,7 +87,7 @@ fn trace<S: Real, E: Switched<S>>(block: &Detected<S, E>, clutch: ClutchRule, fo
     let quiet = (course.ground.duration(), course.free_time, None);
     let segments = course.ground.segments().iter().map(|segment| (segment.start, segment.duration, Some(segment))).chain([quiet]);
     for (origin, duration, segment) in segments {
-        let piece = segment.map_or(ShapePiece::Linear(Linear::constant(S::ZERO)), |s| ShapePiece::of(&s.shape));
+        let piece = segment.map_or(ShapePiece::Quiet, |s| ShapePiece::of(&s.shape));
         let overturned: S = course.angle(segment.map_or(0.0, |segment| segment.bound));
         let h = S::of(steps.step);
         let (mut time, mut tick) = (S::ZERO, 0);

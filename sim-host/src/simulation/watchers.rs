@@ -1,7 +1,6 @@
 //! Everyone who watches a run: the history, the peaks, the checks, and what the scene asks for beyond them.
 
 use sprag_shared::checks::Checks;
-use sprag_shared::ground::Linear;
 use sprag_shared::observer::{Event, Observer, Peaks, Stretch};
 use sprag_shared::rocking::State;
 use sprag_shared::scalar::Real;
@@ -62,7 +61,7 @@ impl<S: Real, O: DeviceObserver<S> + Segmented> Segmented for Watched<S, ShapePi
     fn segment(&mut self, start: f64, segment: Option<&Segment>) {
         self.piece = match segment {
             Some(segment) => ShapePiece::of(&segment.shape),
-            None => ShapePiece::Linear(Linear::constant(S::ZERO)),
+            None => ShapePiece::Quiet,
         };
         self.observer.segment(start, segment);
     }

@@ -1,7 +1,6 @@
 //! A structure, followed through a ground motion.
 
 use sprag_shared::arc::Method;
-use sprag_shared::ground::Quiet;
 use sprag_shared::observer::Observer;
 use sprag_shared::rocking::{Limits, Phase, State, Stopped};
 use sprag_shared::scalar::Real;
@@ -9,7 +8,7 @@ use sprag_shared::structure::Structure;
 use sprag_shared::taylor::Taylor;
 
 use crate::log::FullLog;
-use crate::segment::{Ground, Segment};
+use crate::segment::Segment;
 
 /// How a motion starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,11 +54,7 @@ pub fn follow<S: Real, M: Method<S>, W: Watcher<S>>(
         let bound = segments[index..].iter().fold(S::ZERO, |bound, later| bound.larger(later.bound()));
         let limit = structure.geometry.point_of_no_return(&structure.block, bound.to_f64());
         let limits = Limits { overturned: S::of(limit), events: 1_000_000 };
-        // Only quiet ground is told apart: one loop for all others builds in half the time.
-        match &segment.ground {
-            Ground::Quiet => system.advance(method, &mut state, &Quiet, segment.duration, &limits, watcher)?,
-            ground => system.advance(method, &mut state, ground, segment.duration, &limits, watcher)?,
-        }
+        system.advance(method, &mut state, &segment.ground, segment.duration, &limits, watcher)?;
         watcher.passed(segment.duration);
     }
     Ok(state)

@@ -69,6 +69,10 @@ impl<S: Real> Piece<S> for Ground<S> {
             Ground::Quiet => coefficients.fill(S::ZERO),
         }
     }
+
+    fn is_quiet(&self) -> bool {
+        matches!(self, Ground::Quiet)
+    }
 }
 
 /// A ground motion and how long it lasts.
