@@ -146,7 +146,7 @@ pub fn run(root: &Path) -> Result<(), Stop> {
     let mut done: Vec<(&str, Measured)> = Vec::new();
     for row in ROWS {
         let measured = Measured {
-            instructions: instructions_per_step(root, &full, row.set, Counted::All)?,
+            instructions: instructions_per_step(root, &full, row.set)?,
             nanoseconds: nanoseconds_per_step(root, &full, row.set)?,
             target: kernel(&kernels, row.kernel),
         };
@@ -176,11 +176,11 @@ pub fn run(root: &Path) -> Result<(), Stop> {
 /// If they differ by more than 1 %.
 pub fn off_costs_nothing(root: &Path) -> Result<String, Stop> {
     tools::need_valgrind()?;
-    let full = instructions_per_step(root, &sprag(root, &[])?, &[], Counted::Own)?;
-    let bare = instructions_per_step(root, &sprag(root, &["--no-default-features"])?, &[], Counted::Own)?;
+    let full = instructions_per_step(root, &sprag(root, &[])?, &[])?;
+    let bare = instructions_per_step(root, &sprag(root, &["--no-default-features"])?, &[])?;
     let change = full / bare - 1.0;
     let line = format!(
-        "slender block alone, but for the mathematics library: {full:.2} instructions a step in the full program, {bare:.2} without effects: {:+.3} %",
+        "slender block alone: {full:.2} instructions a step in the full program, {bare:.2} without effects: {:+.3} %",
         100.0 * change
     );
     if change.abs() < SAME { Ok(line) } else { Err(Stop::failed(line)) }
@@ -218,16 +218,7 @@ fn added_steps(folder: &Path) -> Result<f64, Stop> {
     Ok(rocking_time(folder)? * (1.0 / STEPS[1] - 1.0 / STEPS[0]))
 }
 
-/// What is counted.
-#[derive(Clone, Copy, PartialEq)]
-enum Counted {
-    /// Everything.
-    All,
-    /// All but the mathematics library, whose functions the compiler puts into one another as it likes: otherwise in each program.
-    Own,
-}
-
-fn instructions_per_step(root: &Path, program: &Path, set: &[&str], counted: Counted) -> Result<f64, Stop> {
+fn instructions_per_step(root: &Path, program: &Path, set: &[&str]) -> Result<f64, Stop> {
     let folder = root.join("target/effects");
     std::fs::create_dir_all(&folder).map_err(|error| Stop::usage(format!("{}: {error}", folder.display())))?;
     let mut counts = [0.0; 2];
@@ -239,19 +230,8 @@ fn instructions_per_step(root: &Path, program: &Path, set: &[&str], counted: Cou
         let text = std::fs::read_to_string(&profile).map_err(|error| Stop::usage(format!("{}: {error}", profile.display())))?;
         let total = text.lines().rev().find_map(|line| line.strip_prefix("totals:").or_else(|| line.strip_prefix("summary:")));
         *count = total.and_then(|total| total.trim().parse().ok()).ok_or_else(|| Stop::failed("callgrind counted nothing"))?;
-        if counted == Counted::Own {
-            *count -= of_the_library(&profile)?;
-        }
     }
     Ok((counts[1] - counts[0]) / added_steps(&folder)?)
-}
-
-/// Instructions of a profile in the mathematics library.
-fn of_the_library(profile: &Path) -> Result<f64, Stop> {
-    let table = output(Command::new("callgrind_annotate").args(["--threshold=100", "--auto=no"]).arg(profile))?;
-    let lines = table.lines().filter(|line| line.contains("/libm-"));
-    let counts = lines.filter_map(|line| line.split_whitespace().next()?.replace(',', "").parse::<f64>().ok());
-    Ok(counts.sum())
 }
 
 fn nanoseconds_per_step(root: &Path, program: &Path, set: &[&str]) -> Result<f64, Stop> {

@@ -26,6 +26,8 @@ pub struct Watchers<'a, S> {
 }
 
 impl<S: Real> DeviceObserver<S> for Watchers<'_, S> {
+    // Every loop calls this: inlined where there is but one, it would look cheaper there.
+    #[inline(never)]
     fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
         self.recorder.device_stretch(arc, stretch);
         self.peaks.stretch(&arc, stretch);
