@@ -113,12 +113,24 @@ impl<S: Real> Checks<S> {
     }
 
     /// Whether a stretch may hold a new record of the force on the support. A step follows at most half a swing of a stiff clutch, so
-    /// that of three looks one shows more than half of what lies between.
+    /// that of three looks one shows more than half of what lies between; and where a parabola through them also meets a fourth, no
+    /// more lies between than they and its curvature show.
     fn may_press_harder(&self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) -> bool {
-        let Some(record) = self.report.support else { return stretch.engaged };
-        let middle = S::HALF * (stretch.from + stretch.to);
-        let force = |t: S| self.toe.over_weight(arc.snapshot(t).support_force()).abs();
-        stretch.engaged && [stretch.from, middle, stretch.to].into_iter().any(|t| force(t) > S::HALF * record.value)
+        let Some(record) = self.report.support.filter(|_| stretch.engaged) else { return stretch.engaged };
+        let force = |share: S| {
+            let time = stretch.from + share * (stretch.to - stretch.from);
+            self.toe.over_weight(arc.snapshot(time).support_force())
+        };
+        let [first, middle, last] = [S::ZERO, S::HALF, S::ONE].map(force);
+        let seen = first.abs().larger(middle.abs()).larger(last.abs());
+        if seen <= S::HALF * record.value {
+            return false;
+        }
+        let curvature = (first - middle - middle + last).abs();
+        let parabola = S::of(0.375) * first + S::of(0.75) * middle - S::of(0.125) * last;
+        let missed = (force(S::of(0.25)) - parabola).abs();
+        let rounding = S::ONE + S::EPSILON * S::of(64.0);
+        seen + curvature + S::of(8.0) * missed > record.value * rounding
     }
 
     fn watch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
