@@ -14,15 +14,13 @@ use crate::value::Value;
 
 /// A block and a lever. A posture is what θ alone decides, worked out once for all that need it.
 pub trait Body<S: Scalar>: Copy {
-    /// The ground moves vertically too.
-    const VERTICAL: bool;
     /// δ-dependent quantities.
     type Posture<V: Value<S>>: Copy;
 
     /// The posture at θ (rad) on side s = ±1.
     fn posture<V: Value<S>>(&self, side: S, rotation: V) -> Self::Posture<V>;
 
-    /// D for the ground acceleration in g, horizontal and vertical (which is not read unless [`Body::VERTICAL`]).
+    /// D for the ground acceleration in g, horizontal and vertical (which is not read where the body knows of none).
     fn drive<V: Value<S>>(&self, posture: &Self::Posture<V>, ground: [V; 2]) -> V;
 
     /// ℓ x.
@@ -53,17 +51,18 @@ pub trait Body<S: Scalar>: Copy {
 
 /// The slender block (Eq. 17-18): sin δ → δ, cos δ → 1, ℓ constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SlenderBody<S, const VERTICAL: bool> {
+pub struct SlenderBody<S> {
     /// p², 1/s².
     pub frequency_squared: S,
     /// α, rad.
     pub slenderness: S,
     /// ℓ.
     pub lever: S,
+    /// The ground moves vertically too.
+    pub vertical: bool,
 }
 
-impl<S: Scalar, const VERTICAL: bool> Body<S> for SlenderBody<S, VERTICAL> {
-    const VERTICAL: bool = VERTICAL;
+impl<S: Scalar> Body<S> for SlenderBody<S> {
     type Posture<V: Value<S>> = V;
 
     #[inline(always)]
@@ -73,7 +72,7 @@ impl<S: Scalar, const VERTICAL: bool> Body<S> for SlenderBody<S, VERTICAL> {
 
     #[inline(always)]
     fn drive<V: Value<S>>(&self, delta: &V, ground: [V; 2]) -> V {
-        let weight = if VERTICAL { *delta * ground[1].offset(S::of(1.0)) } else { *delta };
+        let weight = if self.vertical { *delta * ground[1].offset(S::of(1.0)) } else { *delta };
         (weight + ground[0]).scale(-self.frequency_squared)
     }
 
@@ -120,13 +119,15 @@ impl<S: Scalar, const VERTICAL: bool> Body<S> for SlenderBody<S, VERTICAL> {
 
 /// The exact block (Eq. 13-16) with any mount.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FullBody<S, K, const VERTICAL: bool> {
+pub struct FullBody<S, K> {
     /// The block.
     pub block: FullBlock<S>,
     /// ℓ(θ).
     pub lever: TyingPoint<S>,
     /// Paper or consistent.
     pub kinematics: K,
+    /// The ground moves vertically too.
+    pub vertical: bool,
 }
 
 /// sin δ, cos δ, ℓ and ℓ'.
@@ -138,8 +139,7 @@ pub struct Turned<V> {
     rate: Option<V>,
 }
 
-impl<S: Scalar, K: BodyKinematics, const VERTICAL: bool> Body<S> for FullBody<S, K, VERTICAL> {
-    const VERTICAL: bool = VERTICAL;
+impl<S: Scalar, K: BodyKinematics> Body<S> for FullBody<S, K> {
     type Posture<V: Value<S>> = Turned<V>;
 
     #[inline(always)]
@@ -151,7 +151,7 @@ impl<S: Scalar, K: BodyKinematics, const VERTICAL: bool> Body<S> for FullBody<S,
 
     #[inline(always)]
     fn drive<V: Value<S>>(&self, posture: &Turned<V>, ground: [V; 2]) -> V {
-        let weight = if VERTICAL { posture.sin * ground[1].offset(S::of(1.0)) } else { posture.sin };
+        let weight = if self.vertical { posture.sin * ground[1].offset(S::of(1.0)) } else { posture.sin };
         (weight + ground[0] * posture.cos).scale(-self.block.frequency_squared)
     }
 

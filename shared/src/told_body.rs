@@ -6,11 +6,11 @@ use crate::value::Value;
 
 /// The linearised block or the exact one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ToldBody<const VERTICAL: bool> {
+pub enum ToldBody {
     /// Linearised.
-    Slender(SlenderBody<f32, VERTICAL>),
+    Slender(SlenderBody<f32>),
     /// Exact.
-    Full(FullBody<f32, Told, VERTICAL>),
+    Full(FullBody<f32, Told>),
 }
 
 /// A posture of either.
@@ -33,8 +33,7 @@ macro_rules! either {
     };
 }
 
-impl<const VERTICAL: bool> Body<f32> for ToldBody<VERTICAL> {
-    const VERTICAL: bool = VERTICAL;
+impl Body<f32> for ToldBody {
     type Posture<V: Value<f32>> = ToldPosture<V>;
 
     #[inline]
@@ -107,7 +106,7 @@ mod tests {
         })
     }
 
-    fn same_bits<B: Body<f32>>(known: &B, told: &ToldBody<true>) {
+    fn same_bits<B: Body<f32>>(known: &B, told: &ToldBody) {
         for (side, rotation, velocity, ground) in postures() {
             let (own, other) = (known.posture(side, rotation), told.posture(side, rotation));
             let drive = known.drive(&own, ground);
@@ -131,16 +130,16 @@ mod tests {
 
     #[test]
     fn told_or_known_the_bits_are_the_same() {
-        let slender = SlenderBody::<f32, true> { frequency_squared: 3.678, slenderness: 0.1745, lever: 0.9 };
+        let slender = SlenderBody { frequency_squared: 3.678_f32, slenderness: 0.1745, lever: 0.9, vertical: true };
         same_bits(&slender, &ToldBody::Slender(slender));
         let block = FullBlock { frequency_squared: 3.678, slenderness: 0.1745 };
         let lever = TyingPoint { along: 0.95, across: 0.2 };
         for consistent in [false, true] {
-            let told = ToldBody::Full(FullBody { block, lever, kinematics: Told::told(consistent) });
+            let told = ToldBody::Full(FullBody { block, lever, kinematics: Told::told(consistent), vertical: true });
             if consistent {
-                same_bits(&FullBody::<f32, Consistent, true> { block, lever, kinematics: Consistent }, &told);
+                same_bits(&FullBody { block, lever, kinematics: Consistent, vertical: true }, &told);
             } else {
-                same_bits(&FullBody::<f32, Paper, true> { block, lever, kinematics: Paper }, &told);
+                same_bits(&FullBody { block, lever, kinematics: Paper, vertical: true }, &told);
             }
         }
     }

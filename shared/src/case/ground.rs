@@ -116,14 +116,17 @@ impl Ground<'_> {
 
     /// Every piece that lasts, with its vertical shape, when it starts and its duration, in order, for as long as `follow` has no
     /// error. In a record the time is counted: a sum of its intervals would drift.
-    pub(super) fn try_for_each<E>(&self, mut follow: impl FnMut(&Shape, &Shape, f32, f32) -> Result<(), E>) -> Result<(), E> {
+    pub(super) fn try_for_each<E>(
+        &self,
+        mut follow: impl FnMut(&Shape, Option<&Shape>, f32, f32) -> Result<(), E>,
+    ) -> Result<(), E> {
         match self {
             Ground::Pieces { horizontal, vertical } => {
-                let vertical = vertical.as_ref().unwrap_or(&[Shape::Quiet; MOST_PIECES]);
-                let mut pieces = horizontal.iter().zip(vertical).filter(|(piece, _)| piece.duration > 0.0);
+                let mut pieces = horizontal.iter().enumerate().filter(|(_, piece)| piece.duration > 0.0);
                 let mut start = 0.0;
-                pieces.try_for_each(|(piece, vertical)| {
-                    let done = follow(&piece.shape, vertical, start, piece.duration);
+                pieces.try_for_each(|(index, piece)| {
+                    let up = vertical.as_ref().and_then(|shapes| shapes.get(index));
+                    let done = follow(&piece.shape, up, start, piece.duration);
                     start += piece.duration;
                     done
                 })
@@ -133,9 +136,10 @@ impl Ground<'_> {
                     [from, to] => Shape::Linear(Linear::between(f32::from_bits(from), f32::from_bits(to), *interval)),
                     _ => Shape::Quiet,
                 };
-                let mut verticals = vertical.unwrap_or(&[]).windows(2);
+                let mut verticals = vertical.map(|samples| samples.windows(2));
                 samples.windows(2).enumerate().try_for_each(|(index, pair)| {
-                    follow(&line(pair), &line(verticals.next().unwrap_or(&[])), index as f32 * interval, *interval)
+                    let up = verticals.as_mut().map(|pairs| line(pairs.next().unwrap_or(&[])));
+                    follow(&line(pair), up.as_ref(), index as f32 * interval, *interval)
                 })
             }
         }

@@ -21,15 +21,14 @@ const OVERTURNED: f32 = core::f32::consts::FRAC_PI_2;
 /// What methods run that are not for these devices.
 const IDEAL: &str = "ideal devices over horizontal ground only: loops for all others would not fit the flash of the board";
 
-/// Runs a case that is not ideal. The vertical ground motion is in every loop, if only as none: δ (1 + 0) is δ to the last bit,
-/// and a second set of loops without it would not fit the flash.
+/// Runs a case that is not ideal.
 // Inline so that its loops are made in the crate that runs cases, and shared with what else that crate does with them.
 #[inline]
 pub(super) fn run(case: &Case<'_>, observer: &mut dyn DeviceObserver<f32>) -> Result<RunEnd, CaseError> {
     if let method @ (FixedMethod::SemiImplicitEuler | FixedMethod::Taylor) = case.method {
         return Err(CaseError::Method { method, runs: IDEAL });
     }
-    case.drivetrain.resolve(&case.structure, true, Runner { case, observer })?
+    case.drivetrain.resolve(&case.structure, case.ground.is_vertical(), Runner { case, observer })?
 }
 
 /// The caller's observer, the peaks, and a count of steps.
@@ -93,7 +92,7 @@ impl Runner<'_, '_, '_> {
             Initially::Released { rotation, velocity } => machine.released_at(rotation, velocity, ground.first()),
         };
         watch.peaks.rocked = state.motion.phase == Phase::Rocking;
-        let mut follow = |horizontal: &Shape, vertical: &Shape, start: f32, duration: f32| -> Result<(), Stopped> {
+        let mut follow = |horizontal: &Shape, vertical: Option<&Shape>, start: f32, duration: f32| -> Result<(), Stopped> {
             let limits = Limits { overturned: OVERTURNED, events: most_events(duration, *step) };
             let shaking = Shaking { horizontal, vertical };
             watch.peaks.origin = start;
@@ -101,7 +100,7 @@ impl Runner<'_, '_, '_> {
         };
         ground.try_for_each(&mut follow)?;
         if *free_time > 0.0 {
-            follow(&Shape::Quiet, &Shape::Quiet, ground.duration(), *free_time)?;
+            follow(&Shape::Quiet, None, ground.duration(), *free_time)?;
         }
         let Watch { peaks, steps, .. } = watch;
         let ending = Ending::of(&state.motion, &peaks);

@@ -24,13 +24,13 @@ pub trait KnownBody: Body<f32> {
 }
 
 /// The linearised block.
-pub type KnownSlender = SlenderBody<f32, true>;
+pub type KnownSlender = SlenderBody<f32>;
 
 /// The exact block.
-pub type KnownFull<K> = FullBody<f32, K, true>;
+pub type KnownFull<K> = FullBody<f32, K>;
 
 /// Any of them, told at run time.
-pub type KnownAny = ToldBody<true>;
+pub type KnownAny = ToldBody;
 
 impl From<KnownSlender> for KnownAny {
     fn from(body: KnownSlender) -> KnownAny {
@@ -40,8 +40,8 @@ impl From<KnownSlender> for KnownAny {
 
 impl<K: BodyKinematics> From<KnownFull<K>> for KnownAny {
     fn from(body: KnownFull<K>) -> KnownAny {
-        let FullBody { block, lever, kinematics } = body;
-        ToldBody::Full(FullBody { block, lever, kinematics: Told::told(kinematics.consistent()) })
+        let FullBody { block, lever, kinematics, vertical } = body;
+        ToldBody::Full(FullBody { block, lever, kinematics: Told::told(kinematics.consistent()), vertical })
     }
 }
 
@@ -61,6 +61,7 @@ impl KnownBody for KnownSlender {
             frequency_squared: block.frequency_parameter_squared() as f32,
             slenderness: block.slenderness() as f32,
             lever: math::square_root(structure.device.mount.slender_lever_squared(block)?) as f32,
+            vertical: true,
         })
     }
 }
@@ -76,6 +77,7 @@ impl<K: BodyKinematics> KnownBody for KnownFull<K> {
             },
             lever: TyingPoint { along: lever.along as f32, across: lever.across as f32 },
             kinematics: K::told(structure.device.kinematics == KinematicsKind::Consistent),
+            vertical: true,
         })
     }
 }

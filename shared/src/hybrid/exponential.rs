@@ -79,8 +79,8 @@ fn springless<S: Real>(law: &Law<S>) -> Law<S> {
     Law { stiffness: [S::ZERO; 2], damping: [S::ZERO; 2], ..*law }
 }
 
-fn freeze<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, const X: usize, const G: usize>(
-    soft: &PathStart<'_, S, B, D, P, Q, X>,
+fn freeze<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, const X: usize, const G: usize>(
+    soft: &PathStart<'_, S, B, D, P, X>,
     t: S,
     (rotation, velocity, extra): &Unknowns<S, X>,
 ) -> Frozen<S, X> {
@@ -91,8 +91,8 @@ fn freeze<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, cons
 }
 
 /// The frozen system over `h`, exactly.
-fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, const X: usize, const G: usize>(
-    start: &PathStart<'_, S, B, D, P, Q, X>,
+fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, const X: usize, const G: usize>(
+    start: &PathStart<'_, S, B, D, P, X>,
     frozen: &Frozen<S, X>,
     h: S,
 ) -> Unknowns<S, X> {
@@ -152,29 +152,29 @@ fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, const
 }
 
 impl<S: Real> Stepper<S> for ExponentialMidpoint<S> {
-    fn advance<B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, const X: usize, const G: usize>(
-        start: &PathStart<'_, S, B, D, P, Q, X>,
+    fn advance<B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, const X: usize, const G: usize>(
+        start: &PathStart<'_, S, B, D, P, X>,
         _first: &(S, [S; X]),
         h: S,
     ) -> Unknowns<S, X> {
         let soft = PathStart { law: springless(&start.law), ..*start };
         let half = S::HALF * h;
-        let here = freeze::<S, B, D, P, Q, X, G>(&soft, S::ZERO, &(start.rotation, start.velocity, start.extra));
-        let middle = solve::<S, B, D, P, Q, X, G>(start, &here, half);
-        let there = freeze::<S, B, D, P, Q, X, G>(&soft, half, &middle);
-        solve::<S, B, D, P, Q, X, G>(start, &there, h)
+        let here = freeze::<S, B, D, P, X, G>(&soft, S::ZERO, &(start.rotation, start.velocity, start.extra));
+        let middle = solve::<S, B, D, P, X, G>(start, &here, half);
+        let there = freeze::<S, B, D, P, X, G>(&soft, half, &middle);
+        solve::<S, B, D, P, X, G>(start, &there, h)
     }
 }
 
 impl<S: Real> Tracer<S> for ExponentialMidpoint<S> {
-    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, P: Piece<S> + 'a, Q: Piece<S> + 'a, const X: usize, const G: usize> =
-        FixedPath<'a, S, B, D, P, Q, ExponentialMidpoint<S>, X, G>;
+    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, P: Piece<S> + 'a, const X: usize, const G: usize> =
+        FixedPath<'a, S, B, D, P, ExponentialMidpoint<S>, X, G>;
 
     #[inline(always)]
-    fn path<'a, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, const X: usize, const G: usize>(
+    fn path<'a, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, const X: usize, const G: usize>(
         &'a self,
-        start: PathStart<'a, S, B, D, P, Q, X>,
-    ) -> Self::Path<'a, B, D, P, Q, X, G> {
+        start: PathStart<'a, S, B, D, P, X>,
+    ) -> Self::Path<'a, B, D, P, X, G> {
         FixedPath::of(start)
     }
 

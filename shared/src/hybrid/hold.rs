@@ -33,10 +33,10 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// Follows a held block until the push is strong enough or `stop`. Returns the time.
-    pub(super) fn hold<P: Piece<S>, Q: Piece<S>>(
+    pub(super) fn hold<P: Piece<S>>(
         &self,
         state: &mut MachineState<S>,
-        shaking: Shaking<'_, P, Q>,
+        shaking: Shaking<'_, P>,
         time: S,
         stop: S,
         observer: &mut dyn DeviceObserver<S>,
@@ -47,11 +47,11 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let length = self.until_stop(state, whole);
         let (until, end) = if length < whole { (time + length, None) } else { (until, end) };
         if until > time {
-            self.show_still(state, &|t| shaking.at::<S, B>(time + t), time, until - time, observer);
+            self.show_still(state, &|t| shaking.at(time + t), time, until - time, observer);
         }
         // What the clock cannot tell from now still stops a flywheel.
         self.idle(state, length);
-        state.ground = shaking.at::<S, B>(until);
+        state.ground = shaking.at(until);
         match end {
             Some((_, LetGo::Moves { sign, crossing })) => self.set_off(state, (sign, crossing), until, observer),
             Some((_, LetGo::Rests)) => *state = self.standing(state, until, observer),
@@ -61,15 +61,9 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// When a held block is let go before `stop`, and how. On its base it can only go up, and its weight alone may hold it again.
-    fn let_go<P: Piece<S>, Q: Piece<S>>(
-        &self,
-        state: &MachineState<S>,
-        shaking: Shaking<'_, P, Q>,
-        time: S,
-        stop: S,
-    ) -> Option<(S, LetGo)> {
+    fn let_go<P: Piece<S>>(&self, state: &MachineState<S>, shaking: Shaking<'_, P>, time: S, stop: S) -> Option<(S, LetGo)> {
         let side = state.motion.side;
-        let first = |threshold: Threshold<S>| threshold.exceeded::<B, P, Q>(shaking, time, stop);
+        let first = |threshold: Threshold<S>| threshold.exceeded(shaking, time, stop);
         let moves = |sign| first(self.breakaway(state, side, sign)).map(|(at, crossing)| (at, LetGo::Moves { sign, crossing }));
         let ends = if state.motion.rotation == S::ZERO {
             [moves(side), first(self.weight(state)).map(|(at, _)| (at, LetGo::Rests))]
@@ -132,17 +126,17 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// [`Machine::hold`] with springs: one step, up to its first event.
-    pub(super) fn hold_springs<T: Tracer<S>, P: Piece<S>, Q: Piece<S>>(
+    pub(super) fn hold_springs<T: Tracer<S>, P: Piece<S>>(
         &self,
         tracer: &T,
         state: &mut MachineState<S>,
-        shaking: Shaking<'_, P, Q>,
+        shaking: Shaking<'_, P>,
         (time, stop): (&mut S, S),
         guarded: (&Limits<S>, bool),
         observer: &mut dyn DeviceObserver<S>,
     ) {
         let on_base = state.motion.rotation == S::ZERO;
-        let rests = if on_base { self.weight(state).exceeded::<B, P, Q>(shaking, *time, stop) } else { None };
+        let rests = if on_base { self.weight(state).exceeded(shaking, *time, stop) } else { None };
         let end = rests.map_or(stop, |(at, _)| at);
         if end > *time {
             self.follow(tracer, state, shaking, (time, end), guarded, observer);

@@ -17,10 +17,10 @@ const MOST_IDLE_SWINGS: f64 = 1e3;
 
 impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {
     /// θ = 0. Returns the time, which rest moves on to the end of the impacts that it stands for.
-    pub(super) fn impact<P: Piece<S>, Q: Piece<S>>(
+    pub(super) fn impact<P: Piece<S>>(
         &self,
         state: &mut MachineState<S>,
-        shaking: Shaking<'_, P, Q>,
+        shaking: Shaking<'_, P>,
         time: S,
         duration: S,
         observer: &mut dyn DeviceObserver<S>,
@@ -56,7 +56,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         }
         let tail = self.accumulation(&standing, velocity.abs());
         let ends = time + tail.duration;
-        let holds = ends <= duration && self.uplifting(&standing, shaking.at::<S, B>(ends)) < S::ZERO;
+        let holds = ends <= duration && self.uplifting(&standing, shaking.at(ends)) < S::ZERO;
         let lingers = duration - time > tail.swing * S::of(MOST_IDLE_SWINGS);
         let hopeless = velocity.abs() <= self.rest_speed * S::EPSILON;
         if !(holds || lingers || hopeless) {
@@ -68,7 +68,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         observer.device_event(Event::Rest, ends, &state.motion);
         // What its clutches let go shows at once, and what coasts until then after it.
         self.show_instant(state, time, observer);
-        self.stand(state, &|t| shaking.at::<S, B>(time + t), time, ends, observer);
+        self.stand(state, &|t| shaking.at(time + t), time, ends, observer);
         ends
     }
 

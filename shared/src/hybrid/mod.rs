@@ -122,11 +122,11 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     ///
     /// # Errors
     /// [`Stopped`], with the state as it was then.
-    pub fn advance<T: Tracer<S>, P: Piece<S>, Q: Piece<S>>(
+    pub fn advance<T: Tracer<S>, P: Piece<S>>(
         &self,
         tracer: &T,
         state: &mut MachineState<S>,
-        shaking: Shaking<'_, P, Q>,
+        shaking: Shaking<'_, P>,
         duration: S,
         limits: &Limits<S>,
         observer: &mut dyn DeviceObserver<S>,
@@ -137,7 +137,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let mut at_once = 0_u32;
         // 1/p.
         let unit = self.slenderness / self.speed;
-        self.ground_at_start(state, shaking.at::<S, B>(S::ZERO), observer);
+        self.ground_at_start(state, shaking.at(S::ZERO), observer);
         while time < duration && state.motion.phase != Phase::Overturned {
             if events >= limits.events {
                 return Err(too_many(state, time));
@@ -147,10 +147,10 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 let stop = self.stands_until(state, time, duration);
                 let uplift = self.uplift_time(state, shaking, time, stop);
                 let until = uplift.map_or(stop, |(at, _)| at);
-                self.stand(state, &|t| shaking.at::<S, B>(time + t), time, until, observer);
+                self.stand(state, &|t| shaking.at(time + t), time, until, observer);
                 time = until;
                 if let Some((_, crossing)) = uplift {
-                    self.uplift(state, shaking.at::<S, B>(time), time, crossing, observer);
+                    self.uplift(state, shaking.at(time), time, crossing, observer);
                 } else if time < duration {
                     self.carry_out_at_rest(state, time, observer);
                     continue;
@@ -187,17 +187,17 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 return Err(Stopped::NotFinite { time: time.to_f64() });
             }
         }
-        state.ground = shaking.at::<S, B>(duration);
+        state.ground = shaking.at(duration);
         Ok(())
     }
 
     /// One step, up to its first event.
     #[inline]
-    fn follow<T: Tracer<S>, P: Piece<S>, Q: Piece<S>>(
+    fn follow<T: Tracer<S>, P: Piece<S>>(
         &self,
         tracer: &T,
         state: &mut MachineState<S>,
-        shaking: Shaking<'_, P, Q>,
+        shaking: Shaking<'_, P>,
         (time, stop): (&mut S, S),
         (limits, guarded): (&Limits<S>, bool),
         observer: &mut dyn DeviceObserver<S>,
@@ -226,7 +226,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             scale: self.slenderness,
             speed: self.speed,
         };
-        let path = tracer.path::<B, D, P, Q, X, G>(start);
+        let path = tracer.path::<B, D, P, X, G>(start);
         let length = path.length();
         let mut until = length;
         let mut end = End::Reached;
@@ -295,7 +295,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         self.drive.store(&mut state.device, &extra, self.body.along(&posture, motion.velocity));
         state.device.elapse(until);
         (state.fresh, state.free) = ([false; WATCHES], false);
-        let ground = shaking.at::<S, B>(*time);
+        let ground = shaking.at(*time);
         state.ground = ground;
         match end {
             End::Reached => {}

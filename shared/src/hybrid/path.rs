@@ -10,37 +10,36 @@ use crate::scalar::{Real, Sign};
 
 /// Horizontal and vertical ground motion over one piece.
 #[derive(Debug)]
-pub struct Shaking<'a, P, Q> {
+pub struct Shaking<'a, P> {
     /// Horizontal.
     pub horizontal: &'a P,
-    /// Vertical; not looked at unless the body says so.
-    pub vertical: &'a Q,
+    /// Vertical, for a body that knows of it.
+    pub vertical: Option<&'a P>,
 }
 
-impl<P, Q> Clone for Shaking<'_, P, Q> {
+impl<P> Clone for Shaking<'_, P> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<P, Q> Copy for Shaking<'_, P, Q> {}
+impl<P> Copy for Shaking<'_, P> {}
 
-impl<P, Q> Shaking<'_, P, Q> {
-    /// Both accelerations in g at the local time `time` (s), the vertical one only for a body that wants it.
+impl<P> Shaking<'_, P> {
+    /// Both accelerations in g at the local time `time` (s).
     #[inline(always)]
-    pub fn at<S: Real, B: Body<S>>(&self, time: S) -> [S; 2]
+    pub fn at<S: Real>(&self, time: S) -> [S; 2]
     where
         P: Piece<S>,
-        Q: Piece<S>,
     {
         let horizontal = self.horizontal.acceleration(time);
-        [horizontal, if B::VERTICAL { self.vertical.acceleration(time) } else { S::ZERO }]
+        [horizontal, self.vertical.map_or(S::ZERO, |vertical| vertical.acceleration(time))]
     }
 }
 
 /// Where a step starts and what governs it.
 #[derive(Clone, Copy, Debug)]
-pub struct PathStart<'a, S, B, D, P, Q, const X: usize> {
+pub struct PathStart<'a, S, B, D, P, const X: usize> {
     /// The block.
     pub body: &'a B,
     /// The device.
@@ -48,7 +47,7 @@ pub struct PathStart<'a, S, B, D, P, Q, const X: usize> {
     /// Its mode.
     pub law: Law<S>,
     /// The ground motion.
-    pub shaking: Shaking<'a, P, Q>,
+    pub shaking: Shaking<'a, P>,
     /// s.
     pub side: Sign,
     /// θ.
@@ -71,7 +70,7 @@ pub struct PathStart<'a, S, B, D, P, Q, const X: usize> {
     pub speed: S,
 }
 
-impl<S: Real, B: Body<S>, D, P: Piece<S>, Q: Piece<S>, const X: usize> PathStart<'_, S, B, D, P, Q, X> {
+impl<S: Real, B: Body<S>, D, P: Piece<S>, const X: usize> PathStart<'_, S, B, D, P, X> {
     /// Whether friction holds the block; only devices with springs have a path then.
     #[inline(always)]
     pub fn is_held<const G: usize>(&self) -> bool
@@ -99,7 +98,7 @@ impl<S: Real, B: Body<S>, D, P: Piece<S>, Q: Piece<S>, const X: usize> PathStart
             posture: self.body.posture(self.side.unit(), rotation),
             velocity,
             extra: *extra,
-            ground: self.shaking.at::<S, B>(self.time + t),
+            ground: self.shaking.at(self.time + t),
             clock: t,
         });
         (if self.is_held::<G>() { S::ZERO } else { acceleration }, rates)
@@ -117,7 +116,7 @@ impl<S: Real, B: Body<S>, D, P: Piece<S>, Q: Piece<S>, const X: usize> PathStart
             posture: self.body.posture(self.side.unit(), motion.rotation),
             velocity: motion.velocity,
             extra: *extra,
-            ground: self.shaking.at::<S, B>(self.time + t),
+            ground: self.shaking.at(self.time + t),
             clock: t,
         };
         let acceleration = if self.is_held::<G>() { self.drive.flow(&moment).0 } else { motion.acceleration };
@@ -160,18 +159,15 @@ pub trait Path<S: Real, const X: usize>: Arc<S> {
 /// A way to integrate a block with a device.
 pub trait Tracer<S: Real> {
     /// Its paths.
-    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, P: Piece<S> + 'a, Q: Piece<S> + 'a, const X: usize, const G: usize>: Path<
-            S,
-            X,
-        >
+    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, P: Piece<S> + 'a, const X: usize, const G: usize>: Path<S, X>
     where
         Self: 'a;
 
     /// The path from `start`.
-    fn path<'a, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, const X: usize, const G: usize>(
+    fn path<'a, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, const X: usize, const G: usize>(
         &'a self,
-        start: PathStart<'a, S, B, D, P, Q, X>,
-    ) -> Self::Path<'a, B, D, P, Q, X, G>;
+        start: PathStart<'a, S, B, D, P, X>,
+    ) -> Self::Path<'a, B, D, P, X, G>;
 
     /// The fixed step (s), if it has one.
     fn step(&self) -> Option<S>;

@@ -13,7 +13,7 @@ use crate::drivetrain::ideal::{Alone, IdealPair, Single};
 use crate::drivetrain::overrunning::OverrunningPair;
 use crate::drivetrain::rigid::RigidPair;
 use crate::drivetrain::{Drivetrain, Engagement, Rack};
-use crate::equation::{Consistent, FullBlock, Kinematics, Paper};
+use crate::equation::{BodyKinematics, FullBlock, Told};
 use crate::error::{ParameterError, require};
 use crate::lever::TyingPoint;
 use crate::math;
@@ -56,13 +56,12 @@ impl Drivetrain {
         let rest = structure.rest_speed;
         require("rest_speed", rest, (1e-12..=1e-2).contains(&rest), "from 1e-12 to 1e-2")?;
         let rack = self.rack.guided_mass_ratio / heavier;
-        let parts = Parts { drivetrain: *self, structure, heavier, restitution: restitutions(&structure, sigma, rack)? };
-        match (structure.geometry, vertical) {
-            (Geometry::Slender, false) => parts.driven(parts.slender::<S, false>()?, next),
-            (Geometry::Slender, true) => parts.driven(parts.slender::<S, true>()?, next),
-            (Geometry::Full, false) => parts.full::<S, W, false>(next),
-            (Geometry::Full, true) => parts.full::<S, W, true>(next),
-        }
+        let restitution = restitutions(&structure, sigma, rack)?;
+        let parts = Parts { drivetrain: *self, structure, vertical, heavier, restitution };
+        Ok(match structure.geometry {
+            Geometry::Slender => parts.driven(parts.slender::<S>()?, next),
+            Geometry::Full => parts.driven(parts.full::<S>()?, next),
+        })
     }
 
     /// Whether flywheels have a speed of their own. Such a device moves by the consistent kinematics, whatever the structure
@@ -86,6 +85,8 @@ fn restitutions(structure: &Structure, sigma: f64, rack: f64) -> Result<[f64; 3]
 struct Parts {
     drivetrain: Drivetrain,
     structure: Structure,
+    /// The ground moves vertically too.
+    vertical: bool,
     /// Its mass over that of the bare block.
     heavier: f64,
     restitution: [f64; 3],
@@ -96,23 +97,17 @@ impl Parts {
         self.drivetrain.has_memory(self.structure.device.kind)
     }
 
-    fn slender<S: Real, const VERTICAL: bool>(&self) -> Result<SlenderBody<S, VERTICAL>, ParameterError> {
+    fn slender<S: Real>(&self) -> Result<SlenderBody<S>, ParameterError> {
         let Structure { block, device, .. } = &self.structure;
         Ok(SlenderBody {
             frequency_squared: S::of(block.frequency_parameter_squared()),
             slenderness: S::of(block.slenderness()),
             lever: S::of(math::square_root(device.mount.slender_lever_squared(block)?)),
+            vertical: self.vertical,
         })
     }
 
-    fn full<S: Real, W: WithMachine<S>, const VERTICAL: bool>(&self, next: W) -> Result<W::Output, ParameterError> {
-        if self.remembers() || self.structure.device.kinematics == KinematicsKind::Consistent {
-            return self.driven(self.full_body::<S, Consistent, VERTICAL>()?, next);
-        }
-        Ok(self.without_memory(self.full_body::<S, Paper, VERTICAL>()?, next))
-    }
-
-    fn full_body<S: Real, K: Kinematics, const VERTICAL: bool>(&self) -> Result<FullBody<S, K, VERTICAL>, ParameterError> {
+    fn full<S: Real>(&self) -> Result<FullBody<S, Told>, ParameterError> {
         let Structure { block, device, .. } = &self.structure;
         let constants = device.mount.lever(block)?;
         Ok(FullBody {
@@ -121,7 +116,8 @@ impl Parts {
                 slenderness: S::of(block.slenderness()),
             },
             lever: TyingPoint { along: S::of(constants.along), across: S::of(constants.across) },
-            kinematics: K::default(),
+            kinematics: Told::told(self.remembers() || device.kinematics == KinematicsKind::Consistent),
+            vertical: self.vertical,
         })
     }
 
@@ -129,8 +125,8 @@ impl Parts {
         Gears::of(&self.drivetrain, &self.structure.block, self.structure.device.mass_ratio, self.heavier)
     }
 
-    fn driven<S: Real, B: Body<S>, W: WithMachine<S>>(&self, body: B, next: W) -> Result<W::Output, ParameterError> {
-        Ok(if self.remembers() { self.with_memory(body, next) } else { self.without_memory(body, next) })
+    fn driven<S: Real, B: Body<S>, W: WithMachine<S>>(&self, body: B, next: W) -> W::Output {
+        if self.remembers() { self.with_memory(body, next) } else { self.without_memory(body, next) }
     }
 
     fn without_memory<S: Real, B: Body<S>, W: WithMachine<S>>(&self, body: B, next: W) -> W::Output {

@@ -12,16 +12,16 @@ use crate::scalar::Real;
 use crate::snapshot::{DeviceArc, Snapshot};
 
 /// A path as watchers see it.
-pub(super) struct Seen<'a, S, B, D, A, P, Q, const X: usize, const G: usize> {
+pub(super) struct Seen<'a, S, B, D, A, P, const X: usize, const G: usize> {
     pub(super) machine: &'a Machine<S, B, D, X, G>,
     pub(super) path: &'a A,
     pub(super) law: &'a Law<S>,
     pub(super) state: &'a MachineState<S>,
-    pub(super) shaking: Shaking<'a, P, Q>,
+    pub(super) shaking: Shaking<'a, P>,
     pub(super) time: S,
 }
 
-impl<S: Real, B, D, A: Arc<S>, P, Q, const X: usize, const G: usize> Arc<S> for Seen<'_, S, B, D, A, P, Q, X, G> {
+impl<S: Real, B, D, A: Arc<S>, P, const X: usize, const G: usize> Arc<S> for Seen<'_, S, B, D, A, P, X, G> {
     #[inline(always)]
     fn length(&self) -> S {
         self.path.length()
@@ -43,17 +43,16 @@ impl<S: Real, B, D, A: Arc<S>, P, Q, const X: usize, const G: usize> Arc<S> for 
     }
 }
 
-impl<S, B, D, A, P, Q, const X: usize, const G: usize> DeviceArc<S> for Seen<'_, S, B, D, A, P, Q, X, G>
+impl<S, B, D, A, P, const X: usize, const G: usize> DeviceArc<S> for Seen<'_, S, B, D, A, P, X, G>
 where
     S: Real,
     B: Body<S>,
     D: Drive<S, X, G>,
     A: Path<S, X>,
     P: Piece<S>,
-    Q: Piece<S>,
 {
     fn snapshot(&self, time: S) -> Snapshot<S> {
-        let ground = self.shaking.at::<S, B>(self.time + time);
+        let ground = self.shaking.at(self.time + time);
         self.machine.snapshot(self.law, self.state, self.path.at(time), self.path.extra(time), ground, time)
     }
 }

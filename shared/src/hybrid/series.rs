@@ -56,13 +56,13 @@ pub struct SeriesPath<S, const N: usize, const X: usize, const G: usize> {
 }
 
 impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
-    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, P: Piece<S> + 'a, Q: Piece<S> + 'a, const X: usize, const G: usize> =
+    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, P: Piece<S> + 'a, const X: usize, const G: usize> =
         SeriesPath<S, N, X, G>;
 
     #[inline(never)]
-    fn path<'a, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, Q: Piece<S>, const X: usize, const G: usize>(
+    fn path<'a, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, const X: usize, const G: usize>(
         &'a self,
-        start: PathStart<'a, S, B, D, P, Q, X>,
+        start: PathStart<'a, S, B, D, P, X>,
     ) -> SeriesPath<S, N, X, G> {
         // θ, θ̇, the ground twice and the clock, then the device's unknowns.
         const GIVEN: usize = 5;
@@ -81,8 +81,9 @@ impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
         };
         let (mut ground, mut vertical) = (none, none);
         start.shaking.horizontal.series(start.time, &mut ground);
-        if B::VERTICAL {
-            start.shaking.vertical.series(start.time, &mut vertical);
+        let shaken_up = start.shaking.vertical.is_some();
+        if let Some(piece) = start.shaking.vertical {
+            piece.series(start.time, &mut vertical);
         }
         path.rotation[0] = start.rotation;
         path.rotation[1] = start.velocity;
@@ -102,14 +103,14 @@ impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
         let mut push_power = S::ONE;
         for k in 0..N - 2 {
             tape.set(2, k, ground[k]);
-            if B::VERTICAL {
+            if shaken_up {
                 tape.set(3, k, vertical[k]);
             }
             tape.set(4, k, if k == 1 { S::ONE } else { S::ZERO });
             next.set(GIVEN + X);
             let given = |slot| Quantity(tape.given(&next, k, slot));
             let (theta, omega, push) = (given(0), given(1), given(2));
-            let up = if B::VERTICAL { given(3) } else { push };
+            let up = if shaken_up { given(3) } else { push };
             let at = Moment {
                 body: start.body,
                 law: &start.law,
@@ -128,7 +129,7 @@ impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
             let v = a * reciprocal;
             let c = v * S::of(RECIPROCALS[(k + 2) & 63]);
             let mut term = (c * power).abs().larger((ground[k] * push_power).abs());
-            if B::VERTICAL {
+            if shaken_up {
                 term = term.larger((vertical[k] * push_power).abs());
             }
             for (i, rate) in rates.iter().enumerate() {

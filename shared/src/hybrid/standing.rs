@@ -136,14 +136,14 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
 
     /// First instant in [`from`, `to`) at which the ground pushes a standing block harder than its weight holds it, and whether
     /// it gets there by crossing that threshold.
-    pub(super) fn uplift_time<P: Piece<S>, Q: Piece<S>>(
+    pub(super) fn uplift_time<P: Piece<S>>(
         &self,
         state: &MachineState<S>,
-        shaking: Shaking<'_, P, Q>,
+        shaking: Shaking<'_, P>,
         from: S,
         to: S,
     ) -> Option<(S, bool)> {
-        let first = |side| self.breakaway(state, side, side).exceeded::<B, P, Q>(shaking, from, to);
+        let first = |side| self.breakaway(state, side, side).exceeded(shaking, from, to);
         earlier([Sign::Positive, Sign::Negative].map(first))
     }
 

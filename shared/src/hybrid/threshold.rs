@@ -56,20 +56,15 @@ impl<S: Real> Threshold<S> {
 
     /// First instant in [`from`, `to`) at which it is above zero and not about to fall below, and whether it gets there by crossing zero
     /// or by a jump. It grows from `from` on.
-    pub(super) fn exceeded<B: Body<S>, P: Piece<S>, Q: Piece<S>>(
-        &self,
-        shaking: Shaking<'_, P, Q>,
-        from: S,
-        to: S,
-    ) -> Option<(S, bool)> {
+    pub(super) fn exceeded<P: Piece<S>>(&self, shaking: Shaking<'_, P>, from: S, to: S) -> Option<(S, bool)> {
         let value = |t: S| {
             let mut slope = self.horizontal * shaking.horizontal.slope(t) + self.growth;
-            if B::VERTICAL {
-                slope = slope + self.vertical * shaking.vertical.slope(t);
+            if let Some(vertical) = shaking.vertical {
+                slope = slope + self.vertical * vertical.slope(t);
             }
-            (self.at(shaking.at::<S, B>(t)) + self.growth * (t - from), slope)
+            (self.at(shaking.at(t)) + self.growth * (t - from), slope)
         };
-        let ground = shaking.at::<S, B>(from);
+        let ground = shaking.at(from);
         let (now, slope) = value(from);
         let above = now > S::ZERO;
         if self.is_exceeded(ground) || (above && slope >= S::ZERO) {
@@ -77,8 +72,8 @@ impl<S: Real> Threshold<S> {
         }
         let (end, _) = value(to);
         let mut curvature = self.horizontal.abs() * shaking.horizontal.curvature_bound();
-        if B::VERTICAL {
-            curvature = curvature + self.vertical.abs() * shaking.vertical.curvature_bound();
+        if let Some(vertical) = shaking.vertical {
+            curvature = curvature + self.vertical.abs() * vertical.curvature_bound();
         }
         let zero = first_zero_of(value, curvature, (from, to, end), Sign::Negative, above);
         // What the clock cannot tell from the end of the piece is left to the next one.

@@ -74,6 +74,7 @@ impl SettingsBody for KnownSlender {
             frequency_squared: settings.real(Item::FrequencySquared),
             slenderness: settings.real(Item::Slenderness),
             lever: settings.real(Item::Lever),
+            vertical: true,
         }
     }
 
@@ -95,6 +96,7 @@ impl<K: BodyKinematics + PartialEq> SettingsBody for KnownFull<K> {
             },
             lever: TyingPoint { along: settings.real(Item::LeverAlong), across: settings.real(Item::LeverAcross) },
             kinematics: K::told(settings.whole(Item::Body) == CONSISTENT),
+            vertical: true,
         }
     }
 

@@ -138,7 +138,7 @@ struct MachinePlant<'a, B, D, T, const X: usize, const G: usize> {
     places: Places,
     time: f64,
     index: usize,
-    pieces: Option<[ShapePiece<f64>; 2]>,
+    pieces: Option<(ShapePiece<f64>, Option<ShapePiece<f64>>)>,
     limits: Limits<f64>,
     lightest: f64,
 }
@@ -191,9 +191,8 @@ where
     fn enter_segment(&mut self) {
         let horizontal = self.segment();
         let vertical = self.surroundings.ground.vertical.as_ref().map(GroundMotion::segments);
-        let still = || ShapePiece::Quiet;
-        let shape = |segment: Option<&Segment>| segment.map_or_else(still, |segment| ShapePiece::of(&segment.shape));
-        self.pieces = Some([shape(horizontal), shape(vertical.and_then(|segments| segments.get(self.index)))]);
+        let up = vertical.and_then(|segments| segments.get(self.index)).map(|segment| ShapePiece::of(&segment.shape));
+        self.pieces = Some((horizontal.map_or(ShapePiece::Quiet, |segment| ShapePiece::of(&segment.shape)), up));
         let bound = horizontal.map_or(0.0, |segment| segment.bound);
         self.limits.overturned = self.surroundings.course.machine_angle(&self.machine, bound, self.lightest);
     }
@@ -234,10 +233,10 @@ where
                 segment.map_or((self.time, until), |segment| (segment.start, until.min(segment.start + segment.duration)));
             watcher.segment(self.time, segment);
             self.shocks.origin = self.time;
-            if let Some([horizontal, vertical]) = &self.pieces {
+            if let Some((horizontal, vertical)) = &self.pieces {
                 let offset = self.time - start;
-                let (horizontal, vertical) = (horizontal.after(offset), vertical.after(offset));
-                let shaking = Shaking { horizontal: &horizontal, vertical: &vertical };
+                let (horizontal, vertical) = (horizontal.after(offset), vertical.as_ref().map(|piece| piece.after(offset)));
+                let shaking = Shaking { horizontal: &horizontal, vertical: vertical.as_ref() };
                 let mut both = Both(watcher, &mut self.shocks);
                 let ended =
                     self.machine.advance(&self.tracer, &mut self.state, shaking, end - self.time, &self.limits, &mut both);
@@ -254,7 +253,7 @@ where
             time: self.time,
             motion: self.state.motion,
             push: self.push(),
-            ground: [now.ground[0], if B::VERTICAL { now.ground[1] } else { 0.0 }],
+            ground: now.ground,
             engaged: self.state.device.wheels.map(|wheel| wheel.coupling != Coupling::Open),
             spins: now.spin,
             missed: self.state.device.missed,

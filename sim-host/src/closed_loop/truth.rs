@@ -40,7 +40,7 @@ impl Places {
         let (c, s) = (-across / self.frequency_squared, -along / self.frequency_squared);
         let acceleration = motion.acceleration + shock;
         let square = motion.velocity * motion.velocity;
-        let ground = [snapshot.ground[0] * GRAVITY, GRAVITY * (1.0 + if B::VERTICAL { snapshot.ground[1] } else { 0.0 })];
+        let ground = [snapshot.ground[0] * GRAVITY, GRAVITY * (1.0 + snapshot.ground[1])];
         let horizontal = ground[0] + self.size * (c * acceleration + s * square);
         let vertical = ground[1] + self.size * (s * acceleration - c * square);
         let (sine, cosine) = math::sin_cos(motion.rotation);

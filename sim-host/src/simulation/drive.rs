@@ -150,7 +150,6 @@ impl Course<'_> {
         T: Tracer<S>,
         O: DeviceObserver<S> + Segmented,
     {
-        let still = ShapePiece::Quiet;
         let lightest = self.lightest();
         let limits = |bound: f64| Limits { events: MOST_EVENTS, overturned: self.machine_angle(machine, bound, lightest) };
         let vertical = self.vertical.map(GroundMotion::segments);
@@ -161,7 +160,7 @@ impl Course<'_> {
             observer.segment(segment.start, Some(segment));
             let horizontal = ShapePiece::of(&segment.shape);
             let up = vertical.and_then(|segments| segments.get(index)).map(|segment| ShapePiece::of(&segment.shape));
-            let shaking = Shaking { horizontal: &horizontal, vertical: up.as_ref().unwrap_or(&still) };
+            let shaking = Shaking { horizontal: &horizontal, vertical: up.as_ref() };
             let (duration, limits) = (S::of(segment.duration), limits(segment.bound));
             machine.advance(tracer, state, shaking, duration, &limits, observer).map_err(|end| end.after(segment.start))?;
         }
@@ -169,7 +168,7 @@ impl Course<'_> {
             return Ok(());
         }
         observer.segment(self.ground.duration(), None);
-        let shaking = Shaking { horizontal: &still, vertical: &still };
+        let shaking = Shaking { horizontal: &ShapePiece::Quiet, vertical: None };
         let ended = machine.advance(tracer, state, shaking, S::of(self.free_time), &limits(0.0), observer);
         ended.map_err(|end| end.after(self.ground.duration()))
     }

@@ -108,11 +108,11 @@ impl<S: Real> WithMachine<S> for Run<'_, S> {
         let limits = Limits { overturned: S::of(core::f64::consts::FRAC_PI_2), events: 10_000_000 };
         let duration = S::of(core::f64::consts::TAU) / frequency;
         let sine = Harmonics::sine(amplitude, frequency);
-        let shaking = Shaking { horizontal: &sine, vertical: &Quiet };
+        let shaking = Shaking { horizontal: &sine, vertical: None };
         let mut done = machine.advance(&method, &mut state, shaking, duration, &limits, &mut watch);
         if done.is_ok() {
             watch.quiet = true;
-            let shaking = Shaking { horizontal: &Quiet, vertical: &Quiet };
+            let shaking = Shaking { horizontal: &Quiet, vertical: None };
             done = machine.advance(&method, &mut state, shaking, free_time, &limits, &mut watch);
         }
         let Watch { peak, steps, events, depth, gain, .. } = watch;

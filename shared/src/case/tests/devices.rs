@@ -172,7 +172,7 @@ fn single_precision_follows_every_device() {
             let mut state = machine.at_rest();
             let limits = Limits { overturned: 1.5, events: 100_000 };
             let (pulse, up) = (Harmonics::sine(0.1875, 4.0), Harmonics::sine(0.25, 16.0));
-            let shaking = Shaking { horizontal: &pulse, vertical: &up };
+            let shaking = Shaking { horizontal: &pulse, vertical: Some(&up) };
             machine.advance(&Series::<f64, 16>::adaptive(1e-15), &mut state, shaking, 0.75, &limits, &mut ()).unwrap();
             state.motion.rotation
         }

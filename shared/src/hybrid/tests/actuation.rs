@@ -56,7 +56,7 @@ impl WithMachine<f64> for Pulse {
         machine.actuator.controlled = true;
         let mut state = machine.released_at(0.1, 0.0, [0.0; 2]);
         let mut watcher = Watcher::default();
-        let shaking = Shaking { horizontal: &Ground::QUIET, vertical: &Ground::QUIET };
+        let shaking = Shaking { horizontal: &Ground::QUIET, vertical: None };
         let limits = pair(Geometry::Full, 1.0, 1.0).limits(true);
         for (wanted, until) in [([false, true], 0.005), ([false, false], 0.095)] {
             machine.order(&mut state, wanted, &mut watcher);

@@ -238,11 +238,11 @@ impl Shake {
         let mut watcher = (Watcher::default(), watcher);
         let mut state: MachineState<f64> = machine.at_rest();
         for (ground, duration) in &self.pieces {
-            let shaking = Shaking { horizontal: ground, vertical: &Ground::QUIET };
+            let shaking = Shaking { horizontal: ground, vertical: None };
             machine.advance(method, &mut state, shaking, *duration, &self.limits(false), &mut watcher).unwrap();
             watcher.0.peaks.origin += duration;
         }
-        let shaking = Shaking { horizontal: &Ground::QUIET, vertical: &Ground::QUIET };
+        let shaking = Shaking { horizontal: &Ground::QUIET, vertical: None };
         machine.advance(method, &mut state, shaking, self.free_time, &self.limits(true), &mut watcher).unwrap();
         let own = watcher.0;
         Seen {

@@ -67,8 +67,8 @@ impl WithMachine<f64> for Uplift {
             machine.preset(&mut state, engaged);
         }
         (state.device.wheels[0].spin, state.device.wheels[1].spin) = (self.spin, -self.spin);
-        let (ramp, quiet) = (Ground::Line(crate::ground::Linear { start: 0.0, slope: SLOPE }), Ground::QUIET);
-        let shaking = Shaking { horizontal: &ramp, vertical: &quiet };
+        let ramp = Ground::Line(crate::ground::Linear { start: 0.0, slope: SLOPE });
+        let shaking = Shaking { horizontal: &ramp, vertical: None };
         let limits = Limits { overturned: 1.0, events: 10_000 };
         let mut first = First::default();
         machine.advance(&tight(), &mut state, shaking, 2.2, &limits, &mut first).unwrap();
