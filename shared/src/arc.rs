@@ -18,11 +18,11 @@ pub struct Motion<S> {
 
 /// Where a step starts and what governs it.
 #[derive(Clone, Copy, Debug)]
-pub struct Start<'a, S, P> {
+pub struct Start<'a, S> {
     /// The equation of motion in force.
     pub equation: &'a AnyEquation<S>,
     /// The ground motion.
-    pub piece: &'a P,
+    pub piece: &'a dyn Piece<S>,
     /// s.
     pub side: Sign,
     /// θ.
@@ -76,12 +76,12 @@ pub trait Arc<S: Real> {
 /// A way to integrate: fixed steps or steps of its own choice.
 pub trait Method<S: Real> {
     /// Its arcs.
-    type Arc<'a, P: Piece<S> + 'a>: Arc<S>
+    type Arc<'a>: Arc<S>
     where
         Self: 'a;
 
     /// The arc from `start`.
-    fn arc<'a, P: Piece<S>>(&'a self, start: Start<'a, S, P>) -> Self::Arc<'a, P>;
+    fn arc<'a>(&'a self, start: Start<'a, S>) -> Self::Arc<'a>;
 
     /// The fixed step (s), if it has one: then steps end on whole multiples of it from the start of each piece.
     fn step(&self) -> Option<S>;

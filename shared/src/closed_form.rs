@@ -41,25 +41,25 @@ pub struct ClosedForm<S> {
 impl<S: Real> ClosedForm<S> {
     /// Whether motions of `equation` under `piece` have a closed form; otherwise steps are those of [`RungeKutta4`].
     #[inline]
-    pub fn applies<P: Piece<S>>(equation: &AnyEquation<S>, piece: &P) -> bool {
+    pub fn applies(equation: &AnyEquation<S>, piece: &dyn Piece<S>) -> bool {
         equation.slender().is_some() && piece.elementary(S::ZERO).is_some()
     }
 }
 
 /// The motion over one step.
 #[derive(Debug)]
-pub enum ClosedFormArc<'a, S, P> {
+pub enum ClosedFormArc<'a, S> {
     /// In closed form.
     Closed(SlenderArc<S>),
     /// Where there is none.
-    Stepped(FixedArc<'a, S, P, RungeKutta4<S>>),
+    Stepped(FixedArc<'a, S, RungeKutta4<S>>),
 }
 
 impl<S: Real> Method<S> for ClosedForm<S> {
-    type Arc<'a, P: Piece<S> + 'a> = ClosedFormArc<'a, S, P>;
+    type Arc<'a> = ClosedFormArc<'a, S>;
 
     #[inline]
-    fn arc<'a, P: Piece<S>>(&'a self, start: Start<'a, S, P>) -> ClosedFormArc<'a, S, P> {
+    fn arc<'a>(&'a self, start: Start<'a, S>) -> ClosedFormArc<'a, S> {
         match (start.equation.slender(), start.piece.elementary(start.time)) {
             (Some(block), Some(ground)) => ClosedFormArc::Closed(SlenderArc::new(block, ground, &start)),
             _ => ClosedFormArc::Stepped(FixedArc::new(start)),
@@ -96,7 +96,7 @@ struct Acceleration<S> {
 }
 
 impl<S: Real> SlenderArc<S> {
-    fn new<P: Piece<S>>(block: &SlenderBlock<S>, mut ground: Elementary<S>, start: &Start<'_, S, P>) -> Self {
+    fn new(block: &SlenderBlock<S>, mut ground: Elementary<S>, start: &Start<'_, S>) -> Self {
         let rate = block.frequency_squared;
         let acceleration = if start.acceleration_is_zero {
             S::ZERO
@@ -258,7 +258,7 @@ macro_rules! either {
     };
 }
 
-impl<S: Real, P: Piece<S>> Arc<S> for ClosedFormArc<'_, S, P> {
+impl<S: Real> Arc<S> for ClosedFormArc<'_, S> {
     #[inline(always)]
     fn length(&self) -> S {
         either!(self, arc => arc.length())

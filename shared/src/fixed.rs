@@ -9,7 +9,6 @@ use crate::any_equation::WithEquation;
 use crate::arc::{Arc, Method, Motion, Start};
 use crate::detected::Switched;
 use crate::equation::Equation;
-use crate::ground::Piece;
 use crate::scalar::{Real, Scalar};
 
 /// Semi-implicit (symplectic) Euler: θ̇ first, then θ with the new θ̇. Order 1.
@@ -53,7 +52,7 @@ pub fn runge_kutta_4<S: Scalar, E: Equation<S>>(
 /// How a fixed-step method gets from the start of a step to a time within it.
 pub trait Advance<S: Real> {
     /// θ and θ̇ a time `h` after `start`, where θ̈ of `equation`, which is the start's, is `first`.
-    fn advance<E: Equation<S>, P: Piece<S>>(equation: &E, start: &Start<'_, S, P>, first: S, h: S) -> (S, S);
+    fn advance<E: Equation<S>>(equation: &E, start: &Start<'_, S>, first: S, h: S) -> (S, S);
 
     /// The step, s.
     fn step(&self) -> S;
@@ -61,7 +60,7 @@ pub trait Advance<S: Real> {
 
 impl<S: Real> Advance<S> for SemiImplicitEuler<S> {
     #[inline(always)]
-    fn advance<E: Equation<S>, P: Piece<S>>(_equation: &E, start: &Start<'_, S, P>, first: S, h: S) -> (S, S) {
+    fn advance<E: Equation<S>>(_equation: &E, start: &Start<'_, S>, first: S, h: S) -> (S, S) {
         let velocity = start.velocity + h * first;
         (start.rotation + h * velocity, velocity)
     }
@@ -74,7 +73,7 @@ impl<S: Real> Advance<S> for SemiImplicitEuler<S> {
 
 impl<S: Real> Advance<S> for RungeKutta4<S> {
     #[inline(always)]
-    fn advance<E: Equation<S>, P: Piece<S>>(equation: &E, start: &Start<'_, S, P>, first: S, h: S) -> (S, S) {
+    fn advance<E: Equation<S>>(equation: &E, start: &Start<'_, S>, first: S, h: S) -> (S, S) {
         let ground = [S::ZERO, start.piece.acceleration(start.time + S::HALF * h), start.piece.acceleration(start.time + h)];
         runge_kutta_4(equation, start.side.unit(), (start.rotation, start.velocity), first, ground, h)
     }
@@ -87,16 +86,16 @@ impl<S: Real> Advance<S> for RungeKutta4<S> {
 
 /// The arc of a fixed-step method: its end, and the step taken again for every time before it.
 #[derive(Debug)]
-pub struct FixedArc<'a, S, P, A> {
-    start: Start<'a, S, P>,
+pub struct FixedArc<'a, S, A> {
+    start: Start<'a, S>,
     first: S,
     end: Motion<S>,
     method: PhantomData<A>,
 }
 
-impl<'a, S: Real, P: Piece<S>, A: Advance<S>> FixedArc<'a, S, P, A> {
+impl<'a, S: Real, A: Advance<S>> FixedArc<'a, S, A> {
     #[inline(always)]
-    pub(crate) fn new(start: Start<'a, S, P>) -> Self {
+    pub(crate) fn new(start: Start<'a, S>) -> Self {
         let first = if start.acceleration_is_zero {
             S::ZERO
         } else {
@@ -108,20 +107,20 @@ impl<'a, S: Real, P: Piece<S>, A: Advance<S>> FixedArc<'a, S, P, A> {
     }
 
     #[inline(never)]
-    fn motion(start: &Start<'a, S, P>, first: S, time: S) -> Motion<S> {
+    fn motion(start: &Start<'a, S>, first: S, time: S) -> Motion<S> {
         start.equation.known(Step { start, first, time, method: PhantomData::<A> })
     }
 }
 
 /// One step of length `time`.
-struct Step<'s, 'a, S, P, A> {
-    start: &'s Start<'a, S, P>,
+struct Step<'s, 'a, S, A> {
+    start: &'s Start<'a, S>,
     first: S,
     time: S,
     method: PhantomData<A>,
 }
 
-impl<S: Real, P: Piece<S>, A: Advance<S>> WithEquation<S> for Step<'_, '_, S, P, A> {
+impl<S: Real, A: Advance<S>> WithEquation<S> for Step<'_, '_, S, A> {
     type Output = Motion<S>;
 
     #[inline(always)]
@@ -133,7 +132,7 @@ impl<S: Real, P: Piece<S>, A: Advance<S>> WithEquation<S> for Step<'_, '_, S, P,
     }
 }
 
-impl<S: Real, P: Piece<S>, A: Advance<S>> Arc<S> for FixedArc<'_, S, P, A> {
+impl<S: Real, A: Advance<S>> Arc<S> for FixedArc<'_, S, A> {
     #[inline(always)]
     fn length(&self) -> S {
         self.start.length
@@ -158,10 +157,10 @@ impl<S: Real, P: Piece<S>, A: Advance<S>> Arc<S> for FixedArc<'_, S, P, A> {
 macro_rules! fixed_step_method {
     ($method:ident) => {
         impl<S: Real> Method<S> for $method<S> {
-            type Arc<'a, P: Piece<S> + 'a> = FixedArc<'a, S, P, $method<S>>;
+            type Arc<'a> = FixedArc<'a, S, $method<S>>;
 
             #[inline(always)]
-            fn arc<'a, P: Piece<S>>(&'a self, start: Start<'a, S, P>) -> Self::Arc<'a, P> {
+            fn arc<'a>(&'a self, start: Start<'a, S>) -> Self::Arc<'a> {
                 FixedArc::new(start)
             }
 

@@ -171,11 +171,11 @@ impl<S: Real> System<S> {
     ///
     /// # Errors
     /// [`Stopped`], with the state as it was then.
-    pub fn advance<M: Method<S>, P: Piece<S>>(
+    pub fn advance<M: Method<S>>(
         &self,
         method: &M,
         state: &mut State<S>,
-        piece: &P,
+        piece: &dyn Piece<S>,
         duration: S,
         limits: &Limits<S>,
         observer: &mut dyn Observer<S>,
@@ -247,11 +247,11 @@ impl<S: Real> System<S> {
     /// One arc, up to its first event that changes the equation.
     #[expect(clippy::too_many_arguments, reason = "one call site, and each is a different thing")]
     #[inline]
-    fn follow<M: Method<S>, P: Piece<S>>(
+    fn follow<M: Method<S>>(
         &self,
         method: &M,
         state: &mut State<S>,
-        piece: &P,
+        piece: &dyn Piece<S>,
         time: &mut S,
         stop: S,
         limits: &Limits<S>,

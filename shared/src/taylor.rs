@@ -8,7 +8,6 @@ use core::cell::Cell;
 use crate::any_equation::WithEquation;
 use crate::arc::{Arc, Method, Motion, Start};
 use crate::detected::Switched;
-use crate::ground::Piece;
 use crate::math::RECIPROCALS;
 use crate::polynomial;
 use crate::scalar::{Real, Sign};
@@ -63,10 +62,10 @@ pub struct TaylorArc<S, const N: usize> {
 }
 
 impl<S: Real, const N: usize> Method<S> for Taylor<S, N> {
-    type Arc<'a, P: Piece<S> + 'a> = TaylorArc<S, N>;
+    type Arc<'a> = TaylorArc<S, N>;
 
     #[inline]
-    fn arc<'a, P: Piece<S>>(&'a self, start: Start<'a, S, P>) -> TaylorArc<S, N> {
+    fn arc<'a>(&'a self, start: Start<'a, S>) -> TaylorArc<S, N> {
         let mut arc = TaylorArc {
             length: start.length,
             terms: N,

@@ -94,7 +94,7 @@ impl Runner<'_, '_, '_> {
         watch.peaks.rocked = state.motion.phase == Phase::Rocking;
         let mut follow = |horizontal: &Shape, vertical: Option<&Shape>, start: f32, duration: f32| -> Result<(), Stopped> {
             let limits = Limits { overturned: OVERTURNED, events: most_events(duration, *step) };
-            let shaking = Shaking { horizontal, vertical };
+            let shaking = Shaking { horizontal, vertical: vertical.map(|shape| shape as _) };
             watch.peaks.origin = start;
             machine.advance(tracer, &mut state, shaking, duration, &limits, &mut watch)
         };

@@ -43,6 +43,12 @@ pub trait Piece<S: Real> {
     }
 }
 
+impl<S> core::fmt::Debug for dyn Piece<S> + '_ {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        formatter.write_str("Piece")
+    }
+}
+
 /// Ground that does not move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quiet;

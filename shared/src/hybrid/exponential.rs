@@ -14,7 +14,6 @@ use super::steps::{FixedPath, Stepper, Unknowns};
 use crate::body::Body;
 use crate::drivetrain::device::Law;
 use crate::drivetrain::drive::Drive;
-use crate::ground::Piece;
 use crate::scalar::Real;
 
 /// The exponential midpoint method. Order 2; stable for every stiffness.
@@ -79,8 +78,8 @@ fn springless<S: Real>(law: &Law<S>) -> Law<S> {
     Law { stiffness: [S::ZERO; 2], damping: [S::ZERO; 2], ..*law }
 }
 
-fn freeze<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, const X: usize, const G: usize>(
-    soft: &PathStart<'_, S, B, D, P, X>,
+fn freeze<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+    soft: &PathStart<'_, S, B, D, X>,
     t: S,
     (rotation, velocity, extra): &Unknowns<S, X>,
 ) -> Frozen<S, X> {
@@ -91,8 +90,8 @@ fn freeze<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, const X: usize, c
 }
 
 /// The frozen system over `h`, exactly.
-fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, const X: usize, const G: usize>(
-    start: &PathStart<'_, S, B, D, P, X>,
+fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+    start: &PathStart<'_, S, B, D, X>,
     frozen: &Frozen<S, X>,
     h: S,
 ) -> Unknowns<S, X> {
@@ -152,29 +151,29 @@ fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, const X: usize, co
 }
 
 impl<S: Real> Stepper<S> for ExponentialMidpoint<S> {
-    fn advance<B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, const X: usize, const G: usize>(
-        start: &PathStart<'_, S, B, D, P, X>,
+    fn advance<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+        start: &PathStart<'_, S, B, D, X>,
         _first: &(S, [S; X]),
         h: S,
     ) -> Unknowns<S, X> {
         let soft = PathStart { law: springless(&start.law), ..*start };
         let half = S::HALF * h;
-        let here = freeze::<S, B, D, P, X, G>(&soft, S::ZERO, &(start.rotation, start.velocity, start.extra));
-        let middle = solve::<S, B, D, P, X, G>(start, &here, half);
-        let there = freeze::<S, B, D, P, X, G>(&soft, half, &middle);
-        solve::<S, B, D, P, X, G>(start, &there, h)
+        let here = freeze::<S, B, D, X, G>(&soft, S::ZERO, &(start.rotation, start.velocity, start.extra));
+        let middle = solve::<S, B, D, X, G>(start, &here, half);
+        let there = freeze::<S, B, D, X, G>(&soft, half, &middle);
+        solve::<S, B, D, X, G>(start, &there, h)
     }
 }
 
 impl<S: Real> Tracer<S> for ExponentialMidpoint<S> {
-    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, P: Piece<S> + 'a, const X: usize, const G: usize> =
-        FixedPath<'a, S, B, D, P, ExponentialMidpoint<S>, X, G>;
+    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, const X: usize, const G: usize> =
+        FixedPath<'a, S, B, D, ExponentialMidpoint<S>, X, G>;
 
     #[inline(always)]
-    fn path<'a, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, const X: usize, const G: usize>(
+    fn path<'a, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
         &'a self,
-        start: PathStart<'a, S, B, D, P, X>,
-    ) -> Self::Path<'a, B, D, P, X, G> {
+        start: PathStart<'a, S, B, D, X>,
+    ) -> Self::Path<'a, B, D, X, G> {
         FixedPath::of(start)
     }
 

@@ -6,7 +6,6 @@ use super::{Machine, MachineState};
 use crate::body::Body;
 use crate::drivetrain::device::{Coupling, Law, Watch, Wheel};
 use crate::drivetrain::drive::Drive;
-use crate::ground::Piece;
 use crate::rocking::Limits;
 use crate::scalar::{Real, Sign};
 use crate::snapshot::DeviceObserver;
@@ -33,10 +32,10 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// Follows a held block until the push is strong enough or `stop`. Returns the time.
-    pub(super) fn hold<P: Piece<S>>(
+    pub(super) fn hold(
         &self,
         state: &mut MachineState<S>,
-        shaking: Shaking<'_, P>,
+        shaking: Shaking<'_, S>,
         time: S,
         stop: S,
         observer: &mut dyn DeviceObserver<S>,
@@ -61,7 +60,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// When a held block is let go before `stop`, and how. On its base it can only go up, and its weight alone may hold it again.
-    fn let_go<P: Piece<S>>(&self, state: &MachineState<S>, shaking: Shaking<'_, P>, time: S, stop: S) -> Option<(S, LetGo)> {
+    fn let_go(&self, state: &MachineState<S>, shaking: Shaking<'_, S>, time: S, stop: S) -> Option<(S, LetGo)> {
         let side = state.motion.side;
         let first = |threshold: Threshold<S>| threshold.exceeded(shaking, time, stop);
         let moves = |sign| first(self.breakaway(state, side, sign)).map(|(at, crossing)| (at, LetGo::Moves { sign, crossing }));
@@ -126,11 +125,11 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     }
 
     /// [`Machine::hold`] with springs: one step, up to its first event.
-    pub(super) fn hold_springs<T: Tracer<S>, P: Piece<S>>(
+    pub(super) fn hold_springs<T: Tracer<S>>(
         &self,
         tracer: &T,
         state: &mut MachineState<S>,
-        shaking: Shaking<'_, P>,
+        shaking: Shaking<'_, S>,
         (time, stop): (&mut S, S),
         guarded: (&Limits<S>, bool),
         observer: &mut dyn DeviceObserver<S>,

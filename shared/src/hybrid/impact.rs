@@ -6,7 +6,6 @@ use crate::accumulation::Accumulation;
 use crate::body::Body;
 use crate::drivetrain::device::WATCHES;
 use crate::drivetrain::drive::Drive;
-use crate::ground::Piece;
 use crate::observer::Event;
 use crate::rocking::Phase;
 use crate::scalar::{Real, Sign};
@@ -17,10 +16,10 @@ const MOST_IDLE_SWINGS: f64 = 1e3;
 
 impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {
     /// θ = 0. Returns the time, which rest moves on to the end of the impacts that it stands for.
-    pub(super) fn impact<P: Piece<S>>(
+    pub(super) fn impact(
         &self,
         state: &mut MachineState<S>,
-        shaking: Shaking<'_, P>,
+        shaking: Shaking<'_, S>,
         time: S,
         duration: S,
         observer: &mut dyn DeviceObserver<S>,

@@ -27,7 +27,6 @@ use crate::body::Body;
 use crate::drivetrain::device::{Coupling, Device, Law, WATCHES, Watch};
 use crate::drivetrain::drive::{Drive, Instant, Moment, MomentOf};
 use crate::grid::next_stop;
-use crate::ground::Piece;
 use crate::locate::locate;
 use crate::observer::{Event, Stretch};
 use crate::rocking::{Limits, Phase, State, Stopped};
@@ -122,11 +121,11 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     ///
     /// # Errors
     /// [`Stopped`], with the state as it was then.
-    pub fn advance<T: Tracer<S>, P: Piece<S>>(
+    pub fn advance<T: Tracer<S>>(
         &self,
         tracer: &T,
         state: &mut MachineState<S>,
-        shaking: Shaking<'_, P>,
+        shaking: Shaking<'_, S>,
         duration: S,
         limits: &Limits<S>,
         observer: &mut dyn DeviceObserver<S>,
@@ -193,11 +192,11 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
 
     /// One step, up to its first event.
     #[inline]
-    fn follow<T: Tracer<S>, P: Piece<S>>(
+    fn follow<T: Tracer<S>>(
         &self,
         tracer: &T,
         state: &mut MachineState<S>,
-        shaking: Shaking<'_, P>,
+        shaking: Shaking<'_, S>,
         (time, stop): (&mut S, S),
         (limits, guarded): (&Limits<S>, bool),
         observer: &mut dyn DeviceObserver<S>,
@@ -226,7 +225,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             scale: self.slenderness,
             speed: self.speed,
         };
-        let path = tracer.path::<B, D, P, X, G>(start);
+        let path = tracer.path::<B, D, X, G>(start);
         let length = path.length();
         let mut until = length;
         let mut end = End::Reached;

@@ -9,29 +9,18 @@ use crate::locate::locate_by_value;
 use crate::scalar::{Real, Sign};
 
 /// Horizontal and vertical ground motion over one piece.
-#[derive(Debug)]
-pub struct Shaking<'a, P> {
+#[derive(Clone, Copy, Debug)]
+pub struct Shaking<'a, S> {
     /// Horizontal.
-    pub horizontal: &'a P,
+    pub horizontal: &'a dyn Piece<S>,
     /// Vertical, for a body that knows of it.
-    pub vertical: Option<&'a P>,
+    pub vertical: Option<&'a dyn Piece<S>>,
 }
 
-impl<P> Clone for Shaking<'_, P> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<P> Copy for Shaking<'_, P> {}
-
-impl<P> Shaking<'_, P> {
+impl<S: Real> Shaking<'_, S> {
     /// Both accelerations in g at the local time `time` (s).
     #[inline(always)]
-    pub fn at<S: Real>(&self, time: S) -> [S; 2]
-    where
-        P: Piece<S>,
-    {
+    pub fn at(&self, time: S) -> [S; 2] {
         let horizontal = self.horizontal.acceleration(time);
         [horizontal, self.vertical.map_or(S::ZERO, |vertical| vertical.acceleration(time))]
     }
@@ -39,7 +28,7 @@ impl<P> Shaking<'_, P> {
 
 /// Where a step starts and what governs it.
 #[derive(Clone, Copy, Debug)]
-pub struct PathStart<'a, S, B, D, P, const X: usize> {
+pub struct PathStart<'a, S, B, D, const X: usize> {
     /// The block.
     pub body: &'a B,
     /// The device.
@@ -47,7 +36,7 @@ pub struct PathStart<'a, S, B, D, P, const X: usize> {
     /// Its mode.
     pub law: Law<S>,
     /// The ground motion.
-    pub shaking: Shaking<'a, P>,
+    pub shaking: Shaking<'a, S>,
     /// s.
     pub side: Sign,
     /// θ.
@@ -70,7 +59,7 @@ pub struct PathStart<'a, S, B, D, P, const X: usize> {
     pub speed: S,
 }
 
-impl<S: Real, B: Body<S>, D, P: Piece<S>, const X: usize> PathStart<'_, S, B, D, P, X> {
+impl<S: Real, B: Body<S>, D, const X: usize> PathStart<'_, S, B, D, X> {
     /// Whether friction holds the block; only devices with springs have a path then.
     #[inline(always)]
     pub fn is_held<const G: usize>(&self) -> bool
@@ -159,15 +148,15 @@ pub trait Path<S: Real, const X: usize>: Arc<S> {
 /// A way to integrate a block with a device.
 pub trait Tracer<S: Real> {
     /// Its paths.
-    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, P: Piece<S> + 'a, const X: usize, const G: usize>: Path<S, X>
+    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, const X: usize, const G: usize>: Path<S, X>
     where
         Self: 'a;
 
     /// The path from `start`.
-    fn path<'a, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, const X: usize, const G: usize>(
+    fn path<'a, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
         &'a self,
-        start: PathStart<'a, S, B, D, P, X>,
-    ) -> Self::Path<'a, B, D, P, X, G>;
+        start: PathStart<'a, S, B, D, X>,
+    ) -> Self::Path<'a, B, D, X, G>;
 
     /// The fixed step (s), if it has one.
     fn step(&self) -> Option<S>;

@@ -6,22 +6,21 @@ use crate::arc::{Arc, Motion};
 use crate::body::Body;
 use crate::drivetrain::device::Law;
 use crate::drivetrain::drive::Drive;
-use crate::ground::Piece;
 use crate::rocking::State;
 use crate::scalar::Real;
 use crate::snapshot::{DeviceArc, Snapshot};
 
 /// A path as watchers see it.
-pub(super) struct Seen<'a, S, B, D, A, P, const X: usize, const G: usize> {
+pub(super) struct Seen<'a, S, B, D, A, const X: usize, const G: usize> {
     pub(super) machine: &'a Machine<S, B, D, X, G>,
     pub(super) path: &'a A,
     pub(super) law: &'a Law<S>,
     pub(super) state: &'a MachineState<S>,
-    pub(super) shaking: Shaking<'a, P>,
+    pub(super) shaking: Shaking<'a, S>,
     pub(super) time: S,
 }
 
-impl<S: Real, B, D, A: Arc<S>, P, const X: usize, const G: usize> Arc<S> for Seen<'_, S, B, D, A, P, X, G> {
+impl<S: Real, B, D, A: Arc<S>, const X: usize, const G: usize> Arc<S> for Seen<'_, S, B, D, A, X, G> {
     #[inline(always)]
     fn length(&self) -> S {
         self.path.length()
@@ -43,13 +42,12 @@ impl<S: Real, B, D, A: Arc<S>, P, const X: usize, const G: usize> Arc<S> for See
     }
 }
 
-impl<S, B, D, A, P, const X: usize, const G: usize> DeviceArc<S> for Seen<'_, S, B, D, A, P, X, G>
+impl<S, B, D, A, const X: usize, const G: usize> DeviceArc<S> for Seen<'_, S, B, D, A, X, G>
 where
     S: Real,
     B: Body<S>,
     D: Drive<S, X, G>,
     A: Path<S, X>,
-    P: Piece<S>,
 {
     fn snapshot(&self, time: S) -> Snapshot<S> {
         let ground = self.shaking.at(self.time + time);

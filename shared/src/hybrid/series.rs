@@ -9,7 +9,6 @@ use crate::arc::{Arc, Motion};
 use crate::body::Body;
 use crate::drivetrain::device::Watch;
 use crate::drivetrain::drive::{Drive, Moment};
-use crate::ground::Piece;
 use crate::math::RECIPROCALS;
 use crate::polynomial;
 use crate::scalar::{Real, Sign};
@@ -56,13 +55,12 @@ pub struct SeriesPath<S, const N: usize, const X: usize, const G: usize> {
 }
 
 impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
-    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, P: Piece<S> + 'a, const X: usize, const G: usize> =
-        SeriesPath<S, N, X, G>;
+    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, const X: usize, const G: usize> = SeriesPath<S, N, X, G>;
 
     #[inline(never)]
-    fn path<'a, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, const X: usize, const G: usize>(
+    fn path<'a, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
         &'a self,
-        start: PathStart<'a, S, B, D, P, X>,
+        start: PathStart<'a, S, B, D, X>,
     ) -> SeriesPath<S, N, X, G> {
         // θ, θ̇, the ground twice and the clock, then the device's unknowns.
         const GIVEN: usize = 5;

@@ -9,7 +9,6 @@ use crate::body::Body;
 use crate::drivetrain::device::{Coupling, WATCHES};
 use crate::drivetrain::drive::{Drive, open};
 use crate::drivetrain::under_way::UnderWay;
-use crate::ground::Piece;
 use crate::observer::{Event, Stretch};
 use crate::rocking::{Phase, State};
 use crate::scalar::{Real, Sign};
@@ -136,13 +135,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
 
     /// First instant in [`from`, `to`) at which the ground pushes a standing block harder than its weight holds it, and whether
     /// it gets there by crossing that threshold.
-    pub(super) fn uplift_time<P: Piece<S>>(
-        &self,
-        state: &MachineState<S>,
-        shaking: Shaking<'_, P>,
-        from: S,
-        to: S,
-    ) -> Option<(S, bool)> {
+    pub(super) fn uplift_time(&self, state: &MachineState<S>, shaking: Shaking<'_, S>, from: S, to: S) -> Option<(S, bool)> {
         let first = |side| self.breakaway(state, side, side).exceeded(shaking, from, to);
         earlier([Sign::Positive, Sign::Negative].map(first))
     }

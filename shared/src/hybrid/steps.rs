@@ -8,7 +8,6 @@ use crate::arc::{Arc, Motion};
 use crate::body::Body;
 use crate::drivetrain::drive::Drive;
 use crate::fixed::RungeKutta4;
-use crate::ground::Piece;
 use crate::scalar::Real;
 
 /// θ, θ̇ and the device's unknowns.
@@ -17,8 +16,8 @@ pub type Unknowns<S, const X: usize> = (S, S, [S; X]);
 /// How a fixed-step method gets from the start of a step to a time within it.
 pub trait Stepper<S: Real> {
     /// The unknowns a time `h` after `start`, where θ̈ and the rates of the device's unknowns are `first`.
-    fn advance<B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, const X: usize, const G: usize>(
-        start: &PathStart<'_, S, B, D, P, X>,
+    fn advance<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+        start: &PathStart<'_, S, B, D, X>,
         first: &(S, [S; X]),
         h: S,
     ) -> Unknowns<S, X>;
@@ -26,8 +25,8 @@ pub trait Stepper<S: Real> {
 
 impl<S: Real> Stepper<S> for RungeKutta4<S> {
     #[inline]
-    fn advance<B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, const X: usize, const G: usize>(
-        start: &PathStart<'_, S, B, D, P, X>,
+    fn advance<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+        start: &PathStart<'_, S, B, D, X>,
         (first, r1): &(S, [S; X]),
         h: S,
     ) -> Unknowns<S, X> {
@@ -58,20 +57,18 @@ impl<S: Real> Stepper<S> for RungeKutta4<S> {
 
 /// The path of a fixed-step method: its ends, and the step taken again for every time between them.
 #[derive(Debug)]
-pub struct FixedPath<'a, S, B, D, P, A, const X: usize, const G: usize> {
-    start: PathStart<'a, S, B, D, P, X>,
+pub struct FixedPath<'a, S, B, D, A, const X: usize, const G: usize> {
+    start: PathStart<'a, S, B, D, X>,
     /// θ̈ and the rates of the device's unknowns at the start.
     first: (S, [S; X]),
     end: (Motion<S>, [S; X]),
     method: PhantomData<A>,
 }
 
-impl<'a, S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, A: Stepper<S>, const X: usize, const G: usize>
-    FixedPath<'a, S, B, D, P, A, X, G>
-{
+impl<'a, S: Real, B: Body<S>, D: Drive<S, X, G>, A: Stepper<S>, const X: usize, const G: usize> FixedPath<'a, S, B, D, A, X, G> {
     /// From `start`.
     #[inline(never)]
-    pub fn of(start: PathStart<'a, S, B, D, P, X>) -> Self {
+    pub fn of(start: PathStart<'a, S, B, D, X>) -> Self {
         let first = start.rates::<G>(S::ZERO, start.rotation, start.velocity, &start.extra);
         let still = Motion { rotation: start.rotation, velocity: start.velocity, acceleration: first.0 };
         let extra = start.extra;
@@ -83,7 +80,7 @@ impl<'a, S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, A: Stepper<S>, con
     /// A step of length `time`. It is taken from many places: one copy of it keeps programs small.
     #[inline(never)]
     fn look(&self, time: S) -> (Motion<S>, [S; X]) {
-        let (rotation, velocity, extra) = A::advance::<B, D, P, X, G>(&self.start, &self.first, time);
+        let (rotation, velocity, extra) = A::advance::<B, D, X, G>(&self.start, &self.first, time);
         let (acceleration, _) = self.start.rates::<G>(time, rotation, velocity, &extra);
         (Motion { rotation, velocity, acceleration }, extra)
     }
@@ -104,8 +101,8 @@ impl<'a, S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, A: Stepper<S>, con
     }
 }
 
-impl<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, A: Stepper<S>, const X: usize, const G: usize> Arc<S>
-    for FixedPath<'_, S, B, D, P, A, X, G>
+impl<S: Real, B: Body<S>, D: Drive<S, X, G>, A: Stepper<S>, const X: usize, const G: usize> Arc<S>
+    for FixedPath<'_, S, B, D, A, X, G>
 {
     #[inline(always)]
     fn length(&self) -> S {
@@ -123,8 +120,8 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, A: Stepper<S>, const X
     }
 }
 
-impl<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, A: Stepper<S>, const X: usize, const G: usize> Path<S, X>
-    for FixedPath<'_, S, B, D, P, A, X, G>
+impl<S: Real, B: Body<S>, D: Drive<S, X, G>, A: Stepper<S>, const X: usize, const G: usize> Path<S, X>
+    for FixedPath<'_, S, B, D, A, X, G>
 {
     #[inline]
     fn extra(&self, time: S) -> [S; X] {
@@ -139,14 +136,14 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, A: Stepper<S>, const X
 }
 
 impl<S: Real> Tracer<S> for RungeKutta4<S> {
-    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, P: Piece<S> + 'a, const X: usize, const G: usize> =
-        FixedPath<'a, S, B, D, P, RungeKutta4<S>, X, G>;
+    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, const X: usize, const G: usize> =
+        FixedPath<'a, S, B, D, RungeKutta4<S>, X, G>;
 
     #[inline(always)]
-    fn path<'a, B: Body<S>, D: Drive<S, X, G>, P: Piece<S>, const X: usize, const G: usize>(
+    fn path<'a, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
         &'a self,
-        start: PathStart<'a, S, B, D, P, X>,
-    ) -> Self::Path<'a, B, D, P, X, G> {
+        start: PathStart<'a, S, B, D, X>,
+    ) -> Self::Path<'a, B, D, X, G> {
         FixedPath::of(start)
     }
 

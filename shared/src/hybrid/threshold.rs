@@ -6,7 +6,6 @@ use crate::arc::Motion;
 use crate::body::Body;
 use crate::drivetrain::device::{Coupling, Wheel};
 use crate::drivetrain::drive::Drive;
-use crate::ground::Piece;
 use crate::polynomial::first_zero_of;
 use crate::scalar::{Real, Sign};
 
@@ -56,7 +55,7 @@ impl<S: Real> Threshold<S> {
 
     /// First instant in [`from`, `to`) at which it is above zero and not about to fall below, and whether it gets there by crossing zero
     /// or by a jump. It grows from `from` on.
-    pub(super) fn exceeded<P: Piece<S>>(&self, shaking: Shaking<'_, P>, from: S, to: S) -> Option<(S, bool)> {
+    pub(super) fn exceeded(&self, shaking: Shaking<'_, S>, from: S, to: S) -> Option<(S, bool)> {
         let value = |t: S| {
             let mut slope = self.horizontal * shaking.horizontal.slope(t) + self.growth;
             if let Some(vertical) = shaking.vertical {

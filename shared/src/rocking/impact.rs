@@ -14,10 +14,10 @@ const MOST_IDLE_SWINGS: f64 = 1e3;
 impl<S: Real> System<S> {
     /// θ = 0: the velocity is multiplied by η and the other toe takes over, or the block comes to rest. Returns the
     /// time, which rest moves on to the end of the impacts that it stands for.
-    pub(super) fn impact<P: Piece<S>>(
+    pub(super) fn impact(
         &self,
         state: &mut State<S>,
-        piece: &P,
+        piece: &dyn Piece<S>,
         time: S,
         duration: S,
         observer: &mut dyn Observer<S>,

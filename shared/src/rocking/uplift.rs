@@ -10,7 +10,7 @@ impl<S: Real> System<S> {
     /// First instant in [`from`, `to`) at which the ground pushes harder than the weight holds, and whether it gets
     /// there by crossing the threshold (so that the bracket is zero) or by a jump.
     #[inline(never)]
-    pub(super) fn uplift_time<P: Piece<S>>(&self, piece: &P, from: S, to: S) -> Option<(S, bool)> {
+    pub(super) fn uplift_time(&self, piece: &dyn Piece<S>, from: S, to: S) -> Option<(S, bool)> {
         let start = piece.acceleration(from);
         if self.lifts(start) {
             return Some((from, false));
@@ -67,7 +67,7 @@ impl<S: Real> System<S> {
 
 /// By how much a push of `start` (in g) at the start of a stretch of `length` (s) grows there, as far as its slope and curvature bound tell.
 #[inline(never)]
-fn rises<S: Real, P: Piece<S>>(piece: &P, from: S, start: S, length: S) -> S {
+fn rises<S: Real>(piece: &dyn Piece<S>, from: S, start: S, length: S) -> S {
     let slope = Sign::of(start, Sign::Positive).times(piece.slope(from));
     if slope <= S::ZERO {
         return S::ZERO;

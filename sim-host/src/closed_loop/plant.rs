@@ -236,7 +236,7 @@ where
             if let Some((horizontal, vertical)) = &self.pieces {
                 let offset = self.time - start;
                 let (horizontal, vertical) = (horizontal.after(offset), vertical.as_ref().map(|piece| piece.after(offset)));
-                let shaking = Shaking { horizontal: &horizontal, vertical: vertical.as_ref() };
+                let shaking = Shaking { horizontal: &horizontal, vertical: vertical.as_ref().map(|piece| piece as _) };
                 let mut both = Both(watcher, &mut self.shocks);
                 let ended =
                     self.machine.advance(&self.tracer, &mut self.state, shaking, end - self.time, &self.limits, &mut both);

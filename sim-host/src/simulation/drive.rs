@@ -160,7 +160,7 @@ impl Course<'_> {
             observer.segment(segment.start, Some(segment));
             let horizontal = ShapePiece::of(&segment.shape);
             let up = vertical.and_then(|segments| segments.get(index)).map(|segment| ShapePiece::of(&segment.shape));
-            let shaking = Shaking { horizontal: &horizontal, vertical: up.as_ref() };
+            let shaking = Shaking { horizontal: &horizontal, vertical: up.as_ref().map(|piece| piece as _) };
             let (duration, limits) = (S::of(segment.duration), limits(segment.bound));
             machine.advance(tracer, state, shaking, duration, &limits, observer).map_err(|end| end.after(segment.start))?;
         }

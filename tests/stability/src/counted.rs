@@ -3,7 +3,6 @@
 use std::cell::Cell;
 
 use sprag_shared::arc::{Arc, Method, Motion, Start};
-use sprag_shared::ground::Piece;
 use sprag_shared::scalar::{Real, Sign};
 
 /// Another method, counted: work is bounded by numbers of arcs and of looks at them, never by a clock.
@@ -67,12 +66,12 @@ impl<S: Real, A: Arc<S>> Arc<S> for CountedArc<'_, A> {
 }
 
 impl<S: Real, M: Method<S>> Method<S> for Counted<M> {
-    type Arc<'a, P: Piece<S> + 'a>
-        = CountedArc<'a, M::Arc<'a, P>>
+    type Arc<'a>
+        = CountedArc<'a, M::Arc<'a>>
     where
         Self: 'a;
 
-    fn arc<'a, P: Piece<S>>(&'a self, start: Start<'a, S, P>) -> Self::Arc<'a, P> {
+    fn arc<'a>(&'a self, start: Start<'a, S>) -> Self::Arc<'a> {
         self.arcs.set(self.arcs.get() + 1);
         CountedArc { arc: self.method.arc(start), looks: &self.looks }
     }

@@ -103,7 +103,7 @@ fn machine<B, D, const X: usize, const G: usize>(body: B, drive: D, drivetrain: 
 fn passage<B: Body<f32>, D: Drive<f32, X, G>, T: Tracer<f32>, const X: usize, const G: usize>(
     machine: &Machine<f32, B, D, X, G>,
     tracer: &T,
-    shaking: Shaking<'_, Shape>,
+    shaking: Shaking<'_, f32>,
     tally: &mut Tally,
 ) -> Result<(), Stopped> {
     let limits = Limits { overturned: core::f32::consts::FRAC_PI_2, events: 10_000 };
