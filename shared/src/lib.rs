@@ -22,6 +22,7 @@
 extern crate std;
 
 pub mod accumulation;
+pub mod any_body;
 pub mod any_equation;
 pub mod arc;
 pub mod block;
@@ -63,6 +64,5 @@ pub mod snapshot;
 pub mod structure;
 pub mod tape;
 pub mod taylor;
-pub mod told_body;
 pub mod value;
 pub mod watched;

@@ -2,14 +2,10 @@
 
 use super::ideal::{STIFF, most_events};
 use super::{Case, CaseError, Ending, FixedMethod, Initially, RunEnd, Shape};
-use crate::body::Body;
-use crate::drivetrain::drive::Drive;
-use crate::drivetrain::elastic::ElasticPair;
 use crate::fixed::RungeKutta4;
 use crate::hybrid::Machine;
 use crate::hybrid::exponential::ExponentialMidpoint;
 use crate::hybrid::path::{Shaking, Tracer};
-use crate::hybrid::resolve::WithMachine;
 use crate::observer::{Event, Observer, Peaks, Stretch};
 use crate::rocking::{Limits, Phase, State, Stopped};
 use crate::snapshot::{DeviceArc, DeviceObserver};
@@ -28,7 +24,15 @@ pub(super) fn run(case: &Case<'_>, observer: &mut dyn DeviceObserver<f32>) -> Re
     if let method @ (FixedMethod::SemiImplicitEuler | FixedMethod::Taylor) = case.method {
         return Err(CaseError::Method { method, runs: IDEAL });
     }
-    case.drivetrain.resolve(&case.structure, case.ground.is_vertical(), Runner { case, observer })?
+    let machine = case.drivetrain.resolve(&case.structure, case.ground.is_vertical())?;
+    let step = case.step;
+    match case.method {
+        method @ FixedMethod::ExponentialMidpoint if !machine.drive.traits().springs => {
+            Err(CaseError::Method { method, runs: STIFF })
+        }
+        FixedMethod::ExponentialMidpoint => follow(case, &machine, &ExponentialMidpoint { step }, observer),
+        _ => follow(case, &machine, &RungeKutta4 { step }, observer),
+    }
 }
 
 /// The caller's observer, the peaks, and a count of steps.
@@ -51,59 +55,30 @@ impl DeviceObserver<f32> for Watch<'_> {
     }
 }
 
-struct Runner<'c, 'w, 'o> {
-    case: &'c Case<'w>,
-    observer: &'o mut dyn DeviceObserver<f32>,
-}
-
-impl WithMachine<f32> for Runner<'_, '_, '_> {
-    type Output = Result<RunEnd, CaseError>;
-
-    fn with<B: Body<f32>, D: Drive<f32, X, G>, const X: usize, const G: usize>(
-        self,
-        machine: Machine<f32, B, D, X, G>,
-    ) -> Self::Output {
-        let step = self.case.step;
-        match self.case.method {
-            method @ FixedMethod::ExponentialMidpoint => Err(CaseError::Method { method, runs: STIFF }),
-            _ => self.run(&machine, &RungeKutta4 { step }),
-        }
+fn follow<T: Tracer<f32>>(
+    case: &Case<'_>,
+    machine: &Machine<f32>,
+    tracer: &T,
+    observer: &mut dyn DeviceObserver<f32>,
+) -> Result<RunEnd, CaseError> {
+    let Case { initially, step, ground, free_time, .. } = case;
+    let mut watch = Watch { observer, peaks: Peaks::default(), steps: 0 };
+    let mut state = match *initially {
+        Initially::Rest => machine.at_rest(),
+        Initially::Released { rotation, velocity } => machine.released_at(rotation, velocity, ground.first()),
+    };
+    watch.peaks.rocked = state.motion.phase == Phase::Rocking;
+    let mut follow = |horizontal: &Shape, vertical: Option<&Shape>, start: f32, duration: f32| -> Result<(), Stopped> {
+        let limits = Limits { overturned: OVERTURNED, events: most_events(duration, *step) };
+        let shaking = Shaking { horizontal, vertical: vertical.map(|shape| shape as _) };
+        watch.peaks.origin = start;
+        machine.advance(tracer, &mut state, shaking, duration, &limits, &mut watch)
+    };
+    ground.try_for_each(&mut follow)?;
+    if *free_time > 0.0 {
+        follow(&Shape::Quiet, None, ground.duration(), *free_time)?;
     }
-
-    fn with_elastic<B: Body<f32>>(self, machine: Machine<f32, B, ElasticPair<f32>, 4, 5>) -> Self::Output {
-        let step = self.case.step;
-        match self.case.method {
-            FixedMethod::ExponentialMidpoint => self.run(&machine, &ExponentialMidpoint { step }),
-            _ => self.with(machine),
-        }
-    }
-}
-
-impl Runner<'_, '_, '_> {
-    fn run<B: Body<f32>, D: Drive<f32, X, G>, T: Tracer<f32>, const X: usize, const G: usize>(
-        self,
-        machine: &Machine<f32, B, D, X, G>,
-        tracer: &T,
-    ) -> Result<RunEnd, CaseError> {
-        let Case { initially, step, ground, free_time, .. } = self.case;
-        let mut watch = Watch { observer: self.observer, peaks: Peaks::default(), steps: 0 };
-        let mut state = match *initially {
-            Initially::Rest => machine.at_rest(),
-            Initially::Released { rotation, velocity } => machine.released_at(rotation, velocity, ground.first()),
-        };
-        watch.peaks.rocked = state.motion.phase == Phase::Rocking;
-        let mut follow = |horizontal: &Shape, vertical: Option<&Shape>, start: f32, duration: f32| -> Result<(), Stopped> {
-            let limits = Limits { overturned: OVERTURNED, events: most_events(duration, *step) };
-            let shaking = Shaking { horizontal, vertical: vertical.map(|shape| shape as _) };
-            watch.peaks.origin = start;
-            machine.advance(tracer, &mut state, shaking, duration, &limits, &mut watch)
-        };
-        ground.try_for_each(&mut follow)?;
-        if *free_time > 0.0 {
-            follow(&Shape::Quiet, None, ground.duration(), *free_time)?;
-        }
-        let Watch { peaks, steps, .. } = watch;
-        let ending = Ending::of(&state.motion, &peaks);
-        Ok(RunEnd { ending, state: state.motion, peaks, steps, missed: state.device.missed })
-    }
+    let Watch { peaks, steps, .. } = watch;
+    let ending = Ending::of(&state.motion, &peaks);
+    Ok(RunEnd { ending, state: state.motion, peaks, steps, missed: state.device.missed })
 }

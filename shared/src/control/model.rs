@@ -3,6 +3,7 @@
 //! The same bodies that the simulator integrates ([`crate::body`]), in single precision: what the controller knows of the
 //! dynamics is written nowhere else.
 
+use crate::any_body::AnyBody;
 use crate::block::Geometry;
 use crate::body::{Body, FullBody, SlenderBody};
 use crate::drivetrain::{Drivetrain, Engagement};
@@ -12,7 +13,6 @@ use crate::lever::TyingPoint;
 use crate::math;
 use crate::scalar::Sign;
 use crate::structure::{KinematicsKind, Structure};
-use crate::told_body::ToldBody;
 
 /// A body that a [`Structure`] can be resolved into for the controller. Its vertical ground motion is always looked at.
 pub trait KnownBody: Body<f32> {
@@ -30,18 +30,18 @@ pub type KnownSlender = SlenderBody<f32>;
 pub type KnownFull<K> = FullBody<f32, K>;
 
 /// Any of them, told at run time.
-pub type KnownAny = ToldBody;
+pub type KnownAny = AnyBody<f32>;
 
 impl From<KnownSlender> for KnownAny {
     fn from(body: KnownSlender) -> KnownAny {
-        ToldBody::Slender(body)
+        AnyBody::Slender(body)
     }
 }
 
 impl<K: BodyKinematics> From<KnownFull<K>> for KnownAny {
     fn from(body: KnownFull<K>) -> KnownAny {
         let FullBody { block, lever, kinematics, vertical } = body;
-        ToldBody::Full(FullBody { block, lever, kinematics: Told::told(kinematics.consistent()), vertical })
+        AnyBody::Full(FullBody { block, lever, kinematics: Told::told(kinematics.consistent()), vertical })
     }
 }
 
@@ -49,7 +49,7 @@ impl KnownBody for KnownAny {
     fn of(structure: &Structure) -> Result<Self, ParameterError> {
         Ok(match structure.geometry {
             Geometry::Slender => KnownSlender::of(structure)?.into(),
-            Geometry::Full => ToldBody::Full(KnownFull::<Told>::of(structure)?),
+            Geometry::Full => AnyBody::Full(KnownFull::<Told>::of(structure)?),
         })
     }
 }

@@ -2,6 +2,7 @@
 
 use super::device::{Coupling, Device, Law, Watch};
 use super::gears::Gears;
+use crate::any_body::AnyBody;
 use crate::body::Body;
 use crate::scalar::{Real, Sign};
 use crate::snapshot::Spent;
@@ -29,11 +30,14 @@ pub struct Moment<'a, S, B, P, V, const X: usize> {
 /// [`Moment`] of a body.
 pub type MomentOf<'a, S, B, V, const X: usize> = Moment<'a, S, B, <B as Body<S>>::Posture<V>, V, X>;
 
+/// [`Moment`] in numbers, of a body chosen at run time: what events and observers look at.
+pub type AnyMoment<'a, S, const X: usize> = MomentOf<'a, S, AnyBody<S>, S, X>;
+
 /// An event that a device has to answer, in numbers.
 #[derive(Debug)]
-pub struct Instant<'a, S, B> {
+pub struct Instant<'a, S> {
     /// The block.
-    pub body: &'a B,
+    pub body: &'a AnyBody<S>,
     /// s.
     pub side: Sign,
     /// Sign of θ̇, or the one it is about to take.
@@ -48,7 +52,7 @@ pub struct Instant<'a, S, B> {
     pub device: &'a mut Device<S>,
 }
 
-impl<S: Real, B: Body<S>> Instant<'_, S, B> {
+impl<S: Real> Instant<'_, S> {
     /// Speed of the rack over R, 1/s.
     pub fn rack_speed(&self) -> S {
         let posture = self.body.posture(self.side.unit(), self.rotation);
@@ -73,44 +77,96 @@ pub trait Drive<S: Real, const X: usize, const G: usize>: Copy {
     fn flow<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, X>) -> (V, [V; X]);
 
     /// The function of `watch`, where θ̈ is `acceleration`; positive while the mode lasts.
-    fn guard<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, X>, acceleration: V, watch: Watch<S>) -> V;
-
-    /// The device's unknowns at the start of an arc.
-    fn load(&self, device: &Device<S>) -> [S; X];
-
-    /// And at its end, where the rack has the speed `rack` (over R).
-    fn store(&self, device: &mut Device<S>, extra: &[S; X], rack: S);
-
-    /// Size of each unknown that matters, for tolerances, where θ̇ of that size is `speed` (rad/s).
-    fn scales(&self, speed: S) -> [S; X];
-
-    /// A command to engage takes effect.
-    fn engage<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize);
-
-    /// A command to release takes effect.
-    fn release<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize);
-
-    /// The watched function of `watch` has reached zero.
-    fn reached<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, watch: Watch<S>);
-
-    /// The velocity has jumped, or passed zero: modes that this ends are left.
-    fn settle<B: Body<S>>(&self, at: &mut Instant<'_, S, B>);
-
-    /// An impact, at which the rack's speed jumps from `before` to what it is now; called before [`Drive::settle`].
-    fn impact<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, before: S);
-
-    /// Flywheels that take part in the change of moment of momentum at an impact.
-    fn engaged_at_impact(&self, device: &Device<S>) -> usize;
-
-    /// Σ k engaged while a block without ground motion falls back (`inward`) or rises.
-    fn swing_coupling(&self, inward: bool) -> S;
+    #[inline(always)]
+    fn guard<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, X>, acceleration: V, watch: Watch<S>) -> V {
+        let _ = (at, watch);
+        acceleration
+    }
 
     /// The parameters, where there are any.
     fn gears(&self) -> Option<&Gears<S>>;
 
+    /// The device's unknowns at the start of an arc: speeds of the flywheels, then twists of the clutches.
+    #[inline(always)]
+    fn load(&self, device: &Device<S>) -> [S; X] {
+        let [a, b] = &device.wheels;
+        let unknowns = [a.spin, b.spin, a.twist, b.twist];
+        core::array::from_fn(|i| unknowns[i % UNKNOWNS])
+    }
+
+    /// And at its end, where the rack has the speed `rack` (over R).
+    #[inline(always)]
+    fn store(&self, device: &mut Device<S>, extra: &[S; X], rack: S) {
+        for (i, wheel) in device.wheels.iter_mut().enumerate() {
+            if let Some(&spin) = extra.get(i) {
+                wheel.spin = if wheel.coupling == Coupling::Locked { rack } else { spin };
+            }
+            if let Some(&twist) = extra.get(i + 2) {
+                wheel.twist = twist;
+            }
+        }
+    }
+
+    /// Size of each unknown that matters, for tolerances, where θ̇ of that size is `speed` (rad/s).
+    #[inline(always)]
+    fn scales(&self, speed: S) -> [S; X] {
+        [speed; X]
+    }
+
+    /// A command to engage takes effect.
+    #[inline(always)]
+    fn engage(&self, at: &mut Instant<'_, S>, wheel: usize) {
+        let _ = (at, wheel);
+    }
+
+    /// A command to release takes effect.
+    #[inline(always)]
+    fn release(&self, at: &mut Instant<'_, S>, wheel: usize) {
+        if let Some(gears) = self.gears() {
+            open(gears, at, wheel);
+        }
+    }
+
+    /// The watched function of `watch` has reached zero.
+    #[inline(always)]
+    fn reached(&self, at: &mut Instant<'_, S>, watch: Watch<S>) {
+        let _ = (at, watch);
+    }
+
+    /// The velocity has jumped, or passed zero: modes that this ends are left.
+    #[inline(always)]
+    fn settle(&self, at: &mut Instant<'_, S>) {
+        let _ = at;
+    }
+
+    /// An impact, at which the rack's speed jumps from `before` to what it is now; called before [`Drive::settle`].
+    #[inline(always)]
+    fn impact(&self, at: &mut Instant<'_, S>, before: S) {
+        let _ = (at, before);
+    }
+
+    /// Flywheels that take part in the change of moment of momentum at an impact.
+    #[inline(always)]
+    fn engaged_at_impact(&self, device: &Device<S>) -> usize {
+        let _ = device;
+        0
+    }
+
+    /// Σ k engaged while a block without ground motion falls back (`inward`) or rises.
+    #[inline(always)]
+    fn swing_coupling(&self, inward: bool) -> S {
+        self.gears().map_or(S::ZERO, |gears| if inward { gears.inertance + gears.rack_coupling } else { gears.rack_coupling })
+    }
+
     /// Forces of the two flywheels on the rack, of the rack itself, energy stored, and power lost.
-    fn account<B: Body<S>>(&self, at: &MomentOf<'_, S, B, S, X>, acceleration: S, device: &Device<S>) -> Account<S>;
+    #[inline(always)]
+    fn account(&self, at: &AnyMoment<'_, S, X>, acceleration: S, device: &Device<S>) -> Account<S> {
+        self.gears().map_or(Account::default(), |gears| account(at, gears, acceleration, device))
+    }
 }
+
+/// Most unknowns that a device has of its own.
+pub const UNKNOWNS: usize = 4;
 
 /// What watchers ask of a device at an instant ([`crate::snapshot::Snapshot`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -183,10 +239,10 @@ pub fn locked_force<S: Real, V: Value<S>, B: Body<S>, const X: usize>(
 }
 
 /// The force that a wheel would have to carry if it were locked now, on a block whose other wheels stay as they are.
-pub fn force_if_locked<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+pub fn force_if_locked<S: Real, D: Drive<S, X, G>, const X: usize, const G: usize>(
     drive: &D,
     gears: &Gears<S>,
-    at: &Instant<'_, S, B>,
+    at: &Instant<'_, S>,
     wheel: usize,
 ) -> S {
     let mut device = *at.device;
@@ -198,13 +254,13 @@ pub fn force_if_locked<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, c
 }
 
 /// The numbers of an instant as an equation sees them.
-pub fn moment<'a, S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+pub fn moment<'a, S: Real, D: Drive<S, X, G>, const X: usize, const G: usize>(
     drive: &D,
-    body: &'a B,
+    body: &'a AnyBody<S>,
     law: &'a Law<S>,
-    at: &Instant<'_, S, B>,
+    at: &Instant<'_, S>,
     device: &Device<S>,
-) -> MomentOf<'a, S, B, S, X> {
+) -> AnyMoment<'a, S, X> {
     Moment {
         body,
         law,
@@ -218,7 +274,7 @@ pub fn moment<'a, S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const 
 
 /// A rigid clutch closes: block and flywheel exchange momentum,
 /// (1 + (K + k) ℓ²) θ̇⁺ = (1 + K ℓ²) θ̇⁻ + k ℓ w, where K is what was locked already.
-pub fn jolt<S: Real, B: Body<S>>(gears: &Gears<S>, at: &mut Instant<'_, S, B>, wheel: usize) {
+pub fn jolt<S: Real>(gears: &Gears<S>, at: &mut Instant<'_, S>, wheel: usize) {
     let posture = at.body.posture(at.side.unit(), at.rotation);
     let arm = at.body.arm(&posture);
     let locked = at.device.wheels.iter().filter(|wheel| wheel.coupling == Coupling::Locked).count();
@@ -230,7 +286,7 @@ pub fn jolt<S: Real, B: Body<S>>(gears: &Gears<S>, at: &mut Instant<'_, S, B>, w
 }
 
 /// A wheel lets go of the rack, with the rack's speed if it was locked.
-pub fn open<S: Real, B: Body<S>>(gears: &Gears<S>, at: &mut Instant<'_, S, B>, wheel: usize) {
+pub fn open<S: Real>(gears: &Gears<S>, at: &mut Instant<'_, S>, wheel: usize) {
     let rack = at.rack_speed();
     let wheel = &mut at.device.wheels[wheel];
     if wheel.coupling == Coupling::Locked {
@@ -245,12 +301,11 @@ pub fn open<S: Real, B: Body<S>>(gears: &Gears<S>, at: &mut Instant<'_, S, B>, w
 }
 
 /// Energy and losses that all kinds share: rack, bearings, brakes, and flywheels at their speeds.
-pub fn account<S: Real, B: Body<S>, const X: usize>(
-    at: &MomentOf<'_, S, B, S, X>,
+pub fn account<S: Real, const X: usize>(
+    at: &AnyMoment<'_, S, X>,
     gears: &Gears<S>,
     acceleration: S,
     device: &Device<S>,
-    spins: [S; 2],
 ) -> Account<S> {
     let rack = at.body.along(&at.posture, at.velocity);
     let rack_acceleration = at.body.terminal_acceleration(&at.posture, at.velocity, acceleration);
@@ -265,7 +320,7 @@ pub fn account<S: Real, B: Body<S>, const X: usize>(
     for (i, wheel) in device.wheels.iter().enumerate() {
         account.engaged[i] = wheel.coupling != Coupling::Open;
         let locked = wheel.coupling == Coupling::Locked;
-        let spin = if locked { rack } else { spins[i] };
+        let spin = if locked { rack } else { at.extra.get(i).copied().unwrap_or(S::ZERO) };
         account.spin[i] = spin;
         account.stored = account.stored + S::HALF * gears.inertance * spin * spin;
         account.spent.bearing =

@@ -6,7 +6,7 @@
 //! damper may pull for an instant (the classical dead zone).
 
 use super::device::{Coupling, Device, Law, WATCHES, Watch, Wheel};
-use super::drive::{Account, Drive, Instant, MomentOf, acceleration, account, command, moment, open};
+use super::drive::{Account, AnyMoment, Drive, Instant, MomentOf, acceleration, account, command, moment};
 use super::gears::Gears;
 use crate::body::Body;
 use crate::scalar::{Real, Sign};
@@ -29,7 +29,7 @@ impl<S: Real> ElasticPair<S> {
     }
 
     /// Force of a clutch in contact.
-    fn force<B: Body<S>>(&self, at: &Instant<'_, S, B>, wheel: usize) -> S {
+    fn force(&self, at: &Instant<'_, S>, wheel: usize) -> S {
         let rack = at.rack_speed();
         let wheel = &at.device.wheels[wheel];
         let edge = match wheel.coupling {
@@ -40,7 +40,7 @@ impl<S: Real> ElasticPair<S> {
     }
 
     /// A wheel in contact: plates that the force overcomes slip, a flywheel that it overcomes starts.
-    fn settle_contact<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
+    fn settle_contact(&self, at: &mut Instant<'_, S>, wheel: usize) {
         let force = self.force(at, wheel);
         let clutch = &mut at.device.wheels[wheel];
         if force.abs() > self.0.capacity_of(clutch).0 {
@@ -55,18 +55,6 @@ impl<S: Real> Drive<S, 4, WATCHES> for ElasticPair<S> {
     const COMMANDED: bool = true;
     const HOLDS: bool = true;
     const SPRINGS: bool = true;
-
-    #[inline(always)]
-    fn load(&self, device: &Device<S>) -> [S; 4] {
-        let [a, b] = &device.wheels;
-        [a.spin, b.spin, a.twist, b.twist]
-    }
-
-    #[inline(always)]
-    fn store(&self, device: &mut Device<S>, extra: &[S; 4], _rack: S) {
-        let [a, b] = &mut device.wheels;
-        [a.spin, b.spin, a.twist, b.twist] = *extra;
-    }
 
     #[inline(always)]
     fn scales(&self, speed: S) -> [S; 4] {
@@ -157,7 +145,7 @@ impl<S: Real> Drive<S, 4, WATCHES> for ElasticPair<S> {
         }
     }
 
-    fn engage<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
+    fn engage(&self, at: &mut Instant<'_, S>, wheel: usize) {
         let plays = self.0.half_play > S::ZERO;
         let clutch = &mut at.device.wheels[wheel];
         (clutch.engaged_for, clutch.twist) = (S::ZERO, S::ZERO);
@@ -169,11 +157,7 @@ impl<S: Real> Drive<S, 4, WATCHES> for ElasticPair<S> {
         }
     }
 
-    fn release<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
-        open(&self.0, at, wheel);
-    }
-
-    fn reached<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, watch: Watch<S>) {
+    fn reached(&self, at: &mut Instant<'_, S>, watch: Watch<S>) {
         match watch {
             Watch::Play(half, i) => {
                 let wheel = &mut at.device.wheels[i & 1];
@@ -194,7 +178,7 @@ impl<S: Real> Drive<S, 4, WATCHES> for ElasticPair<S> {
         }
     }
 
-    fn settle<B: Body<S>>(&self, at: &mut Instant<'_, S, B>) {
+    fn settle(&self, at: &mut Instant<'_, S>) {
         for wheel in 0..2 {
             match at.device.wheels[wheel].coupling {
                 Coupling::Elastic(_) => self.settle_contact(at, wheel),
@@ -212,22 +196,8 @@ impl<S: Real> Drive<S, 4, WATCHES> for ElasticPair<S> {
         }
     }
 
-    #[inline(always)]
-    fn impact<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>, _before: S) {}
-
-    #[inline(always)]
-    fn engaged_at_impact(&self, _device: &Device<S>) -> usize {
-        0
-    }
-
-    #[inline(always)]
-    fn swing_coupling(&self, inward: bool) -> S {
-        if inward { self.0.inertance + self.0.rack_coupling } else { self.0.rack_coupling }
-    }
-
-    fn account<B: Body<S>>(&self, at: &MomentOf<'_, S, B, S, 4>, acceleration: S, device: &Device<S>) -> Account<S> {
-        let spins = [at.extra[0], at.extra[1]];
-        let mut account = account(at, &self.0, acceleration, device, spins);
+    fn account(&self, at: &AnyMoment<'_, S, 4>, acceleration: S, device: &Device<S>) -> Account<S> {
+        let mut account = account(at, &self.0, acceleration, device);
         let rack = at.body.along(&at.posture, at.velocity);
         for (i, wheel) in device.wheels.iter().enumerate() {
             let (Coupling::Elastic(_) | Coupling::Saturated(_)) = wheel.coupling else { continue };
@@ -248,7 +218,7 @@ impl<S: Real> Drive<S, 4, WATCHES> for ElasticPair<S> {
 
 impl<S: Real> ElasticPair<S> {
     /// Teeth part: what remains of the twist is play.
-    fn part<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
+    fn part(&self, at: &mut Instant<'_, S>, wheel: usize) {
         let wheel = &mut at.device.wheels[wheel];
         if let Coupling::Elastic(side) = wheel.coupling {
             wheel.twist = side.times(self.0.half_play);
@@ -258,7 +228,7 @@ impl<S: Real> ElasticPair<S> {
     }
 
     /// The force has reached its bound: a standing flywheel starts, or the plates slip.
-    fn overcome<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, i: usize) {
+    fn overcome(&self, at: &mut Instant<'_, S>, i: usize) {
         let force = self.force(at, i);
         let wheel = &mut at.device.wheels[i];
         if wheel.turning.is_none() && self.bound(wheel).0 < self.0.capacity_of(wheel).0 {
@@ -269,7 +239,7 @@ impl<S: Real> ElasticPair<S> {
     }
 
     /// The plates slip. A damper that pulls teeth apart with such a force has parted them instead.
-    fn saturate<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, i: usize, force: S) {
+    fn saturate(&self, at: &mut Instant<'_, S>, i: usize, force: S) {
         let sign = Sign::of(force, Sign::Positive);
         let wheel = &mut at.device.wheels[i];
         if self.0.half_play > S::ZERO && wheel.coupling == Coupling::Elastic(sign.opposite()) {

@@ -2,9 +2,8 @@
 //! when the force of a locked flywheel reaches the capacity, stick when the plates run at one speed and can hold it.
 
 use super::device::{Coupling, Device, Law, Watch};
-use super::drive::{Account, Drive, Instant, MomentOf, acceleration, account, command, force_if_locked, locked_force, open};
+use super::drive::{Account, AnyMoment, Drive, Instant, MomentOf, acceleration, account, command, force_if_locked, locked_force};
 use super::gears::Gears;
-use super::rigid::two_spins;
 use crate::body::Body;
 use crate::scalar::{Real, Sign};
 use crate::value::Value;
@@ -15,7 +14,7 @@ pub struct FrictionPair<S>(pub Gears<S>);
 
 impl<S: Real> FrictionPair<S> {
     /// Stick or slip where the plates run at one speed.
-    fn stick_or_slip<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
+    fn stick_or_slip(&self, at: &mut Instant<'_, S>, wheel: usize) {
         let force = force_if_locked(self, &self.0, at, wheel);
         let rack = at.rack_speed();
         let wheel = &mut at.device.wheels[wheel];
@@ -38,7 +37,10 @@ impl<S: Real> Drive<S, 2, 3> for FrictionPair<S> {
     const COMMANDED: bool = true;
     const HOLDS: bool = true;
 
-    two_spins!();
+    #[inline(always)]
+    fn gears(&self) -> Option<&Gears<S>> {
+        Some(&self.0)
+    }
 
     #[inline(always)]
     fn law(&self, direction: Sign, drive: Sign, device: &Device<S>) -> Law<S> {
@@ -81,7 +83,7 @@ impl<S: Real> Drive<S, 2, 3> for FrictionPair<S> {
         }
     }
 
-    fn engage<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
+    fn engage(&self, at: &mut Instant<'_, S>, wheel: usize) {
         let slip = at.rack_speed() - at.device.wheels[wheel].spin;
         at.device.wheels[wheel].engaged_for = S::ZERO;
         if slip == S::ZERO {
@@ -91,11 +93,7 @@ impl<S: Real> Drive<S, 2, 3> for FrictionPair<S> {
         }
     }
 
-    fn release<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
-        open(&self.0, at, wheel);
-    }
-
-    fn reached<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, watch: Watch<S>) {
+    fn reached(&self, at: &mut Instant<'_, S>, watch: Watch<S>) {
         match watch {
             Watch::Slip(_, wheel) => {
                 let (wheel, other) = (wheel & 1, 1 - (wheel & 1));
@@ -121,7 +119,7 @@ impl<S: Real> Drive<S, 2, 3> for FrictionPair<S> {
         }
     }
 
-    fn settle<B: Body<S>>(&self, at: &mut Instant<'_, S, B>) {
+    fn settle(&self, at: &mut Instant<'_, S>) {
         let rack = at.rack_speed();
         for wheel in 0..2 {
             match at.device.wheels[wheel].coupling {
@@ -145,7 +143,7 @@ impl<S: Real> Drive<S, 2, 3> for FrictionPair<S> {
         }
     }
 
-    fn impact<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, before: S) {
+    fn impact(&self, at: &mut Instant<'_, S>, before: S) {
         // No plate holds against an impulse: the flywheel keeps its speed and the plates slip.
         let rack = at.rack_speed();
         for wheel in &mut at.device.wheels {
@@ -156,18 +154,8 @@ impl<S: Real> Drive<S, 2, 3> for FrictionPair<S> {
         }
     }
 
-    #[inline(always)]
-    fn engaged_at_impact(&self, _device: &Device<S>) -> usize {
-        0
-    }
-
-    #[inline(always)]
-    fn swing_coupling(&self, inward: bool) -> S {
-        if inward { self.0.inertance + self.0.rack_coupling } else { self.0.rack_coupling }
-    }
-
-    fn account<B: Body<S>>(&self, at: &MomentOf<'_, S, B, S, 2>, acceleration: S, device: &Device<S>) -> Account<S> {
-        let mut account = account(at, &self.0, acceleration, device, at.extra);
+    fn account(&self, at: &AnyMoment<'_, S, 2>, acceleration: S, device: &Device<S>) -> Account<S> {
+        let mut account = account(at, &self.0, acceleration, device);
         let rack = at.body.along(&at.posture, at.velocity);
         for (i, wheel) in device.wheels.iter().enumerate() {
             if let Coupling::Slipping(_) = wheel.coupling {

@@ -2,7 +2,7 @@
 //! calls for this engine. With `FRICTION` the rack and the bearings lose energy, and a guided rack has a mass.
 
 use super::device::{Coupling, Device, Law, Watch};
-use super::drive::{Account, Drive, Instant, MomentOf, acceleration, account, command, open};
+use super::drive::{Drive, Instant, MomentOf, acceleration, command};
 use super::gears::Gears;
 use crate::body::Body;
 use crate::scalar::{Real, Sign};
@@ -20,38 +20,9 @@ pub struct Single<S, const FRICTION: bool>(pub Gears<S>);
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IdealPair<S, const FRICTION: bool>(pub Gears<S>);
 
-/// What devices without unknowns of their own have in common.
-macro_rules! without_unknowns {
-    () => {
-        #[inline(always)]
-        fn load(&self, _device: &Device<S>) -> [S; 0] {
-            []
-        }
-
-        #[inline(always)]
-        fn scales(&self, _speed: S) -> [S; 0] {
-            []
-        }
-
-        #[inline(always)]
-        fn settle<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>) {}
-
-        #[inline(always)]
-        fn impact<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>, _before: S) {}
-
-        #[inline(always)]
-        fn reached<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>, _watch: Watch<S>) {}
-
-        #[inline(always)]
-        fn store(&self, _device: &mut Device<S>, _extra: &[S; 0], _rack: S) {}
-    };
-}
-
 impl<S: Real> Drive<S, 0, 0> for Alone {
     const COMMANDED: bool = false;
     const HOLDS: bool = false;
-
-    without_unknowns!();
 
     #[inline(always)]
     fn law(&self, direction: Sign, _drive: Sign, _device: &Device<S>) -> Law<S> {
@@ -64,42 +35,14 @@ impl<S: Real> Drive<S, 0, 0> for Alone {
     }
 
     #[inline(always)]
-    fn guard<V: Value<S>, B: Body<S>>(&self, _at: &MomentOf<'_, S, B, V, 0>, acceleration: V, _watch: Watch<S>) -> V {
-        acceleration
-    }
-
-    #[inline(always)]
-    fn engage<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>, _wheel: usize) {}
-
-    #[inline(always)]
-    fn release<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>, _wheel: usize) {}
-
-    #[inline(always)]
-    fn engaged_at_impact(&self, _device: &Device<S>) -> usize {
-        0
-    }
-
-    #[inline(always)]
-    fn swing_coupling(&self, _inward: bool) -> S {
-        S::ZERO
-    }
-
-    #[inline(always)]
     fn gears(&self) -> Option<&Gears<S>> {
         None
-    }
-
-    #[inline(always)]
-    fn account<B: Body<S>>(&self, _at: &MomentOf<'_, S, B, S, 0>, _acceleration: S, _device: &Device<S>) -> Account<S> {
-        Account::default()
     }
 }
 
 impl<S: Real, const FRICTION: bool> Drive<S, 0, 0> for Single<S, FRICTION> {
     const COMMANDED: bool = false;
     const HOLDS: bool = FRICTION;
-
-    without_unknowns!();
 
     #[inline(always)]
     fn law(&self, direction: Sign, _drive: Sign, device: &Device<S>) -> Law<S> {
@@ -115,17 +58,12 @@ impl<S: Real, const FRICTION: bool> Drive<S, 0, 0> for Single<S, FRICTION> {
     }
 
     #[inline(always)]
-    fn guard<V: Value<S>, B: Body<S>>(&self, _at: &MomentOf<'_, S, B, V, 0>, acceleration: V, _watch: Watch<S>) -> V {
-        acceleration
-    }
-
-    #[inline(always)]
-    fn engage<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
+    fn engage(&self, at: &mut Instant<'_, S>, wheel: usize) {
         at.device.wheels[wheel].coupling = Coupling::Locked;
     }
 
     #[inline(always)]
-    fn release<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>, _wheel: usize) {}
+    fn release(&self, _at: &mut Instant<'_, S>, _wheel: usize) {}
 
     #[inline(always)]
     fn engaged_at_impact(&self, _device: &Device<S>) -> usize {
@@ -141,18 +79,11 @@ impl<S: Real, const FRICTION: bool> Drive<S, 0, 0> for Single<S, FRICTION> {
     fn gears(&self) -> Option<&Gears<S>> {
         Some(&self.0)
     }
-
-    #[inline(always)]
-    fn account<B: Body<S>>(&self, at: &MomentOf<'_, S, B, S, 0>, acceleration: S, device: &Device<S>) -> Account<S> {
-        account(at, &self.0, acceleration, device, [S::ZERO; 2])
-    }
 }
 
 impl<S: Real, const FRICTION: bool> Drive<S, 0, 1> for IdealPair<S, FRICTION> {
     const COMMANDED: bool = true;
     const HOLDS: bool = FRICTION;
-
-    without_unknowns!();
 
     #[inline(always)]
     fn law(&self, direction: Sign, drive: Sign, device: &Device<S>) -> Law<S> {
@@ -180,32 +111,12 @@ impl<S: Real, const FRICTION: bool> Drive<S, 0, 1> for IdealPair<S, FRICTION> {
     }
 
     #[inline(always)]
-    fn engage<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
+    fn engage(&self, at: &mut Instant<'_, S>, wheel: usize) {
         at.device.wheels[wheel].coupling = Coupling::Locked;
-    }
-
-    #[inline(always)]
-    fn release<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
-        open(&self.0, at, wheel);
-    }
-
-    #[inline(always)]
-    fn engaged_at_impact(&self, _device: &Device<S>) -> usize {
-        0
-    }
-
-    #[inline(always)]
-    fn swing_coupling(&self, inward: bool) -> S {
-        if inward { self.0.inertance + self.0.rack_coupling } else { self.0.rack_coupling }
     }
 
     #[inline(always)]
     fn gears(&self) -> Option<&Gears<S>> {
         Some(&self.0)
-    }
-
-    #[inline(always)]
-    fn account<B: Body<S>>(&self, at: &MomentOf<'_, S, B, S, 0>, acceleration: S, device: &Device<S>) -> Account<S> {
-        account(at, &self.0, acceleration, device, [S::ZERO; 2])
     }
 }

@@ -3,6 +3,7 @@
 //! Parameters only, in SI units per mass of the block, so that they scale with nothing; what each effect does to the
 //! motion is in the file of its name.
 
+pub mod any_drive;
 pub mod device;
 pub mod drive;
 pub mod elastic;

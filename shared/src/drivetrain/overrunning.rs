@@ -2,9 +2,9 @@
 //! flywheel would drive it; it holds again when the block has caught up, so that there is never a jolt.
 
 use super::device::{Coupling, Device, Law, Watch};
-use super::drive::{Account, Drive, Instant, MomentOf, acceleration, account, force_if_locked, jolt, locked_force, open};
+use super::drive::{Drive, Instant, MomentOf, acceleration, force_if_locked, jolt, locked_force, open};
 use super::gears::Gears;
-use super::rigid::{coasting, two_spins};
+use super::rigid::coasting;
 use crate::body::Body;
 use crate::scalar::{Real, Sign};
 use crate::value::Value;
@@ -26,7 +26,10 @@ impl<S: Real> Drive<S, 2, 1> for OverrunningPair<S> {
     const COMMANDED: bool = false;
     const HOLDS: bool = true;
 
-    two_spins!();
+    #[inline(always)]
+    fn gears(&self) -> Option<&Gears<S>> {
+        Some(&self.0)
+    }
 
     #[inline(always)]
     fn law(&self, direction: Sign, _drive: Sign, device: &Device<S>) -> Law<S> {
@@ -54,12 +57,9 @@ impl<S: Real> Drive<S, 2, 1> for OverrunningPair<S> {
     }
 
     #[inline(always)]
-    fn engage<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>, _wheel: usize) {}
+    fn release(&self, _at: &mut Instant<'_, S>, _wheel: usize) {}
 
-    #[inline(always)]
-    fn release<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>, _wheel: usize) {}
-
-    fn reached<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, watch: Watch<S>) {
+    fn reached(&self, at: &mut Instant<'_, S>, watch: Watch<S>) {
         let wheel = wheel_for(at.direction);
         match watch {
             Watch::Ahead(..) => at.device.wheels[wheel].coupling = Coupling::Locked,
@@ -67,13 +67,13 @@ impl<S: Real> Drive<S, 2, 1> for OverrunningPair<S> {
         }
     }
 
-    fn settle<B: Body<S>>(&self, at: &mut Instant<'_, S, B>) {
+    fn settle(&self, at: &mut Instant<'_, S>) {
         let (wheel, rack) = (wheel_for(at.direction), at.rack_speed());
         let other = 1 - wheel;
         if at.device.wheels[other].coupling == Coupling::Locked {
             open(&self.0, at, other);
         }
-        let resists = |at: &Instant<'_, S, B>| at.direction.times(force_if_locked(self, &self.0, at, wheel)) > S::ZERO;
+        let resists = |at: &Instant<'_, S>| at.direction.times(force_if_locked(self, &self.0, at, wheel)) > S::ZERO;
         // What stands still is held by the clutch until the push overcomes the bearings.
         let stands = rack == S::ZERO;
         let spin = at.device.wheels[wheel].spin;
@@ -92,7 +92,7 @@ impl<S: Real> Drive<S, 2, 1> for OverrunningPair<S> {
         }
     }
 
-    fn impact<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, before: S) {
+    fn impact(&self, at: &mut Instant<'_, S>, before: S) {
         // The block slows down at once and its flywheel runs on.
         for wheel in &mut at.device.wheels {
             if wheel.coupling == Coupling::Locked {
@@ -101,20 +101,5 @@ impl<S: Real> Drive<S, 2, 1> for OverrunningPair<S> {
                 self.0.settle(wheel, S::ZERO);
             }
         }
-    }
-
-    #[inline(always)]
-    fn engaged_at_impact(&self, _device: &Device<S>) -> usize {
-        0
-    }
-
-    #[inline(always)]
-    fn swing_coupling(&self, inward: bool) -> S {
-        if inward { self.0.inertance + self.0.rack_coupling } else { self.0.rack_coupling }
-    }
-
-    #[inline(always)]
-    fn account<B: Body<S>>(&self, at: &MomentOf<'_, S, B, S, 2>, acceleration: S, device: &Device<S>) -> Account<S> {
-        account(at, &self.0, acceleration, device, at.extra)
     }
 }

@@ -1,7 +1,7 @@
 //! A rigid clutch with flywheels that keep spinning: it obeys Eq. 10, and closing at speed costs the block momentum.
 
 use super::device::{Coupling, Device, Law, Watch};
-use super::drive::{Account, Drive, Instant, MomentOf, acceleration, account, command, jolt, open};
+use super::drive::{Drive, Instant, MomentOf, acceleration, command, jolt};
 use super::gears::Gears;
 use crate::body::Body;
 use crate::scalar::{Real, Sign};
@@ -17,39 +17,14 @@ pub fn coasting<S: Real, V: Value<S>, B: Body<S>>(at: &MomentOf<'_, S, B, V, 2>)
     [0, 1].map(|i| at.extra[i].scale(-at.law.decay[i]).offset(-at.law.drag[i]))
 }
 
-/// Unknowns of devices whose flywheels have a speed of their own.
-macro_rules! two_spins {
-    () => {
-        #[inline(always)]
-        fn load(&self, device: &Device<S>) -> [S; 2] {
-            [device.wheels[0].spin, device.wheels[1].spin]
-        }
-
-        #[inline(always)]
-        fn store(&self, device: &mut Device<S>, extra: &[S; 2], rack: S) {
-            for (wheel, &spin) in device.wheels.iter_mut().zip(extra) {
-                wheel.spin = if wheel.coupling == Coupling::Locked { rack } else { spin };
-            }
-        }
-
-        #[inline(always)]
-        fn scales(&self, speed: S) -> [S; 2] {
-            [speed; 2]
-        }
-
-        #[inline(always)]
-        fn gears(&self) -> Option<&Gears<S>> {
-            Some(&self.0)
-        }
-    };
-}
-pub(super) use two_spins;
-
 impl<S: Real> Drive<S, 2, 1> for RigidPair<S> {
     const COMMANDED: bool = true;
     const HOLDS: bool = true;
 
-    two_spins!();
+    #[inline(always)]
+    fn gears(&self) -> Option<&Gears<S>> {
+        Some(&self.0)
+    }
 
     #[inline(always)]
     fn law(&self, direction: Sign, drive: Sign, device: &Device<S>) -> Law<S> {
@@ -71,35 +46,12 @@ impl<S: Real> Drive<S, 2, 1> for RigidPair<S> {
         }
     }
 
-    fn engage<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
+    fn engage(&self, at: &mut Instant<'_, S>, wheel: usize) {
         jolt(&self.0, at, wheel);
     }
-
-    fn release<B: Body<S>>(&self, at: &mut Instant<'_, S, B>, wheel: usize) {
-        open(&self.0, at, wheel);
-    }
-
-    #[inline(always)]
-    fn reached<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>, _watch: Watch<S>) {}
-
-    #[inline(always)]
-    fn settle<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>) {}
-
-    #[inline(always)]
-    fn impact<B: Body<S>>(&self, _at: &mut Instant<'_, S, B>, _before: S) {}
 
     #[inline(always)]
     fn engaged_at_impact(&self, device: &Device<S>) -> usize {
         device.wheels.iter().filter(|wheel| wheel.coupling == Coupling::Locked).count()
-    }
-
-    #[inline(always)]
-    fn swing_coupling(&self, inward: bool) -> S {
-        if inward { self.0.inertance + self.0.rack_coupling } else { self.0.rack_coupling }
-    }
-
-    #[inline(always)]
-    fn account<B: Body<S>>(&self, at: &MomentOf<'_, S, B, S, 2>, acceleration: S, device: &Device<S>) -> Account<S> {
-        account(at, &self.0, acceleration, device, at.extra)
     }
 }

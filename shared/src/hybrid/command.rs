@@ -1,9 +1,7 @@
 //! From the signs of Eq. 10 to a clutch that has moved: commands, delays, dwell and commands that are missed.
 
 use super::{Machine, MachineState};
-use crate::body::Body;
 use crate::drivetrain::device::{Coupling, Watch, Wheel};
-use crate::drivetrain::drive::Drive;
 use crate::drivetrain::gears::{Gears, rounded_up};
 use crate::drivetrain::overrunning::wheel_for;
 use crate::drivetrain::under_way::UnderWay;
@@ -76,10 +74,10 @@ fn ramp_due<S: Real>(gears: &Gears<S>, wheel: &Wheel<S>, block_held: bool) -> Op
     Some(((gears.inertance * gears.bearing_dry - capacity) / growth).smaller(full))
 }
 
-impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {
+impl<S: Real> Machine<S> {
     /// Gives the commands that the present signs ask for, and carries out those that are due.
     pub(super) fn command(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
-        if !D::COMMANDED || state.motion.phase != Phase::Rocking {
+        if !self.drive.traits().commanded || state.motion.phase != Phase::Rocking {
             return;
         }
         for answer in 0..MOST_ANSWERS {
@@ -108,7 +106,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 }
             }
             if state.motion.velocity == velocity {
-                if moved && D::HOLDS && velocity == S::ZERO {
+                if moved && self.drive.traits().holds && velocity == S::ZERO {
                     // The bearings of a wheel that has just been engaged may hold the block, those of a released one let it go, and a
                     // spring that is let go moves it no more.
                     state.free = false;
@@ -238,7 +236,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
 
     /// Time until something happens by the clock alone, s.
     fn next_due(&self, state: &MachineState<S>) -> Option<S> {
-        if !D::COMMANDED {
+        if !self.drive.traits().commanded {
             return None;
         }
         let mut due = state.device.next_due().filter(|time| *time > S::ZERO);
@@ -277,7 +275,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     /// Takes the sign of the terminals' acceleration as it is now.
     #[inline(never)]
     pub(super) fn look_at_drive(&self, state: &mut MachineState<S>) {
-        if D::COMMANDED {
+        if self.drive.traits().commanded {
             (state.motion.drive, state.jolted) = (self.drive_sign(state), false);
         }
     }

@@ -9,9 +9,10 @@
 //! that the spring has passed on follows from J = ∫F dt = ((ℓA − r) h − Δẏ)/q. What is frozen makes the step one of order 2, whatever
 //! K and C are (Hochbruck and Ostermann 2010, for the frozen-coefficient view).
 
-use super::path::{PathStart, Tracer};
+use super::path::{KnownStart, PathStart, Tracer};
 use super::steps::{FixedPath, Stepper, Unknowns};
 use crate::body::Body;
+use crate::drivetrain::any_drive::first;
 use crate::drivetrain::device::Law;
 use crate::drivetrain::drive::Drive;
 use crate::scalar::Real;
@@ -79,40 +80,43 @@ fn springless<S: Real>(law: &Law<S>) -> Law<S> {
 }
 
 fn freeze<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-    soft: &PathStart<'_, S, B, D, X>,
+    soft: &KnownStart<'_, S, B, D>,
     t: S,
     (rotation, velocity, extra): &Unknowns<S, X>,
 ) -> Frozen<S, X> {
-    let (acceleration, rates) = soft.rates::<G>(t, *rotation, *velocity, extra);
-    let arm = soft.body.arm(&soft.body.posture(soft.side.unit(), *rotation));
-    let leverage = if soft.is_held::<G>() { S::ZERO } else { arm / (S::ONE + soft.law.coupling * arm * arm) };
+    let (acceleration, rates) = soft.rates(t, *rotation, *velocity, extra);
+    let PathStart { ref law, side, .. } = *soft.start;
+    let arm = soft.body.arm(&soft.body.posture(side.unit(), *rotation));
+    let leverage = if soft.is_held() { S::ZERO } else { arm / (S::ONE + law.coupling * arm * arm) };
     Frozen { arm, leverage, acceleration, rates }
 }
 
 /// The frozen system over `h`, exactly.
 fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-    start: &PathStart<'_, S, B, D, X>,
+    known: &KnownStart<'_, S, B, D>,
     frozen: &Frozen<S, X>,
     h: S,
 ) -> Unknowns<S, X> {
+    let start = known.start;
     let law = &start.law;
     let half_square = S::HALF * h * h;
     let mut velocity = start.velocity + h * frozen.acceleration;
     let mut rotation = start.rotation + h * start.velocity + half_square * frozen.acceleration;
-    let mut extra = start.extra;
+    let given: [S; X] = first(&start.extra);
+    let mut extra = given;
     for (value, &rate) in extra.iter_mut().zip(&frozen.rates) {
         *value = *value + h * rate;
     }
-    let Some(gears) = start.drive.gears() else { return (rotation, velocity, extra) };
+    let Some(gears) = known.drive.gears() else { return (rotation, velocity, extra) };
     if !D::SPRINGS {
         return (rotation, velocity, extra);
     }
     // A spring between a block and a flywheel that are both held keeps its twist.
-    let contact = [0, 1].map(|i| law.stiffness[i] > S::ZERO && !(start.is_held::<G>() && law.moves[i] == S::ZERO));
+    let contact = [0, 1].map(|i| law.stiffness[i] > S::ZERO && !(known.is_held() && law.moves[i] == S::ZERO));
     let both = contact[0] && contact[1];
     let coupled = frozen.arm * frozen.leverage;
-    let twist = [0, 1].map(|i| start.extra[i + 2] - law.rest_twist[i]);
-    let slide = [0, 1].map(|i| frozen.arm * start.velocity - start.extra[i]);
+    let twist = [0, 1].map(|i| given[i + 2] - law.rest_twist[i]);
+    let slide = [0, 1].map(|i| frozen.arm * start.velocity - given[i]);
     let push = [0, 1].map(|i| frozen.arm * frozen.acceleration - frozen.rates[i]);
     let gain = [0, 1].map(|i| if both { gears.mobility } else { law.moves[i] * gears.mobility });
     // Impulse of each spring and its integral. Two springs of one kind part into their mean and their difference.
@@ -152,29 +156,27 @@ fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>
 
 impl<S: Real> Stepper<S> for ExponentialMidpoint<S> {
     fn advance<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-        start: &PathStart<'_, S, B, D, X>,
+        known: &KnownStart<'_, S, B, D>,
         _first: &(S, [S; X]),
         h: S,
     ) -> Unknowns<S, X> {
+        let start = known.start;
         let soft = PathStart { law: springless(&start.law), ..*start };
+        let soft = KnownStart { start: &soft, ..*known };
         let half = S::HALF * h;
-        let here = freeze::<S, B, D, X, G>(&soft, S::ZERO, &(start.rotation, start.velocity, start.extra));
-        let middle = solve::<S, B, D, X, G>(start, &here, half);
-        let there = freeze::<S, B, D, X, G>(&soft, half, &middle);
-        solve::<S, B, D, X, G>(start, &there, h)
+        let here = freeze(&soft, S::ZERO, &(start.rotation, start.velocity, first(&start.extra)));
+        let middle = solve(known, &here, half);
+        let there = freeze(&soft, half, &middle);
+        solve(known, &there, h)
     }
 }
 
 impl<S: Real> Tracer<S> for ExponentialMidpoint<S> {
-    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, const X: usize, const G: usize> =
-        FixedPath<'a, S, B, D, ExponentialMidpoint<S>, X, G>;
+    type Path<'a> = FixedPath<'a, S, ExponentialMidpoint<S>>;
 
     #[inline(always)]
-    fn path<'a, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-        &'a self,
-        start: PathStart<'a, S, B, D, X>,
-    ) -> Self::Path<'a, B, D, X, G> {
-        FixedPath::of(start)
+    fn path<'a>(&'a self, start: PathStart<'a, S>) -> Self::Path<'a> {
+        FixedPath::new(start)
     }
 
     #[inline(always)]

@@ -5,25 +5,24 @@ use super::threshold::{Threshold, earlier};
 use super::{Machine, MachineState};
 use crate::body::Body;
 use crate::drivetrain::device::{Coupling, Law, Watch, Wheel};
-use crate::drivetrain::drive::Drive;
 use crate::rocking::Limits;
 use crate::scalar::{Real, Sign};
 use crate::snapshot::DeviceObserver;
 
-impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {
+impl<S: Real> Machine<S> {
     /// At θ̇ = 0: the way on, if friction lets the block go.
     #[inline(never)]
     pub(super) fn turned(&self, state: &mut MachineState<S>) {
         let (side, direction) = (state.motion.side, state.motion.direction);
         // A block on its base goes nowhere but up.
         let on = if state.motion.rotation == S::ZERO { side } else { direction };
-        let on_base = D::HOLDS && state.motion.rotation == S::ZERO;
+        let on_base = self.drive.traits().holds && state.motion.rotation == S::ZERO;
         let goes = |sign: Sign| {
             let threshold = self.breakaway(state, side, sign);
-            if D::HOLDS { threshold.is_exceeded(state.ground) } else { threshold.at(state.ground) > S::ZERO }
+            if self.drive.traits().holds { threshold.is_exceeded(state.ground) } else { threshold.at(state.ground) > S::ZERO }
         };
         let (goes_on, goes_back) = (goes(on), !on_base && goes(direction.opposite()));
-        state.held = D::HOLDS && !goes_on && !goes_back;
+        state.held = self.drive.traits().holds && !goes_on && !goes_back;
         if on_base {
             state.motion.direction = side;
         } else if !goes_on && goes_back {
@@ -111,7 +110,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     /// A clutch stretches or plays, so that its flywheel swings while the block is held.
     pub(super) fn has_springs(&self, state: &MachineState<S>) -> bool {
         let stiff = |wheel: &Wheel<S>| matches!(wheel.coupling, Coupling::Open | Coupling::Locked | Coupling::Slipping(_));
-        D::SPRINGS && !state.device.wheels.iter().all(stiff)
+        self.drive.traits().springs && !state.device.wheels.iter().all(stiff)
     }
 
     /// The equations of a held block: what its springs do moves flywheels alone, until they or the ground overcome the rack's friction.

@@ -5,7 +5,6 @@ use super::{Machine, MachineState};
 use crate::accumulation::Accumulation;
 use crate::body::Body;
 use crate::drivetrain::device::WATCHES;
-use crate::drivetrain::drive::Drive;
 use crate::observer::Event;
 use crate::rocking::Phase;
 use crate::scalar::{Real, Sign};
@@ -14,7 +13,7 @@ use crate::snapshot::DeviceObserver;
 /// Pairs of swings below the rest speed that are followed in one piece when their impacts do not end them.
 const MOST_IDLE_SWINGS: f64 = 1e3;
 
-impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {
+impl<S: Real> Machine<S> {
     /// θ = 0. Returns the time, which rest moves on to the end of the impacts that it stands for.
     pub(super) fn impact(
         &self,

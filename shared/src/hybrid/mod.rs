@@ -22,10 +22,12 @@ mod threshold;
 
 pub use command::Actuator;
 
+use crate::any_body::AnyBody;
 use crate::arc::{Arc, Motion};
 use crate::body::Body;
+use crate::drivetrain::any_drive::AnyDrive;
 use crate::drivetrain::device::{Coupling, Device, Law, WATCHES, Watch};
-use crate::drivetrain::drive::{Drive, Instant, Moment, MomentOf};
+use crate::drivetrain::drive::{AnyMoment, Instant, Moment, UNKNOWNS};
 use crate::grid::next_stop;
 use crate::locate::locate;
 use crate::observer::{Event, Stretch};
@@ -36,13 +38,13 @@ use crowding::{AT_ONCE, GRAZE, MOST_AT_ONCE, too_many};
 use path::{Path, PathStart, Shaking, Tracer};
 use seen::Seen;
 
-/// A block with its device, resolved into exactly what they need.
+/// A block with its device, resolved into their equations.
 #[derive(Clone, Copy, Debug)]
-pub struct Machine<S, B, D, const X: usize, const G: usize> {
+pub struct Machine<S> {
     /// The block.
-    pub body: B,
+    pub body: AnyBody<S>,
     /// The device.
-    pub drive: D,
+    pub drive: AnyDrive<S>,
     /// Velocity after an impact over that before, with 0, 1 and 2 flywheels engaged through it; each 0 to 1.
     pub restitution: [S; 3],
     /// α, rad: the size of a rotation that matters.
@@ -87,7 +89,7 @@ enum End {
     Stopped(usize),
 }
 
-impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {
+impl<S: Real> Machine<S> {
     /// A block that stands, with an idle device.
     pub fn at_rest(&self) -> MachineState<S> {
         let motion = State::default();
@@ -203,7 +205,8 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     ) {
         let motion = &state.motion;
         // Without springs a held block has no path.
-        let held = D::SPRINGS && state.held;
+        let traits = self.drive.traits();
+        let held = traits.springs && state.held;
         let watched = if state.jolted { motion.drive.opposite() } else { motion.drive };
         let mut law = self.drive.law(motion.direction, watched, &state.device);
         if held {
@@ -225,14 +228,14 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
             scale: self.slenderness,
             speed: self.speed,
         };
-        let path = tracer.path::<B, D, X, G>(start);
+        let path = tracer.path(start);
         let length = path.length();
         let mut until = length;
         let mut end = End::Reached;
         if !held && let Some(turn) = path.velocity_zero(until, motion.direction, motion.velocity == S::ZERO) {
             (until, end) = (turn, End::Turn);
         }
-        for guard in 0..G {
+        for guard in 0..traits.guards {
             if guarded
                 && law.watch[guard] != Watch::Nothing
                 && let Some(zero) = path.guard_zero(guard, until, state.fresh[guard])
@@ -240,7 +243,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
                 (until, end) = (zero, End::Guard(guard));
             }
         }
-        if X >= 2
+        if traits.unknowns >= 2
             && let Some(gears) = self.drive.gears()
         {
             for (i, wheel) in state.device.wheels.iter().enumerate() {
@@ -362,7 +365,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         state: &mut MachineState<S>,
         time: S,
         observer: &mut dyn DeviceObserver<S>,
-        answer: impl FnOnce(&D, &mut Instant<'_, S, B>),
+        answer: impl FnOnce(&AnyDrive<S>, &mut Instant<'_, S>),
     ) {
         let before = state.device.wheels.map(|wheel| wheel.coupling);
         let motion = &mut state.motion;
@@ -406,7 +409,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let mut motion = Motion { rotation: state.motion.rotation, velocity: state.motion.velocity, acceleration: S::ZERO };
         if state.motion.phase == Phase::Rocking && !state.held {
             let moment = self.moment(&law, state.motion.side, &motion, extra, state.ground, S::ZERO);
-            motion.acceleration = self.drive.flow(&moment).0;
+            motion.acceleration = self.drive.acceleration(&moment);
         }
         self.snapshot(&law, state, motion, extra, state.ground, S::ZERO)
     }
@@ -417,10 +420,10 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         law: &'a Law<S>,
         side: Sign,
         motion: &Motion<S>,
-        extra: [S; X],
+        extra: [S; UNKNOWNS],
         ground: [S; 2],
         clock: S,
-    ) -> MomentOf<'a, S, B, S, X> {
+    ) -> AnyMoment<'a, S, UNKNOWNS> {
         let posture = self.body.posture(side.unit(), motion.rotation);
         Moment { body: &self.body, law, posture, velocity: motion.velocity, extra, ground, clock }
     }
@@ -431,7 +434,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         law: &Law<S>,
         state: &MachineState<S>,
         motion: Motion<S>,
-        extra: [S; X],
+        extra: [S; UNKNOWNS],
         ground: [S; 2],
         clock: S,
     ) -> Snapshot<S> {

@@ -1,11 +1,10 @@
-//! From the parameters of a block and its drivetrain to exactly the loop that they need.
-//!
-//! As [`Structure::resolve`] for ideal devices, this chooses once, before the loop, among static compositions.
+//! From the parameters of a block and its drivetrain to their equations, as [`Structure::resolve`] for ideal devices.
 
 use super::{Actuator, Machine};
+use crate::any_body::AnyBody;
 use crate::block::Geometry;
-use crate::body::{Body, FullBody, SlenderBody};
-use crate::drivetrain::drive::Drive;
+use crate::body::{FullBody, SlenderBody};
+use crate::drivetrain::any_drive::AnyDrive;
 use crate::drivetrain::elastic::ElasticPair;
 use crate::drivetrain::friction::FrictionPair;
 use crate::drivetrain::gears::Gears;
@@ -21,33 +20,12 @@ use crate::restitution::Restitution;
 use crate::scalar::Real;
 use crate::structure::{COUNTED_SPEED, DeviceKind, KinematicsKind, Structure};
 
-/// What to do with the resolved machine; called once, with its own types.
-pub trait WithMachine<S: Real>: Sized {
-    /// The result.
-    type Output;
-
-    /// Goes on with `machine`.
-    fn with<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(self, machine: Machine<S, B, D, X, G>)
-    -> Self::Output;
-
-    /// Goes on with a `machine` that has an elastic clutch, for which there are more methods.
-    fn with_elastic<B: Body<S>>(self, machine: Machine<S, B, ElasticPair<S>, 4, 5>) -> Self::Output {
-        self.with(machine)
-    }
-}
-
 impl Drivetrain {
-    /// Resolves `structure` with this drivetrain and hands the machine to `next`; `vertical` says that the ground moves
-    /// vertically too.
+    /// The machine of `structure` with this drivetrain; `vertical` says that the ground moves vertically too.
     ///
     /// # Errors
     /// [`ParameterError`] names the first parameter outside its range.
-    pub fn resolve<S: Real, W: WithMachine<S>>(
-        &self,
-        structure: &Structure,
-        vertical: bool,
-        next: W,
-    ) -> Result<W::Output, ParameterError> {
+    pub fn resolve<S: Real>(&self, structure: &Structure, vertical: bool) -> Result<Machine<S>, ParameterError> {
         self.check()?;
         let heavier = 1.0 + structure.carried.mass_ratio;
         let structure = structure.loaded()?;
@@ -58,10 +36,11 @@ impl Drivetrain {
         let rack = self.rack.guided_mass_ratio / heavier;
         let restitution = restitutions(&structure, sigma, rack)?;
         let parts = Parts { drivetrain: *self, structure, vertical, heavier, restitution };
-        Ok(match structure.geometry {
-            Geometry::Slender => parts.driven(parts.slender::<S>()?, next),
-            Geometry::Full => parts.driven(parts.full::<S>()?, next),
-        })
+        let body = match structure.geometry {
+            Geometry::Slender => AnyBody::Slender(parts.slender()?),
+            Geometry::Full => AnyBody::Full(parts.full()?),
+        };
+        Ok(parts.machine(body))
     }
 
     /// Whether flywheels have a speed of their own. Such a device moves by the consistent kinematics, whatever the structure
@@ -125,37 +104,31 @@ impl Parts {
         Gears::of(&self.drivetrain, &self.structure.block, self.structure.device.mass_ratio, self.heavier)
     }
 
-    fn driven<S: Real, B: Body<S>, W: WithMachine<S>>(&self, body: B, next: W) -> W::Output {
-        if self.remembers() { self.with_memory(body, next) } else { self.without_memory(body, next) }
-    }
-
-    fn without_memory<S: Real, B: Body<S>, W: WithMachine<S>>(&self, body: B, next: W) -> W::Output {
-        let Drivetrain { flywheel, rack, .. } = &self.drivetrain;
+    fn drive<S: Real>(&self) -> AnyDrive<S> {
+        let gears = self.gears();
+        let Drivetrain { engagement, flywheel, rack, .. } = &self.drivetrain;
         let friction = *rack != Rack::default() || flywheel.viscous_rate != 0.0 || flywheel.dry_deceleration != 0.0;
         match (self.structure.device.kind, friction) {
-            (DeviceKind::None, _) => next.with(self.machine(body, Alone)),
-            (DeviceKind::Inerter, false) => next.with(self.machine(body, Single::<S, false>(self.gears()))),
-            (DeviceKind::Inerter, true) => next.with(self.machine(body, Single::<S, true>(self.gears()))),
-            (DeviceKind::ClutchedPair, false) => next.with(self.machine(body, IdealPair::<S, false>(self.gears()))),
-            (DeviceKind::ClutchedPair, true) => next.with(self.machine(body, IdealPair::<S, true>(self.gears()))),
+            (DeviceKind::None, _) => AnyDrive::Alone(Alone),
+            (DeviceKind::Inerter, false) => AnyDrive::Single(Single(gears)),
+            (DeviceKind::Inerter, true) => AnyDrive::SingleWithFriction(Single(gears)),
+            (DeviceKind::ClutchedPair, _) => match engagement {
+                Engagement::Ideal if friction => AnyDrive::IdealWithFriction(IdealPair(gears)),
+                Engagement::Ideal => AnyDrive::Ideal(IdealPair(gears)),
+                Engagement::Rigid => AnyDrive::Rigid(RigidPair(gears)),
+                Engagement::Overrunning => AnyDrive::Overrunning(OverrunningPair(gears)),
+                Engagement::Friction { .. } => AnyDrive::Friction(FrictionPair(gears)),
+                Engagement::Elastic { .. } => AnyDrive::Elastic(ElasticPair(gears)),
+            },
         }
     }
 
-    fn with_memory<S: Real, B: Body<S>, W: WithMachine<S>>(&self, body: B, next: W) -> W::Output {
-        match self.drivetrain.engagement {
-            Engagement::Ideal | Engagement::Rigid => next.with(self.machine(body, RigidPair(self.gears()))),
-            Engagement::Overrunning => next.with(self.machine(body, OverrunningPair(self.gears()))),
-            Engagement::Friction { .. } => next.with(self.machine(body, FrictionPair(self.gears()))),
-            Engagement::Elastic { .. } => next.with_elastic(self.machine(body, ElasticPair(self.gears()))),
-        }
-    }
-
-    fn machine<S: Real, B, D, const X: usize, const G: usize>(&self, body: B, drive: D) -> Machine<S, B, D, X, G> {
+    fn machine<S: Real>(&self, body: AnyBody<S>) -> Machine<S> {
         let block = &self.structure.block;
         let speed = block.frequency_parameter() * block.slenderness();
         Machine {
             body,
-            drive,
+            drive: self.drive(),
             restitution: self.restitution.map(S::of),
             slenderness: S::of(block.slenderness()),
             speed: S::of(speed),

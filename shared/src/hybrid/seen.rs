@@ -3,16 +3,14 @@
 use super::path::{Path, Shaking};
 use super::{Machine, MachineState};
 use crate::arc::{Arc, Motion};
-use crate::body::Body;
 use crate::drivetrain::device::Law;
-use crate::drivetrain::drive::Drive;
 use crate::rocking::State;
 use crate::scalar::Real;
 use crate::snapshot::{DeviceArc, Snapshot};
 
 /// A path as watchers see it.
-pub(super) struct Seen<'a, S, B, D, A, const X: usize, const G: usize> {
-    pub(super) machine: &'a Machine<S, B, D, X, G>,
+pub(super) struct Seen<'a, S, A> {
+    pub(super) machine: &'a Machine<S>,
     pub(super) path: &'a A,
     pub(super) law: &'a Law<S>,
     pub(super) state: &'a MachineState<S>,
@@ -20,7 +18,7 @@ pub(super) struct Seen<'a, S, B, D, A, const X: usize, const G: usize> {
     pub(super) time: S,
 }
 
-impl<S: Real, B, D, A: Arc<S>, const X: usize, const G: usize> Arc<S> for Seen<'_, S, B, D, A, X, G> {
+impl<S: Real, A: Arc<S>> Arc<S> for Seen<'_, S, A> {
     #[inline(always)]
     fn length(&self) -> S {
         self.path.length()
@@ -42,13 +40,7 @@ impl<S: Real, B, D, A: Arc<S>, const X: usize, const G: usize> Arc<S> for Seen<'
     }
 }
 
-impl<S, B, D, A, const X: usize, const G: usize> DeviceArc<S> for Seen<'_, S, B, D, A, X, G>
-where
-    S: Real,
-    B: Body<S>,
-    D: Drive<S, X, G>,
-    A: Path<S, X>,
-{
+impl<S: Real, A: Path<S>> DeviceArc<S> for Seen<'_, S, A> {
     fn snapshot(&self, time: S) -> Snapshot<S> {
         let ground = self.shaking.at(self.time + time);
         self.machine.snapshot(self.law, self.state, self.path.at(time), self.path.extra(time), ground, time)
@@ -56,15 +48,15 @@ where
 }
 
 /// A block that does not move, or at one instant. The ground is behind a pointer: one copy of this serves every kind of it.
-pub(super) struct Still<'a, S, B, D, const X: usize, const G: usize> {
-    pub(super) machine: &'a Machine<S, B, D, X, G>,
+pub(super) struct Still<'a, S> {
+    pub(super) machine: &'a Machine<S>,
     pub(super) state: &'a MachineState<S>,
     /// Acceleration in g, horizontal and vertical, a time (s) after the start.
     pub(super) ground: &'a dyn Fn(S) -> [S; 2],
     pub(super) length: S,
 }
 
-impl<S: Real, B, D, const X: usize, const G: usize> Arc<S> for Still<'_, S, B, D, X, G> {
+impl<S: Real> Arc<S> for Still<'_, S> {
     fn length(&self) -> S {
         self.length
     }
@@ -79,7 +71,7 @@ impl<S: Real, B, D, const X: usize, const G: usize> Arc<S> for Still<'_, S, B, D
     }
 }
 
-impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> DeviceArc<S> for Still<'_, S, B, D, X, G> {
+impl<S: Real> DeviceArc<S> for Still<'_, S> {
     fn snapshot(&self, time: S) -> Snapshot<S> {
         let mut state = *self.state;
         self.machine.idle(&mut state, time);

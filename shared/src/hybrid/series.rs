@@ -3,12 +3,12 @@
 
 use core::cell::Cell;
 
-use super::path::{Path, PathStart, Tracer};
+use super::path::{KnownStart, Path, PathStart, Tracer, WithStart};
 use super::quantity::{Quantity, SLOTS};
 use crate::arc::{Arc, Motion};
 use crate::body::Body;
-use crate::drivetrain::device::Watch;
-use crate::drivetrain::drive::{Drive, Moment};
+use crate::drivetrain::device::{WATCHES, Watch};
+use crate::drivetrain::drive::{Drive, Moment, UNKNOWNS};
 use crate::math::RECIPROCALS;
 use crate::polynomial;
 use crate::scalar::{Real, Sign};
@@ -43,59 +43,53 @@ impl<S: Real, const N: usize> core::fmt::Debug for Series<S, N> {
 
 /// The series of one step.
 #[derive(Clone, Copy, Debug)]
-pub struct SeriesPath<S, const N: usize, const X: usize, const G: usize> {
+pub struct SeriesPath<S, const N: usize> {
     length: S,
     /// Coefficients in use, of θ.
     terms: usize,
     rotation: [S; N],
     velocity: [S; N],
     acceleration: [S; N],
-    extra: [[S; N]; X],
-    guards: [[S; N]; G],
+    extra: [[S; N]; UNKNOWNS],
+    guards: [[S; N]; WATCHES],
 }
 
-impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
-    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, const X: usize, const G: usize> = SeriesPath<S, N, X, G>;
+/// The coefficients of a path, order by order.
+struct Expansion<'a, S, const N: usize> {
+    tape: &'a Tape<S, N, SLOTS>,
+    path: &'a mut SeriesPath<S, N>,
+    /// Ground acceleration in g, horizontal and vertical.
+    ground: &'a [[S; N]; 2],
+    /// [`Series::tolerance`] in rad.
+    tolerance: S,
+    /// Size of a rotation that matters, rad.
+    scale: S,
+}
 
-    #[inline(never)]
-    fn path<'a, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-        &'a self,
-        start: PathStart<'a, S, B, D, X>,
-    ) -> SeriesPath<S, N, X, G> {
+impl<S: Real, const N: usize> WithStart<S> for Expansion<'_, S, N> {
+    /// The size of each unknown that matters.
+    type Output = [S; UNKNOWNS];
+
+    #[inline(always)]
+    fn with<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+        self,
+        known: &KnownStart<'_, S, B, D>,
+    ) -> Self::Output {
         // θ, θ̇, the ground twice and the clock, then the device's unknowns.
         const GIVEN: usize = 5;
-        let tape = &self.tape;
+        let Expansion { tape, path, ground: [ground, vertical], tolerance, scale } = self;
+        let start = known.start;
+        let shaken_up = start.shaking.vertical.is_some();
         let next = Cell::new(GIVEN + X);
         let side = start.side.unit();
-        let none = [S::ZERO; N];
-        let mut path = SeriesPath {
-            length: start.length,
-            terms: N,
-            rotation: none,
-            velocity: none,
-            acceleration: none,
-            extra: [none; X],
-            guards: [none; G],
-        };
-        let (mut ground, mut vertical) = (none, none);
-        start.shaking.horizontal.series(start.time, &mut ground);
-        let shaken_up = start.shaking.vertical.is_some();
-        if let Some(piece) = start.shaking.vertical {
-            piece.series(start.time, &mut vertical);
-        }
-        path.rotation[0] = start.rotation;
-        path.rotation[1] = start.velocity;
-        path.velocity[0] = start.velocity;
         tape.set(0, 0, start.rotation);
         tape.set(0, 1, start.velocity);
         tape.set(1, 0, start.velocity);
-        for (i, &value) in start.extra.iter().enumerate() {
-            path.extra[i][0] = value;
-            tape.set(GIVEN + i, 0, value);
+        for (i, unknown) in path.extra.iter_mut().enumerate().take(X) {
+            unknown[0] = start.extra[i];
+            tape.set(GIVEN + i, 0, start.extra[i]);
         }
-        let scale = start.scale.larger(start.rotation.abs());
-        let sizes = start.drive.scales(start.speed);
-        let tolerance = self.tolerance * scale;
+        let sizes = known.drive.scales(start.speed);
         let mut power = start.length * start.length;
         let mut previous = S::ONE;
         let mut push_power = S::ONE;
@@ -110,19 +104,19 @@ impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
             let (theta, omega, push) = (given(0), given(1), given(2));
             let up = if shaken_up { given(3) } else { push };
             let at = Moment {
-                body: start.body,
+                body: known.body,
                 law: &start.law,
-                posture: start.body.posture(side, theta),
+                posture: known.body.posture(side, theta),
                 velocity: omega,
                 extra: core::array::from_fn(|i| given(GIVEN + i)),
                 ground: [push, up],
                 clock: given(4),
             };
-            let (acceleration, rates) = start.drive.flow(&at);
+            let (acceleration, rates) = known.drive.flow(&at);
             if k == 0 {
                 acceleration.0.set_last(start.first(acceleration.0.last()));
             }
-            let a = if start.is_held::<G>() { S::ZERO } else { acceleration.0.last() };
+            let a = if known.is_held() { S::ZERO } else { acceleration.0.last() };
             let reciprocal = S::of(RECIPROCALS[(k + 1) & 63]);
             let v = a * reciprocal;
             let c = v * S::of(RECIPROCALS[(k + 2) & 63]);
@@ -136,10 +130,10 @@ impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
                 tape.set(GIVEN + i, k + 1, coefficient);
                 term = term.larger((coefficient * push_power * start.length).abs() * (scale / sizes[i]));
             }
-            for (i, guard) in path.guards.iter_mut().enumerate() {
+            for (i, guard) in path.guards.iter_mut().enumerate().take(G) {
                 let watch = start.law.watch[i];
                 if watch != Watch::Nothing {
-                    guard[k] = start.drive.guard(&at, acceleration, watch).0.last();
+                    guard[k] = known.drive.guard(&at, acceleration, watch).0.last();
                 }
             }
             path.acceleration[k] = a;
@@ -155,6 +149,36 @@ impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
             push_power = push_power * start.length;
             power = power * start.length;
         }
+        core::array::from_fn(|i| sizes.get(i).copied().unwrap_or(S::ONE))
+    }
+}
+
+impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
+    type Path<'a> = SeriesPath<S, N>;
+
+    #[inline(never)]
+    fn path<'a>(&'a self, start: PathStart<'a, S>) -> SeriesPath<S, N> {
+        let none = [S::ZERO; N];
+        let mut path = SeriesPath {
+            length: start.length,
+            terms: N,
+            rotation: none,
+            velocity: none,
+            acceleration: none,
+            extra: [none; UNKNOWNS],
+            guards: [none; WATCHES],
+        };
+        let mut ground = [none; 2];
+        start.shaking.horizontal.series(start.time, &mut ground[0]);
+        if let Some(piece) = start.shaking.vertical {
+            piece.series(start.time, &mut ground[1]);
+        }
+        path.rotation[0] = start.rotation;
+        path.rotation[1] = start.velocity;
+        path.velocity[0] = start.velocity;
+        let scale = start.scale.larger(start.rotation.abs());
+        let tolerance = self.tolerance * scale;
+        let sizes = start.known(Expansion { tape: &self.tape, path: &mut path, ground: &ground, tolerance, scale });
         if self.step.is_none() && path.terms == N {
             // Jorba and Zou's two-term rule over every unknown; those of the first order have one coefficient fewer.
             for back in [2, 1] {
@@ -175,7 +199,7 @@ impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
     }
 }
 
-impl<S: Real, const N: usize, const X: usize, const G: usize> Arc<S> for SeriesPath<S, N, X, G> {
+impl<S: Real, const N: usize> Arc<S> for SeriesPath<S, N> {
     #[inline(always)]
     fn length(&self) -> S {
         self.length
@@ -207,7 +231,7 @@ impl<S: Real, const N: usize, const X: usize, const G: usize> Arc<S> for SeriesP
     }
 }
 
-impl<S: Real, const N: usize, const X: usize, const G: usize> SeriesPath<S, N, X, G> {
+impl<S: Real, const N: usize> SeriesPath<S, N> {
     /// Shortens the path until a term of `order` with this `coefficient` stays below `tolerance`.
     #[inline]
     fn reach(&mut self, order: usize, coefficient: S, tolerance: S) {
@@ -224,9 +248,9 @@ impl<S: Real, const N: usize, const X: usize, const G: usize> SeriesPath<S, N, X
     }
 }
 
-impl<S: Real, const N: usize, const X: usize, const G: usize> Path<S, X> for SeriesPath<S, N, X, G> {
+impl<S: Real, const N: usize> Path<S> for SeriesPath<S, N> {
     #[inline(never)]
-    fn extra(&self, time: S) -> [S; X] {
+    fn extra(&self, time: S) -> [S; UNKNOWNS] {
         let n = self.terms.min(N) - 1;
         core::array::from_fn(|i| polynomial::value(&self.extra[i][..n], time))
     }

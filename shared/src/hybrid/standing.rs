@@ -5,16 +5,15 @@ use super::seen::Still;
 use super::threshold::{Threshold, earlier};
 use super::{Machine, MachineState};
 use crate::arc::Motion;
-use crate::body::Body;
 use crate::drivetrain::device::{Coupling, WATCHES};
-use crate::drivetrain::drive::{Drive, open};
+use crate::drivetrain::drive::open;
 use crate::drivetrain::under_way::UnderWay;
 use crate::observer::{Event, Stretch};
 use crate::rocking::{Phase, State};
 use crate::scalar::{Real, Sign};
 use crate::snapshot::DeviceObserver;
 
-impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {
+impl<S: Real> Machine<S> {
     /// Block and device of `state` once the block stands.
     #[inline(never)]
     pub(super) fn standing(&self, state: &MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) -> MachineState<S> {
@@ -35,7 +34,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
     /// The clutches of a standing block are open, but for those that a controller holds; a device without clutches stays engaged.
     pub(super) fn part_at_rest(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         let Some(gears) = self.drive.gears() else { return };
-        if !D::COMMANDED && X == 0 {
+        if !self.drive.traits().commanded && self.drive.traits().unknowns == 0 {
             state.device.wheels[0].coupling = Coupling::Locked;
             return;
         }
@@ -154,7 +153,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         state.motion = State { phase: Phase::Rocking, side, direction: side, push: side, impacts, ..State::default() };
         state.ground = ground;
         (state.fresh, state.free) = ([false; WATCHES], crossing);
-        if D::HOLDS {
+        if self.drive.traits().holds {
             let mut started = *state;
             self.leave_base(&mut started, time, &mut ());
             self.start_clutches(&mut started, time, &mut ());
@@ -169,7 +168,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
 
     /// The block leaves its base. What lifts it accelerates the terminals its way, and that may have been zero until now.
     pub(super) fn leave_base(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
-        (state.motion.drive, state.jolted, state.fresh[0]) = (state.motion.side, false, D::COMMANDED);
+        (state.motion.drive, state.jolted, state.fresh[0]) = (state.motion.side, false, self.drive.traits().commanded);
         observer.device_event(Event::Uplift, time, &state.motion);
     }
 
@@ -178,7 +177,10 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let before = state.device.wheels.map(|wheel| wheel.coupling);
         self.settle(state, time, observer);
         self.command(state, time, observer);
-        if D::HOLDS && state.motion.velocity == S::ZERO && state.device.wheels.map(|wheel| wheel.coupling) != before {
+        if self.drive.traits().holds
+            && state.motion.velocity == S::ZERO
+            && state.device.wheels.map(|wheel| wheel.coupling) != before
+        {
             self.turned(state);
         }
     }
@@ -188,7 +190,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Mac
         let mut held = *state;
         (held.motion.rotation, held.motion.velocity) = (S::ZERO, S::ZERO);
         let (side, threshold) = self.lifted(&held, state.ground);
-        if D::HOLDS && !threshold.is_exceeded(state.ground) {
+        if self.drive.traits().holds && !threshold.is_exceeded(state.ground) {
             (held.motion.side, held.motion.direction, held.held) = (side, side, true);
             *state = held;
             observer.device_event(Event::Rest, time, &state.motion);

@@ -3,10 +3,11 @@
 
 use core::marker::PhantomData;
 
-use super::path::{Path, PathStart, Tracer};
+use super::path::{KnownStart, Path, PathStart, Tracer, WithStart};
 use crate::arc::{Arc, Motion};
 use crate::body::Body;
-use crate::drivetrain::drive::Drive;
+use crate::drivetrain::any_drive::{first, padded};
+use crate::drivetrain::drive::{Drive, UNKNOWNS};
 use crate::fixed::RungeKutta4;
 use crate::scalar::Real;
 
@@ -15,9 +16,9 @@ pub type Unknowns<S, const X: usize> = (S, S, [S; X]);
 
 /// How a fixed-step method gets from the start of a step to a time within it.
 pub trait Stepper<S: Real> {
-    /// The unknowns a time `h` after `start`, where θ̈ and the rates of the device's unknowns are `first`.
+    /// The unknowns a time `h` after the start, where θ̈ and the rates of the device's unknowns are `first`.
     fn advance<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-        start: &PathStart<'_, S, B, D, X>,
+        known: &KnownStart<'_, S, B, D>,
         first: &(S, [S; X]),
         h: S,
     ) -> Unknowns<S, X>;
@@ -26,28 +27,29 @@ pub trait Stepper<S: Real> {
 impl<S: Real> Stepper<S> for RungeKutta4<S> {
     #[inline]
     fn advance<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-        start: &PathStart<'_, S, B, D, X>,
-        (first, r1): &(S, [S; X]),
+        known: &KnownStart<'_, S, B, D>,
+        (acceleration, r1): &(S, [S; X]),
         h: S,
     ) -> Unknowns<S, X> {
         let half = S::HALF * h;
-        let (theta, omega) = (start.rotation, start.velocity);
+        let (theta, omega) = (known.start.rotation, known.start.velocity);
+        let given = first(&known.start.extra);
         let shifted = |rates: &[S; X], by: S| {
-            let mut extra = start.extra;
+            let mut extra = given;
             for (value, &rate) in extra.iter_mut().zip(rates) {
                 *value = *value + by * rate;
             }
             extra
         };
-        let a1 = start.first(*first);
+        let a1 = known.start.first(*acceleration);
         let omega_2 = omega + half * a1;
-        let (a2, r2) = start.rates::<G>(half, theta + half * omega, omega_2, &shifted(r1, half));
+        let (a2, r2) = known.rates(half, theta + half * omega, omega_2, &shifted(r1, half));
         let omega_3 = omega + half * a2;
-        let (a3, r3) = start.rates::<G>(half, theta + half * omega_2, omega_3, &shifted(&r2, half));
+        let (a3, r3) = known.rates(half, theta + half * omega_2, omega_3, &shifted(&r2, half));
         let omega_4 = omega + h * a3;
-        let (a4, r4) = start.rates::<G>(h, theta + h * omega_3, omega_4, &shifted(&r3, h));
+        let (a4, r4) = known.rates(h, theta + h * omega_3, omega_4, &shifted(&r3, h));
         let (sixth, two) = (h * S::of(1.0 / 6.0), S::of(2.0));
-        let mut extra = start.extra;
+        let mut extra = given;
         for i in 0..X {
             extra[i] = extra[i] + sixth * (r1[i] + two * (r2[i] + r3[i]) + r4[i]);
         }
@@ -55,55 +57,88 @@ impl<S: Real> Stepper<S> for RungeKutta4<S> {
     }
 }
 
+/// Motion and unknowns at one instant.
+type Place<S> = (Motion<S>, [S; UNKNOWNS]);
+
 /// The path of a fixed-step method: its ends, and the step taken again for every time between them.
 #[derive(Debug)]
-pub struct FixedPath<'a, S, B, D, A, const X: usize, const G: usize> {
-    start: PathStart<'a, S, B, D, X>,
+pub struct FixedPath<'a, S, A> {
+    start: PathStart<'a, S>,
     /// θ̈ and the rates of the device's unknowns at the start.
-    first: (S, [S; X]),
-    end: (Motion<S>, [S; X]),
+    first: (S, [S; UNKNOWNS]),
+    end: Place<S>,
     method: PhantomData<A>,
 }
 
-impl<'a, S: Real, B: Body<S>, D: Drive<S, X, G>, A: Stepper<S>, const X: usize, const G: usize> FixedPath<'a, S, B, D, A, X, G> {
-    /// From `start`.
-    #[inline(never)]
-    pub fn of(start: PathStart<'a, S, B, D, X>) -> Self {
-        let first = start.rates::<G>(S::ZERO, start.rotation, start.velocity, &start.extra);
-        let still = Motion { rotation: start.rotation, velocity: start.velocity, acceleration: first.0 };
-        let extra = start.extra;
-        let mut path = FixedPath { start, first, end: (still, extra), method: PhantomData };
-        path.end = path.look(path.start.length);
-        path
-    }
+/// A step of length `time`; its `first` rates are taken where they are not known.
+struct Step<'a, S, A> {
+    first: Option<&'a (S, [S; UNKNOWNS])>,
+    time: S,
+    method: PhantomData<A>,
+}
 
-    /// A step of length `time`. It is taken from many places: one copy of it keeps programs small.
-    #[inline(never)]
-    fn look(&self, time: S) -> (Motion<S>, [S; X]) {
-        let (rotation, velocity, extra) = A::advance::<B, D, X, G>(&self.start, &self.first, time);
-        let (acceleration, _) = self.start.rates::<G>(time, rotation, velocity, &extra);
-        (Motion { rotation, velocity, acceleration }, extra)
-    }
+impl<S: Real, A: Stepper<S>> WithStart<S> for Step<'_, S, A> {
+    type Output = ((S, [S; UNKNOWNS]), Place<S>);
 
-    fn known(&self, time: S) -> Option<(Motion<S>, [S; X])> {
-        if time == S::ZERO {
-            let PathStart { rotation, velocity, extra, .. } = self.start;
-            Some((Motion { rotation, velocity, acceleration: self.first.0 }, extra))
-        } else if time == self.start.length {
-            Some(self.end)
-        } else {
-            None
-        }
-    }
-
-    fn state(&self, time: S) -> (Motion<S>, [S; X]) {
-        self.known(time).unwrap_or_else(|| self.look(time))
+    #[inline(always)]
+    fn with<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+        self,
+        known: &KnownStart<'_, S, B, D>,
+    ) -> Self::Output {
+        let Step { time, .. } = self;
+        let start = known.start;
+        let at_start = match self.first {
+            Some((acceleration, rates)) => (*acceleration, first(rates)),
+            None => known.rates(S::ZERO, start.rotation, start.velocity, &first(&start.extra)),
+        };
+        let (rotation, velocity, extra) = A::advance(known, &at_start, time);
+        let (acceleration, _) = known.rates(time, rotation, velocity, &extra);
+        ((at_start.0, padded(&at_start.1)), (Motion { rotation, velocity, acceleration }, padded(&extra)))
     }
 }
 
-impl<S: Real, B: Body<S>, D: Drive<S, X, G>, A: Stepper<S>, const X: usize, const G: usize> Arc<S>
-    for FixedPath<'_, S, B, D, A, X, G>
-{
+/// Watched function `index` at `time`, where the motion is at `place`.
+struct Guard<'a, S> {
+    index: usize,
+    time: S,
+    place: &'a Place<S>,
+}
+
+impl<S: Real> WithStart<S> for Guard<'_, S> {
+    type Output = S;
+
+    #[inline(always)]
+    fn with<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(self, known: &KnownStart<'_, S, B, D>) -> S {
+        let (motion, extra) = self.place;
+        known.guard(self.index, self.time, motion, &first(extra))
+    }
+}
+
+impl<'a, S: Real, A: Stepper<S>> FixedPath<'a, S, A> {
+    /// From `start`.
+    pub fn new(start: PathStart<'a, S>) -> Self {
+        let (first, end) = Self::step(&start, None, start.length);
+        FixedPath { start, first, end, method: PhantomData }
+    }
+
+    #[inline(never)]
+    fn step(start: &PathStart<'a, S>, first: Option<&(S, [S; UNKNOWNS])>, time: S) -> ((S, [S; UNKNOWNS]), Place<S>) {
+        start.known(Step { first, time, method: PhantomData::<A> })
+    }
+
+    fn place(&self, time: S) -> Place<S> {
+        if time == S::ZERO {
+            let PathStart { rotation, velocity, extra, .. } = self.start;
+            (Motion { rotation, velocity, acceleration: self.first.0 }, extra)
+        } else if time == self.start.length {
+            self.end
+        } else {
+            Self::step(&self.start, Some(&self.first), time).1
+        }
+    }
+}
+
+impl<S: Real, A: Stepper<S>> Arc<S> for FixedPath<'_, S, A> {
     #[inline(always)]
     fn length(&self) -> S {
         self.start.length
@@ -111,7 +146,7 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, A: Stepper<S>, const X: usize, cons
 
     #[inline(never)]
     fn at(&self, time: S) -> Motion<S> {
-        self.state(time).0
+        self.place(time).0
     }
 
     #[inline]
@@ -120,31 +155,24 @@ impl<S: Real, B: Body<S>, D: Drive<S, X, G>, A: Stepper<S>, const X: usize, cons
     }
 }
 
-impl<S: Real, B: Body<S>, D: Drive<S, X, G>, A: Stepper<S>, const X: usize, const G: usize> Path<S, X>
-    for FixedPath<'_, S, B, D, A, X, G>
-{
+impl<S: Real, A: Stepper<S>> Path<S> for FixedPath<'_, S, A> {
     #[inline]
-    fn extra(&self, time: S) -> [S; X] {
-        self.state(time).1
+    fn extra(&self, time: S) -> [S; UNKNOWNS] {
+        self.place(time).1
     }
 
     #[inline(never)]
     fn guard(&self, index: usize, time: S) -> S {
-        let (motion, extra) = self.state(time);
-        self.start.guard::<G>(index, time, &motion, &extra)
+        self.start.known(Guard { index, time, place: &self.place(time) })
     }
 }
 
 impl<S: Real> Tracer<S> for RungeKutta4<S> {
-    type Path<'a, B: Body<S> + 'a, D: Drive<S, X, G> + 'a, const X: usize, const G: usize> =
-        FixedPath<'a, S, B, D, RungeKutta4<S>, X, G>;
+    type Path<'a> = FixedPath<'a, S, RungeKutta4<S>>;
 
     #[inline(always)]
-    fn path<'a, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-        &'a self,
-        start: PathStart<'a, S, B, D, X>,
-    ) -> Self::Path<'a, B, D, X, G> {
-        FixedPath::of(start)
+    fn path<'a>(&'a self, start: PathStart<'a, S>) -> Self::Path<'a> {
+        FixedPath::new(start)
     }
 
     #[inline(always)]

@@ -5,7 +5,6 @@ use super::{Machine, MachineState};
 use crate::arc::Motion;
 use crate::body::Body;
 use crate::drivetrain::device::{Coupling, Wheel};
-use crate::drivetrain::drive::Drive;
 use crate::polynomial::first_zero_of;
 use crate::scalar::{Real, Sign};
 
@@ -80,7 +79,7 @@ impl<S: Real> Threshold<S> {
     }
 }
 
-impl<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize> Machine<S, B, D, X, G> {
+impl<S: Real> Machine<S> {
     /// What moves a block that does not move, tilted to `side`, towards `sign`: weight and ground, against the friction of the rack and of
     /// the flywheels that are coupled to it. Forces of stretched clutches are taken as they are now.
     #[inline(never)]

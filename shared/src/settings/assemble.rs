@@ -3,6 +3,7 @@
 //! Every range has been checked word by word, so only what takes two words is left to check here, and no error has a text.
 
 use super::{Item, SettingError, Settings};
+use crate::any_body::AnyBody;
 use crate::body::{FullBody, SlenderBody};
 use crate::control::calibration::Plausible;
 use crate::control::complementary::Complementary;
@@ -23,7 +24,6 @@ use crate::control::supervisor::{Parameters, Required, SafeState, Supervisor};
 use crate::control::ticks::ticks;
 use crate::equation::{BodyKinematics, FullBlock};
 use crate::lever::TyingPoint;
-use crate::told_body::ToldBody;
 
 /// Choices of `body`.
 const SLENDER: u32 = 0;
@@ -109,22 +109,22 @@ impl<K: BodyKinematics + PartialEq> SettingsBody for KnownFull<K> {
 impl SettingsBody for KnownAny {
     fn choice(&self) -> u32 {
         match self {
-            ToldBody::Slender(body) => body.choice(),
-            ToldBody::Full(body) => body.choice(),
+            AnyBody::Slender(body) => body.choice(),
+            AnyBody::Full(body) => body.choice(),
         }
     }
 
     fn of_settings(settings: &Settings) -> KnownAny {
         match settings.whole(Item::Body) {
-            SLENDER => ToldBody::Slender(KnownSlender::of_settings(settings)),
-            _ => ToldBody::Full(KnownFull::of_settings(settings)),
+            SLENDER => AnyBody::Slender(KnownSlender::of_settings(settings)),
+            _ => AnyBody::Full(KnownFull::of_settings(settings)),
         }
     }
 
     fn put(&self, draft: &mut super::record::Draft) {
         match self {
-            ToldBody::Slender(body) => body.put(draft),
-            ToldBody::Full(body) => body.put(draft),
+            AnyBody::Slender(body) => body.put(draft),
+            AnyBody::Full(body) => body.put(draft),
         }
     }
 }

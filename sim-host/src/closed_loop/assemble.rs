@@ -19,7 +19,7 @@ use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
 use super::design::SensorDesign;
 use super::disturbance::Disturbance;
 use super::driver::{Driver, Shared};
-use super::plant::{Build, Plant, Surroundings, Watcher, WithPlant};
+use super::plant::{Surroundings, Watcher, plant};
 use super::run::{Clock, ClosedLoop, Ending, LoopError, TickObserver};
 use super::supervision::supervision;
 use crate::accuracy::Closeness;
@@ -249,12 +249,8 @@ impl<'a> LoopTask<'a> {
         let slenderness = loaded.block.slenderness();
         let closed =
             ClosedLoop { clock, suite: self.suite, seed: self.seed, disturbance, slenderness, interrupt: self.interrupt };
-        let next = Running { closed, driver, watcher, observer };
-        self.drivetrain().resolve(
-            &self.scene.structure(self.index),
-            self.ground.vertical.is_some(),
-            Build { surroundings, next },
-        )?
+        let machine = self.drivetrain().resolve(&self.scene.structure(self.index), self.ground.vertical.is_some())?;
+        Ok(closed.run(&mut *plant(machine, surroundings), driver, watcher, observer)?)
     }
 
     /// The same device as the paper has it, without a controller: ideal engagement, nothing lost, nothing late.
@@ -287,20 +283,5 @@ fn unfit(error: SettingError) -> ParameterError {
         SettingError::NoSuch { .. } | SettingError::NotRepresentable => {
             ParameterError { parameter: "settings", value: f64::NAN, range: "such that they make the same controller again" }
         }
-    }
-}
-
-struct Running<'a, 'b> {
-    closed: ClosedLoop<'a>,
-    driver: &'b mut dyn Driver,
-    watcher: &'b mut dyn Watcher,
-    observer: &'b mut dyn TickObserver,
-}
-
-impl WithPlant for Running<'_, '_> {
-    type Output = Result<Ending, LoopFailure>;
-
-    fn with(self, plant: &mut dyn Plant) -> Self::Output {
-        Ok(self.closed.run(plant, self.driver, self.watcher, self.observer)?)
     }
 }

@@ -2,13 +2,9 @@
 
 use sprag_shared::body::Body;
 use sprag_shared::drivetrain::device::Coupling;
-use sprag_shared::drivetrain::drive::Drive;
-use sprag_shared::drivetrain::elastic::ElasticPair;
-use sprag_shared::error::ParameterError;
 use sprag_shared::fixed::RungeKutta4;
 use sprag_shared::hybrid::exponential::ExponentialMidpoint;
 use sprag_shared::hybrid::path::{Shaking, Tracer};
-use sprag_shared::hybrid::resolve::WithMachine;
 use sprag_shared::hybrid::{Machine, MachineState};
 use sprag_shared::observer::{Event, Stretch};
 use sprag_shared::rocking::{Limits, Phase, State, Stopped};
@@ -69,15 +65,6 @@ pub trait Plant {
     fn truth(&self) -> Truth;
 }
 
-/// What to do with a plant; called once.
-pub trait WithPlant {
-    /// The result.
-    type Output;
-
-    /// Goes on with it.
-    fn with(self, plant: &mut dyn Plant) -> Self::Output;
-}
-
 /// What a plant is made from beside its machine.
 #[derive(Clone, Copy)]
 pub struct Surroundings<'a> {
@@ -99,38 +86,19 @@ pub struct Surroundings<'a> {
     pub exponential: bool,
 }
 
-/// Resolves a machine into a plant.
-pub struct Build<'a, W> {
-    /// What surrounds it.
-    pub surroundings: Surroundings<'a>,
-    /// What to do with it.
-    pub next: W,
-}
-
-impl<W: WithPlant<Output = Result<R, E>>, R, E: From<ParameterError>> WithMachine<f64> for Build<'_, W> {
-    type Output = Result<R, E>;
-
-    fn with<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
-        self,
-        machine: Machine<f64, B, D, X, G>,
-    ) -> Self::Output {
-        let step = self.surroundings.step;
-        self.next.with(&mut MachinePlant::new(machine, RungeKutta4 { step }, self.surroundings))
-    }
-
-    fn with_elastic<B: Body<f64>>(self, machine: Machine<f64, B, ElasticPair<f64>, 4, 5>) -> Self::Output {
-        let step = self.surroundings.step;
-        if self.surroundings.exponential {
-            self.next.with(&mut MachinePlant::new(machine, ExponentialMidpoint { step }, self.surroundings))
-        } else {
-            self.next.with(&mut MachinePlant::new(machine, RungeKutta4 { step }, self.surroundings))
-        }
+/// The plant of `machine`.
+pub fn plant<'a>(machine: Machine<f64>, surroundings: Surroundings<'a>) -> Box<dyn Plant + 'a> {
+    let step = surroundings.step;
+    if surroundings.exponential && machine.drive.traits().springs {
+        Box::new(MachinePlant::new(machine, ExponentialMidpoint { step }, surroundings))
+    } else {
+        Box::new(MachinePlant::new(machine, RungeKutta4 { step }, surroundings))
     }
 }
 
 /// A machine and its place in the ground motion.
-struct MachinePlant<'a, B, D, T, const X: usize, const G: usize> {
-    machine: Machine<f64, B, D, X, G>,
+struct MachinePlant<'a, T> {
+    machine: Machine<f64>,
     tracer: T,
     state: MachineState<f64>,
     surroundings: Surroundings<'a>,
@@ -143,13 +111,8 @@ struct MachinePlant<'a, B, D, T, const X: usize, const G: usize> {
     lightest: f64,
 }
 
-impl<'a, B, D, T, const X: usize, const G: usize> MachinePlant<'a, B, D, T, X, G>
-where
-    B: Body<f64>,
-    D: Drive<f64, X, G>,
-    T: Tracer<f64>,
-{
-    fn new(mut machine: Machine<f64, B, D, X, G>, tracer: T, surroundings: Surroundings<'a>) -> Self {
+impl<'a, T: Tracer<f64>> MachinePlant<'a, T> {
+    fn new(mut machine: Machine<f64>, tracer: T, surroundings: Surroundings<'a>) -> Self {
         machine.actuator.controlled = true;
         machine.actuator.engagement_delay += surroundings.latency;
         machine.actuator.release_delay += surroundings.latency;
@@ -198,12 +161,7 @@ where
     }
 }
 
-impl<B, D, T, const X: usize, const G: usize> Plant for MachinePlant<'_, B, D, T, X, G>
-where
-    B: Body<f64>,
-    D: Drive<f64, X, G>,
-    T: Tracer<f64>,
-{
+impl<T: Tracer<f64>> Plant for MachinePlant<'_, T> {
     fn preset(&mut self, engaged: [bool; 2]) {
         if self.state.motion.phase == Phase::Rest {
             self.machine.preset(&mut self.state, engaged);

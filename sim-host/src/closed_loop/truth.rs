@@ -2,7 +2,6 @@
 
 use sprag_shared::block::GRAVITY;
 use sprag_shared::body::Body;
-use sprag_shared::drivetrain::drive::Drive;
 use sprag_shared::hybrid::{Machine, MachineState};
 use sprag_shared::math;
 use sprag_shared::observer::{Event, Stretch};
@@ -25,13 +24,7 @@ impl Places {
     ///
     /// With c = cos δ and s = sin δ (1 and δ for the slender block) the centre of mass has, relative to the ground, the acceleration
     /// R (c θ̈ + s θ̇², s θ̈ − c θ̇²); a specific force is that minus gravity, turned into the axes of the block.
-    pub fn truth<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
-        &self,
-        machine: &Machine<f64, B, D, X, G>,
-        state: &MachineState<f64>,
-        snapshot: &Snapshot<f64>,
-        shock: f64,
-    ) -> Truth {
+    pub fn truth(&self, machine: &Machine<f64>, state: &MachineState<f64>, snapshot: &Snapshot<f64>, shock: f64) -> Truth {
         let side = state.motion.side.unit();
         let motion = snapshot.motion;
         let posture = machine.body.posture(side, motion.rotation);

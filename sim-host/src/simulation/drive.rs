@@ -2,8 +2,6 @@
 
 use sprag_shared::arc::Method;
 use sprag_shared::block::{Block, Geometry};
-use sprag_shared::body::Body;
-use sprag_shared::drivetrain::drive::Drive;
 use sprag_shared::hybrid::path::{Shaking, Tracer};
 use sprag_shared::hybrid::{Machine, MachineState};
 use sprag_shared::observer::{Observer, Peaks};
@@ -73,12 +71,7 @@ impl Course<'_> {
 
     /// As [`Course::angle`], for a device: a block that is `lightest` light falls under a weaker push, a guided rack is pushed too, and
     /// friction may hold the block beyond.
-    pub fn machine_angle<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-        &self,
-        machine: &Machine<S, B, D, X, G>,
-        bound: f64,
-        lightest: f64,
-    ) -> S {
+    pub fn machine_angle<S: Real>(&self, machine: &Machine<S>, bound: f64, lightest: f64) -> S {
         let p2 = self.block.frequency_parameter_squared();
         let (held, pushed) =
             machine.drive.gears().map_or((0.0, 0.0), |gears| (gears.rack_dry.to_f64() / p2, gears.rack_push.to_f64() / p2));
@@ -135,9 +128,9 @@ impl Course<'_> {
     ///
     /// # Errors
     /// As there.
-    pub fn follow_machine<S, B, D, T, O, const X: usize, const G: usize>(
+    pub fn follow_machine<S, T, O>(
         &self,
-        machine: &Machine<S, B, D, X, G>,
+        machine: &Machine<S>,
         tracer: &T,
         state: &mut MachineState<S>,
         observer: &mut O,
@@ -145,8 +138,6 @@ impl Course<'_> {
     ) -> Result<(), Stopped>
     where
         S: Real,
-        B: Body<S>,
-        D: Drive<S, X, G>,
         T: Tracer<S>,
         O: DeviceObserver<S> + Segmented,
     {

@@ -1,15 +1,9 @@
 //! Runs of devices with a memory, or over ground that moves vertically too.
 
-use core::marker::PhantomData;
-
-use sprag_shared::body::Body;
-use sprag_shared::drivetrain::drive::Drive;
-use sprag_shared::drivetrain::elastic::ElasticPair;
 use sprag_shared::fixed::RungeKutta4;
 use sprag_shared::hybrid::Machine;
 use sprag_shared::hybrid::exponential::ExponentialMidpoint;
 use sprag_shared::hybrid::path::Tracer;
-use sprag_shared::hybrid::resolve::WithMachine;
 use sprag_shared::hybrid::series::Series;
 use sprag_shared::rocking::Phase;
 use sprag_shared::scalar::Real;
@@ -39,61 +33,24 @@ pub(super) fn run(task: &Task<'_>) -> Result<DeviceRun, Failure> {
 
 /// By one method for every device.
 fn with_method<S: Real, T: Tracer<S>>(task: &Task<'_>, tracer: &T) -> Result<DeviceRun, Failure> {
-    resolve(task, Resolved { task, tracer, precision: PhantomData })
+    follow(task, &resolve(task)?, tracer)
 }
 
 /// By the exponential midpoint method where there is an elastic clutch, and else by Runge-Kutta at the same step.
 fn exponential<S: Real>(task: &Task<'_>, step: S) -> Result<DeviceRun, Failure> {
-    let tracer = RungeKutta4 { step };
-    resolve(task, Stiff(Resolved { task, tracer: &tracer, precision: PhantomData }))
-}
-
-fn resolve<S: Real, W: WithMachine<S, Output = Result<DeviceRun, Failure>>>(
-    task: &Task<'_>,
-    next: W,
-) -> Result<DeviceRun, Failure> {
-    task.device().drivetrain.resolve(&task.scene.structure(task.index), task.ground.vertical.is_some(), next)?
-}
-
-struct Resolved<'a, S, T> {
-    task: &'a Task<'a>,
-    tracer: &'a T,
-    precision: PhantomData<S>,
-}
-
-struct Stiff<'a, S>(Resolved<'a, S, RungeKutta4<S>>);
-
-impl<S: Real, T: Tracer<S>> WithMachine<S> for Resolved<'_, S, T> {
-    type Output = Result<DeviceRun, Failure>;
-
-    fn with<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-        self,
-        machine: Machine<S, B, D, X, G>,
-    ) -> Self::Output {
-        follow(self.task, &machine, self.tracer)
+    let machine = resolve(task)?;
+    if machine.drive.traits().springs {
+        follow(task, &machine, &ExponentialMidpoint { step })
+    } else {
+        follow(task, &machine, &RungeKutta4 { step })
     }
 }
 
-impl<S: Real> WithMachine<S> for Stiff<'_, S> {
-    type Output = Result<DeviceRun, Failure>;
-
-    fn with<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-        self,
-        machine: Machine<S, B, D, X, G>,
-    ) -> Self::Output {
-        self.0.with(machine)
-    }
-
-    fn with_elastic<B: Body<S>>(self, machine: Machine<S, B, ElasticPair<S>, 4, 5>) -> Self::Output {
-        follow(self.0.task, &machine, &ExponentialMidpoint { step: self.0.tracer.step })
-    }
+fn resolve<S: Real>(task: &Task<'_>) -> Result<Machine<S>, Failure> {
+    Ok(task.device().drivetrain.resolve(&task.scene.structure(task.index), task.ground.vertical.is_some())?)
 }
 
-fn follow<S: Real, B: Body<S>, D: Drive<S, X, G>, T: Tracer<S>, const X: usize, const G: usize>(
-    task: &Task<'_>,
-    machine: &Machine<S, B, D, X, G>,
-    tracer: &T,
-) -> Result<DeviceRun, Failure> {
+fn follow<S: Real, T: Tracer<S>>(task: &Task<'_>, machine: &Machine<S>, tracer: &T) -> Result<DeviceRun, Failure> {
     let loaded = task.loaded()?;
     let course = task.course(&loaded.block);
     let mut state = match task.released() {

@@ -1,14 +1,10 @@
 //! A block with elastic clutches, whatever their stiffness, by fixed exponential midpoint steps.
 
-use sprag_shared::body::Body;
-use sprag_shared::drivetrain::drive::Drive;
-use sprag_shared::drivetrain::elastic::ElasticPair;
 use sprag_shared::drivetrain::{Drivetrain, Engagement};
 use sprag_shared::ground::{Harmonics, Quiet};
 use sprag_shared::hybrid::Machine;
 use sprag_shared::hybrid::exponential::ExponentialMidpoint;
 use sprag_shared::hybrid::path::Shaking;
-use sprag_shared::hybrid::resolve::WithMachine;
 use sprag_shared::observer::{Event, Stretch};
 use sprag_shared::rocking::{Limits, State, Stopped};
 use sprag_shared::scalar::Real;
@@ -46,15 +42,23 @@ pub fn elastic_run<S: Real>(
     let damping = 2.0 * damping_ratio * sprag_shared::math::square_root(stiffness * structure.device.mass_ratio);
     let engagement = Engagement::Elastic { stiffness, damping, backlash: 0.0, capacity_ratio: f64::INFINITY };
     let drivetrain = Drivetrain { engagement, ..Drivetrain::default() };
-    let run = Run { structure, pulse: (S::of(amplitude), S::of(frequency)), free_time: S::of(free_time), step: S::of(step) };
-    drivetrain.resolve(structure, false, run).expect("parameters within range")
-}
-
-struct Run<'a, S> {
-    structure: &'a Structure,
-    pulse: (S, S),
-    free_time: S,
-    step: S,
+    let machine: Machine<S> = drivetrain.resolve(structure, false).expect("parameters within range");
+    let energy = Energy::of(structure);
+    let mut watch = Watch { energy, quiet: false, least: f64::INFINITY, peak: 0.0, steps: 0, events: 0, depth: 0.0, gain: 0.0 };
+    let mut state = machine.at_rest();
+    let method = ExponentialMidpoint { step: S::of(step) };
+    let limits = Limits { overturned: S::of(core::f64::consts::FRAC_PI_2), events: 10_000_000 };
+    let duration = S::of(core::f64::consts::TAU) / S::of(frequency);
+    let sine = Harmonics::sine(S::of(amplitude), S::of(frequency));
+    let shaking = Shaking { horizontal: &sine, vertical: None };
+    let mut done = machine.advance(&method, &mut state, shaking, duration, &limits, &mut watch);
+    if done.is_ok() {
+        watch.quiet = true;
+        let shaking = Shaking { horizontal: &Quiet, vertical: None };
+        done = machine.advance(&method, &mut state, shaking, S::of(free_time), &limits, &mut watch);
+    }
+    let Watch { peak, steps, events, depth, gain, .. } = watch;
+    ElasticEnd { state: done.map(|()| state.motion), peak, steps, events, depth, gain }
 }
 
 struct Watch {
@@ -85,37 +89,5 @@ impl<S: Real> DeviceObserver<S> for Watch {
 
     fn device_event(&mut self, _event: Event, _time: S, _state: &State<S>) {
         self.events += 1;
-    }
-}
-
-impl<S: Real> WithMachine<S> for Run<'_, S> {
-    type Output = ElasticEnd<S>;
-
-    fn with<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-        self,
-        _machine: Machine<S, B, D, X, G>,
-    ) -> ElasticEnd<S> {
-        unreachable!("the drivetrain has elastic clutches")
-    }
-
-    fn with_elastic<B: Body<S>>(self, machine: Machine<S, B, ElasticPair<S>, 4, 5>) -> ElasticEnd<S> {
-        let Run { structure, pulse: (amplitude, frequency), free_time, step } = self;
-        let energy = Energy::of(structure);
-        let mut watch =
-            Watch { energy, quiet: false, least: f64::INFINITY, peak: 0.0, steps: 0, events: 0, depth: 0.0, gain: 0.0 };
-        let mut state = machine.at_rest();
-        let method = ExponentialMidpoint { step };
-        let limits = Limits { overturned: S::of(core::f64::consts::FRAC_PI_2), events: 10_000_000 };
-        let duration = S::of(core::f64::consts::TAU) / frequency;
-        let sine = Harmonics::sine(amplitude, frequency);
-        let shaking = Shaking { horizontal: &sine, vertical: None };
-        let mut done = machine.advance(&method, &mut state, shaking, duration, &limits, &mut watch);
-        if done.is_ok() {
-            watch.quiet = true;
-            let shaking = Shaking { horizontal: &Quiet, vertical: None };
-            done = machine.advance(&method, &mut state, shaking, free_time, &limits, &mut watch);
-        }
-        let Watch { peak, steps, events, depth, gain, .. } = watch;
-        ElasticEnd { state: done.map(|()| state.motion), peak, steps, events, depth, gain }
     }
 }

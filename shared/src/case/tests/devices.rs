@@ -1,11 +1,8 @@
 //! Cases of devices with a memory and of vertical ground motion.
 
 use super::*;
-use crate::body::Body;
-use crate::drivetrain::drive::Drive;
 use crate::hybrid::Machine;
 use crate::hybrid::path::Shaking;
-use crate::hybrid::resolve::WithMachine;
 use crate::hybrid::series::Series;
 
 /// One of every engagement, with losses, and the two halves of a seed; every number is one of single precision.
@@ -162,27 +159,18 @@ fn every_effect_has_a_digest_of_its_own() {
 /// The first cycle by a tight series in double precision, in which every event is proven.
 #[test]
 fn single_precision_follows_every_device() {
-    struct InDouble;
-    impl WithMachine<f64> for InDouble {
-        type Output = f64;
-        fn with<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
-            self,
-            machine: Machine<f64, B, D, X, G>,
-        ) -> f64 {
-            let mut state = machine.at_rest();
-            let limits = Limits { overturned: 1.5, events: 100_000 };
-            let (pulse, up) = (Harmonics::sine(0.1875, 4.0), Harmonics::sine(0.25, 16.0));
-            let shaking = Shaking { horizontal: &pulse, vertical: Some(&up) };
-            machine.advance(&Series::<f64, 16>::adaptive(1e-15), &mut state, shaking, 0.75, &limits, &mut ()).unwrap();
-            state.motion.rotation
-        }
-    }
     let base = figure05(DeviceKind::ClutchedPair);
     let pulse = GroundPiece { shape: Shape::Sine(Harmonics::sine(0.1875, 4.0)), duration: 0.75 };
     let up = Shape::Sine(Harmonics::sine(0.25, 16.0));
     let ground = Ground::both_ways(&[(pulse, up)]).unwrap();
     for (index, drivetrain) in drivetrains().into_iter().enumerate() {
-        let exact = drivetrain.resolve(&base.structure, true, InDouble).unwrap();
+        let machine: Machine<f64> = drivetrain.resolve(&base.structure, true).unwrap();
+        let mut state = machine.at_rest();
+        let limits = Limits { overturned: 1.5, events: 100_000 };
+        let (push, lift) = (Harmonics::sine(0.1875, 4.0), Harmonics::sine(0.25, 16.0));
+        let shaking = Shaking { horizontal: &push, vertical: Some(&lift) };
+        machine.advance(&Series::<f64, 16>::adaptive(1e-15), &mut state, shaking, 0.75, &limits, &mut ()).unwrap();
+        let exact = state.motion.rotation;
         let methods: &[_] = match drivetrain.engagement {
             Engagement::Elastic { .. } => {
                 &[(FixedMethod::RungeKutta4, 1e-3, 1e-4), (FixedMethod::ExponentialMidpoint, 1e-3, 1e-4)]

@@ -4,11 +4,8 @@ use std::vec::Vec;
 
 use super::{Ground, Machine, Seen, Watcher, pair, tight};
 use crate::block::Geometry;
-use crate::body::Body;
-use crate::drivetrain::drive::Drive;
 use crate::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses};
 use crate::hybrid::path::Shaking;
-use crate::hybrid::resolve::WithMachine;
 use crate::observer::{Event, Stretch};
 use crate::rocking::State;
 use crate::snapshot::{DeviceArc, DeviceObserver};
@@ -44,27 +41,18 @@ fn a_release_comes_late_by_its_delay() {
 }
 
 /// When a clutch moves that is commanded to engage at 0 and to release 5 ms later, and what the last command wants, after 0.1 s.
-struct Pulse;
-
-impl WithMachine<f64> for Pulse {
-    type Output = (Vec<f64>, bool);
-
-    fn with<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
-        self,
-        mut machine: Machine<f64, B, D, X, G>,
-    ) -> Self::Output {
-        machine.actuator.controlled = true;
-        let mut state = machine.released_at(0.1, 0.0, [0.0; 2]);
-        let mut watcher = Watcher::default();
-        let shaking = Shaking { horizontal: &Ground::QUIET, vertical: None };
-        let limits = pair(Geometry::Full, 1.0, 1.0).limits(true);
-        for (wanted, until) in [([false, true], 0.005), ([false, false], 0.095)] {
-            machine.order(&mut state, wanted, &mut watcher);
-            machine.advance(&tight(), &mut state, shaking, until, &limits, &mut watcher).unwrap();
-            watcher.peaks.origin += until;
-        }
-        (watcher.switches.iter().map(|(time, ..)| *time).collect(), state.device.wheels[1].commanded)
+fn pulse(mut machine: Machine<f64>) -> (Vec<f64>, bool) {
+    machine.actuator.controlled = true;
+    let mut state = machine.released_at(0.1, 0.0, [0.0; 2]);
+    let mut watcher = Watcher::default();
+    let shaking = Shaking { horizontal: &Ground::QUIET, vertical: None };
+    let limits = pair(Geometry::Full, 1.0, 1.0).limits(true);
+    for (wanted, until) in [([false, true], 0.005), ([false, false], 0.095)] {
+        machine.order(&mut state, wanted, &mut watcher);
+        machine.advance(&tight(), &mut state, shaking, until, &limits, &mut watcher).unwrap();
+        watcher.peaks.origin += until;
     }
+    (watcher.switches.iter().map(|(time, ..)| *time).collect(), state.device.wheels[1].commanded)
 }
 
 /// A coil never moves for a command that is shorter than its delay; what comes over a line arrives as it was sent, each with its delay.
@@ -73,7 +61,7 @@ fn a_command_shorter_than_the_delay_is_lost_or_late() {
     let structure = pair(Geometry::Full, 1.0, 1.0).structure;
     let moves = |delay, engagement_delay, release_delay| {
         let actuation = Actuation { delay, engagement_delay, release_delay, ..Actuation::default() };
-        with(actuation).resolve(&structure, false, Pulse).unwrap().0
+        pulse(with(actuation).resolve(&structure, false).unwrap()).0
     };
     let near = |found: Vec<f64>, expected: &[f64]| {
         let close = found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-12);

@@ -2,37 +2,28 @@
 
 use super::{Ground, pair, shake, structure, tight};
 use crate::block::Geometry;
-use crate::body::Body;
-use crate::drivetrain::drive::Drive;
 use crate::drivetrain::{Drivetrain, Rack};
 use crate::hybrid::path::Shaking;
-use crate::hybrid::resolve::WithMachine;
 use crate::hybrid::{Machine, series::Series};
 use crate::observer::{Event, Peaks};
 use crate::rocking::{Limits, Phase};
-use crate::structure::{DeviceKind, KinematicsKind};
+use crate::structure::{DeviceKind, KinematicsKind, Structure};
 
-/// One piece of ground motion in both directions.
-struct Both(Ground, Ground, f64, bool);
-
-impl WithMachine<f64> for Both {
-    type Output = (f64, Phase);
-    fn with<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
-        self,
-        machine: Machine<f64, B, D, X, G>,
-    ) -> Self::Output {
-        struct Watch(Peaks<f64>);
-        impl crate::snapshot::DeviceObserver<f64> for Watch {
-            fn device_stretch(&mut self, arc: &dyn crate::snapshot::DeviceArc<f64>, stretch: &crate::observer::Stretch<f64>) {
-                crate::observer::Observer::stretch(&mut self.0, &arc, stretch);
-            }
+/// Largest |θ| and the phase after one piece of ground motion from rest.
+fn shaken(structure: &Structure, horizontal: Ground, vertical: Option<Ground>, duration: f64) -> (f64, Phase) {
+    let machine: Machine<f64> = Drivetrain::default().resolve(structure, vertical.is_some()).unwrap();
+    assert_eq!(machine.body.is_vertical(), vertical.is_some());
+    struct Watch(Peaks<f64>);
+    impl crate::snapshot::DeviceObserver<f64> for Watch {
+        fn device_stretch(&mut self, arc: &dyn crate::snapshot::DeviceArc<f64>, stretch: &crate::observer::Stretch<f64>) {
+            crate::observer::Observer::stretch(&mut self.0, &arc, stretch);
         }
-        let (mut state, mut watch) = (machine.at_rest(), Watch(Peaks::default()));
-        let shaking = Shaking { horizontal: &self.0, vertical: self.3.then_some(&self.1) };
-        let limits = Limits { overturned: 1.2, events: 100_000 };
-        machine.advance(&tight(), &mut state, shaking, self.2, &limits, &mut watch).unwrap();
-        (watch.0.rotation, state.motion.phase)
     }
+    let (mut state, mut watch) = (machine.at_rest(), Watch(Peaks::default()));
+    let shaking = Shaking { horizontal: &horizontal, vertical: vertical.as_ref().map(|ground| ground as _) };
+    let limits = Limits { overturned: 1.2, events: 100_000 };
+    machine.advance(&tight(), &mut state, shaking, duration, &limits, &mut watch).unwrap();
+    (watch.0.rotation, state.motion.phase)
 }
 
 /// Under a constant vertical acceleration gravity is another one: the motion is that without it, scaled in time by
@@ -45,17 +36,9 @@ fn constant_vertical_acceleration_is_another_gravity() {
                 let structure = structure(geometry, 12.0, kind, 0.4, KinematicsKind::Consistent);
                 let (amplitude, frequency) = (0.9, 12.0);
                 let stretch = f64::sqrt(1.0 + vertical);
-                let (plain, lifted) = (
-                    Both(Ground::sine(amplitude, frequency), Ground::constant(0.0), 2.0, false),
-                    Both(
-                        Ground::sine(amplitude * (1.0 + vertical), frequency * stretch),
-                        Ground::constant(vertical),
-                        2.0 / stretch,
-                        true,
-                    ),
-                );
-                let plain = Drivetrain::default().resolve(&structure, false, plain).unwrap();
-                let lifted = Drivetrain::default().resolve(&structure, true, lifted).unwrap();
+                let plain = shaken(&structure, Ground::sine(amplitude, frequency), None, 2.0);
+                let push = Ground::sine(amplitude * (1.0 + vertical), frequency * stretch);
+                let lifted = shaken(&structure, push, Some(Ground::constant(vertical)), 2.0 / stretch);
                 assert_eq!(plain.1, lifted.1);
                 assert!((plain.0 / lifted.0 - 1.0).abs() < 1e-10, "{geometry:?} {kind:?} {vertical}: {plain:?} {lifted:?}");
             }
@@ -69,8 +52,8 @@ fn vertical_acceleration_moves_the_uplift_threshold() {
     let structure = structure(Geometry::Full, 12.0, DeviceKind::None, 0.0, KinematicsKind::Paper);
     let threshold = crate::math::tan(structure.block.slenderness());
     for (push, rocks) in [(0.999, false), (1.001, true)] {
-        let both = Both(Ground::constant(threshold * 0.7 * push), Ground::constant(-0.3), 0.5, true);
-        let (_, phase) = Drivetrain::default().resolve(&structure, true, both).unwrap();
+        let push = Ground::constant(threshold * 0.7 * push);
+        let (_, phase) = shaken(&structure, push, Some(Ground::constant(-0.3)), 0.5);
         assert_eq!(phase == Phase::Rocking, rocks);
     }
 }
@@ -100,38 +83,28 @@ fn dry_friction_takes_its_force_times_the_travel() {
     structure.restitution = crate::restitution::Restitution::Constant(1.0);
     let (p2, alpha) = (structure.block.frequency_parameter_squared(), structure.block.slenderness());
     let force = 0.01;
-    struct Swing(f64);
-    impl WithMachine<f64> for Swing {
-        type Output = std::vec::Vec<f64>;
-        fn with<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
-            self,
-            machine: Machine<f64, B, D, X, G>,
-        ) -> Self::Output {
-            #[derive(Default)]
-            struct Turns(std::vec::Vec<f64>);
-            impl crate::snapshot::DeviceObserver<f64> for Turns {
-                fn device_event(&mut self, event: Event, _time: f64, state: &crate::rocking::State<f64>) {
-                    if event == Event::Turn {
-                        self.0.push(state.rotation);
-                    }
-                }
+    let start = 0.6 * alpha;
+    let machine: Machine<f64> = dry(force).resolve(&structure, false).unwrap();
+    #[derive(Default)]
+    struct Turns(std::vec::Vec<f64>);
+    impl crate::snapshot::DeviceObserver<f64> for Turns {
+        fn device_event(&mut self, event: Event, _time: f64, state: &crate::rocking::State<f64>) {
+            if event == Event::Turn {
+                self.0.push(state.rotation);
             }
-            let mut state = machine.released_at(self.0, 0.0, [0.0; 2]);
-            let mut turns = Turns::default();
-            let quiet = Ground::QUIET;
-            let limits = Limits { overturned: 1.0, events: 10_000 };
-            let shaking = Shaking { horizontal: &quiet, vertical: None };
-            machine.advance(&Series::<f64, 20>::adaptive(1e-17), &mut state, shaking, 6.0, &limits, &mut turns).unwrap();
-            turns.0
         }
     }
-    let start = 0.6 * alpha;
-    let turns = dry(force).resolve(&structure, false, Swing(start)).unwrap();
+    let mut state = machine.released_at(start, 0.0, [0.0; 2]);
+    let mut turns = Turns::default();
+    let quiet = Ground::QUIET;
+    let limits = Limits { overturned: 1.0, events: 10_000 };
+    let shaking = Shaking { horizontal: &quiet, vertical: None };
+    machine.advance(&Series::<f64, 20>::adaptive(1e-17), &mut state, shaking, 6.0, &limits, &mut turns).unwrap();
     // p²(α|θ| − θ²/2) falls by p² F/(mg) over every unit of travel.
     let energy = |theta: f64| p2 * (alpha * theta.abs() - 0.5 * theta * theta);
     let mut before = start;
-    assert!(turns.len() > 3, "{turns:?}");
-    for turn in turns {
+    assert!(turns.0.len() > 3, "{:?}", turns.0);
+    for turn in turns.0 {
         let lost = energy(before) - energy(turn);
         let expected = p2 * force * (before.abs() + turn.abs());
         assert!((lost / expected - 1.0).abs() < 1e-9, "{lost} and {expected}");
@@ -144,25 +117,16 @@ fn dry_friction_takes_its_force_times_the_travel() {
 fn friction_holds_a_block_where_nothing_else_does() {
     let structure = structure(Geometry::Full, 10.0, DeviceKind::Inerter, 0.3, KinematicsKind::Paper);
     let alpha = structure.block.slenderness();
-    struct Release(f64);
-    impl WithMachine<f64> for Release {
-        type Output = (f64, bool);
-        fn with<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
-            self,
-            machine: Machine<f64, B, D, X, G>,
-        ) -> Self::Output {
-            let mut state = machine.released_at(self.0, 0.0, [0.0; 2]);
-            let quiet = Ground::QUIET;
-            let limits = Limits { overturned: 1.5, events: 10_000 };
-            let shaking = Shaking { horizontal: &quiet, vertical: None };
-            machine.advance(&Series::<f64, 20>::adaptive(1e-17), &mut state, shaking, 1.0, &limits, &mut ()).unwrap();
-            (state.motion.rotation, state.held)
-        }
-    }
     // Held while |sin(α − θ)| ≤ F/(mg) cos(α − θ).
     let reach = crate::math::atan(0.02);
     for (angle, held) in [(alpha - 0.99 * reach, true), (alpha - 1.01 * reach, false), (alpha + 0.99 * reach, true)] {
-        let (rotation, stays) = dry(0.02).resolve(&structure, false, Release(angle)).unwrap();
+        let machine: Machine<f64> = dry(0.02).resolve(&structure, false).unwrap();
+        let mut state = machine.released_at(angle, 0.0, [0.0; 2]);
+        let quiet = Ground::QUIET;
+        let limits = Limits { overturned: 1.5, events: 10_000 };
+        let shaking = Shaking { horizontal: &quiet, vertical: None };
+        machine.advance(&Series::<f64, 20>::adaptive(1e-17), &mut state, shaking, 1.0, &limits, &mut ()).unwrap();
+        let (rotation, stays) = (state.motion.rotation, state.held);
         assert_eq!(stays, held, "at {angle}");
         assert_eq!(rotation == angle, held, "at {angle}: {rotation}");
     }

@@ -11,14 +11,10 @@ mod standing;
 use std::vec::Vec;
 
 use super::path::{Shaking, Tracer};
-use super::resolve::WithMachine;
 use super::series::Series;
 use super::{Machine, MachineState};
 use crate::block::{Block, Geometry};
-use crate::body::Body;
 use crate::carried::Carried;
-use crate::drivetrain::drive::Drive;
-use crate::drivetrain::elastic::ElasticPair;
 use crate::drivetrain::{Drivetrain, Engagement, FlywheelLosses, Rack};
 use crate::ground::{Harmonics, Linear, Piece, Quiet};
 use crate::hybrid::exponential::ExponentialMidpoint;
@@ -198,43 +194,17 @@ impl Shake {
 
     /// The same, with a `watcher`.
     pub fn watched<T: Tracer<f64>>(&self, drivetrain: &Drivetrain, method: &T, watcher: &mut dyn DeviceObserver<f64>) -> Seen {
-        struct Run<'a, T>(&'a Shake, &'a T, &'a mut dyn DeviceObserver<f64>);
-        impl<T: Tracer<f64>> WithMachine<f64> for Run<'_, T> {
-            type Output = Seen;
-            fn with<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
-                self,
-                machine: Machine<f64, B, D, X, G>,
-            ) -> Seen {
-                self.0.follow(&machine, self.1, self.2)
-            }
-        }
-        drivetrain.resolve(&self.structure, false, Run(self, method, watcher)).unwrap()
+        self.follow(&drivetrain.resolve(&self.structure, false).unwrap(), method, watcher)
     }
 
     /// An elastic clutch by the exponential midpoint method.
     pub fn exponential(&self, drivetrain: &Drivetrain, step: f64) -> Seen {
-        struct Run<'a>(&'a Shake, f64);
-        impl WithMachine<f64> for Run<'_> {
-            type Output = Seen;
-            fn with<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
-                self,
-                _machine: Machine<f64, B, D, X, G>,
-            ) -> Seen {
-                panic!("not an elastic clutch")
-            }
-            fn with_elastic<B: Body<f64>>(self, machine: Machine<f64, B, ElasticPair<f64>, 4, 5>) -> Seen {
-                self.0.follow(&machine, &ExponentialMidpoint { step: self.1 }, &mut ())
-            }
-        }
-        drivetrain.resolve(&self.structure, false, Run(self, step)).unwrap()
+        let machine = drivetrain.resolve(&self.structure, false).unwrap();
+        assert!(machine.drive.traits().springs, "not an elastic clutch");
+        self.follow(&machine, &ExponentialMidpoint { step }, &mut ())
     }
 
-    fn follow<B: Body<f64>, D: Drive<f64, X, G>, T: Tracer<f64>, const X: usize, const G: usize>(
-        &self,
-        machine: &Machine<f64, B, D, X, G>,
-        method: &T,
-        watcher: &mut dyn DeviceObserver<f64>,
-    ) -> Seen {
+    fn follow<T: Tracer<f64>>(&self, machine: &Machine<f64>, method: &T, watcher: &mut dyn DeviceObserver<f64>) -> Seen {
         let mut watcher = (Watcher::default(), watcher);
         let mut state: MachineState<f64> = machine.at_rest();
         for (ground, duration) in &self.pieces {

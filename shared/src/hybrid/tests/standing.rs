@@ -4,13 +4,10 @@ use std::vec::Vec;
 
 use super::{Ground, Shake, pair, shake, structure, tight};
 use crate::block::Geometry;
-use crate::body::Body;
-use crate::drivetrain::drive::Drive;
 use crate::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses};
 use crate::fixed::RungeKutta4;
 use crate::hybrid::Machine;
 use crate::hybrid::path::Shaking;
-use crate::hybrid::resolve::WithMachine;
 use crate::ledger::{Account, Clutching, Ledger};
 use crate::math;
 use crate::observer::{Event, Stretch};
@@ -34,51 +31,35 @@ fn plates(capacity_ratio: f64, rise_time: f64) -> Drivetrain {
     Drivetrain { actuation, ..bearings(Engagement::Friction { capacity_ratio }) }
 }
 
-/// The push (in g) at which a ramp of ground acceleration moves a block at rest.
-struct Uplift {
-    /// A controller's clutches, after a long command.
-    engaged: Option<[bool; 2]>,
-    /// Speed of the flywheels, each in its own direction, 1/s.
-    spin: f64,
-}
-
-impl WithMachine<f64> for Uplift {
-    type Output = f64;
-
-    fn with<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
-        self,
-        mut machine: Machine<f64, B, D, X, G>,
-    ) -> f64 {
-        #[derive(Default)]
-        struct First(Option<f64>);
-        impl DeviceObserver<f64> for First {
-            fn device_stretch(&mut self, _arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
-                if stretch.last.rotation != 0.0 {
-                    self.0 = self.0.or(Some(stretch.start));
-                }
-            }
-
-            fn device_event(&mut self, _event: Event, _time: f64, _state: &State<f64>) {}
-        }
-        let mut state = machine.at_rest();
-        if let Some(engaged) = self.engaged {
-            machine.actuator.controlled = true;
-            machine.actuator.engagement_delay = 1e-3;
-            machine.preset(&mut state, engaged);
-        }
-        (state.device.wheels[0].spin, state.device.wheels[1].spin) = (self.spin, -self.spin);
-        let ramp = Ground::Line(crate::ground::Linear { start: 0.0, slope: SLOPE });
-        let shaking = Shaking { horizontal: &ramp, vertical: None };
-        let limits = Limits { overturned: 1.0, events: 10_000 };
-        let mut first = First::default();
-        machine.advance(&tight(), &mut state, shaking, 2.2, &limits, &mut first).unwrap();
-        SLOPE * first.0.unwrap()
-    }
-}
-
+/// The push (in g) at which a ramp of ground acceleration moves a block at rest, with the clutches that a controller has `engaged` for
+/// long and flywheels that turn at `spin` (1/s), each in its own direction.
 fn uplift(drivetrain: &Drivetrain, engaged: Option<[bool; 2]>, spin: f64) -> f64 {
     let structure = structure(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
-    drivetrain.resolve(&structure, false, Uplift { engaged, spin }).unwrap()
+    let mut machine: Machine<f64> = drivetrain.resolve(&structure, false).unwrap();
+    #[derive(Default)]
+    struct First(Option<f64>);
+    impl DeviceObserver<f64> for First {
+        fn device_stretch(&mut self, _arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
+            if stretch.last.rotation != 0.0 {
+                self.0 = self.0.or(Some(stretch.start));
+            }
+        }
+
+        fn device_event(&mut self, _event: Event, _time: f64, _state: &State<f64>) {}
+    }
+    let mut state = machine.at_rest();
+    if let Some(engaged) = engaged {
+        machine.actuator.controlled = true;
+        machine.actuator.engagement_delay = 1e-3;
+        machine.preset(&mut state, engaged);
+    }
+    (state.device.wheels[0].spin, state.device.wheels[1].spin) = (spin, -spin);
+    let ramp = Ground::Line(crate::ground::Linear { start: 0.0, slope: SLOPE });
+    let shaking = Shaking { horizontal: &ramp, vertical: None };
+    let limits = Limits { overturned: 1.0, events: 10_000 };
+    let mut first = First::default();
+    machine.advance(&tight(), &mut state, shaking, 2.2, &limits, &mut first).unwrap();
+    SLOPE * first.0.unwrap()
 }
 
 /// tan α, and with a standing flywheel that is coupled tan α + σ d/g: its bearings resist the rack with σ m d.
@@ -184,23 +165,12 @@ fn a_second_uplift_feels_the_spinning_flywheels() {
 /// A flywheel that a block in motion has just brought to its speed is let go at once where the block slows down.
 #[test]
 fn an_overrunning_clutch_that_has_just_gripped_does_not_push() {
-    struct Start;
-    impl WithMachine<f64> for Start {
-        type Output = [f64; 2];
-
-        fn with<B: Body<f64>, D: Drive<f64, X, G>, const X: usize, const G: usize>(
-            self,
-            machine: Machine<f64, B, D, X, G>,
-        ) -> [f64; 2] {
-            // Outward, against the weight.
-            let state = machine.released_at(0.0, 0.1, [0.0; 2]);
-            let now = machine.now(&state);
-            [now.motion.velocity, now.force[0]]
-        }
-    }
     let structure = structure(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
     let drivetrain = Drivetrain { engagement: Engagement::Overrunning, ..Drivetrain::default() };
-    let [velocity, force] = drivetrain.resolve(&structure, false, Start).unwrap();
+    let machine: Machine<f64> = drivetrain.resolve(&structure, false).unwrap();
+    // Outward, against the weight.
+    let now = machine.now(&machine.released_at(0.0, 0.1, [0.0; 2]));
+    let (velocity, force) = (now.motion.velocity, now.force[0]);
     // 1 + kℓ² times as much is shaken off with the flywheel at rest before.
     let lever = math::cos(10.0_f64.to_radians());
     let k = 0.5 / structure.block.inertia_ratio();

@@ -8,12 +8,13 @@
 use super::{Tally, mean};
 use core::{f32::consts::TAU, fmt, hint::black_box};
 use sprag_shared::{
+    any_body::AnyBody,
     block::{Block, RECTANGLE_INERTIA_RATIO},
-    body::{Body, FullBody},
+    body::FullBody,
     case::Shape,
     drivetrain::{
         Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack,
-        drive::Drive,
+        any_drive::AnyDrive,
         elastic::ElasticPair,
         friction::FrictionPair,
         gears::Gears,
@@ -85,9 +86,9 @@ fn body(consistent: bool, vertical: bool) -> FullBody<f32, Told> {
 }
 
 /// A block on its device, with the numbers of the ideal pair's kernel.
-fn machine<B, D, const X: usize, const G: usize>(body: B, drive: D, drivetrain: &Drivetrain) -> Machine<f32, B, D, X, G> {
+fn machine(body: FullBody<f32, Told>, drive: AnyDrive<f32>, drivetrain: &Drivetrain) -> Machine<f32> {
     Machine {
-        body,
+        body: AnyBody::Full(body),
         drive,
         restitution: [super::RESTITUTION; 3],
         slenderness: super::SLENDERNESS,
@@ -100,8 +101,8 @@ fn machine<B, D, const X: usize, const G: usize>(body: B, drive: D, drivetrain: 
 
 /// One cycle of a sine pulse and every event in it, located.
 #[inline(never)]
-fn passage<B: Body<f32>, D: Drive<f32, X, G>, T: Tracer<f32>, const X: usize, const G: usize>(
-    machine: &Machine<f32, B, D, X, G>,
+fn passage<T: Tracer<f32>>(
+    machine: &Machine<f32>,
     tracer: &T,
     shaking: Shaking<'_, f32>,
     tally: &mut Tally,
@@ -130,17 +131,24 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
             mean($name, |tally| passage(&machine, $tracer, $shaking, tally), counter, out)?;
         }};
     }
-    line!("machine-alone", paper, Alone, IDEAL, &tracer, level);
-    line!("machine-alone-vertical", body(false, true), Alone, IDEAL, &tracer, both);
-    line!("machine-single-friction", paper, Single::<f32, true>(gears(&ROUGH)), ROUGH, &tracer, level);
-    line!("machine-ideal-pair", paper, IdealPair::<f32, false>(gears(&IDEAL)), IDEAL, &tracer, level);
-    line!("machine-ideal-pair-friction", paper, IdealPair::<f32, true>(gears(&ROUGH)), ROUGH, &tracer, level);
-    line!("machine-ideal-pair-consistent", consistent, IdealPair::<f32, false>(gears(&IDEAL)), IDEAL, &tracer, level);
-    line!("machine-rigid", consistent, RigidPair(gears(&RIGID)), RIGID, &tracer, level);
-    line!("machine-overrunning", consistent, OverrunningPair(gears(&OVERRUNNING)), OVERRUNNING, &tracer, level);
-    line!("machine-friction-clutch", consistent, FrictionPair(gears(&FRICTION)), FRICTION, &tracer, level);
-    line!("machine-elastic-rk4", consistent, ElasticPair(gears(&ELASTIC)), ELASTIC, &tracer, level);
-    line!("machine-elastic-exponential", consistent, ElasticPair(gears(&ELASTIC)), ELASTIC, &midpoint, level);
-    line!("machine-all-together", body(true, true), FrictionPair(gears(&ALL)), ALL, &tracer, both);
+    line!("machine-alone", paper, AnyDrive::Alone(Alone), IDEAL, &tracer, level);
+    line!("machine-alone-vertical", body(false, true), AnyDrive::Alone(Alone), IDEAL, &tracer, both);
+    line!("machine-single-friction", paper, AnyDrive::SingleWithFriction(Single(gears(&ROUGH))), ROUGH, &tracer, level);
+    line!("machine-ideal-pair", paper, AnyDrive::Ideal(IdealPair(gears(&IDEAL))), IDEAL, &tracer, level);
+    line!("machine-ideal-pair-friction", paper, AnyDrive::IdealWithFriction(IdealPair(gears(&ROUGH))), ROUGH, &tracer, level);
+    line!("machine-ideal-pair-consistent", consistent, AnyDrive::Ideal(IdealPair(gears(&IDEAL))), IDEAL, &tracer, level);
+    line!("machine-rigid", consistent, AnyDrive::Rigid(RigidPair(gears(&RIGID))), RIGID, &tracer, level);
+    line!(
+        "machine-overrunning",
+        consistent,
+        AnyDrive::Overrunning(OverrunningPair(gears(&OVERRUNNING))),
+        OVERRUNNING,
+        &tracer,
+        level
+    );
+    line!("machine-friction-clutch", consistent, AnyDrive::Friction(FrictionPair(gears(&FRICTION))), FRICTION, &tracer, level);
+    line!("machine-elastic-rk4", consistent, AnyDrive::Elastic(ElasticPair(gears(&ELASTIC))), ELASTIC, &tracer, level);
+    line!("machine-elastic-exponential", consistent, AnyDrive::Elastic(ElasticPair(gears(&ELASTIC))), ELASTIC, &midpoint, level);
+    line!("machine-all-together", body(true, true), AnyDrive::Friction(FrictionPair(gears(&ALL))), ALL, &tracer, both);
     Ok(())
 }

@@ -1,92 +1,103 @@
-//! A body that is told at run time which one it is: one piece of code for all where code is scarce, to the same bits.
+//! A body chosen at run time, to the same bits as one known when it is compiled: one piece of code for all.
 
 use crate::body::{Body, FullBody, SlenderBody, Turned};
 use crate::equation::Told;
+use crate::scalar::Scalar;
 use crate::value::Value;
 
 /// The linearised block or the exact one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ToldBody {
+pub enum AnyBody<S> {
     /// Linearised.
-    Slender(SlenderBody<f32>),
+    Slender(SlenderBody<S>),
     /// Exact.
-    Full(FullBody<f32, Told>),
+    Full(FullBody<S, Told>),
 }
 
 /// A posture of either.
 #[derive(Clone, Copy, Debug)]
-pub enum ToldPosture<V> {
+pub enum AnyPosture<V> {
     /// δ.
     Slender(V),
     /// Of the exact block.
     Full(Turned<V>),
 }
 
+impl<S> AnyBody<S> {
+    /// Whether it knows of vertical ground motion.
+    pub fn is_vertical(&self) -> bool {
+        match self {
+            AnyBody::Slender(body) => body.vertical,
+            AnyBody::Full(body) => body.vertical,
+        }
+    }
+}
+
 /// What either body makes of its own posture; a posture of the other one, which is never made, is `otherwise`.
 macro_rules! either {
     ($self:ident, $posture:ident, |$body:ident, $own:ident| $value:expr, $otherwise:expr) => {
         match ($self, $posture) {
-            (ToldBody::Slender($body), ToldPosture::Slender($own)) => $value,
-            (ToldBody::Full($body), ToldPosture::Full($own)) => $value,
+            (AnyBody::Slender($body), AnyPosture::Slender($own)) => $value,
+            (AnyBody::Full($body), AnyPosture::Full($own)) => $value,
             _ => $otherwise,
         }
     };
 }
 
-impl Body<f32> for ToldBody {
-    type Posture<V: Value<f32>> = ToldPosture<V>;
+impl<S: Scalar> Body<S> for AnyBody<S> {
+    type Posture<V: Value<S>> = AnyPosture<V>;
 
     #[inline]
-    fn posture<V: Value<f32>>(&self, side: f32, rotation: V) -> ToldPosture<V> {
+    fn posture<V: Value<S>>(&self, side: S, rotation: V) -> AnyPosture<V> {
         match self {
-            ToldBody::Slender(body) => ToldPosture::Slender(body.posture(side, rotation)),
-            ToldBody::Full(body) => ToldPosture::Full(body.posture(side, rotation)),
+            AnyBody::Slender(body) => AnyPosture::Slender(body.posture(side, rotation)),
+            AnyBody::Full(body) => AnyPosture::Full(body.posture(side, rotation)),
         }
     }
 
     #[inline]
-    fn drive<V: Value<f32>>(&self, posture: &ToldPosture<V>, ground: [V; 2]) -> V {
+    fn drive<V: Value<S>>(&self, posture: &AnyPosture<V>, ground: [V; 2]) -> V {
         either!(self, posture, |body, own| body.drive(own, ground), ground[0])
     }
 
     #[inline]
-    fn along<V: Value<f32>>(&self, posture: &ToldPosture<V>, x: V) -> V {
+    fn along<V: Value<S>>(&self, posture: &AnyPosture<V>, x: V) -> V {
         either!(self, posture, |body, own| body.along(own, x), x)
     }
 
     #[inline]
-    fn terminal_acceleration<V: Value<f32>>(&self, posture: &ToldPosture<V>, velocity: V, acceleration: V) -> V {
+    fn terminal_acceleration<V: Value<S>>(&self, posture: &AnyPosture<V>, velocity: V, acceleration: V) -> V {
         either!(self, posture, |body, own| body.terminal_acceleration(own, velocity, acceleration), acceleration)
     }
 
     #[inline]
-    fn over_inertia<V: Value<f32>>(&self, posture: &ToldPosture<V>, moment: V, coupling: f32, velocity: V) -> V {
+    fn over_inertia<V: Value<S>>(&self, posture: &AnyPosture<V>, moment: V, coupling: S, velocity: V) -> V {
         either!(self, posture, |body, own| body.over_inertia(own, moment, coupling, velocity), moment)
     }
 
     #[inline]
-    fn switching<V: Value<f32>>(&self, posture: &ToldPosture<V>, velocity: V, drive: V) -> V {
+    fn switching<V: Value<S>>(&self, posture: &AnyPosture<V>, velocity: V, drive: V) -> V {
         either!(self, posture, |body, own| body.switching(own, velocity, drive), drive)
     }
 
     #[inline]
-    fn paper_power(&self, side: f32, posture: &ToldPosture<f32>, velocity: f32, coupling: f32) -> f32 {
-        either!(self, posture, |body, own| body.paper_power(side, own, velocity, coupling), 0.0)
+    fn paper_power(&self, side: S, posture: &AnyPosture<S>, velocity: S, coupling: S) -> S {
+        either!(self, posture, |body, own| body.paper_power(side, own, velocity, coupling), S::of(0.0))
     }
 
     #[inline]
-    fn arm(&self, posture: &ToldPosture<f32>) -> f32 {
-        either!(self, posture, |body, own| body.arm(own), 1.0)
+    fn arm(&self, posture: &AnyPosture<S>) -> S {
+        either!(self, posture, |body, own| body.arm(own), S::of(1.0))
     }
 
     #[inline]
-    fn travel(&self, side: f32, posture: &ToldPosture<f32>) -> f32 {
-        either!(self, posture, |body, own| body.travel(side, own), 0.0)
+    fn travel(&self, side: S, posture: &AnyPosture<S>) -> S {
+        either!(self, posture, |body, own| body.travel(side, own), S::of(0.0))
     }
 
     #[inline]
-    fn factors(&self, posture: &ToldPosture<f32>) -> (f32, f32) {
-        either!(self, posture, |body, own| body.factors(own), (0.0, 0.0))
+    fn factors(&self, posture: &AnyPosture<S>) -> (S, S) {
+        either!(self, posture, |body, own| body.factors(own), (S::of(0.0), S::of(0.0)))
     }
 }
 
@@ -106,7 +117,7 @@ mod tests {
         })
     }
 
-    fn same_bits<B: Body<f32>>(known: &B, told: &ToldBody) {
+    fn same_bits<B: Body<f32>>(known: &B, told: &AnyBody<f32>) {
         for (side, rotation, velocity, ground) in postures() {
             let (own, other) = (known.posture(side, rotation), told.posture(side, rotation));
             let drive = known.drive(&own, ground);
@@ -131,11 +142,11 @@ mod tests {
     #[test]
     fn told_or_known_the_bits_are_the_same() {
         let slender = SlenderBody { frequency_squared: 3.678_f32, slenderness: 0.1745, lever: 0.9, vertical: true };
-        same_bits(&slender, &ToldBody::Slender(slender));
+        same_bits(&slender, &AnyBody::Slender(slender));
         let block = FullBlock { frequency_squared: 3.678, slenderness: 0.1745 };
         let lever = TyingPoint { along: 0.95, across: 0.2 };
         for consistent in [false, true] {
-            let told = ToldBody::Full(FullBody { block, lever, kinematics: Told::told(consistent), vertical: true });
+            let told = AnyBody::Full(FullBody { block, lever, kinematics: Told::told(consistent), vertical: true });
             if consistent {
                 same_bits(&FullBody { block, lever, kinematics: Consistent, vertical: true }, &told);
             } else {
