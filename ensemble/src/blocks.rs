@@ -176,11 +176,11 @@ impl Blocks {
             velocity = turned.choose(nothing, velocity);
         }
         // θ is monotone up to here.
-        let mut rotation = value(&series.rotation, length);
+        let mut rotation = value(series.rotation(), length);
         let hit = nothing.exceeds(rotation);
         if hit.any() {
             self.hard = self.hard | (hit & self.outward);
-            length = zero(&series.rotation, one, rotation, length, hit);
+            length = zero(series.rotation(), one, rotation, length, hit);
             velocity = hit.choose(value(series.velocity(), length), velocity);
             rotation = hit.choose(nothing, rotation);
         }

@@ -276,7 +276,7 @@ impl<'a, 'b> Lanes<'a, 'b> {
 
 /// When, in (0, `length`], the block in `lane` passes `limit`, at which it overturns.
 fn passes<const TERMS: usize>(series: &Series<TERMS>, lane: usize, length: f64, limit: f64) -> f64 {
-    let rotation = |time: f64| series.rotation.iter().rev().fold(0.0, |sum, c| sum * time + c.0[lane]);
+    let rotation = |time: f64| series.rotation().iter().rev().fold(0.0, |sum, c| sum * time + c.0[lane]);
     let (mut low, mut high) = (0.0, length);
     if rotation(0.0) >= limit {
         return 0.0;

@@ -4,6 +4,7 @@ use std::cell::Cell;
 
 use sprag_shared::equation::Equation;
 use sprag_shared::math::RECIPROCALS;
+use sprag_shared::motion_series::MotionSeries;
 use sprag_shared::scalar::Scalar;
 use sprag_shared::tape::Tape;
 
@@ -19,22 +20,18 @@ pub struct Series<const TERMS: usize> {
     tape: Tape<Number, TERMS, SLOTS>,
     /// Of ü_g/g about the start of the step; the caller sets it.
     pub ground: [Number; TERMS],
-    /// Of θ.
-    pub rotation: [Number; TERMS],
-    velocity: [Number; TERMS],
-    acceleration: [Number; TERMS],
+    motion: MotionSeries<Number, TERMS>,
 }
 
 impl<const TERMS: usize> Default for Series<TERMS> {
     fn default() -> Self {
-        let zero = [number(0.0); TERMS];
-        Series { tape: Tape::default(), ground: zero, rotation: zero, velocity: zero, acceleration: zero }
+        Series { tape: Tape::default(), ground: [number(0.0); TERMS], motion: MotionSeries::default() }
     }
 }
 
 impl<const TERMS: usize> std::fmt::Debug for Series<TERMS> {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.debug_struct("Series").field("rotation", &self.rotation).finish_non_exhaustive()
+        formatter.debug_struct("Series").field("motion", &self.motion).finish_non_exhaustive()
     }
 }
 
@@ -42,55 +39,48 @@ impl<const TERMS: usize> Series<TERMS> {
     /// Coefficients of θ̈ and of the ground motion.
     pub const RATES: usize = TERMS - 2;
 
+    /// Of θ.
+    #[inline(always)]
+    pub fn rotation(&self) -> &[Number; TERMS] {
+        &self.motion.rotation
+    }
+
     /// Of θ̇.
     #[inline(always)]
     pub fn velocity(&self) -> &[Number] {
-        &self.velocity[..TERMS - 1]
+        &self.motion.velocity[..TERMS - 1]
     }
 
     /// Of θ̈.
     #[inline(always)]
     pub fn acceleration(&self) -> &[Number] {
-        &self.acceleration[..Self::RATES]
+        &self.motion.acceleration[..Self::RATES]
     }
 
     /// Of θ̈, divided by t where it is zero at the start; what is beyond [`Self::RATES`] is zero.
     #[inline(always)]
     pub fn acceleration_off_zero(&self, at_zero: Mask) -> [Number; TERMS] {
-        deflated(&self.acceleration, at_zero)
+        deflated(&self.motion.acceleration, at_zero)
     }
 
     /// The series about θ (`rotation`, rad) and θ̇ (`velocity`) of blocks on the positive side; where `at_zero`, θ̈ is zero now because
-    /// an event was located on it. The recurrences are those of [`sprag_shared::taylor`].
+    /// an event was located on it.
     #[inline(always)]
     pub fn expand<E: Equation<Number>>(&mut self, equation: &E, rotation: Number, velocity: Number, at_zero: Mask) {
         // θ, θ̇ and the ground are the first three nodes.
         const GIVEN: usize = 3;
         let next = Cell::new(GIVEN);
-        self.rotation[0] = rotation;
-        self.rotation[1] = velocity;
-        self.velocity[0] = velocity;
-        self.tape.set(0, 0, rotation);
-        self.tape.set(0, 1, velocity);
-        self.tape.set(1, 0, velocity);
+        self.motion.start(&self.tape, rotation, velocity);
         for k in 0..Self::RATES {
             self.tape.set(2, k, self.ground[k]);
             next.set(GIVEN);
             let tape = &self.tape;
             let (theta, omega, push) = (tape.given(&next, k, 0), tape.given(&next, k, 1), tape.given(&next, k, 2));
             let node = equation.acceleration(number(1.0), theta, omega, push);
-            let mut a = node.last();
             if k == 0 {
-                a = at_zero.choose(number(0.0), a);
-                node.set_last(a);
+                node.set_last(at_zero.choose(number(0.0), node.last()));
             }
-            let v = a * number(RECIPROCALS[(k + 1) & 63]);
-            let c = v * number(RECIPROCALS[(k + 2) & 63]);
-            self.acceleration[k] = a;
-            self.velocity[k + 1] = v;
-            self.rotation[k + 2] = c;
-            self.tape.set(1, k + 1, v);
-            self.tape.set(0, k + 2, c);
+            self.motion.extend(tape, k, node.last());
         }
     }
 
@@ -104,7 +94,7 @@ impl<const TERMS: usize> Series<TERMS> {
     #[inline(always)]
     fn along(&self, order: usize, tolerance: Number) -> Number {
         // Above zero, so that the ratio is finite.
-        let last = self.rotation[order].abs() + number(f64::MIN_POSITIVE / f64::EPSILON);
+        let last = self.motion.rotation[order].abs() + number(f64::MIN_POSITIVE / f64::EPSILON);
         rough_power(tolerance / last, RECIPROCALS[order & 63])
     }
 }

@@ -51,13 +51,13 @@ pub enum Initially {
 /// The method, with fixed steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FixedMethod {
-    /// [`crate::fixed::SemiImplicitEuler`]; ideal devices only.
+    /// [`crate::fixed::FixedStep::SemiImplicitEuler`]; ideal devices only.
     SemiImplicitEuler,
-    /// [`crate::fixed::RungeKutta4`]; for everything.
+    /// [`crate::fixed::FixedStep::RungeKutta4`]; for everything.
     RungeKutta4,
     /// [`crate::taylor::Taylor`] with [`TERMS`] coefficients; ideal devices only.
     Taylor,
-    /// [`crate::hybrid::exponential::ExponentialMidpoint`]; elastic clutches only.
+    /// [`crate::fixed::FixedStep::ExponentialMidpoint`]; elastic clutches only.
     ExponentialMidpoint,
 }
 

@@ -22,7 +22,7 @@
 use crate::any_equation::AnyEquation;
 use crate::arc::{Arc, Method, Motion, Start};
 use crate::equation::{Equation, SlenderBlock};
-use crate::fixed::{FixedArc, RungeKutta4};
+use crate::fixed::{FixedArc, FixedStep};
 use crate::ground::{Elementary, Piece};
 use crate::math::stumpff;
 use crate::polynomial::{Curve, first_zero_of, largest_magnitude_of};
@@ -39,7 +39,7 @@ pub struct ClosedForm<S> {
 }
 
 impl<S: Real> ClosedForm<S> {
-    /// Whether motions of `equation` under `piece` have a closed form; otherwise steps are those of [`RungeKutta4`].
+    /// Whether motions of `equation` under `piece` have a closed form; otherwise steps are those of [`FixedStep::RungeKutta4`].
     #[inline]
     pub fn applies(equation: &AnyEquation<S>, piece: &dyn Piece<S>) -> bool {
         equation.slender().is_some() && piece.elementary(S::ZERO).is_some()
@@ -52,7 +52,7 @@ pub enum ClosedFormArc<'a, S> {
     /// In closed form.
     Closed(SlenderArc<S>),
     /// Where there is none.
-    Stepped(FixedArc<'a, S, RungeKutta4<S>>),
+    Stepped(FixedArc<'a, S>),
 }
 
 impl<S: Real> Method<S> for ClosedForm<S> {
@@ -62,7 +62,7 @@ impl<S: Real> Method<S> for ClosedForm<S> {
     fn arc<'a>(&'a self, start: Start<'a, S>) -> ClosedFormArc<'a, S> {
         match (start.equation.slender(), start.piece.elementary(start.time)) {
             (Some(block), Some(ground)) => ClosedFormArc::Closed(SlenderArc::new(block, ground, &start)),
-            _ => ClosedFormArc::Stepped(FixedArc::new(start)),
+            _ => ClosedFormArc::Stepped(FixedArc::new(FixedStep::RungeKutta4 { step: self.step }, start)),
         }
     }
 

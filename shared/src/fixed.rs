@@ -3,26 +3,41 @@
 //! Events inside a step are located by taking the step again with a shorter length, so an event's state has the accuracy
 //! of the method.
 
-use core::marker::PhantomData;
-
 use crate::any_equation::WithEquation;
 use crate::arc::{Arc, Method, Motion, Start};
 use crate::detected::Switched;
 use crate::equation::Equation;
 use crate::scalar::{Real, Scalar};
 
-/// Semi-implicit (symplectic) Euler: θ̇ first, then θ with the new θ̇. Order 1.
+/// A method of fixed steps, each with its step in s (above 0).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SemiImplicitEuler<S> {
-    /// Step, s; above 0.
-    pub step: S,
+pub enum FixedStep<S> {
+    /// Semi-implicit (symplectic) Euler: velocities first, then positions with the new velocities. Order 1.
+    SemiImplicitEuler {
+        /// s.
+        step: S,
+    },
+    /// The classical Runge-Kutta method. Order 4.
+    RungeKutta4 {
+        /// s.
+        step: S,
+    },
+    /// The exponential midpoint method ([`crate::hybrid::exponential`]) for elastic clutches, order 2; for all other devices the
+    /// Runge-Kutta method.
+    ExponentialMidpoint {
+        /// s.
+        step: S,
+    },
 }
 
-/// The classical Runge-Kutta method. Order 4.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RungeKutta4<S> {
-    /// Step, s; above 0.
-    pub step: S,
+impl<S: Real> FixedStep<S> {
+    /// The step, s.
+    #[inline(always)]
+    pub fn step(&self) -> S {
+        let (FixedStep::SemiImplicitEuler { step } | FixedStep::RungeKutta4 { step } | FixedStep::ExponentialMidpoint { step }) =
+            *self;
+        step
+    }
 }
 
 /// One step of the classical Runge-Kutta method of length `h` for θ̈ = f(θ, θ̇, ü), where `ground` holds ü_g/g at the
@@ -49,90 +64,62 @@ pub fn runge_kutta_4<S: Scalar, E: Equation<S>>(
     (rotation + sixth * (velocity + two * (omega_2 + omega_3) + omega_4), velocity + sixth * (first + two * (a_2 + a_3) + a_4))
 }
 
-/// How a fixed-step method gets from the start of a step to a time within it.
-pub trait Advance<S: Real> {
-    /// θ and θ̇ a time `h` after `start`, where θ̈ of `equation`, which is the start's, is `first`.
-    fn advance<E: Equation<S>>(equation: &E, start: &Start<'_, S>, first: S, h: S) -> (S, S);
-
-    /// The step, s.
-    fn step(&self) -> S;
-}
-
-impl<S: Real> Advance<S> for SemiImplicitEuler<S> {
-    #[inline(always)]
-    fn advance<E: Equation<S>>(_equation: &E, start: &Start<'_, S>, first: S, h: S) -> (S, S) {
-        let velocity = start.velocity + h * first;
-        (start.rotation + h * velocity, velocity)
-    }
-
-    #[inline(always)]
-    fn step(&self) -> S {
-        self.step
-    }
-}
-
-impl<S: Real> Advance<S> for RungeKutta4<S> {
-    #[inline(always)]
-    fn advance<E: Equation<S>>(equation: &E, start: &Start<'_, S>, first: S, h: S) -> (S, S) {
-        let ground = [S::ZERO, start.piece.acceleration(start.time + S::HALF * h), start.piece.acceleration(start.time + h)];
-        runge_kutta_4(equation, start.side.unit(), (start.rotation, start.velocity), first, ground, h)
-    }
-
-    #[inline(always)]
-    fn step(&self) -> S {
-        self.step
-    }
-}
-
 /// The arc of a fixed-step method: its end, and the step taken again for every time before it.
 #[derive(Debug)]
-pub struct FixedArc<'a, S, A> {
+pub struct FixedArc<'a, S> {
+    method: FixedStep<S>,
     start: Start<'a, S>,
     first: S,
     end: Motion<S>,
-    method: PhantomData<A>,
 }
 
-impl<'a, S: Real, A: Advance<S>> FixedArc<'a, S, A> {
+impl<'a, S: Real> FixedArc<'a, S> {
     #[inline(always)]
-    pub(crate) fn new(start: Start<'a, S>) -> Self {
+    pub(crate) fn new(method: FixedStep<S>, start: Start<'a, S>) -> Self {
         let first = if start.acceleration_is_zero {
             S::ZERO
         } else {
             let push = start.piece.acceleration(start.time);
             start.equation.acceleration(start.side.unit(), start.rotation, start.velocity, push)
         };
-        let end = Self::motion(&start, first, start.length);
-        FixedArc { start, first, end, method: PhantomData }
+        let end = Self::motion(method, &start, first, start.length);
+        FixedArc { method, start, first, end }
     }
 
     #[inline(never)]
-    fn motion(start: &Start<'a, S>, first: S, time: S) -> Motion<S> {
-        start.equation.known(Step { start, first, time, method: PhantomData::<A> })
+    fn motion(method: FixedStep<S>, start: &Start<'a, S>, first: S, time: S) -> Motion<S> {
+        start.equation.known(Step { method, start, first, time })
     }
 }
 
-/// One step of length `time`.
-struct Step<'s, 'a, S, A> {
+/// One step of length `time`, where θ̈ at the start is `first`.
+struct Step<'s, 'a, S> {
+    method: FixedStep<S>,
     start: &'s Start<'a, S>,
     first: S,
     time: S,
-    method: PhantomData<A>,
 }
 
-impl<S: Real, A: Advance<S>> WithEquation<S> for Step<'_, '_, S, A> {
+impl<S: Real> WithEquation<S> for Step<'_, '_, S> {
     type Output = Motion<S>;
 
     #[inline(always)]
     fn with<E: Switched<S>>(self, equation: &E) -> Motion<S> {
-        let Step { start, first, time, .. } = self;
-        let (rotation, velocity) = A::advance(equation, start, first, time);
+        let Step { method, start, first, time } = self;
+        let side = start.side.unit();
         let push = start.piece.acceleration(start.time + time);
-        Motion { rotation, velocity, acceleration: equation.acceleration(start.side.unit(), rotation, velocity, push) }
+        let (rotation, velocity) = if let FixedStep::SemiImplicitEuler { .. } = method {
+            let velocity = start.velocity + time * first;
+            (start.rotation + time * velocity, velocity)
+        } else {
+            let ground = [S::ZERO, start.piece.acceleration(start.time + S::HALF * time), push];
+            runge_kutta_4(equation, side, (start.rotation, start.velocity), first, ground, time)
+        };
+        Motion { rotation, velocity, acceleration: equation.acceleration(side, rotation, velocity, push) }
     }
 }
 
-impl<S: Real, A: Advance<S>> Arc<S> for FixedArc<'_, S, A> {
+impl<S: Real> Arc<S> for FixedArc<'_, S> {
     #[inline(always)]
     fn length(&self) -> S {
         self.start.length
@@ -143,7 +130,7 @@ impl<S: Real, A: Advance<S>> Arc<S> for FixedArc<'_, S, A> {
         if time == S::ZERO {
             return Motion { rotation: self.start.rotation, velocity: self.start.velocity, acceleration: self.first };
         }
-        if time == self.start.length { self.end } else { Self::motion(&self.start, self.first, time) }
+        if time == self.start.length { self.end } else { Self::motion(self.method, &self.start, self.first, time) }
     }
 
     #[inline]
@@ -154,23 +141,16 @@ impl<S: Real, A: Advance<S>> Arc<S> for FixedArc<'_, S, A> {
     }
 }
 
-macro_rules! fixed_step_method {
-    ($method:ident) => {
-        impl<S: Real> Method<S> for $method<S> {
-            type Arc<'a> = FixedArc<'a, S, $method<S>>;
+impl<S: Real> Method<S> for FixedStep<S> {
+    type Arc<'a> = FixedArc<'a, S>;
 
-            #[inline(always)]
-            fn arc<'a>(&'a self, start: Start<'a, S>) -> Self::Arc<'a> {
-                FixedArc::new(start)
-            }
+    #[inline(always)]
+    fn arc<'a>(&'a self, start: Start<'a, S>) -> Self::Arc<'a> {
+        FixedArc::new(*self, start)
+    }
 
-            #[inline(always)]
-            fn step(&self) -> Option<S> {
-                Some(self.step)
-            }
-        }
-    };
+    #[inline(always)]
+    fn step(&self) -> Option<S> {
+        Some(FixedStep::step(self))
+    }
 }
-
-fixed_step_method!(SemiImplicitEuler);
-fixed_step_method!(RungeKutta4);

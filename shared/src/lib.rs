@@ -54,6 +54,7 @@ pub mod lever;
 pub mod link;
 pub mod locate;
 pub mod math;
+pub mod motion_series;
 pub mod observer;
 pub mod polynomial;
 pub mod restitution;

@@ -2,7 +2,7 @@
 
 use super::{Case, CaseError, Ending, FixedMethod, Initially, RunEnd, Shape, TERMS};
 use crate::arc::{Arc, Method};
-use crate::fixed::{RungeKutta4, SemiImplicitEuler};
+use crate::fixed::FixedStep;
 use crate::observer::{Event, Observer, Peaks, Stretch};
 use crate::rocking::{Limits, Phase, State, Stopped, System};
 use crate::taylor::Taylor;
@@ -15,10 +15,10 @@ pub(super) fn run(case: &Case<'_>, observer: &mut dyn Observer<f32>) -> Result<R
     let system = case.structure.resolve()?;
     let step = case.step;
     match case.method {
-        FixedMethod::SemiImplicitEuler => follow(case, &system, &SemiImplicitEuler { step }, observer),
-        FixedMethod::RungeKutta4 => follow(case, &system, &RungeKutta4 { step }, observer),
-        FixedMethod::Taylor => follow(case, &system, &Taylor::<f32, TERMS>::fixed(step), observer),
         method @ FixedMethod::ExponentialMidpoint => Err(CaseError::Method { method, runs: STIFF }),
+        FixedMethod::Taylor => follow(case, &system, &Taylor::<f32, TERMS>::fixed(step), observer),
+        FixedMethod::SemiImplicitEuler => follow(case, &system, &FixedStep::SemiImplicitEuler { step }, observer),
+        FixedMethod::RungeKutta4 => follow(case, &system, &FixedStep::RungeKutta4 { step }, observer),
     }
 }
 

@@ -2,10 +2,9 @@
 
 use super::ideal::{STIFF, most_events};
 use super::{Case, CaseError, Ending, FixedMethod, Initially, RunEnd, Shape};
-use crate::fixed::RungeKutta4;
+use crate::fixed::FixedStep;
 use crate::hybrid::Machine;
-use crate::hybrid::exponential::ExponentialMidpoint;
-use crate::hybrid::path::{Shaking, Tracer};
+use crate::hybrid::path::Shaking;
 use crate::observer::{Event, Observer, Peaks, Stretch};
 use crate::rocking::{Limits, Phase, State, Stopped};
 use crate::snapshot::{DeviceArc, DeviceObserver};
@@ -18,21 +17,16 @@ const OVERTURNED: f32 = core::f32::consts::FRAC_PI_2;
 const IDEAL: &str = "ideal devices over horizontal ground only: loops for all others would not fit the flash of the board";
 
 /// Runs a case that is not ideal.
-// Inline so that its loops are made in the crate that runs cases, and shared with what else that crate does with them.
-#[inline]
 pub(super) fn run(case: &Case<'_>, observer: &mut dyn DeviceObserver<f32>) -> Result<RunEnd, CaseError> {
-    if let method @ (FixedMethod::SemiImplicitEuler | FixedMethod::Taylor) = case.method {
-        return Err(CaseError::Method { method, runs: IDEAL });
-    }
     let machine = case.drivetrain.resolve(&case.structure, case.ground.is_vertical())?;
     let step = case.step;
-    match case.method {
-        method @ FixedMethod::ExponentialMidpoint if !machine.drive.traits().springs => {
-            Err(CaseError::Method { method, runs: STIFF })
-        }
-        FixedMethod::ExponentialMidpoint => follow(case, &machine, &ExponentialMidpoint { step }, observer),
-        _ => follow(case, &machine, &RungeKutta4 { step }, observer),
-    }
+    let method = match case.method {
+        FixedMethod::RungeKutta4 => FixedStep::RungeKutta4 { step },
+        FixedMethod::ExponentialMidpoint if machine.drive.traits().springs => FixedStep::ExponentialMidpoint { step },
+        method @ FixedMethod::ExponentialMidpoint => return Err(CaseError::Method { method, runs: STIFF }),
+        method => return Err(CaseError::Method { method, runs: IDEAL }),
+    };
+    follow(case, &machine, &method, observer)
 }
 
 /// The caller's observer, the peaks, and a count of steps.
@@ -55,10 +49,10 @@ impl DeviceObserver<f32> for Watch<'_> {
     }
 }
 
-fn follow<T: Tracer<f32>>(
+fn follow(
     case: &Case<'_>,
     machine: &Machine<f32>,
-    tracer: &T,
+    tracer: &FixedStep<f32>,
     observer: &mut dyn DeviceObserver<f32>,
 ) -> Result<RunEnd, CaseError> {
     let Case { initially, step, ground, free_time, .. } = case;

@@ -229,7 +229,7 @@ fn elsewhere_it_is_the_runge_kutta_method() {
     for kind in DEVICES {
         let structure = structure(kind, Geometry::Full);
         let (state, log) = follow::<f64, _>(&structure, &ClosedForm { step: 0.01 }, segments);
-        let (same, same_log) = follow::<f64, _>(&structure, &RungeKutta4 { step: 0.01 }, segments);
+        let (same, same_log) = follow::<f64, _>(&structure, &FixedStep::RungeKutta4 { step: 0.01 }, segments);
         assert_eq!((state, log.peaks, log.events), (same, same_log.peaks, same_log.events));
     }
 }

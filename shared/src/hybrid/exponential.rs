@@ -9,20 +9,13 @@
 //! that the spring has passed on follows from J = ∫F dt = ((ℓA − r) h − Δẏ)/q. What is frozen makes the step one of order 2, whatever
 //! K and C are (Hochbruck and Ostermann 2010, for the frozen-coefficient view).
 
-use super::path::{KnownStart, PathStart, Tracer};
-use super::steps::{FixedPath, Stepper, Unknowns};
+use super::path::{KnownStart, PathStart};
+use super::steps::Unknowns;
 use crate::body::Body;
 use crate::drivetrain::any_drive::first;
 use crate::drivetrain::device::Law;
 use crate::drivetrain::drive::Drive;
 use crate::scalar::Real;
-
-/// The exponential midpoint method. Order 2; stable for every stiffness.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ExponentialMidpoint<S> {
-    /// Step, s; above 0.
-    pub step: S,
-}
 
 /// ÿ + 2a ẏ + Ω² y = B, from y and ẏ over `h`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,9 +101,6 @@ fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>
         *value = *value + h * rate;
     }
     let Some(gears) = known.drive.gears() else { return (rotation, velocity, extra) };
-    if !D::SPRINGS {
-        return (rotation, velocity, extra);
-    }
     // A spring between a block and a flywheel that are both held keeps its twist.
     let contact = [0, 1].map(|i| law.stiffness[i] > S::ZERO && !(known.is_held() && law.moves[i] == S::ZERO));
     let both = contact[0] && contact[1];
@@ -154,35 +144,19 @@ fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>
     (rotation, velocity, extra)
 }
 
-impl<S: Real> Stepper<S> for ExponentialMidpoint<S> {
-    fn advance<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-        known: &KnownStart<'_, S, B, D>,
-        _first: &(S, [S; X]),
-        h: S,
-    ) -> Unknowns<S, X> {
-        let start = known.start;
-        let soft = PathStart { law: springless(&start.law), ..*start };
-        let soft = KnownStart { start: &soft, ..*known };
-        let half = S::HALF * h;
-        let here = freeze(&soft, S::ZERO, &(start.rotation, start.velocity, first(&start.extra)));
-        let middle = solve(known, &here, half);
-        let there = freeze(&soft, half, &middle);
-        solve(known, &there, h)
-    }
-}
-
-impl<S: Real> Tracer<S> for ExponentialMidpoint<S> {
-    type Path<'a> = FixedPath<'a, S, ExponentialMidpoint<S>>;
-
-    #[inline(always)]
-    fn path<'a>(&'a self, start: PathStart<'a, S>) -> Self::Path<'a> {
-        FixedPath::new(start)
-    }
-
-    #[inline(always)]
-    fn step(&self) -> Option<S> {
-        Some(self.step)
-    }
+/// The unknowns a time `h` after the start. Order 2; stable for every stiffness.
+pub(super) fn midpoint<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+    known: &KnownStart<'_, S, B, D>,
+    h: S,
+) -> Unknowns<S, X> {
+    let start = known.start;
+    let soft = PathStart { law: springless(&start.law), ..*start };
+    let soft = KnownStart { start: &soft, ..*known };
+    let half = S::HALF * h;
+    let here = freeze(&soft, S::ZERO, &(start.rotation, start.velocity, first(&start.extra)));
+    let middle = solve(known, &here, half);
+    let there = freeze(&soft, half, &middle);
+    solve(known, &there, h)
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ use crate::body::Body;
 use crate::drivetrain::device::{WATCHES, Watch};
 use crate::drivetrain::drive::{Drive, Moment, UNKNOWNS};
 use crate::math::RECIPROCALS;
+use crate::motion_series::{StepSeries, Truncation};
 use crate::polynomial;
 use crate::scalar::{Real, Sign};
 use crate::tape::{MAXIMUM_ORDER, Tape};
@@ -44,12 +45,7 @@ impl<S: Real, const N: usize> core::fmt::Debug for Series<S, N> {
 /// The series of one step.
 #[derive(Clone, Copy, Debug)]
 pub struct SeriesPath<S, const N: usize> {
-    length: S,
-    /// Coefficients in use, of θ.
-    terms: usize,
-    rotation: [S; N],
-    velocity: [S; N],
-    acceleration: [S; N],
+    series: StepSeries<S, N>,
     extra: [[S; N]; UNKNOWNS],
     guards: [[S; N]; WATCHES],
 }
@@ -82,17 +78,13 @@ impl<S: Real, const N: usize> WithStart<S> for Expansion<'_, S, N> {
         let shaken_up = start.shaking.vertical.is_some();
         let next = Cell::new(GIVEN + X);
         let side = start.side.unit();
-        tape.set(0, 0, start.rotation);
-        tape.set(0, 1, start.velocity);
-        tape.set(1, 0, start.velocity);
+        path.series.motion.start(tape, start.rotation, start.velocity);
         for (i, unknown) in path.extra.iter_mut().enumerate().take(X) {
             unknown[0] = start.extra[i];
             tape.set(GIVEN + i, 0, start.extra[i]);
         }
         let sizes = known.drive.scales(start.speed);
-        let mut power = start.length * start.length;
-        let mut previous = S::ONE;
-        let mut push_power = S::ONE;
+        let mut truncation = Truncation::new(start.length, tolerance);
         for k in 0..N - 2 {
             tape.set(2, k, ground[k]);
             if shaken_up {
@@ -118,17 +110,16 @@ impl<S: Real, const N: usize> WithStart<S> for Expansion<'_, S, N> {
             }
             let a = if known.is_held() { S::ZERO } else { acceleration.0.last() };
             let reciprocal = S::of(RECIPROCALS[(k + 1) & 63]);
-            let v = a * reciprocal;
-            let c = v * S::of(RECIPROCALS[(k + 2) & 63]);
-            let mut term = (c * power).abs().larger((ground[k] * push_power).abs());
+            let rotation = path.series.motion.extend(tape, k, a);
+            let mut term = truncation.term(rotation, ground[k]);
             if shaken_up {
-                term = term.larger((vertical[k] * push_power).abs());
+                term = term.larger((vertical[k] * truncation.power).abs());
             }
             for (i, rate) in rates.iter().enumerate() {
                 let coefficient = rate.0.last() * reciprocal;
                 path.extra[i][k + 1] = coefficient;
                 tape.set(GIVEN + i, k + 1, coefficient);
-                term = term.larger((coefficient * push_power * start.length).abs() * (scale / sizes[i]));
+                term = term.larger((coefficient * truncation.power * start.length).abs() * (scale / sizes[i]));
             }
             for (i, guard) in path.guards.iter_mut().enumerate().take(G) {
                 let watch = start.law.watch[i];
@@ -136,18 +127,10 @@ impl<S: Real, const N: usize> WithStart<S> for Expansion<'_, S, N> {
                     guard[k] = known.drive.guard(&at, acceleration, watch).0.last();
                 }
             }
-            path.acceleration[k] = a;
-            path.velocity[k + 1] = v;
-            path.rotation[k + 2] = c;
-            tape.set(1, k + 1, v);
-            tape.set(0, k + 2, c);
-            if k >= 3 && term <= tolerance && previous <= tolerance * S::of(50.0) {
-                path.terms = k + 3;
+            if truncation.ends_at(k, term) {
+                path.series.terms = k + 3;
                 break;
             }
-            previous = term;
-            push_power = push_power * start.length;
-            power = power * start.length;
         }
         core::array::from_fn(|i| sizes.get(i).copied().unwrap_or(S::ONE))
     }
@@ -159,34 +142,22 @@ impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
     #[inline(never)]
     fn path<'a>(&'a self, start: PathStart<'a, S>) -> SeriesPath<S, N> {
         let none = [S::ZERO; N];
-        let mut path = SeriesPath {
-            length: start.length,
-            terms: N,
-            rotation: none,
-            velocity: none,
-            acceleration: none,
-            extra: [none; UNKNOWNS],
-            guards: [none; WATCHES],
-        };
+        let mut path = SeriesPath { series: StepSeries::new(start.length), extra: [none; UNKNOWNS], guards: [none; WATCHES] };
         let mut ground = [none; 2];
         start.shaking.horizontal.series(start.time, &mut ground[0]);
         if let Some(piece) = start.shaking.vertical {
             piece.series(start.time, &mut ground[1]);
         }
-        path.rotation[0] = start.rotation;
-        path.rotation[1] = start.velocity;
-        path.velocity[0] = start.velocity;
         let scale = start.scale.larger(start.rotation.abs());
         let tolerance = self.tolerance * scale;
         let sizes = start.known(Expansion { tape: &self.tape, path: &mut path, ground: &ground, tolerance, scale });
-        if self.step.is_none() && path.terms == N {
-            // Jorba and Zou's two-term rule over every unknown; those of the first order have one coefficient fewer.
-            for back in [2, 1] {
-                path.reach(N - back, path.rotation[N - back].abs(), tolerance);
-                let order = N - 1 - back;
-                let extra = path.extra.map(|unknown| unknown[order].abs());
-                for (coefficient, &size) in extra.iter().zip(&sizes) {
-                    path.reach(order, *coefficient * (scale / size), tolerance);
+        let SeriesPath { series, extra, .. } = &mut path;
+        if self.step.is_none() && series.terms == N {
+            // Every unknown counts; those of the first order have one coefficient fewer.
+            for order in [N - 2, N - 1] {
+                series.shorten(order, series.motion.rotation[order].abs(), tolerance);
+                for (unknown, &size) in extra.iter().zip(&sizes) {
+                    series.shorten(order - 1, unknown[order - 1].abs() * (scale / size), tolerance);
                 }
             }
         }
@@ -202,20 +173,12 @@ impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
 impl<S: Real, const N: usize> Arc<S> for SeriesPath<S, N> {
     #[inline(always)]
     fn length(&self) -> S {
-        self.length
+        self.series.length
     }
 
     #[inline(never)]
     fn at(&self, time: S) -> Motion<S> {
-        if time == S::ZERO {
-            return Motion { rotation: self.rotation[0], velocity: self.velocity[0], acceleration: self.acceleration[0] };
-        }
-        let n = self.terms.min(N);
-        Motion {
-            rotation: polynomial::value(&self.rotation[..n], time),
-            velocity: polynomial::value(&self.velocity[..n - 1], time),
-            acceleration: polynomial::value(&self.acceleration[..n - 2], time),
-        }
+        self.series.at(time)
     }
 
     #[inline]
@@ -225,56 +188,44 @@ impl<S: Real, const N: usize> Arc<S> for SeriesPath<S, N> {
 
     #[inline]
     fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
-        let coefficients = &self.acceleration[..self.terms.min(N) - 2];
-        let curvature = polynomial::curvature_bound(coefficients, self.length);
+        let coefficients = self.series.acceleration();
+        let curvature = polynomial::curvature_bound(coefficients, self.series.length);
         polynomial::largest_magnitude(coefficients, curvature, from, to, floor)
     }
 }
 
-impl<S: Real, const N: usize> SeriesPath<S, N> {
-    /// Shortens the path until a term of `order` with this `coefficient` stays below `tolerance`.
-    #[inline]
-    fn reach(&mut self, order: usize, coefficient: S, tolerance: S) {
-        if coefficient != S::ZERO {
-            let reach = (tolerance / coefficient).rough_power(S::of(RECIPROCALS[order & 63])) * S::of(0.95);
-            self.length = self.length.smaller(reach);
-        }
-    }
-
-    #[inline(never)]
-    fn zero(&self, coefficients: &[S], to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        let curvature = polynomial::curvature_bound(coefficients, to);
-        polynomial::first_zero(coefficients, curvature, S::ZERO, to, sign, from_zero)
-    }
+#[inline(never)]
+fn zero<S: Real>(coefficients: &[S], to: S, sign: Sign, from_zero: bool) -> Option<S> {
+    polynomial::first_zero(coefficients, polynomial::curvature_bound(coefficients, to), S::ZERO, to, sign, from_zero)
 }
 
 impl<S: Real, const N: usize> Path<S> for SeriesPath<S, N> {
     #[inline(never)]
     fn extra(&self, time: S) -> [S; UNKNOWNS] {
-        let n = self.terms.min(N) - 1;
+        let n = self.series.velocity().len();
         core::array::from_fn(|i| polynomial::value(&self.extra[i][..n], time))
     }
 
     #[inline(never)]
     fn guard(&self, index: usize, time: S) -> S {
-        let n = self.terms.min(N) - 2;
+        let n = self.series.acceleration().len();
         self.guards.get(index).map_or(S::ONE, |guard| polynomial::value(&guard[..n], time))
     }
 
     #[inline]
     fn velocity_zero(&self, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        self.zero(&self.velocity[..self.terms.min(N) - 1], to, sign, from_zero)
+        zero(self.series.velocity(), to, sign, from_zero)
     }
 
     #[inline]
     fn guard_zero(&self, index: usize, to: S, from_zero: bool) -> Option<S> {
         let guard = self.guards.get(index)?;
-        self.zero(&guard[..self.terms.min(N) - 2], to, Sign::Positive, from_zero)
+        zero(&guard[..self.series.acceleration().len()], to, Sign::Positive, from_zero)
     }
 
     #[inline]
     fn extra_zero(&self, index: usize, to: S, sign: Sign, from_zero: bool) -> Option<S> {
         let unknown = self.extra.get(index)?;
-        self.zero(&unknown[..self.terms.min(N) - 1], to, sign, from_zero)
+        zero(&unknown[..self.series.velocity().len()], to, sign, from_zero)
     }
 }

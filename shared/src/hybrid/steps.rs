@@ -1,60 +1,73 @@
-//! Explicit fixed steps for a block with a device: the classical Runge-Kutta method. Events inside a step are located by
-//! taking the step again with a shorter length.
+//! Fixed steps for a block with a device. Events inside a step are located by taking the step again with a shorter length.
 
-use core::marker::PhantomData;
-
+use super::exponential;
 use super::path::{KnownStart, Path, PathStart, Tracer, WithStart};
 use crate::arc::{Arc, Motion};
 use crate::body::Body;
 use crate::drivetrain::any_drive::{first, padded};
 use crate::drivetrain::drive::{Drive, UNKNOWNS};
-use crate::fixed::RungeKutta4;
+use crate::fixed::FixedStep;
 use crate::scalar::Real;
 
 /// θ, θ̇ and the device's unknowns.
 pub type Unknowns<S, const X: usize> = (S, S, [S; X]);
 
-/// How a fixed-step method gets from the start of a step to a time within it.
-pub trait Stepper<S: Real> {
-    /// The unknowns a time `h` after the start, where θ̈ and the rates of the device's unknowns are `first`.
-    fn advance<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-        known: &KnownStart<'_, S, B, D>,
-        first: &(S, [S; X]),
-        h: S,
-    ) -> Unknowns<S, X>;
+/// The unknowns a time `h` after the start, where θ̈ and the rates of the device's unknowns are `first`.
+#[inline(always)]
+fn advance<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+    method: FixedStep<S>,
+    known: &KnownStart<'_, S, B, D>,
+    first: &(S, [S; X]),
+    h: S,
+) -> Unknowns<S, X> {
+    match method {
+        FixedStep::SemiImplicitEuler { .. } => semi_implicit_euler(known, first, h),
+        FixedStep::ExponentialMidpoint { .. } if D::SPRINGS => exponential::midpoint(known, h),
+        _ => runge_kutta_4(known, first, h),
+    }
 }
 
-impl<S: Real> Stepper<S> for RungeKutta4<S> {
-    #[inline]
-    fn advance<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-        known: &KnownStart<'_, S, B, D>,
-        (acceleration, r1): &(S, [S; X]),
-        h: S,
-    ) -> Unknowns<S, X> {
-        let half = S::HALF * h;
-        let (theta, omega) = (known.start.rotation, known.start.velocity);
-        let given = first(&known.start.extra);
-        let shifted = |rates: &[S; X], by: S| {
-            let mut extra = given;
-            for (value, &rate) in extra.iter_mut().zip(rates) {
-                *value = *value + by * rate;
-            }
-            extra
-        };
-        let a1 = known.start.first(*acceleration);
-        let omega_2 = omega + half * a1;
-        let (a2, r2) = known.rates(half, theta + half * omega, omega_2, &shifted(r1, half));
-        let omega_3 = omega + half * a2;
-        let (a3, r3) = known.rates(half, theta + half * omega_2, omega_3, &shifted(&r2, half));
-        let omega_4 = omega + h * a3;
-        let (a4, r4) = known.rates(h, theta + h * omega_3, omega_4, &shifted(&r3, h));
-        let (sixth, two) = (h * S::of(1.0 / 6.0), S::of(2.0));
+#[inline(always)]
+fn semi_implicit_euler<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+    known: &KnownStart<'_, S, B, D>,
+    (acceleration, rates): &(S, [S; X]),
+    h: S,
+) -> Unknowns<S, X> {
+    let PathStart { rotation, velocity, .. } = *known.start;
+    let velocity = velocity + h * known.start.first(*acceleration);
+    let given: [S; X] = first(&known.start.extra);
+    (rotation + h * velocity, velocity, core::array::from_fn(|i| given[i] + h * rates[i]))
+}
+
+#[inline(always)]
+fn runge_kutta_4<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+    known: &KnownStart<'_, S, B, D>,
+    (acceleration, r1): &(S, [S; X]),
+    h: S,
+) -> Unknowns<S, X> {
+    let half = S::HALF * h;
+    let (theta, omega) = (known.start.rotation, known.start.velocity);
+    let given = first(&known.start.extra);
+    let shifted = |rates: &[S; X], by: S| {
         let mut extra = given;
-        for i in 0..X {
-            extra[i] = extra[i] + sixth * (r1[i] + two * (r2[i] + r3[i]) + r4[i]);
+        for (value, &rate) in extra.iter_mut().zip(rates) {
+            *value = *value + by * rate;
         }
-        (theta + sixth * (omega + two * (omega_2 + omega_3) + omega_4), omega + sixth * (a1 + two * (a2 + a3) + a4), extra)
+        extra
+    };
+    let a1 = known.start.first(*acceleration);
+    let omega_2 = omega + half * a1;
+    let (a2, r2) = known.rates(half, theta + half * omega, omega_2, &shifted(r1, half));
+    let omega_3 = omega + half * a2;
+    let (a3, r3) = known.rates(half, theta + half * omega_2, omega_3, &shifted(&r2, half));
+    let omega_4 = omega + h * a3;
+    let (a4, r4) = known.rates(h, theta + h * omega_3, omega_4, &shifted(&r3, h));
+    let (sixth, two) = (h * S::of(1.0 / 6.0), S::of(2.0));
+    let mut extra = given;
+    for i in 0..X {
+        extra[i] = extra[i] + sixth * (r1[i] + two * (r2[i] + r3[i]) + r4[i]);
     }
+    (theta + sixth * (omega + two * (omega_2 + omega_3) + omega_4), omega + sixth * (a1 + two * (a2 + a3) + a4), extra)
 }
 
 /// Motion and unknowns at one instant.
@@ -62,22 +75,22 @@ type Place<S> = (Motion<S>, [S; UNKNOWNS]);
 
 /// The path of a fixed-step method: its ends, and the step taken again for every time between them.
 #[derive(Debug)]
-pub struct FixedPath<'a, S, A> {
+pub struct FixedPath<'a, S> {
+    method: FixedStep<S>,
     start: PathStart<'a, S>,
     /// θ̈ and the rates of the device's unknowns at the start.
     first: (S, [S; UNKNOWNS]),
     end: Place<S>,
-    method: PhantomData<A>,
 }
 
 /// A step of length `time`; its `first` rates are taken where they are not known.
-struct Step<'a, S, A> {
+struct Step<'a, S> {
+    method: FixedStep<S>,
     first: Option<&'a (S, [S; UNKNOWNS])>,
     time: S,
-    method: PhantomData<A>,
 }
 
-impl<S: Real, A: Stepper<S>> WithStart<S> for Step<'_, S, A> {
+impl<S: Real> WithStart<S> for Step<'_, S> {
     type Output = ((S, [S; UNKNOWNS]), Place<S>);
 
     #[inline(always)]
@@ -85,13 +98,13 @@ impl<S: Real, A: Stepper<S>> WithStart<S> for Step<'_, S, A> {
         self,
         known: &KnownStart<'_, S, B, D>,
     ) -> Self::Output {
-        let Step { time, .. } = self;
+        let Step { method, time, .. } = self;
         let start = known.start;
         let at_start = match self.first {
             Some((acceleration, rates)) => (*acceleration, first(rates)),
             None => known.rates(S::ZERO, start.rotation, start.velocity, &first(&start.extra)),
         };
-        let (rotation, velocity, extra) = A::advance(known, &at_start, time);
+        let (rotation, velocity, extra) = advance(method, known, &at_start, time);
         let (acceleration, _) = known.rates(time, rotation, velocity, &extra);
         ((at_start.0, padded(&at_start.1)), (Motion { rotation, velocity, acceleration }, padded(&extra)))
     }
@@ -114,16 +127,20 @@ impl<S: Real> WithStart<S> for Guard<'_, S> {
     }
 }
 
-impl<'a, S: Real, A: Stepper<S>> FixedPath<'a, S, A> {
-    /// From `start`.
-    pub fn new(start: PathStart<'a, S>) -> Self {
-        let (first, end) = Self::step(&start, None, start.length);
-        FixedPath { start, first, end, method: PhantomData }
+impl<'a, S: Real> FixedPath<'a, S> {
+    fn new(method: FixedStep<S>, start: PathStart<'a, S>) -> Self {
+        let (first, end) = Self::step(method, &start, None, start.length);
+        FixedPath { method, start, first, end }
     }
 
     #[inline(never)]
-    fn step(start: &PathStart<'a, S>, first: Option<&(S, [S; UNKNOWNS])>, time: S) -> ((S, [S; UNKNOWNS]), Place<S>) {
-        start.known(Step { first, time, method: PhantomData::<A> })
+    fn step(
+        method: FixedStep<S>,
+        start: &PathStart<'a, S>,
+        first: Option<&(S, [S; UNKNOWNS])>,
+        time: S,
+    ) -> ((S, [S; UNKNOWNS]), Place<S>) {
+        start.known(Step { method, first, time })
     }
 
     fn place(&self, time: S) -> Place<S> {
@@ -133,12 +150,12 @@ impl<'a, S: Real, A: Stepper<S>> FixedPath<'a, S, A> {
         } else if time == self.start.length {
             self.end
         } else {
-            Self::step(&self.start, Some(&self.first), time).1
+            Self::step(self.method, &self.start, Some(&self.first), time).1
         }
     }
 }
 
-impl<S: Real, A: Stepper<S>> Arc<S> for FixedPath<'_, S, A> {
+impl<S: Real> Arc<S> for FixedPath<'_, S> {
     #[inline(always)]
     fn length(&self) -> S {
         self.start.length
@@ -155,7 +172,7 @@ impl<S: Real, A: Stepper<S>> Arc<S> for FixedPath<'_, S, A> {
     }
 }
 
-impl<S: Real, A: Stepper<S>> Path<S> for FixedPath<'_, S, A> {
+impl<S: Real> Path<S> for FixedPath<'_, S> {
     #[inline]
     fn extra(&self, time: S) -> [S; UNKNOWNS] {
         self.place(time).1
@@ -167,16 +184,16 @@ impl<S: Real, A: Stepper<S>> Path<S> for FixedPath<'_, S, A> {
     }
 }
 
-impl<S: Real> Tracer<S> for RungeKutta4<S> {
-    type Path<'a> = FixedPath<'a, S, RungeKutta4<S>>;
+impl<S: Real> Tracer<S> for FixedStep<S> {
+    type Path<'a> = FixedPath<'a, S>;
 
     #[inline(always)]
     fn path<'a>(&'a self, start: PathStart<'a, S>) -> Self::Path<'a> {
-        FixedPath::new(start)
+        FixedPath::new(*self, start)
     }
 
     #[inline(always)]
     fn step(&self) -> Option<S> {
-        Some(self.step)
+        Some(FixedStep::step(self))
     }
 }

@@ -185,7 +185,7 @@ mod tests {
     use crate::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
     use crate::carried::Carried;
     use crate::digest::Digest;
-    use crate::fixed::RungeKutta4;
+    use crate::fixed::FixedStep;
     use crate::ground::{Harmonics, Quiet};
     use crate::lever::Mount;
     use crate::math::tier::{Libm, Micromath, OwnPolynomial};
@@ -220,8 +220,8 @@ mod tests {
     fn a_number_of_its_own_tier_gives_the_same_bits() {
         for kinematics in [KinematicsKind::Paper, KinematicsKind::Consistent] {
             type Single = Tiered<f32, OwnPolynomial>;
-            let plain = run::<f32, _>(RungeKutta4 { step: 2e-3 }, kinematics);
-            assert_eq!(plain, run::<Single, _>(RungeKutta4 { step: Single::of(2e-3) }, kinematics));
+            let plain = run::<f32, _>(FixedStep::RungeKutta4 { step: 2e-3 }, kinematics);
+            assert_eq!(plain, run::<Single, _>(FixedStep::RungeKutta4 { step: Single::of(2e-3) }, kinematics));
             type Double = Tiered<f64, Libm>;
             let plain = run::<f64, _>(Taylor::<f64, 20>::adaptive(1e-17), kinematics);
             assert_eq!(plain, run::<Double, _>(Taylor::<Double, 20>::adaptive(Double::of(1e-17)), kinematics));
@@ -233,15 +233,15 @@ mod tests {
         let exact = run::<f64, _>(Taylor::<f64, 20>::adaptive(1e-17), KinematicsKind::Paper).1;
         let error = |(_, rotation): (u64, f64)| (rotation - exact).abs();
         type Careful = Tiered<f32, Libm>;
-        let careful = run::<Careful, _>(RungeKutta4 { step: Careful::of(2e-3) }, KinematicsKind::Paper);
-        let own = run::<f32, _>(RungeKutta4 { step: 2e-3 }, KinematicsKind::Paper);
+        let careful = run::<Careful, _>(FixedStep::RungeKutta4 { step: Careful::of(2e-3) }, KinematicsKind::Paper);
+        let own = run::<f32, _>(FixedStep::RungeKutta4 { step: 2e-3 }, KinematicsKind::Paper);
         assert_ne!(careful.0, own.0);
         assert!(error(careful) < 2e-5 && error(own) < 2e-5, "{:e} {:e}", error(careful), error(own));
         type Wide = Tiered<f64, OwnPolynomial>;
         let wide = run::<Wide, _>(Taylor::<Wide, 20>::adaptive(Wide::of(1e-17)), KinematicsKind::Paper);
         assert!(error(wide) < 1e-12, "{:e}", error(wide));
         type Cheap = Tiered<f32, Micromath>;
-        let cheap = run::<Cheap, _>(RungeKutta4 { step: Cheap::of(2e-3) }, KinematicsKind::Paper);
+        let cheap = run::<Cheap, _>(FixedStep::RungeKutta4 { step: Cheap::of(2e-3) }, KinematicsKind::Paper);
         std::println!(
             "rotation at the end {exact}; errors: own {:e}, libm {:e}, micromath {:e}",
             error(own),

@@ -4,7 +4,7 @@ use sprag_shared::any_equation::WithEquation;
 use sprag_shared::arc::{Arc, Method};
 use sprag_shared::closed_form::ClosedForm;
 use sprag_shared::detected::{Detected, DetectedState, Switched};
-use sprag_shared::fixed::{RungeKutta4, SemiImplicitEuler};
+use sprag_shared::fixed::FixedStep;
 use sprag_shared::ground::Piece;
 use sprag_shared::math::tier::{Libm, Micromath, OwnPolynomial};
 use sprag_shared::math::tiered::Tiered;
@@ -54,8 +54,8 @@ fn with_any_method<S: Real, const N: usize>(subject: &Subject, variant: &Variant
     }
     let step = || S::of(step_of(subject, variant));
     match (variant.method, variant.setting) {
-        (variant::Method::SemiImplicitEuler, _) => located(subject, times, &SemiImplicitEuler { step: step() }),
-        (variant::Method::RungeKutta4, _) => located(subject, times, &RungeKutta4 { step: step() }),
+        (variant::Method::SemiImplicitEuler, _) => located(subject, times, &FixedStep::SemiImplicitEuler { step: step() }),
+        (variant::Method::RungeKutta4, _) => located(subject, times, &FixedStep::RungeKutta4 { step: step() }),
         (variant::Method::ClosedForm, _) => located(subject, times, &ClosedForm { step: step() }),
         (variant::Method::Taylor, Setting::Step(_)) => located(subject, times, &Taylor::<S, N>::fixed(step())),
         (variant::Method::Taylor, Setting::Tolerance(tolerance)) => {

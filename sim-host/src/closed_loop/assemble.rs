@@ -19,7 +19,7 @@ use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
 use super::design::SensorDesign;
 use super::disturbance::Disturbance;
 use super::driver::{Driver, Shared};
-use super::plant::{Surroundings, Watcher, plant};
+use super::plant::{Plant, Surroundings, Watcher};
 use super::run::{Clock, ClosedLoop, Ending, LoopError, TickObserver};
 use super::supervision::supervision;
 use crate::accuracy::Closeness;
@@ -250,7 +250,7 @@ impl<'a> LoopTask<'a> {
         let closed =
             ClosedLoop { clock, suite: self.suite, seed: self.seed, disturbance, slenderness, interrupt: self.interrupt };
         let machine = self.drivetrain().resolve(&self.scene.structure(self.index), self.ground.vertical.is_some())?;
-        Ok(closed.run(&mut *plant(machine, surroundings), driver, watcher, observer)?)
+        Ok(closed.run(&mut Plant::new(machine, surroundings), driver, watcher, observer)?)
     }
 
     /// The same device as the paper has it, without a controller: ideal engagement, nothing lost, nothing late.

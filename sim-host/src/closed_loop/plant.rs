@@ -2,9 +2,8 @@
 
 use sprag_shared::body::Body;
 use sprag_shared::drivetrain::device::Coupling;
-use sprag_shared::fixed::RungeKutta4;
-use sprag_shared::hybrid::exponential::ExponentialMidpoint;
-use sprag_shared::hybrid::path::{Shaking, Tracer};
+use sprag_shared::fixed::FixedStep;
+use sprag_shared::hybrid::path::Shaking;
 use sprag_shared::hybrid::{Machine, MachineState};
 use sprag_shared::observer::{Event, Stretch};
 use sprag_shared::rocking::{Limits, Phase, State, Stopped};
@@ -44,27 +43,6 @@ pub struct Whereabouts {
     pub missed: u32,
 }
 
-/// A plant, whatever it is made of.
-pub trait Plant {
-    /// The clutches before the motion.
-    fn preset(&mut self, engaged: [bool; 2]);
-
-    /// Gives a command to each clutch.
-    fn order(&mut self, wanted: [bool; 2], watcher: &mut dyn Watcher);
-
-    /// Follows it until `until` (s).
-    ///
-    /// # Errors
-    /// [`Stopped`] by the core.
-    fn advance(&mut self, until: f64, watcher: &mut dyn Watcher) -> Result<(), Stopped>;
-
-    /// Where it is.
-    fn whereabouts(&self) -> Whereabouts;
-
-    /// What perfect sensors would read.
-    fn truth(&self) -> Truth;
-}
-
 /// What a plant is made from beside its machine.
 #[derive(Clone, Copy)]
 pub struct Surroundings<'a> {
@@ -86,20 +64,10 @@ pub struct Surroundings<'a> {
     pub exponential: bool,
 }
 
-/// The plant of `machine`.
-pub fn plant<'a>(machine: Machine<f64>, surroundings: Surroundings<'a>) -> Box<dyn Plant + 'a> {
-    let step = surroundings.step;
-    if surroundings.exponential && machine.drive.traits().springs {
-        Box::new(MachinePlant::new(machine, ExponentialMidpoint { step }, surroundings))
-    } else {
-        Box::new(MachinePlant::new(machine, RungeKutta4 { step }, surroundings))
-    }
-}
-
 /// A machine and its place in the ground motion.
-struct MachinePlant<'a, T> {
+pub struct Plant<'a> {
     machine: Machine<f64>,
-    tracer: T,
+    method: FixedStep<f64>,
     state: MachineState<f64>,
     surroundings: Surroundings<'a>,
     shocks: Shocks,
@@ -111,8 +79,9 @@ struct MachinePlant<'a, T> {
     lightest: f64,
 }
 
-impl<'a, T: Tracer<f64>> MachinePlant<'a, T> {
-    fn new(mut machine: Machine<f64>, tracer: T, surroundings: Surroundings<'a>) -> Self {
+impl<'a> Plant<'a> {
+    /// Of `machine`, which takes its commands from a controller from now on.
+    pub fn new(mut machine: Machine<f64>, surroundings: Surroundings<'a>) -> Self {
         machine.actuator.controlled = true;
         machine.actuator.engagement_delay += surroundings.latency;
         machine.actuator.release_delay += surroundings.latency;
@@ -121,9 +90,12 @@ impl<'a, T: Tracer<f64>> MachinePlant<'a, T> {
             None => machine.at_rest(),
         };
         let block = surroundings.course.block;
-        MachinePlant {
+        let step = surroundings.step;
+        let method =
+            if surroundings.exponential { FixedStep::ExponentialMidpoint { step } } else { FixedStep::RungeKutta4 { step } };
+        Plant {
             machine,
-            tracer,
+            method,
             state,
             surroundings,
             shocks: Shocks::new(surroundings.shock),
@@ -159,22 +131,26 @@ impl<'a, T: Tracer<f64>> MachinePlant<'a, T> {
         let bound = horizontal.map_or(0.0, |segment| segment.bound);
         self.limits.overturned = self.surroundings.course.machine_angle(&self.machine, bound, self.lightest);
     }
-}
 
-impl<T: Tracer<f64>> Plant for MachinePlant<'_, T> {
-    fn preset(&mut self, engaged: [bool; 2]) {
+    /// The clutches before the motion.
+    pub fn preset(&mut self, engaged: [bool; 2]) {
         if self.state.motion.phase == Phase::Rest {
             self.machine.preset(&mut self.state, engaged);
         }
     }
 
-    fn order(&mut self, wanted: [bool; 2], watcher: &mut dyn Watcher) {
+    /// Gives a command to each clutch.
+    pub fn order(&mut self, wanted: [bool; 2], watcher: &mut dyn Watcher) {
         watcher.segment(self.time, self.segment());
         self.shocks.origin = self.time;
         self.machine.order(&mut self.state, wanted, &mut Both(watcher, &mut self.shocks));
     }
 
-    fn advance(&mut self, until: f64, watcher: &mut dyn Watcher) -> Result<(), Stopped> {
+    /// Follows it until `until` (s).
+    ///
+    /// # Errors
+    /// [`Stopped`] by the core.
+    pub fn advance(&mut self, until: f64, watcher: &mut dyn Watcher) -> Result<(), Stopped> {
         while self.time < until && self.state.motion.phase != Phase::Overturned {
             while self.segment().is_some_and(|segment| segment.start + segment.duration <= self.time) {
                 self.index += 1;
@@ -197,7 +173,7 @@ impl<T: Tracer<f64>> Plant for MachinePlant<'_, T> {
                 let shaking = Shaking { horizontal: &horizontal, vertical: vertical.as_ref().map(|piece| piece as _) };
                 let mut both = Both(watcher, &mut self.shocks);
                 let ended =
-                    self.machine.advance(&self.tracer, &mut self.state, shaking, end - self.time, &self.limits, &mut both);
+                    self.machine.advance(&self.method, &mut self.state, shaking, end - self.time, &self.limits, &mut both);
                 ended.map_err(|stopped| stopped.after(self.time))?;
             }
             self.time = end;
@@ -205,7 +181,8 @@ impl<T: Tracer<f64>> Plant for MachinePlant<'_, T> {
         Ok(())
     }
 
-    fn whereabouts(&self) -> Whereabouts {
+    /// Where it is.
+    pub fn whereabouts(&self) -> Whereabouts {
         let now = self.machine.now(&self.state);
         Whereabouts {
             time: self.time,
@@ -218,7 +195,8 @@ impl<T: Tracer<f64>> Plant for MachinePlant<'_, T> {
         }
     }
 
-    fn truth(&self) -> Truth {
+    /// What perfect sensors would read.
+    pub fn truth(&self) -> Truth {
         let now = self.machine.now(&self.state);
         self.places.truth(&self.machine, &self.state, &now, self.shocks.at(self.time))
     }

@@ -116,7 +116,7 @@ impl ClosedLoop<'_> {
     /// [`LoopError`].
     pub fn run(
         self,
-        plant: &mut dyn Plant,
+        plant: &mut Plant<'_>,
         driver: &mut dyn Driver,
         watcher: &mut dyn Watcher,
         observer: &mut dyn TickObserver,

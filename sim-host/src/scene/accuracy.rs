@@ -1,6 +1,7 @@
 //! `[accuracy]`: how a scene is integrated.
 
 use serde::{Deserialize, Serialize};
+use sprag_shared::fixed::FixedStep;
 
 use super::error::SceneError;
 use super::schema::KeyOf;
@@ -23,6 +24,16 @@ pub enum MethodName {
 }
 
 impl MethodName {
+    /// The method in fixed steps of `step` (s), unless it is that of Taylor series.
+    pub fn fixed<S>(self, step: S) -> Option<FixedStep<S>> {
+        match self {
+            MethodName::Taylor => None,
+            MethodName::RungeKutta4 => Some(FixedStep::RungeKutta4 { step }),
+            MethodName::SemiImplicitEuler => Some(FixedStep::SemiImplicitEuler { step }),
+            MethodName::ExponentialMidpoint => Some(FixedStep::ExponentialMidpoint { step }),
+        }
+    }
+
     /// As scenes spell it.
     pub fn name(self) -> &'static str {
         match self {

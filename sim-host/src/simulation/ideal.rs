@@ -1,7 +1,6 @@
 //! Runs of ideal devices, by the loop that knows nothing else.
 
 use sprag_shared::arc::Method;
-use sprag_shared::fixed::{RungeKutta4, SemiImplicitEuler};
 use sprag_shared::observer::Peaks;
 use sprag_shared::rocking::{Phase, State, System};
 use sprag_shared::scalar::Real;
@@ -14,24 +13,22 @@ use super::run::{Failure, Task};
 use super::step_end::{self, Steps};
 use crate::batch::case::TERMS;
 use crate::ground_motion::ShapePiece;
-use crate::scene::accuracy::{EventTreatment, MethodName, Precision};
+use crate::scene::accuracy::{EventTreatment, Precision};
 
 /// Runs the device of `task`.
 pub(super) fn run(task: &Task<'_>) -> Result<DeviceRun, Failure> {
     let accuracy = &task.scene.file.accuracy;
-    match (accuracy.precision, accuracy.method, task.step()) {
-        (Precision::F64, MethodName::RungeKutta4 | MethodName::ExponentialMidpoint, Some(step)) => {
-            with_method(task, &RungeKutta4 { step })
-        }
-        (Precision::F64, MethodName::SemiImplicitEuler, Some(step)) => with_method(task, &SemiImplicitEuler { step }),
-        (Precision::F64, _, Some(step)) => with_method(task, &Taylor::<f64, TERMS>::fixed(step)),
-        (Precision::F64, _, None) => with_method(task, &Taylor::<f64, TERMS>::adaptive(accuracy.tolerance)),
-        (Precision::F32, method, step) => {
+    match (accuracy.precision, task.step()) {
+        (Precision::F64, None) => with_method(task, &Taylor::<f64, TERMS>::adaptive(accuracy.tolerance)),
+        (Precision::F64, Some(step)) => match accuracy.method.fixed(step) {
+            Some(method) => with_method(task, &method),
+            None => with_method(task, &Taylor::<f64, TERMS>::fixed(step)),
+        },
+        (Precision::F32, step) => {
             let step = step.unwrap_or(1e-3) as f32;
-            match method {
-                MethodName::RungeKutta4 | MethodName::ExponentialMidpoint => with_method(task, &RungeKutta4 { step }),
-                MethodName::SemiImplicitEuler => with_method(task, &SemiImplicitEuler { step }),
-                MethodName::Taylor => with_method(task, &Taylor::<f32, TERMS_F32>::fixed(step)),
+            match accuracy.method.fixed(step) {
+                Some(method) => with_method(task, &method),
+                None => with_method(task, &Taylor::<f32, TERMS_F32>::fixed(step)),
             }
         }
     }

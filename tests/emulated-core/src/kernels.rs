@@ -14,7 +14,7 @@ use sprag_shared::{
     clutch::ClutchRule,
     detected::{Detected, DetectedState},
     equation::{Equation, FullBlock, FullInerter, Paper, SlenderBlock},
-    fixed::{RungeKutta4, SemiImplicitEuler, runge_kutta_4},
+    fixed::{FixedStep, runge_kutta_4},
     ground::Harmonics,
     lever::CentreOfMass,
     math::sine32,
@@ -197,8 +197,8 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
         clutch: ClutchRule::Resisting,
     });
     let pulse = black_box(Harmonics::sine(0.5, core::f32::consts::TAU));
-    located("located-euler-step", &SemiImplicitEuler { step: STEP }, (&pair, &pulse), counter, out)?;
-    located("located-rk4-step", &RungeKutta4 { step: STEP }, (&pair, &pulse), counter, out)?;
+    located("located-euler-step", &FixedStep::SemiImplicitEuler { step: STEP }, (&pair, &pulse), counter, out)?;
+    located("located-rk4-step", &FixedStep::RungeKutta4 { step: STEP }, (&pair, &pulse), counter, out)?;
     located("located-taylor12-step", &Taylor::<f32, 12>::fixed(10.0 * STEP), (&pair, &pulse), counter, out)?;
     accuracy::report(counter, out)?;
     devices::report(counter, out)?;

@@ -1,9 +1,9 @@
 //! A block with elastic clutches, whatever their stiffness, by fixed exponential midpoint steps.
 
 use sprag_shared::drivetrain::{Drivetrain, Engagement};
+use sprag_shared::fixed::FixedStep;
 use sprag_shared::ground::{Harmonics, Quiet};
 use sprag_shared::hybrid::Machine;
-use sprag_shared::hybrid::exponential::ExponentialMidpoint;
 use sprag_shared::hybrid::path::Shaking;
 use sprag_shared::observer::{Event, Stretch};
 use sprag_shared::rocking::{Limits, State, Stopped};
@@ -46,7 +46,7 @@ pub fn elastic_run<S: Real>(
     let energy = Energy::of(structure);
     let mut watch = Watch { energy, quiet: false, least: f64::INFINITY, peak: 0.0, steps: 0, events: 0, depth: 0.0, gain: 0.0 };
     let mut state = machine.at_rest();
-    let method = ExponentialMidpoint { step: S::of(step) };
+    let method = FixedStep::ExponentialMidpoint { step: S::of(step) };
     let limits = Limits { overturned: S::of(core::f64::consts::FRAC_PI_2), events: 10_000_000 };
     let duration = S::of(core::f64::consts::TAU) / S::of(frequency);
     let sine = Harmonics::sine(S::of(amplitude), S::of(frequency));

@@ -1,7 +1,7 @@
 //! The two precisions that every case runs in.
 
 use sprag_shared::arc::Method;
-use sprag_shared::fixed::{RungeKutta4, SemiImplicitEuler};
+use sprag_shared::fixed::FixedStep;
 use sprag_shared::rocking::{State, Stopped};
 use sprag_shared::scalar::Real;
 use sprag_shared::structure::Structure;
@@ -201,8 +201,8 @@ fn run<S: Precision, W: Watcher<S>>(
     }
     match stepping {
         Stepping::Tight => counted(structure, S::tight(), start, segments, watcher),
-        Stepping::RungeKutta4(step) => counted(structure, RungeKutta4 { step }, start, segments, watcher),
-        Stepping::SemiImplicitEuler(step) => counted(structure, SemiImplicitEuler { step }, start, segments, watcher),
+        Stepping::RungeKutta4(step) => counted(structure, FixedStep::RungeKutta4 { step }, start, segments, watcher),
+        Stepping::SemiImplicitEuler(step) => counted(structure, FixedStep::SemiImplicitEuler { step }, start, segments, watcher),
         Stepping::Taylor(step) => counted(structure, Taylor::<S, 12>::fixed(step), start, segments, watcher),
     }
 }

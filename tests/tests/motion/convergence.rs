@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 
 use sprag_shared::arc::Method;
 use sprag_shared::block::Geometry;
-use sprag_shared::fixed::{RungeKutta4, SemiImplicitEuler};
+use sprag_shared::fixed::FixedStep;
 use sprag_shared::math::ln;
 use sprag_shared::observer::Event;
 use sprag_shared::rocking::{Phase, State};
@@ -113,12 +113,12 @@ fn keeps_its_order<M: Method<f64>>(name: &str, expected: f64, largest: f64, coun
 
 #[test]
 fn semi_implicit_euler_is_of_order_1() {
-    keeps_its_order("Euler", 1.0, 2e-3, 10, |step| SemiImplicitEuler { step });
+    keeps_its_order("Euler", 1.0, 2e-3, 10, |step| FixedStep::SemiImplicitEuler { step });
 }
 
 #[test]
 fn runge_kutta_is_of_order_4() {
-    keeps_its_order("Runge-Kutta", 4.0, 0.03, 10, |step| RungeKutta4 { step });
+    keeps_its_order("Runge-Kutta", 4.0, 0.03, 10, |step| FixedStep::RungeKutta4 { step });
 }
 
 #[test]
@@ -133,7 +133,7 @@ fn a_fixed_taylor_method_is_of_its_order() {
 fn single_precision_converges_to_its_rounding() {
     for (index, scene) in scenes().iter().enumerate() {
         let reference = shake(&scene.structure, &scene.segments());
-        let error = |step: f32| errors(&scene.by(&RungeKutta4 { step }), &reference);
+        let error = |step: f32| errors(&scene.by(&FixedStep::RungeKutta4 { step }), &reference);
         let (coarse, finer) = (error(0.12), error(0.06));
         println!("f32, scene {index}: {:.1e} at 0.12, {:.1e} at 0.06", coarse.state, finer.state);
         assert!(coarse.state > 6.0 * finer.state, "scene {index}: {:e} then {:e}", coarse.state, finer.state);

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use sprag_shared::arc::Method;
 use sprag_shared::block::Geometry;
-use sprag_shared::fixed::{RungeKutta4, SemiImplicitEuler};
+use sprag_shared::fixed::FixedStep;
 use sprag_shared::lever::Mount;
 use sprag_shared::math::cos;
 use sprag_shared::observer::Event;
@@ -144,16 +144,16 @@ proptest! {
     fn mirrored_ground_gives_the_mirrored_motion(structure in structures(), motion in motions()) {
         mirrored(&structure, &Taylor::<f64, 20>::adaptive(1e-16), &segments(&structure, &motion))?;
         mirrored(&structure, &Taylor::<f64, 9>::fixed(0.021), &segments(&structure, &motion))?;
-        mirrored(&structure, &RungeKutta4 { step: 0.013_f64 }, &segments(&structure, &motion))?;
-        mirrored(&structure, &SemiImplicitEuler { step: 0.0037_f64 }, &segments(&structure, &motion))?;
+        mirrored(&structure, &FixedStep::RungeKutta4 { step: 0.013_f64 }, &segments(&structure, &motion))?;
+        mirrored(&structure, &FixedStep::SemiImplicitEuler { step: 0.0037_f64 }, &segments(&structure, &motion))?;
     }
 
     #[test]
     fn mirrored_in_single_precision_too(structure in structures(), motion in motions()) {
         mirrored(&structure, &Taylor::<f32, 10>::adaptive(1e-7), &segments(&structure, &motion))?;
         mirrored(&structure, &Taylor::<f32, 8>::fixed(0.021), &segments(&structure, &motion))?;
-        mirrored(&structure, &RungeKutta4 { step: 0.013_f32 }, &segments(&structure, &motion))?;
-        mirrored(&structure, &SemiImplicitEuler { step: 0.0037_f32 }, &segments(&structure, &motion))?;
+        mirrored(&structure, &FixedStep::RungeKutta4 { step: 0.013_f32 }, &segments(&structure, &motion))?;
+        mirrored(&structure, &FixedStep::SemiImplicitEuler { step: 0.0037_f32 }, &segments(&structure, &motion))?;
     }
 
     /// Slender: only ω/p, a_g/(gα), η and σ matter, not R and α.

@@ -3,7 +3,7 @@
 use super::{drivetrains, pair, tight};
 use crate::block::Geometry;
 use crate::drivetrain::{Drivetrain, Engagement};
-use crate::fixed::RungeKutta4;
+use crate::fixed::FixedStep;
 use crate::hybrid::series::Series;
 
 /// Series against Runge-Kutta: nothing but the equations and the events is common to them.
@@ -13,8 +13,8 @@ fn series_and_runge_kutta_agree() {
         for (name, drivetrain) in drivetrains() {
             let shake = pair(geometry, 3.0, 5.0);
             let series = shake.machine(&drivetrain, &tight());
-            let coarse = shake.machine(&drivetrain, &RungeKutta4 { step: 4e-4 });
-            let fine = shake.machine(&drivetrain, &RungeKutta4 { step: 1e-4 });
+            let coarse = shake.machine(&drivetrain, &FixedStep::RungeKutta4 { step: 4e-4 });
+            let fine = shake.machine(&drivetrain, &FixedStep::RungeKutta4 { step: 1e-4 });
             let error = |peak: f64| (peak / series.peak - 1.0).abs();
             assert!(error(fine.peak) < 1e-8, "{geometry:?} {name}: {} and {}", fine.peak, series.peak);
             assert!(error(fine.peak) <= error(coarse.peak) + 1e-12, "{geometry:?} {name}: no gain by smaller steps");
@@ -39,6 +39,18 @@ fn the_series_converges() {
         let fixed = shake.machine(&drivetrain, &Series::<f64, 20>::fixed(2e-3));
         assert!((loose.peak / exact.peak - 1.0).abs() < 1e-10, "{name}: {} and {}", loose.peak, exact.peak);
         assert!((fixed.peak / exact.peak - 1.0).abs() < 1e-9, "{name}: {} and {}", fixed.peak, exact.peak);
+    }
+}
+
+/// A quarter of the step, a quarter of the error.
+#[test]
+fn semi_implicit_euler_is_of_order_1() {
+    for (name, drivetrain) in drivetrains() {
+        let shake = pair(Geometry::Full, 3.0, 5.0);
+        let exact = shake.machine(&drivetrain, &tight()).peak;
+        let error = |step: f64| (shake.machine(&drivetrain, &FixedStep::SemiImplicitEuler { step }).peak - exact).abs();
+        let (coarse, fine) = (error(4e-4), error(1e-4));
+        assert!(fine < 3e-3 * exact && (0.15..0.35).contains(&(fine / coarse)), "{name}: {coarse:e} and {fine:e}");
     }
 }
 
@@ -87,11 +99,12 @@ fn the_explicit_step_is_bounded_by_the_stiffness() {
     let stiffness = 1e6;
     let frequency = (stiffness * (0.75 + 2.0_f64)).sqrt();
     let exact = shake.machine(&stiff(stiffness, 0.01), &tight()).peak;
-    let stable = shake.machine(&stiff(stiffness, 0.01), &RungeKutta4 { step: 1.0 / frequency }).peak;
+    let stable = shake.machine(&stiff(stiffness, 0.01), &FixedStep::RungeKutta4 { step: 1.0 / frequency }).peak;
     assert!((stable / exact - 1.0).abs() < 0.01, "{stable} and {exact}");
     let error = |peak: f64| (peak / exact - 1.0).abs();
-    let explicit =
-        std::panic::catch_unwind(|| shake.machine(&stiff(stiffness, 0.01), &RungeKutta4 { step: 4.0 / frequency }).peak);
+    let explicit = std::panic::catch_unwind(|| {
+        shake.machine(&stiff(stiffness, 0.01), &FixedStep::RungeKutta4 { step: 4.0 / frequency }).peak
+    });
     let exponential = shake.exponential(&stiff(stiffness, 0.01), 4.0 / frequency).peak;
     assert!(error(exponential) < 0.01, "{exponential} and {exact}");
     assert!(explicit.is_err() || error(explicit.unwrap()) > 0.05, "Runge-Kutta should have failed here");

@@ -16,8 +16,8 @@ use super::{Machine, MachineState};
 use crate::block::{Block, Geometry};
 use crate::carried::Carried;
 use crate::drivetrain::{Drivetrain, Engagement, FlywheelLosses, Rack};
+use crate::fixed::FixedStep;
 use crate::ground::{Harmonics, Linear, Piece, Quiet};
-use crate::hybrid::exponential::ExponentialMidpoint;
 use crate::lever::Mount;
 use crate::observer::{Event, Peaks};
 use crate::restitution::Restitution;
@@ -201,7 +201,7 @@ impl Shake {
     pub fn exponential(&self, drivetrain: &Drivetrain, step: f64) -> Seen {
         let machine = drivetrain.resolve(&self.structure, false).unwrap();
         assert!(machine.drive.traits().springs, "not an elastic clutch");
-        self.follow(&machine, &ExponentialMidpoint { step }, &mut ())
+        self.follow(&machine, &FixedStep::ExponentialMidpoint { step }, &mut ())
     }
 
     fn follow<T: Tracer<f64>>(&self, machine: &Machine<f64>, method: &T, watcher: &mut dyn DeviceObserver<f64>) -> Seen {

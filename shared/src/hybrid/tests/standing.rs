@@ -5,7 +5,7 @@ use std::vec::Vec;
 use super::{Ground, Shake, pair, shake, structure, tight};
 use crate::block::Geometry;
 use crate::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses};
-use crate::fixed::RungeKutta4;
+use crate::fixed::FixedStep;
 use crate::hybrid::Machine;
 use crate::hybrid::path::Shaking;
 use crate::ledger::{Account, Clutching, Ledger};
@@ -154,7 +154,7 @@ fn a_second_uplift_feels_the_spinning_flywheels() {
         let uplifts: Vec<f64> =
             series.events.iter().filter(|(event, _)| *event == Event::Uplift).map(|(_, time)| *time).collect();
         assert!(uplifts.len() == 2 && series.spins.iter().any(|spin| spin.abs() > 1e-3), "{uplifts:?} {:?}", series.spins);
-        let steps = shake.machine(&drivetrain, &RungeKutta4 { step: 2e-4 });
+        let steps = shake.machine(&drivetrain, &FixedStep::RungeKutta4 { step: 2e-4 });
         let (a, b) = (series.state.rotation, steps.state.rotation);
         assert!((a - b).abs() < 1e-6 * a.abs() && a != 0.0, "{engagement:?}: {a} and {b}");
         let entries = ledger.entries();

@@ -23,11 +23,10 @@ use sprag_shared::{
         rigid::RigidPair,
     },
     equation::{BodyKinematics, Told},
-    fixed::RungeKutta4,
+    fixed::FixedStep,
     ground::Harmonics,
     hybrid::{
         Actuator, Machine,
-        exponential::ExponentialMidpoint,
         path::{Shaking, Tracer},
     },
     lever::TyingPoint,
@@ -121,8 +120,8 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
     let pulse = black_box(Shape::Sine(Harmonics::sine(0.5, TAU)));
     let up = black_box(Shape::Sine(Harmonics::sine(0.2, 4.0 * TAU)));
     let (level, both) = (Shaking { horizontal: &pulse, vertical: None }, Shaking { horizontal: &pulse, vertical: Some(&up) });
-    let tracer = RungeKutta4 { step: super::STEP };
-    let midpoint = ExponentialMidpoint { step: super::STEP };
+    let tracer = FixedStep::RungeKutta4 { step: super::STEP };
+    let midpoint = FixedStep::ExponentialMidpoint { step: super::STEP };
     let (paper, consistent) = (body(false, false), body(true, false));
 
     macro_rules! line {

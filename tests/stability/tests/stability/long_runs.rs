@@ -6,7 +6,7 @@ use sprag_shared::block::Geometry;
 use sprag_shared::case::{Case, FixedMethod, Ground, Initially};
 use sprag_shared::digest::Digest;
 use sprag_shared::drivetrain::Drivetrain;
-use sprag_shared::fixed::RungeKutta4;
+use sprag_shared::fixed::FixedStep;
 use sprag_shared::ground::{Linear, Piece};
 use sprag_shared::observer::{Event, Observer};
 use sprag_shared::rocking::{Limits, Phase, State, System};
@@ -56,7 +56,7 @@ impl<S: Precision> Observer<S> for Watch<S> {
 }
 
 fn day<S: Precision>(system: &System<S>, samples: &[S]) -> Vec<(State<S>, Watch<S>)> {
-    let method = RungeKutta4 { step: S::of(INTERVAL) };
+    let method = FixedStep::RungeKutta4 { step: S::of(INTERVAL) };
     let limits = Limits { overturned: S::ONE, events: 1_000 };
     let mut state = State::default();
     let mut hours = Vec::new();
@@ -160,7 +160,7 @@ fn a_standing_block_costs_a_few_looks_at_the_ground() {
     let piece = Looked(Linear::between(0.05, -0.07, 0.005), Cell::new(0));
     let limits = Limits { overturned: 1.0, events: 10 };
     let mut state = State::default();
-    let method = RungeKutta4 { step: 1e-4 };
+    let method = FixedStep::RungeKutta4 { step: 1e-4 };
     system.advance(&method, &mut state, &piece, 0.005, &limits, &mut ()).expect("rest");
     assert_eq!(state, State::default());
     // Both thresholds at the start and the end, whatever the step.
