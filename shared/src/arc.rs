@@ -35,6 +35,8 @@ pub struct Start<'a, S> {
     pub length: S,
     /// The bracket is zero here because an event was located on it; its rounding error must not count.
     pub acceleration_is_zero: bool,
+    /// θ̈ here, where the step before has evaluated it.
+    pub acceleration: Option<S>,
     /// Size of a rotation that matters (rad), for tolerances.
     pub scale: S,
 }
@@ -54,6 +56,7 @@ pub trait Arc<S: Real> {
     /// zero at `from`.
     ///
     /// The default sees what the ends of the step show; a method with a series overrides it and proves its answer.
+    #[inline]
     fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
         let _ = from_zero;
         let end = self.at(to).acceleration;

@@ -79,8 +79,10 @@ impl<'a, S: Real> FixedArc<'a, S> {
         let first = if start.acceleration_is_zero {
             S::ZERO
         } else {
-            let push = start.piece.acceleration(start.time);
-            start.equation.acceleration(start.side.unit(), start.rotation, start.velocity, push)
+            start.acceleration.unwrap_or_else(|| {
+                let push = start.piece.acceleration(start.time);
+                start.equation.acceleration(start.side.unit(), start.rotation, start.velocity, push)
+            })
         };
         let end = Self::motion(method, &start, first, start.length);
         FixedArc { method, start, first, end }

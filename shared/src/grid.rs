@@ -4,8 +4,18 @@ use crate::scalar::Real;
 
 /// The first whole multiple of `step` (s, above 0) after `time` (s), or `end` (s) if that comes first. `tick` is the multiple found
 /// last, 0 at the start of a piece; what was slept through since then is leapt over, so that a long rest costs no time.
-#[inline(never)]
+#[inline]
 pub fn next_stop<S: Real>(tick: &mut u32, step: S, time: S, end: S) -> S {
+    let next = S::count(tick.saturating_add(1)) * step;
+    if next > time && S::count(*tick) * step == time {
+        *tick += 1;
+        return next.smaller(end);
+    }
+    leap(tick, step, time, end)
+}
+
+#[inline(never)]
+fn leap<S: Real>(tick: &mut u32, step: S, time: S, end: S) -> S {
     let mut leap = 1_u32;
     while S::count(*tick) * step <= time {
         if *tick == u32::MAX {

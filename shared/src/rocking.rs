@@ -181,6 +181,7 @@ impl<S: Real> System<S> {
         observer: &mut dyn Observer<S>,
     ) -> Result<(), Stopped> {
         let mut time = S::ZERO;
+        let mut acceleration = None;
         let mut tick = 0_u32;
         let mut events = 0_u32;
         let mut swings = None;
@@ -207,7 +208,7 @@ impl<S: Real> System<S> {
                 Some(step) => next_stop(&mut tick, step, time, duration),
                 None => duration,
             };
-            let end = self.follow(method, state, piece, &mut time, stop, limits, observer);
+            let end = self.follow(method, state, piece, (&mut time, &mut acceleration), stop, limits, observer);
             match end {
                 End::Reached => {}
                 End::Switched => observer.event(Event::Switch, time, state),
@@ -244,7 +245,7 @@ impl<S: Real> System<S> {
         Ok(())
     }
 
-    /// One arc, up to its first event that changes the equation.
+    /// One arc, up to its first event that changes the equation. `acceleration` is θ̈ at `time`, where the arc before has evaluated it.
     #[expect(clippy::too_many_arguments, reason = "one call site, and each is a different thing")]
     #[inline]
     fn follow<M: Method<S>>(
@@ -252,7 +253,7 @@ impl<S: Real> System<S> {
         method: &M,
         state: &mut State<S>,
         piece: &dyn Piece<S>,
-        time: &mut S,
+        (time, acceleration): (&mut S, &mut Option<S>),
         stop: S,
         limits: &Limits<S>,
         observer: &mut dyn Observer<S>,
@@ -268,6 +269,7 @@ impl<S: Real> System<S> {
             time: *time,
             length: stop - *time,
             acceleration_is_zero: state.push_is_zero,
+            acceleration: acceleration.take(),
             scale: self.slenderness,
         });
         let length = arc.length();
@@ -414,7 +416,9 @@ impl<S: Real> System<S> {
             state.rotation = end.rotation;
             state.velocity = end.velocity;
             state.push_is_zero = at_push_zero;
-            *time = if length == stop - *time { stop } else { *time + length };
+            let reached = *time + length;
+            *time = if length == stop - *time { stop } else { reached };
+            *acceleration = (*time == reached && engaged == self.is_engaged(state)).then_some(end.acceleration);
             return End::Reached;
         }
     }

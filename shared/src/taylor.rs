@@ -185,6 +185,7 @@ mod tests {
                 time,
                 length: 10.0,
                 acceleration_is_zero: false,
+                acceleration: None,
                 scale: 0.3,
             };
             let arc = Taylor::<f64, 20>::adaptive(1e-15).arc(start);

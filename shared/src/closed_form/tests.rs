@@ -191,6 +191,7 @@ fn a_short_step_loses_no_digits() {
             time,
             length: step,
             acceleration_is_zero: true,
+            acceleration: None,
             scale: 1.0,
         };
         let found = ClosedForm { step }.arc(start).at(step).rotation;
@@ -205,6 +206,7 @@ fn a_short_step_loses_no_digits() {
             time: time as f32,
             length: step as f32,
             acceleration_is_zero: true,
+            acceleration: None,
             scale: 1.0,
         };
         let found = f64::from(ClosedForm { step: step as f32 }.arc(start).at(step as f32).rotation);
