@@ -5,6 +5,7 @@
 //! - [`cloud`], [`statistics`]: demands and fragilities over many records; [`optimise`]: the device that overturns least;
 //!   [`sensitivity`]: what each effect changes.
 //! - [`history`], [`outcome`], [`plot`], [`summary_table`], [`columns`], [`output`]: what comes out.
+//! - [`part`]: what the program may be built without.
 //! - [`long_run`]: work that is split, interrupted and resumed.
 //! - [`progress`], [`interrupt`], [`streams`]: what a user sees of a command while it runs.
 //! - [`closed_loop`], [`device`]: the controller on the host, and the firmware in its place.
@@ -32,6 +33,7 @@ pub mod loop_study;
 pub mod map;
 pub mod optimise;
 pub mod output;
+pub mod part;
 pub mod plot;
 pub mod progress;
 pub mod record;

@@ -26,6 +26,9 @@ const STEPS: [f64; 2] = [1e-3, 5e-4];
 /// Runs of which the fastest counts.
 const REPETITIONS: u32 = 7;
 
+/// All features of the program but `effects`.
+const BARE: &[&str] = &["--no-default-features", "--features", "parquet,png,serial,defmt"];
+
 /// The scene, from the root.
 const SCENE: &str = "docs/effects-cost.toml";
 
@@ -177,7 +180,7 @@ pub fn run(root: &Path) -> Result<(), Stop> {
 pub fn off_costs_nothing(root: &Path) -> Result<String, Stop> {
     tools::need_valgrind()?;
     let full = instructions_per_step(root, &sprag(root, &[])?, &[])?;
-    let bare = instructions_per_step(root, &sprag(root, &["--no-default-features"])?, &[])?;
+    let bare = instructions_per_step(root, &sprag(root, BARE)?, &[])?;
     let change = full / bare - 1.0;
     let line = format!(
         "slender block alone: {full:.2} instructions a step in the full program, {bare:.2} without effects: {:+.3} %",

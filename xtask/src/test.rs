@@ -28,6 +28,13 @@ pub fn run(root: &Path, fuzz_seconds: u32) -> Result<(), Stop> {
         done(&mut cargo_in(root, BOARD.workspace, &["fmt", "--all", "--check"]))
     })?;
     steps.step("lints, host", || done(&mut cargo(root, &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])))?;
+    // Not the tests: they are of the whole program.
+    steps.step("lints, parts of host", || {
+        ["", "effects"].iter().try_for_each(|features| {
+            let args = ["clippy", "--package", "sprag-sim-host", "--bins", "--no-default-features", "--features", features];
+            done(cargo(root, &args).args(["--", "-D", "warnings"]))
+        })
+    })?;
     steps.step("lints, board", || {
         LINTED.iter().try_for_each(|image| done(image.cargo(root, "clippy").args(["--", "-D", "warnings"])))
     })?;

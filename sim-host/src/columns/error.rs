@@ -2,9 +2,8 @@
 
 use std::io;
 
-use parquet::errors::ParquetError;
-
 use super::column::Kind;
+use super::parquet_writer::ParquetError;
 
 /// A table that cannot be written or read.
 #[derive(Debug, thiserror::Error)]

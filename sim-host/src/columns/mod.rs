@@ -10,9 +10,10 @@ mod csv_writer;
 mod error;
 mod fields;
 mod metadata;
+#[cfg_attr(not(feature = "parquet"), path = "no_parquet_writer.rs")]
 mod parquet_writer;
 mod table;
-#[cfg(test)]
+#[cfg(all(test, feature = "parquet"))]
 mod tests;
 mod value;
 

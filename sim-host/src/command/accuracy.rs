@@ -156,7 +156,7 @@ fn run_or_fail(
     results.add(&folder.join("accuracy.csv"), |file| write_csv(&rows, &devices, file))?;
     results.add(&folder.join("accuracy.md"), |file| file.write_all(page.as_bytes()))?;
     for (name, figure) in figures(title, &rows, &devices)? {
-        results.add_picture(&folder, name, &figure, arguments.pictures.formats())?;
+        results.add_picture(&folder, name, &figure, arguments.pictures.formats)?;
     }
     results.commit_telling(err)?;
     drawing.finish();

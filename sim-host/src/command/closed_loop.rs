@@ -150,7 +150,7 @@ fn run_or_fail(
     for (number, report) in reports.iter().enumerate() {
         let picture = loop_figure(heading(scene, report), &loop_trace(report, &scene.block))?;
         let name = if number == 0 { "loop".to_owned() } else { format!("loop-{}", number + 1) };
-        results.add_picture(&folder, &name, &picture, arguments.pictures.formats())?;
+        results.add_picture(&folder, &name, &picture, arguments.pictures.formats)?;
     }
     if interrupt.is_set() {
         return Err(Failure::Interrupted);

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args};
 use sprag_shared::link::Identity;
 
@@ -9,14 +10,15 @@ use crate::device::emulator::{Emulator, Way};
 use crate::device::image;
 use crate::device::line::{DeviceError, Line};
 use crate::device::log::Log;
-use crate::device::serial::Serial;
+use crate::device::serial;
+use crate::part::Part;
 
 /// Where the device is.
 #[derive(Args, Clone, Debug)]
 #[command(group = ArgGroup::new("device").args(["port", "qemu"]).required(true))]
 pub struct LineArguments {
     /// On a serial port.
-    #[arg(long, value_name = "DEV")]
+    #[arg(long, value_name = "DEV", value_parser = |port: &str| Part::SERIAL.allow(port.to_owned()))]
     pub port: Option<String>,
     /// In the emulator: builds the firmware and runs it in QEMU.
     #[arg(long)]
@@ -28,8 +30,13 @@ pub struct LineArguments {
     #[arg(long, value_enum, default_value_t, requires = "qemu")]
     pub way: Way,
     /// Build the firmware with logs from this level on, and show them.
-    #[arg(long, value_name = "LEVEL", value_parser = ["trace", "debug", "info", "warn", "error"], requires = "qemu")]
+    #[arg(long, value_name = "LEVEL", value_parser = level(), requires = "qemu")]
     pub log: Option<String>,
+}
+
+/// Takes a level of logs.
+fn level() -> impl TypedValueParser<Value = String> {
+    PossibleValuesParser::new(["trace", "debug", "info", "warn", "error"]).try_map(|level| Part::DEFMT.allow(level))
 }
 
 /// A device that has been found.
@@ -46,7 +53,7 @@ pub struct Connected {
 /// [`DeviceError`].
 pub fn connect(arguments: &LineArguments) -> Result<Connected, DeviceError> {
     if let Some(port) = &arguments.port {
-        return Ok(Connected { line: Box::new(Serial::open(port)?), log: None });
+        return Ok(Connected { line: serial::open(port)?, log: None });
     }
     let image = match &arguments.firmware {
         Some(image) => {

@@ -1,6 +1,6 @@
 //! Options that say in which formats a command writes its tables and pictures.
 
-use clap::Args;
+use clap::{ArgAction, Args};
 
 use crate::output::Formats;
 
@@ -16,13 +16,6 @@ pub struct FormatArguments {
 #[derive(Args, Clone, Copy, Debug)]
 pub struct PictureArguments {
     /// Write pictures as PNG too.
-    #[arg(long)]
-    pub png: bool,
-}
-
-impl PictureArguments {
-    /// The formats that follow.
-    pub fn formats(self) -> Formats {
-        Formats { png: self.png, ..Formats::PLAIN }
-    }
+    #[arg(long = "png", action = ArgAction::SetTrue, default_value = "csv,svg", default_missing_value = "csv,svg,png")]
+    pub formats: Formats,
 }

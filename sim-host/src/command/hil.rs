@@ -118,7 +118,7 @@ fn run_or_fail(
         trace.rotation_host = run.host.iter().map(|tick| (tick.plant.time, tick.plant.motion.rotation / alpha)).collect();
         let picture = loop_figure(heading(&desk.scene, &run.report), &trace)?;
         let name = if number == 0 { "loop".to_owned() } else { format!("loop-{}", number + 1) };
-        results.add_picture(&folder, &name, &picture, arguments.pictures.formats())?;
+        results.add_picture(&folder, &name, &picture, arguments.pictures.formats)?;
         ticks.push((run.report.summary.device.clone(), run.ticks));
         reports.push(run.report);
         if let Some(log) = run.log {

@@ -172,7 +172,7 @@ fn write(
         results.add(&folder.join(format!("{name}.csv")), |file| file.write_all(table.csv().as_bytes()))?;
     }
     for (name, svg) in &report.figures {
-        results.add_picture(folder, name, svg, arguments.pictures.formats())?;
+        results.add_picture(folder, name, svg, arguments.pictures.formats)?;
     }
     results.commit_telling(err)?;
     drawing.finish();

@@ -256,7 +256,7 @@ fn write(
         write_csv(findings, motions, &study.devices, file).map_err(std::io::Error::other)
     })?;
     results.add(&folder.join("sensitivity.md"), |file| file.write_all(page(title, &runs, in_place, &left_out).as_bytes()))?;
-    results.add_picture(folder, "sensitivity", &figure, arguments.pictures.formats())?;
+    results.add_picture(folder, "sensitivity", &figure, arguments.pictures.formats)?;
     results.commit_telling(err)?;
     drawing.finish();
     let _ = write!(out, "{}", table(&runs));

@@ -171,7 +171,7 @@ fn run_or_fail(
     let mut results = Results::default();
     results.add_json(&folder.join("summary.json"), &summary)?;
     results.add(&folder.join("similar.csv"), |file| write_csv(&blocks, file))?;
-    let picture = results.add_picture(&folder, "similar", &figure, arguments.pictures.formats())?;
+    let picture = results.add_picture(&folder, "similar", &figure, arguments.pictures.formats)?;
     if interrupt.is_set() {
         return Err(RunError::Interrupted.into());
     }

@@ -114,7 +114,7 @@ fn run_or_fail(
     let (command, version, files) = ("simulate", env!("CARGO_PKG_VERSION"), &subject.files);
     let (records, warnings) = (&records, &warnings);
     let summary = Summary { command, version, scene: &scene.file, records, warnings, files, runs: &runs };
-    let formats = arguments.pictures.formats();
+    let formats = arguments.pictures.formats;
     let mut results = Results::default();
     results.add_json(&folder.join("summary.json"), &summary)?;
     results.add(&folder.join("history.csv"), |file| write_csv(&histories, file).map_err(std::io::Error::other))?;

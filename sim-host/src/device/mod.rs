@@ -14,9 +14,11 @@ pub mod event_table;
 pub mod faulty;
 pub mod image;
 pub mod line;
+#[cfg_attr(not(feature = "defmt"), path = "no_log.rs")]
 pub mod log;
 pub mod parameters;
 pub mod report;
+#[cfg_attr(not(feature = "serial"), path = "no_serial.rs")]
 pub mod serial;
 pub mod session;
 pub mod setting_text;

@@ -9,25 +9,25 @@ use sprag_shared::link::Pace;
 use super::line::{DeviceError, Line};
 
 /// Bits a second of the board's link.
-pub const BAUD: u32 = 921_600;
+const BAUD: u32 = 921_600;
+
+/// Opens a port by the system's name for it.
+///
+/// # Errors
+/// [`DeviceError::Port`].
+pub fn open(name: &str) -> Result<Box<dyn Line>, DeviceError> {
+    let port = serialport::new(name, BAUD).open();
+    let port = port.map_err(|error| DeviceError::Port { port: name.to_owned(), reason: plain(&error) })?;
+    Ok(Box::new(Serial { port, name: name.to_owned() }))
+}
 
 /// An open port.
-pub struct Serial {
+struct Serial {
     port: Box<dyn SerialPort>,
     name: String,
 }
 
 impl Serial {
-    /// Opens a port by the system's name for it.
-    ///
-    /// # Errors
-    /// [`DeviceError::Port`].
-    pub fn open(name: &str) -> Result<Serial, DeviceError> {
-        let port = serialport::new(name, BAUD).open();
-        let port = port.map_err(|error| DeviceError::Port { port: name.to_owned(), reason: plain(&error) })?;
-        Ok(Serial { port, name: name.to_owned() })
-    }
-
     fn failed(&self, reason: &dyn std::fmt::Display) -> DeviceError {
         DeviceError::Port { port: self.name.clone(), reason: reason.to_string() }
     }

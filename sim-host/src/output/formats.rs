@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::part::{Missing, Part};
+
 /// Formats of tables and pictures. Tables are always written as CSV: they are the record of the run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Formats {
@@ -17,8 +19,8 @@ pub struct Formats {
 impl Formats {
     /// What every command writes: tables as CSV, pictures as SVG.
     pub const PLAIN: Formats = Formats { parquet: false, svg: true, png: false };
-    /// All there are.
-    pub const ALL: Formats = Formats { parquet: true, svg: true, png: true };
+    /// All that the program was built with.
+    pub const ALL: Formats = Formats { parquet: Part::PARQUET.is_built(), svg: true, png: Part::PNG.is_built() };
 }
 
 /// A list of formats that cannot be followed.
@@ -30,6 +32,9 @@ pub enum FormatsError {
     /// A name that no format has.
     #[error("`{0}` is not a format; there are csv, parquet, svg and png")]
     Unknown(String),
+    /// A format that the program was built without.
+    #[error("{0}")]
+    Missing(#[from] Missing),
 }
 
 impl FromStr for Formats {
@@ -41,9 +46,9 @@ impl FromStr for Formats {
         for name in list.split(',').map(str::trim) {
             match name {
                 "csv" => csv = true,
-                "parquet" => formats.parquet = true,
+                "parquet" => formats.parquet = Part::PARQUET.allow(true)?,
                 "svg" => formats.svg = true,
-                "png" => formats.png = true,
+                "png" => formats.png = Part::PNG.allow(true)?,
                 other => return Err(FormatsError::Unknown(other.to_owned())),
             }
         }
@@ -69,15 +74,28 @@ mod tests {
 
     #[test]
     fn lists_read_back() {
-        for formats in [Formats::PLAIN, Formats::ALL, Formats { parquet: true, svg: false, png: false }] {
+        for formats in [Formats::PLAIN, Formats::ALL, Formats { svg: false, ..Formats::PLAIN }] {
             assert_eq!(formats.to_string().parse(), Ok(formats));
         }
-        assert_eq!("png, csv,svg,parquet".parse(), Ok(Formats::ALL));
+        assert_eq!(" svg, csv".parse(), Ok(Formats::PLAIN));
+    }
+
+    #[test]
+    fn what_the_program_was_built_without_is_refused() {
+        for (name, part) in [("parquet", Part::PARQUET), ("png", Part::PNG)] {
+            let list = format!("csv,{name}");
+            match list.parse::<Formats>() {
+                Ok(formats) => assert!(part.is_built() && formats.to_string() == list, "{formats}"),
+                Err(refused) => {
+                    assert!(!part.is_built() && refused.to_string().ends_with(&format!("`--features {name}`")), "{refused}")
+                }
+            }
+        }
     }
 
     #[test]
     fn lists_without_csv_and_other_names_are_refused() {
-        assert_eq!("svg,png".parse::<Formats>(), Err(FormatsError::WithoutCsv));
+        assert_eq!("svg".parse::<Formats>(), Err(FormatsError::WithoutCsv));
         assert_eq!("csv,pdf".parse::<Formats>(), Err(FormatsError::Unknown("pdf".to_owned())));
         assert_eq!("".parse::<Formats>(), Err(FormatsError::Unknown(String::new())));
     }

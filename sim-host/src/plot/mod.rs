@@ -26,12 +26,16 @@ mod marker;
 mod palette;
 mod panel;
 mod panel_heading;
+#[cfg_attr(not(feature = "png"), path = "no_png.rs")]
 mod png;
 mod rug;
 mod sensitivity_figure;
 #[cfg(test)]
 pub(crate) mod synthetic;
 mod text_width;
+#[cfg(test)]
+#[cfg_attr(not(feature = "png"), path = "no_texts_apart.rs")]
+mod texts_apart;
 mod ticks;
 mod time_axis;
 mod trade_off_figure;

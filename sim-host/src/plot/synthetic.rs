@@ -1,8 +1,6 @@
-//! For the tests of the figures: a check of SVG text, and responses that are half waves of growing or shrinking height.
+//! For the tests of the figures: checks of SVG text, and responses that are half waves of growing or shrinking height.
 
-use resvg::tiny_skia::Rect;
-use resvg::usvg::{Group, Node};
-
+pub(crate) use super::texts_apart::assert_texts_apart;
 use crate::history::{History, Sample};
 
 const ALPHA_RAD: f64 = 0.15;
@@ -141,40 +139,6 @@ pub(crate) fn assert_well_formed(svg: &str) {
             let (x, y) = pair.split_once(',').expect("a pair");
             let (x, y): (i32, i32) = (x.parse().unwrap(), y.parse().unwrap());
             assert!((0..=width).contains(&x) && (0..=height).contains(&y), "{pair}");
-        }
-    }
-}
-
-/// How far the inks of two texts may run into each other (px): edges of letters.
-const TOUCHING_PX: f32 = 0.3;
-
-/// No two texts overlap, in the font of PNG pictures, and none leaves the canvas.
-pub(crate) fn assert_texts_apart(svg: &str) {
-    let tree = super::png::tree(svg).expect("a figure is SVG");
-    let mut texts = Vec::new();
-    collect_texts(tree.root(), &mut texts);
-    assert!(!texts.is_empty());
-    let (width, height) = (tree.size().width(), tree.size().height());
-    for (index, (text, ink)) in texts.iter().enumerate() {
-        let inside = ink.left() >= 0.0 && ink.top() >= 0.0 && ink.right() <= width && ink.bottom() <= height;
-        assert!(inside, "{text:?} leaves the canvas of {width} x {height}: {ink:?}");
-        for (other, other_ink) in &texts[..index] {
-            let across = ink.right().min(other_ink.right()) - ink.left().max(other_ink.left());
-            let up = ink.bottom().min(other_ink.bottom()) - ink.top().max(other_ink.top());
-            assert!(across.min(up) < TOUCHING_PX, "{text:?} at {ink:?} runs into {other:?} at {other_ink:?}");
-        }
-    }
-}
-
-fn collect_texts(group: &Group, texts: &mut Vec<(String, Rect)>) {
-    for node in group.children() {
-        match node {
-            Node::Group(group) => collect_texts(group, texts),
-            Node::Text(text) => {
-                let words = text.chunks().iter().map(|chunk| chunk.text()).collect();
-                texts.push((words, text.flattened().abs_bounding_box()));
-            }
-            Node::Path(_) | Node::Image(_) => {}
         }
     }
 }

@@ -1,0 +1,12 @@
+//! In a program without serial ports there are devices in the emulator only.
+
+use super::line::{DeviceError, Line};
+use crate::part::{Missing, Part};
+
+/// Refuses to open a port.
+///
+/// # Errors
+/// [`DeviceError::Port`].
+pub fn open(name: &str) -> Result<Box<dyn Line>, DeviceError> {
+    Err(DeviceError::Port { port: name.to_owned(), reason: Missing(Part::SERIAL).to_string() })
+}
