@@ -96,7 +96,7 @@ fn parquet_holds_what_csv_holds_and_what_made_it() {
     // The same with pyarrow, where it can be had.
     let what = "Parquet files with pyarrow";
     let folders = outs.each_ref().map(PathBuf::as_path);
-    let Some(printed) = super::python::printed("tables_against_python.py", "pyarrow", &folders, what) else { return };
+    let Some(printed) = super::needs_python::printed("tables_against_python.py", "pyarrow", &folders, what) else { return };
     let found: serde_json::Value = serde_json::from_slice(&printed).unwrap();
     let found = found.as_object().unwrap();
     assert_eq!(found.len(), outs.iter().map(|out| parquet_files(out).len()).sum::<usize>());

@@ -1,7 +1,5 @@
 //! The same data by statsmodels and SciPy: see `statistics_against_python.py`.
 
-mod python;
-
 use serde_json::Value;
 use sprag_sim_host::statistics::{DemandPoint, Fragility, Level, Observation, PowerLaw, fragility, normal, quantile, student};
 
@@ -50,7 +48,7 @@ fn statsmodels_and_scipy_agree() {
 /// What Python finds; `None` where that cannot be had.
 fn reference() -> Option<Value> {
     let what = "power laws and fragilities with statsmodels and SciPy";
-    let printed = python::printed("statistics_against_python.py", "python", &[], what)?;
+    let printed = super::printed("statistics_against_python.py", "python", &[], what)?;
     Some(serde_json::from_slice(&printed).unwrap())
 }
 

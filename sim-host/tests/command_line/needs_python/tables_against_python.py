@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from python.packages import ensure_packages
+from packages import ensure_packages
 
 REQUIREMENTS = ("pyarrow==26.0.1",)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Demand regressions and fragilities by statsmodels and SciPy, of data sets made from a seed, as JSON for `statistics_against_python.rs`.
+"""Demand regressions and fragilities by statsmodels and SciPy, of data sets made from a seed, as JSON for `statistics.rs`.
 
     laws          ln D = ln a + b ln IM by sm.OLS, with the bands of get_prediction
     fragilities   P = Φ((ln IM − μ)/β) by sm.Probit, by Newton's method, and by sm.GLM with the binomial family and Fisher
@@ -18,7 +18,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from python.packages import ensure_packages
+from packages import ensure_packages
 
 REQUIREMENTS = ("numpy==2.4.6", "scipy==1.17.1", "statsmodels==0.15.0")
 LEVEL = 0.9
