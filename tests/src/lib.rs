@@ -9,6 +9,7 @@ pub mod emulation;
 pub mod flash;
 pub mod pulse;
 pub mod pulse_records;
+pub mod records;
 pub mod reference;
 pub mod sample_tape;
 pub mod shipped;
@@ -20,12 +21,12 @@ pub use sprag_stability::{
     overturned_without_impact, relative, release, resized, sane, shake, tight, unit_block,
 };
 
-/// A file of the shared folder, or None, with one line on stderr, where that folder is absent.
-pub fn shared_file(name: &str) -> Option<PathBuf> {
+/// A file of the folder beside the repository.
+///
+/// # Panics
+/// If it is absent.
+pub fn shared_file(name: &str) -> PathBuf {
     let path = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared")).join(name);
-    if path.exists() {
-        return Some(path);
-    }
-    eprintln!("SKIPPED: the optional shared folder has no {name}");
-    None
+    assert!(path.exists(), "this test needs {}, which is not part of the repository", path.display());
+    path
 }

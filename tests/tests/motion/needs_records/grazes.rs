@@ -21,8 +21,9 @@ fn overrunning(record: &str, mass_ratio: f64) -> DeviceRun {
 
 /// With this mass ratio the rack of a falling block grows as fast as its flywheel and no faster; its neighbours pass by, and the motions are the same.
 #[test]
+#[ignore = "needs the recorded motions beside the repository: run by cargo xtask test"]
 fn a_flywheel_that_the_rack_just_reaches_ends_no_run() {
-    let Some(record) = shared_file(RECORD) else { return };
+    let record = shared_file(RECORD);
     let record = record.to_str().unwrap();
     let [before, graze, after] = [0.232, 0.232_132_767_753_602_3, 0.2322].map(|mass_ratio| overrunning(record, mass_ratio));
     assert_eq!((before.outcome, after.outcome), (graze.outcome, graze.outcome));
