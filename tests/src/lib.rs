@@ -6,6 +6,7 @@
 pub mod device_loop;
 pub mod dice;
 pub mod emulation;
+#[path = "../../shared/src/device/tests/flash.rs"]
 pub mod flash;
 pub mod pulse;
 pub mod pulse_records;
