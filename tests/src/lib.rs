@@ -13,6 +13,7 @@ pub mod pulse_records;
 pub mod records;
 pub mod reference;
 pub mod sample_tape;
+pub mod scene_text;
 pub mod shipped;
 
 use std::path::PathBuf;

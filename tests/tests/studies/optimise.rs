@@ -18,10 +18,10 @@ use sprag_sim_host::optimise::tried::{MOST_ROWS, Tried, TriedError};
 use sprag_sim_host::optimise::typed_tables::{DesignTable, MotionTable};
 use sprag_sim_host::outcome::Outcome;
 use sprag_sim_host::output::Subject;
-use sprag_sim_host::scene::Scene;
-use sprag_sim_host::simulation::{DeviceRun, RunError, simulate};
+use sprag_sim_host::simulation::{DeviceRun, RunError};
 use sprag_sim_host::statistics::quantile;
 use sprag_tests::pulse_records::sine_pulses;
+use sprag_tests::scene_text::runs;
 
 /// Pulses of which the bare block of 1 m survives some, and an optimisation over two laws and two mounts.
 const SCENE: &str = "[[structure]]\nname = 'small'\nset = { 'block.size_m' = 1.0 }\n";
@@ -289,8 +289,7 @@ fn simulated(best: &Row, record: &Path, size_m: f64) -> DeviceRun {
         best.mass_ratio.unwrap(),
         record.display()
     );
-    let scene = Scene::parse(&text, "again.toml").unwrap();
-    simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0)
+    runs(&text).remove(0)
 }
 
 /// Outcomes, forces and strokes of the best design, again.

@@ -1,8 +1,7 @@
 //! Clutches at a graze: what they watch touches zero, and rounding decides whether they hold.
 
-use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::scene::Scene;
-use sprag_sim_host::simulation::{DeviceRun, simulate};
+use sprag_sim_host::simulation::DeviceRun;
+use sprag_tests::scene_text::runs;
 use sprag_tests::shared_file;
 
 const RECORD: &str = "records/vacalderon_g3/RSN1492_CHICHI_TCU052-E.AT2.g3";
@@ -14,9 +13,7 @@ fn overrunning(record: &str, mass_ratio: f64) -> DeviceRun {
          ground = [{{ motion = 'record', file = '{record}', time_step_s = 0.005, units = 'g' }}]
          run = {{ free_time_s = 10.0 }}"
     );
-    let scene = Scene::parse(&text, "graze").unwrap();
-    let ground = scene.ground_motions().unwrap();
-    simulate(&scene, &ground, &Interrupt::default()).unwrap().remove(0)
+    runs(&text).remove(0)
 }
 
 /// With this mass ratio the rack of a falling block grows as fast as its flywheel and no faster; its neighbours pass by, and the motions are the same.
