@@ -15,7 +15,6 @@ use sprag_shared::ground::Harmonics;
 use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, Restitution, Structure};
 use sprag_tests::emulation::{emulate, firmware, kernels};
 
-const DEVICES: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
 const METHODS: [FixedMethod; 3] = [FixedMethod::SemiImplicitEuler, FixedMethod::RungeKutta4, FixedMethod::Taylor];
 
 /// σ = 0.5, η = 0.85.
@@ -133,7 +132,7 @@ fn compare(name: &str, case: &Case<'_>) -> Ending {
 #[test]
 #[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn figure05_is_the_same_on_the_board() {
-    for kind in DEVICES {
+    for kind in DeviceKind::ALL {
         for method in METHODS {
             let case = Case { method, ..figure05(kind) };
             assert_eq!(compare(&format!("figure05 {kind:?} {method:?}"), &case), Ending::Safe);
@@ -145,7 +144,7 @@ fn figure05_is_the_same_on_the_board() {
 #[test]
 #[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn figure10_is_the_same_on_the_board() {
-    for kind in DEVICES {
+    for kind in DeviceKind::ALL {
         assert_eq!(compare(&format!("figure10 {kind:?}"), &figure10(kind)), Ending::Safe);
     }
 }
@@ -269,7 +268,7 @@ fn vertical_motion_is_the_same_on_the_board() {
     let [record, up] = pulse();
     let ground = Ground::Record { interval: record.interval, samples: &record.samples, vertical: Some(&up.samples) };
     let drivetrains = [Drivetrain::default(), effects().pop().unwrap().drivetrain];
-    for kind in DEVICES {
+    for kind in DeviceKind::ALL {
         // Without a device there is no drivetrain.
         let count = if kind == DeviceKind::None { 1 } else { 2 };
         for &drivetrain in &drivetrains[..count] {
