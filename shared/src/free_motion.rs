@@ -164,7 +164,7 @@ mod tests {
 
     #[test]
     fn a_motion_settles_as_it_does_when_followed() {
-        for kind in [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair] {
+        for kind in DeviceKind::ALL {
             compare(Geometry::Full, kind, |coupling| FullIntegral { coupling });
             compare(Geometry::Slender, kind, |coupling| SlenderIntegral { inertia: 1.0 + coupling });
         }

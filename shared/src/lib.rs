@@ -21,6 +21,10 @@
 #[cfg(test)]
 extern crate std;
 
+// Modules that tests share with other crates name this one as those do.
+#[cfg(test)]
+extern crate self as sprag_shared;
+
 pub mod accumulation;
 pub mod any_body;
 pub mod any_equation;

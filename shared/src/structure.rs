@@ -29,6 +29,11 @@ pub enum DeviceKind {
     ClutchedPair,
 }
 
+impl DeviceKind {
+    /// Every kind.
+    pub const ALL: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
+}
+
 /// Which acceleration the inerter's terminals have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum KinematicsKind {

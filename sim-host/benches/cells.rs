@@ -5,7 +5,6 @@
 //! several passes. The yardstick of the same run is the number of slender-block Runge-Kutta steps a second.
 
 use std::hint::black_box;
-use std::time::Instant;
 
 use sprag_shared::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::carried::Carried;
@@ -16,40 +15,44 @@ use sprag_shared::observer::Peaks;
 use sprag_shared::rocking::State;
 use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure};
 use sprag_shared::taylor::Taylor;
-use sprag_sim_host::batch::case::{Case, PulseShape, TERMS, TIGHT};
+use sprag_sim_host::batch::case::{TERMS, TIGHT};
 use sprag_sim_host::ground_motion::{Component, GroundMotion};
 use sprag_sim_host::simulation::drive::{Course, Overturning};
 use sprag_sim_host::synthesis::NearFaultMotion;
 
-const SIDE: u32 = 64;
+mod figure08;
+
+use figure08::{cells, fastest};
+
 const PASSES: usize = 9;
 /// Last terms of the series on a record, over α.
 const RECORD_TOLERANCE: f64 = 1e-12;
 /// Coefficients of the series on a record, whose pieces are short.
 const RECORD_TERMS: usize = 9;
-const DEVICES: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
 
 fn main() {
     let steps = yardstick();
     println!("yardstick: {:.1} million slender Runge-Kutta steps a second\n", steps / 1e6);
     println!("{:8} {:14} {:>14} {:>22}", "geometry", "device", "cells/s", "yardstick steps/cell");
+    let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
     for geometry in [Geometry::Full, Geometry::Slender] {
-        let mut total = 0.0;
-        for device in DEVICES {
-            let seconds = fastest(|| grid(geometry, device));
-            total += seconds;
-            let rate = f64::from(2 * SIDE * SIDE) / seconds;
+        let (mut count, mut total) = (0, 0.0);
+        for device in DeviceKind::ALL {
+            let cells = cells(geometry, device);
+            let seconds = fastest(PASSES, || cells.iter().for_each(|case| _ = black_box(case.run(&method))));
+            (count, total) = (count + cells.len(), total + seconds);
+            let rate = cells.len() as f64 / seconds;
             println!("{:8} {:14} {rate:14.0} {:22.0}", format!("{geometry:?}"), format!("{device:?}"), steps / rate);
         }
-        let rate = f64::from(6 * SIDE * SIDE) / total;
+        let rate = count as f64 / total;
         println!("{:8} {:14} {rate:14.0} {:22.0}\n", format!("{geometry:?}"), "all", steps / rate);
     }
     println!("{:8} {:14} {:>20} {:>20}", "geometry", "device", "ms for 40 s at 5 ms", "error of the peak");
     let motion = NearFaultMotion { duration_s: 40.0, ..NearFaultMotion::DEFAULT }.acceleration_m_s2().unwrap_or_default();
     let ground = GroundMotion::sum(&[Component::record(0.0, 0.005, motion.iter().map(|a| a / GRAVITY))]);
     for geometry in [Geometry::Full, Geometry::Slender] {
-        for device in DEVICES {
-            let seconds = fastest(|| {
+        for device in DeviceKind::ALL {
+            let seconds = fastest(PASSES, || {
                 black_box(record(&ground, geometry, device, RECORD_TOLERANCE));
             });
             let error = record(&ground, geometry, device, RECORD_TOLERANCE) / record(&ground, geometry, device, 1e-18) - 1.0;
@@ -58,21 +61,11 @@ fn main() {
     }
 }
 
-fn fastest(mut work: impl FnMut()) -> f64 {
-    (0..PASSES)
-        .map(|_| {
-            let start = Instant::now();
-            work();
-            start.elapsed().as_secs_f64()
-        })
-        .fold(f64::INFINITY, f64::min)
-}
-
 /// Steps a second of one dependent chain.
 fn yardstick() -> f64 {
     const STEPS: u32 = 1_000_000;
     let block = SlenderBlock { frequency_squared: 1.0, slenderness: 0.2, inertia: 1.0, lever: 1.0 };
-    let seconds = fastest(|| {
+    let seconds = fastest(PASSES, || {
         let mut state = (0.1, 0.0);
         for _ in 0..STEPS {
             let first = block.acceleration(1.0, state.0, state.1, 0.0);
@@ -81,43 +74,6 @@ fn yardstick() -> f64 {
         black_box(state);
     });
     f64::from(STEPS) / seconds
-}
-
-fn grid(geometry: Geometry, device: DeviceKind) {
-    let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
-    let along = |index: u32, low: f64, high: f64| low + (high - low) * f64::from(index) / f64::from(SIDE - 1);
-    for pulse in [PulseShape::Sine, PulseShape::Cosine] {
-        for row in 0..SIDE {
-            for column in 0..SIDE {
-                let case = Case {
-                    geometry,
-                    device,
-                    pulse,
-                    frequency_ratio: along(column, 0.2, 8.0),
-                    amplitude_ratio: along(row, 1.0, 10.0),
-                    ..Case::default()
-                };
-                let _ = black_box(case.run(&method));
-            }
-        }
-    }
-}
-
-/// By the core, alone.
-fn peak(structure: &Structure, ground: &GroundMotion, tolerance: f64) -> f64 {
-    let system = structure.resolve().unwrap();
-    let course = Course {
-        block: &structure.block,
-        geometry: structure.geometry,
-        ground,
-        vertical: None,
-        free_time: 10.0,
-        overturning: Overturning::Proven,
-    };
-    let (mut state, mut peaks) = (State::default(), Peaks::default());
-    let method = Taylor::<f64, RECORD_TERMS>::adaptive(tolerance);
-    let _ = course.follow(&system, &method, &mut state, &mut peaks, || true);
-    peaks.rotation
 }
 
 /// Peak rotation of a block that stays up, so that the whole record is integrated.
@@ -132,5 +88,9 @@ fn record(ground: &GroundMotion, geometry: Geometry, kind: DeviceKind, tolerance
         restitution: Restitution::Constant(0.95),
         rest_speed: REST_SPEED,
     };
-    peak(&structure, ground, tolerance)
+    let course = Course::of(&structure, ground, 10.0, Overturning::Proven);
+    let (mut state, mut peaks) = (State::default(), Peaks::default());
+    let method = Taylor::<f64, RECORD_TERMS>::adaptive(tolerance);
+    let _ = course.follow(&structure.resolve().unwrap(), &method, &mut state, &mut peaks, || true);
+    peaks.rotation
 }

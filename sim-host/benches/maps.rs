@@ -5,41 +5,43 @@
 //! passes, with the ratios that a shared machine leaves standing; and what two threads are worth.
 
 use std::hint::black_box;
-use std::time::Instant;
 
 use rayon::prelude::*;
 use sprag_shared::block::Geometry;
 use sprag_shared::structure::DeviceKind;
 use sprag_shared::taylor::Taylor;
-use sprag_sim_host::batch::case::{Case, PulseShape, TERMS, TIGHT};
+use sprag_sim_host::batch::case::{TERMS, TIGHT};
 use sprag_sim_host::ensemble::machine::{Registers, run};
 use sprag_sim_host::ensemble::pulsed::PulsedBlock;
 
-const SIDE: u32 = 64;
+mod figure08;
+
+use figure08::{cells, fastest};
+
 const PASSES: usize = 15;
-const DEVICES: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
 
 fn main() {
     println!("cells a second on one core; times the core's own speed in brackets");
     println!("{:8} {:14} {:>22} {:>22} {:>12}", "geometry", "device", "widest registers", "baseline registers", "core");
     for geometry in [Geometry::Full, Geometry::Slender] {
-        let mut totals = [0.0; 3];
-        for device in DEVICES {
-            let cases = grid(geometry, device);
+        let (mut count, mut totals) = (0, [0.0; 3]);
+        for device in DeviceKind::ALL {
+            let cases = cells(geometry, device);
             let pulsed: Vec<PulsedBlock> = cases.iter().map(PulsedBlock::from).collect();
             let lanes = |registers| fastest(PASSES, || drop(black_box(run(&pulsed, registers))));
             let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
             let alone = fastest(3, || cases.iter().for_each(|case| _ = black_box(case.run(&method))));
             let seconds = [lanes(Registers::Widest), lanes(Registers::Baseline), alone];
+            count += cases.len();
             for (total, seconds) in totals.iter_mut().zip(seconds) {
                 *total += seconds;
             }
             row(&format!("{geometry:?}"), &format!("{device:?}"), cases.len(), seconds);
         }
-        row(&format!("{geometry:?}"), "all", 6 * (SIDE * SIDE) as usize, totals);
+        row(&format!("{geometry:?}"), "all", count, totals);
     }
     let cases: Vec<PulsedBlock> =
-        DEVICES.iter().flat_map(|&device| grid(Geometry::Full, device)).map(|c| PulsedBlock::from(&c)).collect();
+        DeviceKind::ALL.iter().flat_map(|&device| cells(Geometry::Full, device)).map(|c| PulsedBlock::from(&c)).collect();
     let cases: Vec<PulsedBlock> = (0..4).flat_map(|_| cases.iter().copied()).collect();
     let threads = |count: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
@@ -52,32 +54,8 @@ fn main() {
     println!("\ntwo threads against one: {:.2} times as fast", threads(1) / threads(2));
 }
 
-fn grid(geometry: Geometry, device: DeviceKind) -> Vec<Case> {
-    let along = |index: u32, low: f64, high: f64| low + (high - low) * f64::from(index) / f64::from(SIDE - 1);
-    let mut cases = Vec::new();
-    for pulse in [PulseShape::Sine, PulseShape::Cosine] {
-        for row in 0..SIDE {
-            for column in 0..SIDE {
-                let (frequency_ratio, amplitude_ratio) = (along(column, 0.2, 8.0), along(row, 1.0, 10.0));
-                cases.push(Case { geometry, device, pulse, frequency_ratio, amplitude_ratio, ..Case::default() });
-            }
-        }
-    }
-    cases
-}
-
 fn row(geometry: &str, device: &str, cells: usize, seconds: [f64; 3]) {
     let rate = |index: usize| cells as f64 / seconds[index];
     let times = |index: usize| format!("{:.0} ({:.1})", rate(index), seconds[2] / seconds[index]);
     println!("{geometry:8} {device:14} {:>22} {:>22} {:12.0}", times(0), times(1), rate(2));
-}
-
-fn fastest(passes: usize, mut work: impl FnMut()) -> f64 {
-    (0..passes)
-        .map(|_| {
-            let start = Instant::now();
-            work();
-            start.elapsed().as_secs_f64()
-        })
-        .fold(f64::INFINITY, f64::min)
 }

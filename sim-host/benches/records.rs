@@ -29,7 +29,6 @@ const STEP: f64 = 0.005;
 const FREE_TIME: f64 = 10.0;
 /// The core takes one run of so many.
 const SPARSE: usize = 100;
-const DEVICES: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
 
 fn main() {
     let motions: Vec<Samples> = (0..MOTIONS).map(|seed| Samples::new(STEP, motion(seed))).collect();
@@ -40,7 +39,7 @@ fn main() {
     );
     for geometry in [Geometry::Full, Geometry::Slender] {
         let (mut runs, mut seconds) = (0, 0.0);
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             let structures: Vec<Structure> = (0..STRUCTURES).filter_map(|index| structure(geometry, device, index)).collect();
             let asked: Vec<ShakenBlock<'_>> =
                 structures.iter().flat_map(|one| motions.iter().filter_map(|samples| shaken(one, samples))).collect();
@@ -129,16 +128,8 @@ fn motion(seed: u32) -> Vec<f64> {
 
 /// By the core, alone.
 fn alone(structure: &Structure, ground: &GroundMotion) -> (State<f64>, Peaks<f64>) {
-    let system = structure.resolve().unwrap();
-    let course = Course {
-        block: &structure.block,
-        geometry: structure.geometry,
-        ground,
-        vertical: None,
-        free_time: FREE_TIME,
-        overturning: Overturning::Reached,
-    };
+    let course = Course::of(structure, ground, FREE_TIME, Overturning::Reached);
     let (mut state, mut peaks) = (State::default(), Peaks::default());
-    let _ = course.follow(&system, &Taylor::<f64, TERMS>::adaptive(TIGHT), &mut state, &mut peaks, || true);
+    let _ = course.follow(&structure.resolve().unwrap(), &Taylor::<f64, TERMS>::adaptive(TIGHT), &mut state, &mut peaks, || true);
     (state, peaks)
 }

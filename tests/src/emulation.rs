@@ -4,26 +4,28 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// The core with its own checks, if everything that the emulation needs is there; otherwise says what is not.
-pub fn firmware() -> Option<PathBuf> {
+/// The image of the core with its own checks.
+///
+/// # Panics
+/// If it or the emulator is absent.
+pub fn firmware() -> PathBuf {
     image("SPRAG_EMULATED_CORE_ELF")
 }
 
-/// The controller's firmware, likewise.
-pub fn controller_firmware() -> Option<PathBuf> {
+/// The image of the controller's firmware, likewise.
+///
+/// # Panics
+/// As [`firmware`].
+pub fn controller_firmware() -> PathBuf {
     image("SPRAG_FIRMWARE_ELF")
 }
 
-fn image(variable: &str) -> Option<PathBuf> {
-    let Some(elf) = std::env::var_os(variable) else {
-        eprintln!("SKIPPED: {variable} is not set; `cargo xtask test` builds the firmware and sets it");
-        return None;
-    };
-    if Command::new("qemu-system-arm").arg("--version").stdout(Stdio::null()).status().is_err() {
-        eprintln!("SKIPPED: qemu-system-arm is not installed");
-        return None;
-    }
-    Some(elf.into())
+fn image(variable: &str) -> PathBuf {
+    let elf = std::env::var_os(variable);
+    let elf = elf.unwrap_or_else(|| panic!("{variable} names no image; `cargo xtask test` builds one and names it"));
+    let emulator = Command::new("qemu-system-arm").arg("--version").stdout(Stdio::null()).status();
+    assert!(emulator.is_ok(), "qemu-system-arm is not installed");
+    elf.into()
 }
 
 /// Runs the firmware in the emulator, in `folder` with a case file or none, and gives its lines.

@@ -6,26 +6,29 @@
 pub mod device_loop;
 pub mod dice;
 pub mod emulation;
+#[path = "../../shared/src/device/tests/flash.rs"]
 pub mod flash;
 pub mod pulse;
 pub mod pulse_records;
+pub mod records;
 pub mod reference;
 pub mod sample_tape;
+pub mod scene_text;
 pub mod shipped;
 
 use std::path::PathBuf;
 
 pub use sprag_stability::{
-    DEVICES, Dice, FullLog, GEOMETRIES, Ground, Log, Logged, Sampled, Segment, Start, boundary, follow,
-    overturned_without_impact, relative, release, resized, sane, shake, tight, unit_block,
+    Dice, FullLog, GEOMETRIES, Ground, Log, Logged, Sampled, Segment, Start, boundary, follow, overturned_without_impact,
+    relative, release, resized, sane, shake, tight, unit_block,
 };
 
-/// A file of the shared folder, or None, with one line on stderr, where that folder is absent.
-pub fn shared_file(name: &str) -> Option<PathBuf> {
+/// A file of the folder beside the repository.
+///
+/// # Panics
+/// If it is absent.
+pub fn shared_file(name: &str) -> PathBuf {
     let path = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared")).join(name);
-    if path.exists() {
-        return Some(path);
-    }
-    eprintln!("SKIPPED: the optional shared folder has no {name}");
-    None
+    assert!(path.exists(), "this test needs {}, which is not part of the repository", path.display());
+    path
 }

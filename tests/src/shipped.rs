@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use sprag_sim_host::interrupt::Interrupt;
 use sprag_sim_host::map::grid::Grid;
 use sprag_sim_host::scene::{Scene, overrides, text_of};
 use sprag_sim_host::similarity::compare::Response;
 use sprag_sim_host::similarity::groups::{Group, groups};
-use sprag_sim_host::simulation::{DeviceRun, simulate};
+use sprag_sim_host::simulation::DeviceRun;
+
+use crate::scene_text::run;
 
 fn path(scene: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(scene)
@@ -30,11 +31,6 @@ pub fn grid(scene: &str, changes: &[&str]) -> Grid {
     let mut scene = Scene::of_table(table.clone(), &origin, &[]).expect("a scene");
     scene.folder = path.parent().expect("a folder").to_owned();
     Grid::new(scene, table).expect("axes")
-}
-
-fn run(scene: &Scene) -> Vec<DeviceRun> {
-    let ground = scene.ground_motions().expect("a motion");
-    simulate(scene, &ground, &Interrupt::default()).expect("a run")
 }
 
 /// The runs of a scene, one a device.

@@ -2,6 +2,8 @@
 
 mod accuracy;
 mod budget;
+#[cfg(test)]
+mod documentation_links;
 mod effects;
 mod firmware;
 mod fuzz;

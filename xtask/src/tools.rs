@@ -51,6 +51,19 @@ pub fn need_cxx() -> Result<(), Stop> {
     need("g++", candidates)
 }
 
+/// A Python with the packages that the file `requirements` lists, in a virtual environment of its own.
+///
+/// # Errors
+/// If there is no Python, or the packages cannot be had.
+pub fn python(root: &Path, requirements: &str) -> Result<PathBuf, Stop> {
+    let folder = root.join("target/python");
+    let python = folder.join("bin/python");
+    // Again over one that is there: a few seconds, and one that was left half made is whole.
+    run(Command::new("python3").args(["-m", "venv"]).arg(&folder))?;
+    run(Command::new(&python).args(["-m", "pip", "install", "--quiet", "--requirement"]).arg(root.join(requirements)))?;
+    Ok(python)
+}
+
 /// Looks for one of the programs, installs the package if none answers, and looks again.
 fn need(package: &str, programs: &[&str]) -> Result<(), Stop> {
     let found = || programs.iter().any(|program| answers(program, &["--version"]));

@@ -178,7 +178,7 @@ fn single_precision_is_close_to_double() {
         system.advance(&method, &mut state, &Quiet, 20.0, &limits, &mut peaks).unwrap();
         peaks.rotation
     };
-    for kind in [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair] {
+    for kind in DeviceKind::ALL {
         let case = figure05(kind);
         let exact = in_double(&case.structure);
         for (method, step, tolerance) in [

@@ -96,7 +96,7 @@ impl<'a> Case<'a> {
         }
         let block = Block::new(input.number("size")?, input.number("slenderness")?, input.number("inertia_ratio")?)?;
         let geometry = input.kind("geometry", &[Geometry::Full, Geometry::Slender])?;
-        let kind = input.kind("device", &[DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair])?;
+        let kind = input.kind("device", &DeviceKind::ALL)?;
         let mass_ratio = input.number("mass_ratio")?;
         let mount = input.kind("mount", &[0, 1, 2])?;
         let (height, pulley_ratio) = (input.number("height")?, input.number("pulley_ratio")?);

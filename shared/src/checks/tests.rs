@@ -13,7 +13,6 @@ const MOUNTS: [Mount; 4] = [
     Mount::TyingPoint { height: 0.5, pulley_ratio: 1.0 },
     Mount::BaseCorners { pulley_ratio: 4.0 },
 ];
-const KINDS: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
 
 impl Placed for Checks<f64> {
     fn place(&mut self, origin: f64) {
@@ -98,7 +97,7 @@ fn pull(structure: &Structure, look: &Look) -> f64 {
 }
 
 fn each_full(mut visit: impl FnMut(&Structure)) {
-    for kind in KINDS {
+    for kind in DeviceKind::ALL {
         for kinematics in [KinematicsKind::Paper, KinematicsKind::Consistent] {
             for mount in MOUNTS {
                 visit(&structure(12.0, Geometry::Full, kind, kinematics, mount));
@@ -330,7 +329,7 @@ fn contact_is_lost_where_the_block_would_fly() {
 #[test]
 fn a_fall_can_be_left_out() {
     for geometry in [Geometry::Full, Geometry::Slender] {
-        for kind in KINDS {
+        for kind in DeviceKind::ALL {
             let structure = structure(12.0, geometry, kind, KinematicsKind::Consistent, Mount::CentreOfMass);
             let alpha = structure.block.slenderness();
             let go =

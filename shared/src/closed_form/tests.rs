@@ -110,8 +110,6 @@ fn follow<S: Real, M: Method<S>>(structure: &Structure, method: &M, segments: &[
     (state, log)
 }
 
-const DEVICES: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
-
 /// Pulses, a wavelet and a record; blocks rock on, overturn or come to rest.
 fn motions() -> Vec<Vec<Segment>> {
     let quiet = Segment::line(0.0, 0.0, 2.75);
@@ -143,7 +141,7 @@ fn difference<S: Real>((state, log): &(State<S>, Log<S>), (exact, exact_log): &(
 #[test]
 fn it_is_the_taylor_methods_motion_whatever_the_step() {
     for (index, segments) in motions().iter().enumerate() {
-        for kind in DEVICES {
+        for kind in DeviceKind::ALL {
             let exact = run(kind, &Taylor::<f64, 20>::adaptive(1e-17), segments);
             assert!(exact.1.events.len() >= 4, "motion {index}: {:?}", exact.1.events);
             for step in [1e-4, 1e-3, 0.02, 0.3, 100.0] {
@@ -159,7 +157,7 @@ fn it_is_the_taylor_methods_motion_whatever_the_step() {
 #[test]
 fn single_precision_has_its_own_rounding_and_nothing_more() {
     for (index, segments) in motions().iter().enumerate() {
-        for kind in DEVICES {
+        for kind in DeviceKind::ALL {
             let exact = run(kind, &Taylor::<f64, 20>::adaptive(1e-17), segments);
             for step in [1e-3, 0.02, 0.5] {
                 let error = difference(&run(kind, &ClosedForm { step: step as f32 }, segments), &exact);
@@ -228,7 +226,7 @@ fn it_knows_where_it_applies() {
 #[test]
 fn elsewhere_it_is_the_runge_kutta_method() {
     let segments = &motions()[0];
-    for kind in DEVICES {
+    for kind in DeviceKind::ALL {
         let structure = structure(kind, Geometry::Full);
         let (state, log) = follow::<f64, _>(&structure, &ClosedForm { step: 0.01 }, segments);
         let (same, same_log) = follow::<f64, _>(&structure, &FixedStep::RungeKutta4 { step: 0.01 }, segments);

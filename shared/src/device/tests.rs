@@ -1,9 +1,9 @@
 //! What a device does when it is asked, and what it goes on with after a reset.
 
 use super::kept::{Kept, MOST_RESTARTS};
-use super::reset::Cause;
 use super::{Answer, Device, Surroundings};
 use crate::control::event_log::Kind;
+use crate::control::model::KnownAny;
 use crate::control::supervisor::Phase;
 use crate::link::*;
 use crate::settings::assemble::AnyController;
@@ -18,23 +18,11 @@ mod resume;
 mod rig;
 mod wraps;
 
-const AROUND: Surroundings = Surroundings {
-    version: [1, 2, 3],
-    build: *b"01234567",
-    board: *b"rig\0\0\0\0\0\0\0\0\0",
-    counter_hz: 1_000_000,
-    rehearsal: false,
-    cause: Cause::PowerOn,
-    bad_frames: 0,
-    lost_reports: 0,
-    stack: 0,
-};
-
 /// A device with its block and its flash.
 struct Bench {
     device: Device,
     store: Store<Flash>,
-    rig: Rig,
+    rig: Rig<KnownAny>,
 }
 
 impl Bench {
@@ -44,12 +32,12 @@ impl Bench {
 
     fn with(settings: &Settings, kept: Option<&Kept>) -> Bench {
         let controller = AnyController::of(settings).unwrap();
-        let (store, _) = Store::open(Flash::new());
-        Bench { device: Device::new(&controller, settings, kept), store, rig: Rig::new(settings) }
+        let (store, _) = Store::open(Flash::default());
+        Bench { device: Device::new(&controller, settings, kept), store, rig: Rig::new(controller.model) }
     }
 
     fn answer(&mut self, request: Request) -> Answer {
-        self.device.answer_storing(&request, &mut self.store, &AROUND)
+        self.device.answer_storing(&request, &mut self.store, &Surroundings::default())
     }
 
     /// The reply to a request that has one.
@@ -70,7 +58,7 @@ impl Bench {
     /// Of the estimates of θ, rad, and θ̇, rad/s.
     fn errors(&self) -> [f32; 2] {
         let estimate = self.device.decision().estimate;
-        let (rotation, velocity) = self.rig.motion();
+        let Rig { rotation, velocity, .. } = self.rig;
         [(estimate.rotation - rotation).abs(), (estimate.velocity - velocity).abs()]
     }
 
@@ -96,7 +84,7 @@ impl Bench {
         bench.until(Phase::Rocking, 1000);
         let swings = (0..4000).any(|_| {
             bench.tick();
-            bench.rig.motion().0.abs() > 5e-3
+            bench.rig.rotation.abs() > 5e-3
         });
         assert!(swings && bench.device.decision().phase == Phase::Rocking, "{:?}", bench.rig);
         bench
@@ -180,7 +168,7 @@ fn what_flash_does_not_take_is_not_applied() {
     assert!(full > 0);
     assert_eq!(bench.ask(apply), Reply::Refused(Refusal::FlashFull));
     assert_eq!(*bench.device.settings(), Settings::default());
-    let mut flash = Flash::new();
+    let mut flash = Flash::default();
     flash.broken = true;
     bench.store = Store::open(flash).0;
     assert_eq!(bench.ask(apply), Reply::Refused(Refusal::FlashFailed));
@@ -232,7 +220,7 @@ fn in_motion_nothing_changes() {
         assert_eq!(bench.ask(request), busy, "{request:?}");
     }
     assert_eq!(bench.ask(Request::Sample(told(1))), Reply::Refused(Refusal::NotHere));
-    let mut untouched = Bench { device: before, store: Store::open(Flash::new()).0, rig: bench.rig.clone() };
+    let mut untouched = Bench { device: before, store: Store::open(Flash::default()).0, rig: bench.rig.clone() };
     for _ in 0..100 {
         assert_eq!(bench.tick(), untouched.tick());
         assert_eq!(bench.device.decision(), untouched.device.decision());

@@ -11,8 +11,6 @@ use std::vec::Vec;
 
 impl Placed for Ledger<f64> {}
 
-const KINDS: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
-
 fn ledger(structure: &Structure) -> Ledger<f64> {
     let clutching = match structure.device.kind {
         DeviceKind::ClutchedPair => Clutching::Ideal,
@@ -31,7 +29,7 @@ fn follow(structure: &Structure, ground: &[(Shake, f64)], from: Option<(f64, f64
 fn worst_residual(ground: impl Fn(&Block) -> Vec<(Shake, f64)>) -> f64 {
     let mut worst: f64 = 0.0;
     for geometry in [Geometry::Full, Geometry::Slender] {
-        for kind in KINDS {
+        for kind in DeviceKind::ALL {
             for kinematics in [KinematicsKind::Paper, KinematicsKind::Consistent] {
                 for mount in [Mount::CentreOfMass, Mount::TyingPoint { height: 3.0, pulley_ratio: 1.5 }] {
                     let structure = structure(10.0, geometry, kind, kinematics, mount);
@@ -79,7 +77,7 @@ const QUIET: [(Shake, f64); 1] = [(Shake::Line(Linear { start: 0.0, slope: 0.0 }
 
 #[test]
 fn a_free_block_leaves_all_it_had_to_its_impacts_and_brakes() {
-    for kind in KINDS {
+    for kind in DeviceKind::ALL {
         let structure = structure(10.0, Geometry::Full, kind, KinematicsKind::Consistent, Mount::CentreOfMass);
         let alpha = structure.block.slenderness();
         let (state, entries) = follow(&structure, &QUIET, Some((-0.6 * alpha, 0.0)));

@@ -66,7 +66,7 @@ enum Slot {
 }
 
 /// The settings of a controller in the first two erase sectors of `F`, which is to have a write size of 1, 2 or 4 bytes.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Store<F> {
     flash: F,
     sectors: [Sector; 2],

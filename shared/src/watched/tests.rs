@@ -154,7 +154,7 @@ const MOUNTS: [Mount; 3] =
 #[test]
 fn force_energy_and_what_the_kinematics_take_fit_the_motion() {
     for geometry in [Geometry::Full, Geometry::Slender] {
-        for kind in [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair] {
+        for kind in DeviceKind::ALL {
             for kinematics in [KinematicsKind::Paper, KinematicsKind::Consistent] {
                 for mount in MOUNTS {
                     let structure = structure(12.0, geometry, kind, kinematics, mount);

@@ -75,14 +75,7 @@ impl Subject {
 
     /// What a method follows.
     pub fn course(&self) -> Course<'_> {
-        Course {
-            block: &self.loaded.block,
-            geometry: self.loaded.geometry,
-            ground: &self.ground,
-            vertical: None,
-            free_time: self.free_time,
-            overturning: self.overturning,
-        }
+        Course::of(&self.loaded, &self.ground, self.free_time, self.overturning)
     }
 
     /// When it ends, s.

@@ -22,9 +22,6 @@ mod units;
 mod vertical;
 mod warning;
 
-#[cfg(test)]
-mod archive_tests;
-
 use std::fmt;
 use std::fs::File;
 use std::io::Read as _;

@@ -8,6 +8,7 @@ use sprag_shared::observer::{Observer, Peaks};
 use sprag_shared::rocking::{Limits, Phase, State, Stopped, System};
 use sprag_shared::scalar::Real;
 use sprag_shared::snapshot::DeviceObserver;
+use sprag_shared::structure::Structure;
 
 use crate::ground_motion::{GroundMotion, Segment, ShapePiece};
 
@@ -55,7 +56,12 @@ pub struct Course<'a> {
     pub overturning: Overturning,
 }
 
-impl Course<'_> {
+impl<'a> Course<'a> {
+    /// That of `structure`, as it is loaded, over ground that moves horizontally.
+    pub fn of(structure: &'a Structure, ground: &'a GroundMotion, free_time: f64, overturning: Overturning) -> Course<'a> {
+        Course { block: &structure.block, geometry: structure.geometry, ground, vertical: None, free_time, overturning }
+    }
+
     /// |θ| (rad) at which an outward motion counts as overturned while the ground stays within `bound` (in g).
     pub fn angle<S: Real>(&self, bound: f64) -> S {
         S::of(match (self.overturning, self.geometry) {

@@ -22,7 +22,7 @@ fn written(arguments: &[&str], out: &Path) -> Vec<String> {
 }
 
 /// A small map, a cut and a cloud, each in a folder of its own.
-fn studies(folder: &Path) -> [PathBuf; 3] {
+pub fn studies(folder: &Path) -> [PathBuf; 3] {
     let outs = ["map", "cut", "cloud"].map(|name| folder.join(name));
     let scene = scene("figure08");
     let map = ["map", &scene, "--set", "map.x.cells=24", "--set", "map.y.cells=20", "--set", QUOTED];
@@ -63,7 +63,7 @@ fn fields(reader: &SerializedFileReader<fs::File>) -> Vec<Vec<String>> {
 }
 
 /// Parquet files of `folder`.
-fn parquet_files(folder: &Path) -> Vec<PathBuf> {
+pub fn parquet_files(folder: &Path) -> Vec<PathBuf> {
     let paths = fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
     paths.filter(|path| path.extension().is_some_and(|ending| ending == "parquet")).collect()
 }
@@ -93,14 +93,6 @@ fn parquet_holds_what_csv_holds_and_what_made_it() {
             }
         }
     }
-    // The same with pyarrow, where it can be had.
-    let what = "Parquet files with pyarrow";
-    let folders = outs.each_ref().map(PathBuf::as_path);
-    let Some(printed) = super::python::printed("tables_against_python.py", "pyarrow", &folders, what) else { return };
-    let found: serde_json::Value = serde_json::from_slice(&printed).unwrap();
-    let found = found.as_object().unwrap();
-    assert_eq!(found.len(), outs.iter().map(|out| parquet_files(out).len()).sum::<usize>());
-    assert!(found.values().all(|metadata| metadata["version"] == env!("CARGO_PKG_VERSION")), "{found:?}");
 }
 
 #[test]

@@ -1,12 +1,11 @@
-//! The `sprag` command as a user meets it: what it writes, what it says, and that bad input costs one clear line.
+//! The `sprag` command as a user meets it: what it writes, what it says, that bad input costs one clear line, and its numbers beside Python's.
 
 mod accuracy_options;
 mod bad_input;
 mod formats;
 mod long_runs;
+mod needs_python;
 mod outputs;
-#[path = "../python/mod.rs"]
-mod python;
 mod records;
 mod runs;
 mod studies;

@@ -26,5 +26,5 @@ pub use log::{FullLog, Log, Logged, Sampled, sane};
 pub use number::{boundary, relative};
 pub use precision::{Outcome, Precision, Stepping};
 pub use segment::{Ground, Segment};
-pub use structures::{DEVICES, GEOMETRIES, resized, unit_block};
+pub use structures::{GEOMETRIES, resized, unit_block};
 pub use tally::{Level, Tally};

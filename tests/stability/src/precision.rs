@@ -92,93 +92,56 @@ pub trait Precision: Real {
     fn tolerance(double: f64, single: f64) -> f64;
 }
 
-impl Precision for f64 {
-    const NAME: &'static str = "f64";
-    const DENORMAL: f64 = 1e-310;
+macro_rules! precision {
+    ($number:ident, $denormal:literal, $terms:literal, $tight:literal, |$double:ident, $single:ident| $tolerance:ident) => {
+        impl Precision for $number {
+            const NAME: &'static str = stringify!($number);
+            const DENORMAL: $number = $denormal;
 
-    type Tight = Taylor<f64, 20>;
+            type Tight = Taylor<$number, $terms>;
 
-    fn tight() -> Self::Tight {
-        Taylor::adaptive(1e-17)
-    }
+            fn tight() -> Self::Tight {
+                Taylor::adaptive($tight)
+            }
 
-    fn up(self) -> f64 {
-        self.next_up()
-    }
+            fn up(self) -> $number {
+                self.next_up()
+            }
 
-    fn down(self) -> f64 {
-        self.next_down()
-    }
+            fn down(self) -> $number {
+                self.next_down()
+            }
 
-    fn tally(
-        structure: &Structure,
-        stepping: Stepping<Self>,
-        start: Start<Self>,
-        segments: &[Segment<Self>],
-        mut tally: Tally<Self>,
-    ) -> Outcome<Self> {
-        let (state, (arcs, looks)) = run(structure, stepping, start, segments, &mut tally);
-        Outcome { state, tally, arcs, looks }
-    }
+            fn tally(
+                structure: &Structure,
+                stepping: Stepping<Self>,
+                start: Start<Self>,
+                segments: &[Segment<Self>],
+                mut tally: Tally<Self>,
+            ) -> Outcome<Self> {
+                let (state, (arcs, looks)) = run(structure, stepping, start, segments, &mut tally);
+                Outcome { state, tally, arcs, looks }
+            }
 
-    fn record(
-        structure: &Structure,
-        stepping: Stepping<Self>,
-        start: Start<Self>,
-        segments: &[Segment<Self>],
-        log: &mut Log<Self, true>,
-    ) -> Result<State<Self>, Stopped> {
-        run(structure, stepping, start, segments, log).0
-    }
+            fn record(
+                structure: &Structure,
+                stepping: Stepping<Self>,
+                start: Start<Self>,
+                segments: &[Segment<Self>],
+                log: &mut Log<Self, true>,
+            ) -> Result<State<Self>, Stopped> {
+                run(structure, stepping, start, segments, log).0
+            }
 
-    fn tolerance(double: f64, _single: f64) -> f64 {
-        double
-    }
+            fn tolerance($double: f64, $single: f64) -> f64 {
+                $tolerance
+            }
+        }
+    };
 }
 
-impl Precision for f32 {
-    const NAME: &'static str = "f32";
-    const DENORMAL: f32 = 1e-40;
-
-    type Tight = Taylor<f32, 12>;
-
-    fn tight() -> Self::Tight {
-        Taylor::adaptive(1e-9)
-    }
-
-    fn up(self) -> f32 {
-        self.next_up()
-    }
-
-    fn down(self) -> f32 {
-        self.next_down()
-    }
-
-    fn tally(
-        structure: &Structure,
-        stepping: Stepping<Self>,
-        start: Start<Self>,
-        segments: &[Segment<Self>],
-        mut tally: Tally<Self>,
-    ) -> Outcome<Self> {
-        let (state, (arcs, looks)) = run(structure, stepping, start, segments, &mut tally);
-        Outcome { state, tally, arcs, looks }
-    }
-
-    fn record(
-        structure: &Structure,
-        stepping: Stepping<Self>,
-        start: Start<Self>,
-        segments: &[Segment<Self>],
-        log: &mut Log<Self, true>,
-    ) -> Result<State<Self>, Stopped> {
-        run(structure, stepping, start, segments, log).0
-    }
-
-    fn tolerance(_double: f64, single: f64) -> f64 {
-        single
-    }
-}
+precision!(f64, 1e-310, 20, 1e-17, |double, _single| double);
+precision!(f32, 1e-40, 12, 1e-9, |_double, single| single);
 
 /// The last state, and the arcs and looks that it took.
 fn run<S: Precision, W: Watcher<S>>(

@@ -5,9 +5,6 @@ use sprag_shared::carried::Carried;
 use sprag_shared::lever::Mount;
 use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure};
 
-/// The devices that a block can carry.
-pub const DEVICES: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
-
 /// Both equations of motion.
 pub const GEOMETRIES: [Geometry; 2] = [Geometry::Full, Geometry::Slender];
 

@@ -1,12 +1,8 @@
 //! Ten million frames of random bytes, and of good frames damaged at random, into the decoder and the device of the firmware.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
-
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use sprag_shared::control::sample::{Count, Reading, Sample};
-use sprag_shared::device::reset::Cause;
 use sprag_shared::device::{Answer, Device, Surroundings};
 use sprag_shared::link::{Deframer, FrameError, MAX_FRAME, Mishap, Pace, Reply, Request, TickSample, WORD_BLOCK, Words, encode};
 use sprag_shared::settings::assemble::AnyController;
@@ -18,18 +14,6 @@ use sprag_tests::flash::Flash;
 const FRAMES: u64 = 5_000_000;
 /// Frames after which the device is looked at.
 const BATCH: u64 = 50_000;
-
-const AROUND: Surroundings = Surroundings {
-    version: [0; 3],
-    build: [0; 8],
-    board: [0; 12],
-    counter_hz: 1_000_000,
-    rehearsal: false,
-    cause: Cause::PowerOn,
-    bad_frames: 0,
-    lost_reports: 0,
-    stack: 0,
-};
 
 /// What became of the frames.
 #[derive(Clone, Copy, Debug, Default)]
@@ -160,7 +144,8 @@ impl Dice {
 struct Victim {
     device: Device,
     store: Store<Flash>,
-    flash_changes: Arc<AtomicU32>,
+    /// What is in the store before the first frame.
+    flash: Flash,
     deframer: Deframer,
     attach: Option<Pace>,
 }
@@ -168,12 +153,11 @@ struct Victim {
 impl Victim {
     fn new(attach: Option<Pace>) -> Victim {
         let settings = Settings::default();
-        let flash = Flash::default();
-        let flash_changes = flash.changes();
-        let mut store = Store::open(flash).0;
+        let mut store = Store::open(Flash::default()).0;
         store.store(&settings).unwrap();
+        let flash = store.clone().release();
         let device = Device::new(&AnyController::of(&settings).unwrap(), &settings, None);
-        let mut victim = Victim { device, store, flash_changes, deframer: Deframer::new(), attach };
+        let mut victim = Victim { device, store, flash, deframer: Deframer::new(), attach };
         victim.settle();
         victim
     }
@@ -182,7 +166,7 @@ impl Victim {
     fn settle(&mut self) {
         if self.device.attached() != self.attach {
             let request = self.attach.map_or(Request::Detach, |pace| Request::Attach { pace });
-            self.device.answer_storing(&request, &mut self.store, &AROUND);
+            self.device.answer_storing(&request, &mut self.store, &Surroundings::default());
         }
     }
 
@@ -207,7 +191,8 @@ impl Victim {
                         // That would be an order, and no damage.
                         continue;
                     }
-                    if self.device.answer_storing(&received.message, &mut self.store, &AROUND) == Answer::Sample {
+                    if self.device.answer_storing(&received.message, &mut self.store, &Surroundings::default()) == Answer::Sample
+                    {
                         self.device.tick(|_| {}, 0.0);
                     }
                 }
@@ -215,17 +200,18 @@ impl Victim {
         }
     }
 
-    fn is_unharmed(&mut self, flash_changes: u32) {
+    fn is_unharmed(&mut self) {
         self.device.tick(|_| {}, 0.0);
         assert_eq!(*self.device.settings(), Settings::default());
-        assert_eq!(self.flash_changes.load(Ordering::Relaxed), flash_changes);
+        assert!(self.store.clone().release() == self.flash, "written to");
         let mut frame = [0; MAX_FRAME];
         let length = encode(77, &Request::Identify, &mut frame).unwrap();
         // A zero ends whatever came before.
         self.deframer.feed::<Request>(0);
         let heard = frame[..length].iter().filter_map(|&byte| self.deframer.feed::<Request>(byte)).last().unwrap().unwrap();
         assert_eq!((heard.tag, heard.message), (77, Request::Identify));
-        let Answer::Reply(Reply::Identity(identity)) = self.device.answer_storing(&heard.message, &mut self.store, &AROUND)
+        let Answer::Reply(Reply::Identity(identity)) =
+            self.device.answer_storing(&heard.message, &mut self.store, &Surroundings::default())
         else {
             panic!("no identity")
         };
@@ -237,7 +223,6 @@ impl Victim {
 fn torment(attach: Option<Pace>, seed: u64) -> Tally {
     let mut dice = Dice(ChaCha8Rng::seed_from_u64(seed));
     let mut victim = Victim::new(attach);
-    let flash_changes = victim.flash_changes.load(Ordering::Relaxed);
     let (mut tally, mut bytes) = (Tally::default(), Vec::new());
     let mut look = BATCH;
     while tally.frames() < FRAMES {
@@ -252,11 +237,11 @@ fn torment(attach: Option<Pace>, seed: u64) -> Tally {
             victim.hear(&bytes, &frames, &mut tally);
         }
         if tally.frames() >= look {
-            victim.is_unharmed(flash_changes);
+            victim.is_unharmed();
             look += BATCH;
         }
     }
-    victim.is_unharmed(flash_changes);
+    victim.is_unharmed();
     assert_eq!(Store::open(victim.store.release()).1, Some(Settings::default()));
     tally
 }

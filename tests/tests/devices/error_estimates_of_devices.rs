@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use sprag_reference::effort::Effort;
 use sprag_reference::generate::scene;
 use sprag_reference::simulate::run_with;
-use sprag_sim_host::interrupt::Interrupt;
 use sprag_sim_host::scene::Scene;
-use sprag_sim_host::simulation::{DeviceRun, simulate};
+use sprag_sim_host::simulation::DeviceRun;
+use sprag_tests::scene_text::run;
 
 const SEED: u64 = 23;
 const COUNT: u64 = 300;
@@ -24,8 +24,7 @@ const BOUNDED: f64 = 0.99;
 fn sprag(text: &str, folder: &Path, level: &str) -> DeviceRun {
     let mut scene = Scene::parse(&format!("{text}\n[accuracy]\nlevel = {level:?}\n"), "scene").unwrap();
     scene.folder = folder.to_owned();
-    let ground = scene.ground_motions().unwrap();
-    simulate(&scene, &ground, &Interrupt::default()).unwrap().remove(0)
+    run(&scene).remove(0)
 }
 
 /// What is known of one scene at one level.

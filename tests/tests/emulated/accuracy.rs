@@ -27,7 +27,7 @@ impl Steps<'_> {
 }
 
 fn with_steps(judge: impl FnOnce(&Steps<'_>)) {
-    let Some(elf) = firmware() else { return };
+    let elf = firmware();
     let folder = tempfile::tempdir().unwrap();
     let lines = emulate(&elf, folder.path(), None);
     lines.lines().filter(|line| line.starts_with("kernel step-")).for_each(|line| println!("{line}"));
@@ -37,6 +37,7 @@ fn with_steps(judge: impl FnOnce(&Steps<'_>)) {
 /// The polynomial has no floor to take and gives sine and cosine at once, so it costs no more than micromath's parabola, and
 /// libm works in double precision, which this core does in software.
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn tiers_of_the_sine() {
     with_steps(|steps| {
         for method in METHODS {
@@ -56,6 +57,7 @@ fn tiers_of_the_sine() {
 
 /// A number of the core's own tier is the plain number, and costs what that costs.
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn a_tier_as_a_type_is_free() {
     with_steps(|steps| {
         for (plain, method) in [("rk4-full-clutched-pair", "rk4"), ("euler-full-clutched-pair", "euler")] {
@@ -66,6 +68,7 @@ fn a_tier_as_a_type_is_free() {
 }
 
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn double_precision_is_in_software() {
     with_steps(|steps| {
         for device in DEVICES {
@@ -82,6 +85,7 @@ fn double_precision_is_in_software() {
 
 /// Looking at step ends is cheaper than locating, a device costs something, a line less than a sine, and a method of higher order more.
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn events_devices_geometries_and_methods() {
     with_steps(|steps| {
         for method in METHODS {
@@ -110,6 +114,7 @@ fn events_devices_geometries_and_methods() {
 
 /// The exact motion costs less than two approximate steps, and less than its own series.
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn the_closed_form_is_cheap() {
     with_steps(|steps| {
         for device in DEVICES {

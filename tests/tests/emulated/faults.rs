@@ -1,6 +1,6 @@
 //! Faults between the plant and a device in the emulator: a bad link, bad sensors, bad clutches.
 //!
-//! The numbers of `docs/faults.md` come from `cargo test -p sprag-tests --test emulated faults -- --nocapture`, with the image that
+//! The numbers of `docs/faults.md` come from `cargo test -p sprag-tests --test emulated faults -- --ignored --nocapture`, with the image that
 //! `cargo xtask test` builds. What holds whatever happens is in [`Course::check`].
 
 use sprag_shared::control::controller::Circumstances;
@@ -59,8 +59,9 @@ fn worst_difference(course: &Course) -> (f32, f32) {
 }
 
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn damaged_frames_are_missed_and_nothing_else() {
-    let Some(image) = controller_firmware() else { return };
+    let image = controller_firmware();
     let scene = pulse(&[]);
     let (_, peak) = on_the_host(&scene);
     let cases = [
@@ -101,8 +102,9 @@ fn damaged_frames_are_missed_and_nothing_else() {
 
 /// Samples do not arrive for a while, from mid-swing on.
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn a_silent_link_puts_the_clutches_into_the_safe_state() {
-    let Some(image) = controller_firmware() else { return };
+    let image = controller_firmware();
     let scene = pulse(&[]);
     let from = mid_swing(&on_the_host(&scene).0);
     for (silence, rest) in [(0.002, 0.0), (0.005, 6.0), (0.1, 6.0), (10.0, 14.0)] {
@@ -180,8 +182,9 @@ fn injected(image: &std::path::Path, scene: &LoopScene, failing: Failing, from: 
 }
 
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn every_fault_of_the_sensors_is_found_at_the_hosts_tick() {
-    let Some(image) = controller_firmware() else { return };
+    let image = controller_firmware();
     let scene = pulse(&["run.free_time_s=0.75"]);
     let from = mid_swing(&on_the_host(&scene).0);
     for failing in ALL {
@@ -206,8 +209,9 @@ impl Disturbance for Passing {
 }
 
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn a_sensor_that_recovers_is_trusted_again_after_the_motion() {
-    let Some(image) = controller_firmware() else { return };
+    let image = controller_firmware();
     let scene = pulse(&[]);
     let from = mid_swing(&on_the_host(&scene).0);
     let failing = Failing::Stale(Part::Gyroscope);

@@ -13,7 +13,7 @@ use sprag_sim_host::command::loop_scene::LoopScene;
 
 /// Runs `scene` on the device and on the host.
 fn one_code(name: &str, scene: &LoopScene, way: Way) {
-    let Some(image) = controller_firmware() else { return };
+    let image = controller_firmware();
     let (host, peak) = on_the_host(scene);
     let begun = std::time::Instant::now();
     let course = Trial { way, ..Trial::new(&image, scene) }.run(faithful(), &mut ());
@@ -46,22 +46,26 @@ fn commands(course: &Course) -> usize {
 }
 
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn figure_5_is_the_same_on_the_device() {
     one_code("Figure 5", &scene("figure05.toml", &[]), Way::Streams);
 }
 
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn figure_10_is_the_same_on_the_device() {
     one_code("Figure 10", &scene("figure10.toml", &[]), Way::Streams);
 }
 
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn the_near_fault_motion_is_the_same_on_the_device() {
     one_code("near fault", &scene("near_fault.toml", &["run.free_time_s=0.5"]), Way::Streams);
 }
 
 /// Byte by byte through the emulated USART1, each sample a tick.
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn a_pulse_is_the_same_by_the_serial_line() {
     one_code(
         "sine pulse by USART",

@@ -1,6 +1,6 @@
 //! A device in the emulator that is late, that starts anew in the middle of an earthquake, or that cannot start well.
 //!
-//! The numbers of `docs/faults.md` come from `cargo test -p sprag-tests --test emulated restarts -- --nocapture`, with the image that
+//! The numbers of `docs/faults.md` come from `cargo test -p sprag-tests --test emulated restarts -- --ignored --nocapture`, with the image that
 //! `cargo xtask test` builds. What holds whatever happens is in [`Course::check`].
 
 use std::path::{Path, PathBuf};
@@ -69,8 +69,9 @@ fn stays_safe(course: &Course, back: f64) {
 }
 
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn a_reset_in_mid_earthquake_is_gone_on_from() {
-    let Some(image) = controller_firmware() else { return };
+    let image = controller_firmware();
     let scene = pulse(&["run.free_time_s=0.75"]);
     for (name, time) in instants(&scene) {
         let course = course(&image, &scene, time, Mishap::Reset);
@@ -97,8 +98,9 @@ fn source(name: &str) -> PathBuf {
 }
 
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn a_panic_tells_where_and_a_hard_fault_too() {
-    let Some(image) = controller_firmware() else { return };
+    let image = controller_firmware();
     let scene = pulse(&["run.free_time_s=0.75"]);
     let (_, time) = instants(&scene)[1];
     for (mishap, cause) in [(Mishap::Panic, Cause::Panic), (Mishap::HardFault, Cause::HardFault)] {
@@ -128,8 +130,9 @@ fn a_panic_tells_where_and_a_hard_fault_too() {
 }
 
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn a_late_tick_is_a_fault_and_a_lost_one_a_reset() {
-    let Some(image) = controller_firmware() else { return };
+    let image = controller_firmware();
     let scene = pulse(&["run.free_time_s=0.75"]);
     let (_, time) = instants(&scene)[1];
 
@@ -174,8 +177,9 @@ fn a_late_tick_is_a_fault_and_a_lost_one_a_reset() {
 
 /// Whatever makes it start again and again may be what it remembers.
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn too_many_restarts_lead_to_a_start_from_the_beginning() {
-    let Some(image) = controller_firmware() else { return };
+    let image = controller_firmware();
     let scene = pulse(&[]);
     let (_, time) = instants(&scene)[1];
     let count = usize::from(MOST_RESTARTS) + 1;
@@ -205,8 +209,9 @@ fn too_many_restarts_lead_to_a_start_from_the_beginning() {
 
 /// With other settings than those by which it was in control it must not take control of a block in motion.
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn settings_that_a_reset_takes_back_are_not_gone_on_from() {
-    let Some(image) = controller_firmware() else { return };
+    let image = controller_firmware();
     let scene = pulse(&["run.free_time_s=0.75"]);
     let (_, time) = instants(&scene)[1];
     let trial = Trial { mishaps: &[(time, Mishap::Reset)], boot_time: BOOT, stored: false, ..Trial::new(&image, &scene) };

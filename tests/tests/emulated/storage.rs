@@ -1,6 +1,6 @@
 //! A device in the emulator whose supply fails while settings are written, and one that is sent rubbish.
 //!
-//! The numbers of `docs/faults.md` come from `cargo test -p sprag-tests --test emulated storage -- --nocapture`, with the image that
+//! The numbers of `docs/faults.md` come from `cargo test -p sprag-tests --test emulated storage -- --ignored --nocapture`, with the image that
 //! `cargo xtask test` builds.
 
 use std::path::Path;
@@ -54,8 +54,9 @@ fn store(session: &mut Session<Emulator>, settings: &Settings, bytes: u32) -> Re
 
 /// At every byte of both copies.
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn a_power_cut_leaves_the_old_settings_or_the_new() {
-    let Some(image) = controller_firmware() else { return };
+    let image = controller_firmware();
     let mut session = start(&image);
     let mut one = Settings::default();
     one.set(Item::Slenderness.index(), 0.2_f32.to_bits()).unwrap();
@@ -158,8 +159,9 @@ fn bad(dice: &mut Dice) -> Vec<u8> {
 }
 
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn no_input_makes_it_panic_hang_or_change_its_settings() {
-    let Some(image) = controller_firmware() else { return };
+    let image = controller_firmware();
     const FRAMES: usize = 100_000;
     let mut session = start(&image);
     let mut settings = Settings::default();
@@ -203,8 +205,9 @@ fn no_input_makes_it_panic_hang_or_change_its_settings() {
 
 /// As much as fits into a chunk, with answers that are several times as long.
 #[test]
+#[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn a_chunk_full_of_requests_is_answered_to_the_last() {
-    let Some(image) = controller_firmware() else { return };
+    let image = controller_firmware();
     let mut session = start(&image);
     session.identify().unwrap();
     const REQUESTS: usize = 140;

@@ -11,9 +11,7 @@ use sprag_shared::structure::{DeviceKind, Structure};
 use sprag_shared::taylor::Taylor;
 use sprag_sim_host::batch::case::{Case, CaseResult, PulseShape, TERMS, TIGHT};
 use sprag_sim_host::outcome::Outcome;
-use sprag_tests::{
-    DEVICES, Dice, FullLog, GEOMETRIES, Log, Segment, Start, follow, relative, release, sane, shake, tight, unit_block,
-};
+use sprag_tests::{Dice, FullLog, GEOMETRIES, Log, Segment, Start, follow, relative, release, sane, shake, tight, unit_block};
 
 /// Cases of all kinds, the same on every machine.
 fn cases(count: usize) -> Vec<Case> {
@@ -22,7 +20,7 @@ fn cases(count: usize) -> Vec<Case> {
         .map(|index| Case {
             geometry: GEOMETRIES[index % 2],
             slenderness: dice.between(3.0, 30.0).to_radians(),
-            device: DEVICES[index % 3],
+            device: DeviceKind::ALL[index % 3],
             mass_ratio: dice.between(0.05, 1.5),
             restitution: dice.between(0.4, 0.95),
             pulse: if index % 4 < 2 { PulseShape::Sine } else { PulseShape::Cosine },
@@ -128,7 +126,7 @@ fn the_free_time_does_not_show() {
 fn the_closed_form_tail_agrees_with_every_swing() {
     let mut compared = 0;
     for geometry in GEOMETRIES {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             for degrees in [3.0, 10.0, 20.0, 40.0] {
                 for restitution in [0.3, 0.7, 0.85, 0.95, 0.99] {
                     for start in [0.05, 0.4, 0.9, 0.999] {
@@ -163,7 +161,7 @@ fn the_closed_form_tail_agrees_with_every_swing() {
 #[test]
 fn the_closed_form_tail_has_the_peaks_of_its_swings() {
     for geometry in GEOMETRIES {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             for degrees in [5.0, 25.0] {
                 let structure = unit_block(geometry, degrees, device, 0.7, 0.9);
                 let alpha = structure.block.slenderness();
@@ -190,7 +188,7 @@ fn the_closed_form_tail_has_the_peaks_of_its_swings() {
 /// 2 atanh(v/r) with r = 1 + s c; infinitely many of them end in rest.
 #[test]
 fn accumulating_impacts_end_in_rest_at_their_closed_form() {
-    for device in DEVICES {
+    for device in DeviceKind::ALL {
         for push in [0.0, 0.3, -0.3, 0.9, -0.99] {
             for restitution in [0.0, 0.3, 0.85, 0.98] {
                 for speed in [0.004, 1e-5] {
@@ -249,7 +247,7 @@ fn accumulating_impacts_end_in_rest_at_their_closed_form() {
 #[test]
 fn impacts_under_a_weak_sine_end_in_rest() {
     for geometry in GEOMETRIES {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             // Faster and stronger, a sine below uplift can keep a rocking block going.
             for (level, frequency) in [(0.2, 3.0), (0.5, 1.0), (0.9, 0.3)] {
                 let ends = [1e-7, 1e-6, 1e-5].map(|rest_speed| {
@@ -277,7 +275,7 @@ fn impacts_under_a_weak_sine_end_in_rest() {
 /// Twenty cycles above uplift: rest and uplift take turns, and each uplift is where the sine crosses the threshold.
 #[test]
 fn rest_and_uplift_take_turns() {
-    for device in DEVICES {
+    for device in DeviceKind::ALL {
         let structure = unit_block(Geometry::Full, 15.0, device, 0.5, 0.1);
         let uplift = Geometry::Full.uplift_threshold(&structure.block);
         let (ratio, frequency) = (1.2, 3.0);

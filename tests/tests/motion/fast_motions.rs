@@ -4,35 +4,17 @@ use sprag_shared::block::Geometry;
 use sprag_shared::math;
 use sprag_shared::taylor::Taylor;
 use sprag_sim_host::batch::case::{Case, PulseShape, TERMS, TIGHT};
-use sprag_sim_host::interrupt::Interrupt;
 use sprag_sim_host::outcome::Outcome;
 use sprag_sim_host::scene::Scene;
-use sprag_sim_host::simulation::{DeviceRun, simulate};
-
-const DEVICES: &str = r#"
-[[device]]
-kind = "none"
-[[device]]
-kind = "inerter"
-mass_ratio = 0.5
-[[device]]
-kind = "clutched-pair"
-mass_ratio = 0.5
-[[device]]
-kind = "clutched-pair"
-name = "rigid pair"
-mass_ratio = 0.5
-engagement = "rigid"
-"#;
+use sprag_sim_host::simulation::DeviceRun;
+use sprag_tests::scene_text::{self, IDEAL_DEVICES, RIGID_PAIR};
 
 /// Runs that in units of 1/p are the same for every `p` (1/s).
 fn runs(geometry: &str, p: f64) -> Vec<DeviceRun> {
-    let text = format!(
-        "[block]\nfrequency_parameter_1_s = {p:?}\nslenderness_deg = 10.0\ngeometry = \"{geometry}\"\n{DEVICES}\
+    scene_text::runs(&format!(
+        "[block]\nfrequency_parameter_1_s = {p:?}\nslenderness_deg = 10.0\ngeometry = \"{geometry}\"\n{IDEAL_DEVICES}{RIGID_PAIR}\
          [[ground]]\nmotion = \"sine\"\namplitude_ratio = 2.0\nfrequency_ratio = 4.0\n[run]\nfree_time_ratio = 20.0\n"
-    );
-    let scene = Scene::parse(&text, "scene.toml").unwrap();
-    simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap()
+    ))
 }
 
 /// Blocks of 7 km, 0.7 m and 7 µm under pulses of the same ratios.
@@ -115,9 +97,7 @@ fn a_block_thrown_over_within_one_step_lies_where_it_falls() {
                 let mut scene = Scene::parse(&text, "scene").expect("a scene");
                 // Longer than a scene may ask for.
                 scene.file.accuracy.step_s = Some(step_s);
-                let ground = scene.ground_motions().expect("a pulse");
-                let runs = simulate(&scene, &ground, &Interrupt::default()).expect("a run");
-                let run = &runs[0];
+                let run = &scene_text::run(&scene)[0];
                 assert!(run.outcome.overturned() && run.end_time_s.is_finite(), "{text}\n{step_s} {run:?}");
                 for sample in &run.history.samples {
                     assert!(

@@ -13,13 +13,13 @@ use sprag_shared::taylor::Taylor;
 use sprag_sim_host::batch::case::{Case, PulseShape, TERMS, TIGHT};
 use sprag_sim_host::outcome::Outcome;
 use sprag_tests::{
-    DEVICES, Dice, FullLog, GEOMETRIES, Log, Segment, Start, boundary, follow, relative, release, sane, shake, tight, unit_block,
+    Dice, FullLog, GEOMETRIES, Log, Segment, Start, boundary, follow, relative, release, sane, shake, tight, unit_block,
 };
 
 #[test]
 fn without_restitution_the_first_impact_is_the_end() {
     for geometry in GEOMETRIES {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             let structure = unit_block(geometry, 10.0, device, 0.5, 0.0);
             let alpha = structure.block.slenderness();
             let mut log = FullLog::default();
@@ -40,7 +40,7 @@ fn without_restitution_the_first_impact_is_the_end() {
 #[test]
 fn a_stopped_block_leaves_with_the_push() {
     for geometry in GEOMETRIES {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             for restitution in [0.0, 1e-12, 1e-3, 0.3, 1.0] {
                 for (push, towards) in [(-1.5, 1.0), (1.5, -1.0)] {
                     let structure = unit_block(geometry, 10.0, device, 0.5, restitution);
@@ -67,7 +67,7 @@ fn a_stopped_block_leaves_with_the_push() {
 #[test]
 fn the_unstable_equilibrium_and_its_neighbours() {
     for geometry in GEOMETRIES {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             for side in [1.0, -1.0] {
                 let structure = unit_block(geometry, 10.0, device, 0.5, 0.85);
                 let alpha = structure.block.slenderness();
@@ -105,7 +105,7 @@ fn the_unstable_equilibrium_and_its_neighbours() {
 /// touches at v² = (φ₀ − 1 + b)² − (b − 1)².
 #[test]
 fn a_grazing_impact() {
-    for device in DEVICES {
+    for device in DeviceKind::ALL {
         for (push, start) in [(1.5, 0.2), (1.01, 0.05), (4.0, 0.5)] {
             let structure = unit_block(Geometry::Slender, 10.0, device, 0.5, 0.85);
             let alpha = structure.block.slenderness();
@@ -146,7 +146,7 @@ fn a_grazing_impact() {
 #[test]
 fn uplift_at_the_threshold_and_just_above() {
     for geometry in GEOMETRIES {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             for pulse in [PulseShape::Sine, PulseShape::Cosine] {
                 for frequency_ratio in [0.5, 1.0, 3.7, 40.0] {
                     let case = Case { geometry, device, pulse, frequency_ratio, ..Case::default() };
@@ -233,7 +233,7 @@ fn the_triple_root_at_uplift() {
 /// An impact, the end of a pulse and a clutch command at one instant, or as near as floating point has neighbours.
 #[test]
 fn events_at_one_instant() {
-    for device in DEVICES {
+    for device in DeviceKind::ALL {
         let structure = unit_block(Geometry::Slender, 10.0, device, 0.5, 0.85);
         let alpha = structure.block.slenderness();
         let slower = if device == DeviceKind::None { 1.0 } else { square_root(1.375) };
@@ -273,7 +273,7 @@ fn wild_ground_motions_end() {
     let mut dice = Dice(5);
     for index in 0..600 {
         let geometry = GEOMETRIES[index % 2];
-        let device = DEVICES[index % 3];
+        let device = DeviceKind::ALL[index % 3];
         let restitution = [0.0, 1e-9, 0.1, 0.5, 0.9, 0.99, 0.999][index % 7];
         let mut structure = unit_block(geometry, dice.between(1.0, 60.0), device, dice.between(0.0, 3.0), restitution);
         if index % 5 == 0 {

@@ -9,8 +9,6 @@ use sprag_ensemble::outcome::Outcome;
 use sprag_ensemble::pulsed::{PulseResult, PulsedBlock};
 use sprag_sim_host::batch::case::{Case, PulseShape, TERMS, TIGHT};
 
-const DEVICES: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
-
 /// A coarse grid of everything, dense enough that every kind of event occurs.
 fn cases(geometry: Geometry, device: DeviceKind, side: u32) -> Vec<Case> {
     let along = |index: u32, low: f64, high: f64| low + (high - low) * f64::from(index) / f64::from(side - 1);
@@ -34,7 +32,7 @@ fn cases(geometry: Geometry, device: DeviceKind, side: u32) -> Vec<Case> {
 fn blocks_in_lanes_do_what_they_do_alone() {
     let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
     for geometry in [Geometry::Full, Geometry::Slender] {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             let cases = cases(geometry, device, 17);
             let pulsed: Vec<PulsedBlock> = cases.iter().map(PulsedBlock::from).collect();
             let results = run(&pulsed, Registers::Widest).unwrap();
@@ -60,7 +58,7 @@ fn blocks_in_lanes_do_what_they_do_alone() {
 fn bits_depend_neither_on_registers_nor_on_neighbours() {
     for geometry in [Geometry::Full, Geometry::Slender] {
         let mut pulsed: Vec<PulsedBlock> = Vec::new();
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             pulsed.extend(cases(geometry, device, 9).iter().map(PulsedBlock::from));
         }
         let bits = |results: &[PulseResult]| -> Vec<(Outcome, u64, u64)> {

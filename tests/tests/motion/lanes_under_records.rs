@@ -16,7 +16,6 @@ use sprag_sim_host::batch::case::{TERMS, TIGHT};
 use sprag_sim_host::ground_motion::{Component, GroundMotion};
 use sprag_sim_host::simulation::drive::{Course, Overturning};
 
-const DEVICES: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
 const STEP: f64 = 0.01;
 const FREE_TIME: f64 = 6.0;
 
@@ -54,12 +53,11 @@ fn shaken<'a>(structure: &Structure, samples: &'a Samples, factor: f64) -> Shake
 
 /// By the core, alone.
 fn alone(structure: &Structure, ground: &GroundMotion) -> (State<f64>, Peaks<f64>) {
-    let system = structure.resolve().unwrap();
-    let Structure { block, geometry, .. } = structure;
-    let course =
-        Course { block, geometry: *geometry, ground, vertical: None, free_time: FREE_TIME, overturning: Overturning::Reached };
+    let course = Course::of(structure, ground, FREE_TIME, Overturning::Reached);
     let (mut state, mut peaks) = (State::default(), Peaks::default());
-    course.follow(&system, &Taylor::<f64, TERMS>::adaptive(TIGHT), &mut state, &mut peaks, || true).unwrap();
+    course
+        .follow(&structure.resolve().unwrap(), &Taylor::<f64, TERMS>::adaptive(TIGHT), &mut state, &mut peaks, || true)
+        .unwrap();
     (state, peaks)
 }
 
@@ -73,7 +71,7 @@ fn structures(geometry: Geometry, device: DeviceKind) -> Vec<Structure> {
 fn blocks_under_records_do_what_they_do_alone() {
     let motions: Vec<Samples> = (1..7).map(|seed| Samples::new(STEP, motion(seed, 12.0))).collect();
     for geometry in [Geometry::Full, Geometry::Slender] {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             let mut seen = [0; 3];
             let mut left = 0;
             let mut all = 0;
@@ -121,7 +119,7 @@ fn bits_depend_neither_on_registers_nor_on_neighbours() {
     let motions: Vec<Samples> = (1..4).map(|seed| Samples::new(STEP, motion(seed, 8.0))).collect();
     for geometry in [Geometry::Full, Geometry::Slender] {
         let mut asked = Vec::new();
-        for structure in DEVICES.iter().flat_map(|device| structures(geometry, *device)) {
+        for structure in DeviceKind::ALL.iter().flat_map(|device| structures(geometry, *device)) {
             asked.extend(motions.iter().flat_map(|samples| [0.6, 1.0].map(|factor| shaken(&structure, samples, factor))));
         }
         let bits = |results: &[Option<Shaken>]| -> Vec<Option<(Phase, [u64; 4], u32)>> {
@@ -147,7 +145,7 @@ fn bits_depend_neither_on_registers_nor_on_neighbours() {
 #[test]
 fn a_record_turned_about_gives_the_mirrored_motion() {
     let samples = Samples::new(STEP, motion(3, 10.0));
-    for structure in DEVICES.iter().flat_map(|device| structures(Geometry::Full, *device)) {
+    for structure in DeviceKind::ALL.iter().flat_map(|device| structures(Geometry::Full, *device)) {
         let [one, other] = [0.7, -0.7].map(|factor| shake(&[shaken(&structure, &samples, factor)], Registers::Widest)[0]);
         let (one, other) = (one.unwrap(), other.unwrap());
         assert_eq!((one.rotation, one.velocity, one.peaks), (-other.rotation, -other.velocity, other.peaks));

@@ -6,25 +6,16 @@ use std::path::Path;
 
 use sprag_shared::block::GRAVITY;
 use sprag_shared::math;
-use sprag_sim_host::interrupt::Interrupt;
 use sprag_sim_host::outcome::Outcome;
 use sprag_sim_host::record::{ReadOptions, Record, RecordError, Units, Warning};
 use sprag_sim_host::scene::Scene;
-use sprag_sim_host::simulation::{DeviceRun, simulate};
+use sprag_sim_host::simulation::DeviceRun;
+use sprag_tests::scene_text::{self, IDEAL_DEVICES};
 
 /// A pier with no device, an inerter, an ideal pair, and a pair of rigid clutches that come late and whose flywheels spin.
-const PIER: &str = r#"
-[block]
-size_m = 2.0
-slenderness_deg = 10.0
-[[device]]
-kind = "none"
-[[device]]
-kind = "inerter"
-mass_ratio = 0.5
-[[device]]
-kind = "clutched-pair"
-mass_ratio = 0.5
+fn pier() -> String {
+    let block = "[block]\nsize_m = 2.0\nslenderness_deg = 10.0\n";
+    let real_pair = r#"
 [[device]]
 kind = "clutched-pair"
 name = "real pair"
@@ -38,6 +29,8 @@ motion = "record"
 [run]
 free_time_s = 6.0
 "#;
+    format!("{block}{IDEAL_DEVICES}{real_pair}")
+}
 
 const STEP: f64 = 0.005;
 
@@ -78,8 +71,7 @@ fn runs_of(scene: &str, text: &str, set: &[&str]) -> Vec<DeviceRun> {
 
 /// Runs a scene: finite throughout, in order, and in no more samples than were asked for and the jumps of events.
 fn run(scene: &Scene) -> Vec<DeviceRun> {
-    let ground = scene.ground_motions().unwrap();
-    let runs = simulate(scene, &ground, &Interrupt::default()).unwrap();
+    let runs = scene_text::run(scene);
     for run in &runs {
         let samples = &run.history.samples;
         let finite = |number: &f64| number.is_finite();
@@ -114,8 +106,8 @@ fn assert_same(first: &[DeviceRun], second: &[DeviceRun], tolerance: f64) {
 
 /// What a series of its own steps makes of a motion is what Runge-Kutta makes of it.
 fn assert_right(text: &str) {
-    let fixed = runs_of(PIER, text, &["accuracy.method=runge-kutta-4", "accuracy.step_s=0.0005"]);
-    assert_same(&runs_of(PIER, text, &[]), &fixed, 1e-6);
+    let fixed = runs_of(&pier(), text, &["accuracy.method=runge-kutta-4", "accuracy.step_s=0.0005"]);
+    assert_same(&runs_of(&pier(), text, &[]), &fixed, 1e-6);
 }
 
 #[test]
@@ -174,7 +166,7 @@ fn an_offset_below_the_threshold_moves_nothing() {
         let text = table(&vec![share * threshold; 8000], STEP);
         let warnings = read(&text).unwrap().warnings;
         assert!(warnings.iter().any(|warning| matches!(warning, Warning::NonZeroStart { .. })), "{warnings:?}");
-        for run in runs_of(PIER, &text, &[]) {
+        for run in runs_of(&pier(), &text, &[]) {
             match outcome {
                 Some(outcome) => assert_eq!((run.outcome, run.peak_rotation), (outcome, Some(0.0)), "{share}: {}", run.device),
                 None => assert_ne!(run.outcome, Outcome::NoRocking, "{share}: {}", run.device),
@@ -186,7 +178,7 @@ fn an_offset_below_the_threshold_moves_nothing() {
     let text = table(&samples, STEP);
     let warnings = read(&text).unwrap().warnings;
     assert!(warnings.iter().any(|warning| matches!(warning, Warning::VelocityDrift { .. })), "{warnings:?}");
-    assert!(runs_of(PIER, &text, &[]).iter().all(|run| run.outcome == Outcome::NoRocking));
+    assert!(runs_of(&pier(), &text, &[]).iter().all(|run| run.outcome == Outcome::NoRocking));
 }
 
 /// One sample of 100 g is a triangle of area V, and for a large slender block an impulse: θ̇ becomes p²V/g over the inertia of what is
@@ -208,7 +200,7 @@ fn a_spike_of_100_g_is_an_impulse() {
         // The triangle lasts 10 ms, in which gravity takes up to 10 ms · p of the limit.
         for (share, outcome) in [(0.98, Outcome::Safe), (1.02, Outcome::OverturnedWithoutImpact)] {
             let p = share * limit * GRAVITY * alpha / velocity;
-            let scene = PIER
+            let scene = pier()
                 .replace("size_m = 2.0", &format!("frequency_parameter_1_s = {p:?}\ngeometry = \"slender\""))
                 .replace("slenderness_deg = 10.0", &format!("slenderness_deg = {:?}", alpha.to_degrees()))
                 .replace("free_time_s = 6.0", "free_time_ratio = 15.0");
@@ -239,7 +231,7 @@ fn two_seconds_between_samples_are_refused_and_one_is_not() {
 #[test]
 fn two_thousand_samples_a_second_on_the_same_lines_change_nothing() {
     let samples = swell();
-    let coarse = runs_of(PIER, &table(&samples, STEP), &[]);
+    let coarse = runs_of(&pier(), &table(&samples, STEP), &[]);
     assert!(coarse.iter().all(|run| run.outcome == Outcome::Safe && run.impacts > 0));
     let resampled = Record::parse(
         "record.csv",
@@ -257,7 +249,7 @@ fn two_thousand_samples_a_second_on_the_same_lines_change_nothing() {
     for fine in [resampled.acceleration_m_s2, lines] {
         let text = table(&fine, 0.1 * STEP);
         assert_eq!(read(&text).unwrap().time_step_s, 0.1 * STEP);
-        let fine = runs_of(PIER, &text, &[]);
+        let fine = runs_of(&pier(), &text, &[]);
         assert_same(&coarse, &fine, 1e-9);
         for (one, other) in coarse.iter().zip(&fine) {
             assert_eq!((one.impacts, one.clutch_switches), (other.impacts, other.clutch_switches), "{}", one.device);
@@ -286,7 +278,7 @@ fn joined_records_are_one_motion_after_the_other() {
     write("first.AT2", &at2(first.len(), &first));
     write("second.AT2", &at2(second.len(), &second));
     let start = first.len() as f64 * STEP;
-    let both = PIER.replace(
+    let both = pier().replace(
         "[[ground]]\nmotion = \"record\"\n",
         &format!(
             "[[ground]]\nmotion = \"record\"\nfile = \"first.AT2\"\n[[ground]]\nmotion = \"record\"\nfile = \"second.AT2\"\nstart_s = {start:?}\n"
@@ -295,7 +287,7 @@ fn joined_records_are_one_motion_after_the_other() {
     let path = folder.path().join("both.toml");
     std::fs::write(&path, both).unwrap();
     let apart = run(&Scene::load(Path::new(&path), &[]).unwrap());
-    let together = runs_of(PIER, &text, &[]);
+    let together = runs_of(&pier(), &text, &[]);
     assert!(together.iter().any(|run| run.impacts > 20));
     assert_same(&together, &apart, 1e-9);
 }

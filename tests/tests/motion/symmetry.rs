@@ -14,7 +14,7 @@ use sprag_shared::rocking::Phase;
 use sprag_shared::scalar::Real;
 use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
 use sprag_shared::taylor::Taylor;
-use sprag_tests::{DEVICES, FullLog, GEOMETRIES, Log, Segment, Start, follow, relative, release, resized, shake, unit_block};
+use sprag_tests::{FullLog, GEOMETRIES, Log, Segment, Start, follow, relative, release, resized, shake, unit_block};
 
 /// The same 64 cases on every machine.
 fn config() -> Config {
@@ -33,7 +33,7 @@ fn mounts() -> impl Strategy<Value = Mount> {
 fn structures() -> impl Strategy<Value = Structure> {
     (
         prop::sample::select(&GEOMETRIES),
-        prop::sample::select(&DEVICES),
+        prop::sample::select(&DeviceKind::ALL),
         mounts(),
         prop::sample::select(&[KinematicsKind::Paper, KinematicsKind::Consistent]),
         (2.0..35.0, 0.0..2.0, 0.0..0.99),
@@ -159,7 +159,7 @@ proptest! {
     /// Slender: only ω/p, a_g/(gα), η and σ matter, not R and α.
     #[test]
     fn the_slender_response_depends_on_four_numbers(
-        device in prop::sample::select(&DEVICES),
+        device in prop::sample::select(&DeviceKind::ALL),
         (mass_ratio, restitution) in (0.0..2.0, 0.3..0.99),
         (degrees, other_degrees) in (1.0..45.0, 1.0..45.0),
         size in 0.1..30.0,
@@ -198,7 +198,7 @@ proptest! {
     /// In the consistent kinematics the energy of block and engaged flywheel never grows, instant by instant.
     #[test]
     fn energy_never_grows(
-        device in prop::sample::select(&DEVICES),
+        device in prop::sample::select(&DeviceKind::ALL),
         (degrees, mass_ratio, restitution) in (2.0..45.0, 0.0..3.0, 0.0..1.0),
         start in 0.01..0.99,
     ) {

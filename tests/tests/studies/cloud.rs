@@ -1,12 +1,7 @@
-//! Cloud analyses by the library: synthetic pulses, and the study of the paper's Section 6 under recorded pulse-like motions.
-//!
-//! `cargo test -p sprag-tests --test studies cloud -- --nocapture` prints reductions and fragilities beside the paper's. The folder of
-//! records is not part of the repository.
+//! Cloud analyses by the library, under synthetic pulses.
 
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use sprag_sim_host::cloud::demand::Demand;
 use sprag_sim_host::cloud::figures::{demand_picture, fragility_picture};
 use sprag_sim_host::cloud::findings::Findings;
 use sprag_sim_host::cloud::pages::{demand_page, fragility_page, ranking_page};
@@ -20,14 +15,12 @@ use sprag_sim_host::simulation::RunError;
 use sprag_sim_host::statistics::Fragility;
 use sprag_tests::pulse_records::sine_pulses;
 
-const RECORDS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/records");
-const STUDY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/cloud.toml");
-
 fn study(text: &str, records: &Path) -> Study {
     Study::parse(text, "study.toml", Path::new(""), &[], &[PathBuf::from(records)]).unwrap()
 }
 
-fn run(study: &Study) -> (StudyRecords, Runs, Findings) {
+/// What a study reads, does and finds.
+pub fn run(study: &Study) -> (StudyRecords, Runs, Findings) {
     let records = StudyRecords::read(study).unwrap();
     let runs = Runs::of(study, &records.records, &Interrupt::default(), |_| (), &|| ()).unwrap();
     let findings = Findings::of(study, &runs).unwrap();
@@ -123,92 +116,4 @@ fn an_interrupted_study_has_no_results() {
     let interrupt = Interrupt::default();
     let stopped = Runs::of(&study, &records.records, &interrupt, |_| (), &|| interrupt.set());
     assert!(matches!(stopped, Err(RunError::Interrupted)));
-}
-
-/// The unscaled pulse-like horizontal motions of earthquakes of the paper's Table 1, each counted once, as entries of a study.
-fn pulse_like(index: &str) -> Vec<String> {
-    let mut lines = index.lines();
-    let header: Vec<&str> = lines.next().unwrap_or_default().split('\t').collect();
-    let column = |name: &str| header.iter().position(|title| *title == name).unwrap_or_else(|| panic!("column {name}"));
-    let (file, rsn, component, step) = (column("file"), column("RSN"), column("component"), column("dt_s"));
-    let (table1, baker, fema) = (column("table1_event"), column("pulse_baker2007"), column("fema_p695"));
-    let (shahi, format, scaled) = (column("pulse_shahi_baker_unverified"), column("format"), column("scaled"));
-    let mut counted = BTreeSet::new();
-    let mut entries = Vec::new();
-    for field in lines.map(|line| line.split('\t').collect::<Vec<&str>>()) {
-        let pulse = field[baker] == "yes" || field[shahi] == "yes" || field[fema] == "NF-pulse";
-        let horizontal = !field[component].to_ascii_uppercase().contains(['U', 'V']);
-        let identity =
-            if field[rsn].is_empty() { field[file].to_owned() } else { format!("{} {}", field[rsn], field[component]) };
-        if pulse && horizontal && field[table1] == "yes" && field[scaled] == "no" && counted.insert(identity) {
-            let path = Path::new(RECORDS).join(field[file]);
-            let known = match field[format] {
-                "g3" => format!(", units = 'g', time_step_s = {}", field[step]),
-                _ => String::new(),
-            };
-            entries.push(format!("{{ file = '{}'{known} }}", path.display()));
-        }
-    }
-    entries
-}
-
-#[test]
-fn the_study_of_the_paper_under_recorded_motions() {
-    let Ok(index) = std::fs::read_to_string(Path::new(RECORDS).join("INDEX.tsv")) else {
-        eprintln!("SKIPPED: the folder of recorded motions is absent; the study of the paper's Section 6 was not run");
-        return;
-    };
-    let text = std::fs::read_to_string(STUDY).unwrap();
-    let (keys, tables) = text.split_at(text.find("[[structure]]").unwrap());
-    let text = format!("{keys}records = [{}]\n{tables}", pulse_like(&index).join(", "));
-    let folder = Path::new(STUDY).parent().unwrap();
-    let study = Study::parse(&text, "cloud.toml", folder, &[], &[]).unwrap();
-    let (records, runs, findings) = run(&study);
-    assert!(records.unreadable.is_empty() && runs.left_out.is_empty(), "{:?} {:?}", records.unreadable, runs.left_out);
-    eprintln!("{} pulse-like motions (the paper: 202)", records.records.len());
-
-    let percent = |ratio: f64| 100.0 * (1.0 - ratio);
-    for ratio in &findings.demand_ratios {
-        let (medians, pairs) = (ratio.medians.unwrap(), ratio.pairs.unwrap());
-        let paper = match (ratio.demand, ratio.device.as_str()) {
-            (Demand::PeakRotation, "inerter") => "30 %",
-            (Demand::PeakRotation, _) => "55 %",
-            (Demand::PeakAcceleration, "inerter") => "25 %",
-            (Demand::PeakAcceleration, _) => "less than with the inerter",
-        };
-        eprintln!(
-            "{}, {}: reduction {:.0} % of the medians, {:.0} % over {} pairs (the paper: {paper})",
-            ratio.device,
-            ratio.demand.name(),
-            percent(medians.middle),
-            percent(pairs.median),
-            ratio.number_of_pairs
-        );
-        if ratio.demand == Demand::PeakRotation {
-            assert!(medians.middle < 0.95 && pairs.median < 0.95, "{ratio:?}");
-        }
-    }
-    let [inerter, pair] = [0, 1].map(|device| findings.demand_ratios[device].medians.unwrap().middle);
-    assert!(pair < inerter, "the clutch reduces rotations further: {pair} {inerter}");
-
-    // The paper's numbers are called the mean IM; by size they are medians e^μ.
-    for found in &findings.fragility {
-        let paper = match (found.structure.ends_with("0.5"), found.device.as_str()) {
-            (_, "none") => "1.08",
-            (true, "inerter") => "1.22",
-            (true, _) => "1.34",
-            (false, _) => "in its Figure 16b",
-        };
-        let overturned = format!("{}, {}: {} of {} overturned", found.structure, found.device, found.overturned, found.runs);
-        match found.fragility.curve() {
-            Some(curve) => eprintln!(
-                "{overturned}, median {:.2} (the paper: {paper}), μ = {:.3} ± {:.3}, β = {:.3} ± {:.3}",
-                curve.median, curve.mu, curve.mu_standard_error, curve.beta, curve.beta_standard_error
-            ),
-            None => eprintln!("{overturned}: {}", found.reason.as_deref().unwrap_or_default()),
-        }
-    }
-    let unprotected = &findings.fragility[0];
-    assert!(unprotected.fragility.curve().is_some(), "{:?}", unprotected.fragility);
-    assert!(findings.fragility.iter().all(|found| found.overturned <= unprotected.overturned));
 }

@@ -4,6 +4,8 @@ mod accuracy_study;
 mod batch_parts;
 mod cloud;
 mod maps;
+mod needs_cells;
+mod needs_records;
 mod optimise;
 mod refine;
 mod similarity;

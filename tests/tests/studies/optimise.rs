@@ -1,7 +1,4 @@
 //! The choice of a device by the library: what is chosen is the best of what was tried, and does what a simulation of it does.
-//!
-//! `cargo test -p sprag-tests --test studies optimise -- --nocapture` prints the choice under a few recorded motions. The folder of records is
-//! not part of the repository.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -21,11 +18,10 @@ use sprag_sim_host::optimise::tried::{MOST_ROWS, Tried, TriedError};
 use sprag_sim_host::optimise::typed_tables::{DesignTable, MotionTable};
 use sprag_sim_host::outcome::Outcome;
 use sprag_sim_host::output::Subject;
-use sprag_sim_host::scene::Scene;
-use sprag_sim_host::simulation::{DeviceRun, RunError, simulate};
+use sprag_sim_host::simulation::{DeviceRun, RunError};
 use sprag_sim_host::statistics::quantile;
 use sprag_tests::pulse_records::sine_pulses;
-use sprag_tests::shared_file;
+use sprag_tests::scene_text::runs;
 
 /// Pulses of which the bare block of 1 m survives some, and an optimisation over two laws and two mounts.
 const SCENE: &str = "[[structure]]\nname = 'small'\nset = { 'block.size_m' = 1.0 }\n";
@@ -36,7 +32,8 @@ fn pulses() -> tempfile::TempDir {
     sine_pulses(&[0.2, 0.35, 0.5, 0.8], &[0.5, 0.9, 1.4])
 }
 
-fn study(optimise: &str, records: &Path) -> Study {
+/// A study of the small block with a table `[optimise]`.
+pub fn study(optimise: &str, records: &Path) -> Study {
     let text = format!("{SCENE}[optimise]\n{SPACE}{optimise}");
     Study::parse(&text, "study.toml", Path::new(""), &[], &[PathBuf::from(records)]).unwrap()
 }
@@ -292,12 +289,11 @@ fn simulated(best: &Row, record: &Path, size_m: f64) -> DeviceRun {
         best.mass_ratio.unwrap(),
         record.display()
     );
-    let scene = Scene::parse(&text, "again.toml").unwrap();
-    simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0)
+    runs(&text).remove(0)
 }
 
 /// Outcomes, forces and strokes of the best design, again.
-fn simulated_again(study: &Study, path_of: impl Fn(&str) -> PathBuf) {
+pub fn simulated_again(study: &Study, path_of: impl Fn(&str) -> PathBuf) {
     answered(study, |problem, solution, findings| {
         let best = findings.best.as_ref().unwrap();
         let design = solution.designs.iter().find(|design| design.candidate == best.candidate).unwrap();
@@ -328,16 +324,4 @@ fn simulated_again(study: &Study, path_of: impl Fn(&str) -> PathBuf) {
 fn the_best_device_does_the_same_in_a_scene_of_its_own() {
     let folder = pulses();
     simulated_again(&study("largest_force_ratio = 0.2", folder.path()), |name| folder.path().join(name));
-}
-
-#[test]
-fn the_same_holds_under_recorded_motions() {
-    let Some(folder) = shared_file("records/tclmodel_near_pulse") else { return };
-    let mut files: Vec<PathBuf> = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    files.sort();
-    let few = tempfile::tempdir().unwrap();
-    for file in files.iter().filter(|file| file.extension().is_some_and(|ending| ending == "AT2")).step_by(5) {
-        std::fs::copy(file, few.path().join(file.file_name().unwrap())).unwrap();
-    }
-    simulated_again(&study("largest_force_ratio = 0.25", few.path()), |name| few.path().join(name));
 }

@@ -127,7 +127,7 @@ fn a_method_runs_what_it_is_for() {
 fn both_loops_move_an_ideal_device_alike() {
     let drivetrain = Drivetrain { actuation: Actuation { miss_seed: 7, ..Actuation::default() }, ..Drivetrain::default() };
     for geometry in [Geometry::Full, Geometry::Slender] {
-        for kind in [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair] {
+        for kind in DeviceKind::ALL {
             let base = figure05(kind);
             let ideal = Case { structure: Structure { geometry, ..base.structure }, ..base };
             let other = Case { drivetrain, ..ideal };

@@ -1,23 +1,25 @@
-//! Flash in memory.
+//! Flash in memory, for whatever tests a device: this crate, the tests of the workspace and a fuzz target have this file as a module.
 
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashErrorKind, ReadNorFlash};
 use std::vec;
 use std::vec::Vec;
 
-/// Room for a few copies of the settings.
-const SECTOR: usize = 2048;
+/// Room for two copies of the settings, so that it is soon full.
+const SECTOR: usize = 1024;
 
 /// Two sectors, written in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Flash {
-    pub bytes: Vec<u8>,
+    bytes: Vec<u8>,
+    /// How often it has been written or erased.
+    changes: u32,
     /// It takes nothing more.
     pub broken: bool,
 }
 
-impl Flash {
-    pub fn new() -> Flash {
-        Flash { bytes: vec![0xff; 2 * SECTOR], broken: false }
+impl Default for Flash {
+    fn default() -> Flash {
+        Flash { bytes: vec![0xff; 2 * SECTOR], changes: 0, broken: false }
     }
 }
 
@@ -44,6 +46,7 @@ impl NorFlash for Flash {
     const ERASE_SIZE: usize = SECTOR;
 
     fn erase(&mut self, from: u32, to: u32) -> Result<(), NorFlashErrorKind> {
+        self.changes += 1;
         self.bytes[from as usize..to as usize].fill(0xff);
         Ok(())
     }
@@ -52,6 +55,7 @@ impl NorFlash for Flash {
         if self.broken {
             return Err(NorFlashErrorKind::Other);
         }
+        self.changes += 1;
         for (place, byte) in self.bytes[offset as usize..].iter_mut().zip(bytes) {
             *place &= byte;
         }

@@ -18,7 +18,7 @@ fn it_goes_on_where_it_was() {
         let mut again = reset(&bench);
         assert!(again.device.resumes());
         assert_eq!(again.device.kept().spins, bench.device.kept().spins);
-        let mut steady = Bench { device: bench.device.clone(), store: Store::open(Flash::new()).0, rig: bench.rig.clone() };
+        let mut steady = Bench { device: bench.device.clone(), store: Store::open(Flash::default()).0, rig: bench.rig.clone() };
         for number in 0..40 {
             assert_eq!(again.tick(), Phase::Rocking);
             steady.tick();

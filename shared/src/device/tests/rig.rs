@@ -1,24 +1,21 @@
-//! A block for a device to hold: the model of its own controller, moved by small steps, on a ground that keeps still until it is told to
-//! shake, seen through sensors with biases, noise and steps.
+//! A block for a controller to hold: the controller's own model, moved by small steps in f32, on a ground that keeps still until it is told to
+//! shake, seen through sensors with biases, noise and steps. The same on every machine, to the last bit: the emulated core has this file as
+//! a module too.
 
-use crate::block::GRAVITY;
-use crate::body::Body;
-use crate::control::controller::Controller;
-use crate::control::model::{KnownAny, Model};
-use crate::control::sample::{Count, Reading, Sample};
-use crate::math::sine32;
-use crate::scalar::Sign;
-use crate::settings::Settings;
-use crate::settings::assemble::AnyController;
+use sprag_shared::block::GRAVITY;
+use sprag_shared::control::model::{KnownBody, Model};
+use sprag_shared::control::sample::{Count, Reading, Sample};
+use sprag_shared::math::sine32;
+use sprag_shared::scalar::Sign;
 
 /// A control tick and a step of the block, s.
-const PERIOD: f32 = 5e-4;
+pub const PERIOD: f32 = 5e-4;
 
 /// Amplitude of the ground's acceleration, g, and its angular frequency, rad/s.
 const GROUND: (f32, f32) = (0.5, 9.0);
 
 /// Ticks from a command to the clutch that has moved.
-const CLUTCH_TICKS: u32 = 10;
+pub const CLUTCH_TICKS: u32 = 10;
 
 /// Slower than this (rad/s) a block comes to rest at an impact.
 const REST_SPEED: f32 = 1e-3;
@@ -37,16 +34,18 @@ const GYROSCOPE: Part = Part { bias: 0.008, noise: 0.002, step: 2.664_624_2e-4 }
 /// 20 mg, 70 µg/√Hz, 4096 counts to g.
 const ACCELEROMETER: Part = Part { bias: 0.15, noise: 0.03, step: 2.394_201_6e-3 };
 /// Rack over R in a count of 5 µm.
-const TRAVEL_PER_COUNT: f32 = 2.5e-6;
+pub const TRAVEL_PER_COUNT: f32 = 2.5e-6;
 /// Count of the encoder when the block stands.
 const ENCODER_START: i32 = -12_345;
 
 /// The block, its flywheels, clutches and sensors.
 #[derive(Clone, Debug)]
-pub struct Rig {
-    model: Model<KnownAny>,
-    rotation: f32,
-    velocity: f32,
+pub struct Rig<B> {
+    model: Model<B>,
+    /// θ, rad.
+    pub rotation: f32,
+    /// θ̇, rad/s.
+    pub velocity: f32,
     acceleration: f32,
     side: Sign,
     stands: bool,
@@ -62,10 +61,9 @@ pub struct Rig {
     noise: u32,
 }
 
-impl Rig {
+impl<B: KnownBody> Rig<B> {
     /// At rest.
-    pub fn new(settings: &Settings) -> Rig {
-        let Controller { model, .. } = AnyController::of(settings).unwrap();
+    pub fn new(model: Model<B>) -> Rig<B> {
         Rig {
             model,
             rotation: 0.0,
@@ -83,17 +81,12 @@ impl Rig {
         }
     }
 
-    /// θ, rad, and θ̇, rad/s.
-    pub fn motion(&self) -> (f32, f32) {
-        (self.rotation, self.velocity)
-    }
-
     /// What the sensors say now.
     pub fn sample(&mut self) -> Sample {
         self.tick += 1;
         self.shaken += u32::from(self.shakes);
         let ground =
-            if self.shakes { GROUND.0 * sine32::sin_cos_of_phase(GROUND.1 * PERIOD * self.shaken as f32).0 } else { 0.0 };
+            if self.shakes { GROUND.0 * sine32::sin_cos_of_phase(GROUND.1 * (PERIOD * self.shaken as f32)).0 } else { 0.0 };
         if self.stands && ground.abs() > self.model.facts.uplift {
             (self.stands, self.side) = (false, Sign::of(-ground, Sign::Positive));
         }

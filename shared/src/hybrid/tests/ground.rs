@@ -31,7 +31,7 @@ fn shaken(structure: &Structure, horizontal: Ground, vertical: Option<Ground>, d
 #[test]
 fn constant_vertical_acceleration_is_another_gravity() {
     for geometry in [Geometry::Slender, Geometry::Full] {
-        for kind in [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair] {
+        for kind in DeviceKind::ALL {
             for vertical in [-0.4, 0.3] {
                 let structure = structure(geometry, 12.0, kind, 0.4, KinematicsKind::Consistent);
                 let (amplitude, frequency) = (0.9, 12.0);

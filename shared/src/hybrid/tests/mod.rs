@@ -261,13 +261,11 @@ pub fn tight() -> Series<f64, 20> {
     Series::adaptive(1e-17)
 }
 
-const KINDS: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
-
 /// With an ideal drivetrain it is a second program for the same model.
 #[test]
 fn ideal_devices_move_as_in_their_own_loop() {
     for geometry in [Geometry::Slender, Geometry::Full] {
-        for kind in KINDS {
+        for kind in DeviceKind::ALL {
             for kinematics in [KinematicsKind::Paper, KinematicsKind::Consistent] {
                 for (amplitude, frequency) in [(1.5, 4.0), (3.0, 5.0), (6.0, 6.0), (1.2, 1.0)] {
                     let shake = shake(structure(geometry, 15.0, kind, 0.5, kinematics), amplitude, frequency);

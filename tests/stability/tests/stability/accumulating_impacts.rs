@@ -5,9 +5,7 @@ use sprag_shared::math::{acosh, atanh, square_root};
 use sprag_shared::observer::Event;
 use sprag_shared::rocking::Phase;
 use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
-use sprag_stability::{
-    DEVICES, Energy, GEOMETRIES, Precision, Segment, Start, Stepping, Tally, in_both_precisions, relative, unit_block,
-};
+use sprag_stability::{Energy, GEOMETRIES, Precision, Segment, Start, Stepping, Tally, in_both_precisions, relative, unit_block};
 
 in_both_precisions!(
     a_hundredth_is_left_at_each_impact,
@@ -51,7 +49,7 @@ fn nothing_is_lost_at_each_impact<S: Precision>() {
 fn impacts_accumulate<S: Precision>(restitution: f64) {
     const TIME: f64 = 300.0;
     for geometry in GEOMETRIES {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             let structure = structure(geometry, device, restitution);
             let alpha = structure.block.slenderness();
             let start = Start::Released(S::of(0.3 * alpha), S::ZERO);
@@ -138,7 +136,7 @@ fn ten_thousand_swings_without_loss<S: Precision>() {
 /// A motion that dies within one sample of a record, and one whose swings are shorter than the ulp of the clock.
 fn impacts_without_number_in_one_sample<S: Precision>() {
     for geometry in GEOMETRIES {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             for restitution in [0.3, 0.85, 0.97] {
                 let structure = structure(geometry, device, restitution);
                 let speed = structure.block.slenderness() * 1e-5;

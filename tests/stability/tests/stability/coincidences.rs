@@ -8,7 +8,7 @@ use sprag_shared::math::{acosh, cosh, exp, sinh, square_root};
 use sprag_shared::observer::Event;
 use sprag_shared::rocking::Phase;
 use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
-use sprag_stability::{DEVICES, Log, Precision, Segment, Start, Stepping, Tally, in_both_precisions, sane, unit_block};
+use sprag_stability::{Log, Precision, Segment, Start, Stepping, Tally, in_both_precisions, sane, unit_block};
 
 in_both_precisions!(
     a_grazing_impact,
@@ -27,7 +27,7 @@ fn recorded<S: Precision>(structure: &Structure, start: Start<S>, segments: &[Se
 /// Thrown back on its floor while the ground holds it up: with b > 1 the push in gα, φ̈ = φ − 1 + b, the block just touches at
 /// v² = (φ₀ − 1 + b)² − (b − 1)². Missed or hit by an ulp, it goes on from there the same way.
 fn a_grazing_impact<S: Precision>() {
-    for device in DEVICES {
+    for device in DeviceKind::ALL {
         for (push, start) in [(1.5, 0.2), (1.01, 0.05), (4.0, 0.5)] {
             let structure = unit_block(Geometry::Slender, 10.0, device, 0.5, 0.85);
             let alpha = structure.block.slenderness();
@@ -68,7 +68,7 @@ fn a_grazing_impact<S: Precision>() {
 /// φ̈ = φ − 1 + b₀ + b₁ τ with φ = 1 − b₀ − b₁ τ + b₁ sinh(τ − t): at τ = t both θ̇ and θ̈ are zero and θ̈ changes sign, so that θ̇
 /// touches zero and does not change its own. For a pair that is where the clutch engages.
 fn velocity_and_bracket_zero_at_one_instant<S: Precision>() {
-    for device in DEVICES {
+    for device in DeviceKind::ALL {
         for (slope, level) in [(0.4, 0.35), (0.2, 0.5), (1.0, 0.1)] {
             let structure = unit_block(Geometry::Slender, 10.0, device, 0.5, 0.85);
             let alpha = structure.block.slenderness();
@@ -111,7 +111,7 @@ fn velocity_and_bracket_zero_at_one_instant<S: Precision>() {
 /// A record that changes level, or slope, at the very instant of an impact, an ulp before it, and an ulp after it.
 fn an_impact_on_a_kink_of_the_record<S: Precision>() {
     for geometry in [Geometry::Full, Geometry::Slender] {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             let mut structure = unit_block(geometry, 10.0, device, 0.5, 0.85);
             structure.device.kinematics = KinematicsKind::Consistent;
             let alpha = structure.block.slenderness();
@@ -158,7 +158,7 @@ fn an_impact_on_a_kink_of_the_record<S: Precision>() {
 fn a_cut_at_every_event<S: Precision>() {
     let mut cuts = 0;
     for geometry in [Geometry::Full, Geometry::Slender] {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             let mut structure = unit_block(geometry, 12.0, device, 0.5, 0.85);
             structure.device.kinematics = KinematicsKind::Consistent;
             let level = S::of(1.5 * geometry.uplift_threshold(&structure.block));

@@ -3,7 +3,8 @@
 
 use sprag_shared::observer::Event;
 use sprag_shared::rocking::Phase;
-use sprag_stability::{DEVICES, GEOMETRIES, Precision, Segment, Start, Stepping, Tally, in_both_precisions, unit_block};
+use sprag_shared::structure::DeviceKind;
+use sprag_stability::{GEOMETRIES, Precision, Segment, Start, Stepping, Tally, in_both_precisions, unit_block};
 
 in_both_precisions!(a_denormal_rotation, a_denormal_velocity, a_denormal_ground_motion, a_denormal_tremor_on_a_standing_block);
 
@@ -16,7 +17,7 @@ fn steppings<S: Precision>() -> [Stepping<S>; 4] {
 /// Let go at a denormal θ, and at denormal multiples of it: one fall, which no clock can measure, and rest.
 fn a_denormal_rotation<S: Precision>() {
     for geometry in GEOMETRIES {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             let structure = unit_block(geometry, 10.0, device, 0.5, 0.85);
             for rotation in [S::ZERO.up(), S::DENORMAL, S::DENORMAL * S::of(100.0)] {
                 for side in [S::ONE, -S::ONE] {
@@ -49,7 +50,7 @@ fn a_denormal_rotation<S: Precision>() {
 /// Thrown from the floor with a denormal θ̇, or released tilted with one: as with none.
 fn a_denormal_velocity<S: Precision>() {
     for geometry in GEOMETRIES {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             let structure = unit_block(geometry, 10.0, device, 0.5, 0.85);
             let tilt = S::of(0.4 * structure.block.slenderness());
             for stepping in steppings() {
@@ -75,7 +76,7 @@ fn a_denormal_velocity<S: Precision>() {
 /// A rocking block over a ground that hums with a denormal amplitude: as over none, to rounding, and for the same work.
 fn a_denormal_ground_motion<S: Precision>() {
     for geometry in GEOMETRIES {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             let structure = unit_block(geometry, 10.0, device, 0.5, 0.85);
             let start = Start::Released(S::of(0.4 * structure.block.slenderness()), S::ZERO);
             for stepping in steppings() {
@@ -109,7 +110,7 @@ fn a_denormal_ground_motion<S: Precision>() {
 /// Two thousand samples of it: no arc at all.
 fn a_denormal_tremor_on_a_standing_block<S: Precision>() {
     for geometry in GEOMETRIES {
-        let structure = unit_block(geometry, 10.0, DEVICES[2], 0.5, 0.85);
+        let structure = unit_block(geometry, 10.0, DeviceKind::ClutchedPair, 0.5, 0.85);
         let sample = |k: u32| S::DENORMAL * S::of(f64::from(k % 7) - 3.0);
         let record: Vec<_> = (0..2_000).map(|k| Segment::line(sample(k), sample(k + 1), S::of(0.005))).collect();
         let run = S::tally(&structure, Stepping::Tight, Start::Rest, &record, Tally::new());

@@ -9,7 +9,7 @@ use sprag_shared::observer::Event;
 use sprag_shared::rocking::{Phase, System};
 use sprag_shared::scalar::Real;
 use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
-use sprag_stability::{DEVICES, Energy, GEOMETRIES, Precision, Segment, Start, Stepping, Tally, in_both_precisions, unit_block};
+use sprag_stability::{Energy, GEOMETRIES, Precision, Segment, Start, Stepping, Tally, in_both_precisions, unit_block};
 
 in_both_precisions!(
     runge_kutta_steps_of_any_length,
@@ -32,7 +32,7 @@ fn steps_of_any_length<S: Precision>(stepping: impl Fn(S) -> Stepping<S>) {
         // Ten thousand steps a second and more are tried on two structures, the others on all.
         let few = step < 5e-4;
         for geometry in GEOMETRIES.into_iter().filter(|&geometry| !few || geometry == Geometry::Full) {
-            for device in DEVICES.into_iter().filter(|&device| !few || device != DeviceKind::Inerter) {
+            for device in DeviceKind::ALL.into_iter().filter(|&device| !few || device != DeviceKind::Inerter) {
                 for amplitude in [1.2, 3.0, 8.0].into_iter().filter(|&amplitude| !few || amplitude == 3.0) {
                     let structure = structure(geometry, device, 0.85);
                     let level = S::of(amplitude * geometry.uplift_threshold(&structure.block));
@@ -164,7 +164,7 @@ fn events_looked_for_once_a_step<S: Precision>() {
     for step in STEPS {
         // As above.
         for geometry in GEOMETRIES.into_iter().filter(|&geometry| step >= 5e-4 || geometry == Geometry::Full) {
-            for device in DEVICES.into_iter().filter(|&device| step >= 5e-4 || device == DeviceKind::ClutchedPair) {
+            for device in DeviceKind::ALL.into_iter().filter(|&device| step >= 5e-4 || device == DeviceKind::ClutchedPair) {
                 let structure = structure(geometry, device, 0.85);
                 let system = structure.resolve().expect("parameters within range");
                 system.engaged.known(Run { system, structure: &structure, step: S::of(step) });

@@ -6,9 +6,7 @@ use sprag_shared::block::Geometry;
 use sprag_shared::math::{asin, exp, ln, square_root};
 use sprag_shared::rocking::Phase;
 use sprag_shared::structure::{DeviceKind, Structure};
-use sprag_stability::{
-    DEVICES, Outcome, Precision, Segment, Start, Stepping, Tally, boundary, in_both_precisions, relative, unit_block,
-};
+use sprag_stability::{Outcome, Precision, Segment, Start, Stepping, Tally, boundary, in_both_precisions, relative, unit_block};
 
 in_both_precisions!(
     beside_the_boundary_of_a_rectangular_pulse,
@@ -89,7 +87,7 @@ fn beside_the_boundary_of_a_cosine<S: Precision>() {
 
 /// Boundaries without a closed form: of any overturning, between an amplitude that is safe and one that is not, every device.
 fn beside_a_boundary_after_impacts<S: Precision>() {
-    for device in DEVICES {
+    for device in DeviceKind::ALL {
         for frequency in [4.0, 6.0] {
             let structure = unit_block(Geometry::Full, 14.0, device, 0.5, 0.9);
             let threshold = structure.geometry.uplift_threshold(&structure.block);

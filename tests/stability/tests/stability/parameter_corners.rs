@@ -6,9 +6,7 @@ use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::math::{asin, exp, pow, square_root};
 use sprag_shared::rocking::Phase;
 use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
-use sprag_stability::{
-    DEVICES, Dice, GEOMETRIES, Outcome, Precision, Segment, Start, Stepping, Tally, in_both_precisions, unit_block,
-};
+use sprag_stability::{Dice, GEOMETRIES, Outcome, Precision, Segment, Start, Stepping, Tally, in_both_precisions, unit_block};
 
 in_both_precisions!(every_corner, random_points_inside, corners_in_fixed_steps);
 
@@ -93,7 +91,7 @@ impl Place {
 fn corners<S: Precision>() -> Vec<Place> {
     let mut places = Vec::new();
     for geometry in GEOMETRIES {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             for slenderness in [1e-4, 60.0_f64.to_radians()] {
                 for size in [0.01, 100.0] {
                     for mass_ratio in [0.0, 1.0, 1000.0] {
@@ -146,7 +144,7 @@ fn random_points_inside<S: Precision>() {
         let mut one_of = |count: f64| (dice.roll() * count) as usize;
         let place = Place {
             geometry: GEOMETRIES[one_of(2.0)],
-            device: DEVICES[one_of(3.0)],
+            device: DeviceKind::ALL[one_of(3.0)],
             kinematics: [KinematicsKind::Paper, KinematicsKind::Consistent][one_of(2.0)],
             slenderness,
             size,

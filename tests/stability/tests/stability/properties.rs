@@ -9,7 +9,7 @@ use sprag_shared::lever::Mount;
 use sprag_shared::math::pow;
 use sprag_shared::observer::Event;
 use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
-use sprag_stability::{DEVICES, Energy, GEOMETRIES, Log, Precision, Segment, Start, Stepping, Tally, unit_block};
+use sprag_stability::{Energy, GEOMETRIES, Log, Precision, Segment, Start, Stepping, Tally, unit_block};
 
 /// The same 128 cases on every machine.
 fn config() -> Config {
@@ -25,7 +25,7 @@ fn powers(low: f64, high: f64) -> impl Strategy<Value = f64> {
 fn structures() -> impl Strategy<Value = Structure> {
     (
         prop::sample::select(&GEOMETRIES),
-        prop::sample::select(&DEVICES),
+        prop::sample::select(&DeviceKind::ALL),
         prop::sample::select(&[KinematicsKind::Paper, KinematicsKind::Consistent]),
         prop_oneof![Just(Mount::CentreOfMass), (0.5..4.0).prop_map(|pulley_ratio| Mount::BaseCorners { pulley_ratio })],
         (powers(1e-4, 1.047), powers(0.01, 100.0), powers(1e-3, 1e3), 0.0..1.0),

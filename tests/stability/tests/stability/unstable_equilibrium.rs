@@ -6,7 +6,7 @@ use sprag_shared::observer::Event;
 use sprag_shared::rocking::Phase;
 use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
 use sprag_stability::{
-    DEVICES, Energy, GEOMETRIES, Log, Precision, Segment, Start, Stepping, Tally, in_both_precisions, relative, unit_block,
+    Energy, GEOMETRIES, Log, Precision, Segment, Start, Stepping, Tally, in_both_precisions, relative, unit_block,
 };
 
 in_both_precisions!(standing_for_a_day, standing_for_an_hour_in_fixed_steps, an_ulp_beside_it, grazing_the_overturning_point);
@@ -25,7 +25,7 @@ fn slenderness<S: Precision>(structure: &Structure) -> S {
 /// θ = α, θ̇ = 0: the block stands for 86,400 s, to the last bit, and it takes a handful of steps.
 fn standing_for_a_day<S: Precision>() {
     for geometry in GEOMETRIES {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             for side in [S::ONE, -S::ONE] {
                 let structure = structure(geometry, device);
                 let alpha = slenderness::<S>(&structure);
@@ -43,7 +43,7 @@ fn standing_for_a_day<S: Precision>() {
 
 fn standing_for_an_hour_in_fixed_steps<S: Precision>() {
     for geometry in GEOMETRIES {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             let structure = structure(geometry, device);
             let alpha = slenderness::<S>(&structure);
             for (stepping, steps) in [
@@ -64,7 +64,7 @@ fn standing_for_an_hour_in_fixed_steps<S: Precision>() {
 /// reaches the floor after acosh(α/(α − θ)) / p_σ. The difference α − θ is exact in floating point.
 fn an_ulp_beside_it<S: Precision>() {
     for geometry in GEOMETRIES {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             let structure = structure(geometry, device);
             let alpha = slenderness::<S>(&structure);
             let relative_offset = |offset: f64| alpha * S::of(1.0 + offset);
@@ -108,7 +108,7 @@ fn an_ulp_beside_it<S: Precision>() {
 /// energy says; above, it overturns. At the speed itself rounding decides, but it decides on one of the two.
 fn grazing_the_overturning_point<S: Precision>() {
     for geometry in GEOMETRIES {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             let structure = structure(geometry, device);
             let alpha = structure.block.slenderness();
             // Rising freely, a clutched pair is released.

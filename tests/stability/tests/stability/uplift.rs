@@ -8,7 +8,7 @@ use sprag_shared::observer::Event;
 use sprag_shared::rocking::Phase;
 use sprag_shared::structure::{DeviceKind, Structure};
 use sprag_stability::{
-    DEVICES, Dice, GEOMETRIES, Log, Precision, Segment, Start, Stepping, Tally, in_both_precisions, relative, unit_block,
+    Dice, GEOMETRIES, Log, Precision, Segment, Start, Stepping, Tally, in_both_precisions, relative, unit_block,
 };
 
 in_both_precisions!(
@@ -28,7 +28,7 @@ fn structures() -> Vec<Structure> {
     let mut dice = Dice(1963);
     let mut list = Vec::new();
     for geometry in GEOMETRIES {
-        for device in DEVICES {
+        for device in DeviceKind::ALL {
             list.extend((0..60).map(|_| unit_block(geometry, dice.between(0.5, 50.0), device, 0.5, 0.85)));
         }
     }

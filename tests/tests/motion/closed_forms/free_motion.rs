@@ -40,7 +40,7 @@ fn amplitude_after(impacts: u32, restitution: f64, first: f64) -> f64 {
 
 #[test]
 fn amplitudes_after_impacts() {
-    for device in sprag_tests::DEVICES {
+    for device in DeviceKind::ALL {
         for restitution in [0.99, 0.85, 0.5] {
             for first in [0.95, 0.5, 0.1] {
                 let structure = unit_block(Geometry::Slender, 8.0, device, 0.5, restitution);
@@ -125,7 +125,7 @@ fn consistent_integral(k: f64, q: f64, omega: f64) -> f64 {
 
 #[test]
 fn first_integrals_hold_to_rounding() {
-    for device in sprag_tests::DEVICES {
+    for device in DeviceKind::ALL {
         for (degrees, size) in [(5.0, 1.0), (20.0, 3.0), (40.0, 0.5)] {
             for mass_ratio in [0.1, 0.5, 2.0] {
                 for start in [0.3, 0.8, 0.97] {

@@ -8,7 +8,7 @@ use sprag_shared::rocking::Phase;
 use sprag_shared::structure::DeviceKind;
 use sprag_sim_host::batch::case::PulseShape;
 use sprag_tests::pulse::Pulsed;
-use sprag_tests::{DEVICES, boundary, overturned_without_impact};
+use sprag_tests::{boundary, overturned_without_impact};
 
 use super::say;
 
@@ -27,7 +27,7 @@ fn decided(frequency: f64) -> f64 {
 /// The inerter and the pair move as one until the clutch releases; only the pair comes back, and it turns without an impact.
 #[test]
 fn figure_9() {
-    let [none, inerter, pair] = DEVICES.map(|device| pulsed(device, FREQUENCY_9, 5.22));
+    let [none, inerter, pair] = DeviceKind::ALL.map(|device| pulsed(device, FREQUENCY_9, 5.22));
     for (pulsed, name) in [(none, "none"), (inerter, "inerter"), (pair, "pair")] {
         let (state, log) = pulsed.follow(decided(FREQUENCY_9));
         let peak = log.peaks.rotation / pulsed.degrees.to_radians();
@@ -70,7 +70,7 @@ fn figure_10() {
     let (reversal, end) = (PI / FREQUENCY_10, TAU / FREQUENCY_10);
     let mut impacts = Vec::new();
     let mut returning = Vec::new();
-    for (device, name) in DEVICES.into_iter().zip(["none", "inerter", "pair"]) {
+    for (device, name) in DeviceKind::ALL.into_iter().zip(["none", "inerter", "pair"]) {
         let pulsed = pulsed(device, FREQUENCY_10, 7.7);
         let alpha = pulsed.degrees.to_radians();
         let (state, log) = pulsed.follow(decided(FREQUENCY_10));

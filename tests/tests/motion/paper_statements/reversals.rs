@@ -5,9 +5,9 @@ use core::f64::consts::TAU;
 use rayon::prelude::*;
 use sprag_shared::block::Geometry;
 use sprag_shared::observer::Event;
+use sprag_shared::structure::DeviceKind;
 use sprag_sim_host::batch::case::PulseShape;
 use sprag_sim_host::outcome::Outcome;
-use sprag_tests::DEVICES;
 use sprag_tests::pulse::Pulsed;
 
 use super::say;
@@ -31,7 +31,7 @@ fn courses(geometry: Geometry, shape: PulseShape) -> Vec<[Course; 3]> {
     let course = |&(column, row): &(usize, usize)| {
         let (frequency, amplitude) = (0.2 + 0.1 * column as f64, 1.0 + 0.2 * row as f64);
         let end = TAU / frequency;
-        DEVICES.map(|device| {
+        DeviceKind::ALL.map(|device| {
             let (state, log) = Pulsed { geometry, degrees: 20.0, device, shape, frequency, amplitude }.follow(end + 60.0);
             let happens = |event: Event| log.events.iter().any(|logged| logged.event == event);
             Course {

@@ -1,13 +1,10 @@
 #!/usr/bin/env python3
-"""Demand regressions and fragilities by statsmodels and SciPy, of data sets made from a seed, as JSON for `statistics_against_python.rs`.
+"""Demand regressions and fragilities by statsmodels and SciPy, of data sets made from a seed, as JSON for `statistics.rs`.
 
     laws          ln D = ln a + b ln IM by sm.OLS, with the bands of get_prediction
     fragilities   P = Φ((ln IM − μ)/β) by sm.Probit, by Newton's method, and by sm.GLM with the binomial family and Fisher
                   scoring; errors of (μ, β) from those of the intercept and the slope by the delta method
     functions     scipy.special.log_ndtr and ndtri, scipy.stats.t.ppf, numpy.quantile
-
-Without the packages it installs them into a virtual environment (--venv FOLDER) and goes on there; where that is not possible
-it ends with the code 3.
 """
 
 from __future__ import annotations
@@ -15,20 +12,17 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from pathlib import Path
 from typing import Any
 
-from python.packages import ensure_packages
+import numpy as np
+import statsmodels.api as sm
+from scipy import special, stats
 
-REQUIREMENTS = ("numpy==2.4.6", "scipy==1.17.1", "statsmodels==0.15.0")
 LEVEL = 0.9
 
 
 def law(rng: Any, number: int, dispersion: float, unit: float) -> dict[str, Any]:
     """A power law with its fit."""
-    import numpy as np
-    import statsmodels.api as sm
-
     x = rng.normal(np.log(unit), 0.7, number)
     y = -0.4 + 1.3 * (x - np.log(unit)) + dispersion * rng.standard_normal(number)
     intensity, demand = np.exp(x), np.exp(y)
@@ -55,8 +49,6 @@ def has_maximum(x: Any, z: Any) -> bool:
 
 def lognormal(params: Any, covariance: Any) -> tuple[list[float], list[list[float]]]:
     """(μ, β) and their covariance, of an intercept and a slope."""
-    import numpy as np
-
     intercept, slope = params
     jacobian = np.array([[-1 / slope, intercept / slope**2], [0, -1 / slope**2]])
     return [-intercept / slope, 1 / slope], (jacobian @ covariance @ jacobian.T).tolist()
@@ -64,17 +56,13 @@ def lognormal(params: Any, covariance: Any) -> tuple[list[float], list[list[floa
 
 def fragility(rng: Any, number: int, beta: float, stripes: int) -> dict[str, Any]:
     """Runs, with 0 stripes as a cloud, and the fit to them."""
-    import numpy as np
-    import statsmodels.api as sm
-    from scipy.special import ndtr
-
     while True:
         x = rng.uniform(-1, 1.5, number)
         if stripes:
             x = np.linspace(-1, 1.5, stripes)[np.arange(number) % stripes]
         intensity = np.exp(x)
         x = np.log(intensity)
-        z = (rng.uniform(size=number) < ndtr((x - 0.2) / beta)).astype(int)
+        z = (rng.uniform(size=number) < special.ndtr((x - 0.2) / beta)).astype(int)
         if has_maximum(x, z):
             break
     design = sm.add_constant(x)
@@ -94,9 +82,6 @@ def fragility(rng: Any, number: int, beta: float, stripes: int) -> dict[str, Any
 
 def functions(rng: Any) -> dict[str, Any]:
     """Distributions and quantiles."""
-    import numpy as np
-    from scipy import special, stats
-
     deviates = np.linspace(-40, 40, 161)
     probabilities = np.concatenate([10.0 ** -np.arange(1, 301, 13), np.linspace(0.01, 0.99, 50)])
     freedoms = [1, 2, 3, 7, 28, 198, 1998, 99998]
@@ -114,8 +99,6 @@ def functions(rng: Any) -> dict[str, Any]:
 
 def results(seed: int) -> dict[str, Any]:
     """Everything."""
-    import numpy as np
-
     rng = np.random.default_rng(seed)
     clouds = [(number, beta, 0) for number in (25, 200, 3000) for beta in (0.15, 0.5, 1.5) for _ in range(5)]
     striped = [(number, beta, stripes) for number, stripes in ((60, 6), (2000, 20)) for beta in (0.3, 0.8) for _ in range(3)]
@@ -131,10 +114,8 @@ def results(seed: int) -> dict[str, Any]:
 def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--venv", type=Path, required=True)
     parser.add_argument("--seed", type=int, default=2019)
     options = parser.parse_args()
-    ensure_packages(options.venv, REQUIREMENTS, ("scipy.stats", "statsmodels.api"))
     json.dump(results(options.seed), sys.stdout)
 
 

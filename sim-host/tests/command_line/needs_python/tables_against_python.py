@@ -1,9 +1,5 @@
 #!/usr/bin/env python3
-"""Every Parquet file of the folders by pyarrow against the CSV file beside it, to the bits; their metadata as JSON for `formats.rs`.
-
-Without pyarrow it installs it into a virtual environment (--venv FOLDER) and goes on there; where that is not possible it ends
-with the code 3.
-"""
+"""Every Parquet file of the folders by pyarrow against the CSV file beside it, to the bits; their metadata as JSON for `tables.rs`."""
 
 from __future__ import annotations
 
@@ -15,15 +11,12 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from python.packages import ensure_packages
-
-REQUIREMENTS = ("pyarrow==26.0.1",)
+import pyarrow as pa
+import pyarrow.parquet
 
 
 def value(text: str, field: Any) -> Any:
     """The value that a field of CSV says, numbers by their bits."""
-    import pyarrow as pa
-
     if text == "" and field.nullable:
         return None
     if field.type == pa.float64():
@@ -33,8 +26,6 @@ def value(text: str, field: Any) -> Any:
 
 def compared(path: Path) -> dict[str, Any]:
     """What the file says of itself, once it holds what its CSV file does."""
-    import pyarrow.parquet
-
     table = pyarrow.parquet.read_table(path)
     with path.with_suffix(".csv").open(newline="", encoding="utf-8") as file:
         titles, *rows = csv.reader(file)
@@ -51,10 +42,8 @@ def compared(path: Path) -> dict[str, Any]:
 def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--venv", type=Path, required=True)
     parser.add_argument("folder", type=Path, nargs="+")
     options = parser.parse_args()
-    ensure_packages(options.venv, REQUIREMENTS, ("pyarrow.parquet",))
     paths = [path for folder in options.folder for path in sorted(folder.glob("*.parquet"))]
     json.dump({str(path): compared(path) for path in paths}, sys.stdout)
 

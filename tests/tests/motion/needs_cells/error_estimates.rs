@@ -31,8 +31,9 @@ impl Ratios {
 }
 
 #[test]
+#[ignore = "needs the reference cells beside the repository: run by cargo xtask test"]
 fn estimates_bound_the_errors_and_are_near_them() {
-    let Some(cells) = cells() else { return };
+    let cells = cells();
     let mut failures = Vec::new();
     for accuracy in [
         Accuracy::Fast,

@@ -1,0 +1,4 @@
+//! The second program by itself: known answers and random scenes.
+
+mod answers;
+mod generated;

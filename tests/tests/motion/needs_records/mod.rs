@@ -1,0 +1,5 @@
+//! Recorded motions: read, and under blocks.
+
+mod archive;
+mod grazes;
+mod recorded_motions;

@@ -1,0 +1,4 @@
+//! Studies under recorded motions.
+
+mod cloud;
+mod optimise;
