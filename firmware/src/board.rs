@@ -18,9 +18,9 @@ compile_error!("select a board: --features board-f405 or --features board-qemu")
 compile_error!("select one board only: --no-default-features --features board-qemu");
 
 use embedded_storage::nor_flash::NorFlash;
-use sprag_shared::control::sample::Sample;
+use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::Phase;
-use sprag_shared::device::reset::Cause;
+use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::settings::Settings;
 use stm32f4xx_hal::pac;
 

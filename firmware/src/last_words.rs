@@ -7,7 +7,7 @@ use crate::control::safe_state;
 use crate::memory::Lasting;
 use cortex_m::peripheral::SCB;
 use cortex_m_rt::{ExceptionFrame, exception};
-use sprag_shared::device::reset::Cause;
+use sprag_shared::link::reset_cause::Cause;
 
 /// Bytes of a file's name that are kept.
 pub const NAME: usize = 32;

@@ -8,8 +8,8 @@ use crate::last_words::{self, LastWords};
 use crate::log::{info, warn};
 use crate::{stack, tick};
 use heapless::Deque;
-use sprag_shared::device::reset::Cause;
 use sprag_shared::device::{Answer, Device, Surroundings};
+use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::link::{Deframer, MAX_FRAME, Mishap, Pace, Reply, Request, Started, TickReport, encode};
 use sprag_shared::settings::store::Store;
 

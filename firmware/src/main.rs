@@ -23,7 +23,7 @@ mod app {
     use crate::log::info;
     use crate::{last_words, memory, stack, tick};
     use core::mem::MaybeUninit;
-    use sprag_shared::device::kept::Kept;
+    use sprag_shared::device::retained::Kept;
     use sprag_shared::device::{Answer, Device};
     use sprag_shared::settings::Settings;
     use sprag_shared::settings::assemble::AnyController;

@@ -2,7 +2,7 @@
 
 use core::cell::UnsafeCell;
 use core::mem::MaybeUninit;
-use sprag_shared::device::kept::{KEPT_WORDS, Kept};
+use sprag_shared::device::retained::{KEPT_WORDS, Kept};
 
 /// A place that start-up code leaves alone.
 #[repr(transparent)]

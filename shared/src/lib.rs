@@ -1,20 +1,36 @@
-//! The core of Sprag, shared by the simulator and the firmware: the dynamics of a rocking block with inerters, the
-//! methods that integrate it, and the events between which it is smooth. No `std`, no allocation, no `unsafe`.
+//! The core of Sprag, shared by the simulator and the firmware: the dynamics of a rocking block with inerters, its event-driven integration,
+//! and the controller of its clutches. No `std`, no allocation, no `unsafe`.
 //!
-//! The map, from the ground up:
-//! - [`scalar`], [`value`], [`lanes`]: what an equation is written over, so that it is written once; [`math`]: every
-//!   transcendental function.
-//! - [`block`], [`carried`], [`inertance`], [`lever`], [`clutch`], [`restitution`]: the structure and its device; [`ground`]: what
-//!   shakes it.
-//! - [`equation`]: the equations of motion.
-//! - [`arc`], [`fixed`], [`grid`], [`tape`], [`taylor`], [`closed_form`]: methods; [`decay`]: free motion summed to its end; [`polynomial`], [`locate`]: where a smooth motion crosses zero.
-//! - [`structure`]: from parameters to the equations that they need.
-//! - [`rocking`]: the block from event to event; [`observer`]: who watches; [`digest`]: whether two runs are the same.
-//! - [`snapshot`]: block and device at an instant; [`watched`]: of an ideal device; [`ledger`]: where the energy goes; [`checks`]:
-//!   what the motion asks of toe, rack and flywheels; [`gear`]: and of their teeth.
-//! - [`detected`]: the usual scheme, in which nothing is located, as the yardstick of accuracy and cost.
+//! Two wings stand on one foundation and never import each other. A room imports only rooms below it; `tests/rooms.rs` checks both.
+//!
+//! ```text
+//!        motion wing                              controller wing
+//!   case                                     device
+//!   observers                                settings      link
+//!   motion (ideal, hybrid, rest)             control (sensing, estimation, law, monitor, supervisor)
+//!   method
+//!   ground     drivetrain
+//!   ---------------------------- structure ----------------------------
+//!   ---------------------------- equation  ----------------------------
+//!   ---------------------------- math      ----------------------------
+//! ```
+//!
+//! Foundation:
+//! - [`math`]: scalars, SIMD lanes, transcendental functions, power series, polynomials and their zeros;
+//! - [`equation`]: the equations of motion, written once over any of these;
+//! - [`structure`]: the parameters of block, device and drivetrain.
+//!
+//! Motion wing:
+//! - [`ground`]: ground acceleration in smooth pieces; [`drivetrain`]: transmissions from the rack to a flywheel;
+//! - [`method`]: integrators with dense output over one step;
+//! - [`motion`]: event-driven integration, of ideal devices and of devices with a memory;
+//! - [`observers`]: peaks, energy ledger, checks of forces, digests;
 //! - [`case`]: a scene in words, which a board and its host run to the same bits.
-//! - [`control`]: the controller; [`settings`]: all that it is told, in words, which a board keeps and its host writes.
+//!
+//! Controller wing:
+//! - [`control`]: from sensor readings to clutch commands;
+//! - [`settings`]: its parameters in words, which a board keeps in flash; [`link`]: the serial link;
+//! - [`device`]: the device around the controller.
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -25,49 +41,16 @@ extern crate std;
 #[cfg(test)]
 extern crate self as sprag_shared;
 
-pub mod accumulation;
-pub mod any_body;
-pub mod any_equation;
-pub mod arc;
-pub mod block;
-pub mod body;
-pub mod carried;
 pub mod case;
-pub mod checks;
-pub mod closed_form;
-pub mod clutch;
 pub mod control;
-pub mod decay;
-pub mod detected;
 pub mod device;
-pub mod digest;
 pub mod drivetrain;
 pub mod equation;
-pub mod error;
-pub mod first_integral;
-pub mod fixed;
-pub mod free_motion;
-pub mod gear;
-pub mod grid;
 pub mod ground;
-pub mod hybrid;
-pub mod inertance;
-pub mod lanes;
-pub mod ledger;
-pub mod lever;
 pub mod link;
-pub mod locate;
 pub mod math;
-pub mod motion_series;
-pub mod observer;
-pub mod polynomial;
-pub mod restitution;
-pub mod rocking;
-pub mod scalar;
+pub mod method;
+pub mod motion;
+pub mod observers;
 pub mod settings;
-pub mod snapshot;
 pub mod structure;
-pub mod tape;
-pub mod taylor;
-pub mod value;
-pub mod watched;

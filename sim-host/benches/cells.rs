@@ -6,15 +6,16 @@
 
 use std::hint::black_box;
 
-use sprag_shared::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
-use sprag_shared::carried::Carried;
 use sprag_shared::equation::{Equation, SlenderBlock};
-use sprag_shared::fixed::runge_kutta_4;
-use sprag_shared::lever::Mount;
-use sprag_shared::observer::Peaks;
-use sprag_shared::rocking::State;
-use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure};
-use sprag_shared::taylor::Taylor;
+use sprag_shared::method::fixed::runge_kutta_4;
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::motion::state::State;
+use sprag_shared::observers::peaks::Peaks;
+use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
+use sprag_shared::structure::mount::Mount;
+use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
 use sprag_sim_host::batch::case::{TERMS, TIGHT};
 use sprag_sim_host::ground_motion::{Component, GroundMotion};
 use sprag_sim_host::simulation::drive::{Course, Overturning};

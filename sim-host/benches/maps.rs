@@ -7,9 +7,9 @@
 use std::hint::black_box;
 
 use rayon::prelude::*;
-use sprag_shared::block::Geometry;
-use sprag_shared::structure::DeviceKind;
-use sprag_shared::taylor::Taylor;
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::DeviceKind;
 use sprag_sim_host::batch::case::{TERMS, TIGHT};
 use sprag_sim_host::ensemble::machine::{Registers, run};
 use sprag_sim_host::ensemble::pulsed::PulsedBlock;

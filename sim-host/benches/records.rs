@@ -7,14 +7,15 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
-use sprag_shared::carried::Carried;
-use sprag_shared::lever::Mount;
 use sprag_shared::math;
-use sprag_shared::observer::Peaks;
-use sprag_shared::rocking::{Phase, State};
-use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure};
-use sprag_shared::taylor::Taylor;
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::motion::state::{Phase, State};
+use sprag_shared::observers::peaks::Peaks;
+use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
+use sprag_shared::structure::mount::Mount;
+use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
 use sprag_sim_host::batch::case::{TERMS, TIGHT};
 use sprag_sim_host::ensemble::machine::{Registers, shake};
 use sprag_sim_host::ensemble::plain::PlainBlock;

@@ -9,11 +9,12 @@ use std::hint::black_box;
 use std::marker::PhantomData;
 use std::time::Instant;
 
-use sprag_shared::detected::{Detected, DetectedState};
-use sprag_shared::equation::{FullBlock, FullInerter, Paper};
-use sprag_shared::lanes::Lanes;
-use sprag_shared::lever::{CentreOfMass, Lever, TyingPoint};
-use sprag_shared::scalar::Scalar;
+use sprag_shared::equation::kinematics::Paper;
+use sprag_shared::equation::lever::{CentreOfMass, Lever, TyingPoint};
+use sprag_shared::equation::{FullBlock, FullInerter};
+use sprag_shared::math::lanes::Lanes;
+use sprag_shared::math::scalar::Scalar;
+use sprag_shared::motion::step_end::{Detected, DetectedState};
 
 mod alternatives;
 

@@ -2,8 +2,8 @@
 
 mod piece;
 
-use sprag_shared::block::GRAVITY;
 use sprag_shared::ground::{Harmonics, Linear, Piece, Ricker};
+use sprag_shared::structure::block::GRAVITY;
 
 pub use piece::{MixturePiece, ShapePiece};
 

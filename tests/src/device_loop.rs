@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use sprag_shared::control::controller::{Circumstances, Decision};
-use sprag_shared::control::sample::Sample;
+use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::{Phase, Requests};
 use sprag_shared::link::{Identity, Mishap, Started, State};
 use sprag_shared::settings::Settings;

@@ -2,9 +2,10 @@
 
 use core::f64::consts::TAU;
 
-use sprag_shared::block::Geometry;
-use sprag_shared::rocking::State;
-use sprag_shared::structure::{DeviceKind, Structure};
+use sprag_shared::motion::state::State;
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::DeviceKind;
 use sprag_sim_host::batch::case::PulseShape;
 
 use crate::{FullLog, Segment, shake, unit_block};

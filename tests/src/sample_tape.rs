@@ -3,14 +3,15 @@
 use std::collections::VecDeque;
 
 use sprag_shared::control::controller::{Circumstances, Controller, ControllerState, Decision};
-use sprag_shared::control::event_log::{Entry, Kind};
-use sprag_shared::control::fault::Fault;
-use sprag_shared::control::law::{ClutchLaw, Wish};
+use sprag_shared::control::law::Wish;
+use sprag_shared::control::law::any_law::ClutchLaw;
 use sprag_shared::control::model::KnownFull;
-use sprag_shared::control::sample::Sample;
+use sprag_shared::control::monitor::fault::Fault;
+use sprag_shared::control::sensing::sample::Sample;
+use sprag_shared::control::supervisor::event_log::{Entry, Kind};
 use sprag_shared::control::supervisor::{Phase, Requests};
-use sprag_shared::equation::Paper;
-use sprag_shared::rocking::Phase as Standing;
+use sprag_shared::equation::kinematics::Paper;
+use sprag_shared::motion::state::Phase as Standing;
 use sprag_sim_host::closed_loop::driver::Driver;
 use sprag_sim_host::closed_loop::plant::{Extremes, Whereabouts};
 use sprag_sim_host::interrupt::Interrupt;

@@ -13,7 +13,7 @@ use std::{
 };
 
 /// The folder of the fuzz targets' workspace, from the root.
-const WORKSPACE: &str = "fuzz";
+const WORKSPACE: &str = "tests/fuzz";
 
 /// The compiler flags that make the program count its branches and show its comparisons to libFuzzer.
 const INSTRUMENTATION: [&str; 8] = [
@@ -82,7 +82,7 @@ fn none_forgotten(fuzz: &Path, built: &[(String, PathBuf)]) -> Result<(), Stop> 
         if path.extension().is_some_and(|extension| extension == "rs")
             && built.iter().all(|(name, _)| path.file_stem().is_none_or(|stem| stem != name.as_str()))
         {
-            return Err(Stop::failed(format!("{} is no [[bin]] of fuzz/Cargo.toml", path.display())));
+            return Err(Stop::failed(format!("{} is no [[bin]] of tests/fuzz/Cargo.toml", path.display())));
         }
     }
     Ok(())
@@ -112,7 +112,7 @@ fn fuzz_one(fuzz: &Path, target: &str, program: &Path, seconds: u32, inputs: Inp
     command.env("RUST_BACKTRACE", "1");
     let found = |_| {
         Stop::failed(format!(
-            "fuzzing {target} failed, see above; the input is in fuzz/artifacts/{target}, and in fuzz/seeds/{target} it would be tried for ever"
+            "fuzzing {target} failed, see above; the input is in tests/fuzz/artifacts/{target}, and in tests/fuzz/seeds/{target} it would be tried for ever"
         ))
     };
     filtered(&mut command, is_news).map_err(found)

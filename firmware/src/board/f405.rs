@@ -23,7 +23,7 @@ mod supply;
 
 use cortex_m::peripheral::DWT;
 use sprag_shared::device::coil::PeakHold;
-use sprag_shared::device::reset::Cause;
+use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::settings::Settings;
 use sprag_shared::settings::wiring::Wiring;
 use stm32f4xx_hal::gpio::GpioExt;

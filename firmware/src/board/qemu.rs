@@ -19,9 +19,9 @@ use super::{Board, Coils, Light, Parts, Sensors, Watchdog};
 use crate::last_words;
 use crate::memory::{self, Lasting};
 use cortex_m::peripheral::NVIC;
-use sprag_shared::control::sample::Sample;
+use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::Phase;
-use sprag_shared::device::reset::Cause;
+use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::settings::Settings;
 use stm32f4xx_hal::pac::{self, Interrupt, interrupt};
 

@@ -2,7 +2,7 @@
 
 use super::CaseError;
 use super::codec::{Reader, Writer};
-use crate::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
+use crate::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
 
 pub(super) fn encode(drivetrain: &Drivetrain, out: &mut Writer<'_>) -> Result<(), CaseError> {
     let Drivetrain { engagement, flywheel, rack, actuation } = drivetrain;

@@ -4,8 +4,8 @@ use core::fmt;
 
 use super::words::VERSION;
 use super::{FixedMethod, MOST_PIECES, MOST_STEPS};
-use crate::error::ParameterError;
-use crate::rocking::Stopped;
+use crate::motion::state::Stopped;
+use crate::structure::error::ParameterError;
 
 /// Why words are no case, or a case could not be run.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! The ground motion of a case: a few shapes in closed form, or a record.
 
 use super::{CaseError, MOST_PIECES};
-use crate::error::{ParameterError, require};
 use crate::ground::{Elementary, Harmonics, Linear, Piece, Quiet, Ricker};
+use crate::structure::error::{ParameterError, require};
 
 /// One shape of ground acceleration, in g, over local time.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,9 +2,9 @@
 
 use super::codec::{Reader, Writer};
 use super::{CaseError, Ground, GroundPiece, MOST_PIECES, Shape};
-use crate::error::require;
 use crate::ground::harmonic::Harmonic;
 use crate::ground::{Harmonics, Linear, Ricker};
+use crate::structure::error::require;
 
 /// Numbers of a shape.
 const NUMBERS: usize = 9;

@@ -1,11 +1,13 @@
 //! Cases of ideal devices over horizontal ground.
 
 use super::{Case, CaseError, Ending, FixedMethod, Initially, RunEnd, Shape, TERMS};
-use crate::arc::{Arc, Method};
-use crate::fixed::FixedStep;
-use crate::observer::{Event, Observer, Peaks, Stretch};
-use crate::rocking::{Limits, Phase, State, Stopped, System};
-use crate::taylor::Taylor;
+use crate::method::dense_output::{Arc, Method};
+use crate::method::fixed::FixedStep;
+use crate::method::taylor::Taylor;
+use crate::motion::ideal::System;
+use crate::motion::observer::{Event, Observer, Stretch};
+use crate::motion::state::{Limits, Phase, State, Stopped};
+use crate::observers::peaks::Peaks;
 
 /// What the exponential midpoint method runs.
 pub(super) const STIFF: &str = "elastic clutches only: nothing else is stiff";

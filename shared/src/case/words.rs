@@ -23,11 +23,12 @@
 
 use super::codec::{Reader, Writer};
 use super::{Case, CaseError, FixedMethod, Initially, drivetrain_words, ground_words};
-use crate::block::{Block, Geometry};
-use crate::carried::Carried;
-use crate::lever::Mount;
-use crate::restitution::Restitution;
-use crate::structure::{Device, DeviceKind, KinematicsKind, Structure};
+use crate::structure::Structure;
+use crate::structure::added_mass::Carried;
+use crate::structure::block::{Block, Geometry};
+use crate::structure::device::{Device, DeviceKind, KinematicsKind};
+use crate::structure::mount::Mount;
+use crate::structure::restitution::Restitution;
 
 /// "CASE", to be told from other files.
 pub const MAGIC: u32 = u32::from_le_bytes(*b"CASE");

@@ -3,20 +3,21 @@
 //! Readings, estimate, prediction, law, turn, dwell and supervisor in a row, in single precision, without a panic, a heap or a loop whose
 //! length depends on data. The host simulates this code and the firmware runs it.
 
-use super::calibration::Calibration;
-use super::estimate::Estimate;
-use super::estimator::{Estimator, EstimatorState};
-use super::fault::Fault;
-use super::gate::{Gate, GateState};
-use super::instruments::{Instruments, InstrumentsState};
-use super::law::{DRIFT_TIME, Law, Situation, Wish};
 use super::model::{KnownBody, Model};
-use super::prediction::predict_from;
-use super::sample::Sample;
-use super::signs::Signs;
-use super::supervisor::{Phase, Requests, Supervisor, SupervisorInput, SupervisorState};
-use super::turns::TurnsState;
-use crate::scalar::Sign;
+use crate::control::estimation::estimate::Estimate;
+use crate::control::estimation::prediction::predict_from;
+use crate::control::estimation::{Estimator, EstimatorState};
+use crate::control::law::minimum_dwell::{Gate, GateState};
+use crate::control::law::signs::Signs;
+use crate::control::law::turn_taking::TurnsState;
+use crate::control::law::{DRIFT_TIME, Law, Situation, Wish};
+use crate::control::monitor::fault::Fault;
+use crate::control::sensing::calibration::Calibration;
+use crate::control::sensing::instruments::{Instruments, InstrumentsState};
+use crate::control::sensing::sample::Sample;
+use crate::control::supervisor::{Phase, Requests, Supervisor, SupervisorInput, SupervisorState};
+use crate::math::fnv::Fnv;
+use crate::math::sign::Sign;
 use serde::{Deserialize, Serialize};
 
 /// Steps after which a rotation from the rack's travel is exact in single precision.
@@ -107,6 +108,20 @@ impl Decision {
     pub fn before(command: [bool; 2]) -> Decision {
         let estimate = Estimate { standing: true, ..Estimate::default() };
         Decision { command, estimate, wish: Wish::Release, phase: Phase::Boot, fault: None }
+    }
+
+    /// Hashes command, wish, phase, fault and estimate.
+    pub fn feed(&self, hash: &mut Fnv) {
+        let Decision { command, estimate, wish, phase, fault } = self;
+        hash.byte(u8::from(command[0]) | u8::from(command[1]) << 1 | u8::from(estimate.standing) << 2 | (*wish as u8) << 3);
+        hash.byte(*phase as u8);
+        hash.byte(fault.map_or(0, |fault| fault.code() as u8));
+        hash.number(estimate.rotation);
+        hash.number(estimate.velocity);
+        hash.byte(u8::from(estimate.side == Sign::Negative));
+        for quantity in [estimate.push, estimate.ground[0], estimate.ground[1], estimate.ground_rate] {
+            hash.number(quantity);
+        }
     }
 }
 

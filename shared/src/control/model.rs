@@ -1,18 +1,20 @@
 //! The structure as the controller believes it to be.
 //!
-//! The same bodies that the simulator integrates ([`crate::body`]), in single precision: what the controller knows of the
+//! The same bodies that the simulator integrates ([`crate::equation::body`]), in single precision: what the controller knows of the
 //! dynamics is written nowhere else.
 
-use crate::any_body::AnyBody;
-use crate::block::Geometry;
-use crate::body::{Body, FullBody, SlenderBody};
-use crate::drivetrain::{Drivetrain, Engagement};
-use crate::equation::{BodyKinematics, FullBlock, Told};
-use crate::error::ParameterError;
-use crate::lever::TyingPoint;
+use crate::equation::FullBlock;
+use crate::equation::any_body::AnyBody;
+use crate::equation::body::{Body, FullBody, SlenderBody};
+use crate::equation::kinematics::{BodyKinematics, Told};
+use crate::equation::lever::TyingPoint;
 use crate::math;
-use crate::scalar::Sign;
-use crate::structure::{KinematicsKind, Structure};
+use crate::math::sign::Sign;
+use crate::structure::Structure;
+use crate::structure::block::Geometry;
+use crate::structure::device::KinematicsKind;
+use crate::structure::drivetrain::{Drivetrain, Engagement};
+use crate::structure::error::ParameterError;
 
 /// A body that a [`Structure`] can be resolved into for the controller. Its vertical ground motion is always looked at.
 pub trait KnownBody: Body<f32> {
@@ -219,17 +221,18 @@ impl<B: KnownBody> Model<B> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::block::{Block, Geometry};
-    use crate::equation::{Consistent, Paper};
-    use crate::lever::Mount;
-    use crate::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution};
+    use crate::equation::kinematics::{Consistent, Paper};
+    use crate::structure::block::{Block, Geometry};
+    use crate::structure::device::{Device, DeviceKind, KinematicsKind};
+    use crate::structure::mount::Mount;
+    use crate::structure::{REST_SPEED, Restitution};
 
     fn structure(geometry: Geometry, mount: Mount) -> Structure {
         Structure {
             block: Block::new(2.0, 0.2, 4.0 / 3.0).unwrap(),
             geometry,
             device: Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, mount, kinematics: KinematicsKind::Paper },
-            carried: crate::carried::Carried::NONE,
+            carried: crate::structure::added_mass::Carried::NONE,
             restitution: Restitution::Constant(0.85),
             rest_speed: REST_SPEED,
         }
@@ -287,7 +290,11 @@ mod tests {
     fn released_flywheels_slow_down_and_never_turn_back() {
         let drivetrain = Drivetrain {
             engagement: Engagement::Rigid,
-            flywheel: crate::drivetrain::FlywheelLosses { viscous_rate: 0.5, dry_deceleration: 0.4, brake_deceleration: 1.0 },
+            flywheel: crate::structure::drivetrain::FlywheelLosses {
+                viscous_rate: 0.5,
+                dry_deceleration: 0.4,
+                brake_deceleration: 1.0,
+            },
             ..Drivetrain::default()
         };
         let model = Model::<KnownSlender>::new(&structure(Geometry::Slender, Mount::CentreOfMass), &drivetrain).unwrap();

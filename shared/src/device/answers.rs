@@ -4,7 +4,7 @@ use embedded_storage::nor_flash::NorFlash;
 
 use super::{Answer, Device, Mailbox, Surroundings};
 use crate::control::controller::Decision;
-use crate::control::sample::Sample;
+use crate::control::sensing::sample::Sample;
 use crate::control::supervisor::Phase;
 use crate::link::{
     Done, Identity, LOG_BLOCK, LogBlock, LogEntry, Pace, Refusal, Reply, Request, State, TickSample, WORD_BLOCK, Words,

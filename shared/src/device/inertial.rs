@@ -1,6 +1,6 @@
 //! From the numbers that an inertial sensor gives to SI units.
 
-use crate::block::GRAVITY;
+use crate::structure::block::GRAVITY;
 
 /// Standard gravity, m/s².
 const STANDARD_GRAVITY: f32 = GRAVITY as f32;

@@ -58,7 +58,7 @@ impl Mailbox {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::control::sample::Sample;
+    use crate::control::sensing::sample::Sample;
 
     fn numbered(number: u32) -> TickSample {
         TickSample { number, sample: Sample::default(), lateness: 0.0, clear: false }

@@ -1,9 +1,9 @@
 //! A kind of device chosen at run time.
 //!
 //! The event loop asks a device one thing at an event and need not know which kind it is; only the steps of a method, which evaluate it
-//! many times, are compiled for each ([`crate::hybrid::path::PathStart::known`]). So there is one event loop, not one for each device.
+//! many times, are compiled for each ([`crate::motion::hybrid::path::PathStart::known`]). So there is one event loop, not one for each device.
 
-use super::device::{Device, Law, Watch};
+use super::clutch_state::{Device, Law, Watch};
 use super::drive::{Account, AnyMoment, Drive, Instant, Moment, UNKNOWNS};
 use super::elastic::ElasticPair;
 use super::friction::FrictionPair;
@@ -11,7 +11,8 @@ use super::gears::Gears;
 use super::ideal::{Alone, IdealPair, Single};
 use super::overrunning::OverrunningPair;
 use super::rigid::RigidPair;
-use crate::scalar::{Real, Sign};
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
 
 /// One of the kinds of device.
 #[derive(Clone, Copy, Debug, PartialEq)]

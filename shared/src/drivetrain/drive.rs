@@ -1,12 +1,13 @@
 //! What every kind of device is to the engine: forces between events, functions to watch, and what to do at an event.
 
-use super::device::{Coupling, Device, Law, Watch};
+use super::clutch_state::{Coupling, Device, Law, Watch};
 use super::gears::Gears;
-use crate::any_body::AnyBody;
-use crate::body::Body;
-use crate::scalar::{Real, Sign};
-use crate::snapshot::Spent;
-use crate::value::Value;
+use super::power_loss::Spent;
+use crate::equation::any_body::AnyBody;
+use crate::equation::body::Body;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::math::value::Value;
 
 /// The forces on one instant of a smooth motion, as an equation sees them: `V` is a number or a power series.
 #[derive(Clone, Copy, Debug)]
@@ -168,7 +169,7 @@ pub trait Drive<S: Real, const X: usize, const G: usize>: Copy {
 /// Most unknowns that a device has of its own.
 pub const UNKNOWNS: usize = 4;
 
-/// What watchers ask of a device at an instant ([`crate::snapshot::Snapshot`]).
+/// What watchers ask of a device at an instant ([`crate::motion::device_snapshot::Snapshot`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Account<S> {
     /// Force of each flywheel's drive on the rack, 1/s².

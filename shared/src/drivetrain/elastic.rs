@@ -5,12 +5,13 @@
 //! C ẋ = F − K (x − o), and the plates slip at ℓθ̇ − w − ẋ. The contact ends where the spring is without force, so that a
 //! damper may pull for an instant (the classical dead zone).
 
-use super::device::{Coupling, Device, Law, WATCHES, Watch, Wheel};
+use super::clutch_state::{Coupling, Device, Law, WATCHES, Watch, Wheel};
 use super::drive::{Account, AnyMoment, Drive, Instant, MomentOf, acceleration, account, command, moment};
 use super::gears::Gears;
-use crate::body::Body;
-use crate::scalar::{Real, Sign};
-use crate::value::Value;
+use crate::equation::body::Body;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::math::value::Value;
 
 /// Two flywheels, an elastic clutch on each, that obey Eq. 10.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,12 +1,13 @@
 //! A friction clutch: plates carry force up to their capacity and slip beyond it. Stick and slip begin at located events: slip
 //! when the force of a locked flywheel reaches the capacity, stick when the plates run at one speed and can hold it.
 
-use super::device::{Coupling, Device, Law, Watch};
+use super::clutch_state::{Coupling, Device, Law, Watch};
 use super::drive::{Account, AnyMoment, Drive, Instant, MomentOf, acceleration, account, command, force_if_locked, locked_force};
 use super::gears::Gears;
-use crate::body::Body;
-use crate::scalar::{Real, Sign};
-use crate::value::Value;
+use crate::equation::body::Body;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::math::value::Value;
 
 /// Two flywheels, a friction clutch on each, that obey Eq. 10.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +27,7 @@ impl<S: Real> FrictionPair<S> {
         }
     }
 
-    fn slip(&self, wheel: &mut crate::drivetrain::device::Wheel<S>, sign: Sign) {
+    fn slip(&self, wheel: &mut crate::drivetrain::clutch_state::Wheel<S>, sign: Sign) {
         wheel.coupling = Coupling::Slipping(sign);
         let force = sign.times(self.0.capacity_of(wheel).0);
         self.0.settle(wheel, force);

@@ -1,9 +1,10 @@
 //! The numbers of a drivetrain, resolved for one block: forces over λmR, lengths over R, inertance over λm.
 
-use super::device::{Coupling, Device, Law, Wheel};
-use super::{Drivetrain, Engagement};
-use crate::block::Block;
-use crate::scalar::{Real, Sign};
+use super::clutch_state::{Coupling, Device, Law, Wheel};
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::structure::block::Block;
+use crate::structure::drivetrain::{Drivetrain, Engagement};
 
 /// A drivetrain in the units of the equations.
 #[derive(Clone, Copy, Debug, PartialEq)]

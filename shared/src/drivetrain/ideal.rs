@@ -1,12 +1,13 @@
 //! Devices without a memory: none, one inerter, and the ideal clutched pair, for scenes in which something else than the device
 //! calls for this engine. With `FRICTION` the rack and the bearings lose energy, and a guided rack has a mass.
 
-use super::device::{Coupling, Device, Law, Watch};
+use super::clutch_state::{Coupling, Device, Law, Watch};
 use super::drive::{Drive, Instant, MomentOf, acceleration, command};
 use super::gears::Gears;
-use crate::body::Body;
-use crate::scalar::{Real, Sign};
-use crate::value::Value;
+use crate::equation::body::Body;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::math::value::Value;
 
 /// The block alone.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,26 +1,19 @@
 //! One-way (sprag) clutches: nobody commands them. Each holds while its flywheel resists the block and lets go as soon as the
 //! flywheel would drive it; it holds again when the block has caught up, so that there is never a jolt.
 
-use super::device::{Coupling, Device, Law, Watch};
+use super::clutch_state::{Coupling, Device, Law, Watch};
 use super::drive::{Drive, Instant, MomentOf, acceleration, force_if_locked, jolt, locked_force, open};
 use super::gears::Gears;
 use super::rigid::coasting;
-use crate::body::Body;
-use crate::scalar::{Real, Sign};
-use crate::value::Value;
+use crate::equation::body::Body;
+use crate::equation::clutch_rule::wheel_for;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::math::value::Value;
 
 /// Two flywheels, an overrunning clutch on each, for one direction of motion each.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OverrunningPair<S>(pub Gears<S>);
-
-/// The flywheel for motion in `direction`.
-#[inline(always)]
-pub fn wheel_for(direction: Sign) -> usize {
-    match direction {
-        Sign::Positive => 0,
-        Sign::Negative => 1,
-    }
-}
 
 impl<S: Real> Drive<S, 2, 1> for OverrunningPair<S> {
     const COMMANDED: bool = false;

@@ -1,11 +1,12 @@
 //! A rigid clutch with flywheels that keep spinning: it obeys Eq. 10, and closing at speed costs the block momentum.
 
-use super::device::{Coupling, Device, Law, Watch};
+use super::clutch_state::{Coupling, Device, Law, Watch};
 use super::drive::{Drive, Instant, MomentOf, acceleration, command, jolt};
 use super::gears::Gears;
-use crate::body::Body;
-use crate::scalar::{Real, Sign};
-use crate::value::Value;
+use crate::equation::body::Body;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::math::value::Value;
 
 /// Two flywheels, a rigid clutch on each.
 #[derive(Clone, Copy, Debug, PartialEq)]

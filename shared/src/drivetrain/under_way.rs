@@ -1,6 +1,6 @@
 //! Commands on their way to a clutch whose delay is one of transport.
 
-use crate::scalar::Real;
+use crate::math::scalar::Real;
 
 /// As many as fit. Within 50 ms a clutch gets one or two.
 pub const MOST_UNDER_WAY: usize = 8;

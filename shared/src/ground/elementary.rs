@@ -1,6 +1,6 @@
 //! Ground acceleration that a linear oscillator answers in closed form: a straight line and sines.
 
-use crate::scalar::Real;
+use crate::math::scalar::Real;
 
 /// Most sines in one piece; a Mavroeidis-Papageorgiou wavelet has three.
 pub const MOST_WAVES: usize = 4;

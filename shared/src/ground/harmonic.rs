@@ -4,7 +4,7 @@
 use super::elementary::Wave;
 use super::{Elementary, Piece};
 use crate::math;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
 
 /// One term A sin(ωτ + φ).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,7 +61,7 @@ impl MavroeidisPapageorgiou {
         // With x = τ − t₀: v = (A/2) cos(ωx+ν) + (A/4) cos((ω+ω_e)x+ν) + (A/4) cos((ω−ω_e)x+ν).
         let half_duration = self.duration() / 2.0;
         let term = |weight: f64, frequency: f64| Harmonic {
-            amplitude: -weight * self.velocity_amplitude * frequency / crate::block::GRAVITY,
+            amplitude: -weight * self.velocity_amplitude * frequency / crate::structure::block::GRAVITY,
             frequency,
             phase: self.phase - frequency * half_duration,
         };
@@ -149,7 +149,7 @@ mod tests {
                 * math::cos(carrier * x + wavelet.phase)
         };
         for t in [0.2, 1.1, 1.8, 2.9] {
-            let slope = (velocity(t + 1e-5) - velocity(t - 1e-5)) / 2e-5 / crate::block::GRAVITY;
+            let slope = (velocity(t + 1e-5) - velocity(t - 1e-5)) / 2e-5 / crate::structure::block::GRAVITY;
             assert!((slope - motion.acceleration(t)).abs() < 1e-8);
         }
         assert!(velocity(0.0).abs() < 1e-15 && velocity(wavelet.duration()).abs() < 1e-15);

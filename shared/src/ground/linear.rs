@@ -1,7 +1,7 @@
 //! A straight line: between two samples of a record, a rectangular pulse, or quiet ground seen by a controller's tick.
 
 use super::{Elementary, Piece};
-use crate::scalar::Real;
+use crate::math::scalar::Real;
 
 /// ü_g/g = start + slope τ.
 #[derive(Clone, Copy, Debug, PartialEq)]

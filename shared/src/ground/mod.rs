@@ -2,6 +2,8 @@
 //!
 //! A ground motion is a row of pieces, each smooth in its own local time from 0, with every kink and jump at a boundary
 //! between two. Accelerations are in g. Steppers see one piece at a time, so no step ever crosses a kink.
+//!
+//! The room imports `math` and `structure`.
 
 pub mod elementary;
 pub mod harmonic;
@@ -13,7 +15,7 @@ pub use harmonic::Harmonics;
 pub use linear::Linear;
 pub use ricker::Ricker;
 
-use crate::scalar::Real;
+use crate::math::scalar::Real;
 
 /// A smooth stretch of ground acceleration ü_g/g over local time τ ≥ 0 (s).
 pub trait Piece<S: Real> {
@@ -108,7 +110,7 @@ impl<S: Real, A: Piece<S>, B: Piece<S>> Piece<S> for Sum<A, B> {
     #[inline]
     fn series(&self, time: S, coefficients: &mut [S]) {
         self.0.series(time, coefficients);
-        let mut others = [S::ZERO; crate::tape::MAXIMUM_ORDER];
+        let mut others = [S::ZERO; crate::math::power_series::MAXIMUM_ORDER];
         let length = coefficients.len().min(others.len());
         self.1.series(time, &mut others[..length]);
         for (sum, &other) in coefficients.iter_mut().zip(&others) {

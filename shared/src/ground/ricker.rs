@@ -2,7 +2,7 @@
 
 use super::Piece;
 use crate::math;
-use crate::scalar::Real;
+use crate::math::scalar::Real;
 
 /// ü_g/g = A (1 − 2x²) e^{−x²}, x = πf(τ − t₀) (symmetric Ricker wavelet, used for rocking by Vassiliou and Makris 2011).
 #[derive(Clone, Copy, Debug, PartialEq)]

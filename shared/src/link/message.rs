@@ -2,13 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::control::calibration::Calibration;
+use super::reset_cause::Cause;
 use crate::control::controller::{Circumstances, Decision};
-use crate::control::event_log::{Entry, Kind};
-use crate::control::fault::{Fault, Wheel};
-use crate::control::sample::Sample;
+use crate::control::monitor::fault::{Fault, Wheel};
+use crate::control::sensing::calibration::Calibration;
+use crate::control::sensing::sample::Sample;
 use crate::control::supervisor::Phase;
-use crate::device::reset::Cause;
+use crate::control::supervisor::event_log::{Entry, Kind};
 
 /// Words of settings in one message.
 pub const WORD_BLOCK: usize = 16;

@@ -1,4 +1,11 @@
-//! Every transcendental function of the project, in one place.
+//! Numerical mathematics: scalars and SIMD lanes, transcendental functions, truncated power series, polynomials, roots, quadrature and hashes.
+//! It imports no other room.
+//!
+//! - [`scalar`]: what an equation is written over; [`lanes`]: several numbers in one SIMD register; [`value`]: either, or a power series;
+//!   [`sign`]: a sign as a state.
+//! - [`power_series`]: automatic differentiation by truncated power series; [`polynomial`], [`root`]: first zeros, bracketed.
+//!
+//! Every transcendental function of the project is here:
 //!
 //! - f64: libm, pinned and without architecture-specific paths, so that a host gives the same bits as any other.
 //! - f32: [`sine32`], an own polynomial in single precision. libm's `sinf` computes in double, which on a Cortex-M4F
@@ -10,10 +17,20 @@
 //! `clippy.toml` forbids the methods of `std`: which implementation they use depends on the platform and on cargo's
 //! feature unification.
 
+pub mod fnv;
+pub mod lanes;
+pub(crate) mod outlined_series;
+pub mod polynomial;
+pub mod power_series;
+pub(crate) mod quadrature;
+pub mod root;
+pub mod scalar;
+pub mod sign;
 pub mod sine32;
 pub mod stumpff;
 pub mod tier;
 pub mod tiered;
+pub mod value;
 pub mod wide_hyperbolic;
 pub mod wide_sine;
 

@@ -8,7 +8,7 @@
 //! What a linear oscillator does over a time τ is a polynomial in τ with these as coefficients, and as exact for a step of
 //! 1e-9 of a period as for a whole one. They need no square root for short steps.
 
-use crate::scalar::Real;
+use super::scalar::Real;
 
 /// 1/(first + 2j)!.
 pub(super) const fn reciprocal_factorials<const N: usize>(first: usize) -> [f64; N] {

@@ -4,8 +4,8 @@ use core::cmp::Ordering;
 use core::marker::PhantomData;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::scalar::{Real, Scalar};
 use super::tier::Tier;
-use crate::scalar::{Real, Scalar};
 
 /// A number `S` with the sines of tier `T`; everything else, e^x and the square root included, is that of `S`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -181,17 +181,18 @@ impl<S: Real, T: Tier<S>> Real for Tiered<S, T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arc::Method;
-    use crate::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
-    use crate::carried::Carried;
-    use crate::digest::Digest;
-    use crate::fixed::FixedStep;
     use crate::ground::{Harmonics, Quiet};
-    use crate::lever::Mount;
     use crate::math::tier::{Libm, Micromath, OwnPolynomial};
-    use crate::rocking::{Limits, State};
-    use crate::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure};
-    use crate::taylor::Taylor;
+    use crate::method::dense_output::Method;
+    use crate::method::fixed::FixedStep;
+    use crate::method::taylor::Taylor;
+    use crate::motion::state::{Limits, State};
+    use crate::observers::digest::Digest;
+    use crate::structure::added_mass::Carried;
+    use crate::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+    use crate::structure::device::{Device, DeviceKind, KinematicsKind};
+    use crate::structure::mount::Mount;
+    use crate::structure::{REST_SPEED, Restitution, Structure};
 
     /// One cycle of sine and 2.5 s of quiet on a block of 10°, p = 1/s; gives the digest of every stretch and event, and θ.
     fn run<S: Real, M: Method<S>>(method: M, kinematics: KinematicsKind) -> (u64, f64) {

@@ -1,8 +1,8 @@
 //! What a hyperbolic cosine and sine have beyond their first terms, in double precision without a branch, for SIMD lanes: series in z = x², truncated
 //! below 1e-16.
 
+use super::scalar::Scalar;
 use super::stumpff::reciprocal_factorials;
-use crate::scalar::Scalar;
 
 /// Largest z.
 pub const LARGEST: f64 = 4.0;

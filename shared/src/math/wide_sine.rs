@@ -1,7 +1,7 @@
 //! Sine and cosine in double precision without a branch, for SIMD lanes: the half-angle scheme of
 //! [`super::sine32`] with longer polynomials (truncation error below 1e-18).
 
-use crate::scalar::Scalar;
+use super::scalar::Scalar;
 
 /// S(y), ascending.
 const SINE: [f64; 8] = [

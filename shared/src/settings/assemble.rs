@@ -3,27 +3,30 @@
 //! Every range has been checked word by word, so only what takes two words is left to check here, and no error has a text.
 
 use super::{Item, SettingError, Settings};
-use crate::any_body::AnyBody;
-use crate::body::{FullBody, SlenderBody};
-use crate::control::calibration::Plausible;
-use crate::control::complementary::Complementary;
 use crate::control::controller::Controller;
-use crate::control::estimate::Deviation;
-use crate::control::estimator::Estimator;
-use crate::control::fault::Wheel;
-use crate::control::gate::Gate;
-use crate::control::instruments::Instruments;
-use crate::control::kalman::Kalman;
-use crate::control::law::{ClutchLaw, GatedTable, SignTable};
-use crate::control::look_ahead::LookAhead;
+use crate::control::estimation::Estimator;
+use crate::control::estimation::complementary::Complementary;
+use crate::control::estimation::estimate::Deviation;
+use crate::control::estimation::kalman::Kalman;
+use crate::control::estimation::model_aided::ModelAided;
+use crate::control::estimation::rest_detection::Standing;
+use crate::control::law::any_law::ClutchLaw;
+use crate::control::law::look_ahead::LookAhead;
+use crate::control::law::minimum_dwell::Gate;
+use crate::control::law::{GatedTable, SignTable};
 use crate::control::model::{Facts, KnownAny, KnownBody, KnownFull, KnownSlender, Model};
-use crate::control::model_aided::ModelAided;
+use crate::control::monitor::fault::Wheel;
 use crate::control::monitor::{EncoderLimits, FEWEST_WINDOW_TICKS, MonitorParameters, SensorLimits};
-use crate::control::standing::Standing;
-use crate::control::supervisor::{Parameters, Required, SafeState, Supervisor};
+use crate::control::sensing::calibration::Plausible;
+use crate::control::sensing::instruments::Instruments;
+use crate::control::sensing::required::Required;
+use crate::control::supervisor::{Parameters, SafeState, Supervisor};
 use crate::control::ticks::ticks;
-use crate::equation::{BodyKinematics, FullBlock};
-use crate::lever::TyingPoint;
+use crate::equation::FullBlock;
+use crate::equation::any_body::AnyBody;
+use crate::equation::body::{FullBody, SlenderBody};
+use crate::equation::kinematics::BodyKinematics;
+use crate::equation::lever::TyingPoint;
 
 /// Choices of `body`.
 const SLENDER: u32 = 0;

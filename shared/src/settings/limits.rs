@@ -2,7 +2,7 @@
 
 use super::kind::{Description, Kind};
 use super::table::{COUNT, TABLE};
-use crate::digest::{FOLD_BASIS, fold};
+use crate::math::fnv::{FOLD_BASIS, fold};
 
 /// A range of words.
 #[derive(Clone, Copy)]

@@ -6,6 +6,8 @@
 //! - [`store`]: in flash.
 //!
 //! Names, units and everything that prints stand in [`kind::Description`]s only, which firmware does not contain.
+//!
+//! The room imports `math`, `equation` and `control`.
 
 pub mod assemble;
 pub mod describe;

@@ -3,19 +3,20 @@
 use super::assemble::{BLOCK_ACCELEROMETER, GAINS, GROUND_ACCELEROMETER, GYROSCOPE, SettingsBody, controller, supervision};
 use super::limits::DEFAULTS;
 use super::{COUNT, Item, SettingError, Settings};
-use crate::control::complementary::Complementary;
 use crate::control::controller::Controller;
-use crate::control::estimate::Deviation;
-use crate::control::estimator::Estimator;
-use crate::control::fault::Wheel;
-use crate::control::instruments::Instruments;
-use crate::control::kalman::Kalman;
-use crate::control::law::{ClutchLaw, GatedTable, SignTable};
-use crate::control::look_ahead::LookAhead;
+use crate::control::estimation::Estimator;
+use crate::control::estimation::complementary::Complementary;
+use crate::control::estimation::estimate::Deviation;
+use crate::control::estimation::kalman::Kalman;
+use crate::control::estimation::model_aided::ModelAided;
+use crate::control::estimation::rest_detection::Standing;
+use crate::control::law::any_law::ClutchLaw;
+use crate::control::law::look_ahead::LookAhead;
+use crate::control::law::{GatedTable, SignTable};
 use crate::control::model::Model;
-use crate::control::model_aided::ModelAided;
+use crate::control::monitor::fault::Wheel;
 use crate::control::monitor::{EncoderLimits, MonitorParameters, SensorLimits};
-use crate::control::standing::Standing;
+use crate::control::sensing::instruments::Instruments;
 use crate::control::supervisor::{self, SafeState};
 
 /// Words that nobody has checked yet; the defaults where nothing is put.

@@ -2,12 +2,13 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use sprag_shared::detected::{Detected, DetectedState};
-use sprag_shared::equation::{Equation, FullInerter, Paper};
-use sprag_shared::lever::{CentreOfMass, Lever, TyingPoint};
+use sprag_shared::equation::kinematics::Paper;
+use sprag_shared::equation::lever::{CentreOfMass, Lever, TyingPoint};
+use sprag_shared::equation::{Equation, FullInerter};
+use sprag_shared::math::scalar::Scalar;
+use sprag_shared::math::value::Value;
 use sprag_shared::math::wide_sine;
-use sprag_shared::scalar::Scalar;
-use sprag_shared::value::Value;
+use sprag_shared::motion::step_end::{Detected, DetectedState};
 use wide::f64x4;
 
 /// An explicit SIMD type for the number.

@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use sprag_shared::block::Geometry;
-use sprag_shared::structure::DeviceKind;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::DeviceKind;
 use sprag_sim_host::batch::case::{Case, PulseShape};
 
 /// Cells along each axis.

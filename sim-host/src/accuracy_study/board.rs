@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use sprag_shared::block::Geometry;
-use sprag_shared::structure::DeviceKind;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::DeviceKind;
 
 use super::variant::{Method, Number, Variant};
 use crate::scene::accuracy::EventTreatment;

@@ -1,17 +1,20 @@
 //! One motion, followed in one way.
 
-use sprag_shared::any_equation::WithEquation;
-use sprag_shared::arc::{Arc, Method};
-use sprag_shared::closed_form::ClosedForm;
-use sprag_shared::detected::{Detected, DetectedState, Switched};
-use sprag_shared::fixed::FixedStep;
+use sprag_shared::equation::any_equation::WithEquation;
+use sprag_shared::equation::switched::Switched;
 use sprag_shared::ground::Piece;
+use sprag_shared::math::scalar::Real;
 use sprag_shared::math::tier::{Libm, Micromath, OwnPolynomial};
 use sprag_shared::math::tiered::Tiered;
-use sprag_shared::observer::{Event, Observer, Peaks, Stretch};
-use sprag_shared::rocking::{Phase, State, System};
-use sprag_shared::scalar::Real;
-use sprag_shared::taylor::Taylor;
+use sprag_shared::method::closed_form::ClosedForm;
+use sprag_shared::method::dense_output::{Arc, Method};
+use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::motion::ideal::System;
+use sprag_shared::motion::observer::{Event, Observer, Stretch};
+use sprag_shared::motion::state::{Phase, State};
+use sprag_shared::motion::step_end::{Detected, DetectedState};
+use sprag_shared::observers::peaks::Peaks;
 
 use super::subject::Subject;
 use super::variant::{self, Number, Setting, Variant};

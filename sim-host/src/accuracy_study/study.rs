@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
-use sprag_shared::error::ParameterError;
+use sprag_shared::structure::error::ParameterError;
 
 use super::board::Board;
 use super::probe::{Reading, read};

@@ -1,9 +1,9 @@
 //! The motions that are followed.
 
-use sprag_shared::block::{Block, Geometry};
-use sprag_shared::error::ParameterError;
 use sprag_shared::ground::Harmonics;
 use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::{Block, Geometry};
+use sprag_shared::structure::error::ParameterError;
 
 use crate::ground_motion::{Component, GroundMotion, Shape, Smooth};
 use crate::scene::Scene;

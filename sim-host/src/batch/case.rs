@@ -1,14 +1,15 @@
 //! One case of a batch: a dimensionless block under one cycle of a pulse.
 
-use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
-use sprag_shared::carried::Carried;
-use sprag_shared::error::ParameterError;
 use sprag_shared::ground::{Harmonics, Quiet};
-use sprag_shared::lever::Mount;
-use sprag_shared::observer::Peaks;
-use sprag_shared::rocking::{Limits, State};
-use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure};
-use sprag_shared::taylor::Taylor;
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::motion::state::{Limits, State};
+use sprag_shared::observers::peaks::Peaks;
+use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
+use sprag_shared::structure::error::ParameterError;
+use sprag_shared::structure::mount::Mount;
+use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
 
 pub use sprag_ensemble::alone::{CaseError, TERMS, TIGHT};
 pub use sprag_ensemble::pulsed::PulseShape;

@@ -3,8 +3,9 @@
 use std::io::{Read, Write};
 
 use serde::Deserialize;
-use sprag_shared::block::Geometry;
-use sprag_shared::structure::{DeviceKind, REST_SPEED};
+use sprag_shared::structure::REST_SPEED;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::DeviceKind;
 
 use super::case::{Case, CaseResult, PulseShape};
 use crate::accuracy::ErrorEstimate;

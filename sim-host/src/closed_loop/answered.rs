@@ -3,7 +3,7 @@
 //! Between two ticks the plant is integrated, and that errs; what the controller decides of it is part of the loop, so a decision that falls
 //! otherwise for an error of the plant shows in the estimate.
 
-use sprag_shared::rocking::Phase;
+use sprag_shared::motion::state::Phase;
 
 use super::LoopTask;
 use super::assemble::LoopFailure;

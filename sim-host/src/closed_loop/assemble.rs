@@ -1,20 +1,22 @@
 //! From a scene to a closed loop: the controller with its belief about the structure, the sensors, the plant.
 
-use sprag_shared::block::{Block, Geometry};
 use sprag_shared::control::controller::Controller;
-use sprag_shared::control::gate::Gate;
-use sprag_shared::control::law::{ClutchLaw, GatedTable, Law, SignTable};
-use sprag_shared::control::look_ahead::LookAhead;
+use sprag_shared::control::law::any_law::ClutchLaw;
+use sprag_shared::control::law::look_ahead::LookAhead;
+use sprag_shared::control::law::minimum_dwell::Gate;
+use sprag_shared::control::law::{GatedTable, Law, SignTable};
 use sprag_shared::control::model::{KnownBody, KnownFull, KnownSlender, Model};
 use sprag_shared::control::supervisor::{Parameters, Supervisor};
-use sprag_shared::drivetrain::{Drivetrain, Engagement};
-use sprag_shared::equation::{Consistent, Paper};
-use sprag_shared::error::ParameterError;
-use sprag_shared::restitution::Restitution;
+use sprag_shared::equation::kinematics::{Consistent, Paper};
 use sprag_shared::settings::assemble::SettingsBody;
 use sprag_shared::settings::kind::{Description, Kind};
 use sprag_shared::settings::{SettingError, Settings};
-use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::{Block, Geometry};
+use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
+use sprag_shared::structure::drivetrain::{Drivetrain, Engagement};
+use sprag_shared::structure::error::ParameterError;
+use sprag_shared::structure::restitution::Restitution;
 
 use super::design::SensorDesign;
 use super::disturbance::Disturbance;

@@ -1,17 +1,17 @@
 //! From data sheets to an estimator: delays, steady-state gains and standard deviations.
 
 use nalgebra::{SMatrix, SVector};
-use sprag_shared::block::GRAVITY;
-use sprag_shared::control::complementary::Complementary;
-use sprag_shared::control::estimate::Deviation;
-use sprag_shared::control::estimator::Estimator;
-use sprag_shared::control::instruments::Instruments;
-use sprag_shared::control::kalman::Kalman;
-use sprag_shared::control::model_aided::ModelAided;
-use sprag_shared::control::standing::Standing;
-use sprag_shared::error::ParameterError;
+use sprag_shared::control::estimation::Estimator;
+use sprag_shared::control::estimation::complementary::Complementary;
+use sprag_shared::control::estimation::estimate::Deviation;
+use sprag_shared::control::estimation::kalman::Kalman;
+use sprag_shared::control::estimation::model_aided::ModelAided;
+use sprag_shared::control::estimation::rest_detection::Standing;
+use sprag_shared::control::sensing::instruments::Instruments;
 use sprag_shared::math;
 use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::GRAVITY;
+use sprag_shared::structure::error::ParameterError;
 
 use super::gains::Tracking;
 use crate::scene::controller::EstimatorName;

@@ -1,7 +1,7 @@
 //! What goes wrong on purpose: faults put into the samples that the controller gets, and into what the clutches do.
 
 use sprag_shared::control::controller::Circumstances;
-use sprag_shared::control::sample::Sample;
+use sprag_shared::control::sensing::sample::Sample;
 
 /// Whoever stands between sensors, controller and clutches.
 pub trait Disturbance {

@@ -1,14 +1,14 @@
 //! The controller of a closed loop: the shared code itself, or something that answers in its place.
 
 use sprag_shared::control::controller::{Circumstances, Controller, ControllerState, Decision};
-use sprag_shared::control::estimate::Estimate;
-use sprag_shared::control::event_log::Entry;
+use sprag_shared::control::estimation::estimate::Estimate;
+use sprag_shared::control::law::signs::Signs;
 use sprag_shared::control::law::{DRIFT_TIME, Law, Situation, Wish};
 use sprag_shared::control::model::KnownBody;
-use sprag_shared::control::sample::Sample;
-use sprag_shared::control::signs::Signs;
+use sprag_shared::control::sensing::sample::Sample;
+use sprag_shared::control::supervisor::event_log::Entry;
 use sprag_shared::math;
-use sprag_shared::scalar::Sign;
+use sprag_shared::math::sign::Sign;
 
 use super::plant::Whereabouts;
 

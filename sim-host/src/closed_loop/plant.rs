@@ -1,14 +1,14 @@
 //! The structure of a closed loop: any device that takes commands, followed over the ground motion a short piece at a time.
 
-use sprag_shared::body::Body;
-use sprag_shared::drivetrain::device::Coupling;
-use sprag_shared::fixed::FixedStep;
-use sprag_shared::hybrid::path::Shaking;
-use sprag_shared::hybrid::{Machine, MachineState};
-use sprag_shared::observer::{Event, Stretch};
-use sprag_shared::rocking::{Limits, Phase, State, Stopped};
-use sprag_shared::scalar::Real;
-use sprag_shared::snapshot::{DeviceArc, DeviceObserver};
+use sprag_shared::drivetrain::clutch_state::Coupling;
+use sprag_shared::equation::body::Body;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::motion::device_snapshot::{DeviceArc, DeviceObserver};
+use sprag_shared::motion::hybrid::path::Shaking;
+use sprag_shared::motion::hybrid::{Machine, MachineState};
+use sprag_shared::motion::observer::{Event, Stretch};
+use sprag_shared::motion::state::{Limits, Phase, State, Stopped};
 
 use super::truth::{Places, Shocks};
 use crate::ground_motion::{GroundMotion, Segment, ShapePiece};
@@ -221,7 +221,7 @@ impl DeviceObserver<f64> for Both<'_> {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Extremes {
     /// As simulations have them; the acceleration stays 0.
-    pub peaks: sprag_shared::observer::Peaks<f64>,
+    pub peaks: sprag_shared::observers::peaks::Peaks<f64>,
 }
 
 impl DeviceObserver<f64> for Extremes {
@@ -231,7 +231,7 @@ impl DeviceObserver<f64> for Extremes {
     }
 
     fn device_event(&mut self, event: Event, time: f64, state: &State<f64>) {
-        sprag_shared::observer::Observer::event(&mut self.peaks, event, time, state);
+        sprag_shared::motion::observer::Observer::event(&mut self.peaks, event, time, state);
     }
 }
 

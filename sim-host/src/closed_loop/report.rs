@@ -4,8 +4,8 @@ use std::fmt;
 use std::io::{self, Write};
 
 use serde::Serialize;
-use sprag_shared::block::Block;
-use sprag_shared::observer::Peaks;
+use sprag_shared::observers::peaks::Peaks;
+use sprag_shared::structure::block::Block;
 
 use super::LoopTask;
 use super::decisions::DecisionReport;
@@ -186,7 +186,7 @@ pub fn write_history(reports: &[LoopReport], out: &mut dyn Write) -> io::Result<
                 out,
                 "{device},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
                 plant.time,
-                plant.ground[0] * sprag_shared::block::GRAVITY,
+                plant.ground[0] * sprag_shared::structure::block::GRAVITY,
                 plant.motion.rotation,
                 plant.motion.velocity,
                 plant.push,

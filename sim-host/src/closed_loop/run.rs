@@ -1,11 +1,11 @@
 //! The loop itself: plant, sensors, controller and clutches, tick by tick.
 
 use sprag_shared::control::controller::{Circumstances, Decision};
-use sprag_shared::control::fault::Fault;
 use sprag_shared::control::law::Wish;
-use sprag_shared::control::sample::Sample;
+use sprag_shared::control::monitor::fault::Fault;
+use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::Phase as ControllerPhase;
-use sprag_shared::rocking::{Phase, State, Stopped};
+use sprag_shared::motion::state::{Phase, State, Stopped};
 
 use super::decisions::{DecisionReport, Decisions, Moment};
 use super::disturbance::Disturbance;

@@ -1,11 +1,11 @@
 //! From data sheets to what the supervisor allows the sensors.
 
-use sprag_shared::block::GRAVITY;
-use sprag_shared::control::calibration::Plausible;
-use sprag_shared::control::fault::Wheel;
+use sprag_shared::control::monitor::fault::Wheel;
 use sprag_shared::control::monitor::{EncoderLimits, MonitorParameters, SensorLimits, stuck_time};
+use sprag_shared::control::sensing::calibration::Plausible;
 use sprag_shared::control::supervisor::{Parameters, SafeState};
 use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::GRAVITY;
 
 use super::design::{SensorDesign, delay};
 use crate::scene::controller::{ControllerTable, SafeStateName};

@@ -1,12 +1,12 @@
 //! What sensors on the block, on the ground and on the rack would read if they were perfect.
 
-use sprag_shared::block::GRAVITY;
-use sprag_shared::body::Body;
-use sprag_shared::hybrid::{Machine, MachineState};
+use sprag_shared::equation::body::Body;
 use sprag_shared::math;
-use sprag_shared::observer::{Event, Stretch};
-use sprag_shared::rocking::State;
-use sprag_shared::snapshot::{DeviceArc, DeviceObserver, Snapshot};
+use sprag_shared::motion::device_snapshot::{DeviceArc, DeviceObserver, Snapshot};
+use sprag_shared::motion::hybrid::{Machine, MachineState};
+use sprag_shared::motion::observer::{Event, Stretch};
+use sprag_shared::motion::state::State;
+use sprag_shared::structure::block::GRAVITY;
 
 use crate::sensor::Truth;
 

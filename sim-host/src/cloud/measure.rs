@@ -1,8 +1,8 @@
 //! Intensity measures of a ground motion, made dimensionless by the block that it shakes.
 
 use serde::{Deserialize, Serialize};
-use sprag_shared::block::GRAVITY;
 use sprag_shared::math;
+use sprag_shared::structure::block::GRAVITY;
 
 use crate::record::Record;
 use crate::record::intensity::{Intensity, cumulative_absolute_velocity_m_s, uniform_duration_s};

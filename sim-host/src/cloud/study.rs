@@ -149,7 +149,7 @@ impl Study {
 
     /// Whether the measure titles of `structures` shall be those of the slender model: all of them have it.
     pub fn slender(&self) -> bool {
-        self.structures.iter().all(|structure| structure.scene.geometry() == sprag_shared::block::Geometry::Slender)
+        self.structures.iter().all(|structure| structure.scene.geometry() == sprag_shared::structure::block::Geometry::Slender)
     }
 
     /// Whether runs shall say how accurate they are.

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use rayon::prelude::*;
-use sprag_shared::taylor::Taylor;
+use sprag_shared::method::taylor::Taylor;
 
 use super::ended;
 use super::out_arguments::OverwriteArguments;

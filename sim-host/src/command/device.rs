@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::{Args, Subcommand};
-use sprag_shared::control::fault::Fault;
+use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::link::{Identity, Request, State};
 use sprag_shared::settings::{Item, Settings};

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use sprag_shared::drivetrain::Engagement;
-use sprag_shared::structure::DeviceKind;
+use sprag_shared::structure::device::DeviceKind;
+use sprag_shared::structure::drivetrain::Engagement;
 
 use super::record_arguments::SceneRecordArguments;
 use crate::closed_loop::LoopTask;

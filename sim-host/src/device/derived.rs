@@ -3,11 +3,11 @@
 //! A controller is told p, p², the threshold of uplift and k = σ/λ as words of their own. A person knows R, α, λ and σ: those are given, and
 //! the words follow, p² = g/(λR), g tan α (slender: g α), k = σ/λ. λ and σ are no words; they are what the words amount to.
 
-use sprag_shared::block::{Block, GRAVITY, Geometry};
-use sprag_shared::error::Number;
 use sprag_shared::math;
 use sprag_shared::settings::kind::Description;
 use sprag_shared::settings::{Item, Settings};
+use sprag_shared::structure::block::{Block, GRAVITY, Geometry};
+use sprag_shared::structure::error::Number;
 
 /// λ = I_O/(mR²), which is no word.
 pub const INERTIA_RATIO: &str = "model.inertia_ratio";

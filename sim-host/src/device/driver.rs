@@ -8,10 +8,10 @@ use std::collections::VecDeque;
 use std::time::Duration;
 
 use sprag_shared::control::controller::{Circumstances, Decision};
-use sprag_shared::control::event_log::Entry;
 use sprag_shared::control::law::Wish;
-use sprag_shared::control::sample::Sample;
-use sprag_shared::device::reset::Cause;
+use sprag_shared::control::sensing::sample::Sample;
+use sprag_shared::control::supervisor::event_log::Entry;
+use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::link::{MAX_FRAME, Mishap, Pace, Request, Started, TickReport, TickSample, encode};
 use sprag_shared::settings::Settings;
 

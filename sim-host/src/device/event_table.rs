@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use sprag_shared::control::event_log::{Entry, Kind};
+use sprag_shared::control::supervisor::event_log::{Entry, Kind};
 
 /// What happened, in words; with the text of a fault where it is one.
 pub fn what(kind: Kind) -> String {
@@ -61,7 +61,7 @@ pub fn write_csv(entries: &[Entry], period: f32, out: &mut dyn Write) -> io::Res
 #[cfg(test)]
 mod tests {
     use super::*;
-    use sprag_shared::control::fault::{Fault, Wheel};
+    use sprag_shared::control::monitor::fault::{Fault, Wheel};
 
     #[test]
     fn every_entry_is_a_line_with_its_time() {

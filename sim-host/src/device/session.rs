@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-use sprag_shared::control::event_log::Entry;
+use sprag_shared::control::supervisor::event_log::Entry;
 use sprag_shared::link::{
     Deframer, Done, Identity, MAX_FRAME, Mishap, Reply, Request, Started, State, TickReport, TickSample, encode,
 };

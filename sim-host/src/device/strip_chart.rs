@@ -96,7 +96,7 @@ impl StripChart {
 mod tests {
     use super::*;
     use sprag_shared::control::controller::Decision;
-    use sprag_shared::control::estimate::Estimate;
+    use sprag_shared::control::estimation::estimate::Estimate;
     use sprag_shared::control::law::Wish;
     use sprag_shared::control::supervisor::Phase;
 

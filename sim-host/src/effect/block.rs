@@ -1,6 +1,6 @@
 //! Effects on the block: geometry, vertical ground motion, impacts.
 
-use sprag_shared::block::Geometry;
+use sprag_shared::structure::block::Geometry;
 
 use super::{Effect, EffectKey, settings};
 

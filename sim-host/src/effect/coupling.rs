@@ -1,6 +1,6 @@
 //! Effects between rack and flywheels: engagement, clutch, actuation, flywheel losses.
 
-use sprag_shared::drivetrain::{Actuation, Engagement, FlywheelLosses};
+use sprag_shared::structure::drivetrain::{Actuation, Engagement, FlywheelLosses};
 
 use super::{Effect, EffectKey, settings};
 

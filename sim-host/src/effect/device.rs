@@ -1,8 +1,8 @@
 //! Effects of where a device is attached and what it weighs: mount, kinematics, weight, rack.
 
-use sprag_shared::carried::Carried;
-use sprag_shared::lever::Mount;
-use sprag_shared::structure::{DeviceKind, KinematicsKind};
+use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
+use sprag_shared::structure::mount::Mount;
 
 use super::{Effect, EffectKey, settings};
 

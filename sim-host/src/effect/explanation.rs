@@ -1,7 +1,8 @@
 //! What a scene turns on for one of its devices, and the equations that result.
 
-use sprag_shared::drivetrain::Engagement;
-use sprag_shared::structure::{DeviceKind, Structure};
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::device::DeviceKind;
+use sprag_shared::structure::drivetrain::Engagement;
 
 use super::motion::motion;
 use super::number::number;

@@ -1,9 +1,9 @@
 //! The equation of motion that results from a scene, as text with its numbers.
 
-use sprag_shared::block::{GRAVITY, Geometry};
-use sprag_shared::drivetrain::{Engagement, FlywheelLosses};
-use sprag_shared::lever::Mount;
-use sprag_shared::structure::{DeviceKind, KinematicsKind};
+use sprag_shared::structure::block::{GRAVITY, Geometry};
+use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
+use sprag_shared::structure::drivetrain::{Engagement, FlywheelLosses};
+use sprag_shared::structure::mount::Mount;
 
 use super::explanation::Subject;
 use super::number::number;

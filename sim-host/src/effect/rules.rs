@@ -1,10 +1,10 @@
 //! The flywheels' own equations and the rules at engagement, uplift, impact and rest, as text with a scene's numbers.
 
-use sprag_shared::block::{GRAVITY, Geometry};
-use sprag_shared::drivetrain::{Actuation, Delay, Engagement};
 use sprag_shared::math;
-use sprag_shared::restitution::{Restitution, momentum_balance};
-use sprag_shared::structure::DeviceKind;
+use sprag_shared::structure::block::{GRAVITY, Geometry};
+use sprag_shared::structure::device::DeviceKind;
+use sprag_shared::structure::drivetrain::{Actuation, Delay, Engagement};
+use sprag_shared::structure::restitution::{Restitution, momentum_balance};
 
 use super::explanation::Subject;
 use super::number::number;
@@ -203,7 +203,8 @@ fn uplift(subject: &Subject<'_>) -> String {
 
 fn restitution(subject: &Subject<'_>) -> String {
     let structure = &subject.loaded;
-    let eta = |value: Result<f64, _>| value.map_or_else(|_: sprag_shared::error::ParameterError| "-".to_owned(), number);
+    let eta =
+        |value: Result<f64, _>| value.map_or_else(|_: sprag_shared::structure::error::ParameterError| "-".to_owned(), number);
     match structure.restitution {
         Restitution::Constant(value) => format!("η = {} as given", number(value)),
         Restitution::Geometric => format!("η = 1 − 2 sin²α/λ = {}", eta(structure.restitution())),

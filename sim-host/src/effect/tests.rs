@@ -3,7 +3,7 @@ use std::path::Path;
 use super::explanation::{Effects, Explanation};
 use super::*;
 
-const ALL: &str = include_str!("../../../fuzz/seeds/scene/effects.toml");
+const ALL: &str = include_str!("../../../tests/fuzz/seeds/scene/effects.toml");
 
 fn scenes_page() -> String {
     std::fs::read_to_string(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenes.md"))).unwrap()

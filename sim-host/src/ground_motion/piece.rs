@@ -2,7 +2,7 @@
 
 use sprag_shared::ground::harmonic::Harmonic;
 use sprag_shared::ground::{Elementary, Harmonics, Linear, Piece, Quiet, Ricker};
-use sprag_shared::scalar::Real;
+use sprag_shared::math::scalar::Real;
 
 use super::{Shape, Smooth};
 
@@ -161,7 +161,7 @@ impl<S: Real> Piece<S> for MixturePiece<S> {
 
     fn series(&self, time: S, coefficients: &mut [S]) {
         coefficients.fill(S::ZERO);
-        let mut others = [S::ZERO; sprag_shared::tape::MAXIMUM_ORDER];
+        let mut others = [S::ZERO; sprag_shared::math::power_series::MAXIMUM_ORDER];
         let length = coefficients.len().min(others.len());
         for (offset, piece) in &self.parts {
             each!(piece, p => p.series(*offset + time, &mut others[..length]));

@@ -76,7 +76,7 @@ fn block(scene: &Scene) -> Phrase {
     let timed = file.ground.is_empty() || file.ground.iter().chain(&file.vertical).any(in_seconds);
     values.extend(block.frequency_parameter_1_s.filter(|_| timed).map(|p| format!("*p* = {} 1/s", number(p))));
     values.push(format!("α = {}°", number(block.slenderness_deg)));
-    if block.inertia_ratio != sprag_shared::block::RECTANGLE_INERTIA_RATIO {
+    if block.inertia_ratio != sprag_shared::structure::block::RECTANGLE_INERTIA_RATIO {
         values.push(format!("λ = {}", number(block.inertia_ratio)));
     }
     values.push(match &block.restitution {

@@ -1,6 +1,6 @@
 //! The name, symbol and unit of every numeric key of a scene, for axes.
 
-use sprag_shared::block::Geometry;
+use sprag_shared::structure::block::Geometry;
 
 use crate::plot::literal;
 use crate::scene::Scene;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
-use sprag_shared::block::Block;
+use sprag_shared::structure::block::Block;
 
 use super::motion::Motion;
 use crate::accuracy::{Accuracy, Closeness, Worst};

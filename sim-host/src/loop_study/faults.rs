@@ -3,7 +3,7 @@
 use std::fmt;
 
 use sprag_shared::control::controller::Circumstances;
-use sprag_shared::control::sample::Sample;
+use sprag_shared::control::sensing::sample::Sample;
 
 use super::bench::{Conditions, StudyError, Variant, each, with_loop};
 use super::motion::Motion;

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
-use sprag_shared::block::{Block, GRAVITY};
 use sprag_shared::ground::harmonic::MavroeidisPapageorgiou;
 use sprag_shared::math;
+use sprag_shared::structure::block::{Block, GRAVITY};
 
 use super::bench::{StudyError, records_of};
 use crate::cloud::study_file::RecordTable;

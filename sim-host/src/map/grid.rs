@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use sprag_shared::block::GRAVITY;
-use sprag_shared::lever::Mount;
+use sprag_shared::structure::block::GRAVITY;
+use sprag_shared::structure::mount::Mount;
 use toml::Table;
 
 use crate::batch::case::PulseShape;

@@ -1,8 +1,8 @@
 //! Where a device may be attached (Figure 3 of the paper).
 
 use serde::{Deserialize, Serialize};
-use sprag_shared::block::Block;
-use sprag_shared::error::ParameterError;
+use sprag_shared::structure::block::Block;
+use sprag_shared::structure::error::ParameterError;
 
 use crate::scene::SceneError;
 use crate::scene::device::{DeviceTable, MountName, resolve_mount};

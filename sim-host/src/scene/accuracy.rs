@@ -1,7 +1,7 @@
 //! `[accuracy]`: how a scene is integrated.
 
 use serde::{Deserialize, Serialize};
-use sprag_shared::fixed::FixedStep;
+use sprag_shared::method::fixed::FixedStep;
 
 use super::error::SceneError;
 use super::schema::KeyOf;

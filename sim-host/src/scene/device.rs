@@ -1,12 +1,12 @@
 //! `[[device]]`: which device, where, and what is real about it.
 
 use serde::{Deserialize, Serialize};
-use sprag_shared::block::Block;
-use sprag_shared::carried::Carried;
-use sprag_shared::drivetrain::Drivetrain;
-use sprag_shared::inertance::{Flywheel, inertance_of_train};
-use sprag_shared::lever::Mount;
-use sprag_shared::structure::{Device, DeviceKind, KinematicsKind};
+use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::block::Block;
+use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
+use sprag_shared::structure::drivetrain::Drivetrain;
+use sprag_shared::structure::inertance::{Flywheel, inertance_of_train};
+use sprag_shared::structure::mount::Mount;
 
 use super::drivetrain::{ActuationTable, ClutchTable, EngagementName, FlywheelLossesTable, RackTable};
 use super::error::SceneError;

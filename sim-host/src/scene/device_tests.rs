@@ -1,7 +1,7 @@
 //! What goes beyond the ideal device: every table, and every refusal.
 
-use sprag_shared::carried::Carried;
-use sprag_shared::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
+use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
 
 use super::*;
 

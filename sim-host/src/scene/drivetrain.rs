@@ -1,11 +1,11 @@
 //! The tables of a `[[device]]` that take it beyond the ideal device: `engagement`, `flywheel`, `clutch`, `rack`, `actuation`.
 
 use serde::{Deserialize, Serialize};
-use sprag_shared::block::{Block, GRAVITY};
-use sprag_shared::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
-use sprag_shared::lever::Mount;
 use sprag_shared::math;
-use sprag_shared::structure::Device;
+use sprag_shared::structure::block::{Block, GRAVITY};
+use sprag_shared::structure::device::Device;
+use sprag_shared::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
+use sprag_shared::structure::mount::Mount;
 
 use super::device::{DeviceTable, Kind};
 use super::error::SceneError;

@@ -1,6 +1,6 @@
 //! What can be wrong with a scene.
 
-use sprag_shared::error::{Number, ParameterError};
+use sprag_shared::structure::error::{Number, ParameterError};
 
 /// A scene that cannot be read, in one line.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use sprag_shared::block::{Block, GRAVITY};
 use sprag_shared::ground::harmonic::MavroeidisPapageorgiou;
 use sprag_shared::ground::{Harmonics, Linear, Ricker};
+use sprag_shared::structure::block::{Block, GRAVITY};
 
 use super::error::{Key, SceneError};
 use super::schema::KeyOf;

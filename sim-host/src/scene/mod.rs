@@ -18,9 +18,9 @@ pub mod weight;
 
 use std::path::{Path, PathBuf};
 
-use sprag_shared::block::{Block, Geometry};
-use sprag_shared::drivetrain::Engagement;
-use sprag_shared::error::ParameterError;
+use sprag_shared::structure::block::{Block, Geometry};
+use sprag_shared::structure::drivetrain::Engagement;
+use sprag_shared::structure::error::ParameterError;
 use sprag_shared::structure::{Restitution, Structure};
 
 pub use device::SceneDevice;

@@ -1,7 +1,7 @@
 //! The keys of a scene file, as TOML has them.
 
 use serde::{Deserialize, Serialize};
-use sprag_shared::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::structure::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::{REST_SPEED, Restitution};
 
 pub use super::accuracy::{AccuracyTable, EventTreatment, MethodName, Precision};

@@ -1,6 +1,6 @@
-use sprag_shared::carried::Carried;
-use sprag_shared::lever::Mount;
-use sprag_shared::structure::KinematicsKind;
+use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::device::KinematicsKind;
+use sprag_shared::structure::mount::Mount;
 
 use super::*;
 use crate::cloud::study::Study;

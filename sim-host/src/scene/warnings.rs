@@ -1,10 +1,10 @@
 //! Values of a scene that are allowed and yet unlikely to be meant: other units, mostly.
 
-use sprag_shared::block::{Block, Geometry};
-use sprag_shared::drivetrain::Engagement;
-use sprag_shared::error::Number;
-use sprag_shared::lever::Mount;
 use sprag_shared::math;
+use sprag_shared::structure::block::{Block, Geometry};
+use sprag_shared::structure::drivetrain::Engagement;
+use sprag_shared::structure::error::Number;
+use sprag_shared::structure::mount::Mount;
 
 use super::Scene;
 use super::device::{DeviceTable, Kind, SceneDevice};

@@ -1,11 +1,11 @@
 //! `weight` of a `[[device]]`: the gravitational mass of flywheels and rack, and what it rides on.
 
 use serde::{Deserialize, Serialize};
-use sprag_shared::block::Block;
-use sprag_shared::carried::Carried;
-use sprag_shared::lever::Mount;
 use sprag_shared::math;
-use sprag_shared::structure::Device;
+use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::block::Block;
+use sprag_shared::structure::device::Device;
+use sprag_shared::structure::mount::Mount;
 
 use super::drivetrain::either;
 use super::error::SceneError;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use sprag_shared::control::sample::Count;
+use sprag_shared::control::sensing::sample::Count;
 use sprag_shared::math;
 
 use super::delivery::Delivery;

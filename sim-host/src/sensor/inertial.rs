@@ -1,6 +1,6 @@
 //! Gyroscopes and accelerometers.
 
-use sprag_shared::control::sample::Reading;
+use sprag_shared::control::sensing::sample::Reading;
 use sprag_shared::math;
 
 use super::delivery::Delivery;

@@ -20,8 +20,8 @@ pub mod sampling;
 #[cfg(test)]
 mod tests;
 
-use sprag_shared::block::GRAVITY;
-use sprag_shared::control::sample::Sample;
+use sprag_shared::control::sensing::sample::Sample;
+use sprag_shared::structure::block::GRAVITY;
 
 pub use delivery::MOST_UNDER_WAY;
 pub use drift::Drift;

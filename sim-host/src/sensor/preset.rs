@@ -14,7 +14,7 @@
 
 use std::f64::consts::PI;
 
-use sprag_shared::block::GRAVITY;
+use sprag_shared::structure::block::GRAVITY;
 
 use super::drift::ALLAN_PEAK_RATIO;
 use super::{Drift, Encoder, Inertial, Sampling, Suite};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, SQRT_2};
 
-use sprag_shared::control::sample::Reading;
+use sprag_shared::control::sensing::sample::Reading;
 use sprag_shared::math;
 
 use super::preset::{DEGREE, SUITES, find, names};

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use serde::Serialize;
-use sprag_shared::block::{GRAVITY, Geometry};
-use sprag_shared::error::ParameterError;
+use sprag_shared::structure::block::{GRAVITY, Geometry};
+use sprag_shared::structure::error::ParameterError;
 
 use crate::scene::Scene;
 use crate::scene::ground::{GroundTable, Motion};

@@ -1,10 +1,10 @@
 //! What a scene asks for beyond history, peaks and checks: the energy ledger.
 
-use sprag_shared::ledger::{Entries, Ledger};
-use sprag_shared::observer::{Event, Stretch};
-use sprag_shared::rocking::State;
-use sprag_shared::scalar::Real;
-use sprag_shared::snapshot::{DeviceArc, DeviceObserver};
+use sprag_shared::math::scalar::Real;
+use sprag_shared::motion::device_snapshot::{DeviceArc, DeviceObserver};
+use sprag_shared::motion::observer::{Event, Stretch};
+use sprag_shared::motion::state::State;
+use sprag_shared::observers::ledger::{Entries, Ledger};
 use sprag_shared::structure::Structure;
 
 use super::drive::Segmented;
@@ -115,8 +115,8 @@ impl<S: Real> DeviceObserver<S> for EnergyHistory<S> {
 
 #[cfg(test)]
 mod tests {
-    use sprag_shared::block::{Block, Geometry};
-    use sprag_shared::ledger::{Account, Clutching};
+    use sprag_shared::observers::ledger::{Account, Clutching};
+    use sprag_shared::structure::block::{Block, Geometry};
 
     use super::*;
 

@@ -1,11 +1,11 @@
 //! What a motion asks of the toe, the device and its gears, and where an assumption of the model fails.
 
 use serde::Serialize;
-use sprag_shared::block::GRAVITY;
-use sprag_shared::checks::{Checks, Extreme, Report};
-use sprag_shared::gear::{Gear, tooth_load_ratios};
-use sprag_shared::inertance::Flywheel;
-use sprag_shared::scalar::Real;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::observers::checks::{Checks, Extreme, Report};
+use sprag_shared::structure::block::GRAVITY;
+use sprag_shared::structure::gear_teeth::{Gear, tooth_load_ratios};
+use sprag_shared::structure::inertance::Flywheel;
 
 use super::run::Task;
 use crate::scene::checks::ChecksTable;

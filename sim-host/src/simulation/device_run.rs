@@ -1,9 +1,9 @@
 //! What a run of one device comes to.
 
 use serde::Serialize;
-use sprag_shared::observer::Peaks;
-use sprag_shared::rocking::State;
-use sprag_shared::scalar::Real;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::motion::state::State;
+use sprag_shared::observers::peaks::Peaks;
 
 use super::demand::{Demand, Impulses, support_force_ratio};
 use super::energy::EnergyReport;

@@ -1,14 +1,16 @@
 //! A system through a whole ground motion and the free time after it.
 
-use sprag_shared::arc::Method;
-use sprag_shared::block::{Block, Geometry};
-use sprag_shared::hybrid::path::{Shaking, Tracer};
-use sprag_shared::hybrid::{Machine, MachineState};
-use sprag_shared::observer::{Observer, Peaks};
-use sprag_shared::rocking::{Limits, Phase, State, Stopped, System};
-use sprag_shared::scalar::Real;
-use sprag_shared::snapshot::DeviceObserver;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::method::dense_output::Method;
+use sprag_shared::motion::device_snapshot::DeviceObserver;
+use sprag_shared::motion::hybrid::path::{Shaking, Tracer};
+use sprag_shared::motion::hybrid::{Machine, MachineState};
+use sprag_shared::motion::ideal::System;
+use sprag_shared::motion::observer::Observer;
+use sprag_shared::motion::state::{Limits, Phase, State, Stopped};
+use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::{Block, Geometry};
 
 use crate::ground_motion::{GroundMotion, Segment, ShapePiece};
 

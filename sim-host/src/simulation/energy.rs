@@ -2,7 +2,7 @@
 //! mgRα²/2).
 
 use serde::Serialize;
-use sprag_shared::ledger::Entries;
+use sprag_shared::observers::ledger::Entries;
 
 use super::DeviceRun;
 use crate::history::HistoryError;

@@ -1,11 +1,12 @@
 //! Runs of ideal devices, by the loop that knows nothing else.
 
-use sprag_shared::arc::Method;
-use sprag_shared::observer::Peaks;
-use sprag_shared::rocking::{Phase, State, System};
-use sprag_shared::scalar::Real;
-use sprag_shared::taylor::Taylor;
-use sprag_shared::watched::Watched;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::method::dense_output::Method;
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::motion::ideal::System;
+use sprag_shared::motion::ideal::device_view::Watched;
+use sprag_shared::motion::state::{Phase, State};
+use sprag_shared::observers::peaks::Peaks;
 
 use super::TERMS_F32;
 use super::device_run::{DeviceRun, Found};

@@ -1,11 +1,11 @@
 //! Runs of devices with a memory, or over ground that moves vertically too.
 
-use sprag_shared::fixed::FixedStep;
-use sprag_shared::hybrid::Machine;
-use sprag_shared::hybrid::path::Tracer;
-use sprag_shared::hybrid::series::Series;
-use sprag_shared::rocking::Phase;
-use sprag_shared::scalar::Real;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::motion::hybrid::Machine;
+use sprag_shared::motion::hybrid::path::Tracer;
+use sprag_shared::motion::hybrid::series::Series;
+use sprag_shared::motion::state::Phase;
 
 use super::device_run::{DeviceRun, Found};
 use super::run::{Failure, Task};

@@ -1,10 +1,10 @@
 //! Samples a motion for histories.
 
-use sprag_shared::block::GRAVITY;
-use sprag_shared::observer::{Event, Stretch};
-use sprag_shared::rocking::State;
-use sprag_shared::scalar::Real;
-use sprag_shared::snapshot::{DeviceArc, DeviceObserver, Snapshot};
+use sprag_shared::math::scalar::Real;
+use sprag_shared::motion::device_snapshot::{DeviceArc, DeviceObserver, Snapshot};
+use sprag_shared::motion::observer::{Event, Stretch};
+use sprag_shared::motion::state::State;
+use sprag_shared::structure::block::GRAVITY;
 
 use super::drive::Segmented;
 use crate::ground_motion::Segment;

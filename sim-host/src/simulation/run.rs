@@ -1,14 +1,15 @@
 //! `simulate`: every device of a scene under its ground motion.
 
-use sprag_shared::block::Block;
-use sprag_shared::checks::Checks;
-use sprag_shared::drivetrain::Engagement;
-use sprag_shared::error::ParameterError;
-use sprag_shared::ledger::{Account, Clutching};
-use sprag_shared::observer::Peaks;
-use sprag_shared::rocking::Stopped;
-use sprag_shared::scalar::Real;
-use sprag_shared::structure::{DeviceKind, Structure};
+use sprag_shared::math::scalar::Real;
+use sprag_shared::motion::state::Stopped;
+use sprag_shared::observers::checks::Checks;
+use sprag_shared::observers::ledger::{Account, Clutching};
+use sprag_shared::observers::peaks::Peaks;
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::Block;
+use sprag_shared::structure::device::DeviceKind;
+use sprag_shared::structure::drivetrain::Engagement;
+use sprag_shared::structure::error::ParameterError;
 
 use super::asked::Asked;
 use super::device_run::{DeviceRun, ErrorReport};

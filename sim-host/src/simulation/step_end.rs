@@ -1,14 +1,17 @@
 //! Runs whose impacts and clutch are looked at once a step (`accuracy.events = "step-end"`): the scheme of the paper and of
-//! most programs, kept to show what it costs ([`sprag_shared::detected`]).
+//! most programs, kept to show what it costs ([`sprag_shared::motion::step_end`]).
 
-use sprag_shared::any_equation::WithEquation;
-use sprag_shared::block::GRAVITY;
-use sprag_shared::clutch::ClutchRule;
-use sprag_shared::detected::{Detected, DetectedState, Switched};
+use sprag_shared::equation::any_equation::WithEquation;
+use sprag_shared::equation::clutch_rule::ClutchRule;
+use sprag_shared::equation::switched::Switched;
 use sprag_shared::ground::Piece;
-use sprag_shared::observer::Peaks;
-use sprag_shared::rocking::{Phase, State, System};
-use sprag_shared::scalar::{Real, Sign};
+use sprag_shared::math::scalar::Real;
+use sprag_shared::math::sign::Sign;
+use sprag_shared::motion::ideal::System;
+use sprag_shared::motion::state::{Phase, State};
+use sprag_shared::motion::step_end::{Detected, DetectedState};
+use sprag_shared::observers::peaks::Peaks;
+use sprag_shared::structure::block::GRAVITY;
 
 use super::drive::Course;
 use crate::ground_motion::ShapePiece;

@@ -2,8 +2,8 @@
 
 use std::marker::PhantomData;
 
-use sprag_shared::scalar::Real;
-use sprag_shared::snapshot::DeviceObserver;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::motion::device_snapshot::DeviceObserver;
 use sprag_shared::structure::Structure;
 
 use super::drive::Segmented;

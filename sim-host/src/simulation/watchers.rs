@@ -1,11 +1,12 @@
 //! Everyone who watches a run: the history, the peaks, the checks, and what the scene asks for beyond them.
 
-use sprag_shared::checks::Checks;
-use sprag_shared::observer::{Event, Observer, Peaks, Stretch};
-use sprag_shared::rocking::State;
-use sprag_shared::scalar::Real;
-use sprag_shared::snapshot::{DeviceArc, DeviceObserver};
-use sprag_shared::watched::Watched;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::motion::device_snapshot::{DeviceArc, DeviceObserver};
+use sprag_shared::motion::ideal::device_view::Watched;
+use sprag_shared::motion::observer::{Event, Observer, Stretch};
+use sprag_shared::motion::state::State;
+use sprag_shared::observers::checks::Checks;
+use sprag_shared::observers::peaks::Peaks;
 
 use super::asked::Asked;
 use super::drive::Segmented;

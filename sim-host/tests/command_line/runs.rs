@@ -146,7 +146,7 @@ fn effects_are_listed_and_shown() {
 
 #[test]
 fn explain_says_what_is_on_why_and_which_equation_results() {
-    let seed = concat!(env!("CARGO_MANIFEST_DIR"), "/../fuzz/seeds/scene/effects.toml");
+    let seed = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/fuzz/seeds/scene/effects.toml");
     let output = sprag(&["explain", seed, "--set", "device.3.clutch.capacity_ratio=0.25"]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).unwrap();

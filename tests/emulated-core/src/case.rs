@@ -4,7 +4,7 @@ use crate::watcher::Watcher;
 use core::fmt;
 use sprag_shared::{
     case::{self, CaseError},
-    digest::Digest,
+    observers::digest::Digest,
 };
 
 /// Why a case could not be run.

@@ -9,19 +9,24 @@ mod devices;
 
 use core::{fmt, hint::black_box, marker::PhantomData};
 use sprag_shared::{
-    any_equation::AnyEquation,
-    arc::Method,
-    clutch::ClutchRule,
-    detected::{Detected, DetectedState},
-    equation::{Equation, FullBlock, FullInerter, Paper, SlenderBlock},
-    fixed::{FixedStep, runge_kutta_4},
+    equation::{
+        Equation, FullBlock, FullInerter, SlenderBlock, any_equation::AnyEquation, clutch_rule::ClutchRule, kinematics::Paper,
+        lever::CentreOfMass,
+    },
     ground::Harmonics,
-    lever::CentreOfMass,
     math::sine32,
-    observer::{Event, Observer, Stretch},
-    rocking::{Limits, State, Stopped, System},
-    snapshot::{DeviceArc, DeviceObserver},
-    taylor::Taylor,
+    method::{
+        dense_output::Method,
+        fixed::{FixedStep, runge_kutta_4},
+        taylor::Taylor,
+    },
+    motion::{
+        device_snapshot::{DeviceArc, DeviceObserver},
+        ideal::System,
+        observer::{Event, Observer, Stretch},
+        state::{Limits, State, Stopped},
+        step_end::{Detected, DetectedState},
+    },
 };
 
 type Inerter = FullInerter<f32, CentreOfMass, Paper>;
@@ -108,7 +113,7 @@ struct Tally {
 }
 
 impl Observer<f32> for Tally {
-    fn stretch(&mut self, _arc: &dyn sprag_shared::arc::Arc<f32>, stretch: &Stretch<f32>) {
+    fn stretch(&mut self, _arc: &dyn sprag_shared::method::dense_output::Arc<f32>, stretch: &Stretch<f32>) {
         self.steps += u32::from(stretch.from == 0.0);
     }
 

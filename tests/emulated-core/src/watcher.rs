@@ -1,11 +1,13 @@
 //! Who watches a case: a digest, or nobody.
 
 use sprag_shared::{
-    arc::Arc,
-    digest::Digest,
-    observer::{Event, Observer, Stretch},
-    rocking::State,
-    snapshot::{DeviceArc, DeviceObserver},
+    method::dense_output::Arc,
+    motion::{
+        device_snapshot::{DeviceArc, DeviceObserver},
+        observer::{Event, Observer, Stretch},
+        state::State,
+    },
+    observers::digest::Digest,
 };
 
 /// A digest, or nobody, chosen at run time: every structure and method has one loop in flash, for cases and for kernels.

@@ -1,15 +1,15 @@
 //! A block with elastic clutches, whatever their stiffness, by fixed exponential midpoint steps.
 
-use sprag_shared::drivetrain::{Drivetrain, Engagement};
-use sprag_shared::fixed::FixedStep;
 use sprag_shared::ground::{Harmonics, Quiet};
-use sprag_shared::hybrid::Machine;
-use sprag_shared::hybrid::path::Shaking;
-use sprag_shared::observer::{Event, Stretch};
-use sprag_shared::rocking::{Limits, State, Stopped};
-use sprag_shared::scalar::Real;
-use sprag_shared::snapshot::{DeviceArc, DeviceObserver};
+use sprag_shared::math::scalar::Real;
+use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::motion::device_snapshot::{DeviceArc, DeviceObserver};
+use sprag_shared::motion::hybrid::Machine;
+use sprag_shared::motion::hybrid::path::Shaking;
+use sprag_shared::motion::observer::{Event, Stretch};
+use sprag_shared::motion::state::{Limits, State, Stopped};
 use sprag_shared::structure::Structure;
+use sprag_shared::structure::drivetrain::{Drivetrain, Engagement};
 
 use crate::energy::Energy;
 

@@ -2,8 +2,10 @@
 
 use std::cell::Cell;
 
-use sprag_shared::arc::{Arc, Method, Motion, Start};
-use sprag_shared::scalar::{Real, Sign};
+use sprag_shared::equation::motion::Motion;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::math::sign::Sign;
+use sprag_shared::method::dense_output::{Arc, Method, Start};
 
 /// Another method, counted: work is bounded by numbers of arcs and of looks at them, never by a clock.
 #[derive(Debug, Default)]

@@ -1,10 +1,12 @@
 //! The energy of a rocking block.
 
-use sprag_shared::arc::Motion;
-use sprag_shared::block::Geometry;
+use sprag_shared::equation::motion::Motion;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::math::sign::Sign;
 use sprag_shared::math::{cos, sin};
-use sprag_shared::scalar::{Real, Sign};
-use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
 
 /// Energy of the block and of its engaged flywheel over I_O p² (dimensionless), above that of rest, with the inerter at the
 /// centre of mass: ½(1 + k cos²q) (θ̇/p)² + cos q − cos α, q = α − |θ|, k = σ/λ; slender ½(1 + k) (θ̇/p)² + α|θ| − ½θ².

@@ -1,11 +1,11 @@
 //! A structure, followed through a ground motion.
 
-use sprag_shared::arc::Method;
-use sprag_shared::observer::Observer;
-use sprag_shared::rocking::{Limits, Phase, State, Stopped};
-use sprag_shared::scalar::Real;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::method::dense_output::Method;
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::motion::observer::Observer;
+use sprag_shared::motion::state::{Limits, Phase, State, Stopped};
 use sprag_shared::structure::Structure;
-use sprag_shared::taylor::Taylor;
 
 use crate::log::FullLog;
 use crate::segment::Segment;

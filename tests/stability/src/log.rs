@@ -1,10 +1,13 @@
 //! An observer that remembers.
 
-use sprag_shared::arc::{Arc, Motion};
-use sprag_shared::decay::Decay;
-use sprag_shared::observer::{Event, Observer, Peaks, Stretch};
-use sprag_shared::rocking::State;
-use sprag_shared::scalar::{Real, Sign};
+use sprag_shared::equation::motion::Motion;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::math::sign::Sign;
+use sprag_shared::method::dense_output::Arc;
+use sprag_shared::motion::observer::{Event, Observer, Stretch};
+use sprag_shared::motion::rest::free_decay::Decay;
+use sprag_shared::motion::state::State;
+use sprag_shared::observers::peaks::Peaks;
 
 use crate::follow::Watcher;
 

@@ -1,11 +1,11 @@
 //! The two precisions that every case runs in.
 
-use sprag_shared::arc::Method;
-use sprag_shared::fixed::FixedStep;
-use sprag_shared::rocking::{State, Stopped};
-use sprag_shared::scalar::Real;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::method::dense_output::Method;
+use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::motion::state::{State, Stopped};
 use sprag_shared::structure::Structure;
-use sprag_shared::taylor::Taylor;
 
 use crate::counted::Counted;
 use crate::follow::{Start, Watcher, follow};

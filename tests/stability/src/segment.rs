@@ -2,7 +2,7 @@
 
 use sprag_shared::ground::harmonic::Harmonic;
 use sprag_shared::ground::{Harmonics, Linear, Piece};
-use sprag_shared::scalar::Real;
+use sprag_shared::math::scalar::Real;
 
 /// Smooth ground motion over a stretch of time.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,10 @@
 //! Blocks and devices.
 
-use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
-use sprag_shared::carried::Carried;
-use sprag_shared::lever::Mount;
-use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure};
+use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
+use sprag_shared::structure::mount::Mount;
+use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
 
 /// Both equations of motion.
 pub const GEOMETRIES: [Geometry; 2] = [Geometry::Full, Geometry::Slender];

@@ -1,9 +1,11 @@
 //! An observer that counts and checks, and keeps nothing: for long motions.
 
-use sprag_shared::arc::{Arc, Motion};
-use sprag_shared::observer::{Event, Observer, Peaks, Stretch};
-use sprag_shared::rocking::State;
-use sprag_shared::scalar::Real;
+use sprag_shared::equation::motion::Motion;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::method::dense_output::Arc;
+use sprag_shared::motion::observer::{Event, Observer, Stretch};
+use sprag_shared::motion::state::State;
+use sprag_shared::observers::peaks::Peaks;
 
 use crate::energy::Energy;
 use crate::follow::Watcher;

@@ -1,11 +1,12 @@
 //! The hard cases that the target runs: single precision, fixed steps, as words that host and board both read.
 
-use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
-use sprag_shared::carried::Carried;
 use sprag_shared::case::{Case, Ending, FixedMethod, Ground, GroundPiece, Initially, Shape};
-use sprag_shared::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
 use sprag_shared::ground::{Harmonics, Linear};
-use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure};
+use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
+use sprag_shared::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
+use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
 
 /// A case, its name, and how it must end.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use sprag_shared::control::sample::{Count, Reading, Sample};
+use sprag_shared::control::sensing::sample::{Count, Reading, Sample};
 use sprag_shared::device::{Answer, Device, Surroundings};
 use sprag_shared::link::{Deframer, FrameError, MAX_FRAME, Mishap, Pace, Reply, Request, TickSample, WORD_BLOCK, Words, encode};
 use sprag_shared::settings::assemble::AnyController;

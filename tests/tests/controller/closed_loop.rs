@@ -1,6 +1,6 @@
 //! The controller in closed loop: its limit, its worth with real sensors, its faults.
 
-use sprag_shared::drivetrain::overrunning::wheel_for;
+use sprag_shared::equation::clutch_rule::wheel_for;
 use sprag_sim_host::closed_loop::plant::Extremes;
 use sprag_sim_host::closed_loop::run::Tick;
 use sprag_sim_host::interrupt::Interrupt;

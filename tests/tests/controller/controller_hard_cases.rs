@@ -4,8 +4,9 @@
 use std::sync::LazyLock;
 
 use sprag_shared::control::controller::Decision;
-use sprag_shared::control::fault::{Fault, Sensor};
-use sprag_shared::control::sample::Sample;
+use sprag_shared::control::monitor::fault::Fault;
+use sprag_shared::control::sensing::sample::Sample;
+use sprag_shared::control::sensing::sensor::Sensor;
 use sprag_shared::control::supervisor::Phase;
 use sprag_sim_host::scene::controller::EstimatorName;
 use sprag_tests::sample_tape::{Player, Tape, numbered_on};

@@ -2,8 +2,9 @@
 
 use std::sync::LazyLock;
 
-use sprag_shared::control::fault::{Fault, Sensor};
-use sprag_shared::control::sample::{Reading, Sample};
+use sprag_shared::control::monitor::fault::Fault;
+use sprag_shared::control::sensing::sample::{Reading, Sample};
+use sprag_shared::control::sensing::sensor::Sensor;
 use sprag_shared::control::supervisor::Phase;
 use sprag_sim_host::scene::controller::EstimatorName;
 use sprag_tests::device_loop::decides;

@@ -6,13 +6,14 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
-use sprag_shared::carried::Carried;
 use sprag_shared::case::{self, Case, Ending, FixedMethod, Ground, GroundPiece, Initially, Shape};
-use sprag_shared::digest::Digest;
-use sprag_shared::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
 use sprag_shared::ground::Harmonics;
-use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, Restitution, Structure};
+use sprag_shared::observers::digest::Digest;
+use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
+use sprag_shared::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
+use sprag_shared::structure::{Restitution, Structure};
 use sprag_tests::emulation::{emulate, firmware, kernels};
 
 const METHODS: [FixedMethod; 3] = [FixedMethod::SemiImplicitEuler, FixedMethod::RungeKutta4, FixedMethod::Taylor];

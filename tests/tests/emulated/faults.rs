@@ -4,8 +4,9 @@
 //! `cargo xtask test` builds. What holds whatever happens is in [`Course::check`].
 
 use sprag_shared::control::controller::Circumstances;
-use sprag_shared::control::fault::{Fault, Recovery, Sensor};
-use sprag_shared::control::sample::Sample;
+use sprag_shared::control::monitor::fault::{Fault, Recovery};
+use sprag_shared::control::sensing::sample::Sample;
+use sprag_shared::control::sensing::sensor::Sensor;
 use sprag_shared::control::supervisor::Phase;
 use sprag_sim_host::closed_loop::disturbance::Disturbance;
 use sprag_sim_host::command::loop_scene::LoopScene;

@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 
 use sprag_shared::case;
-use sprag_shared::digest::Digest;
+use sprag_shared::observers::digest::Digest;
 use sprag_stability::target_cases::target_cases;
 use sprag_tests::emulation::{emulate, firmware};
 

@@ -6,8 +6,8 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use sprag_shared::control::sample::{Count, Reading, Sample};
-use sprag_shared::device::reset::Cause;
+use sprag_shared::control::sensing::sample::{Count, Reading, Sample};
+use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::link::{Done, MAX_FRAME, Mishap, Pace, Reply, Request, Started, TickSample, WORD_BLOCK, Words, encode};
 use sprag_shared::settings::store::SLOT_BYTES;
 use sprag_shared::settings::{Item, Settings};

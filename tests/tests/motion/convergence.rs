@@ -3,15 +3,16 @@
 
 use core::f64::consts::TAU;
 
-use sprag_shared::arc::Method;
-use sprag_shared::block::Geometry;
-use sprag_shared::fixed::FixedStep;
 use sprag_shared::math::ln;
-use sprag_shared::observer::Event;
-use sprag_shared::rocking::{Phase, State};
-use sprag_shared::scalar::Real;
-use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
-use sprag_shared::taylor::Taylor;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::method::dense_output::Method;
+use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::motion::observer::Event;
+use sprag_shared::motion::state::{Phase, State};
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
 use sprag_tests::{Log, Segment, Start, follow, shake, unit_block};
 
 /// A run with impacts, turns and, with a clutch, switches; ends in mid-swing.

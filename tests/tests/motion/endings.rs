@@ -3,12 +3,13 @@
 
 use core::f64::consts::{PI, TAU};
 
-use sprag_shared::block::Geometry;
 use sprag_shared::math::{asin, atanh, square_root};
-use sprag_shared::observer::Event;
-use sprag_shared::rocking::{Phase, State};
-use sprag_shared::structure::{DeviceKind, Structure};
-use sprag_shared::taylor::Taylor;
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::motion::observer::Event;
+use sprag_shared::motion::state::{Phase, State};
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::DeviceKind;
 use sprag_sim_host::batch::case::{Case, CaseResult, PulseShape, TERMS, TIGHT};
 use sprag_sim_host::outcome::Outcome;
 use sprag_tests::{Dice, FullLog, GEOMETRIES, Log, Segment, Start, follow, relative, release, sane, shake, tight, unit_block};

@@ -1,8 +1,8 @@
 //! Time has no unit: what is a thousand times as fast is followed as well.
 
-use sprag_shared::block::Geometry;
 use sprag_shared::math;
-use sprag_shared::taylor::Taylor;
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::structure::block::Geometry;
 use sprag_sim_host::batch::case::{Case, PulseShape, TERMS, TIGHT};
 use sprag_sim_host::outcome::Outcome;
 use sprag_sim_host::scene::Scene;

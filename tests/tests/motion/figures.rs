@@ -2,12 +2,12 @@
 
 use core::f64::consts::TAU;
 
-use sprag_shared::block::Geometry;
-use sprag_shared::clutch::ClutchRule;
+use sprag_shared::equation::clutch_rule::ClutchRule;
+use sprag_shared::math::sign::Sign;
 use sprag_shared::math::sin;
-use sprag_shared::rocking::{Phase, State};
-use sprag_shared::scalar::Sign;
-use sprag_shared::structure::DeviceKind;
+use sprag_shared::motion::state::{Phase, State};
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::DeviceKind;
 use sprag_sim_host::batch::case::PulseShape;
 use sprag_tests::FullLog;
 use sprag_tests::pulse::Pulsed;

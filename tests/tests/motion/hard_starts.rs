@@ -3,13 +3,13 @@
 
 use core::f64::consts::TAU;
 
-use sprag_shared::block::Geometry;
+use sprag_shared::math::sign::Sign;
 use sprag_shared::math::{acosh, asin, cos, cosh, exp, sinh, square_root};
-use sprag_shared::observer::Event;
-use sprag_shared::rocking::Phase;
-use sprag_shared::scalar::Sign;
-use sprag_shared::structure::{DeviceKind, KinematicsKind};
-use sprag_shared::taylor::Taylor;
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::motion::observer::Event;
+use sprag_shared::motion::state::Phase;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
 use sprag_sim_host::batch::case::{Case, PulseShape, TERMS, TIGHT};
 use sprag_sim_host::outcome::Outcome;
 use sprag_tests::{

@@ -1,8 +1,8 @@
 //! Blocks under pulses in lanes against the core, which follows one at a time.
 
-use sprag_shared::block::Geometry;
-use sprag_shared::structure::DeviceKind;
-use sprag_shared::taylor::Taylor;
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::DeviceKind;
 
 use sprag_ensemble::machine::{Registers, run};
 use sprag_ensemble::outcome::Outcome;

@@ -4,8 +4,8 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use sprag_shared::block::GRAVITY;
 use sprag_shared::math;
+use sprag_shared::structure::block::GRAVITY;
 use sprag_sim_host::outcome::Outcome;
 use sprag_sim_host::record::{ReadOptions, Record, RecordError, Units, Warning};
 use sprag_sim_host::scene::Scene;

@@ -2,7 +2,7 @@
 
 use std::thread;
 
-use sprag_shared::lanes::Lanes;
+use sprag_shared::math::lanes::Lanes;
 use sprag_shared::math::sine32::{ERROR_BOUND, sin_cos};
 use sprag_shared::math::{self, wide_sine};
 

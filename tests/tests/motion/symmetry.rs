@@ -4,16 +4,17 @@ use core::f64::consts::TAU;
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
-use sprag_shared::arc::Method;
-use sprag_shared::block::Geometry;
-use sprag_shared::fixed::FixedStep;
-use sprag_shared::lever::Mount;
 use sprag_shared::math::cos;
-use sprag_shared::observer::Event;
-use sprag_shared::rocking::Phase;
-use sprag_shared::scalar::Real;
-use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
-use sprag_shared::taylor::Taylor;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::method::dense_output::Method;
+use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::motion::observer::Event;
+use sprag_shared::motion::state::Phase;
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
+use sprag_shared::structure::mount::Mount;
 use sprag_tests::{FullLog, GEOMETRIES, Log, Segment, Start, follow, relative, release, resized, shake, unit_block};
 
 /// The same 64 cases on every machine.

@@ -1,6 +1,6 @@
 //! Why the chip was reset.
 
-use sprag_shared::device::reset::Cause;
+use sprag_shared::link::reset_cause::Cause;
 use stm32f4xx_hal::pac;
 
 /// Reads the flags of the last reset and clears them. Every reset pulls the reset pin, so the pin counts only when nothing else does, and

@@ -6,7 +6,7 @@ use embedded_hal::delay::DelayNs;
 use embedded_hal::spi::{MODE_3, SpiDevice};
 use embedded_hal_bus::spi::ExclusiveDevice;
 use sprag_drivers::icm42688::Icm42688;
-use sprag_shared::control::sample::{Reading, Sample};
+use sprag_shared::control::sensing::sample::{Reading, Sample};
 use sprag_shared::device::counter::Extended;
 use sprag_shared::device::inertial::{accelerations, rates};
 use sprag_shared::settings::wiring::Wiring;

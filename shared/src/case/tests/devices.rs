@@ -1,9 +1,9 @@
 //! Cases of devices with a memory and of vertical ground motion.
 
 use super::*;
-use crate::hybrid::Machine;
-use crate::hybrid::path::Shaking;
-use crate::hybrid::series::Series;
+use crate::motion::hybrid::Machine;
+use crate::motion::hybrid::path::Shaking;
+use crate::motion::hybrid::series::Series;
 
 /// One of every engagement, with losses, and the two halves of a seed; every number is one of single precision.
 pub fn drivetrains() -> [Drivetrain; 6] {

@@ -1,10 +1,10 @@
 //! What a sensor is allowed, in SI units.
 
-use super::super::ticks::{ticks, ticks_or_never};
 use super::Monitor;
 use super::agreement::{AgreementLimits, SLOTS};
 use super::watch::WatchLimits;
-use crate::error::{ParameterError, require};
+use crate::control::ticks::{ticks, ticks_or_never};
+use crate::structure::error::{ParameterError, require};
 
 /// Ticks that a window in which gyroscope and encoder are compared cannot be shorter than: one for each part that it moves on by.
 pub const FEWEST_WINDOW_TICKS: u32 = SLOTS;

@@ -1,6 +1,6 @@
 //! Accelerometers at rest: the ground's and the block's measure gravity and nothing else, or else the same shaking.
 
-use super::super::ticks::Streak;
+use crate::control::ticks::Streak;
 
 /// For how long which of them has been off alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

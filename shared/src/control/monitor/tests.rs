@@ -10,7 +10,7 @@ fn still(number: u32) -> Sample {
         gyroscope: of(0.0),
         block_accelerometer: [of(0.0), of(9.81)],
         ground_accelerometer: [of(0.0), of(9.81)],
-        encoder: super::super::sample::Count { counts: 0, number },
+        encoder: crate::control::sensing::sample::Count { counts: 0, number },
         engaged: [false; 2],
     }
 }

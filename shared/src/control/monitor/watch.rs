@@ -1,7 +1,7 @@
 //! One reading, looked at by itself: is it new, finite, within its range, and does it change?
 
-use super::super::sample::Reading;
-use super::super::ticks::Streak;
+use crate::control::sensing::sample::Reading;
+use crate::control::ticks::Streak;
 
 /// Readings that must repeat before they count as stuck, so that a slow sensor is not judged by two.
 const FEWEST_REPEATS: u8 = 3;

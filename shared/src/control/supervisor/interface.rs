@@ -1,8 +1,8 @@
 //! What goes into a supervisor and comes out of it at every tick.
 
-use super::super::calibration::Calibration;
-use super::super::fault::Fault;
-use super::super::sample::Sample;
+use crate::control::monitor::fault::Fault;
+use crate::control::sensing::calibration::Calibration;
+use crate::control::sensing::sample::Sample;
 use serde::{Deserialize, Serialize};
 
 /// Where the controller stands.

@@ -1,9 +1,9 @@
 //! Which faults there are at a tick, which of them are news, and which must be acted upon.
 
-use super::super::event_log::Kind;
-use super::super::fault::{Fault, Recovery};
-use super::super::monitor::Findings;
+use super::event_log::Kind;
 use super::{Phase, Supervisor, SupervisorInput, SupervisorState, log};
+use crate::control::monitor::Findings;
+use crate::control::monitor::fault::{Fault, Recovery};
 
 /// Sources of faults: four sensors, clutches, timing, estimate, the law.
 pub(super) const SOURCES: usize = 8;

@@ -1,7 +1,7 @@
 //! Whether anything moves, by whichever sensors may be believed.
 
-use super::super::calibration::{Calibration, off_gravity};
-use super::super::sample::Sample;
+use crate::control::sensing::calibration::{Calibration, off_gravity};
+use crate::control::sensing::sample::Sample;
 
 /// What counts as motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,8 +79,8 @@ impl Motion {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::sample::{Count, Reading};
     use super::*;
+    use crate::control::sensing::sample::{Count, Reading};
 
     const LIMITS: MotionLimits = MotionLimits { rate: 0.02, shaking: 0.3, counts: 2, gravity: 9.81 };
 

@@ -1,49 +1,14 @@
 //! What a supervisor is told about its controller, in SI units.
 
-use super::super::actuator_monitor::ActuatorMonitor;
-use super::super::calibration::Plausible;
-use super::super::fault::{Sensor, Wheel};
-use super::super::monitor::{MonitorParameters, duration};
-use super::super::ticks::ticks;
 use super::Supervisor;
 use super::motion::MotionLimits;
-use crate::error::{ParameterError, require};
-
-/// Sensors that the estimator needs. The others are watched where they are fitted, but a fault of theirs is only a warning.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Required {
-    /// θ̇ of the block.
-    pub gyroscope: bool,
-    /// On the block.
-    pub block_accelerometer: bool,
-    /// Under it.
-    pub ground_accelerometer: bool,
-    /// At the rack.
-    pub encoder: bool,
-}
-
-impl Required {
-    /// All of them.
-    pub const ALL: Required = Required { gyroscope: true, block_accelerometer: true, ground_accelerometer: true, encoder: true };
-    /// None of them.
-    pub const NONE: Required =
-        Required { gyroscope: false, block_accelerometer: false, ground_accelerometer: false, encoder: false };
-
-    /// In the order of [`Sensor::ALL`].
-    pub fn flags(&self) -> [bool; 4] {
-        [self.gyroscope, self.block_accelerometer, self.ground_accelerometer, self.encoder]
-    }
-
-    /// Whether `sensor` is required.
-    pub fn contains(&self, sensor: Sensor) -> bool {
-        match sensor {
-            Sensor::Gyroscope => self.gyroscope,
-            Sensor::BlockAccelerometer => self.block_accelerometer,
-            Sensor::GroundAccelerometer => self.ground_accelerometer,
-            Sensor::Encoder => self.encoder,
-        }
-    }
-}
+use crate::control::monitor::actuator::ActuatorMonitor;
+use crate::control::monitor::fault::Wheel;
+use crate::control::monitor::{MonitorParameters, duration};
+use crate::control::sensing::calibration::Plausible;
+use crate::control::sensing::required::Required;
+use crate::control::ticks::ticks;
+use crate::structure::error::{ParameterError, require};
 
 /// What the clutches do while the controller does not decide: before it is armed, and on a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

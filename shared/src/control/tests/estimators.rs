@@ -3,17 +3,17 @@
 use std::vec::Vec;
 
 use super::example_model;
-use crate::block::GRAVITY;
-use crate::control::calibration::Calibration;
-use crate::control::complementary::Complementary;
-use crate::control::estimate::{Deviation, Estimate};
-use crate::control::estimator::Estimator;
-use crate::control::instruments::{Instruments, InstrumentsState};
-use crate::control::kalman::Kalman;
-use crate::control::model_aided::ModelAided;
-use crate::control::sample::{Count, Reading, Sample};
-use crate::control::standing::Standing;
+use crate::control::estimation::Estimator;
+use crate::control::estimation::complementary::Complementary;
+use crate::control::estimation::estimate::{Deviation, Estimate};
+use crate::control::estimation::kalman::Kalman;
+use crate::control::estimation::model_aided::ModelAided;
+use crate::control::estimation::rest_detection::Standing;
+use crate::control::sensing::calibration::Calibration;
+use crate::control::sensing::instruments::{Instruments, InstrumentsState};
+use crate::control::sensing::sample::{Count, Reading, Sample};
 use crate::math;
+use crate::structure::block::GRAVITY;
 
 const PERIOD: f64 = 5e-4;
 /// Travel over R in a count.

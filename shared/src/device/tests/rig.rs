@@ -2,11 +2,11 @@
 //! shake, seen through sensors with biases, noise and steps. The same on every machine, to the last bit: the emulated core has this file as
 //! a module too.
 
-use sprag_shared::block::GRAVITY;
 use sprag_shared::control::model::{KnownBody, Model};
-use sprag_shared::control::sample::{Count, Reading, Sample};
+use sprag_shared::control::sensing::sample::{Count, Reading, Sample};
+use sprag_shared::math::sign::Sign;
 use sprag_shared::math::sine32;
-use sprag_shared::scalar::Sign;
+use sprag_shared::structure::block::GRAVITY;
 
 /// A control tick and a step of the block, s.
 pub const PERIOD: f32 = 5e-4;

@@ -2,10 +2,10 @@
 
 use super::framed;
 use super::message_maker::{CAUSES, REPLIES, REQUESTS, Source, WISHES, reply, request};
-use crate::control::fault::Fault;
+use crate::control::monitor::fault::Fault;
 use crate::control::supervisor::Phase;
 use crate::link::*;
-use crate::scalar::Sign;
+use crate::math::sign::Sign;
 use serde::Serialize;
 use std::format;
 use std::string::String;

@@ -1,15 +1,15 @@
 //! Every message there can be, made of any words.
 
-use crate::control::calibration::Calibration;
 use crate::control::controller::Decision;
-use crate::control::estimate::{Deviation, Estimate};
-use crate::control::fault::Fault;
+use crate::control::estimation::estimate::{Deviation, Estimate};
 use crate::control::law::Wish;
-use crate::control::sample::{Count, Reading, Sample};
+use crate::control::monitor::fault::Fault;
+use crate::control::sensing::calibration::Calibration;
+use crate::control::sensing::sample::{Count, Reading, Sample};
 use crate::control::supervisor::Phase;
-use crate::device::reset::Cause;
+use crate::link::reset_cause::Cause;
 use crate::link::*;
-use crate::scalar::Sign;
+use crate::math::sign::Sign;
 
 /// Kinds of requests.
 pub const REQUESTS: usize = 14;

@@ -1,7 +1,7 @@
 //! Tables of gyroscopes and accelerometers.
 
 use serde::{Deserialize, Serialize};
-use sprag_shared::block::GRAVITY;
+use sprag_shared::structure::block::GRAVITY;
 
 use super::super::error::SceneError;
 use super::super::schema::KeyOf;

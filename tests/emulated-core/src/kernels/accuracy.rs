@@ -1,7 +1,7 @@
 //! What a step costs by method, by how events are found, by precision, tier of the sine, geometry and device: the prices of
 //! accuracy on the target. Names are `step-METHOD-EVENTS-PRECISION-TIER-GEOMETRY-DEVICE`.
 //!
-//! - `step-end`: one step of [`sprag_shared::detected`], whose inputs, the ground among them, are in memory. Without a branch, so that one
+//! - `step-end`: one step of [`sprag_shared::motion::step_end`], whose inputs, the ground among them, are in memory. Without a branch, so that one
 //!   step is all steps; only libm's sine takes its time by its argument. A single inerter costs what a pair costs.
 //! - `located`: the mean over a second that contains an uplift, turns, an impact and switches, all located, under ground motion that
 //!   is a straight line, as between two samples of a record. In single precision and with its own sine only: these are the loops of
@@ -13,25 +13,31 @@ use super::{RESTITUTION, STEP, Tally, count, mean};
 use crate::watcher::Watcher;
 use core::{f64::consts::FRAC_PI_2, fmt, hint::black_box, marker::PhantomData};
 use sprag_shared::{
-    any_equation::AnyEquation,
-    block::{Block, Geometry, RECTANGLE_INERTIA_RATIO},
-    carried::Carried,
     case::{Case, CaseError, FixedMethod, Ground, GroundPiece, Initially, Shape},
-    closed_form::ClosedForm,
-    clutch::ClutchRule,
-    detected::{Detected, DetectedState, Switched},
-    drivetrain::Drivetrain,
-    equation::{FullBlock, FullInerter, Paper, SlenderBlock},
+    equation::{
+        FullBlock, FullInerter, SlenderBlock, any_equation::AnyEquation, clutch_rule::ClutchRule, kinematics::Paper,
+        lever::CentreOfMass, switched::Switched,
+    },
     ground::Linear,
-    lever::CentreOfMass,
     math::{
+        scalar::Real,
         tier::{Libm, Micromath, OwnPolynomial},
         tiered::Tiered,
     },
-    observer::Peaks,
-    rocking::{Limits, State, Stopped, System},
-    scalar::Real,
-    structure::{Device, DeviceKind, REST_SPEED, Restitution, Structure},
+    method::closed_form::ClosedForm,
+    motion::{
+        ideal::System,
+        state::{Limits, State, Stopped},
+        step_end::{Detected, DetectedState},
+    },
+    observers::peaks::Peaks,
+    structure::{
+        REST_SPEED, Restitution, Structure,
+        added_mass::Carried,
+        block::{Block, Geometry, RECTANGLE_INERTIA_RATIO},
+        device::{Device, DeviceKind},
+        drivetrain::Drivetrain,
+    },
 };
 
 /// The ground motion of a located step, in g: a line down from a start that uplifts the block at once.

@@ -8,12 +8,8 @@
 use super::{Tally, mean};
 use core::{f32::consts::TAU, fmt, hint::black_box};
 use sprag_shared::{
-    any_body::AnyBody,
-    block::{Block, RECTANGLE_INERTIA_RATIO},
-    body::FullBody,
     case::Shape,
     drivetrain::{
-        Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack,
         any_drive::AnyDrive,
         elastic::ElasticPair,
         friction::FrictionPair,
@@ -22,15 +18,25 @@ use sprag_shared::{
         overrunning::OverrunningPair,
         rigid::RigidPair,
     },
-    equation::{BodyKinematics, Told},
-    fixed::FixedStep,
-    ground::Harmonics,
-    hybrid::{
-        Actuator, Machine,
-        path::{Shaking, Tracer},
+    equation::{
+        any_body::AnyBody,
+        body::FullBody,
+        kinematics::{BodyKinematics, Told},
+        lever::TyingPoint,
     },
-    lever::TyingPoint,
-    rocking::{Limits, Stopped},
+    ground::Harmonics,
+    method::fixed::FixedStep,
+    motion::{
+        hybrid::{
+            Actuator, Machine,
+            path::{Shaking, Tracer},
+        },
+        state::{Limits, Stopped},
+    },
+    structure::{
+        block::{Block, RECTANGLE_INERTIA_RATIO},
+        drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack},
+    },
 };
 
 /// σ.

@@ -1,10 +1,11 @@
 //! Impacts that accumulate, for every loss at an impact from almost all to none.
 
-use sprag_shared::block::Geometry;
 use sprag_shared::math::{acosh, atanh, square_root};
-use sprag_shared::observer::Event;
-use sprag_shared::rocking::Phase;
-use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
+use sprag_shared::motion::observer::Event;
+use sprag_shared::motion::state::Phase;
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
 use sprag_stability::{Energy, GEOMETRIES, Precision, Segment, Start, Stepping, Tally, in_both_precisions, relative, unit_block};
 
 in_both_precisions!(

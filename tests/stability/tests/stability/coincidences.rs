@@ -3,11 +3,12 @@
 
 use core::f64::consts::TAU;
 
-use sprag_shared::block::Geometry;
 use sprag_shared::math::{acosh, cosh, exp, sinh, square_root};
-use sprag_shared::observer::Event;
-use sprag_shared::rocking::Phase;
-use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
+use sprag_shared::motion::observer::Event;
+use sprag_shared::motion::state::Phase;
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
 use sprag_stability::{Log, Precision, Segment, Start, Stepping, Tally, in_both_precisions, sane, unit_block};
 
 in_both_precisions!(

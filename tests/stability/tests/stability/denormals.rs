@@ -1,9 +1,9 @@
 //! Denormal numbers: rotations, velocities and ground motions of 10⁻⁴⁰ in f32 and 10⁻³¹⁰ in f64. They cost no more steps, and the
 //! results are those of zero.
 
-use sprag_shared::observer::Event;
-use sprag_shared::rocking::Phase;
-use sprag_shared::structure::DeviceKind;
+use sprag_shared::motion::observer::Event;
+use sprag_shared::motion::state::Phase;
+use sprag_shared::structure::device::DeviceKind;
 use sprag_stability::{GEOMETRIES, Precision, Segment, Start, Stepping, Tally, in_both_precisions, unit_block};
 
 in_both_precisions!(a_denormal_rotation, a_denormal_velocity, a_denormal_ground_motion, a_denormal_tremor_on_a_standing_block);

@@ -2,13 +2,16 @@
 
 use core::f64::consts::TAU;
 
-use sprag_shared::any_equation::WithEquation;
-use sprag_shared::block::Geometry;
-use sprag_shared::detected::{Detected, DetectedState, Switched};
-use sprag_shared::observer::Event;
-use sprag_shared::rocking::{Phase, System};
-use sprag_shared::scalar::Real;
-use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
+use sprag_shared::equation::any_equation::WithEquation;
+use sprag_shared::equation::switched::Switched;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::motion::ideal::System;
+use sprag_shared::motion::observer::Event;
+use sprag_shared::motion::state::Phase;
+use sprag_shared::motion::step_end::{Detected, DetectedState};
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
 use sprag_stability::{Energy, GEOMETRIES, Precision, Segment, Start, Stepping, Tally, in_both_precisions, unit_block};
 
 in_both_precisions!(

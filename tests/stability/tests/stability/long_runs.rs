@@ -2,16 +2,17 @@
 
 use core::f32::consts::TAU;
 
-use sprag_shared::block::Geometry;
 use sprag_shared::case::{Case, FixedMethod, Ground, Initially};
-use sprag_shared::digest::Digest;
-use sprag_shared::drivetrain::Drivetrain;
-use sprag_shared::fixed::FixedStep;
 use sprag_shared::ground::{Linear, Piece};
-use sprag_shared::observer::{Event, Observer};
-use sprag_shared::rocking::{Limits, Phase, State, System};
-use sprag_shared::scalar::Real;
-use sprag_shared::structure::DeviceKind;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::motion::ideal::System;
+use sprag_shared::motion::observer::{Event, Observer};
+use sprag_shared::motion::state::{Limits, Phase, State};
+use sprag_shared::observers::digest::Digest;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::DeviceKind;
+use sprag_shared::structure::drivetrain::Drivetrain;
 use sprag_stability::{Dice, Precision, in_both_precisions, unit_block};
 
 in_both_precisions!(a_day_of_microtremor);

@@ -2,10 +2,11 @@
 
 use core::f64::consts::{PI, TAU};
 
-use sprag_shared::block::Geometry;
 use sprag_shared::math::{asin, exp, ln, square_root};
-use sprag_shared::rocking::Phase;
-use sprag_shared::structure::{DeviceKind, Structure};
+use sprag_shared::motion::state::Phase;
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::DeviceKind;
 use sprag_stability::{Outcome, Precision, Segment, Start, Stepping, Tally, boundary, in_both_precisions, relative, unit_block};
 
 in_both_precisions!(

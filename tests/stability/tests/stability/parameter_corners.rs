@@ -2,10 +2,11 @@
 
 use core::f64::consts::TAU;
 
-use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::math::{asin, exp, pow, square_root};
-use sprag_shared::rocking::Phase;
-use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
+use sprag_shared::motion::state::Phase;
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
 use sprag_stability::{Dice, GEOMETRIES, Outcome, Precision, Segment, Start, Stepping, Tally, in_both_precisions, unit_block};
 
 in_both_precisions!(every_corner, random_points_inside, corners_in_fixed_steps);

@@ -4,11 +4,12 @@ use core::f64::consts::TAU;
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
-use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
-use sprag_shared::lever::Mount;
 use sprag_shared::math::pow;
-use sprag_shared::observer::Event;
-use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
+use sprag_shared::motion::observer::Event;
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
+use sprag_shared::structure::mount::Mount;
 use sprag_stability::{Energy, GEOMETRIES, Log, Precision, Segment, Start, Stepping, Tally, unit_block};
 
 /// The same 128 cases on every machine.
@@ -126,7 +127,7 @@ fn slower<S: Precision>(structure: &Structure, motion: &Motion) -> Result<(), Te
 fn wider<S: Precision>(structure: &Structure, motion: &Motion) -> Result<(), TestCaseError> {
     let slender = Structure {
         geometry: Geometry::Slender,
-        device: sprag_shared::structure::Device { mount: Mount::CentreOfMass, ..structure.device },
+        device: sprag_shared::structure::device::Device { mount: Mount::CentreOfMass, ..structure.device },
         ..*structure
     };
     let block = Block::new(slender.block.size(), 0.5 * slender.block.slenderness(), RECTANGLE_INERTIA_RATIO);

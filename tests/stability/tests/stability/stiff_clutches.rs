@@ -1,8 +1,9 @@
 //! Elastic clutches from 10² to 10¹² N/m per kg of block at one fixed step.
 
-use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
-use sprag_shared::rocking::Phase;
-use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
+use sprag_shared::motion::state::Phase;
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
 use sprag_stability::{GEOMETRIES, Precision, elastic_run, in_both_precisions, relative, unit_block};
 
 in_both_precisions!(every_stiffness_at_the_control_period, every_stiffness_at_ten_times_the_control_period, an_undamped_spring);

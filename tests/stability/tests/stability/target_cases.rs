@@ -1,7 +1,7 @@
 //! The cases of the target, on the host.
 
 use sprag_shared::case;
-use sprag_shared::digest::Digest;
+use sprag_shared::observers::digest::Digest;
 use sprag_stability::target_cases::target_cases;
 
 /// Each by the words that the board reads: the ending, bounded work, a finite state, and the same bits twice.

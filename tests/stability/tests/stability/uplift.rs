@@ -2,11 +2,12 @@
 
 use core::f64::consts::TAU;
 
-use sprag_shared::block::Geometry;
 use sprag_shared::math::{asin, cos, cosh, exp, sin, square_root};
-use sprag_shared::observer::Event;
-use sprag_shared::rocking::Phase;
-use sprag_shared::structure::{DeviceKind, Structure};
+use sprag_shared::motion::observer::Event;
+use sprag_shared::motion::state::Phase;
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::DeviceKind;
 use sprag_stability::{
     Dice, GEOMETRIES, Log, Precision, Segment, Start, Stepping, Tally, in_both_precisions, relative, unit_block,
 };

@@ -1,10 +1,11 @@
 //! Free rocking: periods, decay and first integrals.
 
-use sprag_shared::block::Geometry;
-use sprag_shared::lever::Mount;
 use sprag_shared::math::{acosh, atan, cos, sin, square_root};
-use sprag_shared::observer::Event;
-use sprag_shared::structure::{DeviceKind, KinematicsKind, Restitution, Structure};
+use sprag_shared::motion::observer::Event;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
+use sprag_shared::structure::mount::Mount;
+use sprag_shared::structure::{Restitution, Structure};
 use sprag_tests::{FullLog, relative, release, resized, unit_block};
 
 use super::slender_blocks;

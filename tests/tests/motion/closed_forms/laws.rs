@@ -1,10 +1,10 @@
 //! When a block uplifts and a clutch engages.
 
-use sprag_shared::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
-use sprag_shared::lever::Mount;
 use sprag_shared::math::{cos, sin};
-use sprag_shared::rocking::Phase;
-use sprag_shared::structure::{DeviceKind, KinematicsKind};
+use sprag_shared::motion::state::Phase;
+use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
+use sprag_shared::structure::mount::Mount;
 use sprag_tests::{FullLog, Segment, relative, resized, shake, unit_block};
 
 /// Grounds on which nothing may happen: the threshold of uplift is g tan α, or gα for the slender model (Eq. 1).

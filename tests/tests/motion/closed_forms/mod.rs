@@ -7,9 +7,10 @@ mod free_motion;
 mod laws;
 mod overturning;
 
-use sprag_shared::block::{GRAVITY, Geometry};
 use sprag_shared::math::square_root;
-use sprag_shared::structure::{DeviceKind, Structure};
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::{GRAVITY, Geometry};
+use sprag_shared::structure::device::DeviceKind;
 use sprag_tests::{resized, unit_block};
 
 /// A slender block of 1.7 m without a device and the same with an inerter of σ = 0.5, each with its p or p_σ.

@@ -1,8 +1,9 @@
 //! Where pulses and records overturn a block before its first impact.
 
-use sprag_shared::block::{GRAVITY, Geometry};
 use sprag_shared::math::{asin, atan, cos, exp, ln, square_root};
-use sprag_shared::structure::{DeviceKind, KinematicsKind, Structure};
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::{GRAVITY, Geometry};
+use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
 use sprag_tests::{Dice, FullLog, Segment, boundary, overturned_without_impact, relative, release, resized, shake, unit_block};
 
 use super::slender_blocks;

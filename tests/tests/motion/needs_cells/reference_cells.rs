@@ -1,6 +1,6 @@
 //! The 1,260 reference cells, computed independently in 113-bit arithmetic.
 
-use sprag_shared::taylor::Taylor;
+use sprag_shared::method::taylor::Taylor;
 use sprag_sim_host::batch::case::{Case, CaseResult, TERMS, TIGHT};
 use sprag_tests::reference::{RelativeErrors, cells};
 

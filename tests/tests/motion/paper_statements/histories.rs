@@ -2,10 +2,10 @@
 
 use core::f64::consts::{PI, TAU};
 
-use sprag_shared::block::Geometry;
-use sprag_shared::observer::Event;
-use sprag_shared::rocking::Phase;
-use sprag_shared::structure::DeviceKind;
+use sprag_shared::motion::observer::Event;
+use sprag_shared::motion::state::Phase;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::DeviceKind;
 use sprag_sim_host::batch::case::PulseShape;
 use sprag_tests::pulse::Pulsed;
 use sprag_tests::{boundary, overturned_without_impact};

@@ -3,9 +3,9 @@
 use core::f64::consts::TAU;
 
 use rayon::prelude::*;
-use sprag_shared::block::Geometry;
-use sprag_shared::observer::Event;
-use sprag_shared::structure::DeviceKind;
+use sprag_shared::motion::observer::Event;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::DeviceKind;
 use sprag_sim_host::batch::case::PulseShape;
 use sprag_sim_host::outcome::Outcome;
 use sprag_tests::pulse::Pulsed;

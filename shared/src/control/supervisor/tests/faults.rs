@@ -1,7 +1,7 @@
 //! Every class of fault, at rest, in mid-swing and at an impact: found in its time, and not before.
 
 use super::*;
-use crate::control::sample::Reading;
+use crate::control::sensing::sample::Reading;
 
 type Spoil = fn(&mut Sample, &Sample);
 

@@ -1,7 +1,7 @@
 //! Samples of no sense at all: no panic, never both clutches, never NaN in what is handed on; and parameters that are refused.
 
 use super::*;
-use crate::control::sample::{Count, Reading};
+use crate::control::sensing::sample::{Count, Reading};
 
 fn value(random: &mut Random) -> f32 {
     match random.bits() % 12 {

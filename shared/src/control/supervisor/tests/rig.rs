@@ -1,7 +1,7 @@
 //! A block that rocks, its sensors and its clutches, roughly: what a supervisor sees, and what can go wrong with it.
 
 use super::super::*;
-use crate::control::sample::{Count, Reading, Sample};
+use crate::control::sensing::sample::{Count, Reading, Sample};
 use std::vec::Vec;
 
 /// A generator of Lehmer's kind (Knuth's MMIX constants), so that a run depends on its seed alone.

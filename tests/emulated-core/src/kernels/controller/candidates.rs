@@ -2,27 +2,29 @@
 
 use super::rig::{CLUTCH_TICKS, PERIOD, TRAVEL_PER_COUNT};
 use core::fmt;
-use sprag_shared::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
-use sprag_shared::carried::Carried;
-use sprag_shared::control::calibration::Plausible;
-use sprag_shared::control::complementary::Complementary;
 use sprag_shared::control::controller::Controller;
-use sprag_shared::control::estimate::Deviation;
-use sprag_shared::control::estimator::Estimator;
-use sprag_shared::control::gate::Gate;
-use sprag_shared::control::instruments::Instruments;
-use sprag_shared::control::kalman::Kalman;
-use sprag_shared::control::law::{ClutchLaw, GatedTable, SignTable};
-use sprag_shared::control::look_ahead::LookAhead;
+use sprag_shared::control::estimation::Estimator;
+use sprag_shared::control::estimation::complementary::Complementary;
+use sprag_shared::control::estimation::estimate::Deviation;
+use sprag_shared::control::estimation::kalman::Kalman;
+use sprag_shared::control::estimation::model_aided::ModelAided;
+use sprag_shared::control::estimation::rest_detection::Standing;
+use sprag_shared::control::law::any_law::ClutchLaw;
+use sprag_shared::control::law::look_ahead::LookAhead;
+use sprag_shared::control::law::minimum_dwell::Gate;
+use sprag_shared::control::law::{GatedTable, SignTable};
 use sprag_shared::control::model::{KnownBody, KnownFull, Model};
-use sprag_shared::control::model_aided::ModelAided;
 use sprag_shared::control::monitor::{EncoderLimits, MonitorParameters, SensorLimits};
-use sprag_shared::control::standing::Standing;
+use sprag_shared::control::sensing::calibration::Plausible;
+use sprag_shared::control::sensing::instruments::Instruments;
 use sprag_shared::control::supervisor::{Parameters, Supervisor};
-use sprag_shared::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
-use sprag_shared::equation::{Consistent, Paper};
-use sprag_shared::error::ParameterError;
-use sprag_shared::structure::{Device, DeviceKind, KinematicsKind, REST_SPEED, Restitution, Structure};
+use sprag_shared::equation::kinematics::{Consistent, Paper};
+use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
+use sprag_shared::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
+use sprag_shared::structure::error::ParameterError;
+use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
 
 /// One of them.
 pub struct Candidate {

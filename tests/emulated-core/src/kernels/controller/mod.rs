@@ -11,11 +11,11 @@ use candidates::{ideal, spinning};
 use core::{fmt, hint::black_box};
 use rig::Rig;
 use sprag_shared::control::controller::{Choice, Circumstances, Controller, ControllerState, Decision};
-use sprag_shared::control::law::ClutchLaw;
+use sprag_shared::control::law::any_law::ClutchLaw;
 use sprag_shared::control::model::KnownBody;
-use sprag_shared::control::sample::Sample;
+use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::Phase;
-use sprag_shared::digest::Digest;
+use sprag_shared::math::fnv::Fnv;
 
 /// Ticks of a run: still ones for self-test and calibration, then 2.4 s of rocking.
 const TICKS: [u16; 2] = [700, 4800];
@@ -113,15 +113,15 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
 fn run<B: KnownBody>(
     controller: &Controller<B, ClutchLaw>,
     mut decide: impl FnMut(&mut ControllerState, &Sample, bool) -> Decision,
-) -> (Digest, u32) {
-    let (mut state, mut rig, mut digest) = (controller.start(), Rig::new(controller.model), Digest::default());
+) -> (Fnv, u32) {
+    let (mut state, mut rig, mut digest) = (controller.start(), Rig::new(controller.model), Fnv::default());
     let (mut armed, mut commands, mut last) = (false, 0, [false; 2]);
     for tick in 0..TICKS[0] + TICKS[1] {
         rig.shakes = tick >= TICKS[0];
         let sample = black_box(rig.sample());
         let decision = decide(&mut state, &sample, armed);
         armed = matches!(decision.phase, Phase::Armed | Phase::Rocking);
-        digest.decision(&decision);
+        decision.feed(&mut digest);
         commands += u32::from(decision.command != last);
         last = decision.command;
         rig.advance(last);
@@ -147,7 +147,7 @@ fn whole<B: KnownBody>(
         black_box(decision)
     });
     counts.print(format_args!("controller-{name}"), out)?;
-    writeln!(out, "digest controller-{name} {:016x} ({commands} commands)", digest.hash())
+    writeln!(out, "digest controller-{name} {:016x} ({commands} commands)", digest.value())
 }
 
 fn parts<B: KnownBody>(
@@ -176,5 +176,5 @@ fn parts<B: KnownBody>(
     for (counts, part) in counts.iter().zip(["instruments-and-estimator", "prediction-and-law", "supervisor"]) {
         counts.print(format_args!("controller-part-{part}"), out)?;
     }
-    writeln!(out, "digest controller-parts {:016x} ({commands} commands)", digest.hash())
+    writeln!(out, "digest controller-parts {:016x} ({commands} commands)", digest.value())
 }

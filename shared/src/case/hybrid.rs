@@ -1,0 +1,79 @@
+//! Cases of devices with a memory, and of any device over ground that moves vertically too.
+
+use super::ideal::{STIFF, most_events};
+use super::{Case, CaseError, Ending, FixedMethod, Initially, RunEnd, Shape};
+use crate::method::fixed::FixedStep;
+use crate::motion::device_snapshot::{DeviceArc, DeviceObserver};
+use crate::motion::hybrid::Machine;
+use crate::motion::hybrid::path::Shaking;
+use crate::motion::observer::{Event, Observer, Stretch};
+use crate::motion::state::{Limits, Phase, State, Stopped};
+use crate::observers::peaks::Peaks;
+
+/// |θ| at which a block lies on the ground, rad. A device may bring a block back from beyond the angle from which its weight
+/// and the ground alone would not.
+const OVERTURNED: f32 = core::f32::consts::FRAC_PI_2;
+
+/// What methods run that are not for these devices.
+const IDEAL: &str = "ideal devices over horizontal ground only: loops for all others would not fit the flash of the board";
+
+/// Runs a case that is not ideal.
+pub(super) fn run(case: &Case<'_>, observer: &mut dyn DeviceObserver<f32>) -> Result<RunEnd, CaseError> {
+    let machine = case.drivetrain.resolve(&case.structure, case.ground.is_vertical())?;
+    let step = case.step;
+    let method = match case.method {
+        FixedMethod::RungeKutta4 => FixedStep::RungeKutta4 { step },
+        FixedMethod::ExponentialMidpoint if machine.drive.traits().springs => FixedStep::ExponentialMidpoint { step },
+        method @ FixedMethod::ExponentialMidpoint => return Err(CaseError::Method { method, runs: STIFF }),
+        method => return Err(CaseError::Method { method, runs: IDEAL }),
+    };
+    follow(case, &machine, &method, observer)
+}
+
+/// The caller's observer, the peaks, and a count of steps.
+struct Watch<'o> {
+    observer: &'o mut dyn DeviceObserver<f32>,
+    peaks: Peaks<f32>,
+    steps: u32,
+}
+
+impl DeviceObserver<f32> for Watch<'_> {
+    fn device_stretch(&mut self, arc: &dyn DeviceArc<f32>, stretch: &Stretch<f32>) {
+        self.steps += 1;
+        self.peaks.stretch(&arc, stretch);
+        self.observer.device_stretch(arc, stretch);
+    }
+
+    fn device_event(&mut self, event: Event, time: f32, state: &State<f32>) {
+        self.peaks.event(event, time, state);
+        self.observer.device_event(event, time, state);
+    }
+}
+
+fn follow(
+    case: &Case<'_>,
+    machine: &Machine<f32>,
+    tracer: &FixedStep<f32>,
+    observer: &mut dyn DeviceObserver<f32>,
+) -> Result<RunEnd, CaseError> {
+    let Case { initially, step, ground, free_time, .. } = case;
+    let mut watch = Watch { observer, peaks: Peaks::default(), steps: 0 };
+    let mut state = match *initially {
+        Initially::Rest => machine.at_rest(),
+        Initially::Released { rotation, velocity } => machine.released_at(rotation, velocity, ground.first()),
+    };
+    watch.peaks.rocked = state.motion.phase == Phase::Rocking;
+    let mut follow = |horizontal: &Shape, vertical: Option<&Shape>, start: f32, duration: f32| -> Result<(), Stopped> {
+        let limits = Limits { overturned: OVERTURNED, events: most_events(duration, *step) };
+        let shaking = Shaking { horizontal, vertical: vertical.map(|shape| shape as _) };
+        watch.peaks.origin = start;
+        machine.advance(tracer, &mut state, shaking, duration, &limits, &mut watch)
+    };
+    ground.try_for_each(&mut follow)?;
+    if *free_time > 0.0 {
+        follow(&Shape::Quiet, None, ground.duration(), *free_time)?;
+    }
+    let Watch { peaks, steps, .. } = watch;
+    let ending = Ending::of(&state.motion, &peaks);
+    Ok(RunEnd { ending, state: state.motion, peaks, steps, missed: state.device.missed })
+}

@@ -1,0 +1,185 @@
+//! A case: one scene as a flat row of 32-bit words, small and plain enough for a board to read from its host, and complete
+//! enough for both to run it in single precision with fixed steps and compare every bit ([`crate::observers::digest`]).
+//!
+//! The words and their order are in [`words`]; this page is what they mean. Ideal devices over horizontal ground run in the loop
+//! of [`crate::motion::ideal`], all others in that of [`crate::motion::hybrid`].
+//!
+//! The room imports the foundation and every other room of the motion wing.
+
+mod codec;
+mod drivetrain_words;
+mod error;
+mod ground;
+mod ground_words;
+mod hybrid;
+mod ideal;
+#[cfg(test)]
+mod tests;
+pub mod words;
+
+pub use error::CaseError;
+pub use ground::{Ground, GroundPiece, Shape};
+
+use crate::motion::device_snapshot::DeviceObserver;
+use crate::motion::observer::Observer;
+use crate::motion::state::{Phase, State};
+use crate::observers::peaks::Peaks;
+use crate::structure::Structure;
+use crate::structure::drivetrain::Drivetrain;
+use crate::structure::error::require;
+
+/// Most pieces of ground motion in a case without a record.
+pub const MOST_PIECES: usize = 8;
+
+/// Most steps of a case: what a host runs in a second and the emulator in a minute or two.
+pub const MOST_STEPS: u32 = 1 << 22;
+
+/// Coefficients of the Taylor method in a case.
+pub const TERMS: usize = 12;
+
+/// How the block starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Initially {
+    /// On both toes.
+    Rest,
+    /// Tilted to θ (rad; not 0, |θ| ≤ π/2) and let go with θ̇ (rad/s).
+    Released {
+        /// θ.
+        rotation: f32,
+        /// θ̇.
+        velocity: f32,
+    },
+}
+
+/// The method, with fixed steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FixedMethod {
+    /// [`crate::method::fixed::FixedStep::SemiImplicitEuler`]; ideal devices only.
+    SemiImplicitEuler,
+    /// [`crate::method::fixed::FixedStep::RungeKutta4`]; for everything.
+    RungeKutta4,
+    /// [`crate::method::taylor::Taylor`] with [`TERMS`] coefficients; ideal devices only.
+    Taylor,
+    /// [`crate::method::fixed::FixedStep::ExponentialMidpoint`]; elastic clutches only.
+    ExponentialMidpoint,
+}
+
+impl FixedMethod {
+    /// As errors print it.
+    pub fn name(self) -> &'static str {
+        match self {
+            FixedMethod::SemiImplicitEuler => "semi-implicit-euler",
+            FixedMethod::RungeKutta4 => "runge-kutta-4",
+            FixedMethod::Taylor => "taylor",
+            FixedMethod::ExponentialMidpoint => "exponential-midpoint",
+        }
+    }
+}
+
+/// A scene that a board and its host can both run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Case<'a> {
+    /// The block and its device. The words hold its numbers in single precision.
+    pub structure: Structure,
+    /// What couples the flywheels to the rack. The words hold its numbers in single precision.
+    pub drivetrain: Drivetrain,
+    /// How it starts.
+    pub initially: Initially,
+    /// The method.
+    pub method: FixedMethod,
+    /// Its step, s; above 0.
+    pub step: f32,
+    /// What shakes it.
+    pub ground: Ground<'a>,
+    /// Time on quiet ground after that, s; 0 or more.
+    pub free_time: f32,
+}
+
+/// How a run ended, in the words of the paper's section 4.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// The block never uplifts.
+    NoRocking,
+    /// It rocks and stays up (Region 3).
+    Safe,
+    /// It overturns before any impact (Region 1).
+    OverturnedWithoutImpact,
+    /// It overturns after one impact or more (Region 2).
+    OverturnedAfterImpact,
+}
+
+impl Ending {
+    /// As tables and files print it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Ending::NoRocking => "no-rocking",
+            Ending::Safe => "safe",
+            Ending::OverturnedWithoutImpact => "overturned-without-impact",
+            Ending::OverturnedAfterImpact => "overturned-after-impact",
+        }
+    }
+
+    fn of(state: &State<f32>, peaks: &Peaks<f32>) -> Ending {
+        match (state.phase, peaks.rocked, state.impacts) {
+            (Phase::Overturned, _, 0) => Ending::OverturnedWithoutImpact,
+            (Phase::Overturned, ..) => Ending::OverturnedAfterImpact,
+            (_, false, _) => Ending::NoRocking,
+            _ => Ending::Safe,
+        }
+    }
+}
+
+/// What a run came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RunEnd {
+    /// How it ended.
+    pub ending: Ending,
+    /// The last state.
+    pub state: State<f32>,
+    /// Largest rotation and acceleration.
+    pub peaks: Peaks<f32>,
+    /// Steps begun; an event that ends one early begins another.
+    pub steps: u32,
+    /// Commands to engage that the clutches missed.
+    pub missed: u32,
+}
+
+/// Runs the case that `words` encode and tells `observer` of it. Never panics, always ends.
+///
+/// # Errors
+/// [`CaseError`] names the word that is wrong, or why the run stopped.
+pub fn run<O: Observer<f32> + DeviceObserver<f32>>(words: &[u32], observer: &mut O) -> Result<RunEnd, CaseError> {
+    Case::decode(words)?.run(observer)
+}
+
+impl Case<'_> {
+    /// Runs the case and tells `observer` of it, piece after piece; times start anew with each. Of an ideal device over
+    /// horizontal ground it is told as an [`Observer`], of any other as a [`DeviceObserver`].
+    ///
+    /// # Errors
+    /// [`CaseError::Parameter`] names the first parameter outside its range; [`CaseError::Method`] the method that does not
+    /// run this device; [`CaseError::Stopped`].
+    pub fn run<O: Observer<f32> + DeviceObserver<f32>>(&self, observer: &mut O) -> Result<RunEnd, CaseError> {
+        self.check()?;
+        if self.is_ideal() { ideal::run(self, observer) } else { crate::case::hybrid::run(self, observer) }
+    }
+
+    /// The paper's device over ground that moves only horizontally.
+    pub fn is_ideal(&self) -> bool {
+        self.drivetrain == Drivetrain::default() && !self.ground.is_vertical()
+    }
+
+    /// Everything that is not the structure's or the drivetrain's own to check.
+    fn check(&self) -> Result<(), CaseError> {
+        let number = |name, value: f32, allowed: bool, range| require(name, f64::from(value), allowed, range).map(|_| ());
+        number("step", self.step, self.step > 0.0, "above 0 s")?;
+        number("free_time", self.free_time, self.free_time >= 0.0, "0 s or more")?;
+        if let Initially::Released { rotation, velocity } = self.initially {
+            let bound = core::f32::consts::FRAC_PI_2;
+            number("rotation", rotation, rotation != 0.0 && rotation.abs() <= bound, "from -π/2 to π/2 rad, and not 0")?;
+            number("velocity", velocity, true, "finite")?;
+        }
+        let steps = self.free_time / self.step + self.ground.check(self.step)?;
+        if steps <= MOST_STEPS as f32 { Ok(()) } else { Err(CaseError::TooManySteps) }
+    }
+}

@@ -1,0 +1,213 @@
+use super::words::{MAGIC, VERSION};
+use super::*;
+use crate::ground::harmonic::MavroeidisPapageorgiou;
+use crate::ground::{Harmonics, Linear, Quiet, Ricker};
+use crate::math::scalar::Real;
+use crate::method::taylor::Taylor;
+use crate::motion::state::Limits;
+use crate::observers::digest::Digest;
+use crate::structure::REST_SPEED;
+use crate::structure::added_mass::Carried;
+use crate::structure::block::{Block, Geometry};
+use crate::structure::device::{Device, DeviceKind, KinematicsKind};
+use crate::structure::drivetrain::{Actuation, Delay, Engagement, FlywheelLosses, Rack};
+use crate::structure::mount::Mount;
+use crate::structure::restitution::Restitution;
+
+mod devices;
+
+/// A slender block of p = 1/s under one cycle of sine, ω/p = 4, a_g/gα = 1.5 (Figure 5).
+fn figure05(kind: DeviceKind) -> Case<'static> {
+    let alpha = 0.125;
+    let pulse = Shape::Sine(Harmonics::sine(1.5 * alpha as f32, 4.0));
+    Case {
+        structure: Structure {
+            block: Block::new(8.0, alpha, 1.25).unwrap(),
+            geometry: Geometry::Slender,
+            device: Device { kind, mass_ratio: 0.5, ..Device::NONE },
+            carried: Carried::NONE,
+            restitution: Restitution::Constant(0.875),
+            rest_speed: f64::from(REST_SPEED as f32),
+        },
+        drivetrain: Drivetrain::default(),
+        initially: Initially::Rest,
+        method: FixedMethod::RungeKutta4,
+        step: 1e-2,
+        ground: Ground::pieces(&[GroundPiece { shape: pulse, duration: core::f32::consts::FRAC_PI_2 }]).unwrap(),
+        free_time: 20.0,
+    }
+}
+
+fn words(case: &Case<'_>) -> ([u32; 256], usize) {
+    let mut words = [0; 256];
+    let count = case.encode(&mut words).unwrap();
+    (words, count)
+}
+
+#[test]
+fn a_case_comes_back_as_it_went() {
+    let record = [0, 0.25_f32.to_bits(), (-0.5_f32).to_bits()];
+    let wavelet = MavroeidisPapageorgiou { velocity_amplitude: 0.9, frequency: 0.5, oscillations: 2.0, phase: 0.0 }.harmonics();
+    let single = wavelet.terms.map(|t| crate::ground::harmonic::Harmonic {
+        amplitude: t.amplitude as f32,
+        frequency: t.frequency as f32,
+        phase: t.phase as f32,
+    });
+    let shapes = [
+        Shape::Quiet,
+        Shape::Linear(Linear { start: 0.1, slope: -2.0 }),
+        Shape::Sine(Harmonics::cosine(0.3, 6.0)),
+        Shape::ThreeSines(Harmonics { terms: single }),
+        Shape::Ricker(Ricker { amplitude: 0.4, rate: 3.0, centre: 1.5 }),
+    ];
+    let base = figure05(DeviceKind::ClutchedPair);
+    let recorded = |vertical| Ground::Record { interval: 0.5, samples: &record, vertical };
+    let mut cases = std::vec![base, Case { ground: recorded(None), ..base }, Case { ground: recorded(Some(&record)), ..base }];
+    for drivetrain in devices::drivetrains() {
+        cases.push(Case { drivetrain, ..base });
+    }
+    let elastic = devices::drivetrains()[4];
+    cases.push(Case { drivetrain: elastic, method: FixedMethod::ExponentialMidpoint, ..base });
+    let piece = |shape| GroundPiece { shape, duration: 0.5 };
+    let sine = Shape::Sine(Harmonics::cosine(0.3, 6.0));
+    cases.push(Case { ground: Ground::both_ways(&shapes.map(|shape| (piece(sine), shape))).unwrap(), ..base });
+    cases.push(Case {
+        initially: Initially::Released { rotation: -0.0625, velocity: 0.5 },
+        method: FixedMethod::Taylor,
+        ground: Ground::pieces(&shapes.map(piece)).unwrap(),
+        ..base
+    });
+    for (mount, restitution) in [
+        (Mount::TyingPoint { height: 2.0, pulley_ratio: 1.5 }, Restitution::Geometric),
+        (Mount::BaseCorners { pulley_ratio: 3.0 }, Restitution::MomentumBalance),
+    ] {
+        let device = Device { mount, kinematics: KinematicsKind::Consistent, ..base.structure.device };
+        let carried = Carried { mass_ratio: 0.0625, height: 5.5 };
+        let structure = Structure { device, carried, geometry: Geometry::Full, restitution, ..base.structure };
+        cases.push(Case { structure, method: FixedMethod::SemiImplicitEuler, ..base });
+    }
+    for case in cases {
+        let (words, count) = words(&case);
+        assert_eq!(Case::decode(&words[..count]), Ok(case));
+        let end = run(&words[..count], &mut ()).unwrap();
+        assert!(end.steps > 50 && end.peaks.rotation > 0.0, "{end:?}");
+        let too_small = case.encode(&mut [0; 20]).unwrap_err();
+        assert_eq!(too_small, CaseError::Full);
+    }
+}
+
+#[test]
+fn bad_words_are_named() {
+    let (good, count) = words(&figure05(DeviceKind::Inerter));
+    let with = |index: usize, word: u32| {
+        let mut words = good;
+        words[index] = word;
+        run(&words[..count], &mut ()).unwrap_err()
+    };
+    assert_eq!(run(&[], &mut ()), Err(CaseError::Missing("the first word")));
+    assert_eq!(run(&good[..count - 1], &mut ()), Err(CaseError::Missing("a number of the shape")));
+    assert_eq!(run(&good[..count + 3], &mut ()), Err(CaseError::Trailing(3)));
+    assert_eq!(with(0, 7), CaseError::Magic(7));
+    assert_ne!(MAGIC, 7);
+    assert_eq!(with(1, VERSION + 1), CaseError::Version(VERSION + 1));
+    for (index, of) in [
+        (5, "geometry"),
+        (6, "device"),
+        (8, "mount"),
+        (11, "kinematics"),
+        (14, "engagement"),
+        (32, "delay"),
+        (33, "restitution"),
+        (36, "start"),
+        (39, "method"),
+        (42, "ground"),
+        (44, "vertical motion"),
+        (45, "shape"),
+    ] {
+        for word in [9, u32::MAX] {
+            assert_eq!(with(index, word), CaseError::Kind { of, word });
+        }
+    }
+    assert_eq!(with(43, 9), CaseError::TooManyPieces(9));
+    let parameter = |index: usize, number: f32| match with(index, number.to_bits()) {
+        CaseError::Parameter(error) => error.parameter,
+        other => panic!("{other}"),
+    };
+    assert_eq!(parameter(2, 0.0), "size");
+    assert_eq!(parameter(3, f32::NAN), "slenderness");
+    assert_eq!(parameter(4, 0.5), "inertia_ratio");
+    assert_eq!(parameter(7, -1.0), "mass_ratio");
+    assert_eq!(parameter(12, 10.5), "carried mass_ratio");
+    assert_eq!(parameter(13, -1.0), "carried height");
+    assert_eq!(parameter(34, 1.5), "restitution");
+    assert_eq!(parameter(35, 0.0), "rest_speed");
+    assert_eq!(parameter(40, 0.0), "step");
+    assert_eq!(parameter(41, f32::INFINITY), "free_time");
+    assert_eq!(parameter(46, -1.0), "duration");
+    assert_eq!(parameter(48, f32::NAN), "number of a shape");
+    assert_eq!(with(40, 1e-7_f32.to_bits()), CaseError::TooManySteps);
+}
+
+/// Half of the mass at the base doubles the stability angle: a block that moves on beyond its own comes back.
+#[test]
+fn a_loaded_block_overturns_where_it_is_loaded_to() {
+    let base = figure05(DeviceKind::None);
+    let ending = |carried, geometry, rotation| {
+        let structure = Structure { carried, geometry, ..base.structure };
+        let initially = Initially::Released { rotation, velocity: 0.03 };
+        Case { structure, initially, ground: Ground::pieces(&[]).unwrap(), ..base }.run(&mut ()).unwrap().ending
+    };
+    for geometry in [Geometry::Full, Geometry::Slender] {
+        let low = Carried { mass_ratio: 1.0, height: 0.0 };
+        assert_eq!(ending(Carried::NONE, geometry, 0.2), Ending::OverturnedWithoutImpact);
+        assert_eq!(ending(low, geometry, 0.2), Ending::Safe);
+        assert_eq!(ending(low, geometry, 0.26), Ending::OverturnedWithoutImpact);
+    }
+}
+
+/// The slender peaks of Figure 5 (VERIFICATION): here with η = 0.875, so close to them before the first impact only; what
+/// matters is that f32 and f64 agree.
+#[test]
+fn single_precision_is_close_to_double() {
+    let in_double = |structure: &Structure| {
+        let system = structure.resolve().unwrap();
+        let (mut state, mut peaks) = (State::default(), Peaks::default());
+        let method = Taylor::<f64, 24>::adaptive(1e-17);
+        let limits = Limits { overturned: 1.0, events: 100_000 };
+        let pulse = Harmonics::sine(1.5 * 0.125, 4.0);
+        system.advance(&method, &mut state, &pulse, core::f64::consts::FRAC_PI_2, &limits, &mut peaks).unwrap();
+        system.advance(&method, &mut state, &Quiet, 20.0, &limits, &mut peaks).unwrap();
+        peaks.rotation
+    };
+    for kind in DeviceKind::ALL {
+        let case = figure05(kind);
+        let exact = in_double(&case.structure);
+        for (method, step, tolerance) in [
+            (FixedMethod::RungeKutta4, 1e-2, 1e-5),
+            (FixedMethod::Taylor, 5e-2, 1e-5),
+            (FixedMethod::SemiImplicitEuler, 1e-3, 1e-2),
+        ] {
+            let mut digest = Digest::default();
+            let end = Case { method, step, ..case }.run(&mut digest).unwrap();
+            assert_eq!(end.ending, Ending::Safe);
+            assert_eq!(end.state.phase, Phase::Rest, "{kind:?} {method:?}");
+            let error = end.peaks.rotation.to_f64() / exact - 1.0;
+            assert!(error.abs() < tolerance, "{kind:?} {method:?}: {error}");
+            assert!(digest.stretches() >= end.steps && digest.events() > 10);
+        }
+    }
+}
+
+/// A scene asks for a method by the name that an error gives it back.
+#[test]
+fn methods_have_names_of_their_own() {
+    let names = [
+        (FixedMethod::SemiImplicitEuler, "semi-implicit-euler"),
+        (FixedMethod::RungeKutta4, "runge-kutta-4"),
+        (FixedMethod::Taylor, "taylor"),
+        (FixedMethod::ExponentialMidpoint, "exponential-midpoint"),
+    ];
+    for (method, name) in names {
+        assert_eq!(method.name(), name);
+    }
+}

@@ -1,0 +1,42 @@
+//! A clutch law chosen at run time.
+
+use super::look_ahead::LookAhead;
+use super::{AlwaysEngaged, GatedTable, Law, Passive, Resisting, SignTable, Situation, Wish};
+use crate::control::model::KnownBody;
+
+/// The laws that a scene can choose from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ClutchLaw {
+    /// [`Passive`].
+    Passive,
+    /// [`AlwaysEngaged`].
+    AlwaysEngaged,
+    /// [`Resisting`] (Eq. 10) on the motion as it is now.
+    Resisting,
+    /// [`Resisting`] (Eq. 10) on the motion as it will be when the clutch moves.
+    ResistingPredicted,
+    /// [`SignTable`].
+    SignTable(SignTable),
+    /// [`GatedTable`].
+    GatedTable(GatedTable),
+    /// [`LookAhead`].
+    LookAhead(LookAhead),
+}
+
+impl<B: KnownBody> Law<B> for ClutchLaw {
+    #[inline]
+    fn wish(&self, at: &Situation<'_, B>) -> Wish {
+        match self {
+            ClutchLaw::Passive => Passive.wish(at),
+            ClutchLaw::AlwaysEngaged => AlwaysEngaged.wish(at),
+            ClutchLaw::Resisting | ClutchLaw::ResistingPredicted => Resisting.wish(at),
+            ClutchLaw::SignTable(table) => table.wish(at),
+            ClutchLaw::GatedTable(table) => table.wish(at),
+            ClutchLaw::LookAhead(law) => law.wish(at),
+        }
+    }
+
+    fn predicts(&self) -> bool {
+        !matches!(self, ClutchLaw::Passive | ClutchLaw::AlwaysEngaged | ClutchLaw::Resisting)
+    }
+}

@@ -1,0 +1,127 @@
+//! Clutches that do not do what they are told: feedback that disagrees with the command.
+
+use super::fault::{Fault, Wheel};
+use crate::control::ticks::Streak;
+
+/// How long feedback may disagree, in ticks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ActuatorMonitor {
+    /// After a change of the command: the clutch moves then, or still moves as an older command told it.
+    pub actuator_ticks: u32,
+    /// After that: nothing should move any more, but a position switch may bounce.
+    pub feedback_ticks: u32,
+    /// Whether both may be engaged at once.
+    pub both_allowed: bool,
+}
+
+/// What is known of the clutches.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ActuatorState {
+    clutches: [Clutch; 2],
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Clutch {
+    commanded: bool,
+    /// The command has not changed.
+    steady: Streak,
+    disagrees: Streak,
+}
+
+impl Clutch {
+    /// Whether `engaged` has disagreed with `command` for too long.
+    fn step(&mut self, monitor: &ActuatorMonitor, command: bool, engaged: bool) -> bool {
+        if command != self.commanded {
+            // A new command gets its whole time, or one that is taken back at the last moment would look like a fault.
+            *self = Clutch { commanded: command, ..Clutch::default() };
+        }
+        self.steady.note(true);
+        self.disagrees.note(command != engaged);
+        self.disagrees.lasted(monitor.feedback_ticks) && self.steady.lasted(monitor.actuator_ticks)
+    }
+}
+
+impl ActuatorMonitor {
+    /// One tick: `engaged` is the feedback, `sent` the command of the last tick, which is the newest that the clutches can know.
+    pub fn step(&self, state: &mut ActuatorState, sent: [bool; 2], engaged: [bool; 2]) -> Option<Fault> {
+        let [first, second] = &mut state.clutches;
+        let late = [first.step(self, sent[0], engaged[0]), second.step(self, sent[1], engaged[1])];
+        if late == [false; 2] {
+            return None;
+        }
+        // The worst that it can mean goes first.
+        if engaged == [true; 2] && !self.both_allowed {
+            return Some(Fault::BothClutches);
+        }
+        let (wheel, commanded) = if late[0] { (Wheel::First, sent[0]) } else { (Wheel::Second, sent[1]) };
+        Some(if commanded { Fault::ClutchRefuses(wheel) } else { Fault::ClutchEngagedUnbidden(wheel) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MONITOR: ActuatorMonitor = ActuatorMonitor { actuator_ticks: 20, feedback_ticks: 4, both_allowed: false };
+
+    /// The tick at which the fault comes while command and feedback stay, and which.
+    fn found(state: &mut ActuatorState, monitor: &ActuatorMonitor, sent: [bool; 2], engaged: [bool; 2]) -> Option<(u32, Fault)> {
+        (0..100).find_map(|tick| monitor.step(state, sent, engaged).map(|fault| (tick, fault)))
+    }
+
+    #[test]
+    fn a_clutch_has_its_time_to_follow() {
+        for wheel in Wheel::ALL {
+            let mut state = ActuatorState::default();
+            assert_eq!(found(&mut state, &MONITOR, [false; 2], [false; 2]), None);
+            assert_eq!(found(&mut state, &MONITOR, wheel.alone(), [false; 2]), Some((20, Fault::ClutchRefuses(wheel))));
+            assert_eq!(found(&mut state, &MONITOR, wheel.alone(), wheel.alone()), None);
+            assert_eq!(found(&mut state, &MONITOR, [false; 2], wheel.alone()), Some((20, Fault::ClutchEngagedUnbidden(wheel))));
+        }
+    }
+
+    #[test]
+    fn one_that_moves_by_itself_is_found_sooner() {
+        for wheel in Wheel::ALL {
+            let mut state = ActuatorState::default();
+            assert_eq!(found(&mut state, &MONITOR, [false; 2], [false; 2]), None);
+            assert_eq!(found(&mut state, &MONITOR, [false; 2], wheel.alone()), Some((4, Fault::ClutchEngagedUnbidden(wheel))));
+            let mut state = ActuatorState::default();
+            assert_eq!(found(&mut state, &MONITOR, wheel.alone(), wheel.alone()), None);
+            assert_eq!(found(&mut state, &MONITOR, wheel.alone(), [false; 2]), Some((4, Fault::ClutchRefuses(wheel))));
+        }
+    }
+
+    #[test]
+    fn a_switch_may_bounce_and_a_command_may_be_taken_back() {
+        let mut state = ActuatorState::default();
+        assert_eq!(found(&mut state, &MONITOR, [false; 2], [false; 2]), None);
+        for _ in 0..50 {
+            for engaged in [true, true, true, true, false] {
+                assert_eq!(MONITOR.step(&mut state, [false; 2], [engaged, false]), None);
+            }
+        }
+        for _ in 0..50 {
+            for tick in 0..30 {
+                // Engaged 18 ticks after the command, which then goes back.
+                assert_eq!(MONITOR.step(&mut state, [tick < 15, false], [(18..29).contains(&tick), false]), None, "{tick}");
+            }
+        }
+    }
+
+    #[test]
+    fn both_engaged_only_where_allowed() {
+        // A change of hands, during which they overlap.
+        let mut state = ActuatorState::default();
+        assert_eq!(found(&mut state, &MONITOR, [true, false], [true, false]), None);
+        for _ in 0..15 {
+            assert_eq!(MONITOR.step(&mut state, [false, true], [true, true]), None);
+        }
+        assert_eq!(found(&mut state, &MONITOR, [false, true], [false, true]), None);
+        assert_eq!(found(&mut state, &MONITOR, [false, true], [true, true]), Some((4, Fault::BothClutches)));
+        let both = ActuatorMonitor { both_allowed: true, ..MONITOR };
+        let mut state = ActuatorState::default();
+        assert_eq!(found(&mut state, &both, [true; 2], [true; 2]), None);
+        assert_eq!(found(&mut state, &both, [true; 2], [true, false]), Some((4, Fault::ClutchRefuses(Wheel::Second))));
+    }
+}

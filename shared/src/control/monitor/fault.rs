@@ -1,0 +1,281 @@
+//! What can go wrong with the controller's sensors, clutches and timing, as numbers that keep their meaning, and how it is recovered from.
+
+use crate::control::sensing::sensor::Sensor;
+use core::fmt;
+use serde::{Deserialize, Serialize};
+
+/// One of the two clutched flywheels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Wheel {
+    /// Index 0 in arrays over clutches.
+    First,
+    /// Index 1.
+    Second,
+}
+
+impl Wheel {
+    /// Each, in the order of arrays over clutches.
+    pub const ALL: [Wheel; 2] = [Wheel::First, Wheel::Second];
+
+    /// The commands that engage this one alone.
+    pub fn alone(self) -> [bool; 2] {
+        [self == Wheel::First, self == Wheel::Second]
+    }
+}
+
+impl fmt::Display for Wheel {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(if *self == Wheel::First { "first" } else { "second" })
+    }
+}
+
+/// A fault, or the occasion of a warning. Two witnesses that disagree do not tell which of them lies: the sensor of a contradiction is the
+/// likelier one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(into = "u16", try_from = "u16")]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Fault {
+    /// No new reading in time.
+    Stale(Sensor),
+    /// New readings, all alike, where they cannot be; for the encoder, the same count while the gyroscope says that it must change.
+    Stuck(Sensor),
+    /// At full scale for longer than an impact lasts; for the encoder, beyond the rack's travel.
+    Saturated(Sensor),
+    /// NaN or infinite.
+    NotFinite(Sensor),
+    /// Against another sensor, or against gravity at rest.
+    Contradiction(Sensor),
+    /// It reports to be engaged and shall be open.
+    ClutchEngagedUnbidden(Wheel),
+    /// It reports to be open and shall be engaged.
+    ClutchRefuses(Wheel),
+    /// Both report to be engaged, which the device does not allow; as a warning, the law asked for both.
+    BothClutches,
+    /// It did not follow its test pulse.
+    SelfTestFailed(Wheel),
+    /// Ticks come too late.
+    Overrun,
+    /// The estimate is NaN or infinite though the sensors are not.
+    EstimateNotFinite,
+    /// Only a warning: armed with the last biases, for lack of stillness.
+    CalibrationAbandoned,
+    /// Only a warning: the clutches were not tested, for lack of stillness.
+    SelfTestAbandoned,
+}
+
+/// A fault travels as its code.
+impl From<Fault> for u16 {
+    fn from(fault: Fault) -> u16 {
+        fault.code()
+    }
+}
+
+impl TryFrom<u16> for Fault {
+    type Error = NoFault;
+
+    fn try_from(code: u16) -> Result<Fault, NoFault> {
+        Fault::from_code(code).ok_or(NoFault)
+    }
+}
+
+/// A number that is no fault's code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoFault;
+
+impl fmt::Display for NoFault {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("no fault has this code")
+    }
+}
+
+/// How the controller comes back from a fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Recovery {
+    /// By itself, once every required sensor has been good for the recovery time and the block does not rock, through a new calibration.
+    WhenGood,
+    /// On request, at rest only, through a new self-test.
+    OnRequest,
+    /// It never was more than a warning.
+    NotNeeded,
+}
+
+impl Fault {
+    /// Every fault there is.
+    pub const ALL: [Fault; 31] = {
+        use Sensor::{BlockAccelerometer, Encoder, GroundAccelerometer, Gyroscope};
+        [
+            Fault::Stale(Gyroscope),
+            Fault::Stuck(Gyroscope),
+            Fault::Saturated(Gyroscope),
+            Fault::NotFinite(Gyroscope),
+            Fault::Contradiction(Gyroscope),
+            Fault::Stale(BlockAccelerometer),
+            Fault::Stuck(BlockAccelerometer),
+            Fault::Saturated(BlockAccelerometer),
+            Fault::NotFinite(BlockAccelerometer),
+            Fault::Contradiction(BlockAccelerometer),
+            Fault::Stale(GroundAccelerometer),
+            Fault::Stuck(GroundAccelerometer),
+            Fault::Saturated(GroundAccelerometer),
+            Fault::NotFinite(GroundAccelerometer),
+            Fault::Contradiction(GroundAccelerometer),
+            Fault::Stale(Encoder),
+            Fault::Stuck(Encoder),
+            Fault::Saturated(Encoder),
+            Fault::NotFinite(Encoder),
+            Fault::Contradiction(Encoder),
+            Fault::ClutchEngagedUnbidden(Wheel::First),
+            Fault::ClutchEngagedUnbidden(Wheel::Second),
+            Fault::ClutchRefuses(Wheel::First),
+            Fault::ClutchRefuses(Wheel::Second),
+            Fault::BothClutches,
+            Fault::SelfTestFailed(Wheel::First),
+            Fault::SelfTestFailed(Wheel::Second),
+            Fault::Overrun,
+            Fault::EstimateNotFinite,
+            Fault::CalibrationAbandoned,
+            Fault::SelfTestAbandoned,
+        ]
+    };
+
+    /// A number for logs and telegrams, of two digits: the sensor (1 to 4) and what it did, 5x a clutch, 6x the controller itself, 7x a
+    /// warning. Numbers are never given anew.
+    pub fn code(self) -> u16 {
+        let of = |sensor| match sensor {
+            Sensor::Gyroscope => 10,
+            Sensor::BlockAccelerometer => 20,
+            Sensor::GroundAccelerometer => 30,
+            Sensor::Encoder => 40,
+        };
+        match self {
+            Fault::Stale(sensor) => of(sensor) + 1,
+            Fault::Stuck(sensor) => of(sensor) + 2,
+            Fault::Saturated(sensor) => of(sensor) + 3,
+            Fault::NotFinite(sensor) => of(sensor) + 4,
+            Fault::Contradiction(sensor) => of(sensor) + 5,
+            Fault::ClutchEngagedUnbidden(Wheel::First) => 51,
+            Fault::ClutchEngagedUnbidden(Wheel::Second) => 52,
+            Fault::ClutchRefuses(Wheel::First) => 53,
+            Fault::ClutchRefuses(Wheel::Second) => 54,
+            Fault::BothClutches => 55,
+            Fault::SelfTestFailed(Wheel::First) => 56,
+            Fault::SelfTestFailed(Wheel::Second) => 57,
+            Fault::Overrun => 61,
+            Fault::EstimateNotFinite => 62,
+            Fault::CalibrationAbandoned => 71,
+            Fault::SelfTestAbandoned => 72,
+        }
+    }
+
+    /// The fault of a [`Fault::code`].
+    pub fn from_code(code: u16) -> Option<Fault> {
+        Fault::ALL.into_iter().find(|fault| fault.code() == code)
+    }
+
+    /// The sensor that is at fault.
+    pub fn sensor(self) -> Option<Sensor> {
+        match self {
+            Fault::Stale(sensor)
+            | Fault::Stuck(sensor)
+            | Fault::Saturated(sensor)
+            | Fault::NotFinite(sensor)
+            | Fault::Contradiction(sensor) => Some(sensor),
+            _ => None,
+        }
+    }
+
+    /// The whole table of recovery.
+    ///
+    /// | fault | recovery | because |
+    /// | --- | --- | --- |
+    /// | of a sensor | when good | good readings show it, and the new calibration tries bias and gravity afresh |
+    /// | of a clutch, failed self-test | on request | a part that may be broken shows nothing until it is used: somebody must look |
+    /// | overrun, estimate not finite | on request | the program or its parameters are wrong, which time does not mend |
+    /// | abandoned calibration or self-test | not needed | a warning only |
+    pub fn recovery(self) -> Recovery {
+        match self {
+            Fault::Stale(_) | Fault::Stuck(_) | Fault::Saturated(_) | Fault::NotFinite(_) | Fault::Contradiction(_) => {
+                Recovery::WhenGood
+            }
+            Fault::ClutchEngagedUnbidden(_) | Fault::ClutchRefuses(_) | Fault::BothClutches | Fault::SelfTestFailed(_) => {
+                Recovery::OnRequest
+            }
+            Fault::Overrun | Fault::EstimateNotFinite => Recovery::OnRequest,
+            Fault::CalibrationAbandoned | Fault::SelfTestAbandoned => Recovery::NotNeeded,
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Fault::Stale(sensor) => write!(formatter, "{sensor}: no new reading in time"),
+            Fault::Stuck(Sensor::Encoder) => write!(formatter, "encoder: its count stays while the gyroscope turns"),
+            Fault::Stuck(sensor) => write!(formatter, "{sensor}: new readings are bit for bit the same for too long"),
+            Fault::Saturated(Sensor::Encoder) => write!(formatter, "encoder: its count is beyond the rack's travel"),
+            Fault::Saturated(sensor) => write!(formatter, "{sensor}: at full scale for longer than an impact lasts"),
+            Fault::NotFinite(sensor) => write!(formatter, "{sensor}: its reading is not a finite number"),
+            Fault::Contradiction(Sensor::Gyroscope) => write!(formatter, "gyroscope: it turns while the block is at rest"),
+            Fault::Contradiction(Sensor::Encoder) => write!(formatter, "encoder: its rate contradicts the gyroscope's"),
+            Fault::Contradiction(sensor) => {
+                write!(formatter, "{sensor}: at rest it contradicts gravity and the other accelerometer")
+            }
+            Fault::ClutchEngagedUnbidden(wheel) => write!(formatter, "{wheel} clutch: engaged, but its command is to be open"),
+            Fault::ClutchRefuses(wheel) => write!(formatter, "{wheel} clutch: open, but its command is to be engaged"),
+            Fault::BothClutches => write!(formatter, "both clutches engaged at once, which is not allowed"),
+            Fault::SelfTestFailed(wheel) => {
+                write!(formatter, "{wheel} clutch: its feedback did not follow the self-test's pulse")
+            }
+            Fault::Overrun => write!(formatter, "controller: ticks come too late"),
+            Fault::EstimateNotFinite => write!(formatter, "estimate: rotation or velocity is not a finite number"),
+            Fault::CalibrationAbandoned => {
+                write!(formatter, "calibration abandoned for lack of stillness: armed with the last biases")
+            }
+            Fault::SelfTestAbandoned => write!(formatter, "self-test abandoned for lack of stillness: the clutches are untested"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+    use std::string::ToString;
+
+    #[test]
+    fn codes_are_stable_and_unambiguous() {
+        let codes: BTreeSet<u16> = Fault::ALL.iter().map(|fault| fault.code()).collect();
+        assert_eq!(codes.len(), Fault::ALL.len());
+        assert!((0..=u16::MAX).all(|code| Fault::from_code(code).is_some() == codes.contains(&code)));
+        assert!(Fault::ALL.iter().all(|fault| Fault::from_code(fault.code()) == Some(*fault)));
+        assert_eq!(Fault::Stale(Sensor::Gyroscope).code(), 11);
+        assert_eq!(Fault::Contradiction(Sensor::Encoder).code(), 45);
+        assert_eq!(Fault::ClutchRefuses(Wheel::Second).code(), 54);
+        assert_eq!(Fault::SelfTestAbandoned.code(), 72);
+    }
+
+    #[test]
+    fn each_is_one_line_of_its_own_that_names_the_sensor() {
+        let lines: BTreeSet<_> = Fault::ALL.iter().map(|fault| fault.to_string()).collect();
+        assert_eq!(lines.len(), Fault::ALL.len());
+        for fault in Fault::ALL {
+            let line = fault.to_string();
+            assert!(!line.contains('\n'));
+            assert!(fault.sensor().is_none_or(|sensor| line.starts_with(&sensor.to_string())), "{line}");
+        }
+    }
+
+    #[test]
+    fn sensors_recover_and_the_rest_waits_for_somebody() {
+        for fault in Fault::ALL {
+            let expected = match fault.code() {
+                ..50 => Recovery::WhenGood,
+                50..70 => Recovery::OnRequest,
+                _ => Recovery::NotNeeded,
+            };
+            assert_eq!(fault.recovery(), expected, "{fault}");
+            assert_eq!(fault.sensor().is_some(), expected == Recovery::WhenGood);
+        }
+    }
+}

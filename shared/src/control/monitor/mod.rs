@@ -1,0 +1,232 @@
+//! Sensors that cannot be believed: which of them, and why.
+//!
+//! [`fault`]: the codes; [`actuator`]: clutches that do not follow. The room imports `structure`, `control::sensing` and `control::ticks`.
+
+pub mod actuator;
+mod agreement;
+pub mod fault;
+mod parameters;
+mod rest;
+mod watch;
+
+pub(super) use parameters::duration;
+pub use parameters::{EncoderLimits, FEWEST_WINDOW_TICKS, MonitorParameters, SensorLimits, stuck_time};
+
+use crate::control::sensing::calibration::{Calibration, off_gravity};
+use crate::control::sensing::sample::{Reading, Sample};
+use crate::control::sensing::sensor::Sensor;
+use agreement::{Agreement, AgreementLimits, Disagreement};
+use fault::Fault;
+use rest::Rest;
+use watch::{Watch, WatchLimits};
+
+/// Counts within the fast window that are more than an encoder at rest, between two of its lines, gives.
+const MOVING_COUNTS: u32 = 3;
+
+/// Watches the sensors, with times in ticks; made by the supervisor from [`MonitorParameters`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Monitor {
+    gyroscope: WatchLimits,
+    /// Block, ground.
+    accelerometers: [WatchLimits; 2],
+    encoder_stale: u32,
+    travel: u32,
+    agreement: AgreementLimits,
+    quiet_ticks: u32,
+    rest_ticks: u32,
+    rest_tolerance: f32,
+    /// Of a gyroscope that has not, and that has been calibrated.
+    rate_tolerances: [f32; 2],
+    moving_rate: f32,
+    gravity: f32,
+}
+
+/// What is known of the sensors.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MonitorState {
+    gyroscope: Watch,
+    accelerometers: [[Watch; 2]; 2],
+    encoder: Watch,
+    agreement: Agreement,
+    rest: Rest,
+}
+
+/// What the rest of the controller knows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Context<'a> {
+    /// Biases.
+    pub calibration: &'a Calibration,
+    /// They were measured.
+    pub calibrated: bool,
+    /// The block has been at rest for long.
+    pub at_rest: bool,
+}
+
+/// What was found, in the order of [`Sensor::ALL`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Findings {
+    /// What is wrong now, the plainest first.
+    pub faults: [Option<Fault>; 4],
+    /// Sensors that have given a complete reading.
+    pub seen: [bool; 4],
+}
+
+impl Findings {
+    /// Sensors that may be believed.
+    #[inline]
+    pub fn good(&self) -> [bool; 4] {
+        let [a, b, c, d] = self.faults.map(|fault| fault.is_none());
+        [self.seen[0] && a, self.seen[1] && b, self.seen[2] && c, self.seen[3] && d]
+    }
+
+    /// Every sensor may be believed.
+    #[inline]
+    pub fn clean(&self) -> bool {
+        self.nothing() && self.seen == [true; 4]
+    }
+
+    /// Nothing is wrong with any sensor.
+    #[inline]
+    pub fn nothing(&self) -> bool {
+        let [a, b, c, d] = &self.faults;
+        a.is_none() && b.is_none() && c.is_none() && d.is_none()
+    }
+}
+
+impl MonitorState {
+    /// Of sensors that are there, those `required`, though nothing has been read yet: a reading is due.
+    pub fn expecting(required: [bool; 4]) -> MonitorState {
+        let [gyroscope, block, ground, encoder] =
+            required.map(|required| if required { Watch::expecting() } else { Watch::default() });
+        MonitorState { gyroscope, accelerometers: [[block; 2], [ground; 2]], encoder, ..MonitorState::default() }
+    }
+
+    /// To be called when the biases change: what was seen with the old ones must not be held against the new.
+    pub fn recalibrated(&mut self) {
+        self.agreement = Agreement::default();
+        self.rest.recalibrated();
+    }
+}
+
+impl Monitor {
+    /// One tick.
+    // Has one caller, and much to hand over.
+    #[inline]
+    pub fn step(&self, state: &mut MonitorState, sample: &Sample, context: &Context<'_>) -> Findings {
+        let rate = sample.gyroscope.value - context.calibration.gyroscope;
+        // NaN does not exceed anything.
+        let moving = rate.abs() > self.moving_rate || state.agreement.travel() >= MOVING_COUNTS;
+        let [block_limits, ground_limits] = &self.accelerometers;
+        let [block, ground] = &mut state.accelerometers;
+        let both = |[along, up]: &mut [Watch; 2], [first, second]: [Reading; 2], limits| {
+            let well = along.step(first, limits, moving);
+            up.step(second, limits, moving) && well
+        };
+        let encoder_limits = self.encoder_limits();
+        let well = [
+            state.gyroscope.step(sample.gyroscope, &self.gyroscope, moving),
+            both(block, sample.block_accelerometer, block_limits),
+            both(ground, sample.ground_accelerometer, ground_limits),
+            state.encoder.arrival(sample.encoder.number, &encoder_limits),
+        ];
+        if well == [true; 4] && self.within_travel(sample, context) {
+            // The usual tick, for which the compiler writes a version of its own.
+            return self.together(state, sample, context, rate, Findings { faults: [None; 4], seen: [true; 4] });
+        }
+        self.doubted(state, sample, context, rate)
+    }
+
+    fn within_travel(&self, sample: &Sample, context: &Context<'_>) -> bool {
+        sample.encoder.counts.wrapping_sub(context.calibration.encoder_zero).unsigned_abs() <= self.travel
+    }
+
+    /// The same where something may be wrong with a sensor.
+    #[inline(never)]
+    fn doubted(&self, state: &mut MonitorState, sample: &Sample, context: &Context<'_>, rate: f32) -> Findings {
+        let MonitorState { gyroscope, accelerometers: [block, ground], encoder, .. } = state;
+        let [block_limits, ground_limits] = &self.accelerometers;
+        let number = [Reading { value: 0.0, number: sample.encoder.number }];
+        let mut faults = [
+            alone(Sensor::Gyroscope, &[*gyroscope], &[sample.gyroscope], &self.gyroscope),
+            alone(Sensor::BlockAccelerometer, block, &sample.block_accelerometer, block_limits),
+            alone(Sensor::GroundAccelerometer, ground, &sample.ground_accelerometer, ground_limits),
+            alone(Sensor::Encoder, &[*encoder], &number, &self.encoder_limits()),
+        ];
+        let both = |watches: &[Watch; 2]| watches[0].seen() && watches[1].seen();
+        let seen = [gyroscope.seen(), both(block), both(ground), encoder.seen()];
+        if seen[3] && faults[3].is_none() && !self.within_travel(sample, context) {
+            faults[3] = Some(Fault::Saturated(Sensor::Encoder));
+        }
+        self.together(state, sample, context, rate, Findings { faults, seen })
+    }
+
+    /// Adds to what each sensor shows by itself what they show together.
+    #[inline]
+    fn together(&self, state: &mut MonitorState, sample: &Sample, context: &Context<'_>, rate: f32, found: Findings) -> Findings {
+        let Findings { mut faults, seen } = found;
+        let good = found.good();
+        let off = |readings: [Reading; 2], bias| off_gravity(readings.map(|reading| reading.value), bias, self.gravity);
+        let block = good[1].then(|| off(sample.block_accelerometer, context.calibration.block));
+        let ground = good[2].then(|| off(sample.ground_accelerometer, context.calibration.ground));
+        state.rest.step(context.at_rest, block, ground, self.rest_tolerance);
+        if good[0] && good[3] {
+            let [uncalibrated, calibrated] = self.rate_tolerances;
+            let tolerance = if context.calibrated { calibrated } else { uncalibrated };
+            state.agreement.step(&self.agreement, tolerance, rate, sample.encoder.counts);
+        } else {
+            // What is missing must not look like a difference later.
+            state.agreement = Agreement::default();
+        }
+        if !state.rest.block(self.rest_ticks) && !state.rest.ground(self.rest_ticks) && state.agreement.found().is_none() {
+            return Findings { faults, seen };
+        }
+        if state.rest.block(self.rest_ticks) {
+            faults[1] = Some(Fault::Contradiction(Sensor::BlockAccelerometer));
+        }
+        if state.rest.ground(self.rest_ticks) {
+            faults[2] = Some(Fault::Contradiction(Sensor::GroundAccelerometer));
+        }
+        // A block that rocks weighs on one toe, which its accelerometer shows at any rotation: the third witness.
+        let gyroscope_alone = state.rest.quiet(self.quiet_ticks);
+        match state.agreement.found() {
+            Some(Disagreement::Standing | Disagreement::GyroscopeAhead) if gyroscope_alone => {
+                faults[0] = Some(Fault::Contradiction(Sensor::Gyroscope));
+            }
+            Some(Disagreement::Standing) => faults[3] = Some(Fault::Stuck(Sensor::Encoder)),
+            Some(_) => faults[3] = Some(Fault::Contradiction(Sensor::Encoder)),
+            None => {}
+        }
+        Findings { faults, seen }
+    }
+
+    /// A count has no full scale, and one that repeats is judged with the gyroscope's help only.
+    fn encoder_limits(&self) -> WatchLimits {
+        use crate::control::ticks::NEVER;
+        WatchLimits { stale: self.encoder_stale, stuck: NEVER, stuck_moving: NEVER, full_scale: f32::INFINITY, saturation: NEVER }
+    }
+}
+
+/// What a sensor of `AXES` readings shows by itself: one axis that is wrong makes it wrong, but only all of them together are stuck, since
+/// a sensor freezes as a whole and one axis may repeat by chance.
+fn alone<const AXES: usize>(
+    sensor: Sensor,
+    watches: &[Watch; AXES],
+    readings: &[Reading; AXES],
+    limits: &WatchLimits,
+) -> Option<Fault> {
+    let wrong = |(watch, reading): (&Watch, &Reading)| watch.seen() && !reading.value.is_finite();
+    if watches.iter().zip(readings).any(wrong) {
+        Some(Fault::NotFinite(sensor))
+    } else if watches.iter().any(|watch| watch.stale(limits)) {
+        Some(Fault::Stale(sensor))
+    } else if watches.iter().any(|watch| watch.saturated(limits)) {
+        Some(Fault::Saturated(sensor))
+    } else if watches.iter().all(|watch| watch.stuck(limits)) {
+        Some(Fault::Stuck(sensor))
+    } else {
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,236 @@
+//! From readings to what estimators need: biases taken off, units of the equations, and the ground's acceleration tracked.
+
+use super::calibration::Calibration;
+use super::sample::Sample;
+use crate::math;
+use crate::structure::block::GRAVITY;
+use crate::structure::error::{ParameterError, require};
+
+/// g, m/s².
+const STANDARD_GRAVITY: f32 = GRAVITY as f32;
+
+/// How the sensors are mounted and how late their readings are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instruments {
+    /// Period of the control tick, s.
+    pub period: f32,
+    /// Travel of the rack over R in one count of the encoder.
+    pub travel_per_count: f32,
+    /// From the motion to the reading, s, of the gyroscope, …
+    pub gyroscope_delay: f32,
+    /// … the encoder, …
+    pub encoder_delay: f32,
+    /// … and the ground accelerometer.
+    pub ground_delay: f32,
+    /// Tracking of the ground's acceleration: gain of the value and gain of its growth over the period.
+    gains: [f32; 2],
+    period_inverse: f32,
+}
+
+/// Largest growth of the ground's acceleration that is extrapolated, g/s: a record of 1 g with 20 Hz in it. What grows faster is a
+/// jump, which does not go on.
+const FASTEST_GROWTH: f32 = 120.0;
+
+/// Largest acceleration of the ground that is tracked, g: beyond any accelerometer's range.
+const MOST_GROUND: f32 = 1e3;
+
+impl Instruments {
+    /// With a `period` (s) of 1e-6 to 0.1 s, encoder counts of `travel_per_count` (over R), delays in s (gyroscope, encoder, ground
+    /// accelerometer) of 0 to 0.1 s, and the ground's acceleration tracked by a critically damped filter with a time constant of
+    /// `tracking` (s), 0 or more; 0 takes every reading as it is.
+    ///
+    /// # Errors
+    /// [`ParameterError`] names the first parameter outside its range.
+    pub fn new(period: f64, travel_per_count: f64, delays: [f64; 3], tracking: f64) -> Result<Instruments, ParameterError> {
+        require("period", period, (1e-6..=0.1).contains(&period), "from 1e-6 to 0.1 s")?;
+        require("travel_per_count", travel_per_count, travel_per_count > 0.0, "above 0")?;
+        for (name, delay) in ["gyroscope_delay", "encoder_delay", "ground_delay"].into_iter().zip(delays) {
+            require(name, delay, (0.0..=0.1).contains(&delay), "from 0 to 0.1 s")?;
+        }
+        require("tracking", tracking, (0.0..=1.0).contains(&tracking), "from 0 to 1 s")?;
+        // Fading-memory filter of first degree (Morrison 1969): poles both at e^(-T/τ).
+        let pole = if tracking > 0.0 { math::exp(-period / tracking) } else { 0.0 };
+        let gains = [(1.0 - pole * pole) as f32, ((1.0 - pole) * (1.0 - pole)) as f32];
+        Ok(Instruments::of_gains(period as f32, travel_per_count as f32, delays.map(|delay| delay as f32), gains))
+    }
+
+    /// As [`Instruments::new`], in single precision and with the `gains` of the tracking, each 0 to 1; to the same bits wherever it is
+    /// made.
+    pub fn of_gains(period: f32, travel_per_count: f32, delays: [f32; 3], gains: [f32; 2]) -> Instruments {
+        let [gyroscope_delay, encoder_delay, ground_delay] = delays;
+        Instruments {
+            period,
+            travel_per_count,
+            gyroscope_delay,
+            encoder_delay,
+            ground_delay,
+            gains,
+            period_inverse: 1.0 / period,
+        }
+    }
+
+    /// Gains of the tracking: of the value, and of its growth over the period.
+    pub fn gains(&self) -> [f32; 2] {
+        self.gains
+    }
+
+    /// The readings of one tick; what has not been read anew since the last tick is marked so.
+    #[inline]
+    pub fn read(&self, state: &mut InstrumentsState, sample: &Sample, zero: &Calibration) -> Measured {
+        let numbers = [
+            sample.gyroscope.number,
+            sample.encoder.number,
+            sample.block_accelerometer[0].number,
+            sample.ground_accelerometer[0].number,
+        ];
+        let mut fresh = [true; 4];
+        for ((fresh, &number), last) in fresh.iter_mut().zip(&numbers).zip(&mut state.numbers) {
+            *fresh = number != *last;
+            *last = number;
+        }
+        let block = [0, 1].map(|axis: usize| sample.block_accelerometer[axis & 1].value - zero.block[axis & 1]);
+        let force = [0, 1].map(|axis: usize| sample.ground_accelerometer[axis & 1].value - zero.ground[axis & 1]);
+        let accelerations = [force[0] / STANDARD_GRAVITY, force[1] / STANDARD_GRAVITY - 1.0];
+        let mut ground = [0.0; 2];
+        for ((track, &reading), ground) in state.ground.iter_mut().zip(&accelerations).zip(&mut ground) {
+            self.track(track, reading, fresh[3] && usable(reading));
+            *ground = track.value + track.rate.clamp(-FASTEST_GROWTH, FASTEST_GROWTH) * self.ground_delay;
+        }
+        Measured {
+            rate: (fresh[0] && usable(sample.gyroscope.value)).then_some(sample.gyroscope.value - zero.gyroscope),
+            travel: fresh[1].then(|| sample.encoder.counts.wrapping_sub(zero.encoder_zero) as f32 * self.travel_per_count),
+            block: (fresh[2] && usable(block[0]) && usable(block[1]) && usable(force[0])).then_some(block),
+            ground_force: force,
+            ground,
+            ground_rate: state.ground[0].rate.clamp(-FASTEST_GROWTH, FASTEST_GROWTH),
+        }
+    }
+
+    #[inline]
+    fn track(&self, track: &mut Track, reading: f32, fresh: bool) {
+        let ahead = track.value + track.rate * self.period;
+        if !track.started {
+            let value = if fresh { reading } else { 0.0 };
+            *track = Track { value, rate: 0.0, started: fresh };
+        } else if !fresh {
+            track.value = ahead.clamp(-MOST_GROUND, MOST_GROUND);
+        } else {
+            let surprise = reading - ahead;
+            track.value = (ahead + self.gains[0] * surprise).clamp(-MOST_GROUND, MOST_GROUND);
+            track.rate = (track.rate + self.gains[1] * surprise * self.period_inverse).clamp(-1e6, 1e6);
+        }
+    }
+}
+
+/// A number that a sensor can have read; the supervisor says what is wrong with another.
+#[inline]
+fn usable(reading: f32) -> bool {
+    reading.abs() < 1e6
+}
+
+/// A value and its growth.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Track {
+    value: f32,
+    rate: f32,
+    started: bool,
+}
+
+/// What reading remembers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct InstrumentsState {
+    numbers: [u32; 4],
+    ground: [Track; 2],
+}
+
+/// One tick's readings, without their biases; `None` is no new reading.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Measured {
+    /// Of the gyroscope, rad/s.
+    pub rate: Option<f32>,
+    /// Of the rack, over R.
+    pub travel: Option<f32>,
+    /// Specific force on the block in its own axes, m/s².
+    pub block: Option<[f32; 2]>,
+    /// Specific force on the ground as last read, m/s².
+    pub ground_force: [f32; 2],
+    /// Acceleration of the ground in g, horizontal and vertical, tracked to this instant.
+    pub ground: [f32; 2],
+    /// Growth of the horizontal one, 1/s.
+    pub ground_rate: f32,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::sensing::sample::Reading;
+
+    fn sample(k: u32, ground: f32) -> Sample {
+        let reading = |value| Reading { value, number: k };
+        Sample {
+            gyroscope: reading(0.1),
+            ground_accelerometer: [reading(ground * STANDARD_GRAVITY), reading(STANDARD_GRAVITY)],
+            ..Sample::default()
+        }
+    }
+
+    #[test]
+    fn a_ramp_is_tracked_without_lag_and_carried_over_the_delay() {
+        let instruments = Instruments::new(5e-4, 1e-6, [0.0, 0.0, 2e-3], 2e-3).unwrap();
+        let mut state = InstrumentsState::default();
+        for k in 1..400 {
+            let time = k as f32 * 5e-4;
+            // The reading is 2 ms old.
+            let seen = instruments.read(&mut state, &sample(k, 3.0 * (time - 2e-3)), &Calibration::default());
+            if k > 100 {
+                assert!((seen.ground[0] - 3.0 * time).abs() < 1e-4, "{} at {time}", seen.ground[0]);
+                assert!((seen.ground_rate - 3.0).abs() < 0.02);
+                assert!(seen.ground[1].abs() < 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn without_tracking_a_reading_is_taken_as_it_is() {
+        let instruments = Instruments::new(5e-4, 1e-6, [0.0; 3], 0.0).unwrap();
+        let mut state = InstrumentsState::default();
+        for (k, value) in [(1, 0.3), (2, -0.7), (3, 0.1)] {
+            let seen = instruments.read(&mut state, &sample(k, value), &Calibration::default());
+            assert!((seen.ground[0] - value).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn a_slower_sensor_is_carried_on_and_garbage_is_no_reading() {
+        let instruments = Instruments::new(5e-4, 1e-6, [0.0; 3], 2e-3).unwrap();
+        let mut state = InstrumentsState::default();
+        for k in 1..800_u32 {
+            let time = (k / 2 * 2) as f32 * 5e-4;
+            let mut now = sample(k / 2 + 1, 3.0 * time);
+            if k % 100 == 50 {
+                now.ground_accelerometer[0].value = f32::NAN;
+                now.gyroscope.value = f32::INFINITY;
+            }
+            let seen = instruments.read(&mut state, &now, &Calibration::default());
+            assert!(seen.rate.is_none_or(f32::is_finite));
+            if k > 200 {
+                assert!((seen.ground[0] - 3.0 * k as f32 * 5e-4).abs() < 5e-3, "{} at {k}", seen.ground[0]);
+            }
+        }
+    }
+
+    #[test]
+    fn the_same_number_is_no_new_reading_and_counts_wrap() {
+        let instruments = Instruments::new(5e-4, 0.5, [0.0; 3], 0.0).unwrap();
+        let mut state = InstrumentsState::default();
+        let mut now = sample(1, 0.0);
+        now.encoder.counts = i32::MIN + 1;
+        now.encoder.number = 1;
+        let zero = Calibration { encoder_zero: i32::MAX, gyroscope: 0.02, ..Calibration::default() };
+        let seen = instruments.read(&mut state, &now, &zero);
+        assert_eq!(seen.travel, Some(1.0));
+        assert!((seen.rate.unwrap() - 0.08).abs() < 1e-7);
+        let again = instruments.read(&mut state, &now, &zero);
+        assert_eq!((again.rate, again.travel, again.block), (None, None, None));
+    }
+}

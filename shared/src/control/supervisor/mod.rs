@@ -1,0 +1,335 @@
+//! Who decides: the law while everything is well, and the safe state while it is not.
+//!
+//! Boot → SelfTest → Calibrate → Armed ⇄ Rocking, and Fault from everywhere after Boot. Only Armed and Rocking send what the law wishes, and
+//! only SelfTest pulses the clutches; all else sends the safe state. [`Fault::recovery`] has the ways out of Fault.
+//!
+//! The room imports `structure`, `control::sensing`, `control::monitor` and `control::ticks`.
+
+pub mod event_log;
+mod interface;
+mod judge;
+mod motion;
+mod parameters;
+mod self_test;
+
+pub use interface::{Phase, Requests, SupervisorInput, Verdict};
+pub use parameters::{Parameters, SafeState};
+
+use crate::control::monitor::actuator::{ActuatorMonitor, ActuatorState};
+use crate::control::monitor::fault::{Fault, Recovery, Wheel};
+use crate::control::monitor::{Context, Findings, Monitor, MonitorState};
+use crate::control::sensing::calibration::{Averaging, Calibration, Plausible};
+use crate::control::sensing::required::Required;
+use crate::control::sensing::sensor::Sensor;
+use crate::control::ticks::Streak;
+use crate::structure::error::ParameterError;
+use event_log::{Entry, EventLog, Kind};
+use judge::SOURCES;
+use motion::{Motion, MotionLimits};
+use self_test::SelfTest;
+
+/// Entries that the log holds.
+pub const LOG_ENTRIES: usize = 64;
+
+/// Parameters of a supervisor, checked and in ticks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Supervisor {
+    monitor: Monitor,
+    actuator: ActuatorMonitor,
+    motion: MotionLimits,
+    required: Required,
+    safe: [bool; 2],
+    both_allowed: bool,
+    self_test: bool,
+    boot: u32,
+    stillness: u32,
+    calibration: u32,
+    patience: u32,
+    quiet: u32,
+    recovery: u32,
+    plausible: Plausible,
+    overrun_ticks: u32,
+    overrun_limit: f32,
+}
+
+/// Where a supervisor stands; the default is before its first tick.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SupervisorState {
+    /// What happened.
+    pub log: EventLog<LOG_ENTRIES>,
+    phase: Phase,
+    /// Wrapping.
+    tick: u32,
+    cause: Option<Fault>,
+    /// One of the faults since then takes a request.
+    latched: bool,
+    /// What each source said at the last tick.
+    active: [Option<Fault>; SOURCES],
+    /// Any of them said something.
+    any_active: bool,
+    sent: [bool; 2],
+    calibration: Calibration,
+    /// The gyroscope's bias was measured.
+    calibrated: bool,
+    /// The self-test was passed, or is not wanted.
+    tested: bool,
+    /// Ticks spent in Boot, or in SelfTest and Calibrate waiting for stillness.
+    waiting: u32,
+    clear_before: bool,
+    late: Streak,
+    good: Streak,
+    monitor: MonitorState,
+    actuator: ActuatorState,
+    motion: Motion,
+    self_test: SelfTest,
+    averaging: Averaging,
+}
+
+impl SupervisorState {
+    /// From the beginning, with the event log of before.
+    pub fn restart(&mut self) {
+        let SupervisorState {
+            log: _,
+            phase,
+            tick: _,
+            cause,
+            latched,
+            active,
+            any_active,
+            sent,
+            calibration,
+            calibrated,
+            tested,
+            waiting,
+            clear_before,
+            late,
+            good,
+            monitor,
+            actuator,
+            motion,
+            self_test,
+            averaging,
+        } = self;
+        (*phase, *cause, *latched, *active, *any_active) = (Phase::Boot, None, false, [None; SOURCES], false);
+        (*sent, *calibration, *calibrated, *tested) = ([false; 2], Calibration::default(), false, false);
+        (*waiting, *clear_before, *late, *good) = (0, false, Streak::default(), Streak::default());
+        *monitor = MonitorState::default();
+        (*actuator, *motion) = (ActuatorState::default(), Motion::default());
+        (*self_test, *averaging) = (SelfTest::default(), Averaging::default());
+    }
+
+    /// What the last tick left.
+    pub fn phase(&self) -> Phase {
+        self.phase
+    }
+}
+
+impl Supervisor {
+    /// # Errors
+    /// Names the first parameter outside its range.
+    pub fn new(parameters: &Parameters) -> Result<Supervisor, ParameterError> {
+        parameters.check()?;
+        Ok(parameters.resolve())
+    }
+
+    /// Of parameters that are known to be within their ranges, as [`crate::settings`] has checked them by its own table. Others make a
+    /// supervisor of little use, but no panic.
+    pub fn of_checked(parameters: &Parameters) -> Supervisor {
+        parameters.resolve()
+    }
+
+    /// Clutches engaged in the safe state.
+    pub fn safe(&self) -> [bool; 2] {
+        self.safe
+    }
+
+    /// A state that skips everything before Rocking, for a run that begins with the motion; the estimators' beginning is the caller's.
+    pub fn started(&self, calibration: Calibration) -> SupervisorState {
+        let mut state = SupervisorState::default();
+        self.resume(&mut state, &calibration);
+        state
+    }
+
+    /// Makes a state that has just begun skip everything before Rocking.
+    pub fn resume(&self, state: &mut SupervisorState, calibration: &Calibration) {
+        (state.phase, state.calibration, state.calibrated, state.tested) = (Phase::Rocking, *calibration, true, true);
+        state.monitor = MonitorState::expecting(self.required.flags());
+    }
+
+    /// One tick.
+    pub fn step(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) -> Verdict {
+        state.tick = state.tick.wrapping_add(1);
+        let at_rest = state.motion.block_still >= self.quiet;
+        let context = Context { calibration: &state.calibration, calibrated: state.calibrated, at_rest };
+        let findings = self.monitor.step(&mut state.monitor, input.sample, &context);
+        let good = if findings.clean() { [true; 4] } else { findings.good() };
+        state.motion.step(&self.motion, input.sample, good, &state.calibration);
+        let (alarm, latches) = if state.phase == Phase::Boot { (None, false) } else { self.judge(state, input, &findings) };
+        let clear = input.requests.clear && !state.clear_before;
+        state.clear_before = input.requests.clear;
+        let mut just_calibrated = false;
+        match (alarm, state.phase) {
+            (Some(_), Phase::Fault) => {
+                state.latched |= latches;
+                state.good = Streak::default();
+                self.leave(state, input, clear, false);
+            }
+            (Some(fault), _) => {
+                self.fail(state, input, fault);
+                state.latched |= latches;
+            }
+            (None, Phase::Boot) => self.boot(state, input, &findings),
+            (None, Phase::SelfTest) => self.test(state, input),
+            (None, Phase::Calibrate) => just_calibrated = self.calibrate(state, input, &findings),
+            (None, Phase::Armed) if state.motion.quiet == 0 => enter(state, input, Phase::Rocking),
+            (None, Phase::Rocking) if state.motion.quiet >= self.quiet => enter(state, input, Phase::Armed),
+            (None, Phase::Armed | Phase::Rocking) => {}
+            (None, Phase::Fault) => {
+                let missing = self.required.flags().into_iter().zip(findings.good()).any(|(required, good)| required && !good);
+                state.good.note(!missing);
+                self.leave(state, input, clear, true);
+            }
+        }
+        let command = self.command(state, input);
+        if command != state.sent {
+            for (wheel, (before, now)) in Wheel::ALL.into_iter().zip(state.sent.into_iter().zip(command)) {
+                if before != now {
+                    log(state, input, if now { Kind::Engaged(wheel) } else { Kind::Released(wheel) });
+                }
+            }
+            state.sent = command;
+        }
+        Verdict {
+            phase: state.phase,
+            fault: if state.phase == Phase::Fault { state.cause } else { None },
+            command,
+            calibration: state.calibration,
+            just_calibrated,
+        }
+    }
+
+    /// What is to be sent. Never both to a block that moves, where that is not allowed: what was sent before then stays.
+    fn command(&self, state: &SupervisorState, input: &SupervisorInput<'_>) -> [bool; 2] {
+        match state.phase {
+            Phase::Armed | Phase::Rocking if self.too_many(input) => state.sent,
+            Phase::Armed | Phase::Rocking => input.wish,
+            Phase::SelfTest if self.self_test => state.self_test.command(),
+            _ => self.safe,
+        }
+    }
+
+    fn too_many(&self, input: &SupervisorInput<'_>) -> bool {
+        input.wish == [true; 2] && !self.both_allowed && !input.standing
+    }
+
+    #[inline(never)]
+    fn fail(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>, fault: Fault) {
+        state.cause = Some(fault);
+        state.latched = fault.recovery() == Recovery::OnRequest;
+        state.good = Streak::default();
+        enter(state, input, Phase::Fault);
+    }
+
+    /// Out of Fault, by itself where it `may`, or by request.
+    #[inline(never)]
+    fn leave(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>, clear: bool, may: bool) {
+        if clear && state.motion.still(self.quiet) {
+            state.actuator = ActuatorState::default();
+            state.late = Streak::default();
+            state.tested = false;
+            enter(state, input, Phase::SelfTest);
+        } else if may && !state.latched && state.good.lasted(self.recovery) && state.motion.block_still >= self.quiet {
+            enter(state, input, if state.tested { Phase::Calibrate } else { Phase::SelfTest });
+        }
+    }
+
+    #[inline(never)]
+    fn boot(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>, findings: &Findings) {
+        let mut missing = None;
+        for ((sensor, required), (fault, seen)) in
+            Sensor::ALL.into_iter().zip(self.required.flags()).zip(findings.faults.into_iter().zip(findings.seen))
+        {
+            let wrong = if seen { fault } else { Some(Fault::Stale(sensor)) };
+            missing = missing.or(wrong.filter(|_| required));
+        }
+        state.waiting = state.waiting.saturating_add(1);
+        match missing {
+            None => enter(state, input, Phase::SelfTest),
+            Some(fault) if state.waiting > self.boot => {
+                log(state, input, Kind::Fault(fault.code()));
+                self.fail(state, input, fault);
+            }
+            Some(_) => {}
+        }
+    }
+
+    #[inline(never)]
+    fn test(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) {
+        let still = state.motion.still(self.stillness);
+        if !self.self_test || state.self_test.step(state.sent, input.sample.engaged, still) {
+            state.tested = true;
+            enter(state, input, Phase::Calibrate);
+            return;
+        }
+        state.waiting = state.waiting.saturating_add(1);
+        if state.waiting >= self.patience {
+            let spent = state.waiting;
+            log(state, input, Kind::Warning(Fault::SelfTestAbandoned.code()));
+            enter(state, input, Phase::Calibrate);
+            // It has waited long enough for both.
+            state.waiting = spent;
+        }
+    }
+
+    /// Whether the controller has just been armed.
+    #[inline(never)]
+    fn calibrate(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>, findings: &Findings) -> bool {
+        state.waiting = state.waiting.saturating_add(1);
+        if !state.motion.still(1) {
+            state.averaging = Averaging::default();
+        } else {
+            state.averaging.add(input.sample, findings.good());
+        }
+        if state.averaging.ticks() >= self.calibration {
+            let (found, wrong) = state.averaging.finish(&state.calibration, &self.plausible, self.motion.gravity);
+            let mut refused = None;
+            for (sensor, _) in Sensor::ALL.into_iter().zip(wrong).filter(|(_, wrong)| *wrong) {
+                let fault = Fault::Contradiction(sensor);
+                let acted_upon = self.acted_upon(fault);
+                log(state, input, if acted_upon { Kind::Fault(fault.code()) } else { Kind::Warning(fault.code()) });
+                refused = refused.or(Some(fault).filter(|_| acted_upon));
+            }
+            if let Some(fault) = refused {
+                self.fail(state, input, fault);
+                return false;
+            }
+            (state.calibration, state.calibrated) = (found, true);
+            state.monitor.recalibrated();
+            log(state, input, Kind::Calibrated);
+        } else if state.waiting >= self.patience {
+            log(state, input, Kind::Warning(Fault::CalibrationAbandoned.code()));
+        } else {
+            return false;
+        }
+        enter(state, input, Phase::Armed);
+        true
+    }
+}
+
+#[inline(never)]
+fn enter(state: &mut SupervisorState, input: &SupervisorInput<'_>, phase: Phase) {
+    state.phase = phase;
+    state.waiting = 0;
+    state.self_test = SelfTest::default();
+    state.averaging = Averaging::default();
+    log(state, input, Kind::Phase(phase));
+}
+
+#[inline(never)]
+fn log(state: &mut SupervisorState, input: &SupervisorInput<'_>, kind: Kind) {
+    let (rotation, velocity) = input.estimate;
+    state.log.push(Entry { tick: state.tick, kind, rotation, velocity });
+}
+
+#[cfg(test)]
+mod tests;

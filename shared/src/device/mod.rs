@@ -1,0 +1,261 @@
+//! The device around the controller: what it is told over the link, what it keeps over a reset, what it shows.
+//!
+//! Two tasks share it. The control task ticks it and never waits; the link asks it for answers in between.
+//!
+//! The room imports `math`, `structure`, `control`, `settings` and `link`.
+
+mod answers;
+pub mod coil;
+pub mod counter;
+pub mod inertial;
+pub mod light;
+mod mailbox;
+pub mod retained;
+#[cfg(test)]
+mod tests;
+
+pub use mailbox::Mailbox;
+
+use crate::control::controller::{Circumstances, ControllerState, Decision};
+use crate::control::sensing::sample::Sample;
+use crate::control::supervisor::Phase;
+use crate::link::reset_cause::Cause;
+use crate::link::{Mishap, Pace, Reply, TickReport};
+use crate::settings::Settings;
+use crate::settings::assemble::AnyController;
+use retained::{Kept, MOST_RESTARTS};
+
+/// For how many ticks the first sample after a reset is waited for, before the controller starts from the beginning.
+const RESUME_PATIENCE: u32 = 100;
+
+/// For how long a device must have worked well before its restarts are forgotten, s.
+const GOOD_TIME: f32 = 1.0;
+
+/// What a device is told about what surrounds it, for [`State`](crate::link::State) and [`Identity`](crate::link::Identity).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Surroundings {
+    /// Version of the firmware.
+    pub version: [u8; 3],
+    /// Build.
+    pub build: [u8; 8],
+    /// Board.
+    pub board: [u8; 12],
+    /// Rate of the counter, 1/s.
+    pub counter_hz: u32,
+    /// The image is for rehearsals.
+    pub rehearsal: bool,
+    /// Why it started.
+    pub cause: Cause,
+    /// Frames that were not whole or not known.
+    pub bad_frames: u32,
+    /// Reports that found no room on the line.
+    pub lost_reports: u32,
+    /// Deepest stack, bytes.
+    pub stack: u32,
+}
+
+/// What a request comes to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Answer {
+    /// To be sent.
+    Reply(Reply),
+    /// A sample has come: where samples say when a tick is, now is one.
+    Sample,
+    /// The draft is to be stored, while the control task goes on, and then [`Device::stored`] called.
+    Store,
+    /// To be made to happen.
+    Rehearse(Mishap),
+    /// The period may be another now: to be answered, and the timer set.
+    Restarted(Reply),
+}
+
+/// A controller with its settings and state.
+#[derive(Clone, Debug)]
+pub struct Device {
+    settings: Settings,
+    draft: Settings,
+    /// The settings in force are those that a reset would find.
+    lasting: bool,
+    controller: AnyController,
+    state: ControllerState,
+    resuming: Option<Kept>,
+    waited: u32,
+    decision: Decision,
+    sample: Sample,
+    number: u32,
+    /// A sample has come from the link since it was attached.
+    heard: bool,
+    mailbox: Mailbox,
+    ticks: u32,
+    good: u32,
+    restarts: u8,
+    attached: Option<Pace>,
+    stream: u16,
+    until_report: u16,
+    clear: bool,
+    worst_cost: u32,
+    worst_lateness: u32,
+}
+
+impl Device {
+    /// With the `controller` of `settings`, going on with what has been `kept` over a reset, if anything.
+    // Not inlined, and not a `Result`: the value is large, and must be made where it stays.
+    #[inline(never)]
+    pub fn new(controller: &AnyController, settings: &Settings, kept: Option<&Kept>) -> Device {
+        let restarts = kept.map_or(0, |kept| kept.restarts.saturating_add(1));
+        Device {
+            settings: *settings,
+            draft: *settings,
+            lasting: true,
+            resuming: kept.filter(|kept| kept.deciding && restarts <= MOST_RESTARTS).copied(),
+            waited: 0,
+            decision: Decision::before(controller.supervisor.safe()),
+            controller: *controller,
+            state: controller.start(),
+            sample: Sample::default(),
+            number: 0,
+            heard: false,
+            mailbox: Mailbox::new(),
+            ticks: 0,
+            good: 0,
+            restarts,
+            attached: kept.and_then(|kept| kept.attached),
+            stream: 0,
+            until_report: 0,
+            clear: false,
+            worst_cost: 0,
+            worst_lateness: 0,
+        }
+    }
+
+    /// The settings in force.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Who says when a tick is, if samples come from the link.
+    pub fn attached(&self) -> Option<Pace> {
+        self.attached
+    }
+
+    /// Whether it goes on where it was before a reset.
+    pub fn resumes(&self) -> bool {
+        self.resuming.is_some()
+    }
+
+    /// Resets in a row.
+    pub fn restarts(&self) -> u8 {
+        self.restarts
+    }
+
+    /// Period of the controller in counts of a counter of this rate (1/s).
+    pub fn period_counts(&self, counter_hz: u32) -> u32 {
+        (self.controller.instruments.period * counter_hz as f32 + 0.5) as u32
+    }
+
+    /// Slots of the light since the start, counted in whole ticks; they begin anew when the count of ticks does.
+    pub fn light_slot(&self) -> u32 {
+        self.ticks / light::slot_ticks(self.controller.instruments.period)
+    }
+
+    /// What the last tick came to.
+    pub fn decision(&self) -> &Decision {
+        &self.decision
+    }
+
+    /// Clutches engaged in the safe state.
+    pub fn safe_command(&self) -> [bool; 2] {
+        self.controller.supervisor.safe()
+    }
+
+    /// One tick, `lateness` (s, 0 in time) after its time. `read` fills in what the board's own sensors say; it is not asked while samples
+    /// come from the link.
+    #[inline]
+    pub fn tick(&mut self, read: impl FnOnce(&mut Sample), lateness: f32) {
+        let mut circumstances = Circumstances { lateness, ..Circumstances::default() };
+        let told = match self.attached {
+            None => {
+                read(&mut self.sample);
+                None
+            }
+            Some(Pace::Timer) => self.mailbox.newest(),
+            Some(Pace::Sample) => self.mailbox.oldest(),
+        };
+        if let Some(told) = &told {
+            (self.sample, self.number, self.heard) = (told.sample, told.number, true);
+            circumstances = told.circumstances();
+            if lateness > circumstances.lateness {
+                circumstances.lateness = lateness;
+            }
+        } else if self.attached.is_some() && self.decision.phase == Phase::Fault {
+            // While nobody says what the clutches do they cannot be blamed for it.
+            self.sample.engaged = self.decision.command;
+        }
+        if self.attached.is_some() && !self.heard && self.resuming.is_none() {
+            // The controller starts with the first sample, on the device as on the desk.
+            return;
+        }
+        circumstances.requests.clear |= self.clear;
+        self.clear = false;
+        self.ticks = self.ticks.wrapping_add(1);
+        if self.resuming.is_some() && !self.go_on(self.attached.is_none() || told.is_some()) {
+            return;
+        }
+        self.decision = self.controller.tick(&mut self.state, &self.sample, circumstances);
+        self.good = self.good.saturating_add(1);
+        if self.restarts > 0 && self.good as f32 * self.controller.instruments.period > GOOD_TIME {
+            self.restarts = 0;
+        }
+    }
+
+    /// Goes on where it was before a reset, once there is a `fresh` sample; `false` while there is none.
+    fn go_on(&mut self, fresh: bool) -> bool {
+        let Some(kept) = &self.resuming else { return true };
+        if fresh {
+            self.controller.resume(&mut self.state, &kept.calibration, kept.spins, &self.sample);
+        } else if self.waited < RESUME_PATIENCE {
+            self.waited += 1;
+            return false;
+        }
+        self.resuming = None;
+        true
+    }
+
+    /// To be called after a tick with what it took and how late it began, in counts: the report, if there shall be one.
+    pub fn report(&mut self, cost: u32, lateness: u32) -> Option<TickReport> {
+        self.worst_cost = self.worst_cost.max(cost);
+        self.worst_lateness = self.worst_lateness.max(lateness);
+        let due = if self.attached.is_some() {
+            true
+        } else {
+            self.until_report = self.until_report.saturating_sub(1);
+            let due = self.stream > 0 && self.until_report == 0;
+            if due {
+                self.until_report = self.stream;
+            }
+            due
+        };
+        due.then_some(TickReport { tick: self.ticks, sample: self.number, decision: self.decision, cost, lateness })
+    }
+
+    /// What shall survive a reset.
+    pub fn kept(&self) -> Kept {
+        match &self.resuming {
+            Some(kept) => Kept { restarts: self.restarts, ..*kept },
+            None => Kept {
+                calibration: *self.state.calibration(),
+                spins: self.state.spins(),
+                counts: self.sample.encoder.counts,
+                // By other settings it must not go on.
+                deciding: self.lasting && matches!(self.decision.phase, Phase::Armed | Phase::Rocking),
+                attached: self.attached,
+                restarts: self.restarts,
+            },
+        }
+    }
+
+    /// Whether a sample from the link waits.
+    pub fn has_sample(&self) -> bool {
+        !self.mailbox.is_empty()
+    }
+}

@@ -1,0 +1,146 @@
+//! What a device keeps over a reset, so that it goes on where it was in the middle of an earthquake.
+
+use crate::control::sensing::calibration::Calibration;
+use crate::link::Pace;
+use crate::math::fnv::{FOLD_BASIS, fold};
+
+/// Words that it takes.
+pub const KEPT_WORDS: usize = 12;
+
+/// Resets in a row from which a device goes on; one more, and it starts from the beginning, in its safe state.
+pub const MOST_RESTARTS: u8 = 5;
+
+/// It, in memory that a reset does not clear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kept {
+    /// Biases in use.
+    pub calibration: Calibration,
+    /// Believed speeds of the flywheels, over R, 1/s.
+    pub spins: [f32; 2],
+    /// Last count of the encoder, which a reset sets to 0.
+    pub counts: i32,
+    /// The controller was Armed or Rocking: it may go on.
+    pub deciding: bool,
+    /// Samples come from the link.
+    pub attached: Option<Pace>,
+    /// Resets in a row without a second of good work between them.
+    pub restarts: u8,
+}
+
+impl Kept {
+    /// As words that show whether they have survived.
+    pub fn words(&self) -> [u32; KEPT_WORDS] {
+        let Calibration { gyroscope, block, ground, encoder_zero } = self.calibration;
+        let attached = match self.attached {
+            None => 0,
+            Some(Pace::Timer) => 1,
+            Some(Pace::Sample) => 2,
+        };
+        let flags = u32::from(self.restarts) | attached << 8 | u32::from(self.deciding) << 16;
+        let [block_along, block_up] = block.map(f32::to_bits);
+        let [ground_along, ground_up] = ground.map(f32::to_bits);
+        let [first, second] = self.spins.map(f32::to_bits);
+        let gyroscope = gyroscope.to_bits();
+        let mut words = [
+            gyroscope,
+            block_along,
+            block_up,
+            ground_along,
+            ground_up,
+            encoder_zero as u32,
+            first,
+            second,
+            self.counts as u32,
+            flags,
+            !flags,
+            0,
+        ];
+        let check = check(&words);
+        let [.., last] = &mut words;
+        *last = check;
+        words
+    }
+
+    /// What such words hold, if they have survived.
+    pub fn of(words: &[u32; KEPT_WORDS]) -> Option<Kept> {
+        let &[
+            gyroscope,
+            block_along,
+            block_up,
+            ground_along,
+            ground_up,
+            encoder_zero,
+            first,
+            second,
+            counts,
+            flags,
+            inverse,
+            last,
+        ] = words;
+        if last != check(words) || inverse != !flags {
+            return None;
+        }
+        let attached = match flags >> 8 & 0xFF {
+            0 => None,
+            1 => Some(Pace::Timer),
+            _ => Some(Pace::Sample),
+        };
+        Some(Kept {
+            calibration: Calibration {
+                gyroscope: f32::from_bits(gyroscope),
+                block: [block_along, block_up].map(f32::from_bits),
+                ground: [ground_along, ground_up].map(f32::from_bits),
+                encoder_zero: encoder_zero as i32,
+            },
+            spins: [first, second].map(f32::from_bits),
+            counts: counts as i32,
+            deciding: flags >> 16 != 0,
+            attached,
+            restarts: flags as u8,
+        })
+    }
+}
+
+/// Of all words but the last. It is taken at every tick, and no CRC is as quick.
+fn check(words: &[u32; KEPT_WORDS]) -> u32 {
+    words.iter().take(KEPT_WORDS - 1).fold(FOLD_BASIS, |digest, word| fold(digest, *word))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn kept() -> Kept {
+        Kept {
+            calibration: Calibration { gyroscope: 0.01, block: [0.1, -0.2], ground: [-0.3, 0.4], encoder_zero: -12_345 },
+            spins: [0.5, -0.25],
+            counts: i32::MIN,
+            deciding: true,
+            attached: Some(Pace::Sample),
+            restarts: 3,
+        }
+    }
+
+    #[test]
+    fn it_survives_as_it_was() {
+        for attached in [None, Some(Pace::Timer), Some(Pace::Sample)] {
+            for deciding in [false, true] {
+                let kept = Kept { attached, deciding, ..kept() };
+                assert_eq!(Kept::of(&kept.words()), Some(kept));
+            }
+        }
+    }
+
+    #[test]
+    fn a_changed_bit_is_noticed() {
+        let words = kept().words();
+        for bit in 0..KEPT_WORDS * 32 {
+            let mut changed = words;
+            changed[bit / 32] ^= 1 << (bit % 32);
+            assert_eq!(Kept::of(&changed), None, "bit {bit}");
+        }
+        // As memory is after power-on.
+        assert_eq!(Kept::of(&[0; KEPT_WORDS]), None);
+        assert_eq!(Kept::of(&[u32::MAX; KEPT_WORDS]), None);
+    }
+}

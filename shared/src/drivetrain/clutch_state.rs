@@ -1,0 +1,182 @@
+//! What a device remembers, and the numbers that its present mode puts into the equations.
+
+use super::under_way::UnderWay;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+
+/// How one flywheel hangs on the rack at an instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Coupling {
+    /// Not at all.
+    #[default]
+    Open,
+    /// Rigidly.
+    Locked,
+    /// By the friction of slipping plates, which pull the flywheel along with this sign.
+    Slipping(Sign),
+    /// Engaged, but within the gear play.
+    InPlay,
+    /// By its spring and damper, on this side of the play.
+    Elastic(Sign),
+    /// By spring and damper at the capacity of slipping plates, with this sign.
+    Saturated(Sign),
+}
+
+/// One flywheel and its clutch.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Wheel<S> {
+    /// Speed of a rack that would move with it, over R, 1/s. Of a locked flywheel it is stale: the rack's counts.
+    pub spin: S,
+    /// Twist of its clutch as travel of the rack over R.
+    pub twist: S,
+    /// Coupling.
+    pub coupling: Coupling,
+    /// The way it turns; none while friction holds it.
+    pub turning: Option<Sign>,
+    /// The controller wants it engaged.
+    pub commanded: bool,
+    /// It obeyed the last command to engage (it may have missed it).
+    pub obeys: bool,
+    /// Time until the pending command takes effect, s; negative without one.
+    pub pending: S,
+    /// The commands that take effect by a transport delay, that one included.
+    pub under_way: UnderWay<S>,
+    /// Time for which it may not move again, s.
+    pub dwell: S,
+    /// Time since it began to engage, s.
+    pub engaged_for: S,
+}
+
+/// Both flywheels. A device with one uses the first.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Device<S> {
+    /// The one for positive motion, and the one for negative.
+    pub wheels: [Wheel<S>; 2],
+    /// Commands to engage so far.
+    pub engagements: u32,
+    /// Of these, missed.
+    pub missed: u32,
+}
+
+impl<S: Real> Device<S> {
+    /// A device at rest.
+    pub fn at_rest() -> Device<S> {
+        let wheel = Wheel { pending: -S::ONE, ..Wheel::default() };
+        Device { wheels: [wheel; 2], ..Device::default() }
+    }
+
+    /// Time until something happens by the clock alone, s; none if nothing is due.
+    #[inline]
+    pub fn next_due(&self) -> Option<S> {
+        let mut due = None;
+        for wheel in &self.wheels {
+            if wheel.pending >= S::ZERO {
+                due = Some(due.map_or(wheel.pending, |t: S| t.smaller(wheel.pending)));
+            }
+        }
+        due
+    }
+
+    /// Lets the clocks run for `time` (s).
+    #[inline]
+    pub fn elapse(&mut self, time: S) {
+        for wheel in &mut self.wheels {
+            if wheel.pending >= S::ZERO {
+                wheel.pending = (wheel.pending - time).larger(S::ZERO);
+            }
+            wheel.dwell = (wheel.dwell - time).larger(S::ZERO);
+            wheel.engaged_for = wheel.engaged_for + time;
+        }
+    }
+}
+
+/// The numbers of one mode: the equations between two events are smooth with them. What a device does not have is zero here
+/// and not looked at by its type.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Law<S> {
+    /// Sign of θ̇.
+    pub direction: S,
+    /// Σ k of what moves rigidly with the rack.
+    pub coupling: S,
+    /// Viscous resistance at the rack, 1/s.
+    pub viscous: S,
+    /// Dry resistance at the rack with the sign of the motion, 1/s².
+    pub dry: S,
+    /// Per flywheel: its speed decays by this rate, 1/s, …
+    pub decay: [S; 2],
+    /// … and by this deceleration with its sign, 1/s².
+    pub drag: [S; 2],
+    /// 1 while forces move the flywheel, 0 while friction holds it.
+    pub moves: [S; 2],
+    /// Force of slipping plates, 1/s², …
+    pub slip: [S; 2],
+    /// … and its growth, 1/s³.
+    pub slip_growth: [S; 2],
+    /// Stiffness of a clutch in contact, 1/s².
+    pub stiffness: [S; 2],
+    /// Its damping, 1/s.
+    pub damping: [S; 2],
+    /// Twist at which it is without force.
+    pub rest_twist: [S; 2],
+    /// 1 while the twist follows the relative motion, else 0.
+    pub follows: [S; 2],
+    /// Rate at which the twist of a saturated clutch relaxes, 1/s.
+    pub relaxation: [S; 2],
+    /// What the guards watch.
+    pub watch: [Watch<S>; WATCHES],
+}
+
+/// A function that is positive for as long as a mode lasts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Watch<S> {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// sign · switching function: the command of Eq. 10.
+    Command(S),
+    /// sign · (speed of the flywheel − speed of the rack): it runs ahead.
+    Ahead(S, usize),
+    /// sign · (force on a locked flywheel): what an overrunning clutch holds.
+    Held(S),
+    /// capacity² − (force on a locked flywheel)², with the capacity and its growth.
+    Capacity(S, S),
+    /// sign · (speed of the rack − speed of the flywheel − rate of its twist): plates slip.
+    Slip(S, usize),
+    /// (half the play)² − twist².
+    Play(S, usize),
+    /// sign · (twist − contact): in contact.
+    Contact(S, usize),
+    /// bound² − force² of a clutch in contact, with the bound and its growth.
+    Below(S, S, usize),
+    /// friction² − θ̈² of a tilted block that friction holds, with the θ̈ that it would have without.
+    Stuck(S),
+    /// friction − sign · θ̈ of a block that its clutches hold on its base, likewise.
+    HeldDown(S, S),
+}
+
+/// Most functions that a device watches: the command, and two of each flywheel.
+pub const WATCHES: usize = 5;
+
+impl<S: Real> Law<S> {
+    /// Nothing engaged, nothing lost, motion in `direction`.
+    pub fn of(direction: Sign) -> Law<S> {
+        let none = [S::ZERO; 2];
+        Law {
+            direction: direction.unit(),
+            coupling: S::ZERO,
+            viscous: S::ZERO,
+            dry: S::ZERO,
+            decay: none,
+            drag: none,
+            moves: none,
+            slip: none,
+            slip_growth: none,
+            stiffness: none,
+            damping: none,
+            rest_twist: none,
+            follows: none,
+            relaxation: none,
+            watch: [Watch::Nothing; WATCHES],
+        }
+    }
+}

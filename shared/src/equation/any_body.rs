@@ -1,0 +1,158 @@
+//! A body chosen at run time, to the same bits as one known when it is compiled: one piece of code for all.
+
+use super::body::{Body, FullBody, SlenderBody, Turned};
+use super::kinematics::Told;
+use crate::math::scalar::Scalar;
+use crate::math::value::Value;
+
+/// The linearised block or the exact one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AnyBody<S> {
+    /// Linearised.
+    Slender(SlenderBody<S>),
+    /// Exact.
+    Full(FullBody<S, Told>),
+}
+
+/// A posture of either.
+#[derive(Clone, Copy, Debug)]
+pub enum AnyPosture<V> {
+    /// δ.
+    Slender(V),
+    /// Of the exact block.
+    Full(Turned<V>),
+}
+
+impl<S> AnyBody<S> {
+    /// Whether it knows of vertical ground motion.
+    pub fn is_vertical(&self) -> bool {
+        match self {
+            AnyBody::Slender(body) => body.vertical,
+            AnyBody::Full(body) => body.vertical,
+        }
+    }
+}
+
+/// What either body makes of its own posture; a posture of the other one, which is never made, is `otherwise`.
+macro_rules! either {
+    ($self:ident, $posture:ident, |$body:ident, $own:ident| $value:expr, $otherwise:expr) => {
+        match ($self, $posture) {
+            (AnyBody::Slender($body), AnyPosture::Slender($own)) => $value,
+            (AnyBody::Full($body), AnyPosture::Full($own)) => $value,
+            _ => $otherwise,
+        }
+    };
+}
+
+impl<S: Scalar> Body<S> for AnyBody<S> {
+    type Posture<V: Value<S>> = AnyPosture<V>;
+
+    #[inline]
+    fn posture<V: Value<S>>(&self, side: S, rotation: V) -> AnyPosture<V> {
+        match self {
+            AnyBody::Slender(body) => AnyPosture::Slender(body.posture(side, rotation)),
+            AnyBody::Full(body) => AnyPosture::Full(body.posture(side, rotation)),
+        }
+    }
+
+    #[inline]
+    fn drive<V: Value<S>>(&self, posture: &AnyPosture<V>, ground: [V; 2]) -> V {
+        either!(self, posture, |body, own| body.drive(own, ground), ground[0])
+    }
+
+    #[inline]
+    fn along<V: Value<S>>(&self, posture: &AnyPosture<V>, x: V) -> V {
+        either!(self, posture, |body, own| body.along(own, x), x)
+    }
+
+    #[inline]
+    fn terminal_acceleration<V: Value<S>>(&self, posture: &AnyPosture<V>, velocity: V, acceleration: V) -> V {
+        either!(self, posture, |body, own| body.terminal_acceleration(own, velocity, acceleration), acceleration)
+    }
+
+    #[inline]
+    fn over_inertia<V: Value<S>>(&self, posture: &AnyPosture<V>, moment: V, coupling: S, velocity: V) -> V {
+        either!(self, posture, |body, own| body.over_inertia(own, moment, coupling, velocity), moment)
+    }
+
+    #[inline]
+    fn switching<V: Value<S>>(&self, posture: &AnyPosture<V>, velocity: V, drive: V) -> V {
+        either!(self, posture, |body, own| body.switching(own, velocity, drive), drive)
+    }
+
+    #[inline]
+    fn paper_power(&self, side: S, posture: &AnyPosture<S>, velocity: S, coupling: S) -> S {
+        either!(self, posture, |body, own| body.paper_power(side, own, velocity, coupling), S::of(0.0))
+    }
+
+    #[inline]
+    fn arm(&self, posture: &AnyPosture<S>) -> S {
+        either!(self, posture, |body, own| body.arm(own), S::of(1.0))
+    }
+
+    #[inline]
+    fn travel(&self, side: S, posture: &AnyPosture<S>) -> S {
+        either!(self, posture, |body, own| body.travel(side, own), S::of(0.0))
+    }
+
+    #[inline]
+    fn factors(&self, posture: &AnyPosture<S>) -> (S, S) {
+        either!(self, posture, |body, own| body.factors(own), (S::of(0.0), S::of(0.0)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::equation::FullBlock;
+    use crate::equation::kinematics::{BodyKinematics, Consistent, Paper};
+    use crate::equation::lever::TyingPoint;
+
+    /// A grid of sides, rotations, velocities and ground accelerations.
+    fn postures() -> impl Iterator<Item = (f32, f32, f32, [f32; 2])> {
+        [-1.0, 1.0].into_iter().flat_map(|side| {
+            (0..60).map(move |k| {
+                let x = k as f32;
+                (side, side * (0.003 * x), 0.05 * x - 1.4, [0.02 * x - 0.5, 0.01 * x - 0.2])
+            })
+        })
+    }
+
+    fn same_bits<B: Body<f32>>(known: &B, told: &AnyBody<f32>) {
+        for (side, rotation, velocity, ground) in postures() {
+            let (own, other) = (known.posture(side, rotation), told.posture(side, rotation));
+            let drive = known.drive(&own, ground);
+            let pairs = [
+                (drive, told.drive(&other, ground)),
+                (known.along(&own, velocity), told.along(&other, velocity)),
+                (known.terminal_acceleration(&own, velocity, drive), told.terminal_acceleration(&other, velocity, drive)),
+                (known.over_inertia(&own, drive, 0.375, velocity), told.over_inertia(&other, drive, 0.375, velocity)),
+                (known.switching(&own, velocity, drive), told.switching(&other, velocity, drive)),
+                (known.paper_power(side, &own, velocity, 0.375), told.paper_power(side, &other, velocity, 0.375)),
+                (known.arm(&own), told.arm(&other)),
+                (known.travel(side, &own), told.travel(side, &other)),
+                (known.factors(&own).0, told.factors(&other).0),
+                (known.factors(&own).1, told.factors(&other).1),
+            ];
+            for (at, (known, told)) in pairs.into_iter().enumerate() {
+                assert_eq!(known.to_bits(), told.to_bits(), "{at} at {side} {rotation} {velocity}");
+            }
+        }
+    }
+
+    #[test]
+    fn told_or_known_the_bits_are_the_same() {
+        let slender = SlenderBody { frequency_squared: 3.678_f32, slenderness: 0.1745, lever: 0.9, vertical: true };
+        same_bits(&slender, &AnyBody::Slender(slender));
+        let block = FullBlock { frequency_squared: 3.678, slenderness: 0.1745 };
+        let lever = TyingPoint { along: 0.95, across: 0.2 };
+        for consistent in [false, true] {
+            let told = AnyBody::Full(FullBody { block, lever, kinematics: Told::told(consistent), vertical: true });
+            if consistent {
+                same_bits(&FullBody { block, lever, kinematics: Consistent, vertical: true }, &told);
+            } else {
+                same_bits(&FullBody { block, lever, kinematics: Paper, vertical: true }, &told);
+            }
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! The equation of motion of an ideal device, chosen among all at run time.
+//!
+//! The event loop asks an equation one thing at a time and need not know which it is; only the steps of a method, which evaluate it
+//! many times, are compiled for each ([`AnyEquation::known`]). So there is one event loop, not one for each equation.
+
+use super::kinematics::{Consistent, Paper};
+use super::lever::{CentreOfMass, TyingPoint};
+use super::switched::Switched;
+use super::{Equation, FullBlock, FullInerter, SlenderBlock};
+use crate::math::scalar::Real;
+use crate::math::value::Value;
+
+/// One of the equations of motion (Eq. 2, 13-16 and 17-18).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AnyEquation<S> {
+    /// Slender block, with or without an engaged inerter.
+    Slender(SlenderBlock<S>),
+    /// Full block, alone or with its inerter released.
+    Block(FullBlock<S>),
+    /// Inerter at the centre of mass, kinematics of the paper.
+    CentrePaper(FullInerter<S, CentreOfMass, Paper>),
+    /// Inerter at the centre of mass, consistent kinematics.
+    CentreConsistent(FullInerter<S, CentreOfMass, Consistent>),
+    /// Inerter at any point of the block, kinematics of the paper.
+    PointPaper(FullInerter<S, TyingPoint<S>, Paper>),
+    /// Inerter at any point of the block, consistent kinematics.
+    PointConsistent(FullInerter<S, TyingPoint<S>, Consistent>),
+}
+
+/// What to do with an equation once its type is known.
+pub trait WithEquation<S: Real> {
+    /// The result.
+    type Output;
+
+    /// Goes on with `equation`.
+    fn with<E: Switched<S>>(self, equation: &E) -> Self::Output;
+}
+
+macro_rules! known {
+    ($any:expr, $equation:ident => $then:expr) => {
+        match $any {
+            AnyEquation::Slender($equation) => $then,
+            AnyEquation::Block($equation) => $then,
+            AnyEquation::CentrePaper($equation) => $then,
+            AnyEquation::CentreConsistent($equation) => $then,
+            AnyEquation::PointPaper($equation) => $then,
+            AnyEquation::PointConsistent($equation) => $then,
+        }
+    };
+}
+
+impl<S: Real> AnyEquation<S> {
+    /// Goes on with the equation in its own type: one choice for all that `next` evaluates.
+    #[inline(always)]
+    pub fn known<W: WithEquation<S>>(&self, next: W) -> W::Output {
+        known!(self, equation => next.with(equation))
+    }
+}
+
+impl<S: Real> Equation<S> for AnyEquation<S> {
+    #[inline]
+    fn switches_with_acceleration(&self) -> bool {
+        known!(self, equation => equation.switches_with_acceleration())
+    }
+
+    #[inline]
+    fn acceleration<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V {
+        known!(self, equation => equation.acceleration(side, rotation, velocity, ground))
+    }
+
+    #[inline]
+    fn switching<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V {
+        known!(self, equation => equation.switching(side, rotation, velocity, ground))
+    }
+
+    #[inline]
+    fn terminal_acceleration(&self, side: S, rotation: S, velocity: S, acceleration: S) -> S {
+        known!(self, equation => equation.terminal_acceleration(side, rotation, velocity, acceleration))
+    }
+
+    #[inline]
+    fn inertia(&self, side: S, rotation: S) -> S {
+        known!(self, equation => equation.inertia(side, rotation))
+    }
+
+    #[inline]
+    fn slender(&self) -> Option<&SlenderBlock<S>> {
+        known!(self, equation => equation.slender())
+    }
+
+    #[inline]
+    fn paper_power(&self, side: S, rotation: S, velocity: S) -> S {
+        known!(self, equation => equation.paper_power(side, rotation, velocity))
+    }
+}

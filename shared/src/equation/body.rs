@@ -1,0 +1,214 @@
+//! The block as its device sees it: what drives it, and the lever of the inerter's terminals.
+//!
+//! With δ = αs − θ and everything divided by I_O = λmR², the weight and the ground drive the block by
+//!
+//! D = −p² [ (1 + v̈_g/g) sin δ + (ü_g/g) cos δ ],
+//!
+//! where the vertical ground acceleration v̈_g is there only if the scene has one. [`crate::equation`] holds the closed equations of
+//! ideal devices; here the same parts stand apart, so that a device with a memory can put its own forces between them.
+
+use super::FullBlock;
+use super::kinematics::BodyKinematics;
+use super::lever::{Lever, TyingPoint};
+use crate::math::scalar::Scalar;
+use crate::math::value::Value;
+
+/// A block and a lever. A posture is what θ alone decides, worked out once for all that need it.
+pub trait Body<S: Scalar>: Copy {
+    /// δ-dependent quantities.
+    type Posture<V: Value<S>>: Copy;
+
+    /// The posture at θ (rad) on side s = ±1.
+    fn posture<V: Value<S>>(&self, side: S, rotation: V) -> Self::Posture<V>;
+
+    /// D for the ground acceleration in g, horizontal and vertical (which is not read where the body knows of none).
+    fn drive<V: Value<S>>(&self, posture: &Self::Posture<V>, ground: [V; 2]) -> V;
+
+    /// ℓ x.
+    fn along<V: Value<S>>(&self, posture: &Self::Posture<V>, x: V) -> V;
+
+    /// Acceleration of the terminals per R: ℓθ̈, plus ℓ'θ̇² in the consistent kinematics.
+    fn terminal_acceleration<V: Value<S>>(&self, posture: &Self::Posture<V>, velocity: V, acceleration: V) -> V;
+
+    /// θ̈ from (1 + k ℓ²) θ̈ + k ℓ ℓ' θ̇² = `moment` (the θ̇² term in the consistent kinematics only).
+    fn over_inertia<V: Value<S>>(&self, posture: &Self::Posture<V>, moment: V, coupling: S, velocity: V) -> V;
+
+    /// A quantity with the sign of the terminals' acceleration under D alone, whatever is engaged (Eq. 10).
+    fn switching<V: Value<S>>(&self, posture: &Self::Posture<V>, velocity: V, drive: V) -> V;
+
+    /// Power that the paper's kinematics take from an engaged flywheel without a cause: −k ℓ ℓ' θ̇³ per λmR²; 0 where
+    /// energy is conserved.
+    fn paper_power(&self, side: S, posture: &Self::Posture<S>, velocity: S, coupling: S) -> S;
+
+    /// ℓ.
+    fn arm(&self, posture: &Self::Posture<S>) -> S;
+
+    /// The terminals' travel per R, ∫ ℓ dθ, up to a constant of each side.
+    fn travel(&self, side: S, posture: &Self::Posture<S>) -> S;
+
+    /// Factors of ü_g/g and of 1 + v̈_g/g in D at the posture: −p² cos δ and −p² sin δ.
+    fn factors(&self, posture: &Self::Posture<S>) -> (S, S);
+}
+
+/// The slender block (Eq. 17-18): sin δ → δ, cos δ → 1, ℓ constant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlenderBody<S> {
+    /// p², 1/s².
+    pub frequency_squared: S,
+    /// α, rad.
+    pub slenderness: S,
+    /// ℓ.
+    pub lever: S,
+    /// The ground moves vertically too.
+    pub vertical: bool,
+}
+
+impl<S: Scalar> Body<S> for SlenderBody<S> {
+    type Posture<V: Value<S>> = V;
+
+    #[inline(always)]
+    fn posture<V: Value<S>>(&self, side: S, rotation: V) -> V {
+        (-rotation).offset(side * self.slenderness)
+    }
+
+    #[inline(always)]
+    fn drive<V: Value<S>>(&self, delta: &V, ground: [V; 2]) -> V {
+        let weight = if self.vertical { *delta * ground[1].offset(S::of(1.0)) } else { *delta };
+        (weight + ground[0]).scale(-self.frequency_squared)
+    }
+
+    #[inline(always)]
+    fn along<V: Value<S>>(&self, _delta: &V, x: V) -> V {
+        x.scale(self.lever)
+    }
+
+    #[inline(always)]
+    fn terminal_acceleration<V: Value<S>>(&self, _delta: &V, _velocity: V, acceleration: V) -> V {
+        acceleration.scale(self.lever)
+    }
+
+    #[inline(always)]
+    fn over_inertia<V: Value<S>>(&self, _delta: &V, moment: V, coupling: S, _velocity: V) -> V {
+        moment.scale(S::of(1.0) / (S::of(1.0) + coupling * self.lever * self.lever))
+    }
+
+    #[inline(always)]
+    fn switching<V: Value<S>>(&self, _delta: &V, _velocity: V, drive: V) -> V {
+        drive
+    }
+
+    #[inline(always)]
+    fn paper_power(&self, _side: S, _delta: &S, _velocity: S, _coupling: S) -> S {
+        S::of(0.0)
+    }
+
+    #[inline(always)]
+    fn arm(&self, _delta: &S) -> S {
+        self.lever
+    }
+
+    #[inline(always)]
+    fn travel(&self, _side: S, delta: &S) -> S {
+        -(self.lever * *delta)
+    }
+
+    #[inline(always)]
+    fn factors(&self, delta: &S) -> (S, S) {
+        (-self.frequency_squared, -self.frequency_squared * *delta)
+    }
+}
+
+/// The exact block (Eq. 13-16) with any mount.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FullBody<S, K> {
+    /// The block.
+    pub block: FullBlock<S>,
+    /// ℓ(θ).
+    pub lever: TyingPoint<S>,
+    /// Paper or consistent.
+    pub kinematics: K,
+    /// The ground moves vertically too.
+    pub vertical: bool,
+}
+
+/// sin δ, cos δ, ℓ and ℓ'.
+#[derive(Clone, Copy, Debug)]
+pub struct Turned<V> {
+    sin: V,
+    cos: V,
+    arm: V,
+    rate: Option<V>,
+}
+
+impl<S: Scalar, K: BodyKinematics> Body<S> for FullBody<S, K> {
+    type Posture<V: Value<S>> = Turned<V>;
+
+    #[inline(always)]
+    fn posture<V: Value<S>>(&self, side: S, rotation: V) -> Turned<V> {
+        let (sin, cos) = (-rotation).offset(side * self.block.slenderness).sin_cos();
+        let rate = if self.kinematics.consistent() { Some(self.lever.arm_rate(side, sin, cos)) } else { None };
+        Turned { sin, cos, arm: self.lever.arm(side, sin, cos), rate }
+    }
+
+    #[inline(always)]
+    fn drive<V: Value<S>>(&self, posture: &Turned<V>, ground: [V; 2]) -> V {
+        let weight = if self.vertical { posture.sin * ground[1].offset(S::of(1.0)) } else { posture.sin };
+        (weight + ground[0] * posture.cos).scale(-self.block.frequency_squared)
+    }
+
+    #[inline(always)]
+    fn along<V: Value<S>>(&self, posture: &Turned<V>, x: V) -> V {
+        posture.arm * x
+    }
+
+    #[inline(always)]
+    fn terminal_acceleration<V: Value<S>>(&self, posture: &Turned<V>, velocity: V, acceleration: V) -> V {
+        let tangential = posture.arm * acceleration;
+        match posture.rate {
+            Some(rate) => tangential + rate * velocity.square(),
+            None => tangential,
+        }
+    }
+
+    #[inline(always)]
+    fn over_inertia<V: Value<S>>(&self, posture: &Turned<V>, moment: V, coupling: S, velocity: V) -> V {
+        let inertia = posture.arm.square().scale(coupling).offset(S::of(1.0));
+        match posture.rate {
+            Some(rate) => (moment - (posture.arm * rate * velocity.square()).scale(coupling)) / inertia,
+            None => moment / inertia,
+        }
+    }
+
+    #[inline(always)]
+    fn switching<V: Value<S>>(&self, posture: &Turned<V>, velocity: V, drive: V) -> V {
+        match posture.rate {
+            Some(rate) => posture.arm * (posture.arm * drive + rate * velocity.square()),
+            None => drive,
+        }
+    }
+
+    #[inline(always)]
+    fn paper_power(&self, side: S, posture: &Turned<S>, velocity: S, coupling: S) -> S {
+        if self.kinematics.consistent() {
+            return S::of(0.0);
+        }
+        let rate = self.lever.arm_rate(side, posture.sin, posture.cos);
+        -(coupling * posture.arm * rate * velocity * velocity * velocity)
+    }
+
+    #[inline(always)]
+    fn arm(&self, posture: &Turned<S>) -> S {
+        posture.arm
+    }
+
+    #[inline(always)]
+    fn travel(&self, side: S, posture: &Turned<S>) -> S {
+        // ℓ = A cos δ + s B sin δ with dδ = −dθ.
+        side * self.lever.across * posture.cos - self.lever.along * posture.sin
+    }
+
+    #[inline(always)]
+    fn factors(&self, posture: &Turned<S>) -> (S, S) {
+        (-self.block.frequency_squared * posture.cos, -self.block.frequency_squared * posture.sin)
+    }
+}

@@ -1,0 +1,116 @@
+//! When the ideal clutch engages: not at all, always, or by Eq. 10.
+
+use crate::math::sign::Sign;
+
+/// The rule of an ideal device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ClutchRule {
+    /// There is no inerter.
+    Without,
+    /// One inerter, always engaged.
+    Always,
+    /// Eq. 10: engaged while acceleration and velocity have one sign. Two flywheels take turns: the first works on motion in
+    /// the positive direction, the second on the negative, and each spins down while idle.
+    Resisting,
+}
+
+impl ClutchRule {
+    /// Whether there is an inerter at all.
+    #[inline(always)]
+    pub const fn has_inerter(self) -> bool {
+        !matches!(self, ClutchRule::Without)
+    }
+
+    /// Whether engagement depends on the signs, so that their changes are events.
+    #[inline(always)]
+    pub const fn follows_signs(self) -> bool {
+        matches!(self, ClutchRule::Resisting)
+    }
+
+    /// Whether an inerter is engaged while the velocity has the sign `direction` and the terminals' acceleration the
+    /// sign `drive`.
+    #[inline(always)]
+    pub fn engages(self, direction: Sign, drive: Sign) -> bool {
+        match self {
+            ClutchRule::Without => false,
+            ClutchRule::Always => true,
+            ClutchRule::Resisting => direction == drive,
+        }
+    }
+
+    /// The flywheel that works.
+    pub fn flywheel(self, engaged: bool, direction: Sign) -> Flywheel {
+        match (engaged, self.follows_signs(), direction) {
+            (false, _, _) => Flywheel::Idle,
+            (true, true, Sign::Negative) => Flywheel::Second,
+            _ => Flywheel::First,
+        }
+    }
+}
+
+/// A rule as a type, so that lanes without a clutch have no clutch in their loop.
+pub trait Clutch: Copy {
+    /// The rule.
+    const RULE: ClutchRule;
+}
+
+/// [`ClutchRule::Without`] as a type.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NoInerter;
+
+/// [`ClutchRule::Always`] as a type.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SingleInerter;
+
+/// [`ClutchRule::Resisting`] as a type.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClutchedPair;
+
+impl Clutch for NoInerter {
+    const RULE: ClutchRule = ClutchRule::Without;
+}
+
+impl Clutch for SingleInerter {
+    const RULE: ClutchRule = ClutchRule::Always;
+}
+
+impl Clutch for ClutchedPair {
+    const RULE: ClutchRule = ClutchRule::Resisting;
+}
+
+/// Which flywheel transfers force.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Flywheel {
+    /// None.
+    #[default]
+    Idle,
+    /// The one for positive motion, or the only one.
+    First,
+    /// The one for negative motion.
+    Second,
+}
+
+/// The flywheel for motion in `direction`.
+#[inline(always)]
+pub fn wheel_for(direction: Sign) -> usize {
+    match direction {
+        Sign::Positive => 0,
+        Sign::Negative => 1,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_pair_resists_and_never_drives() {
+        use Sign::{Negative, Positive};
+        let pair = ClutchRule::Resisting;
+        assert!(pair.engages(Positive, Positive) && pair.engages(Negative, Negative));
+        assert!(!pair.engages(Positive, Negative) && !pair.engages(Negative, Positive));
+        assert_eq!(pair.flywheel(true, Negative), Flywheel::Second);
+        assert_eq!(ClutchRule::Always.flywheel(true, Negative), Flywheel::First);
+        assert_eq!(pair.flywheel(false, Negative), Flywheel::Idle);
+    }
+}

@@ -1,0 +1,62 @@
+//! Kinematics of the inerter's terminals: the paper's (Eq. 11) and the consistent ones.
+
+/// How the terminal's acceleration follows from the block's: with or without the θ̇² term.
+pub trait Kinematics: Copy + Default {
+    /// Whether the θ̇² term is there.
+    const CONSISTENT: bool;
+}
+
+/// Eq. 11 as printed: ü = ℓ R θ̈.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Paper;
+
+/// The full derivative of the terminal's travel: ü = R (ℓ θ̈ + ℓ' θ̇²). Conserves energy.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Consistent;
+
+impl Kinematics for Paper {
+    const CONSISTENT: bool = false;
+}
+
+impl Kinematics for Consistent {
+    const CONSISTENT: bool = true;
+}
+
+/// Kinematics of a body: known when it is compiled, or [`Told`] when it runs.
+pub trait BodyKinematics: Copy {
+    /// Those with the θ̇² term or without; a type that knows better does not ask.
+    fn told(consistent: bool) -> Self;
+
+    /// Whether the θ̇² term is there.
+    fn consistent(self) -> bool;
+}
+
+impl<K: Kinematics> BodyKinematics for K {
+    #[inline(always)]
+    fn told(_consistent: bool) -> K {
+        K::default()
+    }
+
+    #[inline(always)]
+    fn consistent(self) -> bool {
+        K::CONSISTENT
+    }
+}
+
+/// Kinematics told at run time: one body for both where code is scarce, to the same bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Told {
+    consistent: bool,
+}
+
+impl BodyKinematics for Told {
+    #[inline]
+    fn told(consistent: bool) -> Told {
+        Told { consistent }
+    }
+
+    #[inline]
+    fn consistent(self) -> bool {
+        self.consistent
+    }
+}

@@ -1,0 +1,240 @@
+//! The equations of motion, each written once.
+//!
+//! With s = sgn θ and δ = αs − θ, everything divided by I_O = λmR² (DESIGN, after Eq. 13-16):
+//!
+//! (1 + κ k ℓ²) θ̈ + κ k ℓ ℓ' θ̇² = −p² [ sin δ + (ü_g/g) cos δ ],  k = σ/λ,
+//!
+//! where the θ̇² term belongs to the consistent kinematics only. An equation here has κ fixed: between two events a block
+//! is either engaged or not. They are written over [`Value`], so the same lines give an acceleration in f32 or f64, in
+//! SIMD lanes, and the coefficients of a Taylor series.
+//!
+//! [`lever`], [`kinematics`]: the inerter's terminals; [`body`]: the same equations in parts, for devices with forces of their own;
+//! [`clutch_rule`]: Eq. 10; [`first_integral`]: the energy integral. The room imports `math` only.
+
+pub mod any_body;
+pub mod any_equation;
+pub mod body;
+pub mod clutch_rule;
+pub mod first_integral;
+pub mod kinematics;
+pub mod lever;
+pub mod motion;
+pub mod switched;
+
+use core::marker::PhantomData;
+
+use crate::math::scalar::Scalar;
+use crate::math::value::Value;
+use kinematics::Kinematics;
+use lever::Lever;
+
+/// A second-order equation of motion of one rotation, smooth between events.
+pub trait Equation<S: Scalar>: Copy {
+    /// Whether the clutch's switching function is the acceleration itself (paper kinematics), so that one search finds
+    /// the zeros of both.
+    fn switches_with_acceleration(&self) -> bool;
+
+    /// θ̈ (rad/s²) on `side` s = ±1 for θ (rad), θ̇ (rad/s) and the ground acceleration ü_g/g.
+    fn acceleration<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V;
+
+    /// A quantity with the sign of the acceleration of the inerter's terminals along their travel, the same whether the
+    /// inerter is engaged or not (Eq. 10 compares it with the velocity).
+    fn switching<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V;
+
+    /// Acceleration of the inerter's terminals per R (1/s²): ℓθ̈, plus ℓ'θ̇² in the consistent kinematics.
+    fn terminal_acceleration(&self, side: S, rotation: S, velocity: S, acceleration: S) -> S;
+
+    /// (1 + κ k ℓ²): inertia about the toe over that of the bare block.
+    fn inertia(&self, side: S, rotation: S) -> S;
+
+    /// The equation as that of the slender block, if it is one: linear, so that its motion has a closed form.
+    #[inline(always)]
+    fn slender(&self) -> Option<&SlenderBlock<S>> {
+        None
+    }
+
+    /// Power that the paper's kinematics take without a cause, per λmR² (1/s³): −κ k ℓ ℓ' θ̇³, which is what the energy
+    /// ½(1 + κ k ℓ²)θ̇² of block and flywheel misses of the work done on them; 0 where energy is conserved.
+    fn paper_power(&self, side: S, rotation: S, velocity: S) -> S;
+}
+
+/// The block alone, or with its inerter released: Eq. 2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FullBlock<S> {
+    /// p², 1/s².
+    pub frequency_squared: S,
+    /// α, rad.
+    pub slenderness: S,
+}
+
+impl<S: Scalar> FullBlock<S> {
+    /// −p² [ sin δ + (ü_g/g) cos δ ] with sin δ and cos δ.
+    #[inline(always)]
+    fn drive<V: Value<S>>(&self, side: S, rotation: V, ground: V) -> (V, V, V) {
+        let (sin, cos) = (-rotation).offset(side * self.slenderness).sin_cos();
+        let bracket = sin + ground * cos;
+        (bracket.scale(-self.frequency_squared), sin, cos)
+    }
+}
+
+impl<S: Scalar> Equation<S> for FullBlock<S> {
+    #[inline(always)]
+    fn switches_with_acceleration(&self) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn acceleration<V: Value<S>>(&self, side: S, rotation: V, _velocity: V, ground: V) -> V {
+        self.drive(side, rotation, ground).0
+    }
+
+    #[inline(always)]
+    fn switching<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V {
+        self.acceleration(side, rotation, velocity, ground)
+    }
+
+    #[inline(always)]
+    fn terminal_acceleration(&self, _side: S, _rotation: S, _velocity: S, _acceleration: S) -> S {
+        S::of(0.0)
+    }
+
+    #[inline(always)]
+    fn inertia(&self, _side: S, _rotation: S) -> S {
+        S::of(1.0)
+    }
+
+    #[inline(always)]
+    fn paper_power(&self, _side: S, _rotation: S, _velocity: S) -> S {
+        S::of(0.0)
+    }
+}
+
+/// The block with its inerter engaged: Eq. 13-16 for any mount, or with its inerter released but watched by the clutch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FullInerter<S, L, K> {
+    /// The block.
+    pub block: FullBlock<S>,
+    /// κ k: σ/λ while engaged, 0 while released. In SIMD lanes each lane has its own.
+    pub coupling: S,
+    /// ℓ(θ).
+    pub lever: L,
+    /// Paper or consistent.
+    pub kinematics: PhantomData<K>,
+}
+
+impl<S: Scalar, L: Lever<S>, K: Kinematics> FullInerter<S, L, K> {
+    /// The same mount with another coupling κ k.
+    #[inline(always)]
+    pub fn with_coupling(self, coupling: S) -> Self {
+        FullInerter { coupling, ..self }
+    }
+}
+
+impl<S: Scalar, L: Lever<S>, K: Kinematics> Equation<S> for FullInerter<S, L, K> {
+    #[inline(always)]
+    fn switches_with_acceleration(&self) -> bool {
+        !K::CONSISTENT
+    }
+
+    #[inline(always)]
+    fn acceleration<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V {
+        let (drive, sin, cos) = self.block.drive(side, rotation, ground);
+        let arm = self.lever.arm(side, sin, cos);
+        let inertia = arm.square().scale(self.coupling).offset(S::of(1.0));
+        if K::CONSISTENT {
+            let rate = self.lever.arm_rate(side, sin, cos);
+            (drive - (arm * rate * velocity.square()).scale(self.coupling)) / inertia
+        } else {
+            drive / inertia
+        }
+    }
+
+    /// Paper: −p² \[bracket\], the sign of θ̈. Consistent: ℓ (ℓ·(−p² \[bracket\]) + ℓ' θ̇²), the sign of the terminals'
+    /// acceleration along their travel, from which κ has dropped out.
+    #[inline(always)]
+    fn switching<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V {
+        let (drive, sin, cos) = self.block.drive(side, rotation, ground);
+        if K::CONSISTENT {
+            let arm = self.lever.arm(side, sin, cos);
+            let rate = self.lever.arm_rate(side, sin, cos);
+            arm * (arm * drive + rate * velocity.square())
+        } else {
+            drive
+        }
+    }
+
+    #[inline(always)]
+    fn terminal_acceleration(&self, side: S, rotation: S, velocity: S, acceleration: S) -> S {
+        let (sin, cos) = Value::sin_cos(side * self.block.slenderness - rotation);
+        let along = self.lever.arm(side, sin, cos) * acceleration;
+        if K::CONSISTENT { along + self.lever.arm_rate(side, sin, cos) * (velocity * velocity) } else { along }
+    }
+
+    #[inline(always)]
+    fn inertia(&self, side: S, rotation: S) -> S {
+        let (sin, cos) = Value::sin_cos(side * self.block.slenderness - rotation);
+        let arm = self.lever.arm(side, sin, cos);
+        S::of(1.0) + self.coupling * (arm * arm)
+    }
+
+    #[inline(always)]
+    fn paper_power(&self, side: S, rotation: S, velocity: S) -> S {
+        if K::CONSISTENT {
+            return S::of(0.0);
+        }
+        let (sin, cos) = Value::sin_cos(side * self.block.slenderness - rotation);
+        let (arm, rate) = (self.lever.arm(side, sin, cos), self.lever.arm_rate(side, sin, cos));
+        -(self.coupling * arm * rate * (velocity * velocity * velocity))
+    }
+}
+
+/// The slender block (Eq. 17-18), where an engaged inerter only lowers the frequency parameter:
+/// θ̈ = −p_σ² [ αs − θ + ü_g/g ],  p_σ² = p²/(1 + κ k ℓ²).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlenderBlock<S> {
+    /// p_σ² = p²/(1 + κ k ℓ²), 1/s².
+    pub frequency_squared: S,
+    /// α, rad.
+    pub slenderness: S,
+    /// 1 + κ k ℓ².
+    pub inertia: S,
+    /// ℓ.
+    pub lever: S,
+}
+
+impl<S: Scalar> Equation<S> for SlenderBlock<S> {
+    #[inline(always)]
+    fn switches_with_acceleration(&self) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn acceleration<V: Value<S>>(&self, side: S, rotation: V, _velocity: V, ground: V) -> V {
+        (rotation - ground).offset(-(side * self.slenderness)).scale(self.frequency_squared)
+    }
+
+    #[inline(always)]
+    fn switching<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V {
+        self.acceleration(side, rotation, velocity, ground)
+    }
+
+    #[inline(always)]
+    fn terminal_acceleration(&self, _side: S, _rotation: S, _velocity: S, acceleration: S) -> S {
+        self.lever * acceleration
+    }
+
+    #[inline(always)]
+    fn inertia(&self, _side: S, _rotation: S) -> S {
+        self.inertia
+    }
+
+    #[inline(always)]
+    fn slender(&self) -> Option<&SlenderBlock<S>> {
+        Some(self)
+    }
+
+    #[inline(always)]
+    fn paper_power(&self, _side: S, _rotation: S, _velocity: S) -> S {
+        S::of(0.0)
+    }
+}

@@ -1,0 +1,82 @@
+//! The motion over one step, as a method sees it.
+
+use crate::equation::any_equation::AnyEquation;
+use crate::equation::motion::Motion;
+use crate::ground::Piece;
+use crate::math::root::locate_by_value;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+
+/// Where a step starts and what governs it.
+#[derive(Clone, Copy, Debug)]
+pub struct Start<'a, S> {
+    /// The equation of motion in force.
+    pub equation: &'a AnyEquation<S>,
+    /// The ground motion.
+    pub piece: &'a dyn Piece<S>,
+    /// s.
+    pub side: Sign,
+    /// θ.
+    pub rotation: S,
+    /// θ̇.
+    pub velocity: S,
+    /// Local time in the piece, s.
+    pub time: S,
+    /// How far the step may reach, s; above 0.
+    pub length: S,
+    /// The bracket is zero here because an event was located on it; its rounding error must not count.
+    pub acceleration_is_zero: bool,
+    /// θ̈ here, where the step before has evaluated it.
+    pub acceleration: Option<S>,
+    /// Size of a rotation that matters (rad), for tolerances.
+    pub scale: S,
+}
+
+/// The motion from a [`Start`] over times from 0 to [`Arc::length`], θ and θ̇ and θ̈ at any instant of it.
+pub trait Arc<S: Real> {
+    /// How far it reaches, s; at most what was asked for.
+    fn length(&self) -> S;
+
+    /// The motion at `time` after the start.
+    fn at(&self, time: S) -> Motion<S>;
+
+    /// The clutch's switching function.
+    fn switching(&self, time: S) -> S;
+
+    /// First zero of θ̈ in (`from`, `to`], where θ̈ has the sign `sign` just after `from`. `from_zero` says that θ̈ is
+    /// zero at `from`.
+    ///
+    /// The default sees what the ends of the step show; a method with a series overrides it and proves its answer.
+    #[inline]
+    fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        let _ = from_zero;
+        let end = self.at(to).acceleration;
+        (sign.times(end) < S::ZERO).then(|| locate_by_value(from, to, sign, |t| self.at(t).acceleration))
+    }
+
+    /// First zero of the switching function, as [`Arc::acceleration_zero`]; called only where the two differ.
+    fn switching_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        let _ = from_zero;
+        let end = self.switching(to);
+        (sign.times(end) < S::ZERO).then(|| locate_by_value(from, to, sign, |t| self.switching(t)))
+    }
+
+    /// Largest |θ̈| between the times `from.0` and `to.0`, at which θ̈ is `from.1` and `to.1`, if above `floor`; else `floor`.
+    fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
+        floor.larger(from.1.abs()).larger(to.1.abs())
+    }
+}
+
+/// A way to integrate: fixed steps or steps of its own choice.
+pub trait Method<S: Real> {
+    /// Its arcs.
+    type Arc<'a>: Arc<S>
+    where
+        Self: 'a;
+
+    /// The arc from `start`.
+    fn arc<'a>(&'a self, start: Start<'a, S>) -> Self::Arc<'a>;
+
+    /// The fixed step (s), if it has one: then steps end on whole multiples of it from the start of each piece.
+    fn step(&self) -> Option<S>;
+}

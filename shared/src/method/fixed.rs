@@ -1,0 +1,159 @@
+//! Fixed-step methods: semi-implicit Euler and the classical Runge-Kutta method of order 4.
+//!
+//! Events inside a step are located by taking the step again with a shorter length, so an event's state has the accuracy
+//! of the method.
+
+use super::dense_output::{Arc, Method, Start};
+use crate::equation::Equation;
+use crate::equation::any_equation::WithEquation;
+use crate::equation::motion::Motion;
+use crate::equation::switched::Switched;
+use crate::math::scalar::{Real, Scalar};
+
+/// A method of fixed steps, each with its step in s (above 0).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FixedStep<S> {
+    /// Semi-implicit (symplectic) Euler: velocities first, then positions with the new velocities. Order 1.
+    SemiImplicitEuler {
+        /// s.
+        step: S,
+    },
+    /// The classical Runge-Kutta method. Order 4.
+    RungeKutta4 {
+        /// s.
+        step: S,
+    },
+    /// The exponential midpoint method ([`crate::motion::hybrid::exponential`]) for elastic clutches, order 2; for all other devices the
+    /// Runge-Kutta method.
+    ExponentialMidpoint {
+        /// s.
+        step: S,
+    },
+}
+
+impl<S: Real> FixedStep<S> {
+    /// The step, s.
+    #[inline(always)]
+    pub fn step(&self) -> S {
+        let (FixedStep::SemiImplicitEuler { step } | FixedStep::RungeKutta4 { step } | FixedStep::ExponentialMidpoint { step }) =
+            *self;
+        step
+    }
+}
+
+/// One step of the classical Runge-Kutta method of length `h` for θ̈ = f(θ, θ̇, ü), where `ground` holds ü_g/g at the
+/// start, the middle and the end, and `first` is f at the start. Written over [`Scalar`], so that SIMD lanes take it too.
+#[inline(always)]
+pub fn runge_kutta_4<S: Scalar, E: Equation<S>>(
+    equation: &E,
+    side: S,
+    (rotation, velocity): (S, S),
+    first: S,
+    ground: [S; 3],
+    h: S,
+) -> (S, S) {
+    let half = S::of(0.5) * h;
+    let sixth = h * S::of(1.0 / 6.0);
+    let f = |theta: S, omega: S, push: S| equation.acceleration(side, theta, omega, push);
+    let omega_2 = velocity + half * first;
+    let a_2 = f(rotation + half * velocity, omega_2, ground[1]);
+    let omega_3 = velocity + half * a_2;
+    let a_3 = f(rotation + half * omega_2, omega_3, ground[1]);
+    let omega_4 = velocity + h * a_3;
+    let a_4 = f(rotation + h * omega_3, omega_4, ground[2]);
+    let two = S::of(2.0);
+    (rotation + sixth * (velocity + two * (omega_2 + omega_3) + omega_4), velocity + sixth * (first + two * (a_2 + a_3) + a_4))
+}
+
+/// The arc of a fixed-step method: its end, and the step taken again for every time before it.
+#[derive(Debug)]
+pub struct FixedArc<'a, S> {
+    method: FixedStep<S>,
+    start: Start<'a, S>,
+    first: S,
+    end: Motion<S>,
+}
+
+impl<'a, S: Real> FixedArc<'a, S> {
+    #[inline(always)]
+    pub(crate) fn new(method: FixedStep<S>, start: Start<'a, S>) -> Self {
+        let first = if start.acceleration_is_zero {
+            S::ZERO
+        } else {
+            start.acceleration.unwrap_or_else(|| {
+                let push = start.piece.acceleration(start.time);
+                start.equation.acceleration(start.side.unit(), start.rotation, start.velocity, push)
+            })
+        };
+        let end = Self::motion(method, &start, first, start.length);
+        FixedArc { method, start, first, end }
+    }
+
+    #[inline(never)]
+    fn motion(method: FixedStep<S>, start: &Start<'a, S>, first: S, time: S) -> Motion<S> {
+        start.equation.known(Step { method, start, first, time })
+    }
+}
+
+/// One step of length `time`, where θ̈ at the start is `first`.
+struct Step<'s, 'a, S> {
+    method: FixedStep<S>,
+    start: &'s Start<'a, S>,
+    first: S,
+    time: S,
+}
+
+impl<S: Real> WithEquation<S> for Step<'_, '_, S> {
+    type Output = Motion<S>;
+
+    #[inline(always)]
+    fn with<E: Switched<S>>(self, equation: &E) -> Motion<S> {
+        let Step { method, start, first, time } = self;
+        let side = start.side.unit();
+        let push = start.piece.acceleration(start.time + time);
+        let (rotation, velocity) = if let FixedStep::SemiImplicitEuler { .. } = method {
+            let velocity = start.velocity + time * first;
+            (start.rotation + time * velocity, velocity)
+        } else {
+            let ground = [S::ZERO, start.piece.acceleration(start.time + S::HALF * time), push];
+            runge_kutta_4(equation, side, (start.rotation, start.velocity), first, ground, time)
+        };
+        Motion { rotation, velocity, acceleration: equation.acceleration(side, rotation, velocity, push) }
+    }
+}
+
+impl<S: Real> Arc<S> for FixedArc<'_, S> {
+    #[inline(always)]
+    fn length(&self) -> S {
+        self.start.length
+    }
+
+    #[inline]
+    fn at(&self, time: S) -> Motion<S> {
+        if time == S::ZERO {
+            return Motion { rotation: self.start.rotation, velocity: self.start.velocity, acceleration: self.first };
+        }
+        if time == self.start.length { self.end } else { Self::motion(self.method, &self.start, self.first, time) }
+    }
+
+    #[inline]
+    fn switching(&self, time: S) -> S {
+        let motion = self.at(time);
+        let push = self.start.piece.acceleration(self.start.time + time);
+        self.start.equation.switching(self.start.side.unit(), motion.rotation, motion.velocity, push)
+    }
+}
+
+impl<S: Real> Method<S> for FixedStep<S> {
+    type Arc<'a> = FixedArc<'a, S>;
+
+    #[inline(always)]
+    fn arc<'a>(&'a self, start: Start<'a, S>) -> Self::Arc<'a> {
+        FixedArc::new(*self, start)
+    }
+
+    #[inline(always)]
+    fn step(&self) -> Option<S> {
+        Some(FixedStep::step(self))
+    }
+}

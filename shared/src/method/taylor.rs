@@ -1,0 +1,205 @@
+//! The Taylor method: the solution's own power series over each step, and with it events to the last bits.
+//!
+//! [`super::motion_series`] has the recurrence.
+
+use core::cell::Cell;
+
+use super::dense_output::{Arc, Method, Start};
+use super::motion_series::{StepSeries, Truncation};
+use crate::equation::any_equation::WithEquation;
+use crate::equation::motion::Motion;
+use crate::equation::switched::Switched;
+use crate::math::polynomial;
+use crate::math::power_series::{MAXIMUM_ORDER, Tape};
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+
+/// A Taylor method with `N` coefficients for each quantity (8 to 32), and the tape it works on. One per thread: it is
+/// scratch space, not state.
+pub struct Taylor<S, const N: usize> {
+    tape: Tape<S, N>,
+    tolerance: S,
+    step: Option<S>,
+}
+
+impl<S: Real, const N: usize> core::fmt::Debug for Taylor<S, N> {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        formatter
+            .debug_struct("Taylor")
+            .field("order", &(N - 1))
+            .field("tolerance", &self.tolerance)
+            .field("step", &self.step)
+            .finish()
+    }
+}
+
+impl<S: Real, const N: usize> Taylor<S, N> {
+    /// Steps of its own choice: as long as the series' last terms stay below `tolerance` times the rotation that
+    /// matters (α, or |θ| where larger). 1e-17 is tight in f64; from 1e-20 to 1e-2.
+    pub fn adaptive(tolerance: S) -> Self {
+        const { assert!(N >= 8 && N <= MAXIMUM_ORDER) };
+        Taylor { tape: Tape::default(), tolerance, step: None }
+    }
+
+    /// Fixed steps of `step` s (above 0), order N − 2: θ̇ has one coefficient less than θ.
+    pub fn fixed(step: S) -> Self {
+        Taylor { step: Some(step), ..Taylor::adaptive(S::ZERO) }
+    }
+}
+
+/// The series of one step.
+#[derive(Clone, Copy, Debug)]
+pub struct TaylorArc<S, const N: usize> {
+    series: StepSeries<S, N>,
+    /// Of the switching function, where it is not the acceleration.
+    switching: [S; N],
+    /// Bound of d²θ̈/dt² over the arc.
+    curvature: S,
+}
+
+impl<S: Real, const N: usize> Method<S> for Taylor<S, N> {
+    type Arc<'a> = TaylorArc<S, N>;
+
+    #[inline]
+    fn arc<'a>(&'a self, start: Start<'a, S>) -> TaylorArc<S, N> {
+        let none = [S::ZERO; N];
+        let mut arc = TaylorArc { series: StepSeries::new(start.length), switching: none, curvature: S::ZERO };
+        let mut ground = none;
+        start.piece.series(start.time, &mut ground);
+        let tolerance = self.tolerance * start.scale.larger(start.rotation.abs());
+        start.equation.known(Expansion { tape: &self.tape, arc: &mut arc, ground: &ground, start: &start, tolerance });
+        let series = &mut arc.series;
+        if self.step.is_none() && series.terms == N {
+            for order in [N - 2, N - 1] {
+                series.shorten(order, series.motion.rotation[order].abs(), tolerance);
+            }
+        }
+        arc.curvature = polynomial::curvature_bound(series.acceleration(), series.length);
+        arc
+    }
+
+    #[inline(always)]
+    fn step(&self) -> Option<S> {
+        self.step
+    }
+}
+
+/// The coefficients of an arc, order by order.
+struct Expansion<'a, S, const N: usize> {
+    tape: &'a Tape<S, N>,
+    arc: &'a mut TaylorArc<S, N>,
+    ground: &'a [S; N],
+    start: &'a Start<'a, S>,
+    tolerance: S,
+}
+
+impl<S: Real, const N: usize> WithEquation<S> for Expansion<'_, S, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with<E: Switched<S>>(self, equation: &E) {
+        // θ, θ̇ and the ground are the first three nodes.
+        const GIVEN: usize = 3;
+        let Expansion { tape, arc, ground, start, tolerance } = self;
+        let side = start.side.unit();
+        let next = Cell::new(GIVEN);
+        arc.series.motion.start(tape, start.rotation, start.velocity);
+        let mut truncation = Truncation::new(start.length, tolerance);
+        for (k, &push) in ground.iter().enumerate().take(N - 2) {
+            tape.set(2, k, push);
+            next.set(GIVEN);
+            let given = |slot| tape.given(&next, k, slot);
+            let (theta, omega, shaking) = (given(0), given(1), given(2));
+            let node = equation.acceleration(side, theta, omega, shaking);
+            if k == 0 && start.acceleration_is_zero {
+                node.set_last(S::ZERO);
+            }
+            if !equation.switches_with_acceleration() {
+                arc.switching[k] = equation.switching(side, theta, omega, shaking).last();
+            }
+            let rotation = arc.series.motion.extend(tape, k, node.last());
+            if truncation.ends_at(k, truncation.term(rotation, push)) {
+                arc.series.terms = k + 3;
+                break;
+            }
+        }
+    }
+}
+
+impl<S: Real, const N: usize> TaylorArc<S, N> {
+    fn switching_series(&self) -> &[S] {
+        &self.switching[..self.series.acceleration().len()]
+    }
+}
+
+impl<S: Real, const N: usize> Arc<S> for TaylorArc<S, N> {
+    #[inline(always)]
+    fn length(&self) -> S {
+        self.series.length
+    }
+
+    #[inline]
+    fn at(&self, time: S) -> Motion<S> {
+        self.series.at(time)
+    }
+
+    #[inline]
+    fn switching(&self, time: S) -> S {
+        polynomial::value(self.switching_series(), time)
+    }
+
+    #[inline]
+    fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        polynomial::first_zero(self.series.acceleration(), self.curvature, from, to, sign, from_zero)
+    }
+
+    #[inline]
+    fn switching_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        let coefficients = self.switching_series();
+        polynomial::first_zero(coefficients, polynomial::curvature_bound(coefficients, to), from, to, sign, from_zero)
+    }
+
+    #[inline]
+    fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
+        polynomial::largest_magnitude(self.series.acceleration(), self.curvature, from, to, floor)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::equation::FullBlock;
+    use crate::equation::any_equation::AnyEquation;
+    use crate::ground::Harmonics;
+
+    /// The bound that the search for zeros rests on holds, and uses every coefficient of the step: it is that of the whole series.
+    #[test]
+    fn the_curvature_bound_covers_the_whole_series() {
+        let equation = AnyEquation::Block(FullBlock { frequency_squared: 1.0, slenderness: 0.3 });
+        let piece = Harmonics::sine(2.0, 5.0);
+        for time in [0.1, 0.5, 1.0] {
+            let start = Start {
+                equation: &equation,
+                piece: &piece,
+                side: Sign::Positive,
+                rotation: 0.1,
+                velocity: 0.2,
+                time,
+                length: 10.0,
+                acceleration_is_zero: false,
+                acceleration: None,
+                scale: 0.3,
+            };
+            let arc = Taylor::<f64, 20>::adaptive(1e-15).arc(start);
+            let (length, step) = (arc.length(), 1e-3 * arc.length());
+            let rate = |time: f64| arc.at(time).acceleration;
+            let mut largest = 0.0_f64;
+            for k in 1..1000 {
+                let t = f64::from(k) * step;
+                largest = largest.max(((rate(t + step) - 2.0 * rate(t) + rate(t - step)) / (step * step)).abs());
+            }
+            assert!(arc.curvature >= largest * (1.0 - 1e-6), "{} < {largest}", arc.curvature);
+            assert_eq!(arc.curvature, polynomial::curvature_bound(&arc.series.motion.acceleration, length));
+        }
+    }
+}

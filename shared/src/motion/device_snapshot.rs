@@ -1,0 +1,170 @@
+//! A block and its device at one instant, as those see it who watch forces and energies.
+//!
+//! Everything is divided by I_O = λmR²: forces at the rack come as F/(λmR) in 1/s², energies as E/(λmR²) in 1/s², powers in
+//! 1/s³.
+
+use super::observer::{Event, Stretch};
+use super::state::State;
+use crate::drivetrain::power_loss::Spent;
+use crate::equation::motion::Motion;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::method::dense_output::Arc;
+
+/// One instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Snapshot<S> {
+    /// θ, θ̇, θ̈.
+    pub motion: Motion<S>,
+    /// Ground acceleration, horizontal and vertical, in g.
+    pub ground: [S; 2],
+    /// ℓθ̇, the velocity of the rack over R; 1/s.
+    pub terminal_velocity: S,
+    /// What each flywheel's drive exerts on the rack, positive where it resists positive motion; F/(λmR), 1/s².
+    pub force: [S; 2],
+    /// Friction and inertia of the rack itself, the same way.
+    pub rack_force: S,
+    /// Which flywheels are coupled.
+    pub engaged: [bool; 2],
+    /// Speed of each flywheel as that of a rack moving with it, over R; 1/s.
+    pub spin: [S; 2],
+    /// Kinetic energy of flywheels and rack, and of springs; E/(λmR²), 1/s².
+    pub stored: S,
+    /// What of it is in springs.
+    pub sprung: S,
+    /// Power lost, 1/s³.
+    pub spent: Spent<S>,
+}
+
+impl<S: Real> Snapshot<S> {
+    /// F₁ + F₂, what both flywheels together press on their support; F/(λmR), 1/s². Friction of the rack's guides is not in it.
+    #[inline]
+    pub fn support_force(&self) -> S {
+        self.force[0] + self.force[1]
+    }
+}
+
+/// An arc on which the device can be asked too.
+pub trait DeviceArc<S: Real>: Arc<S> {
+    /// Block and device at `time` after the start of the arc.
+    fn snapshot(&self, time: S) -> Snapshot<S>;
+}
+
+/// So that who watches arcs of a known type can watch these.
+impl<S: Real> Arc<S> for &dyn DeviceArc<S> {
+    #[inline(always)]
+    fn length(&self) -> S {
+        (**self).length()
+    }
+
+    #[inline(always)]
+    fn at(&self, time: S) -> Motion<S> {
+        (**self).at(time)
+    }
+
+    #[inline(always)]
+    fn switching(&self, time: S) -> S {
+        (**self).switching(time)
+    }
+
+    #[inline(always)]
+    fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        (**self).acceleration_zero(from, to, sign, from_zero)
+    }
+
+    #[inline(always)]
+    fn switching_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        (**self).switching_zero(from, to, sign, from_zero)
+    }
+
+    #[inline(always)]
+    fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
+        (**self).largest_acceleration(from, to, floor)
+    }
+}
+
+/// Told of every stretch, with the device, and every event, in order. Times are local to the piece of ground motion.
+pub trait DeviceObserver<S: Real> {
+    /// The motion over a stretch.
+    #[inline(always)]
+    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        let _ = (arc, stretch);
+    }
+
+    /// The block stands on its base while its flywheels may coast, or of no length: what one event left for another at the same instant.
+    #[inline(always)]
+    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        let _ = (arc, stretch);
+    }
+
+    /// An event, with the state after it.
+    #[inline(always)]
+    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+        let _ = (event, time, state);
+    }
+}
+
+/// Nobody.
+impl<S: Real> DeviceObserver<S> for () {}
+
+/// Two observers.
+impl<S: Real, A: DeviceObserver<S>, B: DeviceObserver<S>> DeviceObserver<S> for (A, B) {
+    #[inline(always)]
+    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        self.0.device_stretch(arc, stretch);
+        self.1.device_stretch(arc, stretch);
+    }
+
+    #[inline(always)]
+    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        self.0.device_stands(arc, stretch);
+        self.1.device_stands(arc, stretch);
+    }
+
+    #[inline(always)]
+    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+        self.0.device_event(event, time, state);
+        self.1.device_event(event, time, state);
+    }
+}
+
+impl<S: Real, A: DeviceObserver<S> + ?Sized> DeviceObserver<S> for &mut A {
+    #[inline(always)]
+    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        (**self).device_stretch(arc, stretch);
+    }
+
+    #[inline(always)]
+    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        (**self).device_stands(arc, stretch);
+    }
+
+    #[inline(always)]
+    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+        (**self).device_event(event, time, state);
+    }
+}
+
+/// One that may be absent.
+impl<S: Real, A: DeviceObserver<S>> DeviceObserver<S> for Option<A> {
+    #[inline(always)]
+    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        if let Some(watcher) = self {
+            watcher.device_stretch(arc, stretch);
+        }
+    }
+
+    #[inline(always)]
+    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        if let Some(watcher) = self {
+            watcher.device_stands(arc, stretch);
+        }
+    }
+
+    #[inline(always)]
+    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+        if let Some(watcher) = self {
+            watcher.device_event(event, time, state);
+        }
+    }
+}

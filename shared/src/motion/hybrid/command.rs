@@ -1,0 +1,293 @@
+//! From the signs of Eq. 10 to a clutch that has moved: commands, delays, dwell and commands that are missed.
+
+use super::{Machine, MachineState};
+use crate::drivetrain::clutch_state::{Coupling, Watch, Wheel};
+use crate::drivetrain::gears::{Gears, rounded_up};
+use crate::drivetrain::under_way::UnderWay;
+use crate::equation::clutch_rule::wheel_for;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::motion::device_snapshot::DeviceObserver;
+use crate::motion::state::Phase;
+use crate::structure::drivetrain::{Actuation, Delay};
+
+/// What lies between a command and the clutch, resolved.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Actuator<S> {
+    /// s.
+    pub engagement_delay: S,
+    /// s.
+    pub release_delay: S,
+    /// A command that another one follows before its delay is over takes effect nevertheless.
+    pub transport: bool,
+    /// s.
+    pub dwell: S,
+    /// An engagement is missed when its number draws less than this out of 2³².
+    pub misses: u64,
+    /// Seed of the draw.
+    pub seed: u64,
+    /// Commands come from a controller ([`Machine::order`]) and not from the signs of Eq. 10.
+    pub controlled: bool,
+}
+
+impl<S: Real> Actuator<S> {
+    /// Of an actuation within its ranges.
+    pub fn of(actuation: &Actuation) -> Actuator<S> {
+        Actuator {
+            engagement_delay: S::of(actuation.engagement_delay),
+            release_delay: S::of(actuation.release_delay),
+            transport: actuation.delay == Delay::Transport,
+            dwell: S::of(actuation.dwell),
+            misses: (actuation.miss_probability * 4_294_967_296.0) as u64,
+            seed: actuation.miss_seed,
+            controlled: false,
+        }
+    }
+
+    /// Whether engagement number `count` is missed: SplitMix64 (Steele, Lea and Flood 2014) of seed and number, so that it depends
+    /// on nothing else.
+    pub fn misses(&self, count: u32) -> bool {
+        let mut z = self.seed.wrapping_add(u64::from(count).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 32) < self.misses
+    }
+}
+
+/// Most answers to one event: a jolt may change the signs that caused it.
+const MOST_ANSWERS: usize = 4;
+
+/// Until a rising capacity is full, or overcomes the friction that holds a standing flywheel.
+fn ramp_due<S: Real>(gears: &Gears<S>, wheel: &Wheel<S>, block_held: bool) -> Option<S> {
+    if wheel.coupling == Coupling::Open || wheel.engaged_for >= gears.rise_time {
+        return None;
+    }
+    let full = gears.rise_time - wheel.engaged_for;
+    let (capacity, growth) = gears.capacity_of(wheel);
+    let held = match wheel.coupling {
+        Coupling::Slipping(_) | Coupling::Saturated(_) | Coupling::Elastic(_) => wheel.turning.is_none(),
+        Coupling::Locked => block_held,
+        _ => false,
+    };
+    if !held || gears.standing_friction(wheel).1 == S::ZERO {
+        return Some(full);
+    }
+    Some(((gears.inertance * gears.bearing_dry - capacity) / growth).smaller(full))
+}
+
+impl<S: Real> Machine<S> {
+    /// Gives the commands that the present signs ask for, and carries out those that are due.
+    pub(super) fn command(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+        if !self.drive.traits().commanded || state.motion.phase != Phase::Rocking {
+            return;
+        }
+        for answer in 0..MOST_ANSWERS {
+            if answer > 0 {
+                self.show_instant(state, time, observer);
+            }
+            let motion = &state.motion;
+            let resists = motion.direction == motion.drive;
+            let wheel = wheel_for(motion.direction);
+            // A block that friction holds has no motion to resist: its commands stay.
+            if !self.actuator.controlled && !state.held {
+                for index in 0..2 {
+                    self.give(state, index, resists && index == wheel);
+                }
+            }
+            let (velocity, direction) = (state.motion.velocity, state.motion.direction);
+            let mut moved = false;
+            for index in 0..2 {
+                while state.device.wheels[index].pending == S::ZERO {
+                    moved = true;
+                    self.carry_out(state, index, time, observer);
+                    if state.device.wheels[index].pending == S::ZERO {
+                        // An infinite brake has the flywheel before it is engaged again.
+                        self.show_instant(state, time, observer);
+                    }
+                }
+            }
+            if state.motion.velocity == velocity {
+                if moved && self.drive.traits().holds && velocity == S::ZERO {
+                    // The bearings of a wheel that has just been engaged may hold the block, those of a released one let it go, and a
+                    // spring that is let go moves it no more.
+                    state.free = false;
+                    if self.try_to_set_off(state, time, observer) {
+                        // It has a motion again, which Eq. 10 looks at.
+                        continue;
+                    }
+                    if state.motion.direction != direction {
+                        self.look_at_drive(state);
+                        continue;
+                    }
+                }
+                if moved {
+                    // One clutch changes the force on the other.
+                    self.settle(state, time, observer);
+                }
+                return;
+            }
+            if state.motion.direction != direction {
+                self.look_at_drive(state);
+            } else {
+                // A jolt that only slows the block down leaves the sign that asked for it, or a clutch would chatter at its zero.
+                state.jolted = self.drive_sign(state) != state.motion.drive;
+            }
+            self.settle(state, time, observer);
+        }
+    }
+
+    /// A controller's command to each clutch, at local time 0 of the piece of ground motion that follows. It takes effect after the
+    /// delay, at once where there is none.
+    pub fn order(&self, state: &mut MachineState<S>, wanted: [bool; 2], observer: &mut dyn DeviceObserver<S>) {
+        // What is to be released is released first, so that two that change places are never both engaged.
+        for engage in [false, true] {
+            for (index, &wish) in wanted.iter().enumerate() {
+                if wish == engage {
+                    self.give(state, index, wish);
+                }
+            }
+            if state.motion.phase == Phase::Rocking {
+                self.command(state, S::ZERO, observer);
+            } else if state.motion.phase == Phase::Rest {
+                self.carry_out_at_rest(state, S::ZERO, observer);
+            }
+        }
+    }
+
+    /// Clutches of a standing block that have been commanded for long.
+    pub fn preset(&self, state: &mut MachineState<S>, engaged: [bool; 2]) {
+        for (index, &engage) in engaged.iter().enumerate() {
+            let wheel = &mut state.device.wheels[index & 1];
+            (wheel.commanded, wheel.obeys, wheel.dwell) = (engage, true, S::ZERO);
+            (wheel.pending, wheel.under_way) = (-S::ONE, UnderWay::default());
+            if engage {
+                self.with_instant(state, S::ZERO, &mut (), |drive, at| drive.engage(at, index));
+            }
+        }
+        state.motion.velocity = S::ZERO;
+    }
+
+    /// Commands to the clutches of a standing block that are due.
+    pub(super) fn carry_out_at_rest(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+        for index in 0..2 {
+            while state.device.wheels[index].pending == S::ZERO {
+                self.carry_out(state, index, time, observer);
+                state.motion.velocity = S::ZERO;
+            }
+        }
+    }
+
+    /// A command to one clutch, if it is new.
+    fn give(&self, state: &mut MachineState<S>, index: usize, engage: bool) {
+        let device = &mut state.device;
+        let wheel = &mut device.wheels[index];
+        if wheel.commanded == engage {
+            return;
+        }
+        wheel.commanded = engage;
+        let open = wheel.coupling == Coupling::Open;
+        let delay = if engage {
+            device.engagements += 1;
+            wheel.obeys = !self.actuator.misses(device.engagements);
+            device.missed += u32::from(!wheel.obeys);
+            self.actuator.engagement_delay
+        } else {
+            self.actuator.release_delay
+        };
+        if self.actuator.transport {
+            if wheel.obeys || !engage {
+                let soonest = if wheel.pending < S::ZERO { delay.larger(wheel.dwell) } else { delay };
+                wheel.pending = wheel.under_way.send(engage, soonest, wheel.pending);
+            }
+            return;
+        }
+        // Where it is already what it shall be, an older command is only taken back.
+        let moves = if engage { open && wheel.obeys } else { !open };
+        wheel.pending = if moves { delay.larger(wheel.dwell) } else { -S::ONE };
+    }
+
+    /// Whether the command that is due is one to engage.
+    fn due_command(&self, wheel: &Wheel<S>) -> bool {
+        if self.actuator.transport { wheel.under_way.first() } else { wheel.commanded }
+    }
+
+    #[inline(never)]
+    fn carry_out(&self, state: &mut MachineState<S>, index: usize, time: S, observer: &mut dyn DeviceObserver<S>) {
+        let wheel = &mut state.device.wheels[index];
+        let engage = self.due_command(wheel);
+        // By a transport delay a command may find the clutch as it shall be: the one before it was missed.
+        let moves = engage == (wheel.coupling == Coupling::Open);
+        if moves {
+            (wheel.dwell, wheel.engaged_for) = (self.actuator.dwell, S::ZERO);
+        }
+        wheel.pending = if self.actuator.transport { wheel.under_way.arrived(wheel.dwell) } else { -S::ONE };
+        if !moves {
+            return;
+        }
+        self.with_instant(state, time, observer, |drive, at| {
+            if engage {
+                drive.engage(at, index);
+            } else {
+                drive.release(at, index);
+            }
+        });
+        // What the acceleration of Eq. 10 is does not depend on the clutches.
+        state.fresh[1..].fill(false);
+    }
+
+    /// Time until something happens by the clock alone, s.
+    fn next_due(&self, state: &MachineState<S>) -> Option<S> {
+        if !self.drive.traits().commanded {
+            return None;
+        }
+        let mut due = state.device.next_due().filter(|time| *time > S::ZERO);
+        if let Some(gears) = self.drive.gears().filter(|gears| gears.rise_time > S::ZERO) {
+            for wheel in &state.device.wheels {
+                if let Some(time) = ramp_due(gears, wheel, state.held) {
+                    due = Some(due.map_or(time, |sooner: S| sooner.smaller(time)));
+                }
+            }
+        }
+        due
+    }
+
+    /// `stop`, or the instant before it at which something happens by the clock alone.
+    pub(super) fn until_due(&self, state: &mut MachineState<S>, time: S, stop: S) -> S {
+        let Some(due) = self.next_due(state) else { return stop };
+        let stop = stop.smaller(time + due);
+        if stop <= time {
+            // What the clock cannot tell from now is due now.
+            state.device.elapse(due);
+        }
+        stop
+    }
+
+    /// A clock has run out: a rising capacity may start a flywheel that stood.
+    pub(super) fn ramps(&self, state: &mut MachineState<S>) {
+        let Some(gears) = self.drive.gears().filter(|gears| gears.rise_time > S::ZERO) else { return };
+        for wheel in &mut state.device.wheels {
+            if let (Coupling::Slipping(sign) | Coupling::Saturated(sign), None) = (wheel.coupling, wheel.turning) {
+                let capacity = gears.capacity_of(wheel).0;
+                gears.settle(wheel, sign.times(rounded_up(capacity)));
+            }
+        }
+    }
+
+    /// Takes the sign of the terminals' acceleration as it is now.
+    #[inline(never)]
+    pub(super) fn look_at_drive(&self, state: &mut MachineState<S>) {
+        if self.drive.traits().commanded {
+            (state.motion.drive, state.jolted) = (self.drive_sign(state), false);
+        }
+    }
+
+    /// Sign of the terminals' acceleration under weight and ground in the present state; where it is zero, as it was.
+    #[inline(never)]
+    fn drive_sign(&self, state: &MachineState<S>) -> Sign {
+        let motion = &state.motion;
+        let law = self.drive.law(motion.direction, Sign::Positive, &state.device);
+        let now = crate::equation::motion::Motion { rotation: motion.rotation, velocity: motion.velocity, acceleration: S::ZERO };
+        let moment = self.moment(&law, motion.side, &now, self.drive.load(&state.device), state.ground, S::ZERO);
+        Sign::of(self.drive.guard(&moment, S::ZERO, Watch::Command(S::ONE)), motion.drive)
+    }
+}

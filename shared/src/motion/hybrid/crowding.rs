@@ -1,0 +1,35 @@
+//! Events that crowd: how a graze is told from a motion, and what is reported of one that does not end.
+
+use super::MachineState;
+use crate::drivetrain::clutch_state::Coupling;
+use crate::math::scalar::Real;
+use crate::motion::state::{Phase, Stopped};
+
+/// Events that may follow one another at once before that is taken for a graze: a guard touches zero, and rounding decides in which mode
+/// the motion goes on, anew each time.
+pub(super) const MOST_AT_ONCE: u32 = 16;
+
+/// How far apart events at once are, in 1/p.
+pub(super) const AT_ONCE: f64 = 1e-9;
+
+/// How far a graze is followed without guards, in 1/p: what they watch stays below the square of that.
+pub(super) const GRAZE: f64 = 1e-6;
+
+/// The error of a state that events do not let go.
+pub(super) fn too_many<S: Real>(state: &MachineState<S>, time: S) -> Stopped {
+    let has = |is: fn(&Coupling) -> bool| state.device.wheels.iter().any(|wheel| is(&wheel.coupling));
+    let mode = if state.motion.phase == Phase::Rest {
+        "the block stands"
+    } else if state.held {
+        "friction holds the block"
+    } else if has(|coupling| matches!(coupling, Coupling::Slipping(_) | Coupling::Saturated(_))) {
+        "a clutch slips"
+    } else if has(|coupling| matches!(coupling, Coupling::InPlay | Coupling::Elastic(_))) {
+        "a clutch stretches"
+    } else if has(|coupling| *coupling == Coupling::Locked) {
+        "a clutch holds"
+    } else {
+        "the clutches are open"
+    };
+    Stopped::TooManyEvents { time: time.to_f64(), mode }
+}

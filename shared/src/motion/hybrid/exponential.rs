@@ -1,0 +1,201 @@
+//! The exponential midpoint step: the spring of a clutch is solved exactly, so that its stiffness does not bound the step.
+//!
+//! With ℓ, the weight, the ground and all losses frozen at the middle of the step, rack and flywheel are a linear oscillator in
+//! the twist y = x − o of the clutch,
+//!
+//! ÿ + q C ẏ + q K y = ℓA − r,  q = ℓ²/(1 + K_r ℓ²) + 1/k,
+//!
+//! where A and r are the accelerations of block and flywheel without the clutch. Its solution is known for any step; the momentum
+//! that the spring has passed on follows from J = ∫F dt = ((ℓA − r) h − Δẏ)/q. What is frozen makes the step one of order 2, whatever
+//! K and C are (Hochbruck and Ostermann 2010, for the frozen-coefficient view).
+
+use super::path::{KnownStart, PathStart};
+use super::steps::Unknowns;
+use crate::drivetrain::any_drive::first;
+use crate::drivetrain::clutch_state::Law;
+use crate::drivetrain::drive::Drive;
+use crate::equation::body::Body;
+use crate::math::scalar::Real;
+
+/// ÿ + 2a ẏ + Ω² y = B, from y and ẏ over `h`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Oscillator<S> {
+    /// a, 1/s; 0 or more.
+    pub damping: S,
+    /// Ω², 1/s²; above 0.
+    pub stiffness: S,
+    /// B, 1/s².
+    pub push: S,
+}
+
+impl<S: Real> Oscillator<S> {
+    /// y and ẏ after `h` (s), in closed form.
+    pub fn after(&self, h: S, (y, rate): (S, S)) -> (S, S) {
+        let Oscillator { damping: a, stiffness, push } = *self;
+        let middle = push / stiffness;
+        let u = y - middle;
+        let discriminant = stiffness - a * a;
+        let w = discriminant.abs().square_root();
+        let x = w * h;
+        if discriminant < S::ZERO && x >= S::of(1e-3) {
+            let fast = a + w;
+            let slow = stiffness / fast;
+            let (slow_left, fast_left) = ((-(slow * h)).exp(), (-(fast * h)).exp());
+            let (p, q) = (rate + fast * u, rate + slow * u);
+            let scale = S::HALF / w;
+            return (middle + (p * slow_left - q * fast_left) * scale, (fast * q * fast_left - slow * p * slow_left) * scale);
+        }
+        // Critical damping is where both formulas lose their digits: sin x/x and cos x as series there.
+        let (cos, sin_over_w) = if x < S::of(1e-3) {
+            let squared = if discriminant < S::ZERO { -(x * x) } else { x * x };
+            (S::ONE - S::HALF * squared, h * (S::ONE - squared * S::of(1.0 / 6.0)))
+        } else {
+            let (sin, cos) = x.sin_cos_of_phase();
+            (cos, sin / w)
+        };
+        let left = (-(a * h)).exp();
+        (middle + left * (u * cos + (rate + a * u) * sin_over_w), left * (rate * cos - (stiffness * u + a * rate) * sin_over_w))
+    }
+}
+
+/// What is frozen over a step.
+struct Frozen<S, const X: usize> {
+    arm: S,
+    /// ℓ/(1 + K_r ℓ²).
+    leverage: S,
+    acceleration: S,
+    rates: [S; X],
+}
+
+/// The law without its springs.
+fn springless<S: Real>(law: &Law<S>) -> Law<S> {
+    Law { stiffness: [S::ZERO; 2], damping: [S::ZERO; 2], ..*law }
+}
+
+fn freeze<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+    soft: &KnownStart<'_, S, B, D>,
+    t: S,
+    (rotation, velocity, extra): &Unknowns<S, X>,
+) -> Frozen<S, X> {
+    let (acceleration, rates) = soft.rates(t, *rotation, *velocity, extra);
+    let PathStart { ref law, side, .. } = *soft.start;
+    let arm = soft.body.arm(&soft.body.posture(side.unit(), *rotation));
+    let leverage = if soft.is_held() { S::ZERO } else { arm / (S::ONE + law.coupling * arm * arm) };
+    Frozen { arm, leverage, acceleration, rates }
+}
+
+/// The frozen system over `h`, exactly.
+fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+    known: &KnownStart<'_, S, B, D>,
+    frozen: &Frozen<S, X>,
+    h: S,
+) -> Unknowns<S, X> {
+    let start = known.start;
+    let law = &start.law;
+    let half_square = S::HALF * h * h;
+    let mut velocity = start.velocity + h * frozen.acceleration;
+    let mut rotation = start.rotation + h * start.velocity + half_square * frozen.acceleration;
+    let given: [S; X] = first(&start.extra);
+    let mut extra = given;
+    for (value, &rate) in extra.iter_mut().zip(&frozen.rates) {
+        *value = *value + h * rate;
+    }
+    let Some(gears) = known.drive.gears() else { return (rotation, velocity, extra) };
+    // A spring between a block and a flywheel that are both held keeps its twist.
+    let contact = [0, 1].map(|i| law.stiffness[i] > S::ZERO && !(known.is_held() && law.moves[i] == S::ZERO));
+    let both = contact[0] && contact[1];
+    let coupled = frozen.arm * frozen.leverage;
+    let twist = [0, 1].map(|i| given[i + 2] - law.rest_twist[i]);
+    let slide = [0, 1].map(|i| frozen.arm * start.velocity - given[i]);
+    let push = [0, 1].map(|i| frozen.arm * frozen.acceleration - frozen.rates[i]);
+    let gain = [0, 1].map(|i| if both { gears.mobility } else { law.moves[i] * gears.mobility });
+    // Impulse of each spring and its integral. Two springs of one kind part into their mean and their difference.
+    let mode = |q: S, push: S, y: S, rate: S| {
+        let oscillator = Oscillator { damping: S::HALF * q * gears.damping, stiffness: q * gears.stiffness, push };
+        let (y_end, rate_end) = oscillator.after(h, (y, rate));
+        let impulse = (push * h - (rate_end - rate)) / q;
+        let integral = (push * half_square - (y_end - y - rate * h)) / q;
+        (y_end, impulse, integral)
+    };
+    let none = (S::ZERO, S::ZERO, S::ZERO);
+    let springs = if both {
+        let two = S::of(2.0);
+        let (sum, sum_j, sum_jj) =
+            mode(two * coupled + gears.mobility, push[0] + push[1], twist[0] + twist[1], slide[0] + slide[1]);
+        let (difference, j, jj) = mode(gears.mobility, push[0] - push[1], twist[0] - twist[1], slide[0] - slide[1]);
+        let half = |a: S, b: S| S::HALF * (a + b);
+        [(half(sum, difference), half(sum_j, j), half(sum_jj, jj)), (half(sum, -difference), half(sum_j, -j), half(sum_jj, -jj))]
+    } else {
+        [0, 1].map(|i| if contact[i] { mode(coupled + gain[i], push[i], twist[i], slide[i]) } else { none })
+    };
+    for i in 0..2 {
+        if contact[i] {
+            let (y, impulse, integral) = springs[i];
+            velocity = velocity - frozen.leverage * impulse;
+            rotation = rotation - frozen.leverage * integral;
+            extra[i] = extra[i] + gain[i] * impulse;
+            extra[i + 2] = law.rest_twist[i] + y;
+        } else if law.relaxation[i] > S::ZERO {
+            // The twist of a saturated clutch relaxes by K/C: exactly, too.
+            let held = law.slip[i] / gears.stiffness;
+            extra[i + 2] = law.rest_twist[i] + held + (twist[i] - held) * (-(gears.stiffness * law.relaxation[i] * h)).exp();
+        }
+    }
+    (rotation, velocity, extra)
+}
+
+/// The unknowns a time `h` after the start. Order 2; stable for every stiffness.
+pub(super) fn midpoint<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+    known: &KnownStart<'_, S, B, D>,
+    h: S,
+) -> Unknowns<S, X> {
+    let start = known.start;
+    let soft = PathStart { law: springless(&start.law), ..*start };
+    let soft = KnownStart { start: &soft, ..*known };
+    let half = S::HALF * h;
+    let here = freeze(&soft, S::ZERO, &(start.rotation, start.velocity, first(&start.extra)));
+    let middle = solve(known, &here, half);
+    let there = freeze(&soft, half, &middle);
+    solve(known, &there, h)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two half steps are one step, and the derivative at 0 is the equation.
+    #[test]
+    fn the_oscillator_is_a_flow_of_its_equation() {
+        for (damping, stiffness) in
+            [(0.0, 9.0), (0.3, 9.0), (3.0, 9.0), (3.0 + 1e-9, 9.0), (2.9999, 9.0), (40.0, 9.0), (5.0, 1e6)]
+        {
+            let oscillator = Oscillator { damping, stiffness, push: 0.7 };
+            let start = (0.2_f64, -1.1);
+            let half = oscillator.after(0.5, oscillator.after(0.5, start));
+            let whole = oscillator.after(1.0, start);
+            let size = 1.0 + stiffness.sqrt();
+            assert!((half.0 - whole.0).abs() < 1e-9 && (half.1 - whole.1).abs() < 1e-9 * size, "a = {damping}, Ω² = {stiffness}");
+            let h = 1e-5;
+            let (ahead, behind) = (oscillator.after(h, start), oscillator.after(-h, start));
+            let curvature = (ahead.1 - behind.1) / (2.0 * h);
+            let expected = 0.7 - 2.0 * damping * start.1 - stiffness * start.0;
+            assert!((curvature - expected).abs() < 1e-4 * (1.0 + expected.abs()), "a = {damping}: {curvature} and {expected}");
+        }
+    }
+
+    /// Any stiffness and any step: the amplitude never grows.
+    #[test]
+    fn no_stiffness_makes_it_grow() {
+        for stiffness in [1.0, 1e2, 1e4, 1e6, 1e8, 1e10, 1e12, 1e13] {
+            let stiffness: f64 = stiffness;
+            let oscillator = Oscillator { damping: 0.05 * stiffness.sqrt(), stiffness, push: 0.0 };
+            let (mut y, mut rate) = (1.0, 0.0);
+            let energy = |y: f64, rate: f64| 0.5 * (stiffness * y * y + rate * rate);
+            let first = energy(y, rate);
+            for _ in 0..100 {
+                (y, rate) = oscillator.after(0.01, (y, rate));
+                assert!(energy(y, rate) <= first * (1.0 + 1e-9));
+            }
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! Dry friction of rack and bearings may hold a block: tilted, where it turns, or on its base, where clutches engage as it starts.
+
+use super::path::{Shaking, Tracer};
+use super::threshold::{Threshold, earlier};
+use super::{Machine, MachineState};
+use crate::drivetrain::clutch_state::{Coupling, Law, Watch, Wheel};
+use crate::equation::body::Body;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::motion::device_snapshot::DeviceObserver;
+use crate::motion::state::Limits;
+
+impl<S: Real> Machine<S> {
+    /// At θ̇ = 0: the way on, if friction lets the block go.
+    #[inline(never)]
+    pub(super) fn turned(&self, state: &mut MachineState<S>) {
+        let (side, direction) = (state.motion.side, state.motion.direction);
+        // A block on its base goes nowhere but up.
+        let on = if state.motion.rotation == S::ZERO { side } else { direction };
+        let on_base = self.drive.traits().holds && state.motion.rotation == S::ZERO;
+        let goes = |sign: Sign| {
+            let threshold = self.breakaway(state, side, sign);
+            if self.drive.traits().holds { threshold.is_exceeded(state.ground) } else { threshold.at(state.ground) > S::ZERO }
+        };
+        let (goes_on, goes_back) = (goes(on), !on_base && goes(direction.opposite()));
+        state.held = self.drive.traits().holds && !goes_on && !goes_back;
+        if on_base {
+            state.motion.direction = side;
+        } else if !goes_on && goes_back {
+            state.motion.direction = direction.opposite();
+        }
+    }
+
+    /// Follows a held block until the push is strong enough or `stop`. Returns the time.
+    pub(super) fn hold(
+        &self,
+        state: &mut MachineState<S>,
+        shaking: Shaking<'_, S>,
+        time: S,
+        stop: S,
+        observer: &mut dyn DeviceObserver<S>,
+    ) -> S {
+        let end = self.let_go(state, shaking, time, stop);
+        let until = end.map_or(stop, |(at, _)| at);
+        let whole = until - time;
+        let length = self.until_stop(state, whole);
+        let (until, end) = if length < whole { (time + length, None) } else { (until, end) };
+        if until > time {
+            self.show_still(state, &|t| shaking.at(time + t), time, until - time, observer);
+        }
+        // What the clock cannot tell from now still stops a flywheel.
+        self.idle(state, length);
+        state.ground = shaking.at(until);
+        match end {
+            Some((_, LetGo::Moves { sign, crossing })) => self.set_off(state, (sign, crossing), until, observer),
+            Some((_, LetGo::Rests)) => *state = self.standing(state, until, observer),
+            None => {}
+        }
+        until
+    }
+
+    /// When a held block is let go before `stop`, and how. On its base it can only go up, and its weight alone may hold it again.
+    fn let_go(&self, state: &MachineState<S>, shaking: Shaking<'_, S>, time: S, stop: S) -> Option<(S, LetGo)> {
+        let side = state.motion.side;
+        let first = |threshold: Threshold<S>| threshold.exceeded(shaking, time, stop);
+        let moves = |sign| first(self.breakaway(state, side, sign)).map(|(at, crossing)| (at, LetGo::Moves { sign, crossing }));
+        let ends = if state.motion.rotation == S::ZERO {
+            [moves(side), first(self.weight(state)).map(|(at, _)| (at, LetGo::Rests))]
+        } else {
+            [moves(Sign::Positive), moves(Sign::Negative)]
+        };
+        earlier(ends)
+    }
+
+    /// What holds a block on its base without its clutches.
+    fn weight(&self, state: &MachineState<S>) -> Threshold<S> {
+        let side = state.motion.side;
+        self.breakaway(&self.standing(state, S::ZERO, &mut ()), side, side).opposite()
+    }
+
+    /// A held block goes, towards `sign`, as what moves it passes what holds it (`crossing`) or jumps beyond.
+    #[inline(never)]
+    pub(super) fn set_off(
+        &self,
+        state: &mut MachineState<S>,
+        (sign, crossing): (Sign, bool),
+        time: S,
+        observer: &mut dyn DeviceObserver<S>,
+    ) {
+        (state.held, state.free) = (false, crossing);
+        state.motion.direction = sign;
+        if state.motion.rotation == S::ZERO {
+            self.leave_base(state, time, observer);
+        } else {
+            self.look_at_drive(state);
+        }
+        self.settle(state, time, observer);
+    }
+
+    /// At θ̇ = 0, where what holds or moves the block has changed: a held block that nothing holds any more goes. Whether it does.
+    pub(super) fn try_to_set_off(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) -> bool {
+        let was_held = state.held;
+        self.turned(state);
+        let goes = was_held && !state.held;
+        if goes {
+            self.set_off(state, (state.motion.direction, false), time, observer);
+        }
+        goes
+    }
+
+    /// A clutch stretches or plays, so that its flywheel swings while the block is held.
+    pub(super) fn has_springs(&self, state: &MachineState<S>) -> bool {
+        let stiff = |wheel: &Wheel<S>| matches!(wheel.coupling, Coupling::Open | Coupling::Locked | Coupling::Slipping(_));
+        self.drive.traits().springs && !state.device.wheels.iter().all(stiff)
+    }
+
+    /// The equations of a held block: what its springs do moves flywheels alone, until they or the ground overcome the rack's friction.
+    pub(super) fn hold_law(&self, state: &MachineState<S>, law: &mut Law<S>) {
+        let (side, rotation) = (state.motion.side.unit(), state.motion.rotation);
+        let posture = self.body.posture(side, rotation);
+        let moment = self.body.along(&posture, law.dry.abs());
+        let friction = self.body.over_inertia(&posture, moment, law.coupling, S::ZERO);
+        law.dry = S::ZERO;
+        law.watch[0] = if rotation == S::ZERO { Watch::HeldDown(friction, side) } else { Watch::Stuck(friction) };
+    }
+
+    /// [`Machine::hold`] with springs: one step, up to its first event.
+    pub(super) fn hold_springs<T: Tracer<S>>(
+        &self,
+        tracer: &T,
+        state: &mut MachineState<S>,
+        shaking: Shaking<'_, S>,
+        (time, stop): (&mut S, S),
+        guarded: (&Limits<S>, bool),
+        observer: &mut dyn DeviceObserver<S>,
+    ) {
+        let on_base = state.motion.rotation == S::ZERO;
+        let rests = if on_base { self.weight(state).exceeded(shaking, *time, stop) } else { None };
+        let end = rests.map_or(stop, |(at, _)| at);
+        if end > *time {
+            self.follow(tracer, state, shaking, (time, end), guarded, observer);
+        }
+        if rests.is_some() && *time == end {
+            *state = self.standing(state, *time, observer);
+        } else if state.held {
+            // An event of its device may let it go.
+            self.try_to_set_off(state, *time, observer);
+        }
+    }
+
+    /// What moves a held block has reached what holds it.
+    pub(super) fn break_away(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+        let side = state.motion.side;
+        let push = |sign| self.breakaway(state, side, sign).at(state.ground);
+        let outward = state.motion.rotation == S::ZERO || push(side) > push(side.opposite());
+        let sign = if outward { side } else { side.opposite() };
+        self.set_off(state, (sign, true), time, observer);
+    }
+}
+
+/// What lets a held block go.
+#[derive(Clone, Copy, Debug)]
+enum LetGo {
+    /// The push overcomes friction.
+    Moves {
+        /// Towards.
+        sign: Sign,
+        /// By crossing the threshold, not by a jump.
+        crossing: bool,
+    },
+    /// On its base, the weight alone holds it.
+    Rests,
+}

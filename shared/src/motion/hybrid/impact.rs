@@ -1,0 +1,130 @@
+//! What an impact does to block and device, and how impacts that accumulate end in rest.
+
+use super::path::Shaking;
+use super::{Machine, MachineState};
+use crate::drivetrain::clutch_state::WATCHES;
+use crate::equation::body::Body;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::motion::device_snapshot::DeviceObserver;
+use crate::motion::observer::Event;
+use crate::motion::rest::impact_accumulation::Accumulation;
+use crate::motion::state::Phase;
+
+/// Pairs of swings below the rest speed that are followed in one piece when their impacts do not end them.
+const MOST_IDLE_SWINGS: f64 = 1e3;
+
+impl<S: Real> Machine<S> {
+    /// θ = 0. Returns the time, which rest moves on to the end of the impacts that it stands for.
+    pub(super) fn impact(
+        &self,
+        state: &mut MachineState<S>,
+        shaking: Shaking<'_, S>,
+        time: S,
+        duration: S,
+        observer: &mut dyn DeviceObserver<S>,
+    ) -> S {
+        let motion = &mut state.motion;
+        let incoming = motion.velocity;
+        if incoming.abs() >= self.counted_speed {
+            motion.impacts += 1;
+        }
+        // A turn and a hit in one ulp leave the direction of before the turn.
+        motion.direction = Sign::of(incoming, motion.direction);
+        let before = {
+            let posture = self.body.posture(motion.side.unit(), S::ZERO);
+            self.body.along(&posture, incoming)
+        };
+        let engaged = self.drive.engaged_at_impact(&state.device);
+        motion.velocity = self.restitution[engaged.min(2)] * incoming;
+        motion.side = motion.direction;
+        self.look_at_drive(state);
+        let velocity = state.motion.velocity;
+        observer.device_event(Event::Impact, time, &state.motion);
+        self.with_instant(state, time, observer, |drive, at| {
+            drive.impact(at, before);
+            drive.settle(at);
+        });
+        if velocity.abs() > self.rest_speed {
+            return time;
+        }
+        let standing = self.standing(state, time, &mut ());
+        if self.uplifting(&standing, state.ground) > S::ZERO {
+            self.stay_on_base(state, time, observer);
+            return time;
+        }
+        let tail = self.accumulation(&standing, velocity.abs());
+        let ends = time + tail.duration;
+        let holds = ends <= duration && self.uplifting(&standing, shaking.at(ends)) < S::ZERO;
+        let lingers = duration - time > tail.swing * S::of(MOST_IDLE_SWINGS);
+        let hopeless = velocity.abs() <= self.rest_speed * S::EPSILON;
+        if !(holds || lingers || hopeless) {
+            return time;
+        }
+        let ends = if holds { ends } else { time };
+        *state = standing;
+        state.motion.impacts += tail.impacts;
+        observer.device_event(Event::Rest, ends, &state.motion);
+        // What its clutches let go shows at once, and what coasts until then after it.
+        self.show_instant(state, time, observer);
+        self.stand(state, &|t| shaking.at(time + t), time, ends, observer);
+        ends
+    }
+
+    /// The infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]).
+    fn accumulation(&self, standing: &MachineState<S>, speed: S) -> Accumulation<S> {
+        let side = standing.motion.side;
+        let rates = |side: Sign| {
+            let posture = self.body.posture(side.unit(), S::ZERO);
+            let arm = self.body.arm(&posture);
+            let held = -self.breakaway(standing, side, side).at(standing.ground);
+            let over = |inward: bool| {
+                let inertia = S::ONE + self.drive.swing_coupling(inward) * arm * arm;
+                (held / inertia).larger(S::EPSILON * S::EPSILON)
+            };
+            (over(false), over(true))
+        };
+        Accumulation::of(rates(side), rates(side.opposite()), self.restitution[0], speed, self.counted_speed)
+    }
+
+    /// Signs and modes of a block that has just been released.
+    pub(super) fn start(&self, state: &mut MachineState<S>) {
+        let inward = state.motion.side.opposite();
+        state.motion.drive = inward;
+        self.look_at_drive(state);
+        if state.motion.velocity == S::ZERO {
+            self.turned(state);
+        }
+        self.settle(state, S::ZERO, &mut ());
+        self.command(state, S::ZERO, &mut ());
+        if state.motion.velocity == S::ZERO {
+            self.turned(state);
+        }
+    }
+
+    /// The ground may have jumped between two pieces.
+    pub(super) fn ground_at_start(&self, state: &mut MachineState<S>, ground: [S; 2], observer: &mut dyn DeviceObserver<S>) {
+        let jump = (ground[0] - state.ground[0]).abs().larger((ground[1] - state.ground[1]).abs());
+        state.ground = ground;
+        let size = ground[0].abs().larger(ground[1].abs()).larger(S::EPSILON);
+        if state.motion.phase == Phase::Rocking && jump > size * S::EPSILON * S::of(4096.0) {
+            self.look_at_drive(state);
+            state.fresh = [false; WATCHES];
+            if state.motion.velocity == S::ZERO {
+                self.try_to_set_off(state, S::ZERO, observer);
+            }
+            self.settle(state, S::ZERO, observer);
+            self.command(state, S::ZERO, observer);
+        }
+    }
+
+    /// Time passes for an idle device.
+    pub(super) fn idle(&self, state: &mut MachineState<S>, time: S) {
+        if let Some(gears) = self.drive.gears() {
+            for wheel in &mut state.device.wheels {
+                gears.coast(wheel, time);
+            }
+        }
+        state.device.elapse(time);
+    }
+}

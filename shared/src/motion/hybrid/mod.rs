@@ -1,0 +1,465 @@
+//! A rocking block whose device has a memory: flywheels that keep spinning, clutches that slip, stretch and come late.
+//!
+//! Such a system is hybrid: smooth motion in one mode, until a watched function reaches zero and another mode takes over. Every
+//! event is located on the path ([`path`]), and every mode is left in one that is consistent at that instant. Ideal devices have
+//! a loop of their own ([`crate::motion::ideal`]) that knows none of this; both agree where both apply.
+//!
+//! As there, signs are part of the state, so that an event just handled is not found again.
+//!
+//! The room imports what is directly in `motion`, `motion::rest`, and every room below `motion`.
+
+mod command;
+mod crowding;
+pub mod exponential;
+mod hold;
+mod impact;
+pub mod path;
+pub mod resolve;
+mod seen;
+pub mod series;
+mod standing;
+pub mod steps;
+mod threshold;
+
+pub use command::Actuator;
+
+use crate::drivetrain::any_drive::AnyDrive;
+use crate::drivetrain::clutch_state::{Coupling, Device, Law, WATCHES, Watch};
+use crate::drivetrain::drive::{AnyMoment, Instant, Moment, UNKNOWNS};
+use crate::drivetrain::power_loss::Spent;
+use crate::equation::any_body::AnyBody;
+use crate::equation::body::Body;
+use crate::equation::motion::Motion;
+use crate::math::root::locate;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::method::dense_output::Arc;
+use crate::method::step_grid::next_stop;
+use crate::motion::device_snapshot::{DeviceObserver, Snapshot};
+use crate::motion::observer::{Event, Stretch};
+use crate::motion::state::{Limits, Phase, State, Stopped};
+use crowding::{AT_ONCE, GRAZE, MOST_AT_ONCE, too_many};
+use path::{Path, PathStart, Shaking, Tracer};
+use seen::Seen;
+
+/// A block with its device, resolved into their equations.
+#[derive(Clone, Copy, Debug)]
+pub struct Machine<S> {
+    /// The block.
+    pub body: AnyBody<S>,
+    /// The device.
+    pub drive: AnyDrive<S>,
+    /// Velocity after an impact over that before, with 0, 1 and 2 flywheels engaged through it; each 0 to 1.
+    pub restitution: [S; 3],
+    /// α, rad: the size of a rotation that matters.
+    pub slenderness: S,
+    /// pα, rad/s: the size of an angular velocity that matters.
+    pub speed: S,
+    /// θ̇ (rad/s) below which an impact may end in rest.
+    pub rest_speed: S,
+    /// θ̇ (rad/s) below which an impact does not count.
+    pub counted_speed: S,
+    /// What lies between a command and the clutch.
+    pub actuator: Actuator<S>,
+}
+
+/// The state of a block with a device.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MachineState<S> {
+    /// The block's.
+    pub motion: State<S>,
+    /// The device's.
+    pub device: Device<S>,
+    /// Friction holds the block: tilted, at a turn, or on its base, where clutches engaged as it started.
+    pub held: bool,
+    /// Ground acceleration at the end of the last piece, in g.
+    pub ground: [S; 2],
+    /// The watched functions that are zero here, by an event just handled.
+    fresh: [bool; WATCHES],
+    /// What moves a block that stood has just passed what held it.
+    free: bool,
+    /// The sign of Eq. 10 is one that a jolt left; the acceleration does not agree with it yet.
+    jolted: bool,
+}
+
+/// What ended a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum End {
+    Reached,
+    Turn,
+    Impact,
+    Overturned,
+    Guard(usize),
+    Stopped(usize),
+}
+
+impl<S: Real> Machine<S> {
+    /// A block that stands, with an idle device.
+    pub fn at_rest(&self) -> MachineState<S> {
+        let motion = State::default();
+        let ground = [S::ZERO; 2];
+        let mut state = MachineState {
+            motion,
+            device: Device::at_rest(),
+            held: false,
+            ground,
+            fresh: [false; WATCHES],
+            free: false,
+            jolted: false,
+        };
+        self.part_at_rest(&mut state, S::ZERO, &mut ());
+        state
+    }
+
+    /// A block released at θ (rad) with θ̇ (rad/s) while the ground accelerates by `ground` (in g).
+    pub fn released_at(&self, rotation: S, velocity: S, ground: [S; 2]) -> MachineState<S> {
+        let mut state = self.at_rest();
+        let side = Sign::of(rotation, Sign::of(velocity, Sign::Positive));
+        state.motion = State { rotation, velocity, phase: Phase::Rocking, side, ..State::default() };
+        state.motion.direction = Sign::of(velocity, side.opposite());
+        state.ground = ground;
+        self.start(&mut state);
+        state
+    }
+
+    /// Follows block and device over a piece of ground motion from its local time 0 to `duration` (s), telling `observer`
+    /// of every stretch and event.
+    ///
+    /// # Errors
+    /// [`Stopped`], with the state as it was then.
+    pub fn advance<T: Tracer<S>>(
+        &self,
+        tracer: &T,
+        state: &mut MachineState<S>,
+        shaking: Shaking<'_, S>,
+        duration: S,
+        limits: &Limits<S>,
+        observer: &mut dyn DeviceObserver<S>,
+    ) -> Result<(), Stopped> {
+        let mut time = S::ZERO;
+        let mut tick = 0_u32;
+        let mut events = 0_u32;
+        let mut at_once = 0_u32;
+        // 1/p.
+        let unit = self.slenderness / self.speed;
+        self.ground_at_start(state, shaking.at(S::ZERO), observer);
+        while time < duration && state.motion.phase != Phase::Overturned {
+            if events >= limits.events {
+                return Err(too_many(state, time));
+            }
+            events += 1;
+            if state.motion.phase == Phase::Rest {
+                let stop = self.stands_until(state, time, duration);
+                let uplift = self.uplift_time(state, shaking, time, stop);
+                let until = uplift.map_or(stop, |(at, _)| at);
+                self.stand(state, &|t| shaking.at(time + t), time, until, observer);
+                time = until;
+                if let Some((_, crossing)) = uplift {
+                    self.uplift(state, shaking.at(time), time, crossing, observer);
+                } else if time < duration {
+                    self.carry_out_at_rest(state, time, observer);
+                    continue;
+                } else {
+                    break;
+                }
+            }
+            let outward = state.motion.side == state.motion.direction
+                && state.motion.side.times(state.motion.rotation) >= limits.overturned;
+            if outward {
+                state.motion.phase = Phase::Overturned;
+                observer.device_event(Event::Overturned, time, &state.motion);
+                break;
+            }
+            let step = tracer.step().map_or(duration, |step| next_stop(&mut tick, step, time, duration));
+            let mut stop = self.until_due(state, time, step);
+            let before = time;
+            let grazes = at_once >= MOST_AT_ONCE;
+            if grazes {
+                stop = stop.smaller(time + (S::of(GRAZE) * unit).larger(S::of(4.0) * S::EPSILON * time));
+            }
+            if stop <= time {
+            } else if state.held && !self.has_springs(state) {
+                time = self.hold(state, shaking, time, stop, observer);
+            } else if state.held {
+                self.hold_springs(tracer, state, shaking, (&mut time, stop), (limits, !grazes), observer);
+            } else {
+                self.follow(tracer, state, shaking, (&mut time, stop), (limits, !grazes), observer);
+            }
+            at_once = if time - before > S::of(AT_ONCE) * unit { 0 } else { at_once + 1 };
+            self.ramps(state);
+            self.command(state, time, observer);
+            if !(state.motion.rotation.is_finite() && state.motion.velocity.is_finite()) {
+                return Err(Stopped::NotFinite { time: time.to_f64() });
+            }
+        }
+        state.ground = shaking.at(duration);
+        Ok(())
+    }
+
+    /// One step, up to its first event.
+    #[inline]
+    fn follow<T: Tracer<S>>(
+        &self,
+        tracer: &T,
+        state: &mut MachineState<S>,
+        shaking: Shaking<'_, S>,
+        (time, stop): (&mut S, S),
+        (limits, guarded): (&Limits<S>, bool),
+        observer: &mut dyn DeviceObserver<S>,
+    ) {
+        let motion = &state.motion;
+        // Without springs a held block has no path.
+        let traits = self.drive.traits();
+        let held = traits.springs && state.held;
+        let watched = if state.jolted { motion.drive.opposite() } else { motion.drive };
+        let mut law = self.drive.law(motion.direction, watched, &state.device);
+        if held {
+            self.hold_law(state, &mut law);
+        }
+        let start = PathStart {
+            body: &self.body,
+            drive: &self.drive,
+            law,
+            shaking,
+            side: motion.side,
+            rotation: motion.rotation,
+            velocity: motion.velocity,
+            extra: self.drive.load(&state.device),
+            time: *time,
+            length: stop - *time,
+            freed: state.free && motion.velocity == S::ZERO,
+            held,
+            scale: self.slenderness,
+            speed: self.speed,
+        };
+        let path = tracer.path(start);
+        let length = path.length();
+        let mut until = length;
+        let mut end = End::Reached;
+        if !held && let Some(turn) = path.velocity_zero(until, motion.direction, motion.velocity == S::ZERO) {
+            (until, end) = (turn, End::Turn);
+        }
+        for guard in 0..traits.guards {
+            if guarded
+                && law.watch[guard] != Watch::Nothing
+                && let Some(zero) = path.guard_zero(guard, until, state.fresh[guard])
+            {
+                (until, end) = (zero, End::Guard(guard));
+            }
+        }
+        if traits.unknowns >= 2
+            && let Some(gears) = self.drive.gears()
+        {
+            for (i, wheel) in state.device.wheels.iter().enumerate() {
+                // Without dry friction nothing changes where a flywheel stands for an instant.
+                let stops = wheel.coupling != Coupling::Locked && gears.dry_of(wheel) > S::ZERO;
+                if let (Some(turning), true) = (wheel.turning, stops)
+                    && let Some(zero) = path.extra_zero(i, until, turning, wheel.spin == S::ZERO)
+                {
+                    (until, end) = (zero, End::Stopped(i));
+                }
+            }
+        }
+        let mut last = path.at(until);
+        // θ is monotone up to here.
+        let crossing = |level: S, before: Sign| {
+            locate(S::ZERO, until, before, S::HALF * until, |t| {
+                let motion = path.at(t);
+                (motion.rotation - level, motion.velocity)
+            })
+        };
+        if motion.side.times(last.rotation) < S::ZERO {
+            until = crossing(S::ZERO, motion.side);
+            (end, last) = (End::Impact, path.at(until));
+        } else if motion.side == motion.direction && motion.side.times(last.rotation) > limits.overturned {
+            until = crossing(motion.side.times(limits.overturned), motion.side.opposite());
+            (end, last) = (End::Overturned, path.at(until));
+        }
+        let first = path.at(S::ZERO);
+        let engaged = state.device.wheels.iter().any(|wheel| wheel.coupling != Coupling::Open);
+        let stretch = Stretch {
+            start: *time,
+            from: S::ZERO,
+            to: until,
+            first,
+            last,
+            engaged,
+            side: motion.side,
+            direction: motion.direction,
+        };
+        let seen = Seen { machine: self, path: &path, law: &law, state: &*state, shaking, time: *time };
+        if held && motion.rotation == S::ZERO {
+            observer.device_stands(&seen, &stretch);
+        } else {
+            observer.device_stretch(&seen, &stretch);
+        }
+        let extra = path.extra(until);
+        *time = if end == End::Reached && length == stop - *time { stop } else { *time + until };
+        let motion = &mut state.motion;
+        (motion.rotation, motion.velocity) = (last.rotation, last.velocity);
+        let posture = self.body.posture(motion.side.unit(), motion.rotation);
+        self.drive.store(&mut state.device, &extra, self.body.along(&posture, motion.velocity));
+        state.device.elapse(until);
+        (state.fresh, state.free) = ([false; WATCHES], false);
+        let ground = shaking.at(*time);
+        state.ground = ground;
+        match end {
+            End::Reached => {}
+            End::Turn => {
+                motion.velocity = S::ZERO;
+                observer.device_event(Event::Turn, *time, &state.motion);
+                state.motion.direction = state.motion.direction.opposite();
+                if state.jolted {
+                    self.look_at_drive(state);
+                }
+                self.settle(state, *time, observer);
+                // What the clutches of one way let go may move the block the other way, whose clutches then hold it.
+                for _ in 0..2 {
+                    let direction = state.motion.direction;
+                    if state.motion.velocity == S::ZERO {
+                        self.turned(state);
+                    }
+                    if state.motion.direction == direction {
+                        break;
+                    }
+                    self.settle(state, *time, observer);
+                }
+            }
+            End::Impact => {
+                state.motion.rotation = S::ZERO;
+                *time = self.impact(state, shaking, *time, stop, observer);
+            }
+            End::Overturned => {
+                motion.rotation = motion.side.times(limits.overturned);
+                motion.phase = Phase::Overturned;
+                observer.device_event(Event::Overturned, *time, &state.motion);
+            }
+            End::Guard(index) => {
+                match law.watch[index] {
+                    Watch::Stuck(_) | Watch::HeldDown(..) => return self.break_away(state, *time, observer),
+                    Watch::Command(_) if state.jolted => state.jolted = false,
+                    Watch::Command(_) => motion.drive = motion.drive.opposite(),
+                    watch => self.with_instant(state, *time, observer, |drive, at| drive.reached(at, watch)),
+                }
+                // Whatever is watched of a flywheel may be zero where its mode changes.
+                for (other, fresh) in state.fresh.iter_mut().enumerate() {
+                    *fresh |= (other == 0) == (index == 0) && other % 2 == index % 2;
+                }
+            }
+            End::Stopped(wheel) => self.stopped(state, wheel),
+        }
+    }
+
+    /// A flywheel has come to a stop; what acts on it decides which way it goes on, if at all.
+    fn stopped(&self, state: &mut MachineState<S>, index: usize) {
+        let law = self.drive.law(state.motion.direction, state.motion.drive, &state.device);
+        let motion = Motion { rotation: state.motion.rotation, velocity: state.motion.velocity, acceleration: S::ZERO };
+        let moment = self.moment(&law, state.motion.side, &motion, self.drive.load(&state.device), state.ground, S::ZERO);
+        let force = self.drive.account(&moment, S::ZERO, &state.device).force[index & 1];
+        let wheel = &mut state.device.wheels[index & 1];
+        wheel.spin = S::ZERO;
+        if let Some(gears) = self.drive.gears() {
+            gears.settle(wheel, force);
+        }
+    }
+
+    /// Lets the device answer an event, and tells of a change of its coupling.
+    fn with_instant(
+        &self,
+        state: &mut MachineState<S>,
+        time: S,
+        observer: &mut dyn DeviceObserver<S>,
+        answer: impl FnOnce(&AnyDrive<S>, &mut Instant<'_, S>),
+    ) {
+        let before = state.device.wheels.map(|wheel| wheel.coupling);
+        let motion = &mut state.motion;
+        let mut at = Instant {
+            body: &self.body,
+            side: motion.side,
+            direction: motion.direction,
+            rotation: motion.rotation,
+            velocity: motion.velocity,
+            ground: state.ground,
+            device: &mut state.device,
+        };
+        answer(&self.drive, &mut at);
+        let velocity = at.velocity;
+        if velocity != motion.velocity {
+            motion.velocity = velocity;
+            motion.direction = Sign::of(velocity, motion.direction);
+            if motion.rotation == S::ZERO {
+                motion.side = motion.direction;
+            }
+        }
+        let after = state.device.wheels.map(|wheel| wheel.coupling);
+        let open = |wheels: [Coupling; 2]| wheels.map(|coupling| coupling == Coupling::Open);
+        if open(before) != open(after) {
+            observer.device_event(Event::Switch, time, &state.motion);
+        } else if before != after {
+            observer.device_event(Event::Coupling, time, &state.motion);
+        }
+    }
+
+    /// After a jump of velocity or ground: modes that it ended are left.
+    #[inline(never)]
+    fn settle(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+        self.with_instant(state, time, observer, |drive, at| drive.settle(at));
+    }
+
+    /// Block and device as they are, under the ground's acceleration at the end of the last piece.
+    pub fn now(&self, state: &MachineState<S>) -> Snapshot<S> {
+        let law = self.drive.law(state.motion.direction, state.motion.drive, &state.device);
+        let extra = self.drive.load(&state.device);
+        let mut motion = Motion { rotation: state.motion.rotation, velocity: state.motion.velocity, acceleration: S::ZERO };
+        if state.motion.phase == Phase::Rocking && !state.held {
+            let moment = self.moment(&law, state.motion.side, &motion, extra, state.ground, S::ZERO);
+            motion.acceleration = self.drive.acceleration(&moment);
+        }
+        self.snapshot(&law, state, motion, extra, state.ground, S::ZERO)
+    }
+
+    /// What an equation needs to know of an instant.
+    fn moment<'a>(
+        &'a self,
+        law: &'a Law<S>,
+        side: Sign,
+        motion: &Motion<S>,
+        extra: [S; UNKNOWNS],
+        ground: [S; 2],
+        clock: S,
+    ) -> AnyMoment<'a, S, UNKNOWNS> {
+        let posture = self.body.posture(side.unit(), motion.rotation);
+        Moment { body: &self.body, law, posture, velocity: motion.velocity, extra, ground, clock }
+    }
+
+    /// Block and device at an instant, for watchers.
+    fn snapshot(
+        &self,
+        law: &Law<S>,
+        state: &MachineState<S>,
+        motion: Motion<S>,
+        extra: [S; UNKNOWNS],
+        ground: [S; 2],
+        clock: S,
+    ) -> Snapshot<S> {
+        let side = state.motion.side;
+        let moment = self.moment(law, side, &motion, extra, ground, clock);
+        let account = self.drive.account(&moment, motion.acceleration, &state.device);
+        let kinematics = self.body.paper_power(side.unit(), &moment.posture, motion.velocity, law.coupling);
+        Snapshot {
+            motion,
+            ground,
+            force: account.force,
+            rack_force: account.rack_force,
+            engaged: account.engaged,
+            spin: account.spin,
+            stored: account.stored,
+            sprung: account.sprung,
+            spent: Spent { kinematics, ..account.spent },
+            terminal_velocity: self.body.along(&moment.posture, motion.velocity),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,187 @@
+//! The motion of a block and its device over one step, as a method sees it.
+
+use crate::drivetrain::any_drive::{AnyDrive, each_drive};
+use crate::drivetrain::clutch_state::Law;
+use crate::drivetrain::drive::{Drive, Moment, MomentOf, UNKNOWNS};
+use crate::equation::any_body::AnyBody;
+use crate::equation::body::Body;
+use crate::equation::motion::Motion;
+use crate::ground::Piece;
+use crate::math::root::locate_by_value;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::method::dense_output::Arc;
+
+/// Horizontal and vertical ground motion over one piece.
+#[derive(Clone, Copy, Debug)]
+pub struct Shaking<'a, S> {
+    /// Horizontal.
+    pub horizontal: &'a dyn Piece<S>,
+    /// Vertical, for a body that knows of it.
+    pub vertical: Option<&'a dyn Piece<S>>,
+}
+
+impl<S: Real> Shaking<'_, S> {
+    /// Both accelerations in g at the local time `time` (s).
+    #[inline(always)]
+    pub fn at(&self, time: S) -> [S; 2] {
+        let horizontal = self.horizontal.acceleration(time);
+        [horizontal, self.vertical.map_or(S::ZERO, |vertical| vertical.acceleration(time))]
+    }
+}
+
+/// Where a step starts and what governs it.
+#[derive(Clone, Copy, Debug)]
+pub struct PathStart<'a, S> {
+    /// The block.
+    pub body: &'a AnyBody<S>,
+    /// The device.
+    pub drive: &'a AnyDrive<S>,
+    /// Its mode.
+    pub law: Law<S>,
+    /// The ground motion.
+    pub shaking: Shaking<'a, S>,
+    /// s.
+    pub side: Sign,
+    /// θ.
+    pub rotation: S,
+    /// θ̇.
+    pub velocity: S,
+    /// The device's unknowns.
+    pub extra: [S; UNKNOWNS],
+    /// Local time in the piece, s.
+    pub time: S,
+    /// How far the step may reach, s; above 0.
+    pub length: S,
+    /// The block has just been set free where what moves it passed what held it: θ̈ has the direction of the motion, or is zero.
+    pub freed: bool,
+    /// Friction holds the block: θ̈ = 0, whatever acts. Only devices with springs have a path then.
+    pub held: bool,
+    /// Size of a rotation that matters (rad), for tolerances.
+    pub scale: S,
+    /// Size of an angular velocity that matters, rad/s.
+    pub speed: S,
+}
+
+/// A step of a block and a device whose types are known.
+#[derive(Clone, Copy, Debug)]
+pub struct KnownStart<'a, S, B, D> {
+    /// Where it starts.
+    pub start: &'a PathStart<'a, S>,
+    /// Its block.
+    pub body: &'a B,
+    /// Its device.
+    pub drive: &'a D,
+}
+
+/// What to do with a step once the types of its block and device are known.
+pub trait WithStart<S: Real> {
+    /// The result.
+    type Output;
+
+    /// Goes on with `known`.
+    fn with<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(self, known: &KnownStart<'_, S, B, D>)
+    -> Self::Output;
+}
+
+impl<S: Real> PathStart<'_, S> {
+    /// Goes on with block and device in their own types: one choice for all that `next` evaluates.
+    #[inline(always)]
+    pub fn known<W: WithStart<S>>(&self, next: W) -> W::Output {
+        match self.body {
+            AnyBody::Slender(body) => each_drive!(self.drive, drive => next.with(&KnownStart { start: self, body, drive })),
+            AnyBody::Full(body) => each_drive!(self.drive, drive => next.with(&KnownStart { start: self, body, drive })),
+        }
+    }
+
+    /// θ̈ at the start, from the equation's `acceleration`: the rounding of a zero must not push a freed block back.
+    #[inline(always)]
+    pub fn first(&self, acceleration: S) -> S {
+        if self.freed && self.law.direction * acceleration < S::ZERO { S::ZERO } else { acceleration }
+    }
+}
+
+impl<S: Real, B: Body<S>, D> KnownStart<'_, S, B, D> {
+    /// Whether friction holds the block.
+    #[inline(always)]
+    pub fn is_held<const X: usize, const G: usize>(&self) -> bool
+    where
+        D: Drive<S, X, G>,
+    {
+        D::SPRINGS && self.start.held
+    }
+
+    #[inline(always)]
+    fn moment<const X: usize>(&self, t: S, rotation: S, velocity: S, extra: &[S; X]) -> MomentOf<'_, S, B, S, X> {
+        let PathStart { ref law, ref shaking, side, time, .. } = *self.start;
+        let posture = self.body.posture(side.unit(), rotation);
+        Moment { body: self.body, law, posture, velocity, extra: *extra, ground: shaking.at(time + t), clock: t }
+    }
+
+    /// θ̈ and the rates of the device's unknowns a time `t` after the start.
+    #[inline(never)]
+    pub fn rates<const X: usize, const G: usize>(&self, t: S, rotation: S, velocity: S, extra: &[S; X]) -> (S, [S; X])
+    where
+        D: Drive<S, X, G>,
+    {
+        let (acceleration, rates) = self.drive.flow(&self.moment(t, rotation, velocity, extra));
+        (if self.is_held() { S::ZERO } else { acceleration }, rates)
+    }
+
+    /// Watched function `index` in the given state.
+    #[inline(always)]
+    pub fn guard<const X: usize, const G: usize>(&self, index: usize, t: S, motion: &Motion<S>, extra: &[S; X]) -> S
+    where
+        D: Drive<S, X, G>,
+    {
+        let moment = self.moment(t, motion.rotation, motion.velocity, extra);
+        let acceleration = if self.is_held() { self.drive.flow(&moment).0 } else { motion.acceleration };
+        self.drive.guard(&moment, acceleration, self.start.law.watch[index])
+    }
+}
+
+/// The motion from a [`PathStart`] over times from 0 to [`Arc::length`]. Zeros are sought in (0, `to`].
+///
+/// The defaults see what the ends of the step show; a method with a series overrides them and proves its answers.
+pub trait Path<S: Real>: Arc<S> {
+    /// The device's unknowns at `time`.
+    fn extra(&self, time: S) -> [S; UNKNOWNS];
+
+    /// Watched function `index` at `time`.
+    fn guard(&self, index: usize, time: S) -> S;
+
+    /// First zero of θ̇, which has the sign `sign` just after the start, and is zero there with `from_zero`.
+    fn velocity_zero(&self, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        let _ = from_zero;
+        let end = self.at(to).velocity;
+        (sign.times(end) < S::ZERO).then(|| locate_by_value(S::ZERO, to, sign, |t| self.at(t).velocity))
+    }
+
+    /// First zero of watched function `index`, positive just after the start.
+    fn guard_zero(&self, index: usize, to: S, from_zero: bool) -> Option<S> {
+        let _ = from_zero;
+        let positive = Sign::Positive;
+        (self.guard(index, to) < S::ZERO).then(|| locate_by_value(S::ZERO, to, positive, |t| self.guard(index, t)))
+    }
+
+    /// First zero of the device's unknown `index`, of sign `sign` just after the start.
+    fn extra_zero(&self, index: usize, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        let _ = from_zero;
+        let value = |t: S| self.extra(t).get(index).copied().unwrap_or(S::ZERO);
+        (sign.times(value(to)) < S::ZERO).then(|| locate_by_value(S::ZERO, to, sign, value))
+    }
+}
+
+/// A way to integrate a block with a device.
+pub trait Tracer<S: Real> {
+    /// Its paths.
+    type Path<'a>: Path<S>
+    where
+        Self: 'a;
+
+    /// The path from `start`.
+    fn path<'a>(&'a self, start: PathStart<'a, S>) -> Self::Path<'a>;
+
+    /// The fixed step (s), if it has one.
+    fn step(&self) -> Option<S>;
+}

@@ -1,0 +1,232 @@
+//! The Taylor method for a block with a device: one power series for every unknown and every watched function, and with
+//! them events to the last bits ([`crate::method::taylor`]).
+
+use core::cell::Cell;
+
+use super::path::{KnownStart, Path, PathStart, Tracer, WithStart};
+use crate::drivetrain::clutch_state::{WATCHES, Watch};
+use crate::drivetrain::drive::{Drive, Moment, UNKNOWNS};
+use crate::equation::body::Body;
+use crate::equation::motion::Motion;
+use crate::math::outlined_series::{Quantity, SLOTS};
+use crate::math::power_series::{MAXIMUM_ORDER, Tape};
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::math::{RECIPROCALS, polynomial};
+use crate::method::dense_output::Arc;
+use crate::method::motion_series::{StepSeries, Truncation};
+
+/// A Taylor method with `N` coefficients for each quantity (8 to 32), and the tape it works on. One per thread: it is
+/// scratch space, not state.
+pub struct Series<S, const N: usize> {
+    tape: Tape<S, N, SLOTS>,
+    tolerance: S,
+    step: Option<S>,
+}
+
+impl<S: Real, const N: usize> Series<S, N> {
+    /// Steps of its own choice: as long as the series' last terms stay below `tolerance` times what matters.
+    pub fn adaptive(tolerance: S) -> Self {
+        const { assert!(N >= 8 && N <= MAXIMUM_ORDER) };
+        Series { tape: Tape::default(), tolerance, step: None }
+    }
+
+    /// Fixed steps of `step` s (above 0), order N − 2.
+    pub fn fixed(step: S) -> Self {
+        Series { step: Some(step), ..Series::adaptive(S::ZERO) }
+    }
+}
+
+impl<S: Real, const N: usize> core::fmt::Debug for Series<S, N> {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        formatter.debug_struct("Series").field("tolerance", &self.tolerance).field("step", &self.step).finish()
+    }
+}
+
+/// The series of one step.
+#[derive(Clone, Copy, Debug)]
+pub struct SeriesPath<S, const N: usize> {
+    series: StepSeries<S, N>,
+    extra: [[S; N]; UNKNOWNS],
+    guards: [[S; N]; WATCHES],
+}
+
+/// The coefficients of a path, order by order.
+struct Expansion<'a, S, const N: usize> {
+    tape: &'a Tape<S, N, SLOTS>,
+    path: &'a mut SeriesPath<S, N>,
+    /// Ground acceleration in g, horizontal and vertical.
+    ground: &'a [[S; N]; 2],
+    /// [`Series::tolerance`] in rad.
+    tolerance: S,
+    /// Size of a rotation that matters, rad.
+    scale: S,
+}
+
+impl<S: Real, const N: usize> WithStart<S> for Expansion<'_, S, N> {
+    /// The size of each unknown that matters.
+    type Output = [S; UNKNOWNS];
+
+    #[inline(always)]
+    fn with<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+        self,
+        known: &KnownStart<'_, S, B, D>,
+    ) -> Self::Output {
+        // θ, θ̇, the ground twice and the clock, then the device's unknowns.
+        const GIVEN: usize = 5;
+        let Expansion { tape, path, ground: [ground, vertical], tolerance, scale } = self;
+        let start = known.start;
+        let shaken_up = start.shaking.vertical.is_some();
+        let next = Cell::new(GIVEN + X);
+        let side = start.side.unit();
+        path.series.motion.start(tape, start.rotation, start.velocity);
+        for (i, unknown) in path.extra.iter_mut().enumerate().take(X) {
+            unknown[0] = start.extra[i];
+            tape.set(GIVEN + i, 0, start.extra[i]);
+        }
+        let sizes = known.drive.scales(start.speed);
+        let mut truncation = Truncation::new(start.length, tolerance);
+        for k in 0..N - 2 {
+            tape.set(2, k, ground[k]);
+            if shaken_up {
+                tape.set(3, k, vertical[k]);
+            }
+            tape.set(4, k, if k == 1 { S::ONE } else { S::ZERO });
+            next.set(GIVEN + X);
+            let given = |slot| Quantity(tape.given(&next, k, slot));
+            let (theta, omega, push) = (given(0), given(1), given(2));
+            let up = if shaken_up { given(3) } else { push };
+            let at = Moment {
+                body: known.body,
+                law: &start.law,
+                posture: known.body.posture(side, theta),
+                velocity: omega,
+                extra: core::array::from_fn(|i| given(GIVEN + i)),
+                ground: [push, up],
+                clock: given(4),
+            };
+            let (acceleration, rates) = known.drive.flow(&at);
+            if k == 0 {
+                acceleration.0.set_last(start.first(acceleration.0.last()));
+            }
+            let a = if known.is_held() { S::ZERO } else { acceleration.0.last() };
+            let reciprocal = S::of(RECIPROCALS[(k + 1) & 63]);
+            let rotation = path.series.motion.extend(tape, k, a);
+            let mut term = truncation.term(rotation, ground[k]);
+            if shaken_up {
+                term = term.larger((vertical[k] * truncation.power).abs());
+            }
+            for (i, rate) in rates.iter().enumerate() {
+                let coefficient = rate.0.last() * reciprocal;
+                path.extra[i][k + 1] = coefficient;
+                tape.set(GIVEN + i, k + 1, coefficient);
+                term = term.larger((coefficient * truncation.power * start.length).abs() * (scale / sizes[i]));
+            }
+            for (i, guard) in path.guards.iter_mut().enumerate().take(G) {
+                let watch = start.law.watch[i];
+                if watch != Watch::Nothing {
+                    guard[k] = known.drive.guard(&at, acceleration, watch).0.last();
+                }
+            }
+            if truncation.ends_at(k, term) {
+                path.series.terms = k + 3;
+                break;
+            }
+        }
+        core::array::from_fn(|i| sizes.get(i).copied().unwrap_or(S::ONE))
+    }
+}
+
+impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
+    type Path<'a> = SeriesPath<S, N>;
+
+    #[inline(never)]
+    fn path<'a>(&'a self, start: PathStart<'a, S>) -> SeriesPath<S, N> {
+        let none = [S::ZERO; N];
+        let mut path = SeriesPath { series: StepSeries::new(start.length), extra: [none; UNKNOWNS], guards: [none; WATCHES] };
+        let mut ground = [none; 2];
+        start.shaking.horizontal.series(start.time, &mut ground[0]);
+        if let Some(piece) = start.shaking.vertical {
+            piece.series(start.time, &mut ground[1]);
+        }
+        let scale = start.scale.larger(start.rotation.abs());
+        let tolerance = self.tolerance * scale;
+        let sizes = start.known(Expansion { tape: &self.tape, path: &mut path, ground: &ground, tolerance, scale });
+        let SeriesPath { series, extra, .. } = &mut path;
+        if self.step.is_none() && series.terms == N {
+            // Every unknown counts; those of the first order have one coefficient fewer.
+            for order in [N - 2, N - 1] {
+                series.shorten(order, series.motion.rotation[order].abs(), tolerance);
+                for (unknown, &size) in extra.iter().zip(&sizes) {
+                    series.shorten(order - 1, unknown[order - 1].abs() * (scale / size), tolerance);
+                }
+            }
+        }
+        path
+    }
+
+    #[inline(always)]
+    fn step(&self) -> Option<S> {
+        self.step
+    }
+}
+
+impl<S: Real, const N: usize> Arc<S> for SeriesPath<S, N> {
+    #[inline(always)]
+    fn length(&self) -> S {
+        self.series.length
+    }
+
+    #[inline(never)]
+    fn at(&self, time: S) -> Motion<S> {
+        self.series.at(time)
+    }
+
+    #[inline]
+    fn switching(&self, time: S) -> S {
+        self.at(time).acceleration
+    }
+
+    #[inline]
+    fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
+        let coefficients = self.series.acceleration();
+        let curvature = polynomial::curvature_bound(coefficients, self.series.length);
+        polynomial::largest_magnitude(coefficients, curvature, from, to, floor)
+    }
+}
+
+#[inline(never)]
+fn zero<S: Real>(coefficients: &[S], to: S, sign: Sign, from_zero: bool) -> Option<S> {
+    polynomial::first_zero(coefficients, polynomial::curvature_bound(coefficients, to), S::ZERO, to, sign, from_zero)
+}
+
+impl<S: Real, const N: usize> Path<S> for SeriesPath<S, N> {
+    #[inline(never)]
+    fn extra(&self, time: S) -> [S; UNKNOWNS] {
+        let n = self.series.velocity().len();
+        core::array::from_fn(|i| polynomial::value(&self.extra[i][..n], time))
+    }
+
+    #[inline(never)]
+    fn guard(&self, index: usize, time: S) -> S {
+        let n = self.series.acceleration().len();
+        self.guards.get(index).map_or(S::ONE, |guard| polynomial::value(&guard[..n], time))
+    }
+
+    #[inline]
+    fn velocity_zero(&self, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        zero(self.series.velocity(), to, sign, from_zero)
+    }
+
+    #[inline]
+    fn guard_zero(&self, index: usize, to: S, from_zero: bool) -> Option<S> {
+        let guard = self.guards.get(index)?;
+        zero(&guard[..self.series.acceleration().len()], to, Sign::Positive, from_zero)
+    }
+
+    #[inline]
+    fn extra_zero(&self, index: usize, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        let unknown = self.extra.get(index)?;
+        zero(&unknown[..self.series.velocity().len()], to, sign, from_zero)
+    }
+}

@@ -1,0 +1,192 @@
+//! Delays, dwell, ramps and missed commands, against the clock.
+
+use std::vec::Vec;
+
+use super::{Ground, Machine, Seen, Watcher, pair, tight};
+use crate::motion::device_snapshot::{DeviceArc, DeviceObserver};
+use crate::motion::hybrid::path::Shaking;
+use crate::motion::observer::{Event, Stretch};
+use crate::motion::state::State;
+use crate::structure::block::Geometry;
+use crate::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses};
+
+fn with(actuation: Actuation) -> Drivetrain {
+    Drivetrain { actuation, ..Drivetrain::default() }
+}
+
+fn switches(seen: &Seen) -> Vec<f64> {
+    seen.events.iter().filter(|(event, _)| *event == Event::Switch).map(|(_, time)| *time).collect()
+}
+
+/// The first command comes with uplift, and the clutch obeys it after exactly the delay.
+#[test]
+fn an_engagement_comes_late_by_its_delay() {
+    let shake = pair(Geometry::Full, 3.0, 5.0);
+    let uplift = |seen: &Seen| seen.events.iter().find(|(event, _)| *event == Event::Uplift).unwrap().1;
+    for delay in [1e-3, 0.02, 0.05] {
+        let seen = shake.machine(&with(Actuation { engagement_delay: delay, ..Actuation::default() }), &tight());
+        assert!((switches(&seen)[0] - uplift(&seen) - delay).abs() < 1e-12, "{delay}");
+    }
+}
+
+/// A release comes late by its delay after the bracket has changed its sign.
+#[test]
+fn a_release_comes_late_by_its_delay() {
+    let shake = pair(Geometry::Full, 3.0, 5.0);
+    let prompt = switches(&shake.machine(&Drivetrain::default(), &tight()));
+    let delay = 0.01;
+    let late = switches(&shake.machine(&with(Actuation { release_delay: delay, ..Actuation::default() }), &tight()));
+    // Engaged at uplift, released at the first zero of the acceleration: so far both are one motion.
+    assert!((late[1] - prompt[1] - delay).abs() < 1e-9, "{late:?} and {prompt:?}");
+}
+
+/// When a clutch moves that is commanded to engage at 0 and to release 5 ms later, and what the last command wants, after 0.1 s.
+fn pulse(mut machine: Machine<f64>) -> (Vec<f64>, bool) {
+    machine.actuator.controlled = true;
+    let mut state = machine.released_at(0.1, 0.0, [0.0; 2]);
+    let mut watcher = Watcher::default();
+    let shaking = Shaking { horizontal: &Ground::QUIET, vertical: None };
+    let limits = pair(Geometry::Full, 1.0, 1.0).limits(true);
+    for (wanted, until) in [([false, true], 0.005), ([false, false], 0.095)] {
+        machine.order(&mut state, wanted, &mut watcher);
+        machine.advance(&tight(), &mut state, shaking, until, &limits, &mut watcher).unwrap();
+        watcher.peaks.origin += until;
+    }
+    (watcher.switches.iter().map(|(time, ..)| *time).collect(), state.device.wheels[1].commanded)
+}
+
+/// A coil never moves for a command that is shorter than its delay; what comes over a line arrives as it was sent, each with its delay.
+#[test]
+fn a_command_shorter_than_the_delay_is_lost_or_late() {
+    let structure = pair(Geometry::Full, 1.0, 1.0).structure;
+    let moves = |delay, engagement_delay, release_delay| {
+        let actuation = Actuation { delay, engagement_delay, release_delay, ..Actuation::default() };
+        pulse(with(actuation).resolve(&structure, false).unwrap()).0
+    };
+    let near = |found: Vec<f64>, expected: &[f64]| {
+        let close = found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-12);
+        assert!(close && found.len() == expected.len(), "{found:?} {expected:?}");
+    };
+    near(moves(Delay::Inertial, 0.02, 0.03), &[]);
+    near(moves(Delay::Transport, 0.02, 0.03), &[0.02, 0.035]);
+    // A command does not overtake the one before it.
+    near(moves(Delay::Transport, 0.02, 0.001), &[0.02, 0.02]);
+    for delay in [Delay::Inertial, Delay::Transport] {
+        near(moves(delay, 0.002, 0.03), &[0.002, 0.035]);
+    }
+}
+
+/// Where every command outlasts its delay, both kinds are one, to the last bit. The last swings of a dying motion are shorter than any delay.
+#[test]
+fn delays_that_cut_nothing_short_are_one() {
+    let shake = pair(Geometry::Full, 3.0, 5.0);
+    let run = |delay| {
+        let actuation = Actuation { delay, engagement_delay: 1e-3, release_delay: 1e-3, dwell: 0.01, ..Actuation::default() };
+        let seen = shake.machine(&with(actuation), &tight());
+        let early: Vec<f64> = switches(&seen).into_iter().filter(|time| *time < 4.0).collect();
+        (early, seen.peak.to_bits())
+    };
+    let (moves, peak) = run(Delay::Inertial);
+    assert!(moves.len() > 10);
+    assert_eq!((moves, peak), run(Delay::Transport));
+}
+
+/// No delay is no delay, to the last bit.
+#[test]
+fn a_seed_without_a_probability_changes_nothing() {
+    let shake = pair(Geometry::Full, 3.0, 5.0);
+    let (plain, seeded) = (Actuation::default(), Actuation { miss_seed: 7, ..Actuation::default() });
+    let peaks = [plain, seeded].map(|actuation| shake.machine(&with(actuation), &tight()).peak.to_bits());
+    assert_eq!(peaks[0], peaks[1]);
+}
+
+/// A clutch that misses every command is none.
+#[test]
+fn a_clutch_that_never_obeys_is_none() {
+    let shake = pair(Geometry::Full, 3.0, 5.0);
+    let never = shake.machine(&with(Actuation { miss_probability: 1.0, ..Actuation::default() }), &tight());
+    let mut alone = shake.clone();
+    alone.structure.device = crate::structure::device::Device::NONE;
+    assert!(switches(&never).is_empty());
+    assert!((never.peak / alone.ideal().peak - 1.0).abs() < 1e-12);
+}
+
+/// Missed commands are drawn from seed and number: one in four, and the same ones every time.
+#[test]
+fn misses_follow_their_probability() {
+    let actuator =
+        crate::motion::hybrid::Actuator::<f64>::of(&Actuation { miss_probability: 0.25, miss_seed: 42, ..Actuation::default() });
+    let missed = (0..100_000).filter(|count| actuator.misses(*count)).count();
+    assert!((missed as f64 / 25_000.0 - 1.0).abs() < 0.03, "{missed}");
+}
+
+/// Between two moves of one clutch lies at least its dwell.
+#[test]
+fn a_clutch_dwells() {
+    let shake = pair(Geometry::Full, 6.0, 6.0);
+    let dwell = 0.08;
+    let seen = shake.machine(&with(Actuation { dwell, ..Actuation::default() }), &tight());
+    let moves = switches(&seen);
+    let rests: Vec<f64> = seen.events.iter().filter(|(event, _)| *event == Event::Rest).map(|(_, time)| *time).collect();
+    assert!(moves.len() > 4);
+    // Two clutches: every second move may belong to the other one.
+    for triple in moves.windows(3) {
+        let ends = rests.iter().any(|rest| (triple[2] - rest).abs() < 1e-12);
+        assert!(ends || triple[2] - triple[0] > dwell - 1e-9, "{triple:?}");
+    }
+}
+
+/// A slow rise of the capacity lies between no clutch and a fast one, and takes less from the plates' force.
+#[test]
+fn a_capacity_that_rises_slowly_carries_less() {
+    let shake = pair(Geometry::Full, 3.0, 5.0);
+    let plates = |rise_time: f64| Drivetrain {
+        engagement: Engagement::Friction { capacity_ratio: 0.05 },
+        flywheel: FlywheelLosses { brake_deceleration: f64::INFINITY, ..FlywheelLosses::default() },
+        actuation: Actuation { rise_time, ..Actuation::default() },
+        ..Drivetrain::default()
+    };
+    let peak = |rise_time: f64| shake.machine(&plates(rise_time), &tight()).peak;
+    let mut alone = shake.clone();
+    alone.structure.device = crate::structure::device::Device::NONE;
+    let (at_once, short, never) = (peak(0.0), peak(1e-6), alone.ideal().peak);
+    assert!((short / at_once - 1.0).abs() < 1e-4, "{short} and {at_once}");
+    assert!((peak(9.0) / never - 1.0).abs() < 0.05, "{} and {never}", peak(9.0));
+}
+
+/// A spring without a damper passes on what its twist says: the force does not jump where plates of rising capacity begin or end to slip.
+#[test]
+fn the_force_of_a_spring_does_not_jump_with_its_plates() {
+    #[derive(Default)]
+    struct Forces {
+        last: Option<[f64; 2]>,
+        slips: u32,
+        jump: f64,
+    }
+    impl DeviceObserver<f64> for Forces {
+        fn device_stretch(&mut self, arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
+            let first = arc.snapshot(stretch.from).force;
+            for (before, after) in self.last.into_iter().flatten().zip(first) {
+                self.jump = self.jump.max((after - before).abs());
+            }
+            self.last = Some(arc.snapshot(stretch.to).force);
+        }
+
+        fn device_event(&mut self, event: Event, _time: f64, _state: &State<f64>) {
+            self.slips += u32::from(event == Event::Coupling);
+            if matches!(event, Event::Switch | Event::Rest) {
+                self.last = None;
+            }
+        }
+    }
+    let engagement = Engagement::Elastic { stiffness: 2e4, damping: 0.0, backlash: 0.0, capacity_ratio: 0.05 };
+    for rise_time in [0.0, 0.05, 0.2] {
+        let shake = pair(Geometry::Full, 3.0, 5.0);
+        let mut forces = Forces::default();
+        let actuation = Actuation { engagement_delay: 0.01, release_delay: 0.02, rise_time, ..Actuation::default() };
+        shake.watched(&Drivetrain { engagement, actuation, ..Drivetrain::default() }, &tight(), &mut forces);
+        let capacity = 0.05 * shake.structure.block.frequency_parameter_squared();
+        assert!(forces.slips > 10, "{} slips", forces.slips);
+        assert!(forces.jump < 1e-9 * capacity, "rise {rise_time}: {:e} of the capacity", forces.jump / capacity);
+    }
+}

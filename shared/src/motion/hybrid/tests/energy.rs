@@ -1,0 +1,66 @@
+//! The energy of every kind of drivetrain adds up.
+
+use std::vec::Vec;
+
+use super::{drivetrains, pair, tight};
+use crate::observers::ledger::{Account, Clutching, Ledger};
+use crate::structure::block::Geometry;
+use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
+
+#[test]
+fn the_ledger_closes_for_every_drivetrain() {
+    for geometry in [Geometry::Slender, Geometry::Full] {
+        for (name, drivetrain) in drivetrains() {
+            for (amplitude, frequency) in [(3.0, 5.0), (1.6, 3.0)] {
+                let shake = pair(geometry, amplitude, frequency);
+                let ideal = drivetrain.engagement == Engagement::Ideal;
+                let account = Account {
+                    clutching: if ideal { Clutching::Ideal } else { Clutching::Real },
+                    mass_ratio: 0.5,
+                    rack_mass_ratio: drivetrain.rack.guided_mass_ratio,
+                };
+                let mut ledger = Ledger::new(&shake.structure.block, geometry, &account);
+                shake.watched(&drivetrain, &tight(), &mut ledger);
+                let entries = ledger.entries();
+                let residual = entries.residual().abs() / entries.input.abs();
+                let what = std::format!("{geometry:?} {name} a = {amplitude}, ω/p = {frequency}: {entries:?}");
+                assert!(residual < 1e-10, "{what}: residual {residual:e} of the input");
+                assert!(entries.impact > 0.0 && entries.rack > 0.0 && entries.bearing > 0.0, "{what}");
+                match drivetrain.engagement {
+                    Engagement::Ideal => assert!(entries.clutch.abs() < 1e-14 * entries.input, "{what}"),
+                    Engagement::Overrunning => assert!(entries.clutch.abs() < 1e-12 * entries.input, "{what}: no jolt, no loss"),
+                    Engagement::Rigid => assert!(entries.clutch >= 0.0 && entries.created == 0.0, "{what}"),
+                    _ => assert!(entries.clutch > 0.0 && entries.created == 0.0, "{what}"),
+                }
+            }
+        }
+    }
+}
+
+/// The ideal clutch gives a stopped flywheel the energy ½ k (ℓθ̇)² out of nothing; the rigid one takes it from the block and loses
+/// as much again in the jolt.
+#[test]
+fn what_the_ideal_clutch_creates() {
+    let shake = super::limits::engaging_at_speed(Geometry::Slender);
+    let k = shake.structure.device.mass_ratio / shake.structure.block.inertia_ratio();
+    let mut created = Vec::new();
+    for (engagement, clutching) in [(Engagement::Ideal, Clutching::Ideal), (Engagement::Rigid, Clutching::Real)] {
+        let account = Account { clutching, mass_ratio: 0.5, rack_mass_ratio: 0.0 };
+        let mut ledger = Ledger::new(&shake.structure.block, Geometry::Slender, &account);
+        let flywheel = FlywheelLosses { brake_deceleration: f64::INFINITY, ..FlywheelLosses::default() };
+        let flywheel = if engagement == Engagement::Ideal { FlywheelLosses::default() } else { flywheel };
+        let seen = shake.watched(&Drivetrain { engagement, flywheel, ..Drivetrain::default() }, &tight(), &mut ledger);
+        let at_speed: Vec<f64> =
+            seen.switches.iter().filter(|(time, ..)| (time - 0.22).abs() < 1e-12).map(|s| s.1.velocity).collect();
+        let entries = ledger.entries();
+        let spin = 0.5 * k * at_speed[0] * at_speed[0];
+        match engagement {
+            Engagement::Ideal => assert!((entries.created / spin - 1.0).abs() < 1e-9, "{entries:?} {spin}"),
+            // ½ k v²/(1 + k): reduced mass of block and flywheel.
+            _ => assert!((entries.clutch / (spin / (1.0 + k)) - 1.0).abs() < 1e-9, "{entries:?} {spin}"),
+        }
+        created.push(entries.created);
+        assert!(entries.residual().abs() < 1e-12 * entries.input);
+    }
+    assert!(created[0] > 0.0 && created[1] == 0.0);
+}

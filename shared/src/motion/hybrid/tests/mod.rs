@@ -1,0 +1,296 @@
+//! The loop for devices with a memory, against the loop for ideal ones, closed forms, limits and other methods.
+
+mod actuation;
+mod demands;
+mod energy;
+mod ground;
+mod limits;
+mod methods;
+mod standing;
+
+use std::vec::Vec;
+
+use super::path::{Shaking, Tracer};
+use super::series::Series;
+use super::{Machine, MachineState};
+use crate::ground::{Harmonics, Linear, Piece, Quiet};
+use crate::method::fixed::FixedStep;
+use crate::method::taylor::Taylor;
+use crate::motion::device_snapshot::DeviceObserver;
+use crate::motion::observer::Event;
+use crate::motion::state::{Limits, State};
+use crate::observers::peaks::Peaks;
+use crate::structure::added_mass::Carried;
+use crate::structure::block::{Block, Geometry};
+use crate::structure::device::{Device, DeviceKind, KinematicsKind};
+use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses, Rack};
+use crate::structure::mount::Mount;
+use crate::structure::restitution::Restitution;
+use crate::structure::{REST_SPEED, Structure};
+
+/// Every ground motion of these tests as one type, so that there is one copy of every loop.
+#[derive(Clone, Copy, Debug)]
+pub enum Ground {
+    Sine(Harmonics<f64, 1>),
+    Line(Linear<f64>),
+}
+
+impl Ground {
+    pub const QUIET: Ground = Ground::Line(Linear { start: 0.0, slope: 0.0 });
+
+    pub fn sine(amplitude: f64, frequency: f64) -> Ground {
+        Ground::Sine(Harmonics::sine(amplitude, frequency))
+    }
+
+    pub fn constant(level: f64) -> Ground {
+        Ground::Line(Linear::constant(level))
+    }
+}
+
+impl Piece<f64> for Ground {
+    fn acceleration(&self, time: f64) -> f64 {
+        match self {
+            Ground::Sine(sine) => sine.acceleration(time),
+            Ground::Line(line) => line.acceleration(time),
+        }
+    }
+
+    fn slope(&self, time: f64) -> f64 {
+        match self {
+            Ground::Sine(sine) => sine.slope(time),
+            Ground::Line(line) => Piece::slope(line, time),
+        }
+    }
+
+    fn curvature_bound(&self) -> f64 {
+        match self {
+            Ground::Sine(sine) => sine.curvature_bound(),
+            Ground::Line(_) => 0.0,
+        }
+    }
+
+    fn series(&self, time: f64, coefficients: &mut [f64]) {
+        match self {
+            Ground::Sine(sine) => sine.series(time, coefficients),
+            Ground::Line(line) => line.series(time, coefficients),
+        }
+    }
+}
+
+/// A block under pieces of ground motion, then left alone.
+#[derive(Clone, Debug)]
+pub struct Shake {
+    pub structure: Structure,
+    /// Each with its duration, s.
+    pub pieces: Vec<(Ground, f64)>,
+    /// s.
+    pub free_time: f64,
+}
+
+/// What both loops report.
+#[derive(Clone, Debug, Default)]
+pub struct Seen {
+    pub peak: f64,
+    pub acceleration: f64,
+    pub impacts: u32,
+    pub ended: Option<f64>,
+    pub events: Vec<(Event, f64)>,
+    pub state: State<f64>,
+    pub spins: [f64; 2],
+    /// Clutch switches: time, and the state before and after.
+    pub switches: Vec<(f64, State<f64>, State<f64>)>,
+}
+
+pub fn structure(geometry: Geometry, degrees: f64, kind: DeviceKind, sigma: f64, kinematics: KinematicsKind) -> Structure {
+    Structure {
+        block: Block::new(2.0, degrees.to_radians(), 4.0 / 3.0).unwrap(),
+        geometry,
+        device: Device { kind, mass_ratio: sigma, mount: Mount::CentreOfMass, kinematics },
+        restitution: Restitution::Constant(0.85),
+        carried: Carried::NONE,
+        rest_speed: REST_SPEED,
+    }
+}
+
+pub fn shake(structure: Structure, amplitude: f64, frequency: f64) -> Shake {
+    let p = structure.block.frequency_parameter();
+    let amplitude = amplitude * structure.geometry.uplift_threshold(&structure.block);
+    let cycle = (Ground::sine(amplitude, frequency * p), core::f64::consts::TAU / (frequency * p));
+    Shake { structure, pieces: std::vec![cycle], free_time: 12.0 / p }
+}
+
+/// Peaks of a machine, as those of a system.
+#[derive(Default)]
+struct Watcher {
+    peaks: Peaks<f64>,
+    events: Vec<(Event, f64)>,
+    last: State<f64>,
+    switches: Vec<(f64, State<f64>, State<f64>)>,
+}
+
+impl DeviceObserver<f64> for Watcher {
+    fn device_stretch(
+        &mut self,
+        arc: &dyn crate::motion::device_snapshot::DeviceArc<f64>,
+        stretch: &crate::motion::observer::Stretch<f64>,
+    ) {
+        let (rotation, velocity) = (stretch.last.rotation, stretch.last.velocity);
+        self.last = State { rotation, velocity, ..State::default() };
+        crate::motion::observer::Observer::stretch(&mut self.peaks, &arc, stretch);
+    }
+
+    fn device_event(&mut self, event: Event, time: f64, state: &State<f64>) {
+        crate::motion::observer::Observer::event(&mut self.peaks, event, time, state);
+        self.events.push((event, self.peaks.origin + time));
+        if event == Event::Switch {
+            self.switches.push((self.peaks.origin + time, self.last, *state));
+        }
+        self.last = *state;
+    }
+}
+
+impl Shake {
+    fn limits(&self, quiet: bool) -> Limits<f64> {
+        let largest = |(ground, _): &(Ground, f64)| match ground {
+            Ground::Sine(sine) => sine.terms[0].amplitude.abs(),
+            Ground::Line(line) => line.start.abs(),
+        };
+        let bound = if quiet { 0.0 } else { self.pieces.iter().map(largest).fold(0.0, f64::max) };
+        let block = self.structure.loaded().unwrap().block;
+        Limits { overturned: self.structure.geometry.point_of_no_return(&block, bound), events: 100_000 }
+    }
+
+    /// By the loop for ideal devices.
+    pub fn ideal(&self) -> Seen {
+        struct Every(Peaks<f64>);
+        impl crate::motion::observer::Observer<f64> for Every {
+            fn stretch(
+                &mut self,
+                arc: &dyn crate::method::dense_output::Arc<f64>,
+                stretch: &crate::motion::observer::Stretch<f64>,
+            ) {
+                self.0.stretch(arc, stretch);
+            }
+            fn event(&mut self, event: Event, time: f64, state: &State<f64>) {
+                self.0.event(event, time, state);
+            }
+        }
+        let system = self.structure.resolve().unwrap();
+        let method = Taylor::<f64, 20>::adaptive(1e-17);
+        let (mut state, mut peaks) = (State::default(), Every(Peaks::default()));
+        let mut origin = 0.0;
+        for (ground, duration) in &self.pieces {
+            peaks.0.origin = origin;
+            system.advance(&method, &mut state, ground, *duration, &self.limits(false), &mut peaks).unwrap();
+            origin += duration;
+        }
+        peaks.0.origin = origin;
+        system.advance(&method, &mut state, &Quiet, self.free_time, &self.limits(true), &mut peaks).unwrap();
+        let peaks = peaks.0;
+        Seen {
+            peak: peaks.rotation,
+            acceleration: peaks.acceleration,
+            impacts: state.impacts,
+            ended: peaks.ended,
+            state,
+            ..Seen::default()
+        }
+    }
+
+    /// By the loop for devices with a memory.
+    pub fn machine<T: Tracer<f64>>(&self, drivetrain: &Drivetrain, method: &T) -> Seen {
+        self.watched(drivetrain, method, &mut ())
+    }
+
+    /// The same, with a `watcher`.
+    pub fn watched<T: Tracer<f64>>(&self, drivetrain: &Drivetrain, method: &T, watcher: &mut dyn DeviceObserver<f64>) -> Seen {
+        self.follow(&drivetrain.resolve(&self.structure, false).unwrap(), method, watcher)
+    }
+
+    /// An elastic clutch by the exponential midpoint method.
+    pub fn exponential(&self, drivetrain: &Drivetrain, step: f64) -> Seen {
+        let machine = drivetrain.resolve(&self.structure, false).unwrap();
+        assert!(machine.drive.traits().springs, "not an elastic clutch");
+        self.follow(&machine, &FixedStep::ExponentialMidpoint { step }, &mut ())
+    }
+
+    fn follow<T: Tracer<f64>>(&self, machine: &Machine<f64>, method: &T, watcher: &mut dyn DeviceObserver<f64>) -> Seen {
+        let mut watcher = (Watcher::default(), watcher);
+        let mut state: MachineState<f64> = machine.at_rest();
+        for (ground, duration) in &self.pieces {
+            let shaking = Shaking { horizontal: ground, vertical: None };
+            machine.advance(method, &mut state, shaking, *duration, &self.limits(false), &mut watcher).unwrap();
+            watcher.0.peaks.origin += duration;
+        }
+        let shaking = Shaking { horizontal: &Ground::QUIET, vertical: None };
+        machine.advance(method, &mut state, shaking, self.free_time, &self.limits(true), &mut watcher).unwrap();
+        let own = watcher.0;
+        Seen {
+            peak: own.peaks.rotation,
+            acceleration: own.peaks.acceleration,
+            impacts: state.motion.impacts,
+            ended: own.peaks.ended,
+            events: own.events,
+            state: state.motion,
+            spins: state.device.wheels.map(|wheel| wheel.spin),
+            switches: own.switches,
+        }
+    }
+}
+
+/// Every kind of drivetrain, with losses where they belong.
+pub fn drivetrains() -> [(&'static str, Drivetrain); 7] {
+    let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 5.0 };
+    let bearings = FlywheelLosses { brake_deceleration: 0.0, ..flywheel };
+    let rack = Rack { guided_mass_ratio: 0.02, viscous: 0.05, dry_ratio: 0.004 };
+    let of = |engagement, flywheel, rack| Drivetrain { engagement, flywheel, rack, ..Drivetrain::default() };
+    let elastic = |backlash, capacity_ratio| Engagement::Elastic { stiffness: 3e3, damping: 8.0, backlash, capacity_ratio };
+    [
+        ("ideal with friction", of(Engagement::Ideal, bearings, rack)),
+        ("rigid", of(Engagement::Rigid, flywheel, rack)),
+        ("overrunning", of(Engagement::Overrunning, bearings, rack)),
+        ("friction clutch", of(Engagement::Friction { capacity_ratio: 0.03 }, flywheel, rack)),
+        (
+            "elastic",
+            of(
+                Engagement::Elastic { stiffness: 3e3, damping: 8.0, backlash: 0.0, capacity_ratio: f64::INFINITY },
+                flywheel,
+                rack,
+            ),
+        ),
+        ("elastic with play", of(elastic(2e-3, f64::INFINITY), flywheel, rack)),
+        ("elastic with play and plates", of(elastic(2e-3, 0.03), flywheel, rack)),
+    ]
+}
+
+pub fn pair(geometry: Geometry, amplitude: f64, frequency: f64) -> Shake {
+    shake(structure(geometry, 15.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent), amplitude, frequency)
+}
+
+pub fn tight() -> Series<f64, 20> {
+    Series::adaptive(1e-17)
+}
+
+/// With an ideal drivetrain it is a second program for the same model.
+#[test]
+fn ideal_devices_move_as_in_their_own_loop() {
+    for geometry in [Geometry::Slender, Geometry::Full] {
+        for kind in DeviceKind::ALL {
+            for kinematics in [KinematicsKind::Paper, KinematicsKind::Consistent] {
+                for (amplitude, frequency) in [(1.5, 4.0), (3.0, 5.0), (6.0, 6.0), (1.2, 1.0)] {
+                    let shake = shake(structure(geometry, 15.0, kind, 0.5, kinematics), amplitude, frequency);
+                    let (own, other) = (shake.ideal(), shake.machine(&Drivetrain::default(), &tight()));
+                    let what = std::format!("{geometry:?} {kind:?} {kinematics:?} a = {amplitude}, ω/p = {frequency}");
+                    assert!((own.peak / other.peak - 1.0).abs() < 1e-11, "{what}: {} and {}", own.peak, other.peak);
+                    assert!((own.acceleration / other.acceleration - 1.0).abs() < 1e-10, "{what}: θ̈");
+                    assert_eq!(own.impacts, other.impacts, "{what}");
+                    assert_eq!(own.state.phase, other.state.phase, "{what}");
+                    match (own.ended, other.ended) {
+                        (Some(a), Some(b)) => assert!((a / b - 1.0).abs() < 1e-9, "{what}: ends at {a} and {b}"),
+                        (a, b) => assert_eq!(a.is_some(), b.is_some(), "{what}"),
+                    }
+                }
+            }
+        }
+    }
+}

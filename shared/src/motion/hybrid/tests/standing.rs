@@ -1,0 +1,196 @@
+//! What holds a block that stands, and what frees it: against closed forms, and between methods.
+
+use std::vec::Vec;
+
+use super::{Ground, Shake, pair, shake, structure, tight};
+use crate::math;
+use crate::method::fixed::FixedStep;
+use crate::motion::device_snapshot::{DeviceArc, DeviceObserver};
+use crate::motion::hybrid::Machine;
+use crate::motion::hybrid::path::Shaking;
+use crate::motion::observer::{Event, Stretch};
+use crate::motion::state::{Limits, State};
+use crate::observers::ledger::{Account, Clutching, Ledger};
+use crate::structure::block::Geometry;
+use crate::structure::device::{DeviceKind, KinematicsKind};
+use crate::structure::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses};
+
+/// Friction of the bearings, m/s²: the typical one.
+const DRY: f64 = 0.05;
+
+/// Growth of the ground acceleration, g/s.
+const SLOPE: f64 = 0.1;
+
+fn bearings(engagement: Engagement) -> Drivetrain {
+    let flywheel = FlywheelLosses { dry_deceleration: DRY, ..FlywheelLosses::default() };
+    Drivetrain { engagement, flywheel, ..Drivetrain::default() }
+}
+
+fn plates(capacity_ratio: f64, rise_time: f64) -> Drivetrain {
+    let actuation = Actuation { rise_time, ..Actuation::default() };
+    Drivetrain { actuation, ..bearings(Engagement::Friction { capacity_ratio }) }
+}
+
+/// The push (in g) at which a ramp of ground acceleration moves a block at rest, with the clutches that a controller has `engaged` for
+/// long and flywheels that turn at `spin` (1/s), each in its own direction.
+fn uplift(drivetrain: &Drivetrain, engaged: Option<[bool; 2]>, spin: f64) -> f64 {
+    let structure = structure(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
+    let mut machine: Machine<f64> = drivetrain.resolve(&structure, false).unwrap();
+    #[derive(Default)]
+    struct First(Option<f64>);
+    impl DeviceObserver<f64> for First {
+        fn device_stretch(&mut self, _arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
+            if stretch.last.rotation != 0.0 {
+                self.0 = self.0.or(Some(stretch.start));
+            }
+        }
+
+        fn device_event(&mut self, _event: Event, _time: f64, _state: &State<f64>) {}
+    }
+    let mut state = machine.at_rest();
+    if let Some(engaged) = engaged {
+        machine.actuator.controlled = true;
+        machine.actuator.engagement_delay = 1e-3;
+        machine.preset(&mut state, engaged);
+    }
+    (state.device.wheels[0].spin, state.device.wheels[1].spin) = (spin, -spin);
+    let ramp = Ground::Line(crate::ground::Linear { start: 0.0, slope: SLOPE });
+    let shaking = Shaking { horizontal: &ramp, vertical: None };
+    let limits = Limits { overturned: 1.0, events: 10_000 };
+    let mut first = First::default();
+    machine.advance(&tight(), &mut state, shaking, 2.2, &limits, &mut first).unwrap();
+    SLOPE * first.0.unwrap()
+}
+
+/// tan α, and with a standing flywheel that is coupled tan α + σ d/g: its bearings resist the rack with σ m d.
+fn thresholds() -> [f64; 2] {
+    let alone = math::tan(10.0_f64.to_radians());
+    [alone, alone + 0.5 * DRY / crate::structure::block::GRAVITY]
+}
+
+#[test]
+fn bearings_of_a_coupled_flywheel_hold_a_standing_block() {
+    let [alone, held] = thresholds();
+    for engagement in
+        [Engagement::Ideal, Engagement::Rigid, Engagement::Overrunning, Engagement::Friction { capacity_ratio: 0.1 }]
+    {
+        let found = uplift(&bearings(engagement), None, 0.0);
+        assert!((found - held).abs() < 1e-12, "{engagement:?}: {found} for {held}");
+    }
+    for engagement in [Engagement::Ideal, Engagement::Rigid, Engagement::Friction { capacity_ratio: 0.1 }] {
+        for (engaged, expected) in [([false, false], alone), ([true, false], held), ([false, true], held)] {
+            let found = uplift(&bearings(engagement), Some(engaged), 0.0);
+            assert!((found - expected).abs() < 1e-12, "{engagement:?} {engaged:?}: {found} for {expected}");
+        }
+    }
+}
+
+#[test]
+fn a_flywheel_that_is_not_coupled_holds_nothing() {
+    let found = uplift(&bearings(Engagement::Overrunning), None, 3.0);
+    assert!((found - thresholds()[0]).abs() < 1e-12, "{found}");
+}
+
+/// Plates that carry less than the bearings hold with what they carry; those that close fast enough with the bearings.
+#[test]
+fn plates_hold_with_what_they_carry() {
+    let [alone, held] = thresholds();
+    let weak = uplift(&plates(1e-3, 0.0), None, 0.0);
+    assert!((weak - alone - 1e-3).abs() < 1e-12, "{weak}");
+    for rise_time in [0.01, 0.5] {
+        let fast = uplift(&plates(0.1, rise_time), None, 0.0);
+        assert!((fast - held).abs() < 1e-12, "{fast} for {held}");
+    }
+    // A capacity that grows by less than the push lets the block go at once.
+    let slow = uplift(&plates(0.1, 5.0), None, 0.0);
+    assert!((slow - alone).abs() < 1e-8, "{slow} for {alone}");
+}
+
+/// The flywheel receives what the plates take from the block from the first instant, whatever its bearings.
+#[test]
+fn the_least_bearing_friction_is_none() {
+    let shake = pair(Geometry::Slender, 1.7, 2.2);
+    let peak = |dry_deceleration: f64| {
+        let mut drivetrain = plates(0.08, 0.05);
+        drivetrain.flywheel = FlywheelLosses { dry_deceleration, brake_deceleration: f64::INFINITY, viscous_rate: 0.0 };
+        shake.machine(&drivetrain, &tight()).peak
+    };
+    let (none, least) = (peak(0.0), peak(1e-9));
+    assert!((none / least - 1.0).abs() < 1e-8, "{none} and {least}");
+}
+
+#[test]
+fn rising_plates_with_bearings_and_brakes_come_to_an_end() {
+    for brake_deceleration in [0.0, 2.0] {
+        for rise_time in [1e-3, 0.01, 0.05] {
+            for engagement_delay in [0.0, 1e-6, 1e-3] {
+                let mut drivetrain = plates(0.1, rise_time);
+                drivetrain.actuation.engagement_delay = engagement_delay;
+                drivetrain.flywheel.brake_deceleration = brake_deceleration;
+                for (amplitude, frequency) in [(1.2, 1.5), (1.6, 3.0), (3.0, 5.0)] {
+                    let seen = pair(Geometry::Full, amplitude, frequency).machine(&drivetrain, &tight());
+                    assert!(seen.peak > 0.0);
+                }
+            }
+        }
+    }
+}
+
+/// A clutch that is engaged on a spinning flywheel as the block is uplifted again pushes at once.
+#[test]
+fn a_second_uplift_feels_the_spinning_flywheels() {
+    let block = structure(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
+    let mut shake: Shake = shake(block, 1.8, 4.6);
+    let threshold = shake.structure.geometry.uplift_threshold(&shake.structure.block);
+    shake.pieces.push((Ground::QUIET, 8.3));
+    shake.pieces.push((Ground::sine(1.05 * threshold, core::f64::consts::PI), 0.55));
+    shake.free_time = 0.0;
+    let damped = Engagement::Elastic { stiffness: 3e3, damping: 8.0, backlash: 0.0, capacity_ratio: f64::INFINITY };
+    let account = Account { clutching: Clutching::Real, mass_ratio: 0.5, rack_mass_ratio: 0.0 };
+    for engagement in [Engagement::Friction { capacity_ratio: 0.01 }, damped] {
+        let drivetrain = Drivetrain { engagement, ..Drivetrain::default() };
+        let mut ledger = Ledger::new(&shake.structure.block, Geometry::Full, &account);
+        let series = shake.watched(&drivetrain, &tight(), &mut ledger);
+        let uplifts: Vec<f64> =
+            series.events.iter().filter(|(event, _)| *event == Event::Uplift).map(|(_, time)| *time).collect();
+        assert!(uplifts.len() == 2 && series.spins.iter().any(|spin| spin.abs() > 1e-3), "{uplifts:?} {:?}", series.spins);
+        let steps = shake.machine(&drivetrain, &FixedStep::RungeKutta4 { step: 2e-4 });
+        let (a, b) = (series.state.rotation, steps.state.rotation);
+        assert!((a - b).abs() < 1e-6 * a.abs() && a != 0.0, "{engagement:?}: {a} and {b}");
+        let entries = ledger.entries();
+        assert!(entries.residual().abs() < 1e-12 * entries.input.abs(), "{engagement:?}: {entries:?}");
+    }
+}
+
+/// A flywheel that a block in motion has just brought to its speed is let go at once where the block slows down.
+#[test]
+fn an_overrunning_clutch_that_has_just_gripped_does_not_push() {
+    let structure = structure(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
+    let drivetrain = Drivetrain { engagement: Engagement::Overrunning, ..Drivetrain::default() };
+    let machine: Machine<f64> = drivetrain.resolve(&structure, false).unwrap();
+    // Outward, against the weight.
+    let now = machine.now(&machine.released_at(0.0, 0.1, [0.0; 2]));
+    let (velocity, force) = (now.motion.velocity, now.force[0]);
+    // 1 + kℓ² times as much is shaken off with the flywheel at rest before.
+    let lever = math::cos(10.0_f64.to_radians());
+    let k = 0.5 / structure.block.inertia_ratio();
+    assert!((velocity * (1.0 + k * lever * lever) / 0.1 - 1.0).abs() < 1e-13, "{velocity}");
+    assert_eq!(force, 0.0);
+}
+
+/// A push that the bearings of an engaging clutch withstand is no uplift.
+#[test]
+fn a_block_that_is_held_on_its_base_has_not_rocked() {
+    let block = structure(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
+    let [alone, held] = thresholds();
+    for (push, uplifts) in [(0.5 * (alone + held), 0), (held + 1e-4, 1)] {
+        // Half a sine, so that it comes and goes.
+        let pieces = std::vec![(Ground::sine(push, 2.0), core::f64::consts::FRAC_PI_2)];
+        let shake = Shake { structure: block, pieces, free_time: 1.0 };
+        for engagement in [Engagement::Ideal, Engagement::Rigid, Engagement::Friction { capacity_ratio: 0.1 }] {
+            let seen = shake.machine(&bearings(engagement), &tight());
+            let count = seen.events.iter().filter(|(event, _)| *event == Event::Uplift).count();
+            assert_eq!((count, seen.peak > 0.0), (uplifts, uplifts > 0), "{engagement:?} {push}: {:?}", seen.events);
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! When weight and ground overcome what holds a block that does not move.
+
+use super::path::Shaking;
+use super::{Machine, MachineState};
+use crate::drivetrain::clutch_state::{Coupling, Wheel};
+use crate::equation::body::Body;
+use crate::equation::motion::Motion;
+use crate::math::polynomial::first_zero_of;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+
+/// Roundings within which a threshold counts as zero.
+const ROUNDINGS: f64 = 64.0;
+
+/// a ü_g/g + b (1 + v̈_g/g) + c + d t: the moment that moves the block to one side, over its inertia about the toe; 1/s².
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Threshold<S> {
+    horizontal: S,
+    vertical: S,
+    constant: S,
+    /// As the plates of engaged clutches close on, 1/s³.
+    growth: S,
+}
+
+/// The earlier of two instants, with what is known of it.
+pub(super) fn earlier<S: Real, T>(instants: [Option<(S, T)>; 2]) -> Option<(S, T)> {
+    match instants {
+        [Some(a), Some(b)] => Some(if b.0 < a.0 { b } else { a }),
+        [a, b] => a.or(b),
+    }
+}
+
+impl<S: Real> Threshold<S> {
+    /// Its value for the ground acceleration in g.
+    pub(super) fn at(&self, ground: [S; 2]) -> S {
+        self.horizontal * ground[0] + self.vertical * (S::ONE + ground[1]) + self.constant
+    }
+
+    /// How far rounding may take it from zero.
+    fn rounding(&self, ground: [S; 2]) -> S {
+        let terms = (self.horizontal * ground[0]).abs() + self.vertical.abs() * (S::ONE + ground[1]).abs() + self.constant.abs();
+        terms * S::EPSILON * S::of(ROUNDINGS)
+    }
+
+    /// Whether it is above zero, by more than rounding.
+    pub(super) fn is_exceeded(&self, ground: [S; 2]) -> bool {
+        self.at(ground) > self.rounding(ground)
+    }
+
+    /// The moment that holds where this one moves.
+    pub(super) fn opposite(&self) -> Threshold<S> {
+        let Threshold { horizontal, vertical, constant, growth } = *self;
+        Threshold { horizontal: -horizontal, vertical: -vertical, constant: -constant, growth: -growth }
+    }
+
+    /// First instant in [`from`, `to`) at which it is above zero and not about to fall below, and whether it gets there by crossing zero
+    /// or by a jump. It grows from `from` on.
+    pub(super) fn exceeded(&self, shaking: Shaking<'_, S>, from: S, to: S) -> Option<(S, bool)> {
+        let value = |t: S| {
+            let mut slope = self.horizontal * shaking.horizontal.slope(t) + self.growth;
+            if let Some(vertical) = shaking.vertical {
+                slope = slope + self.vertical * vertical.slope(t);
+            }
+            (self.at(shaking.at(t)) + self.growth * (t - from), slope)
+        };
+        let ground = shaking.at(from);
+        let (now, slope) = value(from);
+        let above = now > S::ZERO;
+        if self.is_exceeded(ground) || (above && slope >= S::ZERO) {
+            return Some((from, !self.is_exceeded(ground)));
+        }
+        let (end, _) = value(to);
+        let mut curvature = self.horizontal.abs() * shaking.horizontal.curvature_bound();
+        if let Some(vertical) = shaking.vertical {
+            curvature = curvature + self.vertical.abs() * vertical.curvature_bound();
+        }
+        let zero = first_zero_of(value, curvature, (from, to, end), Sign::Negative, above);
+        // What the clock cannot tell from the end of the piece is left to the next one.
+        zero.filter(|&t| to - t > to * S::EPSILON * S::of(4.0)).map(|t| (t, true))
+    }
+}
+
+impl<S: Real> Machine<S> {
+    /// What moves a block that does not move, tilted to `side`, towards `sign`: weight and ground, against the friction of the rack and of
+    /// the flywheels that are coupled to it. Forces of stretched clutches are taken as they are now.
+    #[inline(never)]
+    pub(super) fn breakaway(&self, state: &MachineState<S>, side: Sign, sign: Sign) -> Threshold<S> {
+        let posture = self.body.posture(side.unit(), state.motion.rotation);
+        let (horizontal, vertical) = self.body.factors(&posture);
+        let arm = self.body.arm(&posture);
+        let (mut push, mut dry, mut force) = (S::ZERO, (S::ZERO, S::ZERO), (S::ZERO, S::ZERO));
+        let add = |(a, b): (S, S), (c, d): (S, S)| (a + c, b + d);
+        if let Some(gears) = self.drive.gears() {
+            (push, dry) = (gears.rack_push, (gears.rack_dry, S::ZERO));
+            let sticks = |wheel: &Wheel<S>| match wheel.coupling {
+                Coupling::Locked => true,
+                Coupling::Slipping(_) => wheel.spin == S::ZERO,
+                _ => false,
+            };
+            let wheels = &state.device.wheels;
+            for wheel in wheels.iter().filter(|wheel| sticks(wheel)) {
+                dry = add(dry, gears.standing_friction(wheel));
+            }
+            let pulls = |wheel: &Wheel<S>| wheel.coupling != Coupling::Open && !sticks(wheel);
+            if wheels.iter().any(pulls) {
+                let law = self.drive.law(state.motion.direction, state.motion.drive, &state.device);
+                let still = Motion { rotation: state.motion.rotation, velocity: S::ZERO, acceleration: S::ZERO };
+                let moment = self.moment(&law, side, &still, self.drive.load(&state.device), state.ground, S::ZERO);
+                let account = self.drive.account(&moment, S::ZERO, &state.device);
+                for (i, _) in wheels.iter().enumerate().filter(|(_, wheel)| pulls(wheel)) {
+                    force = add(force, (account.force[i], law.slip_growth[i]));
+                }
+            }
+        }
+        Threshold {
+            horizontal: sign.times(horizontal - arm * push),
+            vertical: sign.times(vertical),
+            constant: -(arm * dry.0) - sign.times(arm * force.0),
+            growth: -(arm * dry.1) - sign.times(arm * force.1),
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! An ideal device as those see it who watch forces and energies: the arcs of [`crate::motion::ideal`], with a snapshot.
+//!
+//! The clutch of an ideal device has no memory: a working flywheel moves with the rack, an idle one stands still. So
+//! with κ = 1 while it works, force and energy follow from the block's motion alone,
+//!
+//! F/(λmR) = κ k (terminals' acceleration)/R,  E/(λmR²) = ½ κ k (ℓθ̇)²,  k = σ/λ.
+
+use crate::drivetrain::power_loss::Spent;
+use crate::equation::Equation;
+use crate::equation::any_equation::AnyEquation;
+use crate::equation::clutch_rule::{ClutchRule, Flywheel};
+use crate::equation::motion::Motion;
+use crate::ground::Piece;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::method::dense_output::Arc;
+use crate::motion::device_snapshot::{DeviceArc, DeviceObserver, Snapshot};
+use crate::motion::observer::{Event, Observer, Stretch};
+use crate::motion::state::State;
+
+/// Shows the motion of an ideal device to a [`DeviceObserver`].
+#[derive(Clone, Copy, Debug)]
+pub struct Watched<S, P, O> {
+    /// The equation of motion with the inerter engaged.
+    pub engaged: AnyEquation<S>,
+    /// k = σ/λ; 0 without an inerter.
+    pub coupling: S,
+    /// The ground motion in force, in the local time of the stretches that follow; the caller keeps it up to date.
+    pub piece: P,
+    /// Who watches.
+    pub observer: O,
+    /// When it engages.
+    pub clutch: ClutchRule,
+}
+
+impl<S: Real, P: Piece<S>, O: DeviceObserver<S>> Observer<S> for Watched<S, P, O> {
+    #[inline]
+    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
+        let arc = WatchedArc {
+            arc,
+            equation: &self.engaged,
+            coupling: self.coupling,
+            piece: &self.piece,
+            start: stretch.start,
+            side: stretch.side.unit(),
+            wheel: self.clutch.flywheel(stretch.engaged && self.clutch.has_inerter(), stretch.direction),
+        };
+        self.observer.device_stretch(&arc, stretch);
+    }
+
+    #[inline]
+    fn event(&mut self, event: Event, time: S, state: &State<S>) {
+        self.observer.device_event(event, time, state);
+    }
+}
+
+/// An arc and the device that works along it.
+struct WatchedArc<'a, S, P> {
+    arc: &'a dyn Arc<S>,
+    equation: &'a AnyEquation<S>,
+    coupling: S,
+    piece: &'a P,
+    start: S,
+    side: S,
+    wheel: Flywheel,
+}
+
+impl<S: Real, P: Piece<S>> Arc<S> for WatchedArc<'_, S, P> {
+    #[inline]
+    fn length(&self) -> S {
+        self.arc.length()
+    }
+
+    #[inline]
+    fn at(&self, time: S) -> Motion<S> {
+        self.arc.at(time)
+    }
+
+    #[inline]
+    fn switching(&self, time: S) -> S {
+        self.arc.switching(time)
+    }
+
+    #[inline]
+    fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        self.arc.acceleration_zero(from, to, sign, from_zero)
+    }
+
+    #[inline]
+    fn switching_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        self.arc.switching_zero(from, to, sign, from_zero)
+    }
+
+    #[inline]
+    fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
+        self.arc.largest_acceleration(from, to, floor)
+    }
+}
+
+impl<S: Real, P: Piece<S>> DeviceArc<S> for WatchedArc<'_, S, P> {
+    #[inline]
+    fn snapshot(&self, time: S) -> Snapshot<S> {
+        let motion = self.arc.at(time);
+        let Motion { rotation, velocity, acceleration } = motion;
+        // Without a θ̇² term the terminals' acceleration is ℓ times what it is given.
+        let terminal_velocity = self.equation.terminal_acceleration(self.side, rotation, S::ZERO, velocity);
+        let mut snapshot = Snapshot {
+            motion,
+            ground: [self.piece.acceleration(self.start + time), S::ZERO],
+            terminal_velocity,
+            force: [S::ZERO; 2],
+            rack_force: S::ZERO,
+            engaged: [false; 2],
+            spin: [S::ZERO; 2],
+            stored: S::ZERO,
+            sprung: S::ZERO,
+            spent: Spent::default(),
+        };
+        let wheel = match self.wheel {
+            Flywheel::Idle => return snapshot,
+            Flywheel::First => 0,
+            Flywheel::Second => 1,
+        };
+        let terminal = self.equation.terminal_acceleration(self.side, rotation, velocity, acceleration);
+        snapshot.force[wheel] = self.coupling * terminal;
+        snapshot.engaged[wheel] = true;
+        snapshot.spin[wheel] = terminal_velocity;
+        snapshot.stored = S::HALF * self.coupling * terminal_velocity * terminal_velocity;
+        snapshot.spent.kinematics = self.equation.paper_power(self.side, rotation, velocity);
+        snapshot
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests;

@@ -1,0 +1,113 @@
+//! What an impact does, and how impacts that accumulate end in rest.
+
+use super::System;
+use crate::equation::Equation;
+use crate::ground::Piece;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::motion::observer::{Event, Observer};
+use crate::motion::rest::free_decay::Swings;
+use crate::motion::rest::impact_accumulation::Accumulation;
+use crate::motion::state::{Phase, State};
+
+/// Pairs of swings below the rest speed that are followed in one piece when their impacts do not end them.
+const MOST_IDLE_SWINGS: f64 = 1e3;
+
+impl<S: Real> System<S> {
+    /// θ = 0: the velocity is multiplied by η and the other toe takes over, or the block comes to rest. Returns the
+    /// time, which rest moves on to the end of the impacts that it stands for.
+    pub(super) fn impact(
+        &self,
+        state: &mut State<S>,
+        piece: &dyn Piece<S>,
+        time: S,
+        duration: S,
+        observer: &mut dyn Observer<S>,
+    ) -> S {
+        let incoming = state.velocity.abs();
+        if incoming >= self.counted_speed {
+            state.impacts += 1;
+        }
+        // A turn and a hit in one ulp leave the direction of before the turn.
+        state.direction = Sign::of(state.velocity, state.direction);
+        state.velocity = self.restitution * state.velocity;
+        state.side = state.direction;
+        let ground = piece.acceleration(time);
+        self.read_push(state, ground);
+        observer.event(Event::Impact, time, state);
+        // A push beyond the threshold ends impacts too weak for the clock to tell apart: the block uplifts to the other side.
+        if self.lifts(ground) {
+            let rate = self.released.acceleration(state.side.unit(), S::ZERO, S::ZERO, ground);
+            let unresolved = state.side.times(rate) < S::ZERO && time + state.velocity.abs() / rate.abs() == time;
+            if state.velocity == S::ZERO || unresolved {
+                self.uplift(state, ground, false);
+            }
+            return time;
+        }
+        if state.velocity.abs() <= self.rest_speed {
+            let tail = self.accumulation(state.side, state.velocity.abs(), ground);
+            let ends = time + tail.duration;
+            let holds = ends <= duration && piece.acceleration(ends).abs() < self.uplift;
+            // Impacts that hardly take anything would go on through the piece, thousands of them too weak to matter.
+            let lingers = (duration - time) > tail.swing * S::of(MOST_IDLE_SWINGS);
+            let hopeless = state.velocity.abs() <= self.rest_speed * S::EPSILON;
+            if holds || lingers || hopeless {
+                let impacts = state.impacts + tail.impacts;
+                *state = State { impacts, side: state.side, direction: state.direction, ..State::default() };
+                let ends = if holds { ends } else { time };
+                observer.event(Event::Rest, ends, state);
+                return ends;
+            }
+        }
+        time
+    }
+
+    /// After an impact on quiet ground: the rest of the motion in closed form, or as many whole swings as `duration` has room for.
+    pub(super) fn sum_up(
+        &self,
+        state: &mut State<S>,
+        swings: &mut Option<Swings<S>>,
+        time: S,
+        duration: S,
+        observer: &mut dyn Observer<S>,
+    ) -> S {
+        if state.phase != Phase::Rocking {
+            return time;
+        }
+        let swings = swings.get_or_insert_with(|| Swings::of(&self.released, &self.engaged, !self.clutch.follows_signs()));
+        let Some(decay) = swings.decay(state.velocity.abs(), self.restitution, self.counted_speed, duration - time) else {
+            return time;
+        };
+        observer.decay(&decay);
+        let impacts = state.impacts.saturating_add(decay.impacts);
+        let ends = (time + decay.duration).smaller(duration);
+        if decay.speed != S::ZERO {
+            // Still rocking at the end of its time: the last, incomplete swing is left to the method.
+            let velocity = state.direction.times(decay.speed);
+            let turned = |sign: Sign| if decay.speed < S::ZERO { sign.opposite() } else { sign };
+            let (side, direction) = (turned(state.side), turned(state.direction));
+            *state = State { impacts, velocity, side, direction, push: turned(state.push), drive: turned(state.drive), ..*state };
+        } else {
+            *state = State { impacts, side: state.side, direction: state.direction, ..State::default() };
+            observer.event(Event::Rest, ends, state);
+        }
+        ends
+    }
+
+    /// The infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]).
+    fn accumulation(&self, side: Sign, speed: S, ground: S) -> Accumulation<S> {
+        let rates = |side: Sign| {
+            let rate = |engaged: bool| {
+                let s = side.unit();
+                let a = if engaged {
+                    self.engaged.acceleration(s, S::ZERO, S::ZERO, ground)
+                } else {
+                    self.released.acceleration(s, S::ZERO, S::ZERO, ground)
+                };
+                a.abs().larger(S::EPSILON * S::EPSILON)
+            };
+            (rate(self.clutch.engages(side, side.opposite())), rate(self.clutch.engages(side, side)))
+        };
+        Accumulation::of(rates(side), rates(side.opposite()), self.restitution, speed, self.counted_speed)
+    }
+}

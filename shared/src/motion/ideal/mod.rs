@@ -1,0 +1,344 @@
+//! A rocking block from event to event.
+//!
+//! Between events the motion is one smooth arc. Within an arc the zeros of θ̈ are found first; between them θ̇ is monotone,
+//! so its zeros show as changes of sign; between those θ is monotone, so its zeros do. No crossing is missed however
+//! close two of them lie, and the signs themselves are part of the state: an event just handled has already changed its
+//! sign, so it cannot be found a second time.
+//!
+//! The room imports what is directly in `motion`, `motion::rest`, and every room below `motion`.
+
+pub mod device_view;
+mod impact;
+pub mod resolve;
+mod signs;
+mod uplift;
+
+use crate::equation::Equation;
+use crate::equation::any_equation::AnyEquation;
+use crate::equation::clutch_rule::ClutchRule;
+use crate::ground::Piece;
+use crate::math::root::locate;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::method::dense_output::{Arc, Method, Start};
+use crate::method::step_grid::next_stop;
+use crate::motion::observer::{Event, Observer, Stretch};
+use crate::motion::state::{Limits, Phase, State, Stopped};
+
+/// A block with its device, resolved into the equations that it needs and the rule that chooses between them.
+#[derive(Clone, Copy, Debug)]
+pub struct System<S> {
+    /// Equation of motion with the inerter released.
+    pub released: AnyEquation<S>,
+    /// Equation of motion with the inerter engaged.
+    pub engaged: AnyEquation<S>,
+    /// Velocity after an impact over that before, 0 to 1.
+    pub restitution: S,
+    /// Ground acceleration (in g) above which the block uplifts.
+    pub uplift: S,
+    /// α, rad: the size of a rotation that matters.
+    pub slenderness: S,
+    /// θ̇ (rad/s) below which an impact may end in rest.
+    pub rest_speed: S,
+    /// θ̇ (rad/s) below which an impact does not count; infinitely many follow in finite time.
+    pub counted_speed: S,
+    /// The clutch.
+    pub clutch: ClutchRule,
+}
+
+/// What ended an arc's scan.
+enum End {
+    /// The arc was followed to its end.
+    Reached,
+    /// A clutch switched, or the block turned about and its clutch with it.
+    Switched,
+    /// Rounding leaves open to which side a block at a turn moves off.
+    Undecided,
+    /// θ = 0.
+    Impact,
+    /// |θ| passed the limit.
+    Overturned,
+}
+
+impl<S: Real> System<S> {
+    /// Whether the inerter is engaged in `state`.
+    #[inline(always)]
+    pub fn is_engaged(&self, state: &State<S>) -> bool {
+        state.phase == Phase::Rocking && self.clutch.engages(state.direction, state.drive)
+    }
+
+    /// A block released at θ (rad, not 0) with θ̇ (rad/s) while the ground accelerates by `ground` (in g).
+    pub fn released_at(&self, rotation: S, velocity: S, ground: S) -> State<S> {
+        let side = Sign::of(rotation, Sign::of(velocity, Sign::Positive));
+        let mut state = State {
+            rotation,
+            velocity,
+            phase: Phase::Rocking,
+            side,
+            direction: Sign::of(velocity, side.opposite()),
+            ..State::default()
+        };
+        self.read_push(&mut state, ground);
+        if velocity == S::ZERO {
+            state.direction = state.push;
+        }
+        state
+    }
+
+    /// Follows the block over `piece` from its local time 0 to `duration` (s), telling `observer` of every stretch and
+    /// event.
+    ///
+    /// # Errors
+    /// [`Stopped`], with the state as it was then.
+    pub fn advance<M: Method<S>>(
+        &self,
+        method: &M,
+        state: &mut State<S>,
+        piece: &dyn Piece<S>,
+        duration: S,
+        limits: &Limits<S>,
+        observer: &mut dyn Observer<S>,
+    ) -> Result<(), Stopped> {
+        let mut time = S::ZERO;
+        let mut acceleration = None;
+        let mut tick = 0_u32;
+        let mut events = 0_u32;
+        let mut swings = None;
+        let mut undecided = None;
+        state.push_is_zero = false;
+        while time < duration && state.phase != Phase::Overturned {
+            if state.phase == Phase::Rest {
+                match self.uplift_time(piece, time, duration) {
+                    Some((at, crossing)) => {
+                        time = at;
+                        self.uplift(state, piece.acceleration(at), crossing);
+                        observer.event(Event::Uplift, time, state);
+                    }
+                    None => return Ok(()),
+                }
+            }
+            let outward = state.side == state.direction && state.side.times(state.rotation) >= limits.overturned;
+            if outward {
+                state.phase = Phase::Overturned;
+                observer.event(Event::Overturned, time, state);
+                return Ok(());
+            }
+            let stop = match method.step() {
+                Some(step) => next_stop(&mut tick, step, time, duration),
+                None => duration,
+            };
+            let end = self.follow(method, state, piece, (&mut time, &mut acceleration), stop, limits, observer);
+            match end {
+                End::Reached => {}
+                End::Switched => observer.event(Event::Switch, time, state),
+                End::Undecided => {
+                    // Neither way: it stands there for the rest of the step.
+                    if undecided == Some(time) && method.step().is_some() {
+                        time = stop;
+                    }
+                    undecided = Some(time);
+                }
+                End::Impact => {
+                    time = self.impact(state, piece, time, duration, observer);
+                    if piece.is_quiet()
+                        && !observer.every_swing()
+                        && self.released.switches_with_acceleration()
+                        && self.engaged.switches_with_acceleration()
+                    {
+                        time = self.sum_up(state, &mut swings, time, duration, observer);
+                    }
+                }
+                End::Overturned => {
+                    state.phase = Phase::Overturned;
+                    observer.event(Event::Overturned, time, state);
+                }
+            }
+            events += 1;
+            if !(state.rotation.is_finite() && state.velocity.is_finite()) {
+                return Err(Stopped::NotFinite { time: time.to_f64() });
+            }
+            if events >= limits.events {
+                return Err(Stopped::TooManyEvents { time: time.to_f64(), mode: "the block rocks" });
+            }
+        }
+        Ok(())
+    }
+
+    /// One arc, up to its first event that changes the equation. `acceleration` is θ̈ at `time`, where the arc before has evaluated it.
+    #[expect(clippy::too_many_arguments, reason = "one call site, and each is a different thing")]
+    #[inline]
+    fn follow<M: Method<S>>(
+        &self,
+        method: &M,
+        state: &mut State<S>,
+        piece: &dyn Piece<S>,
+        (time, acceleration): (&mut S, &mut Option<S>),
+        stop: S,
+        limits: &Limits<S>,
+        observer: &mut dyn Observer<S>,
+    ) -> End {
+        let engaged = self.is_engaged(state);
+        let equation = if engaged { &self.engaged } else { &self.released };
+        let arc = method.arc(Start {
+            equation,
+            piece,
+            side: state.side,
+            rotation: state.rotation,
+            velocity: state.velocity,
+            time: *time,
+            length: stop - *time,
+            acceleration_is_zero: state.push_is_zero,
+            acceleration: acceleration.take(),
+            scale: self.slenderness,
+        });
+        let length = arc.length();
+        let separate_drive = self.clutch.follows_signs() && !equation.switches_with_acceleration();
+        if *time == S::ZERO {
+            let before = state.direction;
+            let switched = self.jumped(equation, state, &arc, separate_drive);
+            if state.direction != before && state.rotation != S::ZERO {
+                observer.event(Event::Turn, *time, state);
+            }
+            if switched {
+                return End::Switched;
+            }
+        }
+        let mut from = S::ZERO;
+        let mut first = arc.at(S::ZERO);
+        let mut push_is_zero = state.push_is_zero;
+        loop {
+            let push_zero = arc.acceleration_zero(from, length, state.push, push_is_zero);
+            // What the clock cannot tell from the end of the step is left to the next one.
+            let drive_zero = if separate_drive && length > stop * S::EPSILON * S::of(4.0) {
+                let bound = push_zero.unwrap_or(length);
+                let mut zero = None;
+                for to in [bound, length] {
+                    zero = arc.switching_zero(from, to, state.drive, push_is_zero).filter(|&zero| zero <= bound);
+                    // Just after a switch rounding may show the old sign as far as a zero of θ̈ that follows at once: only a longer look
+                    // tells that from a switch back.
+                    if push_zero.is_none() || zero.is_none_or(|zero| zero > (*time + length) * S::EPSILON) {
+                        break;
+                    }
+                }
+                zero
+            } else {
+                None
+            };
+            let until = drive_zero.or(push_zero).unwrap_or(length);
+            let end = arc.at(until);
+            let mut stretch = Stretch {
+                start: *time,
+                from,
+                to: until,
+                first,
+                last: end,
+                engaged,
+                side: state.side,
+                direction: state.direction,
+            };
+            // θ̇ is monotone up to here, so a zero of it shows.
+            let turns = state.direction.times(end.velocity) < S::ZERO;
+            let (turn, at_turn) = if turns {
+                let turn = locate(from, until, state.direction, S::HALF * (from + until), |t| {
+                    let motion = arc.at(t);
+                    (motion.velocity, motion.acceleration)
+                });
+                (turn, arc.at(turn))
+            } else {
+                (until, end)
+            };
+            // θ is monotone up to the turn.
+            if state.side.times(at_turn.rotation) < S::ZERO {
+                let hit = locate(from, turn, state.side, S::HALF * (from + turn), |t| {
+                    let motion = arc.at(t);
+                    (motion.rotation, motion.velocity)
+                });
+                (stretch.to, stretch.last) = (hit, arc.at(hit));
+                observer.stretch(&arc, &stretch);
+                state.rotation = S::ZERO;
+                state.velocity = stretch.last.velocity;
+                state.push_is_zero = false;
+                *time = *time + hit;
+                return End::Impact;
+            }
+            if state.side == state.direction && state.side.times(at_turn.rotation) > limits.overturned {
+                let limit = state.side.times(limits.overturned);
+                let over = locate(from, turn, state.side.opposite(), S::HALF * (from + turn), |t| {
+                    let motion = arc.at(t);
+                    (motion.rotation - limit, motion.velocity)
+                });
+                (stretch.to, stretch.last) = (over, arc.at(over));
+                observer.stretch(&arc, &stretch);
+                state.rotation = limit;
+                state.velocity = stretch.last.velocity;
+                *time = *time + over;
+                return End::Overturned;
+            }
+            if turns && self.clutch.follows_signs() && from == S::ZERO && first.velocity == S::ZERO && turn <= stop * S::EPSILON {
+                // It has just turned: back at once would go on without end. The motion shows where it goes.
+                state.direction = state.direction.opposite();
+                state.push = state.direction;
+                if !separate_drive {
+                    state.drive = state.push;
+                }
+                return End::Undecided;
+            }
+            if turns {
+                (stretch.to, stretch.last) = (turn, at_turn);
+                observer.stretch(&arc, &stretch);
+                // Not the sign of θ̈: in a long Euler step θ̇ does not follow it, and a turn back would be found without end.
+                state.direction = state.direction.opposite();
+                if method.step().is_none() {
+                    // A block let go in balance, with θ̈ = 0, may not have known which way it is pushed; its turn tells.
+                    state.push = state.direction;
+                    if !separate_drive {
+                        state.drive = state.push;
+                    }
+                }
+                observer.event(Event::Turn, *time + turn, &State { rotation: at_turn.rotation, velocity: S::ZERO, ..*state });
+                if self.clutch.follows_signs() {
+                    state.rotation = at_turn.rotation;
+                    state.velocity = S::ZERO;
+                    state.push_is_zero = false;
+                    *time = *time + turn;
+                    return End::Switched;
+                }
+                (from, first) = (turn, at_turn);
+                push_is_zero = false;
+                continue;
+            }
+            observer.stretch(&arc, &stretch);
+            let at_push_zero = drive_zero.is_none() && push_zero.is_some();
+            if at_push_zero {
+                state.push = state.push.opposite();
+            }
+            if drive_zero.is_some() || (at_push_zero && !separate_drive) {
+                state.drive = state.drive.opposite();
+            }
+            let switches = if separate_drive { drive_zero.is_some() } else { at_push_zero };
+            if self.clutch.follows_signs() && switches {
+                state.rotation = end.rotation;
+                state.velocity = end.velocity;
+                state.push_is_zero = at_push_zero;
+                if separate_drive {
+                    // The other equation's θ̈ may have another sign here.
+                    self.read_push_only(state, piece.acceleration(*time + until));
+                }
+                *time = *time + until;
+                return End::Switched;
+            }
+            if at_push_zero && until < length {
+                (from, first) = (until, end);
+                push_is_zero = true;
+                continue;
+            }
+            state.rotation = end.rotation;
+            state.velocity = end.velocity;
+            state.push_is_zero = at_push_zero;
+            let reached = *time + length;
+            *time = if length == stop - *time { stop } else { reached };
+            *acceleration = (*time == reached && engaged == self.is_engaged(state)).then_some(end.acceleration);
+            return End::Reached;
+        }
+    }
+}

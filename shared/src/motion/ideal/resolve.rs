@@ -1,0 +1,103 @@
+//! From the parameters of a structure to the equations of motion that it needs, chosen once, before the loop.
+
+use super::System;
+use crate::equation::any_equation::AnyEquation;
+use crate::equation::clutch_rule::ClutchRule;
+use crate::equation::lever::{CentreOfMass, TyingPoint};
+use crate::equation::{FullBlock, FullInerter, SlenderBlock};
+use crate::math::scalar::Real;
+use crate::structure::block::Geometry;
+use crate::structure::device::{DeviceKind, KinematicsKind};
+use crate::structure::error::{ParameterError, require};
+use crate::structure::mount::Mount;
+use crate::structure::{COUNTED_SPEED, Structure};
+use core::marker::PhantomData;
+
+impl Structure {
+    /// The equations of the structure with what it carries, and its clutch.
+    ///
+    /// # Errors
+    /// [`ParameterError`] names the first parameter outside its range.
+    pub fn resolve<S: Real>(&self) -> Result<System<S>, ParameterError> {
+        let sigma = self.device.mass_ratio;
+        require("mass_ratio", sigma, (0.0..=10_000.0).contains(&sigma), "from 0 to 10000")?;
+        self.loaded()?.compose()
+    }
+
+    /// The composition for a structure that carries nothing.
+    fn compose<S: Real>(&self) -> Result<System<S>, ParameterError> {
+        let p2 = self.block.frequency_parameter_squared();
+        let alpha = self.block.slenderness();
+        let device = &self.device;
+        let coupling = device.mass_ratio / self.block.inertia_ratio();
+        let speed = self.block.frequency_parameter() * alpha;
+        let rest = require("rest_speed", self.rest_speed, (1e-12..=1e-2).contains(&self.rest_speed), "from 1e-12 to 1e-2")?;
+        let restitution = self.restitution.evaluate(&self.block, self.geometry, device)?;
+        let clutch = match device.kind {
+            DeviceKind::None => ClutchRule::Without,
+            DeviceKind::Inerter => ClutchRule::Always,
+            DeviceKind::ClutchedPair => ClutchRule::Resisting,
+        };
+        let [released, engaged] = self.equations(p2, coupling)?;
+        Ok(System {
+            released,
+            engaged,
+            restitution: S::of(restitution),
+            uplift: S::of(self.geometry.uplift_threshold(&self.block)),
+            slenderness: S::of(alpha),
+            rest_speed: S::of(rest * speed),
+            counted_speed: S::of(COUNTED_SPEED * speed),
+            clutch,
+        })
+    }
+
+    /// The equations with the inerter released and engaged; what the device cannot be is the other one again.
+    fn equations<S: Real>(&self, p2: f64, coupling: f64) -> Result<[AnyEquation<S>; 2], ParameterError> {
+        let Structure { block, device, .. } = self;
+        let alpha = block.slenderness();
+        if self.geometry == Geometry::Slender {
+            let squared = device.mount.slender_lever_squared(block)?;
+            let equation = |engaged: bool| {
+                let inertia = if engaged { 1.0 + coupling * squared } else { 1.0 };
+                AnyEquation::Slender(SlenderBlock {
+                    frequency_squared: S::of(p2 / inertia),
+                    slenderness: S::of(alpha),
+                    inertia: S::of(inertia),
+                    lever: S::of(crate::math::square_root(squared)),
+                })
+            };
+            return Ok([equation(device.kind == DeviceKind::Inerter), equation(device.kind != DeviceKind::None)]);
+        }
+        let block = FullBlock { frequency_squared: S::of(p2), slenderness: S::of(alpha) };
+        let alone = AnyEquation::Block(block);
+        if device.kind == DeviceKind::None {
+            return Ok([alone; 2]);
+        }
+        let constants = device.mount.lever(&self.block)?;
+        let point = TyingPoint { along: S::of(constants.along), across: S::of(constants.across) };
+        let inerter = |coupling: f64| {
+            let coupling = S::of(coupling);
+            match (device.mount, device.kinematics) {
+                (Mount::CentreOfMass, KinematicsKind::Paper) => {
+                    AnyEquation::CentrePaper(FullInerter { block, coupling, lever: CentreOfMass, kinematics: PhantomData })
+                }
+                (Mount::CentreOfMass, KinematicsKind::Consistent) => {
+                    AnyEquation::CentreConsistent(FullInerter { block, coupling, lever: CentreOfMass, kinematics: PhantomData })
+                }
+                (_, KinematicsKind::Paper) => {
+                    AnyEquation::PointPaper(FullInerter { block, coupling, lever: point, kinematics: PhantomData })
+                }
+                (_, KinematicsKind::Consistent) => {
+                    AnyEquation::PointConsistent(FullInerter { block, coupling, lever: point, kinematics: PhantomData })
+                }
+            }
+        };
+        let engaged = inerter(coupling);
+        Ok(match (device.kind, device.kinematics) {
+            (DeviceKind::Inerter, _) => [engaged; 2],
+            // The clutch watches the terminals' acceleration, which is not that of a bare block.
+            (_, KinematicsKind::Consistent) => [inerter(0.0), engaged],
+            (_, KinematicsKind::Paper) => [alone, engaged],
+        })
+    }
+}

@@ -1,0 +1,81 @@
+//! When a block at rest starts to rock, and to which side.
+
+use super::System;
+use crate::equation::Equation;
+use crate::ground::Piece;
+use crate::math::polynomial::first_zero_of;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::motion::state::{Phase, State};
+
+impl<S: Real> System<S> {
+    /// First instant in [`from`, `to`) at which the ground pushes harder than the weight holds, and whether it gets
+    /// there by crossing the threshold (so that the bracket is zero) or by a jump.
+    #[inline(never)]
+    pub(super) fn uplift_time(&self, piece: &dyn Piece<S>, from: S, to: S) -> Option<(S, bool)> {
+        let start = piece.acceleration(from);
+        if self.lifts(start) {
+            return Some((from, false));
+        }
+        // What the equation holds is the threshold, or within rounding of it.
+        let threshold = self.uplift.larger(start.abs());
+        if start.abs() == threshold && rises(piece, from, start, to - from) > threshold * S::EPSILON {
+            // Cut at the very crossing: a search that starts on a zero might take a short push for a graze.
+            return Some((from, true));
+        }
+        let end = piece.acceleration(to);
+        let crossing = |sign: Sign| {
+            first_zero_of(
+                |t| (sign.times(piece.acceleration(t)) - threshold, sign.times(piece.slope(t))),
+                piece.curvature_bound(),
+                (from, to, sign.times(end) - threshold),
+                Sign::Negative,
+                false,
+            )
+        };
+        let positive = crossing(Sign::Positive);
+        let negative = crossing(Sign::Negative);
+        let first = match (positive, negative) {
+            (Some(a), Some(b)) => Some(a.smaller(b)),
+            (a, b) => a.or(b),
+        };
+        // What the clock cannot tell from the end of the piece is left to the next one.
+        first.filter(|&t| to - t > to * S::EPSILON * S::of(4.0)).map(|t| (t, true))
+    }
+
+    /// Whether a push of `ground` (in g) lifts the block: beyond the threshold by so little that the equation, as it rounds, still
+    /// pushes back, it does not, or uplift and impact would follow each other without end.
+    #[inline(never)]
+    pub(super) fn lifts(&self, ground: S) -> bool {
+        let side = Sign::of(ground, Sign::Positive).opposite();
+        ground.abs() > self.uplift && side.times(self.released.acceleration(side.unit(), S::ZERO, S::ZERO, ground)) > S::ZERO
+    }
+
+    /// Sets the block in motion, to the side opposite to the push.
+    pub(super) fn uplift(&self, state: &mut State<S>, ground: S, crossing: bool) {
+        let side = Sign::of(ground, Sign::Positive).opposite();
+        *state = State {
+            phase: Phase::Rocking,
+            side,
+            direction: side,
+            push: side,
+            drive: side,
+            push_is_zero: crossing,
+            impacts: state.impacts,
+            ..State::default()
+        };
+    }
+}
+
+/// By how much a push of `start` (in g) at the start of a stretch of `length` (s) grows there, as far as its slope and curvature bound tell.
+#[inline(never)]
+fn rises<S: Real>(piece: &dyn Piece<S>, from: S, start: S, length: S) -> S {
+    let slope = Sign::of(start, Sign::Positive).times(piece.slope(from));
+    if slope <= S::ZERO {
+        return S::ZERO;
+    }
+    let curvature = piece.curvature_bound();
+    // Up to a crest that may come before the end.
+    let length = if slope < curvature * length { slope / curvature } else { length };
+    slope * length
+}

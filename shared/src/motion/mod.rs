@@ -1,0 +1,14 @@
+//! Event-driven integration of a rocking block.
+//!
+//! [`ideal`]: of devices whose clutch has no memory; [`hybrid`]: of devices with a memory, as a hybrid automaton; [`rest`]: how free rocking
+//! ends; [`step_end`]: time stepping without event location, as the yardstick of accuracy and cost. [`state`], [`observer`],
+//! [`device_snapshot`]: what all share.
+//! The room imports `math`, `equation`, `ground`, `drivetrain` and `method`; `ideal` and `hybrid` also `structure`.
+
+pub mod device_snapshot;
+pub mod hybrid;
+pub mod ideal;
+pub mod observer;
+pub mod rest;
+pub mod state;
+pub mod step_end;

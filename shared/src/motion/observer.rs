@@ -1,0 +1,127 @@
+//! Observers of a motion: told of every monotone stretch and every event. What nobody watches costs nothing.
+
+use super::state::State;
+use crate::equation::motion::Motion;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::method::dense_output::Arc;
+use crate::motion::rest::free_decay::Decay;
+
+/// What happened at an instant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// The block leaves its rest.
+    Uplift,
+    /// θ = 0; the state is the one after the impact.
+    Impact,
+    /// θ̇ = 0 at a largest rotation.
+    Turn,
+    /// The clutch engaged or released; the state is the one after it.
+    Switch,
+    /// A clutch of a device with a memory stuck, slipped, or took up its play; the state is the one after it.
+    Coupling,
+    /// The impacts have accumulated to rest.
+    Rest,
+    /// The block cannot return.
+    Overturned,
+}
+
+/// A part of an arc over which θ and θ̇ are monotone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch<S> {
+    /// Local time in the piece at which the arc starts, s.
+    pub start: S,
+    /// From here on the arc, s.
+    pub from: S,
+    /// To here on the arc, s.
+    pub to: S,
+    /// The motion at `from`.
+    pub first: Motion<S>,
+    /// The motion at `to`.
+    pub last: Motion<S>,
+    /// The inerter is engaged.
+    pub engaged: bool,
+    /// s.
+    pub side: Sign,
+    /// Sign of θ̇.
+    pub direction: Sign,
+}
+
+/// Told of every stretch and every event, in order. Times are local to the piece of ground motion.
+pub trait Observer<S: Real> {
+    /// Wants every swing of a free motion; otherwise its end is summed in closed form ([`Decay`]).
+    fn every_swing(&self) -> bool {
+        true
+    }
+
+    /// The motion over a stretch.
+    #[inline(always)]
+    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
+        let _ = (arc, stretch);
+    }
+
+    /// An event, with the state after it.
+    #[inline(always)]
+    fn event(&mut self, event: Event, time: S, state: &State<S>) {
+        let _ = (event, time, state);
+    }
+
+    /// The rest of a free motion, summed.
+    #[inline(always)]
+    fn decay(&mut self, decay: &Decay<S>) {
+        let _ = decay;
+    }
+}
+
+/// Nobody.
+impl<S: Real> Observer<S> for () {
+    fn every_swing(&self) -> bool {
+        false
+    }
+}
+
+/// Two observers.
+impl<S: Real, A: Observer<S>, B: Observer<S>> Observer<S> for (A, B) {
+    fn every_swing(&self) -> bool {
+        self.0.every_swing() || self.1.every_swing()
+    }
+
+    #[inline(always)]
+    fn decay(&mut self, decay: &Decay<S>) {
+        self.0.decay(decay);
+        self.1.decay(decay);
+    }
+
+    #[inline(always)]
+    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
+        self.0.stretch(arc, stretch);
+        self.1.stretch(arc, stretch);
+    }
+
+    #[inline(always)]
+    fn event(&mut self, event: Event, time: S, state: &State<S>) {
+        self.0.event(event, time, state);
+        self.1.event(event, time, state);
+    }
+}
+
+impl<S: Real, O: Observer<S> + ?Sized> Observer<S> for &mut O {
+    fn every_swing(&self) -> bool {
+        (**self).every_swing()
+    }
+
+    #[inline(always)]
+    fn decay(&mut self, decay: &Decay<S>) {
+        (**self).decay(decay);
+    }
+
+    #[inline(always)]
+    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
+        (**self).stretch(arc, stretch);
+    }
+
+    #[inline(always)]
+    fn event(&mut self, event: Event, time: S, state: &State<S>) {
+        (**self).event(event, time, state);
+    }
+}

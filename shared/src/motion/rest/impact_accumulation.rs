@@ -1,0 +1,77 @@
+//! The infinitely many impacts that follow a weak one, in closed form.
+//!
+//! θ is too small to change the rates: on each side the block decelerates at a₁ and falls back at a₂, so a swing that starts at
+//! θ̇ = v lasts v/a₁ + v/√(a₁a₂) and the next one starts at v η √(a₂/a₁).
+
+use crate::math::scalar::Real;
+
+/// What remains of a dying motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accumulation<S> {
+    /// s; 1e30 where the impacts take nothing.
+    pub duration: S,
+    /// Of the first two swings, s.
+    pub swing: S,
+    /// Impacts that still count.
+    pub impacts: u32,
+}
+
+impl<S: Real> Accumulation<S> {
+    /// After an impact that leaves the block with `speed` (rad/s) towards the side whose rates (rising a₁, falling a₂; rad/s²,
+    /// above 0) are `here`, with restitution η; impacts count down to an incoming speed `counted` (rad/s).
+    pub fn of(here: (S, S), there: (S, S), restitution: S, speed: S, counted: S) -> Accumulation<S> {
+        let swing = |(rising, falling): (S, S)| {
+            let fall = (falling / rising).square_root();
+            (S::ONE / rising + fall / falling, fall)
+        };
+        let (here, fall_here) = swing(here);
+        let (there, fall_there) = swing(there);
+        let ratio_here = restitution * fall_here;
+        let ratio_there = restitution * fall_there;
+        let both = ratio_here * ratio_there;
+        if both >= S::ONE - S::EPSILON * S::of(64.0) {
+            return Accumulation { duration: S::of(1e30), swing: speed * (here + there), impacts: 0 };
+        }
+        let duration = speed * (here + ratio_here * there) / (S::ONE - both);
+        let mut impacts = 0;
+        let mut incoming = speed * fall_here;
+        let mut first = true;
+        while incoming >= counted && impacts < 100_000 {
+            impacts += 1;
+            incoming = incoming * restitution * if first { fall_there } else { fall_here };
+            first = !first;
+        }
+        Accumulation { duration, swing: speed * (here + there), impacts }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// With one rate for all, swing n lasts 2 v ηⁿ/a: the sum is 2v/(a(1−η)).
+    #[test]
+    fn a_geometric_series() {
+        let tail = Accumulation::of((3.0_f64, 3.0), (3.0, 3.0), 0.8, 0.5, 0.1);
+        assert!((tail.duration - 2.0 * 0.5 / (3.0 * 0.2)).abs() < 1e-15);
+        let incoming = core::iter::successors(Some(0.5_f64), |speed| Some(speed * 0.8));
+        assert_eq!(tail.impacts, incoming.take_while(|speed| *speed >= 0.1).count() as u32);
+        assert!(Accumulation::of((3.0_f64, 3.0), (3.0, 3.0), 1.0, 0.5, 0.1).duration > 1e29);
+    }
+
+    /// Unequal sides, against the swings one by one.
+    #[test]
+    fn swings_one_by_one() {
+        let (sides, eta) = ([(2.0_f64, 1.5), (2.6, 2.1)], 0.7);
+        let (mut speed, mut time) = (0.4, 0.0);
+        for n in 0..200 {
+            let (rising, falling) = sides[n % 2];
+            let height = speed * speed / (2.0 * rising);
+            let incoming = (2.0 * falling * height).sqrt();
+            time += speed / rising + incoming / falling;
+            speed = eta * incoming;
+        }
+        let tail = Accumulation::of(sides[0], sides[1], eta, 0.4, 1e-3);
+        assert!((tail.duration - time).abs() < 1e-14 * time);
+    }
+}

@@ -1,0 +1,90 @@
+//! The state of a rocking block, the bounds of its integration, and why an integration stops.
+
+use crate::math::sign::Sign;
+
+/// What the block does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Phase {
+    /// Stands on both toes.
+    #[default]
+    Rest,
+    /// Turns about one toe.
+    Rocking,
+    /// Cannot return.
+    Overturned,
+}
+
+/// The state of a rocking block.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct State<S> {
+    /// θ, rad.
+    pub rotation: S,
+    /// θ̇, rad/s.
+    pub velocity: S,
+    /// Rest, rocking or overturned.
+    pub phase: Phase,
+    /// Sign of θ, or at θ = 0 the side that it moves to.
+    pub side: Sign,
+    /// Sign of θ̇, or at θ̇ = 0 the one it is about to take.
+    pub direction: Sign,
+    /// Sign of θ̈, or at θ̈ = 0 the one it is about to take.
+    pub push: Sign,
+    /// Sign of the acceleration of the inerter's terminals; with the paper's kinematics that of θ̈.
+    pub drive: Sign,
+    /// θ̈ is zero here, by an event just handled.
+    pub push_is_zero: bool,
+    /// Impacts so far that came in with more than [`System::counted_speed`](super::ideal::System::counted_speed).
+    pub impacts: u32,
+}
+
+/// Why a piece was not finished.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stopped {
+    /// More events than [`Limits::events`] in one piece.
+    TooManyEvents {
+        /// Time in the piece, s.
+        time: f64,
+        /// The mode of block and clutches then.
+        mode: &'static str,
+    },
+    /// A state that is not finite.
+    NotFinite {
+        /// Time in the piece, s.
+        time: f64,
+    },
+}
+
+impl Stopped {
+    /// The same, with times from the start of a motion in which the piece begins at `start` (s).
+    pub fn after(self, start: f64) -> Stopped {
+        match self {
+            Stopped::TooManyEvents { time, mode } => Stopped::TooManyEvents { time: start + time, mode },
+            Stopped::NotFinite { time } => Stopped::NotFinite { time: start + time },
+        }
+    }
+}
+
+impl core::fmt::Display for Stopped {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Stopped::TooManyEvents { time, mode } => write!(
+                formatter,
+                "at {time:.6} s, while {mode}, events follow one another without end; a dwell of the clutches, or a fixed step, goes \
+                 past them"
+            ),
+            Stopped::NotFinite { time } => write!(formatter, "at {time:.6} s the motion is no longer finite"),
+        }
+    }
+}
+
+impl core::error::Error for Stopped {}
+
+/// Bounds of one call of [`System::advance`](super::ideal::System::advance).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits<S> {
+    /// |θ| (rad) at which an outward motion counts as overturned
+    /// ([`crate::structure::block::Geometry::point_of_no_return`], or π/2).
+    pub overturned: S,
+    /// Arcs that one call may take.
+    pub events: u32,
+}

@@ -1,0 +1,133 @@
+//! The scheme that most simulations use, and the paper's: fixed steps at whose ends the clutch is "re-evaluated according
+//! to Equation 10" and impacts are noticed. Nothing is located, so every event comes late by up to a step: an error of
+//! order one, whatever the method between events. [`crate::motion::ideal`] is the exact counterpart.
+//!
+//! There is no branch in a step, only selection, so the same lines run in f32 on the target, in f64, and in SIMD lanes.
+//! That makes it the yardstick for what the equations cost.
+
+use crate::equation::switched::Switched;
+use crate::ground::Piece;
+use crate::math::scalar::{Real, Scalar};
+use crate::method::fixed::runge_kutta_4;
+
+/// θ, θ̇ and the toe.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DetectedState<S> {
+    /// θ, rad.
+    pub rotation: S,
+    /// θ̇, rad/s.
+    pub velocity: S,
+    /// s = ±1.
+    pub side: S,
+}
+
+impl<S: Scalar> DetectedState<S> {
+    /// A block that stands on both toes.
+    pub fn at_rest() -> DetectedState<S> {
+        DetectedState { rotation: S::of(0.0), velocity: S::of(0.0), side: S::of(1.0) }
+    }
+}
+
+/// A block with a clutched pair whose clutch and impacts are looked at once a step. With `released` equal to `engaged` it
+/// is the block with a single inerter, or with none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Detected<S, E> {
+    /// Equation of motion with the inerter released.
+    pub released: E,
+    /// Equation of motion with the inerter engaged.
+    pub engaged: E,
+    /// η, 0 to 1.
+    pub restitution: S,
+    /// Ground acceleration (in g) above which a block at rest uplifts.
+    pub uplift: S,
+}
+
+/// What [`Detected::follow`] saw.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sightings<S> {
+    /// Largest |θ| at a step's end, rad.
+    pub rotation: S,
+    /// Changes of toe.
+    pub impacts: u32,
+    /// |θ| passed the limit.
+    pub overturned: bool,
+}
+
+impl<S: Scalar, E: Switched<S>> Detected<S, E> {
+    /// One step of length `h` (s) with the classical Runge-Kutta method; `ground` is ü_g/g at its start, middle and end.
+    #[inline(always)]
+    pub fn runge_kutta_4(&self, state: DetectedState<S>, ground: [S; 3], h: S) -> DetectedState<S> {
+        let (side, h) = self.awake(&state, ground[0], h);
+        let equation = self.engagement(&state, side, ground[0]);
+        let first = equation.acceleration(side, state.rotation, state.velocity, ground[0]);
+        let (rotation, velocity) = runge_kutta_4(&equation, side, (state.rotation, state.velocity), first, ground, h);
+        self.impact(DetectedState { rotation, velocity, side })
+    }
+
+    /// One step of length `h` (s) with the semi-implicit Euler method; `ground` is ü_g/g at its start.
+    #[inline(always)]
+    pub fn semi_implicit_euler(&self, state: DetectedState<S>, ground: S, h: S) -> DetectedState<S> {
+        let (side, h) = self.awake(&state, ground, h);
+        let equation = self.engagement(&state, side, ground);
+        let velocity = state.velocity + h * equation.acceleration(side, state.rotation, state.velocity, ground);
+        self.impact(DetectedState { rotation: state.rotation + h * velocity, velocity, side })
+    }
+
+    /// A block at rest stays there while the push is below the threshold, which is a step of no length; above it the block
+    /// uplifts to the side opposite to the push.
+    #[inline(always)]
+    fn awake(&self, state: &DetectedState<S>, ground: S, h: S) -> (S, S) {
+        let (zero, one) = (S::of(0.0), S::of(1.0));
+        let motion = state.rotation.abs() + state.velocity.abs();
+        let moving = motion.exceeds(zero);
+        let opposite = S::select(ground.exceeds(zero), -one, one);
+        let uplifts = ground.abs().exceeds(self.uplift);
+        (S::select(moving, state.side, opposite), S::select(moving, h, S::select(uplifts, h, zero)))
+    }
+
+    /// The equation in force by Eq. 10 at an instant: engaged where acceleration and velocity of the terminals have one sign.
+    #[inline(always)]
+    pub fn engagement(&self, state: &DetectedState<S>, side: S, ground: S) -> E {
+        let drive = self.released.switching(side, state.rotation, state.velocity, ground);
+        E::switched((drive * state.velocity).exceeds(S::of(0.0)), &self.engaged, &self.released)
+    }
+
+    /// Where θ has changed its sign: θ̇⁺ = η θ̇⁻ and the other toe. θ stays where the step left it.
+    #[inline(always)]
+    fn impact(&self, end: DetectedState<S>) -> DetectedState<S> {
+        let hit = S::of(0.0).exceeds(end.rotation * end.side);
+        DetectedState {
+            rotation: end.rotation,
+            velocity: S::select(hit, end.velocity * self.restitution, end.velocity),
+            side: S::select(hit, -end.side, end.side),
+        }
+    }
+}
+
+impl<S: Real, E: Switched<S>> Detected<S, E> {
+    /// Follows `state` over `piece` from its local time 0 to `duration` (s) in Runge-Kutta steps of `h` (s, above 0; the
+    /// last one may be shorter), until |θ| passes `overturned` (rad). At most 2²⁴ steps.
+    pub fn follow<P: Piece<S>>(&self, state: &mut DetectedState<S>, piece: &P, duration: S, h: S, overturned: S) -> Sightings<S> {
+        let mut seen = Sightings::<S>::default();
+        let mut time = S::ZERO;
+        let mut push = piece.acceleration(time);
+        for tick in 1..=1 << 24 {
+            if time >= duration || seen.overturned {
+                break;
+            }
+            let end = (S::count(tick) * h).smaller(duration);
+            let push_at_end = piece.acceleration(end);
+            let ground = [push, piece.acceleration(S::HALF * (time + end)), push_at_end];
+            let before = (state.side, *state != DetectedState::at_rest());
+            *state = self.runge_kutta_4(*state, ground, end - time);
+            seen.impacts += u32::from(before.1 && before.0 != state.side);
+            seen.rotation = seen.rotation.larger(state.rotation.abs());
+            seen.overturned = state.rotation.abs() > overturned;
+            (time, push) = (end, push_at_end);
+        }
+        seen
+    }
+}
+
+#[cfg(test)]
+mod tests;

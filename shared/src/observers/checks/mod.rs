@@ -1,0 +1,196 @@
+//! Checks of the assumptions behind a motion, and of what it asks of its parts: an effect that only watches.
+//!
+//! The toe must bear what block and device press on it, with the forces and impulses that `checks/toe.rs` derives. The model does not slide
+//! while |H|/V stays below the friction that there is, and keeps its toe on the ground while V > 0.
+//!
+//! The fall of a block that overturns begins where it passes |θ| = α without coming back. What it asks for from there on says nothing of
+//! how it rocks, and grows without bound: [`Checks::before_fall`] leaves it out.
+
+mod impulse;
+mod report;
+mod search;
+mod toe;
+
+pub use report::{Extreme, Report};
+
+use crate::math::root::locate_by_value;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::motion::device_snapshot::{DeviceArc, DeviceObserver, Snapshot};
+use crate::motion::observer::{Event, Stretch};
+use crate::motion::state::State;
+use crate::observers::ledger::Account;
+use crate::structure::COUNTED_SPEED;
+use crate::structure::block::{Block, Geometry};
+use crate::structure::error::ParameterError;
+use crate::structure::mount::Mount;
+use impulse::Impulses;
+use search::{LOOKS, instant, largest};
+use toe::Toe;
+
+/// The quantities whose largest values are sought along every stretch: friction, −V, the force of each flywheel, that on the support.
+const QUANTITIES: usize = 5;
+
+/// The last of them.
+const SUPPORT: usize = 4;
+
+/// Watches reactions, impulses, forces and travel. Its [`Report`] holds extremes while the block rocks; a block that stands asks for
+/// a friction of |ü_g/g|/(1 + v̈_g/g), which is below tan α.
+#[derive(Clone, Copy, Debug)]
+pub struct Checks<S> {
+    /// Time of the present piece's start from the origin, s; the caller sets it.
+    pub origin: S,
+    report: Report<S>,
+    toe: Toe<S>,
+    impulses: Impulses<S>,
+    /// The first quantity that is looked at.
+    first: usize,
+    /// What was found up to where |θ| last passed α; none below it.
+    up_to_slenderness: Option<Report<S>>,
+    overturned: bool,
+}
+
+impl<S: Real> Checks<S> {
+    /// Of a device on `mount` with the clutch and masses of `account`. All are those that the equations see, with what the
+    /// block carries ([`crate::structure::Structure::loaded`]).
+    ///
+    /// # Errors
+    /// As [`Mount::lever`].
+    pub fn new(block: &Block, geometry: Geometry, mount: &Mount, account: &Account) -> Result<Checks<S>, ParameterError> {
+        let speed = block.frequency_parameter() * block.slenderness();
+        Ok(Checks {
+            origin: S::ZERO,
+            report: Report::default(),
+            toe: Toe::new(block, geometry, mount, account)?,
+            impulses: Impulses::new(S::of(COUNTED_SPEED * speed)),
+            first: 0,
+            up_to_slenderness: None,
+            overturned: false,
+        })
+    }
+
+    /// Looks at the force on the support and at impulses only: what every history is reported with.
+    pub fn brief(self) -> Checks<S> {
+        Checks { first: SUPPORT, ..self }
+    }
+
+    /// What was found up to the last stretch or event.
+    pub fn report(&self) -> Report<S> {
+        self.report
+    }
+
+    /// As [`Checks::report`]; of a block that has overturned, what was found before its fall.
+    pub fn before_fall(&self) -> Report<S> {
+        self.up_to_slenderness.filter(|_| self.overturned).unwrap_or(self.report)
+    }
+
+    /// The quantities at an instant; those that are not looked at are 0.
+    fn readings(&self, side: Sign, snapshot: &Snapshot<S>) -> [S; QUANTITIES] {
+        let weigh = |force: S| self.toe.over_weight(force).abs();
+        let support = weigh(snapshot.support_force());
+        if self.first == SUPPORT {
+            return [S::ZERO, S::ZERO, S::ZERO, S::ZERO, support];
+        }
+        let [horizontal, vertical] = self.toe.reactions(side, snapshot);
+        let friction = if vertical > S::ZERO { horizontal.abs() / vertical } else { S::ZERO };
+        [friction, -vertical, weigh(snapshot.force[0]), weigh(snapshot.force[1]), support]
+    }
+
+    /// s θ − α.
+    fn beyond(&self, side: Sign, rotation: S) -> S {
+        side.times(rotation) - self.toe.slenderness
+    }
+
+    /// What has been found at the end of a stretch beyond α up to where |θ| passed it, in case the block never comes back.
+    fn before(&self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) -> Report<S> {
+        let beyond = |rotation: S| self.beyond(stretch.side, rotation);
+        if beyond(stretch.first.rotation) >= S::ZERO {
+            return self.up_to_slenderness.unwrap_or(self.report);
+        }
+        let passes = locate_by_value(stretch.from, stretch.to, Sign::Negative, |t| beyond(arc.snapshot(t).motion.rotation));
+        let mut up_to_it = *self;
+        up_to_it.watch(arc, &Stretch { to: passes, last: arc.snapshot(passes).motion, ..*stretch });
+        up_to_it.report
+    }
+
+    /// Whether a stretch may hold a new record of the force on the support. A step follows at most half a swing of a stiff clutch, so
+    /// that of three looks one shows more than half of what lies between; and where a parabola through them also meets a fourth, no
+    /// more lies between than they and its curvature show.
+    fn may_press_harder(&self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) -> bool {
+        let Some(record) = self.report.support.filter(|_| stretch.engaged) else { return stretch.engaged };
+        let force = |share: S| {
+            let time = stretch.from + share * (stretch.to - stretch.from);
+            self.toe.over_weight(arc.snapshot(time).support_force())
+        };
+        let [first, middle, last] = [S::ZERO, S::HALF, S::ONE].map(force);
+        let seen = first.abs().larger(middle.abs()).larger(last.abs());
+        if seen <= S::HALF * record.value {
+            return false;
+        }
+        let curvature = (first - middle - middle + last).abs();
+        let parabola = S::of(0.375) * first + S::of(0.75) * middle - S::of(0.125) * last;
+        let missed = (force(S::of(0.25)) - parabola).abs();
+        let rounding = S::ONE + S::EPSILON * S::of(64.0);
+        seen + curvature + S::of(8.0) * missed > record.value * rounding
+    }
+
+    fn watch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        let side = stretch.side;
+        let start = self.origin + stretch.start;
+        let span = (stretch.from, stretch.to);
+        let mut looks = [[S::ZERO; LOOKS]; QUANTITIES];
+        for i in 0..LOOKS {
+            let readings = self.readings(side, &arc.snapshot(instant(span, i)));
+            for (values, reading) in looks.iter_mut().zip(readings) {
+                values[i] = reading;
+            }
+        }
+        for (quantity, values) in looks.iter().enumerate().skip(self.first) {
+            let reading = |t: S| self.readings(side, &arc.snapshot(t))[quantity];
+            let (time, value) = largest(span, values, self.report.record(quantity), reading);
+            self.report.raise(quantity, value, start + time);
+        }
+        if self.first == SUPPORT {
+            return;
+        }
+        if self.report.contact_lost.is_none()
+            && let Some(lost) = (0..LOOKS).find(|&i| looks[1][i] >= S::ZERO)
+        {
+            let time = if lost == 0 {
+                stretch.from
+            } else {
+                let upward = |t: S| self.toe.reactions(side, &arc.snapshot(t))[1];
+                locate_by_value(instant(span, lost - 1), instant(span, lost), Sign::Positive, upward)
+            };
+            self.report.contact_lost = Some(start + time);
+        }
+        // θ is monotone along a stretch, and so is the travel wherever ℓ keeps its sign.
+        for (motion, time) in [(&stretch.first, stretch.from), (&stretch.last, stretch.to)] {
+            let travel = self.toe.travel(side, motion.rotation);
+            let way = usize::from(travel < S::ZERO);
+            Extreme::raise(&mut self.report.travel[way], travel.abs(), start + time);
+        }
+    }
+}
+
+impl<S: Real> DeviceObserver<S> for Checks<S> {
+    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+        let is_beyond = self.beyond(stretch.side, stretch.last.rotation) > S::ZERO;
+        let before = is_beyond.then(|| self.before(arc, stretch));
+        if self.first < SUPPORT || self.may_press_harder(arc, stretch) {
+            self.watch(arc, stretch);
+        }
+        self.up_to_slenderness = before;
+        let engaged = if stretch.engaged { arc.snapshot(stretch.to).engaged } else { [false; 2] };
+        self.impulses.velocity = Some(stretch.last.velocity);
+        self.impulses.engaged = engaged.map(u32::from).iter().sum();
+    }
+
+    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+        self.overturned |= event == Event::Overturned;
+        self.impulses.event(&self.toe, &mut self.report, event, self.origin + time, state);
+    }
+}
+
+#[cfg(test)]
+mod tests;

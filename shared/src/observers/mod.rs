@@ -1,0 +1,8 @@
+//! Observers of a motion: peaks, energy ledger, checks of forces and friction, digests of every bit.
+//!
+//! The room imports `math`, `structure`, `method` and `motion`.
+
+pub mod checks;
+pub mod digest;
+pub mod ledger;
+pub mod peaks;

@@ -1,0 +1,145 @@
+//! The way of the force from the rack to a flywheel: what a real device adds to the paper's ideal one.
+//!
+//! Parameters only, in SI units per mass of the block, so that they scale with nothing; what each effect does to the
+//! motion is in the file of its name.
+
+use super::error::{ParameterError, require};
+
+/// Which forces the rack meets, whatever the clutch does.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rack {
+    /// Mass of a rack that rides along on guides of the support, over the block's mass; 0 to 10. Its weight rests on the
+    /// support; its inertia acts along the terminals' travel.
+    pub guided_mass_ratio: f64,
+    /// Viscous force over the block's mass and the terminals' velocity, 1/s; 0 to 1000.
+    pub viscous: f64,
+    /// Dry friction over the block's weight; 0 to 10.
+    pub dry_ratio: f64,
+}
+
+/// What slows a flywheel down. Speeds and decelerations are those of a rack that moves with it: flywheel radius and gears are
+/// in the inertance.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FlywheelLosses {
+    /// Viscous: an idle flywheel slows down as e^(-rate t). 1/s; 0 to 1e6.
+    pub viscous_rate: f64,
+    /// Dry (Coulomb) friction of the bearings: deceleration of an idle flywheel, m/s²; 0 to 1e6.
+    pub dry_deceleration: f64,
+    /// Deceleration by a brake that acts while the clutch is open, m/s²; 0 to 1e9, or infinite: stopped at once.
+    pub brake_deceleration: f64,
+}
+
+/// How a flywheel is coupled to the rack.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Engagement {
+    /// The paper's: a stopped flywheel is engaged at speed without a loss of momentum, and stops at once when released.
+    #[default]
+    Ideal,
+    /// A rigid clutch that obeys Eq. 10: at engagement block and flywheel exchange momentum.
+    Rigid,
+    /// A one-way (sprag) clutch that obeys nobody: it holds when the block catches up with the flywheel and lets go when
+    /// the flywheel would drive the block.
+    Overrunning,
+    /// A friction clutch that obeys Eq. 10 and slips above its capacity.
+    Friction {
+        /// Largest force at the rack over the block's weight; above 0, to 1e6.
+        capacity_ratio: f64,
+    },
+    /// A clutch with a torsional spring, a damper and gear play, that obeys Eq. 10.
+    Elastic {
+        /// Stiffness at the rack over the block's mass, 1/s²; above 0, to 1e12.
+        stiffness: f64,
+        /// Damping at the rack over the block's mass, 1/s; 0 to 1e6.
+        damping: f64,
+        /// Backlash at the rack, m, from contact to contact; 0 to 1.
+        backlash: f64,
+        /// Largest force at the rack over the block's weight; above 0, or infinite.
+        capacity_ratio: f64,
+    },
+}
+
+/// What becomes of a command that another one follows before its delay is over; the two delays of hardware description languages
+/// (IEEE 1076).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Delay {
+    /// It is lost, as with a coil: its current must build up or decay before the armature moves, and one that is cut short never moves it.
+    #[default]
+    Inertial,
+    /// Every command takes effect after its delay, in order, as over a link or by a valve at the far end of a line.
+    Transport,
+}
+
+/// What lies between a command and a clutch that has obeyed it. Ideal: all zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Actuation {
+    /// From the command to engagement, s; 0 to 10.
+    pub engagement_delay: f64,
+    /// From the command to release, s; 0 to 10.
+    pub release_delay: f64,
+    /// Whether these two are inertial.
+    pub delay: Delay,
+    /// From first contact to full capacity, linearly, s; 0 to 10. Needs a capacity.
+    pub rise_time: f64,
+    /// A clutch that has just moved stays so for this long, s; 0 to 10.
+    pub dwell: f64,
+    /// Probability that an engagement is missed; 0 to 1.
+    pub miss_probability: f64,
+    /// Which engagements those are.
+    pub miss_seed: u64,
+}
+
+/// All of it. The default is the paper's ideal device.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Drivetrain {
+    /// How flywheels are coupled.
+    pub engagement: Engagement,
+    /// What slows them down.
+    pub flywheel: FlywheelLosses,
+    /// What the rack meets.
+    pub rack: Rack,
+    /// What delays the clutch.
+    pub actuation: Actuation,
+}
+
+impl Drivetrain {
+    /// # Errors
+    /// [`ParameterError`] names the first parameter outside its range.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        let within = |name, value: f64, most: f64, range| require(name, value, (0.0..=most).contains(&value), range).map(|_| ());
+        let Drivetrain { flywheel, rack, actuation, .. } = self;
+        within("guided_mass_ratio", rack.guided_mass_ratio, 10.0, "from 0 to 10")?;
+        within("rack viscous", rack.viscous, 1e3, "from 0 to 1000 1/s")?;
+        within("rack dry_ratio", rack.dry_ratio, 10.0, "from 0 to 10")?;
+        within("viscous_rate", flywheel.viscous_rate, 1e6, "from 0 to 1e6 1/s")?;
+        within("dry_deceleration", flywheel.dry_deceleration, 1e6, "from 0 to 1e6 m/s²")?;
+        if flywheel.brake_deceleration != f64::INFINITY {
+            within("brake_deceleration", flywheel.brake_deceleration, 1e9, "from 0 to 1e9 m/s², or infinite")?;
+        }
+        if self.engagement == Engagement::Overrunning {
+            // The block would catch up with a braked flywheel at once and be braked through it.
+            within("brake_deceleration", flywheel.brake_deceleration, 0.0, "0 m/s² for an overrunning clutch")?;
+        }
+        let capacity = |ratio: f64| require("capacity_ratio", ratio, ratio > 0.0 && ratio <= 1e6, "above 0, to 1e6").map(|_| ());
+        match self.engagement {
+            Engagement::Friction { capacity_ratio } => capacity(capacity_ratio)?,
+            Engagement::Elastic { stiffness, damping, backlash, capacity_ratio } => {
+                require("stiffness", stiffness, stiffness > 0.0 && stiffness <= 1e12, "above 0, to 1e12 1/s²")?;
+                within("damping", damping, 1e6, "from 0 to 1e6 1/s")?;
+                within("backlash", backlash, 1.0, "from 0 to 1 m")?;
+                if capacity_ratio != f64::INFINITY {
+                    capacity(capacity_ratio)?;
+                }
+            }
+            _ => {}
+        }
+        for (name, value) in [
+            ("engagement_delay", actuation.engagement_delay),
+            ("release_delay", actuation.release_delay),
+            ("rise_time", actuation.rise_time),
+            ("dwell", actuation.dwell),
+        ] {
+            within(name, value, 10.0, "from 0 to 10 s")?;
+        }
+        within("miss_probability", actuation.miss_probability, 1.0, "from 0 to 1")
+    }
+}

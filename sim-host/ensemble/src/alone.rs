@@ -1,0 +1,91 @@
+//! Blocks one at a time, by the core: what the lanes cannot settle, and what they are compared with.
+
+use std::f64::consts::TAU;
+
+use sprag_shared::equation::clutch_rule::Clutch;
+use sprag_shared::ground::Harmonics;
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::motion::state::{Limits, Phase, State, Stopped};
+use sprag_shared::observers::peaks::Peaks;
+use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::block::{Block, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::structure::device::{Device, KinematicsKind};
+use sprag_shared::structure::error::ParameterError;
+use sprag_shared::structure::mount::Mount;
+use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
+
+use crate::model::Model;
+use crate::pulsed::{PulseResult, PulseShape, PulsedBlock};
+
+/// Coefficients of the series that bulk work uses: the fastest at tight accuracy (`cargo bench`).
+pub const TERMS: usize = 20;
+
+/// Tolerance of the series' last terms that stands for "to rounding".
+pub const TIGHT: f64 = 1e-15;
+
+/// Why a case has no result.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum CaseError {
+    /// A parameter outside its range.
+    #[error("{0}")]
+    Parameter(#[from] ParameterError),
+    /// The motion could not be followed to its end.
+    #[error("{0}")]
+    Stopped(#[from] Stopped),
+}
+
+impl PulsedBlock {
+    /// The block in units of 1/p.
+    fn structure(&self) -> Result<Structure, CaseError> {
+        Ok(Structure {
+            block: Block::of_unit_frequency(self.slenderness, RECTANGLE_INERTIA_RATIO)?,
+            geometry: self.geometry,
+            device: Device {
+                kind: self.device,
+                mass_ratio: self.coupling * RECTANGLE_INERTIA_RATIO,
+                mount: Mount::CentreOfMass,
+                kinematics: KinematicsKind::Paper,
+            },
+            carried: Carried::NONE,
+            restitution: Restitution::Constant(self.restitution),
+            rest_speed: REST_SPEED,
+        })
+    }
+
+    /// What becomes of it, by the core: one step of one block at a time.
+    ///
+    /// # Errors
+    /// [`CaseError`] for a parameter outside its range, or a motion that cannot be followed.
+    pub fn follow<M: Model, C: Clutch>(&self, method: &Taylor<f64, TERMS>) -> Result<PulseResult, CaseError> {
+        let structure = self.structure()?;
+        let (state, peaks) = self.over_the_pulse(&structure, method)?;
+        if !peaks.rocked {
+            return Ok(PulseResult::NO_ROCKING);
+        }
+        let impact = peaks.first_impact.is_some();
+        Ok(match state.phase {
+            Phase::Overturned => PulseResult::overturned(impact),
+            Phase::Rest => self.stands(peaks.rotation, peaks.acceleration),
+            Phase::Rocking => {
+                let (rotation, velocity) = (state.side.times(state.rotation), state.side.times(state.velocity));
+                self.settle::<M, C>(rotation, velocity, (peaks.rotation, peaks.acceleration), impact)
+            }
+        })
+    }
+
+    /// Follows the block by the core to the end of its pulse.
+    fn over_the_pulse(&self, structure: &Structure, method: &Taylor<f64, TERMS>) -> Result<(State<f64>, Peaks<f64>), CaseError> {
+        let system = structure.resolve::<f64>()?;
+        let PulsedBlock { pulse, frequency_ratio, amplitude_ratio, .. } = *self;
+        let amplitude = amplitude_ratio * system.uplift;
+        let ground = match pulse {
+            PulseShape::Sine => Harmonics::sine(amplitude, frequency_ratio),
+            PulseShape::Cosine => Harmonics::cosine(amplitude, frequency_ratio),
+        };
+        let overturned = structure.geometry.point_of_no_return(&structure.block, amplitude.abs());
+        let (mut state, mut peaks) = (State::default(), Peaks::default());
+        let limits = Limits { overturned, events: 1_000_000 };
+        system.advance(method, &mut state, &ground, TAU / frequency_ratio, &limits, &mut peaks)?;
+        Ok((state, peaks))
+    }
+}

@@ -1,0 +1,300 @@
+//! Several blocks from event to event.
+//!
+//! Each block is looked at in the mirror that puts it on the positive side, so that an impact turns its ground motion about. A step
+//! ends at the first zero of θ̈, θ̇ or θ in it, found in this order as in [`sprag_shared::motion::ideal`]: between zeros of θ̈ the velocity
+//! is monotone, between zeros of θ̇ the rotation is, so no crossing is missed. Where the coefficients do not show how many zeros of θ̈
+//! a step has, it is halved; what is still not plain then makes a block [`Blocks::hard`], and it is not followed any further.
+
+use std::array::from_fn;
+
+use sprag_shared::equation::clutch_rule::Clutch;
+use sprag_shared::equation::switched::Switched;
+use sprag_shared::math::polynomial as core_polynomial;
+use sprag_shared::math::scalar::Scalar;
+
+use crate::polynomial::{Shape, extreme, shape, value, value_and_slope, zero};
+use crate::series::Series;
+use crate::{Mask, Number, WIDTH, number};
+
+/// Halvings of a step that a block may ask for.
+pub(crate) const MOST_HALVINGS: u32 = 24;
+
+/// The state of the blocks and what they have been through; p = 1.
+#[derive(Clone, Copy, Debug)]
+pub struct Blocks {
+    /// |θ|, rad.
+    pub rotation: Number,
+    /// Outward θ̇, rad.
+    pub velocity: Number,
+    /// Moves outward.
+    pub outward: Mask,
+    /// Is pushed outward: the sign of θ̈.
+    pub pushed: Mask,
+    /// θ̈ = 0 here, by an event just handled.
+    pub at_zero: Mask,
+    /// The sign of θ̈ is to be read anew.
+    pub fresh: Mask,
+    /// +1, or −1 where the mirror turns the ground motion about.
+    pub side: Number,
+    /// max |θ|, rad.
+    pub peak_rotation: Number,
+    /// max |θ̈|, rad.
+    pub peak_acceleration: Number,
+    /// Has passed θ = 0.
+    pub impact: Mask,
+    /// Has just passed it with more than [`Bounds::counted`].
+    pub counted: Mask,
+    /// Has passed the point of no return.
+    pub overturned: Mask,
+    /// Has just passed it so slowly that impacts accumulate.
+    pub weak: Mask,
+    /// To be followed by other means.
+    pub hard: Mask,
+}
+
+/// Where a step ends, and by which event, if any.
+#[derive(Clone, Copy, Debug)]
+pub struct Arrival {
+    /// θ, rad.
+    pub rotation: Number,
+    /// θ̇, rad.
+    pub velocity: Number,
+    /// At θ = 0.
+    pub hit: Mask,
+    /// At θ̇ = 0.
+    pub turned: Mask,
+    /// At θ̈ = 0.
+    pub rate_zero: Mask,
+    /// θ̈ has changed its sign on the way.
+    pub passed: Mask,
+}
+
+/// What does not change along the way.
+#[derive(Clone, Copy, Debug)]
+pub struct Bounds {
+    /// η.
+    pub restitution: Number,
+    /// |θ| beyond which an outward motion does not return, rad.
+    pub no_return: Number,
+    /// θ̇ after an impact below which impacts accumulate, rad.
+    pub weak: Number,
+    /// θ̇ with which an impact must come in to be counted, rad.
+    pub counted: Number,
+    /// Size of the last terms of θ, rad, where |θ| is below 1 rad.
+    pub tolerance: Number,
+}
+
+/// Equations of motion with the inerter released and engaged.
+#[derive(Clone, Copy, Debug)]
+pub struct Modes<E> {
+    /// Released.
+    pub released: E,
+    /// Engaged.
+    pub engaged: E,
+}
+
+impl Default for Blocks {
+    /// Blocks at rest that nothing has happened to.
+    fn default() -> Blocks {
+        let zero = number(0.0);
+        Blocks {
+            rotation: zero,
+            velocity: zero,
+            outward: Mask::ALL,
+            pushed: Mask::ALL,
+            at_zero: Mask::NONE,
+            fresh: Mask::NONE,
+            side: number(1.0),
+            peak_rotation: zero,
+            peak_acceleration: zero,
+            impact: Mask::NONE,
+            counted: Mask::NONE,
+            overturned: Mask::NONE,
+            weak: Mask::NONE,
+            hard: Mask::NONE,
+        }
+    }
+}
+
+impl Blocks {
+    /// Puts a new block into `lane`, which nothing has happened to.
+    #[inline]
+    pub fn renew(&mut self, lane: usize) {
+        (self.peak_rotation.0[lane], self.peak_acceleration.0[lane]) = (0.0, 0.0);
+        for answer in [&mut self.impact, &mut self.overturned, &mut self.hard] {
+            answer.set(lane, false);
+        }
+    }
+
+    /// The block in `lane` uplifts now to `side`, ±1, by a push that crosses the threshold or that has jumped beyond it.
+    #[inline]
+    pub fn uplift(&mut self, lane: usize, side: f64, crossing: bool) {
+        (self.rotation.0[lane], self.velocity.0[lane], self.side.0[lane]) = (0.0, 0.0, side);
+        self.outward.set(lane, true);
+        self.pushed.set(lane, true);
+        self.at_zero.set(lane, crossing);
+        self.fresh.set(lane, false);
+        self.weak.set(lane, false);
+    }
+
+    /// One step of every block, at most `longest`; returns how far each went. `series.ground` is ü_g/g in each block's mirror.
+    #[inline(always)]
+    pub fn step<E: Switched<Number>, C: Clutch, const TERMS: usize>(
+        &mut self,
+        modes: &Modes<E>,
+        bounds: &Bounds,
+        series: &mut Series<TERMS>,
+        longest: Number,
+    ) -> Number {
+        let nothing = number(0.0);
+        let one = number(1.0);
+        if self.fresh.any() {
+            // The sign of θ̈ does not depend on the mode.
+            self.read_push(modes.released.switching(one, self.rotation, self.velocity, series.ground[0]));
+        }
+        let equation = match (C::RULE.follows_signs(), C::RULE.has_inerter()) {
+            (true, _) => E::switched(!(self.outward ^ self.pushed), &modes.engaged, &modes.released),
+            (false, true) => modes.engaged,
+            (false, false) => modes.released,
+        };
+        series.expand(&equation, self.rotation, self.velocity, self.at_zero);
+        let push = self.pushed.sign();
+
+        let reach = series.reach(bounds.tolerance * one.larger(self.rotation));
+        let from_zero = self.at_zero;
+        let (mut length, changed, plain) = self.plain_stretch(series, push, reach.smaller(longest));
+        if changed.any() {
+            let rates = series.acceleration_off_zero(from_zero);
+            length = zero(&rates[..TERMS - 2], push, plain.end, length, changed);
+        }
+        // θ̇ is monotone up to here.
+        let direction = self.outward.sign();
+        let mut velocity = value(series.velocity(), length);
+        let turned = nothing.exceeds(velocity * direction);
+        if turned.any() {
+            length = zero(series.velocity(), direction, velocity, length, turned);
+            velocity = turned.choose(nothing, velocity);
+        }
+        // θ is monotone up to here.
+        let mut rotation = value(series.rotation(), length);
+        let hit = nothing.exceeds(rotation);
+        if hit.any() {
+            self.hard = self.hard | (hit & self.outward);
+            length = zero(series.rotation(), one, rotation, length, hit);
+            velocity = hit.choose(value(series.velocity(), length), velocity);
+            rotation = hit.choose(nothing, rotation);
+        }
+        let uneventful = !(changed | turned | hit | from_zero).any();
+        let over_step = if uneventful { plain } else { shape(series.acceleration(), length) };
+        self.widen(series, length, push, over_step);
+
+        let rate_zero = changed & !turned & !hit;
+        self.arrive(Arrival { rotation, velocity, hit, turned: turned & !hit, rate_zero, passed: Mask::NONE }, bounds);
+        length
+    }
+
+    /// Reads the sign of θ̈ from `rate`, which has it, where that is to be read anew.
+    #[inline(always)]
+    pub fn read_push(&mut self, rate: Number) {
+        self.pushed = (self.fresh & rate.exceeds(number(0.0))) | (!self.fresh & self.pushed);
+    }
+
+    /// The end of a step over which θ was monotone.
+    #[inline(always)]
+    pub fn arrive(&mut self, arrival: Arrival, bounds: &Bounds) {
+        let Arrival { rotation, velocity, hit, turned, rate_zero, passed } = arrival;
+        self.peak_rotation = self.peak_rotation.larger(rotation);
+        self.overturned = self.overturned | (self.outward & rotation.exceeds(bounds.no_return));
+        let after = velocity * bounds.restitution;
+        self.counted = hit & !bounds.counted.exceeds(velocity.abs());
+        self.weak = hit & bounds.weak.exceeds(after.abs());
+        self.rotation = rotation;
+        self.velocity = hit.choose(-after, velocity);
+        self.pushed = self.pushed ^ (rate_zero | passed);
+        self.at_zero = rate_zero;
+        self.outward = (self.outward ^ turned) | hit;
+        self.side = hit.choose(-self.side, self.side);
+        self.impact = self.impact | hit;
+        self.fresh = hit;
+    }
+
+    /// A length, at most `longest`, over which each θ̈ has one zero or none: the length, where there is a zero, and the shape of θ̈ (over t
+    /// where that is zero at the start).
+    #[inline(always)]
+    fn plain_stretch<const TERMS: usize>(
+        &mut self,
+        series: &Series<TERMS>,
+        push: Number,
+        longest: Number,
+    ) -> (Number, Mask, Shape) {
+        let nothing = number(0.0);
+        let rates = series.acceleration_off_zero(self.at_zero);
+        let rates = &rates[..TERMS - 2];
+        let start = rates[0] * push;
+        self.hard = self.hard | !start.exceeds(nothing);
+        let mut length = longest;
+        let mut halvings = 0;
+        loop {
+            let plain = shape(rates, length);
+            let Shape { end, monotone, bent, sag, .. } = plain;
+            let last = end * push;
+            let changed = nothing.exceeds(last);
+            let clear = start.smaller(last).exceeds(sag);
+            let unsettled = !(self.hard | monotone | (changed & bent) | (clear & !changed));
+            if !unsettled.any() {
+                return (length, changed, plain);
+            }
+            halvings += 1;
+            if halvings > MOST_HALVINGS {
+                self.hard = self.hard | unsettled;
+                return (length, changed, plain);
+            }
+            length = unsettled.choose(length * number(0.5), length);
+        }
+    }
+
+    /// Takes into account the largest |θ̈| of a step of the given length, over which θ̈ has the sign of `push` and the shape `over_step`.
+    #[inline(always)]
+    fn widen<const TERMS: usize>(&mut self, series: &Series<TERMS>, length: Number, push: Number, over_step: Shape) {
+        let nothing = number(0.0);
+        let rates = series.acceleration();
+        let Shape { end, sag, monotone, bent, twisted } = over_step;
+        let ends = rates[0].abs().larger(end.abs());
+        let open = (ends + sag).exceeds(self.peak_acceleration) & !monotone & !self.hard;
+        self.peak_acceleration = self.peak_acceleration.larger(ends);
+        if !open.any() {
+            return;
+        }
+        let slope = value_and_slope(rates, length).1;
+        let (first, last) = (rates[1] * push, slope * push);
+        let rises_then_falls = first.exceeds(nothing) & nothing.exceeds(last);
+        // A slope that turns at most once and changes its sign has one zero. Where it only falls, θ̈ lies below the tangents of its ends.
+        let start = rates[0] * push;
+        let meet = (end * push - start - last * length) / (first - last);
+        let below = bent & !(start + first * meet).exceeds(self.peak_acceleration);
+        let crest = open & rises_then_falls & (bent | twisted) & !below;
+        if crest.any() {
+            let highest = extreme(rates, (rates[1], slope), length, crest).abs();
+            self.peak_acceleration = self.peak_acceleration.larger(crest.choose(highest, nothing));
+        }
+        // A slope that turns at most once and has one sign at both ends has two zeros or none: none where it sets out away from zero.
+        let away = (rates[2] * rates[1]).exceeds(nothing);
+        let opposite = nothing.exceeds(first * last);
+        let doubtful = open & !bent & !(twisted & (opposite | away));
+        if doubtful.any() {
+            for lane in (0..WIDTH).filter(|&lane| doubtful.at(lane)) {
+                self.look_inside(series, lane, (length.0[lane], end.0[lane]));
+            }
+        }
+    }
+
+    /// The largest |θ̈| of one block's step, up to `end` (time, θ̈), by the core's search.
+    #[inline(never)]
+    fn look_inside<const TERMS: usize>(&mut self, series: &Series<TERMS>, lane: usize, end: (f64, f64)) {
+        let rates = series.acceleration();
+        let rates: [f64; TERMS] = from_fn(|k| rates.get(k).map_or(0.0, |rate| rate.0[lane]));
+        let curvature = core_polynomial::curvature_bound(&rates, end.0);
+        let peak = &mut self.peak_acceleration.0[lane];
+        *peak = core_polynomial::largest_magnitude(&rates, curvature, (0.0, rates[0]), end, *peak);
+    }
+}

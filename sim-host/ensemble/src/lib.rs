@@ -1,0 +1,42 @@
+//! Many blocks at once: overturning maps, rocking spectra and fragilities at the speed of the machine's registers.
+//!
+//! [`blocks`] steps several blocks side by side, in lanes, by the equations of motion and the series that every other part uses;
+//! [`pulses`] keeps the lanes filled with blocks under pulses ([`pulsed`]), decides what becomes of each after its pulse by the first
+//! integral of its free motion, and hands the few that the lanes cannot settle to the core ([`alone`]). [`records`] does the same for
+//! blocks under records ([`shaken`]), and [`after_record`] goes on from there. [`machine`] picks the widest registers of the machine
+//! that runs it: the bits of a result do not depend on them, nor on a block's neighbours.
+//!
+//! A package of its own because it is built three times over, once for each kind of registers: what depends on it is not.
+
+pub mod after_record;
+pub mod alone;
+pub mod blocks;
+pub mod machine;
+pub mod model;
+pub mod outcome;
+pub mod plain;
+pub mod polynomial;
+pub mod pulsed;
+pub mod pulses;
+pub mod records;
+pub mod rest;
+pub mod series;
+pub mod shaken;
+pub mod slender;
+
+use sprag_shared::math::lanes::{LaneMask, Lanes};
+
+/// Blocks side by side: the doubles of one 512-bit register, of two of 256 bits, or of four of 128.
+pub const WIDTH: usize = 8;
+
+/// One quantity of every block.
+pub type Number = Lanes<f64, WIDTH>;
+
+/// One answer about every block.
+pub type Mask = LaneMask<WIDTH>;
+
+/// The same number in every lane.
+#[inline(always)]
+pub(crate) fn number(value: f64) -> Number {
+    Lanes([value; WIDTH])
+}

@@ -1,0 +1,139 @@
+//! The widest registers of the machine, chosen when the program runs.
+//!
+//! The lanes are written once, over plain arrays. Built for AVX-512, for AVX2 and FMA, and for whatever every machine of the target has,
+//! they do the same IEEE operations in the same order on every lane (nothing is fused: Rust never contracts), so results are the same
+//! to the last bit; [`Registers::Baseline`] is there to show it.
+
+#[cfg(all(target_arch = "x86_64", not(test)))]
+use pulp::Arch;
+use pulp::NullaryFnOnce;
+use sprag_shared::equation::clutch_rule::{Clutch, ClutchedPair, NoInerter, SingleInerter};
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::DeviceKind;
+
+use crate::alone::CaseError;
+use crate::model::{FullAlone, FullWithInerter, Model, Slender};
+use crate::pulsed::{PulseResult, PulsedBlock};
+use crate::pulses;
+use crate::records;
+use crate::shaken::{Shaken, ShakenBlock};
+
+/// Which registers the lanes are in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Registers {
+    /// The widest that this machine has.
+    #[default]
+    Widest,
+    /// Those that every machine of the target has.
+    Baseline,
+}
+
+/// Work on blocks of one model and device.
+trait Work {
+    type Output;
+
+    /// Does it; to be inlined, so that it is built for the registers of its caller.
+    fn with<M: Model, C: Clutch>(self) -> Self::Output;
+}
+
+/// Work for a model and a clutch.
+struct Resolved<W, M, C>(W, std::marker::PhantomData<(M, C)>);
+
+impl<W: Work, M: Model, C: Clutch> NullaryFnOnce for Resolved<W, M, C> {
+    type Output = W::Output;
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        self.0.with::<M, C>()
+    }
+}
+
+/// Does `work` on blocks of this geometry and device.
+fn resolve<W: Work>((geometry, device): (Geometry, DeviceKind), registers: Registers, work: W) -> W::Output {
+    match (geometry, device) {
+        (Geometry::Full, DeviceKind::None) => go::<W, FullAlone, NoInerter>(work, registers),
+        (Geometry::Full, DeviceKind::Inerter) => go::<W, FullWithInerter, SingleInerter>(work, registers),
+        (Geometry::Full, DeviceKind::ClutchedPair) => go::<W, FullWithInerter, ClutchedPair>(work, registers),
+        (Geometry::Slender, DeviceKind::ClutchedPair) => go::<W, Slender, ClutchedPair>(work, registers),
+        (Geometry::Slender, _) => go::<W, Slender, SingleInerter>(work, registers),
+    }
+}
+
+fn go<W: Work, M: Model, C: Clutch>(work: W, registers: Registers) -> W::Output {
+    let resolved = Resolved(work, std::marker::PhantomData::<(M, C)>);
+    match registers {
+        // Not `Arch::dispatch`: its way without wide registers would be a second copy of the one below.
+        // No unit test asks for registers (`tests/tests/motion/lanes_*.rs` do), and every kind takes as long to build.
+        #[cfg(all(target_arch = "x86_64", not(test)))]
+        Registers::Widest => match Arch::new() {
+            Arch::V4(registers) => registers.vectorize(resolved),
+            Arch::V3(registers) => registers.vectorize(resolved),
+            _ => baseline(resolved),
+        },
+        _ => baseline(resolved),
+    }
+}
+
+#[inline(never)]
+fn baseline<F: NullaryFnOnce>(work: F) -> F::Output {
+    work.call()
+}
+
+struct UnderPulses<'a> {
+    pulsed: &'a [PulsedBlock],
+    results: &'a mut [PulseResult],
+}
+
+impl Work for UnderPulses<'_> {
+    type Output = Result<(), (usize, CaseError)>;
+
+    #[inline(always)]
+    fn with<M: Model, C: Clutch>(self) -> Self::Output {
+        pulses::run::<M, C>(self.pulsed, self.results)
+    }
+}
+
+struct UnderRecords<'a, 'b> {
+    shaken: &'a [ShakenBlock<'b>],
+    results: &'a mut [Option<Shaken>],
+}
+
+impl Work for UnderRecords<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with<M: Model, C: Clutch>(self) -> Self::Output {
+        records::run::<M, C>(self.shaken, self.results);
+    }
+}
+
+/// What becomes of each of `pulsed`, in their order.
+///
+/// # Errors
+/// The first [`CaseError`], with the number of its block.
+pub fn run(pulsed: &[PulsedBlock], registers: Registers) -> Result<Vec<PulseResult>, (usize, CaseError)> {
+    let mut results = vec![PulseResult::NO_ROCKING; pulsed.len()];
+    // Neighbours of one model and device go through the lanes together.
+    let kind = |block: &PulsedBlock| (block.geometry, block.device);
+    let mut start = 0;
+    for group in pulsed.chunk_by(|a, b| kind(a) == kind(b)) {
+        let found = &mut results[start..start + group.len()];
+        let work = UnderPulses { pulsed: group, results: found };
+        resolve(kind(&group[0]), registers, work).map_err(|(index, error)| (start + index, error))?;
+        start += group.len();
+    }
+    Ok(results)
+}
+
+/// What their records do to each of `shaken`, in their order; `None` for those that are left to the core.
+pub fn shake(shaken: &[ShakenBlock<'_>], registers: Registers) -> Vec<Option<Shaken>> {
+    let mut results = vec![None; shaken.len()];
+    let kind = |block: &ShakenBlock<'_>| (block.plain.geometry, block.plain.device);
+    let mut start = 0;
+    for group in shaken.chunk_by(|a, b| kind(a) == kind(b)) {
+        let found = &mut results[start..start + group.len()];
+        resolve(kind(&group[0]), registers, UnderRecords { shaken: group, results: found });
+        start += group.len();
+    }
+    results
+}

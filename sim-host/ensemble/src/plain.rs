@@ -1,0 +1,43 @@
+//! Which blocks and devices the lanes know.
+
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
+use sprag_shared::structure::mount::Mount;
+
+/// A block with an ideal device, at rest at first, of which nothing is asked but what becomes of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlainBlock {
+    /// Full or slender.
+    pub geometry: Geometry,
+    /// Its device, at the centre of mass, paper kinematics.
+    pub device: DeviceKind,
+    /// α, rad.
+    pub slenderness: f64,
+    /// k = σ/λ; for the slender model kℓ², with any mount.
+    pub coupling: f64,
+    /// η.
+    pub restitution: f64,
+}
+
+impl PlainBlock {
+    /// The block of `structure`, if its inerter turns as the lanes know it.
+    pub fn of_structure(structure: &Structure) -> Option<PlainBlock> {
+        let Structure { block, geometry, device, carried, restitution, .. } = structure;
+        let k = device.mass_ratio / block.inertia_ratio();
+        let coupling = match (geometry, device.kind, device.mount, device.kinematics) {
+            (_, DeviceKind::None, ..) => 0.0,
+            (Geometry::Slender, _, mount, _) => k * mount.slender_lever_squared(block).ok()?,
+            (Geometry::Full, _, Mount::CentreOfMass, KinematicsKind::Paper) => k,
+            _ => return None,
+        };
+        let restitution = restitution.evaluate(block, *geometry, device).ok()?;
+        carried.is_none().then_some(PlainBlock {
+            geometry: *geometry,
+            device: device.kind,
+            slenderness: block.slenderness(),
+            coupling,
+            restitution,
+        })
+    }
+}

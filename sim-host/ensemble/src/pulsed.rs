@@ -1,0 +1,120 @@
+//! A dimensionless block under one cycle of a pulse, and what becomes of it.
+
+use sprag_shared::equation::clutch_rule::Clutch;
+use sprag_shared::motion::rest::free_motion::{FreeMotion, Legs};
+use sprag_shared::structure::block::{Block, Geometry};
+use sprag_shared::structure::device::DeviceKind;
+
+use crate::model::Model;
+use crate::outcome::Outcome;
+use crate::shaken::Shaken;
+
+/// How far beyond the threshold a pulse must go to lift a block for certain: nearer, rounding decides.
+const PLAIN_UPLIFT: f64 = 1.0 + 1e-9;
+
+/// A one-cycle pulse.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PulseShape {
+    /// A sin ωt.
+    Sine,
+    /// A cos ωt.
+    Cosine,
+}
+
+/// A dimensionless block under a one-cycle pulse.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PulsedBlock {
+    /// Full or slender.
+    pub geometry: Geometry,
+    /// Its device, at the centre of mass, paper kinematics.
+    pub device: DeviceKind,
+    /// α, rad.
+    pub slenderness: f64,
+    /// k = σ/λ; for the slender model kℓ², with any mount.
+    pub coupling: f64,
+    /// η.
+    pub restitution: f64,
+    /// Shape of the pulse.
+    pub pulse: PulseShape,
+    /// ω_g/p.
+    pub frequency_ratio: f64,
+    /// a_g/(g tan α), or a_g/(gα) for the slender model.
+    pub amplitude_ratio: f64,
+}
+
+/// What becomes of it, decided without a horizon: a block that stands goes on until it rests.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PulseResult {
+    /// Outcome.
+    pub outcome: Outcome,
+    /// max |θ|/α; NaN when overturned.
+    pub peak_rotation: f64,
+    /// max |θ̈|/(p²α); NaN when overturned.
+    pub peak_acceleration: f64,
+}
+
+impl PulseResult {
+    /// Never uplifted.
+    pub const NO_ROCKING: PulseResult = PulseResult { outcome: Outcome::NoRocking, peak_rotation: 0.0, peak_acceleration: 0.0 };
+
+    /// Of a block that a record has shaken.
+    pub fn of_shaken(shaken: &Shaken, block: &Block) -> PulseResult {
+        let (peak_rotation, peak_acceleration) = shaken.relative_peaks(block).unwrap_or((f64::NAN, f64::NAN));
+        PulseResult { outcome: shaken.outcome(), peak_rotation, peak_acceleration }
+    }
+
+    pub(crate) fn overturned(impact: bool) -> PulseResult {
+        let outcome = if impact { Outcome::OverturnedAfterImpact } else { Outcome::OverturnedWithoutImpact };
+        PulseResult { outcome, peak_rotation: f64::NAN, peak_acceleration: f64::NAN }
+    }
+}
+
+impl PulsedBlock {
+    /// κ k on quiet ground while it moves outward and while it moves inward.
+    pub(crate) fn couplings<C: Clutch>(&self) -> (f64, f64) {
+        (if C::RULE.follows_signs() { 0.0 } else { self.coupling }, self.coupling)
+    }
+
+    pub(crate) fn stands(&self, rotation: f64, acceleration: f64) -> PulseResult {
+        let alpha = self.slenderness;
+        PulseResult { outcome: Outcome::Safe, peak_rotation: rotation / alpha, peak_acceleration: acceleration / alpha }
+    }
+
+    /// What becomes of a motion that the pulse leaves at |θ| = `rotation` with the outward `velocity` and these peaks.
+    #[inline]
+    pub(crate) fn settle<M: Model, C: Clutch>(
+        &self,
+        rotation: f64,
+        velocity: f64,
+        peaks: (f64, f64),
+        impact: bool,
+    ) -> PulseResult {
+        let (outward, inward) = self.couplings::<C>();
+        let legs = Legs { outward: M::integral(outward), returning: M::integral(outward), inward: M::integral(inward) };
+        let motion = FreeMotion { slenderness: self.slenderness, restitution: self.restitution, legs };
+        let settled = motion.settle(rotation, velocity);
+        if settled.overturned {
+            return PulseResult::overturned(impact || settled.impact);
+        }
+        self.stands(peaks.0.max(settled.rotation), peaks.1.max(settled.acceleration))
+    }
+
+    /// Parameters that the lanes may take, as the core would accept them.
+    pub(crate) fn is_within_range(&self) -> bool {
+        let PulsedBlock { slenderness, coupling, restitution, frequency_ratio, amplitude_ratio, .. } = *self;
+        (1e-4..1.5).contains(&slenderness)
+            && (0.0..=1e3).contains(&coupling)
+            && (0.0..=1.0).contains(&restitution)
+            && (1e-3..1e3).contains(&frequency_ratio)
+            && amplitude_ratio.abs() < 1e4
+    }
+
+    /// Whether the pulse lifts it; none if rounding decides.
+    pub(crate) fn uplifts(&self) -> Option<bool> {
+        let amplitude = self.amplitude_ratio.abs();
+        if amplitude <= 1.0 {
+            return Some(false);
+        }
+        (amplitude >= PLAIN_UPLIFT).then_some(true)
+    }
+}

@@ -1,0 +1,247 @@
+//! Blocks under one cycle of a sine or a cosine, as many as there are: a lane whose block is done takes the next.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::marker::PhantomData;
+
+use sprag_shared::equation::clutch_rule::Clutch;
+use sprag_shared::math::scalar::Scalar;
+use sprag_shared::math::{self, RECIPROCALS};
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::structure::block::Geometry;
+
+use crate::alone::{CaseError, TERMS, TIGHT};
+use crate::blocks::{Blocks, Bounds};
+use crate::model::Model;
+use crate::outcome::Outcome;
+use crate::pulsed::{PulseResult, PulseShape, PulsedBlock};
+use crate::rest::{AfterWeakImpact, Sine, WEAK_IMPACT};
+use crate::series::Series;
+use crate::{Mask, Number, WIDTH, number};
+
+/// Coefficients of θ: with more, steps hardly get longer, because events cut them.
+const SERIES_TERMS: usize = 18;
+
+/// Size of the last terms of a step's series over α.
+pub const TOLERANCE: f64 = 3e-15;
+
+/// Steps of one block before it is left to the core; most take a dozen.
+const MOST_STEPS: u32 = 400;
+
+/// The pulses of the blocks in the lanes, each in its block's mirror: ü_g/g = A sin(ωt + φ).
+#[derive(Clone, Copy, Debug)]
+pub struct Pulses {
+    /// A on the side to which the pulse first lifts the block.
+    pub amplitude: Number,
+    /// ω.
+    pub frequency: Number,
+    /// φ, 0 or π/2.
+    pub phase: Number,
+    /// t, from the start of the pulse.
+    pub time: Number,
+    /// When it ends.
+    pub duration: Number,
+}
+
+/// A way to follow blocks under pulses.
+pub trait Stepping: Default {
+    /// A new block in `lane`.
+    fn renew(&mut self, _lane: usize) {}
+
+    /// The block in `lane` uplifts after so many whole half-cycles of its sine.
+    fn uplift(&mut self, _lane: usize, _half_cycles: f64) {}
+
+    /// The block in `lane` has come to its end and stands, as `results` have it under number `index`; its peak may be found later.
+    fn stands(&mut self, _lane: usize, _index: usize, _results: &mut [PulseResult]) {}
+
+    /// Finds what peaks are left; returns the numbers of those that are for the core.
+    fn finish(&mut self, _results: &mut [PulseResult]) -> &[usize] {
+        &[]
+    }
+
+    /// One step of blocks of these slendernesses α (rad) and couplings k, at most up to the end of their pulses; returns how far each went.
+    fn step<C: Clutch>(&mut self, blocks: &mut Blocks, bounds: &Bounds, block: (Number, Number), pulses: &Pulses) -> Number;
+}
+
+/// Steps by power series.
+#[derive(Debug)]
+pub struct BySeries<M> {
+    series: Series<SERIES_TERMS>,
+    model: PhantomData<M>,
+}
+
+impl<M> Default for BySeries<M> {
+    fn default() -> Self {
+        BySeries { series: Series::default(), model: PhantomData }
+    }
+}
+
+impl<M: Model> Stepping for BySeries<M> {
+    #[inline(always)]
+    fn step<C: Clutch>(
+        &mut self,
+        blocks: &mut Blocks,
+        bounds: &Bounds,
+        (slenderness, coupling): (Number, Number),
+        pulses: &Pulses,
+    ) -> Number {
+        pulses.series(blocks.side, &mut self.series.ground[..SERIES_TERMS - 2]);
+        blocks.step::<M::Equation, C, SERIES_TERMS>(&M::modes(slenderness, coupling), bounds, &mut self.series, pulses.left())
+    }
+}
+
+impl Pulses {
+    /// Up to their ends.
+    #[inline(always)]
+    pub fn left(&self) -> Number {
+        self.duration - self.time
+    }
+
+    /// The pulse of one lane, in units of the threshold.
+    fn sine(&self, lane: usize, block: &PulsedBlock) -> Sine {
+        let (frequency, phase, duration) = (self.frequency.0[lane], self.phase.0[lane], self.duration.0[lane]);
+        Sine { amplitude: block.amplitude_ratio.abs(), frequency, phase, duration }
+    }
+
+    /// ü_g/g about the present time: c_{k+2} = −ω² c_k/((k+1)(k+2)).
+    #[inline(always)]
+    fn series(&self, side: Number, coefficients: &mut [Number]) {
+        let angle = self.frequency * self.time + self.phase;
+        let angle = angle.exceeds(number(PI)).choose(angle - number(TAU), angle);
+        let (sine, cosine) = Scalar::sin_cos(angle);
+        let amplitude = self.amplitude * side;
+        let mut next = [amplitude * sine, amplitude * cosine * self.frequency];
+        let factor = -(self.frequency * self.frequency);
+        for (k, coefficient) in coefficients.iter_mut().enumerate() {
+            let value = &mut next[k & 1];
+            *coefficient = *value;
+            *value = *value * factor * number(RECIPROCALS[(k + 1) & 63] * RECIPROCALS[(k + 2) & 63]);
+        }
+    }
+}
+
+/// Runs all `pulsed` blocks, which have the model `M` and the clutch `C`, into `results`, one each.
+///
+/// # Errors
+/// The first [`CaseError`], with the number of its block; parameters are checked by the core when it is asked to follow a block.
+#[inline(always)]
+pub(crate) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [PulseResult]) -> Result<(), (usize, CaseError)> {
+    let zero = number(0.0);
+    let one = number(1.0);
+    let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
+    let mut stepping = M::Stepping::default();
+    let mut blocks = Blocks::default();
+    // Idle lanes go through the motions of a harmless block.
+    let (mut slenderness, mut coupling) = (one, zero);
+    let mut pulses = Pulses { amplitude: zero, frequency: one, phase: zero, time: zero, duration: one };
+    let mut bounds = Bounds { restitution: zero, no_return: one, weak: zero, counted: zero, tolerance: one };
+    let mut at = [None; WIDTH];
+    let mut steps = [0_u32; WIDTH];
+    let mut rests = Mask::NONE;
+    let mut done = Mask::ALL;
+    let mut next = 0;
+    // Neighbours are mostly of one slenderness.
+    let mut threshold = (f64::NAN, f64::NAN);
+    loop {
+        if done.any() {
+            for lane in (0..WIDTH).filter(|&lane| done.at(lane)) {
+                if let Some(index) = at[lane] {
+                    let block: &PulsedBlock = &pulsed[index];
+                    results[index] = if blocks.hard.at(lane) {
+                        block.follow::<M, C>(&method).map_err(|error| (index, error))?
+                    } else if blocks.overturned.at(lane) {
+                        PulseResult::overturned(blocks.impact.at(lane))
+                    } else {
+                        let peaks = (blocks.peak_rotation.0[lane], blocks.peak_acceleration.0[lane]);
+                        if rests.at(lane) {
+                            block.stands(peaks.0, peaks.1)
+                        } else {
+                            block.settle::<M, C>(blocks.rotation.0[lane], blocks.velocity.0[lane], peaks, blocks.impact.at(lane))
+                        }
+                    };
+                    if !blocks.hard.at(lane) && results[index].outcome == Outcome::Safe {
+                        stepping.stands(lane, index, results);
+                    }
+                }
+                at[lane] = None;
+                while at[lane].is_none() && next < pulsed.len() {
+                    let block = &pulsed[next];
+                    let uplifts = if block.is_within_range() { block.uplifts() } else { None };
+                    if uplifts == Some(true) {
+                        at[lane] = Some(next);
+                        if threshold.0 != block.slenderness {
+                            threshold = (block.slenderness, M::uplift_threshold(block.slenderness));
+                        }
+                        // A push to the positive side lifts the block to the other; the sign of the pulse only mirrors the motion.
+                        let amplitude = block.amplitude_ratio.abs() * threshold.1;
+                        let sine = block.pulse == PulseShape::Sine;
+                        slenderness.0[lane] = block.slenderness;
+                        coupling.0[lane] = block.coupling;
+                        pulses.amplitude.0[lane] = -amplitude;
+                        pulses.frequency.0[lane] = block.frequency_ratio;
+                        pulses.phase.0[lane] = if sine { 0.0 } else { FRAC_PI_2 };
+                        pulses.duration.0[lane] = TAU / block.frequency_ratio;
+                        let uplift = || math::asin(1.0 / block.amplitude_ratio.abs()) / block.frequency_ratio;
+                        pulses.time.0[lane] = if sine { uplift() } else { 0.0 };
+                        bounds.restitution.0[lane] = block.restitution;
+                        bounds.no_return.0[lane] = match M::GEOMETRY {
+                            Geometry::Full => (block.slenderness + math::atan(amplitude)).min(FRAC_PI_2),
+                            Geometry::Slender => block.slenderness + amplitude,
+                        };
+                        bounds.weak.0[lane] = WEAK_IMPACT * block.slenderness;
+                        bounds.tolerance.0[lane] = TOLERANCE * block.slenderness;
+                        blocks.renew(lane);
+                        blocks.uplift(lane, 1.0, sine);
+                        stepping.renew(lane);
+                        stepping.uplift(lane, 0.0);
+                        rests.set(lane, false);
+                        steps[lane] = 0;
+                    } else if uplifts == Some(false) {
+                        results[next] = PulseResult::NO_ROCKING;
+                    } else {
+                        results[next] = block.follow::<M, C>(&method).map_err(|error| (next, error))?;
+                    }
+                    next += 1;
+                }
+                if at[lane].is_none() {
+                    // Nothing left: whatever the lane goes on with is plain.
+                    blocks.hard.set(lane, true);
+                }
+            }
+            if at.iter().all(Option::is_none) {
+                for &index in stepping.finish(results) {
+                    results[index] = pulsed[index].follow::<M, C>(&method).map_err(|error| (index, error))?;
+                }
+                return Ok(());
+            }
+        }
+        let left = pulses.left();
+        let went = stepping.step::<C>(&mut blocks, &bounds, (slenderness, coupling), &pulses);
+        pulses.time = pulses.time + went;
+        for (lane, count) in steps.iter_mut().enumerate() {
+            *count += 1;
+            if *count > MOST_STEPS {
+                blocks.hard.set(lane, true);
+            }
+        }
+        let weak = blocks.weak;
+        if weak.any() {
+            for lane in (0..WIDTH).filter(|&lane| weak.at(lane)) {
+                let Some(block) = at[lane].map(|index: usize| &pulsed[index]) else { continue };
+                let sine = pulses.sine(lane, block);
+                let push = sine.amplitude * math::sin(sine.frequency * pulses.time.0[lane] + sine.phase) * -blocks.side.0[lane];
+                let motion = (blocks.velocity.0[lane], block.restitution, block.slenderness);
+                let couplings = block.couplings::<C>();
+                match sine.after_weak_impact::<M>(pulses.time.0[lane], push, motion, couplings) {
+                    AfterWeakImpact::Rests => rests.set(lane, true),
+                    AfterWeakImpact::Uplifts { time, half_cycles } => {
+                        pulses.time.0[lane] = time;
+                        blocks.uplift(lane, if half_cycles % 2.0 == 0.0 { 1.0 } else { -1.0 }, true);
+                        stepping.uplift(lane, half_cycles);
+                    }
+                    AfterWeakImpact::Unsettled => blocks.hard.set(lane, true),
+                }
+            }
+        }
+        done = !left.exceeds(went) | blocks.overturned | blocks.hard | rests;
+    }
+}

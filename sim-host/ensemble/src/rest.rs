@@ -1,0 +1,81 @@
+//! Impacts that accumulate to rest under a pulse, and the push that lifts the block again.
+
+use std::f64::consts::PI;
+
+use sprag_shared::math;
+use sprag_shared::motion::rest::impact_accumulation::Accumulation;
+use sprag_shared::structure::{COUNTED_SPEED, REST_SPEED};
+
+use crate::model::Model;
+
+/// θ̇/(pα) after an impact below which the next ones are summed.
+pub const WEAK_IMPACT: f64 = REST_SPEED;
+
+/// A sine A sin(ωt + φ), in units of the uplift threshold, as long as it lasts.
+#[derive(Clone, Copy, Debug)]
+pub struct Sine {
+    /// |A|, above 1.
+    pub amplitude: f64,
+    /// ω.
+    pub frequency: f64,
+    /// φ, rad.
+    pub phase: f64,
+    /// When it ends.
+    pub duration: f64,
+}
+
+/// What follows a weak impact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AfterWeakImpact {
+    /// It rests until the pulse is over.
+    Rests,
+    /// It rests, and uplifts at `time`.
+    Uplifts {
+        /// From the start of the pulse.
+        time: f64,
+        /// Whole half-cycles of the sine before that; if their number is even, to the side to which it lifts first.
+        half_cycles: f64,
+    },
+    /// The push does not let it rest.
+    Unsettled,
+}
+
+/// The impacts that follow a weak one, which leaves a block of slenderness `alpha` (rad) with `speed` (rad; p = 1) on a side where the
+/// push is `push` (in units of the threshold, positive inward, below 1), under couplings κ k of the clutch while it moves outward and inward.
+pub fn tail<M: Model>(
+    push: f64,
+    (speed, restitution, alpha): (f64, f64, f64),
+    (outward, inward): (f64, f64),
+) -> Accumulation<f64> {
+    // Just as a block at rest, one that hardly moves is held by the rest of the threshold: |θ̈| is linear in the push.
+    let rates = |push: f64| {
+        let held = 1.0 + push;
+        (held * M::rate(alpha, outward), held * M::rate(alpha, inward))
+    };
+    Accumulation::of(rates(push), rates(-push), restitution, speed, COUNTED_SPEED * alpha)
+}
+
+impl Sine {
+    /// What follows an impact at `time`; the rest is that of [`tail`].
+    pub fn after_weak_impact<M: Model>(
+        &self,
+        time: f64,
+        push: f64,
+        (speed, restitution, alpha): (f64, f64, f64),
+        (outward, inward): (f64, f64),
+    ) -> AfterWeakImpact {
+        if push.abs() >= 1.0 {
+            return AfterWeakImpact::Unsettled;
+        }
+        let tail = tail::<M>(push, (speed, restitution, alpha), (outward, inward));
+        let rested = time + tail.duration;
+        let angle = self.frequency * rested + self.phase;
+        if rested > self.duration || (self.amplitude * math::sin(angle)).abs() >= 1.0 {
+            return AfterWeakImpact::Unsettled;
+        }
+        let first = math::asin(1.0 / self.amplitude);
+        let half_cycles = ((angle - first) / PI).ceil().max(0.0);
+        let time = (first + half_cycles * PI - self.phase) / self.frequency;
+        if time >= self.duration { AfterWeakImpact::Rests } else { AfterWeakImpact::Uplifts { time, half_cycles } }
+    }
+}

@@ -1,0 +1,130 @@
+//! The power series of a step, of several blocks at once.
+
+use std::cell::Cell;
+
+use sprag_shared::equation::Equation;
+use sprag_shared::math::RECIPROCALS;
+use sprag_shared::math::power_series::Tape;
+use sprag_shared::math::scalar::Scalar;
+use sprag_shared::method::motion_series::MotionSeries;
+
+use crate::polynomial::deflated;
+use crate::{Mask, Number, number};
+
+/// Quantities of an equation of motion on the tape.
+const SLOTS: usize = 18;
+
+/// The series of one step: scratch space, not state. θ has `TERMS` coefficients, θ̇ one less, θ̈ and the ground motion two less; what
+/// their arrays have beyond is zero.
+pub struct Series<const TERMS: usize> {
+    tape: Tape<Number, TERMS, SLOTS>,
+    /// Of ü_g/g about the start of the step; the caller sets it.
+    pub ground: [Number; TERMS],
+    motion: MotionSeries<Number, TERMS>,
+}
+
+impl<const TERMS: usize> Default for Series<TERMS> {
+    fn default() -> Self {
+        Series { tape: Tape::default(), ground: [number(0.0); TERMS], motion: MotionSeries::default() }
+    }
+}
+
+impl<const TERMS: usize> std::fmt::Debug for Series<TERMS> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.debug_struct("Series").field("motion", &self.motion).finish_non_exhaustive()
+    }
+}
+
+impl<const TERMS: usize> Series<TERMS> {
+    /// Coefficients of θ̈ and of the ground motion.
+    pub const RATES: usize = TERMS - 2;
+
+    /// Of θ.
+    #[inline(always)]
+    pub fn rotation(&self) -> &[Number; TERMS] {
+        &self.motion.rotation
+    }
+
+    /// Of θ̇.
+    #[inline(always)]
+    pub fn velocity(&self) -> &[Number] {
+        &self.motion.velocity[..TERMS - 1]
+    }
+
+    /// Of θ̈.
+    #[inline(always)]
+    pub fn acceleration(&self) -> &[Number] {
+        &self.motion.acceleration[..Self::RATES]
+    }
+
+    /// Of θ̈, divided by t where it is zero at the start; what is beyond [`Self::RATES`] is zero.
+    #[inline(always)]
+    pub fn acceleration_off_zero(&self, at_zero: Mask) -> [Number; TERMS] {
+        deflated(&self.motion.acceleration, at_zero)
+    }
+
+    /// The series about θ (`rotation`, rad) and θ̇ (`velocity`) of blocks on the positive side; where `at_zero`, θ̈ is zero now because
+    /// an event was located on it.
+    #[inline(always)]
+    pub fn expand<E: Equation<Number>>(&mut self, equation: &E, rotation: Number, velocity: Number, at_zero: Mask) {
+        // θ, θ̇ and the ground are the first three nodes.
+        const GIVEN: usize = 3;
+        let next = Cell::new(GIVEN);
+        self.motion.start(&self.tape, rotation, velocity);
+        for k in 0..Self::RATES {
+            self.tape.set(2, k, self.ground[k]);
+            next.set(GIVEN);
+            let tape = &self.tape;
+            let (theta, omega, push) = (tape.given(&next, k, 0), tape.given(&next, k, 1), tape.given(&next, k, 2));
+            let node = equation.acceleration(number(1.0), theta, omega, push);
+            if k == 0 {
+                node.set_last(at_zero.choose(number(0.0), node.last()));
+            }
+            self.motion.extend(tape, k, node.last());
+        }
+    }
+
+    /// How far the last two terms of θ stay below `tolerance` (rad; Jorba and Zou's two-term rule).
+    #[inline(always)]
+    pub fn reach(&self, tolerance: Number) -> Number {
+        self.along(TERMS - 1, tolerance).smaller(self.along(TERMS - 2, tolerance)) * number(0.95)
+    }
+
+    /// How far the term of this order stays below `tolerance`.
+    #[inline(always)]
+    fn along(&self, order: usize, tolerance: Number) -> Number {
+        // Above zero, so that the ratio is finite.
+        let last = self.motion.rotation[order].abs() + number(f64::MIN_POSITIVE / f64::EPSILON);
+        rough_power(tolerance / last, RECIPROCALS[order & 63])
+    }
+}
+
+/// x to the `exponent` (0 to 1) to about 7 %, for choosing step sizes only: as [`sprag_shared::math::scalar::Real::rough_power`], from the
+/// high halves of the bits, whose conversions registers know.
+#[inline(always)]
+fn rough_power(x: Number, exponent: f64) -> Number {
+    const ONE: i32 = 0x3ff0_0000;
+    let mut power = x;
+    for value in &mut power.0 {
+        let high = (value.to_bits() >> 32) as i32;
+        let scaled = (f64::from(high - ONE) * exponent) as i32 + ONE;
+        *value = f64::from_bits((scaled as u64) << 32);
+    }
+    power
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sprag_shared::math;
+
+    #[test]
+    fn rough_power_is_close_enough_for_a_step_size() {
+        for base in [1e-200, 1e-9, 0.3, 1.0, 7.0, 1e200] {
+            for exponent in [1.0 / 15.0, 1.0 / 8.0] {
+                let power = rough_power(number(base), exponent).0[3];
+                assert!((power / math::pow(base, exponent) - 1.0).abs() < 0.07, "{base}^{exponent}: {power}");
+            }
+        }
+    }
+}
