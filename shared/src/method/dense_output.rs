@@ -61,6 +61,12 @@ pub trait Arc<S: Real> {
         (sign.times(end) < S::ZERO).then(|| locate_by_value(from, to, sign, |t| self.switching(t)))
     }
 
+    /// θ̈ at [`Arc::length`] where the step has evaluated the equation there: that of the next step's start.
+    #[inline]
+    fn evaluated_end(&self) -> Option<S> {
+        None
+    }
+
     /// Largest |θ̈| between the times `from.0` and `to.0`, at which θ̈ is `from.1` and `to.1`, if above `floor`; else `floor`.
     fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
         floor.larger(from.1.abs()).larger(to.1.abs())
@@ -75,7 +81,7 @@ pub trait Method<S: Real> {
         Self: 'a;
 
     /// The arc from `start`.
-    fn arc<'a>(&'a self, start: Start<'a, S>) -> Self::Arc<'a>;
+    fn arc<'a>(&'a self, start: &'a Start<'a, S>) -> Self::Arc<'a>;
 
     /// The fixed step (s), if it has one: then steps end on whole multiples of it from the start of each piece.
     fn step(&self) -> Option<S>;

@@ -69,14 +69,14 @@ pub fn runge_kutta_4<S: Scalar, E: Equation<S>>(
 #[derive(Debug)]
 pub struct FixedArc<'a, S> {
     method: FixedStep<S>,
-    start: Start<'a, S>,
+    start: &'a Start<'a, S>,
     first: S,
     end: Motion<S>,
 }
 
 impl<'a, S: Real> FixedArc<'a, S> {
     #[inline(always)]
-    pub(crate) fn new(method: FixedStep<S>, start: Start<'a, S>) -> Self {
+    pub(crate) fn new(method: FixedStep<S>, start: &'a Start<'a, S>) -> Self {
         let first = if start.acceleration_is_zero {
             S::ZERO
         } else {
@@ -85,7 +85,7 @@ impl<'a, S: Real> FixedArc<'a, S> {
                 start.equation.acceleration(start.side.unit(), start.rotation, start.velocity, push)
             })
         };
-        let end = Self::motion(method, &start, first, start.length);
+        let end = Self::motion(method, start, first, start.length);
         FixedArc { method, start, first, end }
     }
 
@@ -133,7 +133,12 @@ impl<S: Real> Arc<S> for FixedArc<'_, S> {
         if time == S::ZERO {
             return Motion { rotation: self.start.rotation, velocity: self.start.velocity, acceleration: self.first };
         }
-        if time == self.start.length { self.end } else { Self::motion(self.method, &self.start, self.first, time) }
+        if time == self.start.length { self.end } else { Self::motion(self.method, self.start, self.first, time) }
+    }
+
+    #[inline(always)]
+    fn evaluated_end(&self) -> Option<S> {
+        Some(self.end.acceleration)
     }
 
     #[inline]
@@ -148,7 +153,7 @@ impl<S: Real> Method<S> for FixedStep<S> {
     type Arc<'a> = FixedArc<'a, S>;
 
     #[inline(always)]
-    fn arc<'a>(&'a self, start: Start<'a, S>) -> Self::Arc<'a> {
+    fn arc<'a>(&'a self, start: &'a Start<'a, S>) -> Self::Arc<'a> {
         FixedArc::new(*self, start)
     }
 

@@ -61,13 +61,13 @@ impl<S: Real, const N: usize> Method<S> for Taylor<S, N> {
     type Arc<'a> = TaylorArc<S, N>;
 
     #[inline]
-    fn arc<'a>(&'a self, start: Start<'a, S>) -> TaylorArc<S, N> {
+    fn arc<'a>(&'a self, start: &'a Start<'a, S>) -> TaylorArc<S, N> {
         let none = [S::ZERO; N];
         let mut arc = TaylorArc { series: StepSeries::new(start.length), switching: none, curvature: S::ZERO };
         let mut ground = none;
         start.piece.series(start.time, &mut ground);
         let tolerance = self.tolerance * start.scale.larger(start.rotation.abs());
-        start.equation.known(Expansion { tape: &self.tape, arc: &mut arc, ground: &ground, start: &start, tolerance });
+        start.equation.known(Expansion { tape: &self.tape, arc: &mut arc, ground: &ground, start, tolerance });
         let series = &mut arc.series;
         if self.step.is_none() && series.terms == N {
             for order in [N - 2, N - 1] {
@@ -190,7 +190,7 @@ mod tests {
                 acceleration: None,
                 scale: 0.3,
             };
-            let arc = Taylor::<f64, 20>::adaptive(1e-15).arc(start);
+            let arc = Taylor::<f64, 20>::adaptive(1e-15).arc(&start);
             let (length, step) = (arc.length(), 1e-3 * arc.length());
             let rate = |time: f64| arc.at(time).acceleration;
             let mut largest = 0.0_f64;

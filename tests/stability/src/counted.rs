@@ -73,7 +73,7 @@ impl<S: Real, M: Method<S>> Method<S> for Counted<M> {
     where
         Self: 'a;
 
-    fn arc<'a>(&'a self, start: Start<'a, S>) -> Self::Arc<'a> {
+    fn arc<'a>(&'a self, start: &'a Start<'a, S>) -> Self::Arc<'a> {
         self.arcs.set(self.arcs.get() + 1);
         CountedArc { arc: self.method.arc(start), looks: &self.looks }
     }

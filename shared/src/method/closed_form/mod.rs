@@ -61,9 +61,9 @@ impl<S: Real> Method<S> for ClosedForm<S> {
     type Arc<'a> = ClosedFormArc<'a, S>;
 
     #[inline]
-    fn arc<'a>(&'a self, start: Start<'a, S>) -> ClosedFormArc<'a, S> {
+    fn arc<'a>(&'a self, start: &'a Start<'a, S>) -> ClosedFormArc<'a, S> {
         match (start.equation.slender(), start.piece.elementary(start.time)) {
-            (Some(block), Some(ground)) => ClosedFormArc::Closed(SlenderArc::new(block, ground, &start)),
+            (Some(block), Some(ground)) => ClosedFormArc::Closed(SlenderArc::new(block, ground, start)),
             _ => ClosedFormArc::Stepped(FixedArc::new(FixedStep::RungeKutta4 { step: self.step }, start)),
         }
     }

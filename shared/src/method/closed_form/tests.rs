@@ -194,7 +194,7 @@ fn a_short_step_loses_no_digits() {
             acceleration: None,
             scale: 1.0,
         };
-        let found = ClosedForm { step }.arc(start).at(step).rotation;
+        let found = ClosedForm { step }.arc(&start).at(step).rotation;
         assert!((found / exact - 1.0).abs() < 2e-5 * (step / 1e-3) * (step / 1e-3) + 1e-11, "{step}: {found:e} {exact:e}");
         let pulse = Harmonics::sine(amplitude as f32, frequency as f32);
         let start = Start {
@@ -209,7 +209,7 @@ fn a_short_step_loses_no_digits() {
             acceleration: None,
             scale: 1.0,
         };
-        let found = f64::from(ClosedForm { step: step as f32 }.arc(start).at(step as f32).rotation);
+        let found = f64::from(ClosedForm { step: step as f32 }.arc(&start).at(step as f32).rotation);
         assert!((found / exact - 1.0).abs() < 1e-3, "{step} in f32: {found:e} {exact:e}");
     }
 }

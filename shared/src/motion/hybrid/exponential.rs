@@ -9,9 +9,7 @@
 //! that the spring has passed on follows from J = ∫F dt = ((ℓA − r) h − Δẏ)/q. What is frozen makes the step one of order 2, whatever
 //! K and C are (Hochbruck and Ostermann 2010, for the frozen-coefficient view).
 
-use super::path::{KnownStart, PathStart};
-use super::steps::Unknowns;
-use crate::drivetrain::any_drive::first;
+use super::path::{KnownStart, PathStart, Place};
 use crate::drivetrain::clutch_state::Law;
 use crate::drivetrain::drive::Drive;
 use crate::equation::body::Body;
@@ -74,39 +72,37 @@ fn springless<S: Real>(law: &Law<S>) -> Law<S> {
 
 fn freeze<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
     soft: &KnownStart<'_, S, B, D>,
-    t: S,
-    (rotation, velocity, extra): &Unknowns<S, X>,
+    at: &Place<S, X>,
 ) -> Frozen<S, X> {
-    let (acceleration, rates) = soft.rates(t, *rotation, *velocity, extra);
-    let PathStart { ref law, side, .. } = *soft.start;
-    let arm = soft.body.arm(&soft.body.posture(side.unit(), *rotation));
+    let (acceleration, rates) = soft.rates(at);
+    let PathStart { law, side, .. } = *soft.start;
+    let arm = soft.body.arm(&soft.body.posture(side.unit(), at.rotation));
     let leverage = if soft.is_held() { S::ZERO } else { arm / (S::ONE + law.coupling * arm * arm) };
     Frozen { arm, leverage, acceleration, rates }
 }
 
-/// The frozen system over `h`, exactly.
+/// The frozen system a time `h` after `from`, exactly; `ground` is the ground's acceleration then, in g.
 fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
     known: &KnownStart<'_, S, B, D>,
+    from: &Place<S, X>,
     frozen: &Frozen<S, X>,
-    h: S,
-) -> Unknowns<S, X> {
-    let start = known.start;
-    let law = &start.law;
+    (h, ground): (S, [S; 2]),
+) -> Place<S, X> {
+    let law = known.start.law;
     let half_square = S::HALF * h * h;
-    let mut velocity = start.velocity + h * frozen.acceleration;
-    let mut rotation = start.rotation + h * start.velocity + half_square * frozen.acceleration;
-    let given: [S; X] = first(&start.extra);
-    let mut extra = given;
-    for (value, &rate) in extra.iter_mut().zip(&frozen.rates) {
+    let mut velocity = from.velocity + h * frozen.acceleration;
+    let mut rotation = from.rotation + h * from.velocity + half_square * frozen.acceleration;
+    let mut unknowns = from.unknowns;
+    for (value, &rate) in unknowns.iter_mut().zip(&frozen.rates) {
         *value = *value + h * rate;
     }
-    let Some(gears) = known.drive.gears() else { return (rotation, velocity, extra) };
+    let Some(gears) = known.drive.gears() else { return Place { time: h, ground, rotation, velocity, unknowns } };
     // A spring between a block and a flywheel that are both held keeps its twist.
     let contact = [0, 1].map(|i| law.stiffness[i] > S::ZERO && !(known.is_held() && law.moves[i] == S::ZERO));
     let both = contact[0] && contact[1];
     let coupled = frozen.arm * frozen.leverage;
-    let twist = [0, 1].map(|i| given[i + 2] - law.rest_twist[i]);
-    let slide = [0, 1].map(|i| frozen.arm * start.velocity - given[i]);
+    let twist = [0, 1].map(|i| from.unknowns[i + 2] - law.rest_twist[i]);
+    let slide = [0, 1].map(|i| frozen.arm * from.velocity - from.unknowns[i]);
     let push = [0, 1].map(|i| frozen.arm * frozen.acceleration - frozen.rates[i]);
     let gain = [0, 1].map(|i| if both { gears.mobility } else { law.moves[i] * gears.mobility });
     // Impulse of each spring and its integral. Two springs of one kind part into their mean and their difference.
@@ -133,30 +129,29 @@ fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>
             let (y, impulse, integral) = springs[i];
             velocity = velocity - frozen.leverage * impulse;
             rotation = rotation - frozen.leverage * integral;
-            extra[i] = extra[i] + gain[i] * impulse;
-            extra[i + 2] = law.rest_twist[i] + y;
+            unknowns[i] = unknowns[i] + gain[i] * impulse;
+            unknowns[i + 2] = law.rest_twist[i] + y;
         } else if law.relaxation[i] > S::ZERO {
             // The twist of a saturated clutch relaxes by K/C: exactly, too.
             let held = law.slip[i] / gears.stiffness;
-            extra[i + 2] = law.rest_twist[i] + held + (twist[i] - held) * (-(gears.stiffness * law.relaxation[i] * h)).exp();
+            unknowns[i + 2] = law.rest_twist[i] + held + (twist[i] - held) * (-(gears.stiffness * law.relaxation[i] * h)).exp();
         }
     }
-    (rotation, velocity, extra)
+    Place { time: h, ground, rotation, velocity, unknowns }
 }
 
-/// The unknowns a time `h` after the start. Order 2; stable for every stiffness.
+/// The state a time `h` after `from`, where the ground's acceleration (in g) is `ground`. Order 2; stable for every stiffness.
 pub(super) fn midpoint<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
     known: &KnownStart<'_, S, B, D>,
-    h: S,
-) -> Unknowns<S, X> {
-    let start = known.start;
-    let soft = PathStart { law: springless(&start.law), ..*start };
+    from: &Place<S, X>,
+    (h, ground): (S, [S; 2]),
+) -> Place<S, X> {
+    let law = springless(known.start.law);
+    let soft = PathStart { law: &law, ..*known.start };
     let soft = KnownStart { start: &soft, ..*known };
     let half = S::HALF * h;
-    let here = freeze(&soft, S::ZERO, &(start.rotation, start.velocity, first(&start.extra)));
-    let middle = solve(known, &here, half);
-    let there = freeze(&soft, half, &middle);
-    solve(known, &there, h)
+    let middle = solve(known, from, &freeze(&soft, from), (half, known.start.ground_at(half)));
+    solve(known, from, &freeze(&soft, &middle), (h, ground))
 }
 
 #[cfg(test)]

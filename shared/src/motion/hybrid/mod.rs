@@ -219,8 +219,9 @@ impl<S: Real> Machine<S> {
         let start = PathStart {
             body: &self.body,
             drive: &self.drive,
-            law,
+            law: &law,
             shaking,
+            ground: state.ground,
             side: motion.side,
             rotation: motion.rotation,
             velocity: motion.velocity,
@@ -232,7 +233,8 @@ impl<S: Real> Machine<S> {
             scale: self.slenderness,
             speed: self.speed,
         };
-        let path = tracer.path(start);
+        debug_assert!(state.ground == shaking.at(*time), "the ground is as it was left");
+        let path = tracer.path(&start);
         let length = path.length();
         let mut until = length;
         let mut end = End::Reached;

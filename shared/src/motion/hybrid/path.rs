@@ -5,7 +5,6 @@ use crate::drivetrain::clutch_state::Law;
 use crate::drivetrain::drive::{Drive, Moment, MomentOf, UNKNOWNS};
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
-use crate::equation::motion::Motion;
 use crate::ground::Piece;
 use crate::math::root::locate_by_value;
 use crate::math::scalar::Real;
@@ -38,9 +37,11 @@ pub struct PathStart<'a, S> {
     /// The device.
     pub drive: &'a AnyDrive<S>,
     /// Its mode.
-    pub law: Law<S>,
+    pub law: &'a Law<S>,
     /// The ground motion.
     pub shaking: Shaking<'a, S>,
+    /// Its acceleration at the start, in g.
+    pub ground: [S; 2],
     /// s.
     pub side: Sign,
     /// θ.
@@ -94,6 +95,19 @@ impl<S: Real> PathStart<'_, S> {
         }
     }
 
+    /// The start itself.
+    #[inline(always)]
+    pub fn place(&self) -> Place<S, UNKNOWNS> {
+        let PathStart { ground, rotation, velocity, extra, .. } = *self;
+        Place { time: S::ZERO, ground, rotation, velocity, unknowns: extra }
+    }
+
+    /// The ground's acceleration (in g) `time` after the start.
+    #[inline(always)]
+    pub fn ground_at(&self, time: S) -> [S; 2] {
+        self.shaking.at(self.time + time)
+    }
+
     /// θ̈ at the start, from the equation's `acceleration`: the rounding of a zero must not push a freed block back.
     #[inline(always)]
     pub fn first(&self, acceleration: S) -> S {
@@ -112,31 +126,55 @@ impl<S: Real, B: Body<S>, D> KnownStart<'_, S, B, D> {
     }
 
     #[inline(always)]
-    fn moment<const X: usize>(&self, t: S, rotation: S, velocity: S, extra: &[S; X]) -> MomentOf<'_, S, B, S, X> {
-        let PathStart { ref law, ref shaking, side, time, .. } = *self.start;
-        let posture = self.body.posture(side.unit(), rotation);
-        Moment { body: self.body, law, posture, velocity, extra: *extra, ground: shaking.at(time + t), clock: t }
+    fn moment<const X: usize>(&self, at: &Place<S, X>) -> MomentOf<'_, S, B, S, X> {
+        let posture = self.body.posture(self.start.side.unit(), at.rotation);
+        let Place { time, ground, velocity, unknowns, .. } = *at;
+        Moment { body: self.body, law: self.start.law, posture, velocity, extra: unknowns, ground, clock: time }
     }
 
-    /// θ̈ and the rates of the device's unknowns a time `t` after the start.
+    /// θ̈ and the rates of the device's unknowns.
     #[inline(never)]
-    pub fn rates<const X: usize, const G: usize>(&self, t: S, rotation: S, velocity: S, extra: &[S; X]) -> (S, [S; X])
+    pub fn rates<const X: usize, const G: usize>(&self, at: &Place<S, X>) -> (S, [S; X])
     where
         D: Drive<S, X, G>,
     {
-        let (acceleration, rates) = self.drive.flow(&self.moment(t, rotation, velocity, extra));
+        let (acceleration, rates) = self.drive.flow(&self.moment(at));
         (if self.is_held() { S::ZERO } else { acceleration }, rates)
     }
 
-    /// Watched function `index` in the given state.
+    /// Watched function `index`, where θ̈ is `acceleration`.
     #[inline(always)]
-    pub fn guard<const X: usize, const G: usize>(&self, index: usize, t: S, motion: &Motion<S>, extra: &[S; X]) -> S
+    pub fn guard<const X: usize, const G: usize>(&self, index: usize, at: &Place<S, X>, acceleration: S) -> S
     where
         D: Drive<S, X, G>,
     {
-        let moment = self.moment(t, motion.rotation, motion.velocity, extra);
-        let acceleration = if self.is_held() { self.drive.flow(&moment).0 } else { motion.acceleration };
+        let moment = self.moment(at);
+        let acceleration = if self.is_held() { self.drive.flow(&moment).0 } else { acceleration };
         self.drive.guard(&moment, acceleration, self.start.law.watch[index])
+    }
+}
+
+/// What is known of an instant of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Place<S, const X: usize> {
+    /// Since the start, s.
+    pub time: S,
+    /// Ground acceleration in g, horizontal and vertical.
+    pub ground: [S; 2],
+    /// θ.
+    pub rotation: S,
+    /// θ̇.
+    pub velocity: S,
+    /// The device's unknowns.
+    pub unknowns: [S; X],
+}
+
+impl<S: Real, const X: usize> Place<S, X> {
+    /// With other unknowns.
+    #[inline(always)]
+    pub fn map<const Y: usize>(&self, unknowns: impl FnOnce(&[S; X]) -> [S; Y]) -> Place<S, Y> {
+        let Place { time, ground, rotation, velocity, .. } = *self;
+        Place { time, ground, rotation, velocity, unknowns: unknowns(&self.unknowns) }
     }
 }
 
@@ -180,7 +218,7 @@ pub trait Tracer<S: Real> {
         Self: 'a;
 
     /// The path from `start`.
-    fn path<'a>(&'a self, start: PathStart<'a, S>) -> Self::Path<'a>;
+    fn path<'a>(&'a self, start: &'a PathStart<'a, S>) -> Self::Path<'a>;
 
     /// The fixed step (s), if it has one.
     fn step(&self) -> Option<S>;

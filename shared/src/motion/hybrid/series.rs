@@ -98,7 +98,7 @@ impl<S: Real, const N: usize> WithStart<S> for Expansion<'_, S, N> {
             let up = if shaken_up { given(3) } else { push };
             let at = Moment {
                 body: known.body,
-                law: &start.law,
+                law: start.law,
                 posture: known.body.posture(side, theta),
                 velocity: omega,
                 extra: core::array::from_fn(|i| given(GIVEN + i)),
@@ -141,7 +141,7 @@ impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
     type Path<'a> = SeriesPath<S, N>;
 
     #[inline(never)]
-    fn path<'a>(&'a self, start: PathStart<'a, S>) -> SeriesPath<S, N> {
+    fn path<'a>(&'a self, start: &'a PathStart<'a, S>) -> SeriesPath<S, N> {
         let none = [S::ZERO; N];
         let mut path = SeriesPath { series: StepSeries::new(start.length), extra: [none; UNKNOWNS], guards: [none; WATCHES] };
         let mut ground = [none; 2];

@@ -1,7 +1,7 @@
 //! Fixed steps for a block with a device. Events inside a step are located by taking the step again with a shorter length.
 
 use super::exponential;
-use super::path::{KnownStart, Path, PathStart, Tracer, WithStart};
+use super::path::{KnownStart, Path, PathStart, Place, Tracer, WithStart};
 use crate::drivetrain::any_drive::{first, padded};
 use crate::drivetrain::drive::{Drive, UNKNOWNS};
 use crate::equation::body::Body;
@@ -10,112 +10,107 @@ use crate::math::scalar::Real;
 use crate::method::dense_output::Arc;
 use crate::method::fixed::FixedStep;
 
-/// θ, θ̇ and the device's unknowns.
-pub type Unknowns<S, const X: usize> = (S, S, [S; X]);
+/// θ̈ and the rates of the device's unknowns.
+type Rates<S, const X: usize> = (S, [S; X]);
 
-/// The unknowns a time `h` after the start, where θ̈ and the rates of the device's unknowns are `first`.
+/// The state a time `h` after `from`, where the rates are `rates`; `ground` is the ground's acceleration then, in g.
 #[inline(always)]
 fn advance<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
     method: FixedStep<S>,
     known: &KnownStart<'_, S, B, D>,
-    first: &(S, [S; X]),
-    h: S,
-) -> Unknowns<S, X> {
+    (from, rates): (&Place<S, X>, &Rates<S, X>),
+    (h, ground): (S, [S; 2]),
+) -> Place<S, X> {
+    let first = known.start.first(rates.0);
     match method {
-        FixedStep::SemiImplicitEuler { .. } => semi_implicit_euler(known, first, h),
-        FixedStep::ExponentialMidpoint { .. } if D::SPRINGS => exponential::midpoint(known, h),
-        _ => runge_kutta_4(known, first, h),
+        FixedStep::SemiImplicitEuler { .. } => {
+            let velocity = from.velocity + h * first;
+            let unknowns = core::array::from_fn(|i| from.unknowns[i] + h * rates.1[i]);
+            Place { time: h, ground, rotation: from.rotation + h * velocity, velocity, unknowns }
+        }
+        FixedStep::ExponentialMidpoint { .. } if D::SPRINGS => exponential::midpoint(known, from, (h, ground)),
+        _ => runge_kutta_4(known, from, (first, &rates.1), (h, ground)),
     }
-}
-
-#[inline(always)]
-fn semi_implicit_euler<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-    known: &KnownStart<'_, S, B, D>,
-    (acceleration, rates): &(S, [S; X]),
-    h: S,
-) -> Unknowns<S, X> {
-    let PathStart { rotation, velocity, .. } = *known.start;
-    let velocity = velocity + h * known.start.first(*acceleration);
-    let given: [S; X] = first(&known.start.extra);
-    (rotation + h * velocity, velocity, core::array::from_fn(|i| given[i] + h * rates[i]))
 }
 
 #[inline(always)]
 fn runge_kutta_4<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
     known: &KnownStart<'_, S, B, D>,
-    (acceleration, r1): &(S, [S; X]),
-    h: S,
-) -> Unknowns<S, X> {
+    from: &Place<S, X>,
+    (a1, r1): (S, &[S; X]),
+    (h, ground): (S, [S; 2]),
+) -> Place<S, X> {
     let half = S::HALF * h;
-    let (theta, omega) = (known.start.rotation, known.start.velocity);
-    let given = first(&known.start.extra);
-    let shifted = |rates: &[S; X], by: S| {
-        let mut extra = given;
-        for (value, &rate) in extra.iter_mut().zip(rates) {
-            *value = *value + by * rate;
-        }
-        extra
+    let middle = known.start.ground_at(half);
+    let Place { rotation: theta, velocity: omega, unknowns, .. } = *from;
+    let stage = |time: S, ground, rotation, velocity, rates: &[S; X]| {
+        known.rates(&Place {
+            time,
+            ground,
+            rotation,
+            velocity,
+            unknowns: core::array::from_fn(|i| unknowns[i] + time * rates[i]),
+        })
     };
-    let a1 = known.start.first(*acceleration);
     let omega_2 = omega + half * a1;
-    let (a2, r2) = known.rates(half, theta + half * omega, omega_2, &shifted(r1, half));
+    let (a2, r2) = stage(half, middle, theta + half * omega, omega_2, r1);
     let omega_3 = omega + half * a2;
-    let (a3, r3) = known.rates(half, theta + half * omega_2, omega_3, &shifted(&r2, half));
+    let (a3, r3) = stage(half, middle, theta + half * omega_2, omega_3, &r2);
     let omega_4 = omega + h * a3;
-    let (a4, r4) = known.rates(h, theta + h * omega_3, omega_4, &shifted(&r3, h));
+    let (a4, r4) = stage(h, ground, theta + h * omega_3, omega_4, &r3);
     let (sixth, two) = (h * S::of(1.0 / 6.0), S::of(2.0));
-    let mut extra = given;
-    for i in 0..X {
-        extra[i] = extra[i] + sixth * (r1[i] + two * (r2[i] + r3[i]) + r4[i]);
+    Place {
+        time: h,
+        ground,
+        rotation: theta + sixth * (omega + two * (omega_2 + omega_3) + omega_4),
+        velocity: omega + sixth * (a1 + two * (a2 + a3) + a4),
+        unknowns: core::array::from_fn(|i| unknowns[i] + sixth * (r1[i] + two * (r2[i] + r3[i]) + r4[i])),
     }
-    (theta + sixth * (omega + two * (omega_2 + omega_3) + omega_4), omega + sixth * (a1 + two * (a2 + a3) + a4), extra)
 }
-
-/// Motion and unknowns at one instant.
-type Place<S> = (Motion<S>, [S; UNKNOWNS]);
 
 /// The path of a fixed-step method: its ends, and the step taken again for every time between them.
 #[derive(Debug)]
 pub struct FixedPath<'a, S> {
     method: FixedStep<S>,
-    start: PathStart<'a, S>,
-    /// θ̈ and the rates of the device's unknowns at the start.
-    first: (S, [S; UNKNOWNS]),
-    end: Place<S>,
+    start: &'a PathStart<'a, S>,
+    /// At the start.
+    rates: Rates<S, UNKNOWNS>,
+    /// The end, and θ̈ there.
+    end: (Place<S, UNKNOWNS>, S),
 }
 
-/// A step of length `time`; its `first` rates are taken where they are not known.
+/// A step of length `time`; the `rates` at its start are taken where they are not known.
 struct Step<'a, S> {
     method: FixedStep<S>,
-    first: Option<&'a (S, [S; UNKNOWNS])>,
+    rates: Option<&'a Rates<S, UNKNOWNS>>,
     time: S,
 }
 
 impl<S: Real> WithStart<S> for Step<'_, S> {
-    type Output = ((S, [S; UNKNOWNS]), Place<S>);
+    type Output = (Rates<S, UNKNOWNS>, (Place<S, UNKNOWNS>, S));
 
     #[inline(always)]
     fn with<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
         self,
         known: &KnownStart<'_, S, B, D>,
     ) -> Self::Output {
-        let Step { method, time, .. } = self;
-        let start = known.start;
-        let at_start = match self.first {
+        let from = known.start.place().map(first);
+        let rates = match self.rates {
             Some((acceleration, rates)) => (*acceleration, first(rates)),
-            None => known.rates(S::ZERO, start.rotation, start.velocity, &first(&start.extra)),
+            None => known.rates(&from),
         };
-        let (rotation, velocity, extra) = advance(method, known, &at_start, time);
-        let (acceleration, _) = known.rates(time, rotation, velocity, &extra);
-        ((at_start.0, padded(&at_start.1)), (Motion { rotation, velocity, acceleration }, padded(&extra)))
+        let ground = known.start.ground_at(self.time);
+        let end = advance(self.method, known, (&from, &rates), (self.time, ground));
+        let (acceleration, _) = known.rates(&end);
+        ((rates.0, padded(&rates.1)), (end.map(padded), acceleration))
     }
 }
 
-/// Watched function `index` at `time`, where the motion is at `place`.
+/// Watched function `index` at `place`, where θ̈ is `acceleration`.
 struct Guard<'a, S> {
     index: usize,
-    time: S,
-    place: &'a Place<S>,
+    place: &'a Place<S, UNKNOWNS>,
+    acceleration: S,
 }
 
 impl<S: Real> WithStart<S> for Guard<'_, S> {
@@ -123,35 +118,33 @@ impl<S: Real> WithStart<S> for Guard<'_, S> {
 
     #[inline(always)]
     fn with<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(self, known: &KnownStart<'_, S, B, D>) -> S {
-        let (motion, extra) = self.place;
-        known.guard(self.index, self.time, motion, &first(extra))
+        known.guard(self.index, &self.place.map(first), self.acceleration)
     }
 }
 
 impl<'a, S: Real> FixedPath<'a, S> {
-    fn new(method: FixedStep<S>, start: PathStart<'a, S>) -> Self {
-        let (first, end) = Self::step(method, &start, None, start.length);
-        FixedPath { method, start, first, end }
+    fn new(method: FixedStep<S>, start: &'a PathStart<'a, S>) -> Self {
+        let (rates, end) = Self::step(method, start, None, start.length);
+        FixedPath { method, start, rates, end }
     }
 
     #[inline(never)]
     fn step(
         method: FixedStep<S>,
-        start: &PathStart<'a, S>,
-        first: Option<&(S, [S; UNKNOWNS])>,
+        start: &PathStart<'_, S>,
+        rates: Option<&Rates<S, UNKNOWNS>>,
         time: S,
-    ) -> ((S, [S; UNKNOWNS]), Place<S>) {
-        start.known(Step { method, first, time })
+    ) -> (Rates<S, UNKNOWNS>, (Place<S, UNKNOWNS>, S)) {
+        start.known(Step { method, rates, time })
     }
 
-    fn place(&self, time: S) -> Place<S> {
+    fn place(&self, time: S) -> (Place<S, UNKNOWNS>, S) {
         if time == S::ZERO {
-            let PathStart { rotation, velocity, extra, .. } = self.start;
-            (Motion { rotation, velocity, acceleration: self.first.0 }, extra)
+            (self.start.place(), self.rates.0)
         } else if time == self.start.length {
             self.end
         } else {
-            Self::step(self.method, &self.start, Some(&self.first), time).1
+            Self::step(self.method, self.start, Some(&self.rates), time).1
         }
     }
 }
@@ -164,7 +157,8 @@ impl<S: Real> Arc<S> for FixedPath<'_, S> {
 
     #[inline(never)]
     fn at(&self, time: S) -> Motion<S> {
-        self.place(time).0
+        let (Place { rotation, velocity, .. }, acceleration) = self.place(time);
+        Motion { rotation, velocity, acceleration }
     }
 
     #[inline]
@@ -176,12 +170,13 @@ impl<S: Real> Arc<S> for FixedPath<'_, S> {
 impl<S: Real> Path<S> for FixedPath<'_, S> {
     #[inline]
     fn extra(&self, time: S) -> [S; UNKNOWNS] {
-        self.place(time).1
+        self.place(time).0.unknowns
     }
 
     #[inline(never)]
     fn guard(&self, index: usize, time: S) -> S {
-        self.start.known(Guard { index, time, place: &self.place(time) })
+        let (place, acceleration) = self.place(time);
+        self.start.known(Guard { index, place: &place, acceleration })
     }
 }
 
@@ -189,7 +184,7 @@ impl<S: Real> Tracer<S> for FixedStep<S> {
     type Path<'a> = FixedPath<'a, S>;
 
     #[inline(always)]
-    fn path<'a>(&'a self, start: PathStart<'a, S>) -> Self::Path<'a> {
+    fn path<'a>(&'a self, start: &'a PathStart<'a, S>) -> Self::Path<'a> {
         FixedPath::new(*self, start)
     }
 

@@ -179,7 +179,7 @@ impl<S: Real> System<S> {
     ) -> End {
         let engaged = self.is_engaged(state);
         let equation = if engaged { &self.engaged } else { &self.released };
-        let arc = method.arc(Start {
+        let start = Start {
             equation,
             piece,
             side: state.side,
@@ -190,7 +190,8 @@ impl<S: Real> System<S> {
             acceleration_is_zero: state.push_is_zero,
             acceleration: acceleration.take(),
             scale: self.slenderness,
-        });
+        };
+        let arc = method.arc(&start);
         let length = arc.length();
         let separate_drive = self.clutch.follows_signs() && !equation.switches_with_acceleration();
         if *time == S::ZERO {
@@ -337,7 +338,8 @@ impl<S: Real> System<S> {
             state.push_is_zero = at_push_zero;
             let reached = *time + length;
             *time = if length == stop - *time { stop } else { reached };
-            *acceleration = (*time == reached && engaged == self.is_engaged(state)).then_some(end.acceleration);
+            let goes_on = *time == reached && engaged == self.is_engaged(state);
+            *acceleration = if goes_on { arc.evaluated_end() } else { None };
             return End::Reached;
         }
     }
