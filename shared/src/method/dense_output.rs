@@ -40,6 +40,12 @@ pub trait Arc<S: Real> {
     /// The motion at `time` after the start.
     fn at(&self, time: S) -> Motion<S>;
 
+    /// The motion at [`Arc::length`].
+    #[inline(always)]
+    fn end(&self) -> Motion<S> {
+        self.at(self.length())
+    }
+
     /// The clutch's switching function.
     fn switching(&self, time: S) -> S;
 
@@ -47,11 +53,12 @@ pub trait Arc<S: Real> {
     /// zero at `from`.
     ///
     /// The default sees what the ends of the step show; a method with a series overrides it and proves its answer.
-    #[inline]
+    #[inline(always)]
     fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
         let _ = from_zero;
-        let end = self.at(to).acceleration;
-        (sign.times(end) < S::ZERO).then(|| locate_by_value(from, to, sign, |t| self.at(t).acceleration))
+        let end = if to == self.length() { self.end() } else { self.at(to) };
+        let changes = sign.times(end.acceleration) < S::ZERO;
+        changes.then(|| zero_between(self, from, to, sign))
     }
 
     /// First zero of the switching function, as [`Arc::acceleration_zero`]; called only where the two differ.
@@ -71,6 +78,12 @@ pub trait Arc<S: Real> {
     fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
         floor.larger(from.1.abs()).larger(to.1.abs())
     }
+}
+
+/// The zero of θ̈ between `from` and `to`, where its sign just after `from` is `sign`. Apart, because few steps have one.
+#[inline(never)]
+fn zero_between<S: Real, A: Arc<S> + ?Sized>(arc: &A, from: S, to: S, sign: Sign) -> S {
+    locate_by_value(from, to, sign, |t| arc.at(t).acceleration)
 }
 
 /// A way to integrate: fixed steps or steps of its own choice.

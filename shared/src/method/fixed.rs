@@ -137,6 +137,11 @@ impl<S: Real> Arc<S> for FixedArc<'_, S> {
     }
 
     #[inline(always)]
+    fn end(&self) -> Motion<S> {
+        self.end
+    }
+
+    #[inline(always)]
     fn evaluated_end(&self) -> Option<S> {
         Some(self.end.acceleration)
     }

@@ -6,7 +6,7 @@ use crate::math::scalar::Real;
 /// last, 0 at the start of a piece; what was slept through since then is leapt over, so that a long rest costs no time.
 #[inline]
 pub fn next_stop<S: Real>(tick: &mut u32, step: S, time: S, end: S) -> S {
-    let next = S::count(tick.saturating_add(1)) * step;
+    let next = S::count(tick.wrapping_add(1)) * step;
     if next > time && S::count(*tick) * step == time {
         *tick += 1;
         return next.smaller(end);

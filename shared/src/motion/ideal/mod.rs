@@ -128,6 +128,9 @@ impl<S: Real> System<S> {
                 None => duration,
             };
             let end = self.follow(method, state, piece, (&mut time, &mut acceleration), stop, limits, observer);
+            if !matches!(end, End::Reached) {
+                acceleration = None;
+            }
             match end {
                 End::Reached => {}
                 End::Switched => observer.event(Event::Switch, time, state),
@@ -154,7 +157,7 @@ impl<S: Real> System<S> {
                 }
             }
             events += 1;
-            if !(state.rotation.is_finite() && state.velocity.is_finite()) {
+            if !(state.rotation + state.velocity).is_finite() {
                 return Err(Stopped::NotFinite { time: time.to_f64() });
             }
             if events >= limits.events {
@@ -188,7 +191,7 @@ impl<S: Real> System<S> {
             time: *time,
             length: stop - *time,
             acceleration_is_zero: state.push_is_zero,
-            acceleration: acceleration.take(),
+            acceleration: *acceleration,
             scale: self.slenderness,
         };
         let arc = method.arc(&start);
@@ -226,7 +229,7 @@ impl<S: Real> System<S> {
                 None
             };
             let until = drive_zero.or(push_zero).unwrap_or(length);
-            let end = arc.at(until);
+            let end = if until == length { arc.end() } else { arc.at(until) };
             let mut stretch = Stretch {
                 start: *time,
                 from,
@@ -338,8 +341,8 @@ impl<S: Real> System<S> {
             state.push_is_zero = at_push_zero;
             let reached = *time + length;
             *time = if length == stop - *time { stop } else { reached };
-            let goes_on = *time == reached && engaged == self.is_engaged(state);
-            *acceleration = if goes_on { arc.evaluated_end() } else { None };
+            debug_assert!(engaged == self.is_engaged(state), "a change of the clutch ends the arc");
+            *acceleration = arc.evaluated_end().filter(|_| *time == reached);
             return End::Reached;
         }
     }
