@@ -5,6 +5,7 @@ mod budget;
 #[cfg(test)]
 mod documentation_links;
 mod effects;
+mod figures;
 mod firmware;
 mod fuzz;
 mod graph;
@@ -40,6 +41,9 @@ Tasks:
   accuracy  measure what accuracy costs in time, on the host, in the emulator and against SciPy, and write docs/accuracy.md with
             its tables and pictures; needs python3 with venv
   ticks     measure what a control tick of the firmware costs in the emulator, with and without logs, and write docs/ticks.csv
+  figures [PROGRAM]
+            print figures of the code: lines without tests, test executables, and of each program that is built (or of PROGRAM, an
+            ELF file with symbols) the event loops and the bytes of code by room of the core
   fuzz [TARGET]
             feed random input to one fuzz target, or to each of them in turn
 
@@ -106,6 +110,8 @@ fn run(mut args: impl Iterator<Item = String>) -> Result<(), Stop> {
             tools::need_board_target(&root)?;
             ticks::run(&root)
         }
+        ["figures"] => figures::run(&root, None),
+        ["figures", program] => figures::run(&root, Some(program)),
         ["fuzz"] => fuzz::run(&root, None, seconds, Inputs::New),
         ["fuzz", target] => fuzz::run(&root, Some(target), seconds, Inputs::New),
         [] => Err(Stop::usage("no task given; see --help")),
