@@ -102,7 +102,7 @@ fn tick(control: &mut Control, device: &mut Device, outbox: &mut Outbox, late: u
     control.light.show(decision.phase, decision.fault.map(|fault| fault.code()), device.light_slot());
     #[cfg(feature = "log")]
     crate::log::decision(&before, decision);
-    memory::save(&device.kept());
+    memory::save(&device.retained());
     #[cfg(feature = "deliberate-panic")]
     deliberate_panic(device);
     #[cfg(feature = "board-qemu")]

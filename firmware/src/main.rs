@@ -23,7 +23,7 @@ mod app {
     use crate::log::info;
     use crate::{last_words, memory, stack, tick};
     use core::mem::MaybeUninit;
-    use sprag_shared::device::retained::Kept;
+    use sprag_shared::device::retained::Retained;
     use sprag_shared::device::{Answer, Device};
     use sprag_shared::settings::Settings;
     use sprag_shared::settings::assemble::AnyController;
@@ -68,7 +68,7 @@ mod app {
     fn start(
         place: &'static mut MaybeUninit<Device>,
         settings: Option<&Settings>,
-        kept: Option<&Kept>,
+        kept: Option<&Retained>,
     ) -> (&'static mut Device, bool) {
         let stored = settings.and_then(|settings| Some((*settings, AnyController::of(settings).ok()?)));
         let found = stored.is_some();
@@ -87,7 +87,7 @@ mod app {
         place: &'a mut MaybeUninit<Device>,
         controller: &AnyController,
         settings: &Settings,
-        kept: Option<&Kept>,
+        kept: Option<&Retained>,
     ) -> &'a mut Device {
         place.write(Device::new(controller, settings, kept))
     }

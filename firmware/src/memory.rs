@@ -2,7 +2,7 @@
 
 use core::cell::UnsafeCell;
 use core::mem::MaybeUninit;
-use sprag_shared::device::retained::{KEPT_WORDS, Kept};
+use sprag_shared::device::retained::{RETAINED_WORDS, Retained};
 
 /// A place that start-up code leaves alone.
 #[repr(transparent)]
@@ -34,21 +34,21 @@ impl<T: Copy> Lasting<T> {
 }
 
 #[unsafe(link_section = ".uninit.KEPT")]
-static KEPT: Lasting<[u32; KEPT_WORDS]> = Lasting::new();
+static KEPT: Lasting<[u32; RETAINED_WORDS]> = Lasting::new();
 
 /// What was kept over the reset, if it has survived.
-pub fn load() -> Option<Kept> {
+pub fn load() -> Option<Retained> {
     // SAFETY: words hold any bits.
-    Kept::of(&unsafe { KEPT.read() })
+    Retained::of(&unsafe { KEPT.read() })
 }
 
 /// Keeps `kept` for after a reset.
-pub fn save(kept: &Kept) {
+pub fn save(kept: &Retained) {
     KEPT.write(kept.words());
 }
 
 /// Forgets what was kept.
 #[cfg(feature = "board-qemu")]
 pub fn forget() {
-    KEPT.write([0; KEPT_WORDS]);
+    KEPT.write([0; RETAINED_WORDS]);
 }

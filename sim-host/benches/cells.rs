@@ -9,9 +9,9 @@ use std::hint::black_box;
 use sprag_shared::equation::{Equation, SlenderBlock};
 use sprag_shared::method::fixed::runge_kutta_4;
 use sprag_shared::method::taylor::Taylor;
-use sprag_shared::motion::state::State;
+use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::peaks::Peaks;
-use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::mount::Mount;
@@ -85,12 +85,12 @@ fn record(ground: &GroundMotion, geometry: Geometry, kind: DeviceKind, tolerance
         block,
         geometry,
         device,
-        carried: Carried::NONE,
+        added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.95),
         rest_speed: REST_SPEED,
     };
     let course = Course::of(&structure, ground, 10.0, Overturning::Proven);
-    let (mut state, mut peaks) = (State::default(), Peaks::default());
+    let (mut state, mut peaks) = (BlockState::default(), Peaks::default());
     let method = Taylor::<f64, RECORD_TERMS>::adaptive(tolerance);
     let _ = course.follow(&structure.resolve().unwrap(), &method, &mut state, &mut peaks, || true);
     peaks.rotation

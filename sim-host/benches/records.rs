@@ -9,9 +9,9 @@ use std::time::Instant;
 
 use sprag_shared::math;
 use sprag_shared::method::taylor::Taylor;
-use sprag_shared::motion::state::{Phase, State};
+use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::peaks::Peaks;
-use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::mount::Mount;
@@ -96,7 +96,7 @@ fn structure(geometry: Geometry, kind: DeviceKind, index: u32) -> Option<Structu
         block: Block::new(0.5 + 0.5 * row, (8.0 + 2.0 * column).to_radians(), RECTANGLE_INERTIA_RATIO).ok()?,
         geometry,
         device: Device { kind, mass_ratio: 0.5, mount: Mount::CentreOfMass, kinematics: KinematicsKind::Paper },
-        carried: Carried::NONE,
+        added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
         rest_speed: REST_SPEED,
     })
@@ -128,9 +128,9 @@ fn motion(seed: u32) -> Vec<f64> {
 }
 
 /// By the core, alone.
-fn alone(structure: &Structure, ground: &GroundMotion) -> (State<f64>, Peaks<f64>) {
+fn alone(structure: &Structure, ground: &GroundMotion) -> (BlockState<f64>, Peaks<f64>) {
     let course = Course::of(structure, ground, FREE_TIME, Overturning::Reached);
-    let (mut state, mut peaks) = (State::default(), Peaks::default());
+    let (mut state, mut peaks) = (BlockState::default(), Peaks::default());
     let _ = course.follow(&structure.resolve().unwrap(), &Taylor::<f64, TERMS>::adaptive(TIGHT), &mut state, &mut peaks, || true);
     (state, peaks)
 }

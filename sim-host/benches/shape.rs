@@ -14,13 +14,13 @@ use sprag_shared::equation::lever::{CentreOfMass, Lever, TyingPoint};
 use sprag_shared::equation::{FullBlock, FullInerter};
 use sprag_shared::math::lanes::Lanes;
 use sprag_shared::math::scalar::Scalar;
-use sprag_shared::motion::step_end::{Detected, DetectedState};
+use sprag_shared::motion::step_end::{TimeStepping, TimeSteppingState};
 
 mod alternatives;
 
 use alternatives::{AnyMount, Quad, step_by_pointer};
 
-type Pair<S, L> = Detected<S, FullInerter<S, L, Paper>>;
+type Pair<S, L> = TimeStepping<S, FullInerter<S, L, Paper>>;
 
 /// Steps in one measurement: short enough to fall between two other programs' turns.
 const STEPS: usize = 1 << 11;
@@ -33,7 +33,7 @@ const STEP: f64 = 0.01;
 fn pair<S: Scalar, L: Lever<S>>(lever: L) -> Pair<S, L> {
     let block = FullBlock { frequency_squared: S::of(1.0), slenderness: S::of(0.174_532_925) };
     let with = |coupling: f64| FullInerter { block, coupling: S::of(coupling), lever, kinematics: PhantomData };
-    Detected { released: with(0.0), engaged: with(0.375), restitution: S::of(0.85), uplift: S::of(0.176_327) }
+    TimeStepping { released: with(0.0), engaged: with(0.375), restitution: S::of(0.85), uplift: S::of(0.176_327) }
 }
 
 /// ü_g/g of a few cycles, again and again: it keeps the block rocking and does not overturn it.
@@ -44,10 +44,10 @@ fn ground() -> Vec<f64> {
 /// Steps `states` side by side, each a chain of its own; `scale` gives each another amplitude.
 #[inline(always)]
 fn chains<S: Scalar, const CHAINS: usize>(
-    states: &mut [DetectedState<S>; CHAINS],
+    states: &mut [TimeSteppingState<S>; CHAINS],
     scales: &[S; CHAINS],
     ground: &[f64],
-    step: impl Fn(DetectedState<S>, [S; 3]) -> DetectedState<S>,
+    step: impl Fn(TimeSteppingState<S>, [S; 3]) -> TimeSteppingState<S>,
 ) {
     for tick in 0..STEPS {
         let window = &ground[2 * (tick & 511)..][..3];
@@ -71,7 +71,7 @@ fn nanoseconds(blocks: usize, mut work: impl FnMut()) -> f64 {
 #[inline(never)]
 fn generic<S: Scalar, L: Lever<S>, const CHAINS: usize>(
     block: &Pair<S, L>,
-    states: &mut [DetectedState<S>; CHAINS],
+    states: &mut [TimeSteppingState<S>; CHAINS],
     scales: &[S; CHAINS],
     ground: &[f64],
 ) {
@@ -83,7 +83,7 @@ fn generic<S: Scalar, L: Lever<S>, const CHAINS: usize>(
 #[target_feature(enable = "avx2")]
 fn generic_avx2<S: Scalar, L: Lever<S>, const CHAINS: usize>(
     block: &Pair<S, L>,
-    states: &mut [DetectedState<S>; CHAINS],
+    states: &mut [TimeSteppingState<S>; CHAINS],
     scales: &[S; CHAINS],
     ground: &[f64],
 ) {
@@ -94,7 +94,7 @@ fn generic_avx2<S: Scalar, L: Lever<S>, const CHAINS: usize>(
 fn measure<S: Scalar, const CHAINS: usize>(width: usize, avx2: bool, scale: impl Fn(usize) -> S) -> f64 {
     let (block, ground) = (black_box(pair::<S, _>(CentreOfMass)), black_box(ground()));
     let scales = std::array::from_fn(scale);
-    let mut states = [DetectedState::at_rest(); CHAINS];
+    let mut states = [TimeSteppingState::at_rest(); CHAINS];
     let time = nanoseconds(width * CHAINS, || {
         #[cfg(target_arch = "x86_64")]
         if avx2 {
@@ -143,14 +143,14 @@ fn main() {
     row("wide::f64x4 for the number, one chain", measure::<Quad, 1>(4, false, Quad::spread), base);
     row("wide::f64x4 for the number, four chains", measure::<Quad, 4>(4, false, Quad::spread), base);
     let ground = black_box(ground());
-    let mut states = [DetectedState::at_rest(); 1];
+    let mut states = [TimeSteppingState::at_rest(); 1];
     let mounts = [AnyMount::CentreOfMass(CentreOfMass), AnyMount::TyingPoint(TyingPoint { along: 1.0, across: 0.0 })];
     let any = pair::<f64, _>(mounts[black_box(0)]);
     row("f64, mount chosen by `match` at every look", nanoseconds(1, || generic(&any, &mut states, &[1.0], &ground)), base);
-    let mut states = [DetectedState::at_rest(); 1];
+    let mut states = [TimeSteppingState::at_rest(); 1];
     let point = black_box(pair::<f64, _>(TyingPoint { along: 1.0, across: 0.0 }));
     row("f64, one general mount for all", nanoseconds(1, || generic(&point, &mut states, &[1.0], &ground)), base);
-    let mut states = [DetectedState::at_rest(); 1];
+    let mut states = [TimeSteppingState::at_rest(); 1];
     let block = black_box(pair::<f64, _>(CentreOfMass));
     let released = block.released;
     let pointer = black_box(&released as &dyn alternatives::Acceleration);

@@ -2,7 +2,7 @@
 
 mod piece;
 
-use sprag_shared::ground::{Harmonics, Linear, Piece, Ricker};
+use sprag_shared::ground::{GroundSegment, Harmonics, Linear, Ricker};
 use sprag_shared::structure::block::GRAVITY;
 
 pub use piece::{MixturePiece, ShapePiece};
@@ -234,7 +234,7 @@ impl Shape {
     /// ü_g/g at local time `time` (s).
     pub fn acceleration(&self, time: f64) -> f64 {
         match self {
-            Shape::Linear(line) => Piece::<f64>::acceleration(line, time),
+            Shape::Linear(line) => GroundSegment::<f64>::acceleration(line, time),
             Shape::Mixture(parts) => MixturePiece::<f64>::of(parts).acceleration(time),
         }
     }

@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use sprag_shared::motion::state::State;
+use sprag_shared::motion::state::BlockState;
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
@@ -34,7 +34,7 @@ impl Pulsed {
     }
 
     /// The state `until` 1/p after the pulse begins, and what happened before; the pulse is over after 2π/ω_g.
-    pub fn follow(&self, until: f64) -> (State<f64>, FullLog) {
+    pub fn follow(&self, until: f64) -> (BlockState<f64>, FullLog) {
         let structure = self.structure();
         let level = self.amplitude * self.geometry.uplift_threshold(&structure.block);
         let end = TAU / self.frequency;

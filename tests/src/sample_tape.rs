@@ -1,11 +1,11 @@
 //! The samples of a closed loop, to be played to its controller again with something changed.
 
+use sprag_shared::equation::body::FullBody;
 use std::collections::VecDeque;
 
 use sprag_shared::control::controller::{Circumstances, Controller, ControllerState, Decision};
 use sprag_shared::control::law::Wish;
 use sprag_shared::control::law::any_law::ClutchLaw;
-use sprag_shared::control::model::KnownFull;
 use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::event_log::{Entry, Kind};
@@ -20,7 +20,7 @@ use sprag_sim_host::scene::controller::EstimatorName;
 use crate::device_loop::{decides, is_way, pulse};
 
 /// What the loops here are driven by: the full block with the paper's kinematics.
-pub type TapeController = Controller<KnownFull<Paper>, ClutchLaw>;
+pub type TapeController = Controller<FullBody<f32, Paper>, ClutchLaw>;
 
 /// Ticks from a command to the feedback that it has been followed.
 const FEEDBACK: usize = 3;

@@ -1,7 +1,7 @@
 //! The ground motion of a case: a few shapes in closed form, or a record.
 
 use super::{CaseError, MOST_PIECES};
-use crate::ground::{Elementary, Harmonics, Linear, Piece, Quiet, Ricker};
+use crate::ground::{Elementary, GroundSegment, Harmonics, Linear, Quiet, Ricker};
 use crate::structure::error::{ParameterError, require};
 
 /// One shape of ground acceleration, in g, over local time.
@@ -221,7 +221,7 @@ impl GroundPiece {
 }
 
 /// A shape is chosen at every look, not before the loop: one loop for each structure and method is what fits the flash.
-impl Piece<f32> for Shape {
+impl GroundSegment<f32> for Shape {
     #[inline]
     fn acceleration(&self, time: f32) -> f32 {
         match self {
@@ -236,7 +236,7 @@ impl Piece<f32> for Shape {
     fn slope(&self, time: f32) -> f32 {
         match self {
             Shape::Quiet => 0.0,
-            Shape::Linear(piece) => Piece::slope(piece, time),
+            Shape::Linear(piece) => GroundSegment::slope(piece, time),
             Shape::Sine(piece) => piece.slope(time),
             Shape::ThreeSines(piece) => piece.slope(time),
             Shape::Ricker(piece) => piece.slope(time),

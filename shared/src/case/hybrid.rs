@@ -3,11 +3,11 @@
 use super::ideal::{STIFF, most_events};
 use super::{Case, CaseError, Ending, FixedMethod, Initially, RunEnd, Shape};
 use crate::method::fixed::FixedStep;
-use crate::motion::device_snapshot::{DeviceArc, DeviceObserver};
-use crate::motion::hybrid::Machine;
-use crate::motion::hybrid::path::Shaking;
-use crate::motion::observer::{Event, Observer, Stretch};
-use crate::motion::state::{Limits, Phase, State, Stopped};
+use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput};
+use crate::motion::hybrid::HybridSystem;
+use crate::motion::hybrid::mode_output::Shaking;
+use crate::motion::observer::{Event, MonotoneInterval, Observer};
+use crate::motion::state::{BlockState, Limits, Phase, Stopped};
 use crate::observers::peaks::Peaks;
 
 /// |θ| at which a block lies on the ground, rad. A device may bring a block back from beyond the angle from which its weight
@@ -23,7 +23,7 @@ pub(super) fn run(case: &Case<'_>, observer: &mut dyn DeviceObserver<f32>) -> Re
     let step = case.step;
     let method = match case.method {
         FixedMethod::RungeKutta4 => FixedStep::RungeKutta4 { step },
-        FixedMethod::ExponentialMidpoint if machine.drive.traits().springs => FixedStep::ExponentialMidpoint { step },
+        FixedMethod::ExponentialMidpoint if machine.transmission.traits().springs => FixedStep::ExponentialMidpoint { step },
         method @ FixedMethod::ExponentialMidpoint => return Err(CaseError::Method { method, runs: STIFF }),
         method => return Err(CaseError::Method { method, runs: IDEAL }),
     };
@@ -38,13 +38,13 @@ struct Watch<'o> {
 }
 
 impl DeviceObserver<f32> for Watch<'_> {
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<f32>, stretch: &Stretch<f32>) {
+    fn device_interval(&mut self, output: &dyn DeviceOutput<f32>, interval: &MonotoneInterval<f32>) {
         self.steps += 1;
-        self.peaks.stretch(&arc, stretch);
-        self.observer.device_stretch(arc, stretch);
+        self.peaks.interval(&output, interval);
+        self.observer.device_interval(output, interval);
     }
 
-    fn device_event(&mut self, event: Event, time: f32, state: &State<f32>) {
+    fn device_event(&mut self, event: Event, time: f32, state: &BlockState<f32>) {
         self.peaks.event(event, time, state);
         self.observer.device_event(event, time, state);
     }
@@ -52,8 +52,8 @@ impl DeviceObserver<f32> for Watch<'_> {
 
 fn follow(
     case: &Case<'_>,
-    machine: &Machine<f32>,
-    tracer: &FixedStep<f32>,
+    machine: &HybridSystem<f32>,
+    integrator: &FixedStep<f32>,
     observer: &mut dyn DeviceObserver<f32>,
 ) -> Result<RunEnd, CaseError> {
     let Case { initially, step, ground, free_time, .. } = case;
@@ -67,7 +67,7 @@ fn follow(
         let limits = Limits { overturned: OVERTURNED, events: most_events(duration, *step) };
         let shaking = Shaking { horizontal, vertical: vertical.map(|shape| shape as _) };
         watch.peaks.origin = start;
-        machine.advance(tracer, &mut state, shaking, duration, &limits, &mut watch)
+        machine.advance(integrator, &mut state, shaking, duration, &limits, &mut watch)
     };
     ground.try_for_each(&mut follow)?;
     if *free_time > 0.0 {

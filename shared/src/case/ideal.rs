@@ -1,12 +1,12 @@
 //! Cases of ideal devices over horizontal ground.
 
 use super::{Case, CaseError, Ending, FixedMethod, Initially, RunEnd, Shape, TERMS};
-use crate::method::dense_output::{Arc, Method};
+use crate::method::dense_output::{DenseOutput, Integrator};
 use crate::method::fixed::FixedStep;
 use crate::method::taylor::Taylor;
-use crate::motion::ideal::System;
-use crate::motion::observer::{Event, Observer, Stretch};
-use crate::motion::state::{Limits, Phase, State, Stopped};
+use crate::motion::ideal::IdealSystem;
+use crate::motion::observer::{Event, MonotoneInterval, Observer};
+use crate::motion::state::{BlockState, Limits, Phase, Stopped};
 use crate::observers::peaks::Peaks;
 
 /// What the exponential midpoint method runs.
@@ -32,28 +32,28 @@ struct Watch<'o> {
 }
 
 impl Observer<f32> for Watch<'_> {
-    fn stretch(&mut self, arc: &dyn Arc<f32>, stretch: &Stretch<f32>) {
-        self.steps += u32::from(stretch.from == 0.0);
-        self.peaks.stretch(arc, stretch);
-        self.observer.stretch(arc, stretch);
+    fn interval(&mut self, output: &dyn DenseOutput<f32>, interval: &MonotoneInterval<f32>) {
+        self.steps += u32::from(interval.from == 0.0);
+        self.peaks.interval(output, interval);
+        self.observer.interval(output, interval);
     }
 
-    fn event(&mut self, event: Event, time: f32, state: &State<f32>) {
+    fn event(&mut self, event: Event, time: f32, state: &BlockState<f32>) {
         self.peaks.event(event, time, state);
         self.observer.event(event, time, state);
     }
 }
 
-fn follow<M: Method<f32>>(
+fn follow<M: Integrator<f32>>(
     case: &Case<'_>,
-    system: &System<f32>,
+    system: &IdealSystem<f32>,
     method: &M,
     observer: &mut dyn Observer<f32>,
 ) -> Result<RunEnd, CaseError> {
     let Case { structure, initially, step, ground, free_time, .. } = case;
     let mut watch = Watch { observer, peaks: Peaks::default(), steps: 0 };
     let mut state = match *initially {
-        Initially::Rest => State::default(),
+        Initially::Rest => BlockState::default(),
         Initially::Released { rotation, velocity } => system.released_at(rotation, velocity, ground.first()[0]),
     };
     watch.peaks.rocked = state.phase == Phase::Rocking;

@@ -22,7 +22,7 @@ pub use ground::{Ground, GroundPiece, Shape};
 
 use crate::motion::device_snapshot::DeviceObserver;
 use crate::motion::observer::Observer;
-use crate::motion::state::{Phase, State};
+use crate::motion::state::{BlockState, Phase};
 use crate::observers::peaks::Peaks;
 use crate::structure::Structure;
 use crate::structure::drivetrain::Drivetrain;
@@ -119,7 +119,7 @@ impl Ending {
         }
     }
 
-    fn of(state: &State<f32>, peaks: &Peaks<f32>) -> Ending {
+    fn of(state: &BlockState<f32>, peaks: &Peaks<f32>) -> Ending {
         match (state.phase, peaks.rocked, state.impacts) {
             (Phase::Overturned, _, 0) => Ending::OverturnedWithoutImpact,
             (Phase::Overturned, ..) => Ending::OverturnedAfterImpact,
@@ -135,7 +135,7 @@ pub struct RunEnd {
     /// How it ended.
     pub ending: Ending,
     /// The last state.
-    pub state: State<f32>,
+    pub state: BlockState<f32>,
     /// Largest rotation and acceleration.
     pub peaks: Peaks<f32>,
     /// Steps begun; an event that ends one early begins another.

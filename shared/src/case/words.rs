@@ -24,7 +24,7 @@
 use super::codec::{Reader, Writer};
 use super::{Case, CaseError, FixedMethod, Initially, drivetrain_words, ground_words};
 use crate::structure::Structure;
-use crate::structure::added_mass::Carried;
+use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
 use crate::structure::mount::Mount;
@@ -45,7 +45,7 @@ impl<'a> Case<'a> {
         let mut out = Writer { words, count: 0 };
         out.word(MAGIC)?;
         out.word(VERSION)?;
-        let Structure { block, geometry, device, carried, restitution, rest_speed } = &self.structure;
+        let Structure { block, geometry, device, added_mass, restitution, rest_speed } = &self.structure;
         out.numbers(&[block.size(), block.slenderness(), block.inertia_ratio()])?;
         out.word(*geometry as u32)?;
         out.word(device.kind as u32)?;
@@ -58,7 +58,7 @@ impl<'a> Case<'a> {
         out.word(mount)?;
         out.numbers(&[height, pulley_ratio])?;
         out.word(device.kinematics as u32)?;
-        out.numbers(&[carried.mass_ratio, carried.height])?;
+        out.numbers(&[added_mass.mass_ratio, added_mass.height])?;
         drivetrain_words::encode(&self.drivetrain, &mut out)?;
         let (rule, eta) = match *restitution {
             Restitution::Constant(eta) => (0, eta),
@@ -107,7 +107,7 @@ impl<'a> Case<'a> {
             _ => Mount::BaseCorners { pulley_ratio },
         };
         let kinematics = input.kind("kinematics", &[KinematicsKind::Paper, KinematicsKind::Consistent])?;
-        let carried = Carried { mass_ratio: input.number("carried mass_ratio")?, height: input.number("carried height")? };
+        let added_mass = AddedMass { mass_ratio: input.number("carried mass_ratio")?, height: input.number("carried height")? };
         let drivetrain = drivetrain_words::decode(&mut input)?;
         let rule = input.kind("restitution", &[0, 1, 2])?;
         let eta = input.number("restitution")?;
@@ -128,7 +128,7 @@ impl<'a> Case<'a> {
             return Err(CaseError::Trailing(input.0.len() as u32));
         }
         let device = Device { kind, mass_ratio, mount, kinematics };
-        let structure = Structure { block, geometry, device, carried, restitution, rest_speed };
+        let structure = Structure { block, geometry, device, added_mass, restitution, rest_speed };
         let initially = if released { Initially::Released { rotation, velocity } } else { Initially::Rest };
         Ok(Case { structure, drivetrain, initially, method, step, ground, free_time })
     }

@@ -3,7 +3,7 @@
 //! Readings, estimate, prediction, law, turn, dwell and supervisor in a row, in single precision, without a panic, a heap or a loop whose
 //! length depends on data. The host simulates this code and the firmware runs it.
 
-use super::model::{KnownBody, Model};
+use super::model::{Model, PlantBody};
 use crate::control::estimation::estimate::Estimate;
 use crate::control::estimation::prediction::predict_from;
 use crate::control::estimation::{Estimator, EstimatorState};
@@ -125,7 +125,7 @@ impl Decision {
     }
 }
 
-impl<B: KnownBody, L: Law<B>> Controller<B, L> {
+impl<B: PlantBody, L: Law<B>> Controller<B, L> {
     /// State at power-on.
     pub fn start(&self) -> ControllerState {
         ControllerState {
@@ -188,16 +188,19 @@ impl<B: KnownBody, L: Law<B>> Controller<B, L> {
     #[inline]
     pub fn choose(&self, state: &mut ControllerState, estimate: &Estimate, engaged: [bool; 2]) -> (Wish, [bool; 2]) {
         let model = &self.model;
-        let posture = model.posture(estimate.side, estimate.rotation);
-        let rack = model.body.along(&posture, estimate.velocity);
+        let configuration = model.configuration(estimate.side, estimate.rotation);
+        let rack = model.body.to_terminal(&configuration, estimate.velocity);
         state.turns.spin_at(model, rack, engaged, self.instruments.period);
-        let ahead =
-            if self.law.predicts() { predict_from(model, &posture, estimate, count(engaged), self.horizon) } else { *estimate };
+        let ahead = if self.law.predicts() {
+            predict_from(model, &configuration, estimate, count(engaged), self.horizon)
+        } else {
+            *estimate
+        };
         // The motion begins to the side that the estimator has found; noise of the time before says nothing of it.
         let before = if estimate.standing || state.stood { Signs::at_uplift(estimate.side) } else { state.signs };
         state.signs = if estimate.standing { before } else { before.after(&ahead, self.bands) };
         state.stood = estimate.standing;
-        let elapsed = self.model.facts.frequency * self.instruments.period;
+        let elapsed = self.model.parameters.frequency * self.instruments.period;
         state.drift = (state.drift + elapsed * estimate.ground[0]) * (1.0 - elapsed / DRIFT_TIME);
         let situation = Situation {
             model,

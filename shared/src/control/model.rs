@@ -6,7 +6,7 @@
 use crate::equation::FullBlock;
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::{Body, FullBody, SlenderBody};
-use crate::equation::kinematics::{BodyKinematics, Told};
+use crate::equation::kinematics::{BodyKinematics, RuntimeKinematics};
 use crate::equation::lever::TyingPoint;
 use crate::math;
 use crate::math::sign::Sign;
@@ -17,7 +17,7 @@ use crate::structure::drivetrain::{Drivetrain, Engagement};
 use crate::structure::error::ParameterError;
 
 /// A body that a [`Structure`] can be resolved into for the controller. Its vertical ground motion is always looked at.
-pub trait KnownBody: Body<f32> {
+pub trait PlantBody: Body<f32> {
     /// The body of `structure`, which carries nothing.
     ///
     /// # Errors
@@ -25,38 +25,29 @@ pub trait KnownBody: Body<f32> {
     fn of(structure: &Structure) -> Result<Self, ParameterError>;
 }
 
-/// The linearised block.
-pub type KnownSlender = SlenderBody<f32>;
-
-/// The exact block.
-pub type KnownFull<K> = FullBody<f32, K>;
-
-/// Any of them, told at run time.
-pub type KnownAny = AnyBody<f32>;
-
-impl From<KnownSlender> for KnownAny {
-    fn from(body: KnownSlender) -> KnownAny {
+impl From<SlenderBody<f32>> for AnyBody<f32> {
+    fn from(body: SlenderBody<f32>) -> AnyBody<f32> {
         AnyBody::Slender(body)
     }
 }
 
-impl<K: BodyKinematics> From<KnownFull<K>> for KnownAny {
-    fn from(body: KnownFull<K>) -> KnownAny {
+impl<K: BodyKinematics> From<FullBody<f32, K>> for AnyBody<f32> {
+    fn from(body: FullBody<f32, K>) -> AnyBody<f32> {
         let FullBody { block, lever, kinematics, vertical } = body;
-        AnyBody::Full(FullBody { block, lever, kinematics: Told::told(kinematics.consistent()), vertical })
+        AnyBody::Full(FullBody { block, lever, kinematics: RuntimeKinematics::chosen(kinematics.consistent()), vertical })
     }
 }
 
-impl KnownBody for KnownAny {
+impl PlantBody for AnyBody<f32> {
     fn of(structure: &Structure) -> Result<Self, ParameterError> {
         Ok(match structure.geometry {
-            Geometry::Slender => KnownSlender::of(structure)?.into(),
-            Geometry::Full => AnyBody::Full(KnownFull::<Told>::of(structure)?),
+            Geometry::Slender => SlenderBody::<f32>::of(structure)?.into(),
+            Geometry::Full => AnyBody::Full(FullBody::<f32, RuntimeKinematics>::of(structure)?),
         })
     }
 }
 
-impl KnownBody for KnownSlender {
+impl PlantBody for SlenderBody<f32> {
     fn of(structure: &Structure) -> Result<Self, ParameterError> {
         let block = &structure.block;
         Ok(SlenderBody {
@@ -68,7 +59,7 @@ impl KnownBody for KnownSlender {
     }
 }
 
-impl<K: BodyKinematics> KnownBody for KnownFull<K> {
+impl<K: BodyKinematics> PlantBody for FullBody<f32, K> {
     fn of(structure: &Structure) -> Result<Self, ParameterError> {
         let block = &structure.block;
         let lever = structure.device.mount.lever(block)?;
@@ -78,7 +69,7 @@ impl<K: BodyKinematics> KnownBody for KnownFull<K> {
                 slenderness: block.slenderness() as f32,
             },
             lever: TyingPoint { along: lever.along as f32, across: lever.across as f32 },
-            kinematics: K::told(structure.device.kinematics == KinematicsKind::Consistent),
+            kinematics: K::chosen(structure.device.kinematics == KinematicsKind::Consistent),
             vertical: true,
         })
     }
@@ -86,7 +77,7 @@ impl<K: BodyKinematics> KnownBody for KnownFull<K> {
 
 /// What the controller knows of the structure beside its body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Facts {
+pub struct ModelParameters {
     /// p, 1/s; above 0.
     pub frequency: f32,
     /// p², 1/s².
@@ -117,15 +108,15 @@ pub struct Model<B> {
     /// The block.
     pub body: B,
     /// The rest.
-    pub facts: Facts,
+    pub parameters: ModelParameters,
     /// Travel over R of each side's toe at θ = 0, by [`Body::travel`], for s = +1.
     standing_travel: f32,
 }
 
-impl<B: KnownBody> Model<B> {
+impl<B: PlantBody> Model<B> {
     /// Of a `body` in single precision, to the same bits wherever it is made.
-    pub fn of(body: B, facts: Facts) -> Model<B> {
-        Model { body, facts, standing_travel: body.travel(1.0, &body.posture(1.0, 0.0)) }
+    pub fn of(body: B, parameters: ModelParameters) -> Model<B> {
+        Model { body, parameters, standing_travel: body.travel(1.0, &body.configuration(1.0, 0.0)) }
     }
 
     /// Of a structure with its drivetrain. What it carries is folded into the block.
@@ -140,7 +131,7 @@ impl<B: KnownBody> Model<B> {
         let flywheel = &drivetrain.flywheel;
         let stops_at_once = !wheels_spin || flywheel.brake_deceleration.is_infinite();
         let brake = if stops_at_once { 0.0 } else { flywheel.brake_deceleration };
-        let facts = Facts {
+        let parameters = ModelParameters {
             frequency: block.frequency_parameter() as f32,
             frequency_squared: block.frequency_parameter_squared() as f32,
             slenderness: block.slenderness() as f32,
@@ -153,67 +144,67 @@ impl<B: KnownBody> Model<B> {
             drag: ((flywheel.dry_deceleration + brake) / block.size()) as f32,
             stops_at_once,
         };
-        Ok(Model::of(body, facts))
+        Ok(Model::of(body, parameters))
     }
 
     /// What θ alone decides, to be worked out once for all that need it.
     #[inline]
-    pub fn posture(&self, side: Sign, rotation: f32) -> B::Posture<f32> {
-        self.body.posture(side.unit(), rotation)
+    pub fn configuration(&self, side: Sign, rotation: f32) -> B::Configuration<f32> {
+        self.body.configuration(side.unit(), rotation)
     }
 
     /// Quantity with the sign of the terminals' acceleration that Eq. 10 compares with the velocity, 1/s²: arm · (arm · D + ℓ'θ̇²), and
     /// D with the paper's kinematics. `ground` in g, horizontal and vertical.
     #[inline]
     pub fn push(&self, side: Sign, rotation: f32, velocity: f32, ground: [f32; 2]) -> f32 {
-        self.push_at(&self.posture(side, rotation), velocity, ground)
+        self.push_at(&self.configuration(side, rotation), velocity, ground)
     }
 
-    /// [`Model::push`] in a posture.
+    /// [`Model::push`] in a configuration.
     #[inline]
-    pub fn push_at(&self, posture: &B::Posture<f32>, velocity: f32, ground: [f32; 2]) -> f32 {
-        self.body.switching(posture, velocity, self.body.drive(posture, ground))
+    pub fn push_at(&self, configuration: &B::Configuration<f32>, velocity: f32, ground: [f32; 2]) -> f32 {
+        self.body.switching(configuration, velocity, self.body.driving_moment(configuration, ground))
     }
 
     /// θ̈ with `engaged` flywheels locked to the rack.
     #[inline]
     pub fn acceleration(&self, side: Sign, rotation: f32, velocity: f32, ground: [f32; 2], engaged: u8) -> f32 {
-        self.acceleration_at(&self.posture(side, rotation), velocity, ground, engaged)
+        self.acceleration_at(&self.configuration(side, rotation), velocity, ground, engaged)
     }
 
-    /// [`Model::acceleration`] in a posture.
+    /// [`Model::acceleration`] in a configuration.
     #[inline]
-    pub fn acceleration_at(&self, posture: &B::Posture<f32>, velocity: f32, ground: [f32; 2], engaged: u8) -> f32 {
-        let drive = self.body.drive(posture, ground);
-        self.body.over_inertia(posture, drive, f32::from(engaged) * self.facts.coupling, velocity)
+    pub fn acceleration_at(&self, configuration: &B::Configuration<f32>, velocity: f32, ground: [f32; 2], engaged: u8) -> f32 {
+        let driving_moment = self.body.driving_moment(configuration, ground);
+        self.body.solve_acceleration(configuration, driving_moment, f32::from(engaged) * self.parameters.coupling, velocity)
     }
 
     /// Speed of the rack over R.
     #[inline]
     pub fn rack_speed(&self, side: Sign, rotation: f32, velocity: f32) -> f32 {
-        self.body.along(&self.posture(side, rotation), velocity)
+        self.body.to_terminal(&self.configuration(side, rotation), velocity)
     }
 
     /// θ at which the rack has travelled `travel` (over R), by one step of Newton's method from `near`: within ½ ℓ'/ℓ (θ − near)².
     #[inline]
     pub fn rotation_of_travel(&self, travel: f32, near: f32, side: Sign) -> f32 {
-        let posture = self.body.posture(side.unit(), near);
-        let reached = self.body.travel(side.unit(), &posture) - side.times(self.standing_travel);
-        near + (travel - reached) / self.body.arm(&posture)
+        let configuration = self.body.configuration(side.unit(), near);
+        let reached = self.body.travel(side.unit(), &configuration) - side.times(self.standing_travel);
+        near + (travel - reached) / self.body.arm(&configuration)
     }
 
     /// cos δ and sin δ (1 and δ for the slender block).
     #[inline]
     pub fn direction_cosines(&self, side: Sign, rotation: f32) -> (f32, f32) {
-        let (horizontal, vertical) = self.body.factors(&self.body.posture(side.unit(), rotation));
-        (-horizontal / self.facts.frequency_squared, -vertical / self.facts.frequency_squared)
+        let (horizontal, vertical) = self.body.factors(&self.body.configuration(side.unit(), rotation));
+        (-horizontal / self.parameters.frequency_squared, -vertical / self.parameters.frequency_squared)
     }
 
     /// Speed of a released flywheel a time `period` (s) later; both over R, 1/s.
     #[inline]
     pub fn coasted(&self, spin: f32, period: f32) -> f32 {
-        let slowed = spin.abs() * (1.0 - self.facts.decay * period) - self.facts.drag * period;
-        let left = if slowed > 0.0 && !self.facts.stops_at_once { slowed } else { 0.0 };
+        let slowed = spin.abs() * (1.0 - self.parameters.decay * period) - self.parameters.drag * period;
+        let left = if slowed > 0.0 && !self.parameters.stops_at_once { slowed } else { 0.0 };
         if spin < 0.0 { -left } else { left }
     }
 }
@@ -232,7 +223,7 @@ mod tests {
             block: Block::new(2.0, 0.2, 4.0 / 3.0).unwrap(),
             geometry,
             device: Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, mount, kinematics: KinematicsKind::Paper },
-            carried: crate::structure::added_mass::Carried::NONE,
+            added_mass: crate::structure::added_mass::AddedMass::NONE,
             restitution: Restitution::Constant(0.85),
             rest_speed: REST_SPEED,
         }
@@ -244,12 +235,12 @@ mod tests {
         for mount in
             [Mount::CentreOfMass, Mount::TyingPoint { height: 3.0, pulley_ratio: 1.5 }, Mount::BaseCorners { pulley_ratio: 2.0 }]
         {
-            inverse::<KnownFull<Paper>>(&structure(Geometry::Full, mount));
-            inverse::<KnownSlender>(&structure(Geometry::Slender, mount));
+            inverse::<FullBody<f32, Paper>>(&structure(Geometry::Full, mount));
+            inverse::<SlenderBody<f32>>(&structure(Geometry::Slender, mount));
         }
     }
 
-    fn inverse<B: KnownBody>(structure: &Structure) {
+    fn inverse<B: PlantBody>(structure: &Structure) {
         let model = Model::<B>::new(structure, &Drivetrain::default()).unwrap();
         for rotation in [-0.3_f32, -0.05, -1e-4, 1e-4, 0.02, 0.19, 0.4] {
             let side = Sign::of(rotation, Sign::Positive);
@@ -271,9 +262,10 @@ mod tests {
     fn eq_10_sees_the_terminals_acceleration_in_the_kinematics_of_the_model() {
         let at = |v: f32| {
             let paper =
-                Model::<KnownFull<Paper>>::new(&structure(Geometry::Full, Mount::CentreOfMass), &Drivetrain::default()).unwrap();
+                Model::<FullBody<f32, Paper>>::new(&structure(Geometry::Full, Mount::CentreOfMass), &Drivetrain::default())
+                    .unwrap();
             let exact =
-                Model::<KnownFull<Consistent>>::new(&structure(Geometry::Full, Mount::CentreOfMass), &Drivetrain::default())
+                Model::<FullBody<f32, Consistent>>::new(&structure(Geometry::Full, Mount::CentreOfMass), &Drivetrain::default())
                     .unwrap();
             (paper.push(Sign::Positive, 0.1, v, [0.02, 0.0]), exact.push(Sign::Positive, 0.1, v, [0.02, 0.0]))
         };
@@ -297,7 +289,7 @@ mod tests {
             },
             ..Drivetrain::default()
         };
-        let model = Model::<KnownSlender>::new(&structure(Geometry::Slender, Mount::CentreOfMass), &drivetrain).unwrap();
+        let model = Model::<SlenderBody<f32>>::new(&structure(Geometry::Slender, Mount::CentreOfMass), &drivetrain).unwrap();
         let mut spin = -0.3;
         for _ in 0..2000 {
             let next = model.coasted(spin, 5e-4);

@@ -23,7 +23,7 @@ use crate::link::reset_cause::Cause;
 use crate::link::{Mishap, Pace, Reply, TickReport};
 use crate::settings::Settings;
 use crate::settings::assemble::AnyController;
-use retained::{Kept, MOST_RESTARTS};
+use retained::{MOST_RESTARTS, Retained};
 
 /// For how many ticks the first sample after a reset is waited for, before the controller starts from the beginning.
 const RESUME_PATIENCE: u32 = 100;
@@ -78,7 +78,7 @@ pub struct Device {
     lasting: bool,
     controller: AnyController,
     state: ControllerState,
-    resuming: Option<Kept>,
+    resuming: Option<Retained>,
     waited: u32,
     decision: Decision,
     sample: Sample,
@@ -101,7 +101,7 @@ impl Device {
     /// With the `controller` of `settings`, going on with what has been `kept` over a reset, if anything.
     // Not inlined, and not a `Result`: the value is large, and must be made where it stays.
     #[inline(never)]
-    pub fn new(controller: &AnyController, settings: &Settings, kept: Option<&Kept>) -> Device {
+    pub fn new(controller: &AnyController, settings: &Settings, kept: Option<&Retained>) -> Device {
         let restarts = kept.map_or(0, |kept| kept.restarts.saturating_add(1));
         Device {
             settings: *settings,
@@ -239,10 +239,10 @@ impl Device {
     }
 
     /// What shall survive a reset.
-    pub fn kept(&self) -> Kept {
+    pub fn retained(&self) -> Retained {
         match &self.resuming {
-            Some(kept) => Kept { restarts: self.restarts, ..*kept },
-            None => Kept {
+            Some(kept) => Retained { restarts: self.restarts, ..*kept },
+            None => Retained {
                 calibration: *self.state.calibration(),
                 spins: self.state.spins(),
                 counts: self.sample.encoder.counts,

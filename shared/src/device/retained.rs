@@ -5,14 +5,14 @@ use crate::link::Pace;
 use crate::math::fnv::{FOLD_BASIS, fold};
 
 /// Words that it takes.
-pub const KEPT_WORDS: usize = 12;
+pub const RETAINED_WORDS: usize = 12;
 
 /// Resets in a row from which a device goes on; one more, and it starts from the beginning, in its safe state.
 pub const MOST_RESTARTS: u8 = 5;
 
 /// It, in memory that a reset does not clear.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Kept {
+pub struct Retained {
     /// Biases in use.
     pub calibration: Calibration,
     /// Believed speeds of the flywheels, over R, 1/s.
@@ -27,9 +27,9 @@ pub struct Kept {
     pub restarts: u8,
 }
 
-impl Kept {
+impl Retained {
     /// As words that show whether they have survived.
-    pub fn words(&self) -> [u32; KEPT_WORDS] {
+    pub fn words(&self) -> [u32; RETAINED_WORDS] {
         let Calibration { gyroscope, block, ground, encoder_zero } = self.calibration;
         let attached = match self.attached {
             None => 0,
@@ -62,7 +62,7 @@ impl Kept {
     }
 
     /// What such words hold, if they have survived.
-    pub fn of(words: &[u32; KEPT_WORDS]) -> Option<Kept> {
+    pub fn of(words: &[u32; RETAINED_WORDS]) -> Option<Retained> {
         let &[
             gyroscope,
             block_along,
@@ -85,7 +85,7 @@ impl Kept {
             1 => Some(Pace::Timer),
             _ => Some(Pace::Sample),
         };
-        Some(Kept {
+        Some(Retained {
             calibration: Calibration {
                 gyroscope: f32::from_bits(gyroscope),
                 block: [block_along, block_up].map(f32::from_bits),
@@ -102,16 +102,16 @@ impl Kept {
 }
 
 /// Of all words but the last. It is taken at every tick, and no CRC is as quick.
-fn check(words: &[u32; KEPT_WORDS]) -> u32 {
-    words.iter().take(KEPT_WORDS - 1).fold(FOLD_BASIS, |digest, word| fold(digest, *word))
+fn check(words: &[u32; RETAINED_WORDS]) -> u32 {
+    words.iter().take(RETAINED_WORDS - 1).fold(FOLD_BASIS, |digest, word| fold(digest, *word))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn kept() -> Kept {
-        Kept {
+    fn retained() -> Retained {
+        Retained {
             calibration: Calibration { gyroscope: 0.01, block: [0.1, -0.2], ground: [-0.3, 0.4], encoder_zero: -12_345 },
             spins: [0.5, -0.25],
             counts: i32::MIN,
@@ -125,22 +125,22 @@ mod tests {
     fn it_survives_as_it_was() {
         for attached in [None, Some(Pace::Timer), Some(Pace::Sample)] {
             for deciding in [false, true] {
-                let kept = Kept { attached, deciding, ..kept() };
-                assert_eq!(Kept::of(&kept.words()), Some(kept));
+                let kept = Retained { attached, deciding, ..retained() };
+                assert_eq!(Retained::of(&kept.words()), Some(kept));
             }
         }
     }
 
     #[test]
     fn a_changed_bit_is_noticed() {
-        let words = kept().words();
-        for bit in 0..KEPT_WORDS * 32 {
+        let words = retained().words();
+        for bit in 0..RETAINED_WORDS * 32 {
             let mut changed = words;
             changed[bit / 32] ^= 1 << (bit % 32);
-            assert_eq!(Kept::of(&changed), None, "bit {bit}");
+            assert_eq!(Retained::of(&changed), None, "bit {bit}");
         }
         // As memory is after power-on.
-        assert_eq!(Kept::of(&[0; KEPT_WORDS]), None);
-        assert_eq!(Kept::of(&[u32::MAX; KEPT_WORDS]), None);
+        assert_eq!(Retained::of(&[0; RETAINED_WORDS]), None);
+        assert_eq!(Retained::of(&[u32::MAX; RETAINED_WORDS]), None);
     }
 }

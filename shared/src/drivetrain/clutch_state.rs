@@ -24,7 +24,7 @@ pub enum Coupling {
 
 /// One flywheel and its clutch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Wheel<S> {
+pub struct FlywheelState<S> {
     /// Speed of a rack that would move with it, over R, 1/s. Of a locked flywheel it is stale: the rack's counts.
     pub spin: S,
     /// Twist of its clutch as travel of the rack over R.
@@ -49,20 +49,20 @@ pub struct Wheel<S> {
 
 /// Both flywheels. A device with one uses the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Device<S> {
+pub struct DeviceState<S> {
     /// The one for positive motion, and the one for negative.
-    pub wheels: [Wheel<S>; 2],
+    pub wheels: [FlywheelState<S>; 2],
     /// Commands to engage so far.
     pub engagements: u32,
     /// Of these, missed.
     pub missed: u32,
 }
 
-impl<S: Real> Device<S> {
+impl<S: Real> DeviceState<S> {
     /// A device at rest.
-    pub fn at_rest() -> Device<S> {
-        let wheel = Wheel { pending: -S::ONE, ..Wheel::default() };
-        Device { wheels: [wheel; 2], ..Device::default() }
+    pub fn at_rest() -> DeviceState<S> {
+        let wheel = FlywheelState { pending: -S::ONE, ..FlywheelState::default() };
+        DeviceState { wheels: [wheel; 2], ..DeviceState::default() }
     }
 
     /// Time until something happens by the clock alone, s; none if nothing is due.
@@ -93,7 +93,7 @@ impl<S: Real> Device<S> {
 /// The numbers of one mode: the equations between two events are smooth with them. What a device does not have is zero here
 /// and not looked at by its type.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Law<S> {
+pub struct ModeCoefficients<S> {
     /// Sign of θ̇.
     pub direction: S,
     /// Σ k of what moves rigidly with the rack.
@@ -123,12 +123,12 @@ pub struct Law<S> {
     /// Rate at which the twist of a saturated clutch relaxes, 1/s.
     pub relaxation: [S; 2],
     /// What the guards watch.
-    pub watch: [Watch<S>; WATCHES],
+    pub watch: [Guard<S>; GUARDS],
 }
 
 /// A function that is positive for as long as a mode lasts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Watch<S> {
+pub enum Guard<S> {
     /// Nothing.
     #[default]
     Nothing,
@@ -155,13 +155,13 @@ pub enum Watch<S> {
 }
 
 /// Most functions that a device watches: the command, and two of each flywheel.
-pub const WATCHES: usize = 5;
+pub const GUARDS: usize = 5;
 
-impl<S: Real> Law<S> {
+impl<S: Real> ModeCoefficients<S> {
     /// Nothing engaged, nothing lost, motion in `direction`.
-    pub fn of(direction: Sign) -> Law<S> {
+    pub fn of(direction: Sign) -> ModeCoefficients<S> {
         let none = [S::ZERO; 2];
-        Law {
+        ModeCoefficients {
             direction: direction.unit(),
             coupling: S::ZERO,
             viscous: S::ZERO,
@@ -176,7 +176,7 @@ impl<S: Real> Law<S> {
             rest_twist: none,
             follows: none,
             relaxation: none,
-            watch: [Watch::Nothing; WATCHES],
+            watch: [Guard::Nothing; GUARDS],
         }
     }
 }

@@ -5,9 +5,9 @@
 //! C ẋ = F − K (x − o), and the plates slip at ℓθ̇ − w − ẋ. The contact ends where the spring is without force, so that a
 //! damper may pull for an instant (the classical dead zone).
 
-use super::clutch_state::{Coupling, Device, Law, WATCHES, Watch, Wheel};
-use super::drive::{Account, AnyMoment, Drive, Instant, MomentOf, acceleration, account, command, moment};
-use super::gears::Gears;
+use super::clutch_state::{Coupling, DeviceState, FlywheelState, GUARDS, Guard, ModeCoefficients};
+use super::scaled_parameters::ScaledParameters;
+use super::transmission::{Account, AnyPoint, EventContext, PointOf, Transmission, acceleration, account, command, point};
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -15,22 +15,22 @@ use crate::math::value::Value;
 
 /// Two flywheels, an elastic clutch on each, that obey Eq. 10.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ElasticPair<S>(pub Gears<S>);
+pub struct ElasticPair<S>(pub ScaledParameters<S>);
 
 impl<S: Real> ElasticPair<S> {
     /// Largest force that leaves the mode as it is, and its growth: the plates' capacity, or the bearing friction of a flywheel that
     /// stands; 1/s² and 1/s³.
-    fn bound(&self, wheel: &Wheel<S>) -> (S, S) {
+    fn bound(&self, wheel: &FlywheelState<S>) -> (S, S) {
         if wheel.turning.is_some() { self.0.capacity_of(wheel) } else { self.0.standing_friction(wheel) }
     }
 
     /// Rate of the twist at which plates of rising capacity wind up a spring without a damper, 1/s.
-    fn creep(&self, law: &Law<S>, wheel: usize) -> S {
+    fn creep(&self, law: &ModeCoefficients<S>, wheel: usize) -> S {
         if self.0.damping > S::ZERO { S::ZERO } else { law.slip_growth[wheel] / self.0.stiffness }
     }
 
     /// Force of a clutch in contact.
-    fn force(&self, at: &Instant<'_, S>, wheel: usize) -> S {
+    fn force(&self, at: &EventContext<'_, S>, wheel: usize) -> S {
         let rack = at.rack_speed();
         let wheel = &at.device.wheels[wheel];
         let edge = match wheel.coupling {
@@ -41,7 +41,7 @@ impl<S: Real> ElasticPair<S> {
     }
 
     /// A wheel in contact: plates that the force overcomes slip, a flywheel that it overcomes starts.
-    fn settle_contact(&self, at: &mut Instant<'_, S>, wheel: usize) {
+    fn settle_contact(&self, at: &mut EventContext<'_, S>, wheel: usize) {
         let force = self.force(at, wheel);
         let clutch = &mut at.device.wheels[wheel];
         if force.abs() > self.0.capacity_of(clutch).0 {
@@ -52,7 +52,7 @@ impl<S: Real> ElasticPair<S> {
     }
 }
 
-impl<S: Real> Drive<S, 4, WATCHES> for ElasticPair<S> {
+impl<S: Real> Transmission<S, 4, GUARDS> for ElasticPair<S> {
     const COMMANDED: bool = true;
     const HOLDS: bool = true;
     const SPRINGS: bool = true;
@@ -65,37 +65,37 @@ impl<S: Real> Drive<S, 4, WATCHES> for ElasticPair<S> {
     }
 
     #[inline(always)]
-    fn gears(&self) -> Option<&Gears<S>> {
+    fn parameters(&self) -> Option<&ScaledParameters<S>> {
         Some(&self.0)
     }
 
     #[inline(always)]
-    fn law(&self, direction: Sign, drive: Sign, device: &Device<S>) -> Law<S> {
-        let gears = &self.0;
-        let mut law = gears.law(direction, device);
-        law.watch[0] = Watch::Command(drive.unit());
-        let plays = gears.half_play > S::ZERO;
+    fn law(&self, direction: Sign, terminal_acceleration_sign: Sign, device: &DeviceState<S>) -> ModeCoefficients<S> {
+        let parameters = &self.0;
+        let mut law = parameters.law(direction, device);
+        law.watch[0] = Guard::Command(terminal_acceleration_sign.unit());
+        let plays = parameters.half_play > S::ZERO;
         for (i, wheel) in device.wheels.iter().enumerate() {
             law.follows[i] = S::ONE;
             match wheel.coupling {
-                Coupling::InPlay => law.watch[i + 1] = Watch::Play(gears.half_play, i),
+                Coupling::InPlay => law.watch[i + 1] = Guard::Play(parameters.half_play, i),
                 Coupling::Elastic(side) => {
-                    law.stiffness[i] = gears.stiffness;
-                    law.damping[i] = gears.damping;
-                    law.rest_twist[i] = side.times(gears.half_play);
+                    law.stiffness[i] = parameters.stiffness;
+                    law.damping[i] = parameters.damping;
+                    law.rest_twist[i] = side.times(parameters.half_play);
                     if plays {
-                        law.watch[i + 1] = Watch::Contact(side.unit(), i);
+                        law.watch[i + 1] = Guard::Contact(side.unit(), i);
                     }
                     let (bound, growth) = self.bound(wheel);
                     if bound.is_finite() {
-                        law.watch[i + 3] = Watch::Below(bound, growth, i);
+                        law.watch[i + 3] = Guard::Below(bound, growth, i);
                     }
                 }
                 Coupling::Saturated(side) => {
-                    law.rest_twist[i] = side.times(gears.half_play);
+                    law.rest_twist[i] = side.times(parameters.half_play);
                     law.follows[i] = S::ZERO;
-                    law.relaxation[i] = if gears.damping > S::ZERO { S::ONE / gears.damping } else { S::ZERO };
-                    law.watch[i + 1] = Watch::Slip(side.unit(), i);
+                    law.relaxation[i] = if parameters.damping > S::ZERO { S::ONE / parameters.damping } else { S::ZERO };
+                    law.watch[i + 1] = Guard::Slip(side.unit(), i);
                 }
                 _ => law.follows[i] = S::ZERO,
             }
@@ -104,15 +104,15 @@ impl<S: Real> Drive<S, 4, WATCHES> for ElasticPair<S> {
     }
 
     #[inline(always)]
-    fn flow<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 4>) -> (V, [V; 4]) {
+    fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 4>) -> (V, [V; 4]) {
         let law = at.law;
-        let rack = at.body.along(&at.posture, at.velocity);
-        let relative = [0, 1].map(|i| rack - at.extra[i]);
+        let rack = at.body.to_terminal(&at.configuration, at.velocity);
+        let relative = [0, 1].map(|i| rack - at.unknowns[i]);
         let plates = [0, 1].map(|i| at.clock.scale(law.slip_growth[i]).offset(law.slip[i]));
-        let twist = [0, 1].map(|i| at.extra[i + 2].offset(-law.rest_twist[i]));
+        let twist = [0, 1].map(|i| at.unknowns[i + 2].offset(-law.rest_twist[i]));
         let force = [0, 1].map(|i| twist[i].scale(law.stiffness[i]) + relative[i].scale(law.damping[i]) + plates[i]);
-        let spin =
-            [0, 1].map(|i| force[i].scale(law.moves[i] * self.0.mobility).offset(-law.drag[i]) - at.extra[i].scale(law.decay[i]));
+        let spin = [0, 1]
+            .map(|i| force[i].scale(law.moves[i] * self.0.mobility).offset(-law.drag[i]) - at.unknowns[i].scale(law.decay[i]));
         let slides = [0, 1].map(|i| {
             let relaxes = (plates[i] - twist[i].scale(self.0.stiffness)).scale(law.relaxation[i]);
             relative[i].scale(law.follows[i]) + relaxes.offset(self.creep(law, i))
@@ -122,31 +122,31 @@ impl<S: Real> Drive<S, 4, WATCHES> for ElasticPair<S> {
     }
 
     #[inline(always)]
-    fn guard<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 4>, acceleration: V, watch: Watch<S>) -> V {
+    fn guard<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 4>, acceleration: V, watch: Guard<S>) -> V {
         let law = at.law;
-        let relative = |i: usize| at.body.along(&at.posture, at.velocity) - at.extra[i & 1];
-        let twist = |i: usize| at.extra[(i & 1) + 2].offset(-law.rest_twist[i & 1]);
+        let relative = |i: usize| at.body.to_terminal(&at.configuration, at.velocity) - at.unknowns[i & 1];
+        let twist = |i: usize| at.unknowns[(i & 1) + 2].offset(-law.rest_twist[i & 1]);
         match watch {
-            Watch::Command(sign) => command::<S, V, B, 4, true>(at, self.0.rack_push, sign),
-            Watch::Play(half, i) => (-at.extra[(i & 1) + 2].square()).offset(half * half),
-            Watch::Contact(sign, i) => twist(i).scale(sign),
-            Watch::Below(bound, growth, i) => {
+            Guard::Command(sign) => command::<S, V, B, 4, true>(at, self.0.rack_push, sign),
+            Guard::Play(half, i) => (-at.unknowns[(i & 1) + 2].square()).offset(half * half),
+            Guard::Contact(sign, i) => twist(i).scale(sign),
+            Guard::Below(bound, growth, i) => {
                 let force = twist(i).scale(self.0.stiffness) + relative(i).scale(self.0.damping);
                 at.clock.scale(growth).offset(bound).square() - force.square()
             }
-            Watch::Slip(sign, i) => {
+            Guard::Slip(sign, i) => {
                 let j = i & 1;
                 let plates = at.clock.scale(law.slip_growth[j]).offset(law.slip[j]);
                 let relaxes = (plates - twist(i).scale(self.0.stiffness)).scale(law.relaxation[j]);
                 (relative(i) - relaxes.offset(self.creep(law, j))).scale(sign)
             }
-            Watch::Stuck(friction) => (-acceleration.square()).offset(friction * friction),
-            Watch::HeldDown(friction, sign) => acceleration.scale(-sign).offset(friction),
+            Guard::Stuck(friction) => (-acceleration.square()).offset(friction * friction),
+            Guard::HeldDown(friction, sign) => acceleration.scale(-sign).offset(friction),
             _ => acceleration,
         }
     }
 
-    fn engage(&self, at: &mut Instant<'_, S>, wheel: usize) {
+    fn engage(&self, at: &mut EventContext<'_, S>, wheel: usize) {
         let plays = self.0.half_play > S::ZERO;
         let clutch = &mut at.device.wheels[wheel];
         (clutch.engaged_for, clutch.twist) = (S::ZERO, S::ZERO);
@@ -158,18 +158,18 @@ impl<S: Real> Drive<S, 4, WATCHES> for ElasticPair<S> {
         }
     }
 
-    fn reached(&self, at: &mut Instant<'_, S>, watch: Watch<S>) {
+    fn reached(&self, at: &mut EventContext<'_, S>, watch: Guard<S>) {
         match watch {
-            Watch::Play(half, i) => {
+            Guard::Play(half, i) => {
                 let wheel = &mut at.device.wheels[i & 1];
                 let side = Sign::of(wheel.twist, Sign::Positive);
                 wheel.twist = side.times(half);
                 wheel.coupling = Coupling::Elastic(side);
                 self.settle_contact(at, i & 1);
             }
-            Watch::Contact(_, i) => self.part(at, i & 1),
-            Watch::Below(.., i) => self.overcome(at, i & 1),
-            Watch::Slip(_, i) => {
+            Guard::Contact(_, i) => self.part(at, i & 1),
+            Guard::Below(.., i) => self.overcome(at, i & 1),
+            Guard::Slip(_, i) => {
                 let wheel = &mut at.device.wheels[i & 1];
                 if let Coupling::Saturated(side) = wheel.coupling {
                     wheel.coupling = Coupling::Elastic(side);
@@ -179,15 +179,15 @@ impl<S: Real> Drive<S, 4, WATCHES> for ElasticPair<S> {
         }
     }
 
-    fn settle(&self, at: &mut Instant<'_, S>) {
+    fn settle(&self, at: &mut EventContext<'_, S>) {
         for wheel in 0..2 {
             match at.device.wheels[wheel].coupling {
                 Coupling::Elastic(_) => self.settle_contact(at, wheel),
                 Coupling::Saturated(side) => {
                     // The jump may have ended the slip.
                     let law = self.law(at.direction, at.direction, at.device);
-                    let moment = moment(self, at.body, &law, at, at.device);
-                    if self.guard(&moment, S::ZERO, Watch::Slip(side.unit(), wheel)) < S::ZERO {
+                    let point = point(self, at.body, &law, at, at.device);
+                    if self.guard(&point, S::ZERO, Guard::Slip(side.unit(), wheel)) < S::ZERO {
                         at.device.wheels[wheel].coupling = Coupling::Elastic(side);
                         self.settle_contact(at, wheel);
                     }
@@ -197,14 +197,14 @@ impl<S: Real> Drive<S, 4, WATCHES> for ElasticPair<S> {
         }
     }
 
-    fn account(&self, at: &AnyMoment<'_, S, 4>, acceleration: S, device: &Device<S>) -> Account<S> {
+    fn account(&self, at: &AnyPoint<'_, S, 4>, acceleration: S, device: &DeviceState<S>) -> Account<S> {
         let mut account = account(at, &self.0, acceleration, device);
-        let rack = at.body.along(&at.posture, at.velocity);
+        let rack = at.body.to_terminal(&at.configuration, at.velocity);
         for (i, wheel) in device.wheels.iter().enumerate() {
             let (Coupling::Elastic(_) | Coupling::Saturated(_)) = wheel.coupling else { continue };
-            let twist = at.extra[i + 2] - at.law.rest_twist[i];
+            let twist = at.unknowns[i + 2] - at.law.rest_twist[i];
             let plates = at.law.slip[i] + at.law.slip_growth[i] * at.clock;
-            let relative = rack - at.extra[i];
+            let relative = rack - at.unknowns[i];
             let force = at.law.stiffness[i] * twist + at.law.damping[i] * relative + plates;
             let spring = self.0.stiffness * twist;
             let rate = at.law.follows[i] * relative + at.law.relaxation[i] * (plates - spring) + self.creep(at.law, i);
@@ -219,7 +219,7 @@ impl<S: Real> Drive<S, 4, WATCHES> for ElasticPair<S> {
 
 impl<S: Real> ElasticPair<S> {
     /// Teeth part: what remains of the twist is play.
-    fn part(&self, at: &mut Instant<'_, S>, wheel: usize) {
+    fn part(&self, at: &mut EventContext<'_, S>, wheel: usize) {
         let wheel = &mut at.device.wheels[wheel];
         if let Coupling::Elastic(side) = wheel.coupling {
             wheel.twist = side.times(self.0.half_play);
@@ -229,7 +229,7 @@ impl<S: Real> ElasticPair<S> {
     }
 
     /// The force has reached its bound: a standing flywheel starts, or the plates slip.
-    fn overcome(&self, at: &mut Instant<'_, S>, i: usize) {
+    fn overcome(&self, at: &mut EventContext<'_, S>, i: usize) {
         let force = self.force(at, i);
         let wheel = &mut at.device.wheels[i];
         if wheel.turning.is_none() && self.bound(wheel).0 < self.0.capacity_of(wheel).0 {
@@ -240,7 +240,7 @@ impl<S: Real> ElasticPair<S> {
     }
 
     /// The plates slip. A damper that pulls teeth apart with such a force has parted them instead.
-    fn saturate(&self, at: &mut Instant<'_, S>, i: usize, force: S) {
+    fn saturate(&self, at: &mut EventContext<'_, S>, i: usize, force: S) {
         let sign = Sign::of(force, Sign::Positive);
         let wheel = &mut at.device.wheels[i];
         if self.0.half_play > S::ZERO && wheel.coupling == Coupling::Elastic(sign.opposite()) {

@@ -1,9 +1,11 @@
 //! A friction clutch: plates carry force up to their capacity and slip beyond it. Stick and slip begin at located events: slip
 //! when the force of a locked flywheel reaches the capacity, stick when the plates run at one speed and can hold it.
 
-use super::clutch_state::{Coupling, Device, Law, Watch};
-use super::drive::{Account, AnyMoment, Drive, Instant, MomentOf, acceleration, account, command, force_if_locked, locked_force};
-use super::gears::Gears;
+use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients};
+use super::scaled_parameters::ScaledParameters;
+use super::transmission::{
+    Account, AnyPoint, EventContext, PointOf, Transmission, acceleration, account, command, force_if_locked, locked_force,
+};
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -11,11 +13,11 @@ use crate::math::value::Value;
 
 /// Two flywheels, a friction clutch on each, that obey Eq. 10.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrictionPair<S>(pub Gears<S>);
+pub struct FrictionPair<S>(pub ScaledParameters<S>);
 
 impl<S: Real> FrictionPair<S> {
     /// Stick or slip where the plates run at one speed.
-    fn stick_or_slip(&self, at: &mut Instant<'_, S>, wheel: usize) {
+    fn stick_or_slip(&self, at: &mut EventContext<'_, S>, wheel: usize) {
         let force = force_if_locked(self, &self.0, at, wheel);
         let rack = at.rack_speed();
         let wheel = &mut at.device.wheels[wheel];
@@ -27,64 +29,67 @@ impl<S: Real> FrictionPair<S> {
         }
     }
 
-    fn slip(&self, wheel: &mut crate::drivetrain::clutch_state::Wheel<S>, sign: Sign) {
+    fn slip(&self, wheel: &mut crate::drivetrain::clutch_state::FlywheelState<S>, sign: Sign) {
         wheel.coupling = Coupling::Slipping(sign);
         let force = sign.times(self.0.capacity_of(wheel).0);
         self.0.settle(wheel, force);
     }
 }
 
-impl<S: Real> Drive<S, 2, 3> for FrictionPair<S> {
+impl<S: Real> Transmission<S, 2, 3> for FrictionPair<S> {
     const COMMANDED: bool = true;
     const HOLDS: bool = true;
 
     #[inline(always)]
-    fn gears(&self) -> Option<&Gears<S>> {
+    fn parameters(&self) -> Option<&ScaledParameters<S>> {
         Some(&self.0)
     }
 
     #[inline(always)]
-    fn law(&self, direction: Sign, drive: Sign, device: &Device<S>) -> Law<S> {
+    fn law(&self, direction: Sign, terminal_acceleration_sign: Sign, device: &DeviceState<S>) -> ModeCoefficients<S> {
         let mut law = self.0.law(direction, device);
-        law.watch[0] = Watch::Command(drive.unit());
+        law.watch[0] = Guard::Command(terminal_acceleration_sign.unit());
         for (i, wheel) in device.wheels.iter().enumerate() {
             law.watch[i + 1] = match wheel.coupling {
                 Coupling::Locked => {
                     let (capacity, growth) = self.0.capacity_of(wheel);
-                    Watch::Capacity(capacity, growth)
+                    Guard::Capacity(capacity, growth)
                 }
-                Coupling::Slipping(sign) => Watch::Slip(sign.unit(), i),
-                _ => Watch::Nothing,
+                Coupling::Slipping(sign) => Guard::Slip(sign.unit(), i),
+                _ => Guard::Nothing,
             };
         }
         law
     }
 
     #[inline(always)]
-    fn flow<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 2>) -> (V, [V; 2]) {
+    fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 2>) -> (V, [V; 2]) {
         let law = at.law;
         let plates = at.clock.scale(law.slip_growth[0] + law.slip_growth[1]).offset(law.slip[0] + law.slip[1]);
         let rates = [0, 1].map(|i| {
             let gain = law.moves[i] * self.0.mobility;
-            at.clock.scale(law.slip_growth[i] * gain).offset(law.slip[i] * gain - law.drag[i]) - at.extra[i].scale(law.decay[i])
+            at.clock.scale(law.slip_growth[i] * gain).offset(law.slip[i] * gain - law.drag[i])
+                - at.unknowns[i].scale(law.decay[i])
         });
         (acceleration::<S, V, B, 2, true>(at, self.0.rack_push, Some(plates)), rates)
     }
 
     #[inline(always)]
-    fn guard<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 2>, acceleration: V, watch: Watch<S>) -> V {
+    fn guard<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 2>, acceleration: V, watch: Guard<S>) -> V {
         match watch {
-            Watch::Command(sign) => command::<S, V, B, 2, true>(at, self.0.rack_push, sign),
-            Watch::Capacity(capacity, growth) => {
+            Guard::Command(sign) => command::<S, V, B, 2, true>(at, self.0.rack_push, sign),
+            Guard::Capacity(capacity, growth) => {
                 let force = locked_force(at, &self.0, acceleration);
                 at.clock.scale(growth).offset(capacity).square() - force.square()
             }
-            Watch::Slip(sign, wheel) => (at.body.along(&at.posture, at.velocity) - at.extra[wheel & 1]).scale(sign),
+            Guard::Slip(sign, wheel) => {
+                (at.body.to_terminal(&at.configuration, at.velocity) - at.unknowns[wheel & 1]).scale(sign)
+            }
             _ => acceleration,
         }
     }
 
-    fn engage(&self, at: &mut Instant<'_, S>, wheel: usize) {
+    fn engage(&self, at: &mut EventContext<'_, S>, wheel: usize) {
         let slip = at.rack_speed() - at.device.wheels[wheel].spin;
         at.device.wheels[wheel].engaged_for = S::ZERO;
         if slip == S::ZERO {
@@ -94,9 +99,9 @@ impl<S: Real> Drive<S, 2, 3> for FrictionPair<S> {
         }
     }
 
-    fn reached(&self, at: &mut Instant<'_, S>, watch: Watch<S>) {
+    fn reached(&self, at: &mut EventContext<'_, S>, watch: Guard<S>) {
         match watch {
-            Watch::Slip(_, wheel) => {
+            Guard::Slip(_, wheel) => {
                 let (wheel, other) = (wheel & 1, 1 - (wheel & 1));
                 let both = at.device.wheels[other].coupling == Coupling::Locked;
                 self.stick_or_slip(at, wheel);
@@ -106,7 +111,7 @@ impl<S: Real> Drive<S, 2, 3> for FrictionPair<S> {
                     self.stick_or_slip(at, wheel);
                 }
             }
-            Watch::Capacity(..) => {
+            Guard::Capacity(..) => {
                 for wheel in 0..2 {
                     if at.device.wheels[wheel].coupling == Coupling::Locked {
                         let force = force_if_locked(self, &self.0, at, wheel);
@@ -120,7 +125,7 @@ impl<S: Real> Drive<S, 2, 3> for FrictionPair<S> {
         }
     }
 
-    fn settle(&self, at: &mut Instant<'_, S>) {
+    fn settle(&self, at: &mut EventContext<'_, S>) {
         let rack = at.rack_speed();
         for wheel in 0..2 {
             match at.device.wheels[wheel].coupling {
@@ -144,7 +149,7 @@ impl<S: Real> Drive<S, 2, 3> for FrictionPair<S> {
         }
     }
 
-    fn impact(&self, at: &mut Instant<'_, S>, before: S) {
+    fn impact(&self, at: &mut EventContext<'_, S>, before: S) {
         // No plate holds against an impulse: the flywheel keeps its speed and the plates slip.
         let rack = at.rack_speed();
         for wheel in &mut at.device.wheels {
@@ -155,13 +160,13 @@ impl<S: Real> Drive<S, 2, 3> for FrictionPair<S> {
         }
     }
 
-    fn account(&self, at: &AnyMoment<'_, S, 2>, acceleration: S, device: &Device<S>) -> Account<S> {
+    fn account(&self, at: &AnyPoint<'_, S, 2>, acceleration: S, device: &DeviceState<S>) -> Account<S> {
         let mut account = account(at, &self.0, acceleration, device);
-        let rack = at.body.along(&at.posture, at.velocity);
+        let rack = at.body.to_terminal(&at.configuration, at.velocity);
         for (i, wheel) in device.wheels.iter().enumerate() {
             if let Coupling::Slipping(_) = wheel.coupling {
                 account.force[i] = at.law.slip[i] + at.law.slip_growth[i] * at.clock;
-                account.spent.clutch = account.spent.clutch + account.force[i] * (rack - at.extra[i]);
+                account.spent.clutch = account.spent.clutch + account.force[i] * (rack - at.unknowns[i]);
             }
         }
         account

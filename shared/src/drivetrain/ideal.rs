@@ -1,9 +1,9 @@
 //! Devices without a memory: none, one inerter, and the ideal clutched pair, for scenes in which something else than the device
 //! calls for this engine. With `FRICTION` the rack and the bearings lose energy, and a guided rack has a mass.
 
-use super::clutch_state::{Coupling, Device, Law, Watch};
-use super::drive::{Drive, Instant, MomentOf, acceleration, command};
-use super::gears::Gears;
+use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients};
+use super::scaled_parameters::ScaledParameters;
+use super::transmission::{EventContext, PointOf, Transmission, acceleration, command};
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -15,59 +15,59 @@ pub struct Alone;
 
 /// One inerter, always engaged.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Single<S, const FRICTION: bool>(pub Gears<S>);
+pub struct Single<S, const FRICTION: bool>(pub ScaledParameters<S>);
 
 /// The clutched pair that engages a stopped flywheel at speed without a loss of momentum.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct IdealPair<S, const FRICTION: bool>(pub Gears<S>);
+pub struct IdealPair<S, const FRICTION: bool>(pub ScaledParameters<S>);
 
-impl<S: Real> Drive<S, 0, 0> for Alone {
+impl<S: Real> Transmission<S, 0, 0> for Alone {
     const COMMANDED: bool = false;
     const HOLDS: bool = false;
 
     #[inline(always)]
-    fn law(&self, direction: Sign, _drive: Sign, _device: &Device<S>) -> Law<S> {
-        Law::of(direction)
+    fn law(&self, direction: Sign, _terminal_acceleration_sign: Sign, _device: &DeviceState<S>) -> ModeCoefficients<S> {
+        ModeCoefficients::of(direction)
     }
 
     #[inline(always)]
-    fn flow<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 0>) -> (V, [V; 0]) {
-        (at.body.drive(&at.posture, at.ground), [])
+    fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 0>) -> (V, [V; 0]) {
+        (at.body.driving_moment(&at.configuration, at.ground), [])
     }
 
     #[inline(always)]
-    fn gears(&self) -> Option<&Gears<S>> {
+    fn parameters(&self) -> Option<&ScaledParameters<S>> {
         None
     }
 }
 
-impl<S: Real, const FRICTION: bool> Drive<S, 0, 0> for Single<S, FRICTION> {
+impl<S: Real, const FRICTION: bool> Transmission<S, 0, 0> for Single<S, FRICTION> {
     const COMMANDED: bool = false;
     const HOLDS: bool = FRICTION;
 
     #[inline(always)]
-    fn law(&self, direction: Sign, _drive: Sign, device: &Device<S>) -> Law<S> {
+    fn law(&self, direction: Sign, _terminal_acceleration_sign: Sign, device: &DeviceState<S>) -> ModeCoefficients<S> {
         if FRICTION {
             return self.0.law(direction, device);
         }
-        Law { coupling: self.0.inertance, ..Law::of(direction) }
+        ModeCoefficients { coupling: self.0.inertance, ..ModeCoefficients::of(direction) }
     }
 
     #[inline(always)]
-    fn flow<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 0>) -> (V, [V; 0]) {
+    fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 0>) -> (V, [V; 0]) {
         (acceleration::<S, V, B, 0, FRICTION>(at, self.0.rack_push, None), [])
     }
 
     #[inline(always)]
-    fn engage(&self, at: &mut Instant<'_, S>, wheel: usize) {
+    fn engage(&self, at: &mut EventContext<'_, S>, wheel: usize) {
         at.device.wheels[wheel].coupling = Coupling::Locked;
     }
 
     #[inline(always)]
-    fn release(&self, _at: &mut Instant<'_, S>, _wheel: usize) {}
+    fn release(&self, _at: &mut EventContext<'_, S>, _wheel: usize) {}
 
     #[inline(always)]
-    fn engaged_at_impact(&self, _device: &Device<S>) -> usize {
+    fn engaged_at_impact(&self, _device: &DeviceState<S>) -> usize {
         1
     }
 
@@ -77,47 +77,47 @@ impl<S: Real, const FRICTION: bool> Drive<S, 0, 0> for Single<S, FRICTION> {
     }
 
     #[inline(always)]
-    fn gears(&self) -> Option<&Gears<S>> {
+    fn parameters(&self) -> Option<&ScaledParameters<S>> {
         Some(&self.0)
     }
 }
 
-impl<S: Real, const FRICTION: bool> Drive<S, 0, 1> for IdealPair<S, FRICTION> {
+impl<S: Real, const FRICTION: bool> Transmission<S, 0, 1> for IdealPair<S, FRICTION> {
     const COMMANDED: bool = true;
     const HOLDS: bool = FRICTION;
 
     #[inline(always)]
-    fn law(&self, direction: Sign, drive: Sign, device: &Device<S>) -> Law<S> {
+    fn law(&self, direction: Sign, terminal_acceleration_sign: Sign, device: &DeviceState<S>) -> ModeCoefficients<S> {
         let mut law = if FRICTION {
             self.0.law(direction, device)
         } else {
             let locked = device.wheels.iter().filter(|wheel| wheel.coupling == Coupling::Locked).count();
-            Law { coupling: S::count(locked as u32) * self.0.inertance, ..Law::of(direction) }
+            ModeCoefficients { coupling: S::count(locked as u32) * self.0.inertance, ..ModeCoefficients::of(direction) }
         };
-        law.watch[0] = Watch::Command(drive.unit());
+        law.watch[0] = Guard::Command(terminal_acceleration_sign.unit());
         law
     }
 
     #[inline(always)]
-    fn flow<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 0>) -> (V, [V; 0]) {
+    fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 0>) -> (V, [V; 0]) {
         (acceleration::<S, V, B, 0, FRICTION>(at, self.0.rack_push, None), [])
     }
 
     #[inline(always)]
-    fn guard<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 0>, acceleration: V, watch: Watch<S>) -> V {
+    fn guard<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 0>, acceleration: V, watch: Guard<S>) -> V {
         match watch {
-            Watch::Command(sign) => command::<S, V, B, 0, FRICTION>(at, self.0.rack_push, sign),
+            Guard::Command(sign) => command::<S, V, B, 0, FRICTION>(at, self.0.rack_push, sign),
             _ => acceleration,
         }
     }
 
     #[inline(always)]
-    fn engage(&self, at: &mut Instant<'_, S>, wheel: usize) {
+    fn engage(&self, at: &mut EventContext<'_, S>, wheel: usize) {
         at.device.wheels[wheel].coupling = Coupling::Locked;
     }
 
     #[inline(always)]
-    fn gears(&self) -> Option<&Gears<S>> {
+    fn parameters(&self) -> Option<&ScaledParameters<S>> {
         Some(&self.0)
     }
 }

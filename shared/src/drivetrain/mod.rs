@@ -1,17 +1,17 @@
 //! Transmissions from the rack to a flywheel: ideal, rigid, overrunning, friction and elastic clutches.
 //!
-//! [`drive::Drive`] is what each of them is to the integration; [`gears`]: its parameters in the units of the equations; [`clutch_state`]:
+//! [`transmission::Transmission`] is what each of them is to the integration; [`scaled_parameters`]: its parameters in the units of the equations; [`clutch_state`]:
 //! what a device remembers; [`power_loss`]: where its energy goes. Parameters in SI units are in [`crate::structure::drivetrain`]. The room
 //! imports `math`, `equation` and `structure`.
 
-pub mod any_drive;
+pub mod any_transmission;
 pub mod clutch_state;
-pub mod drive;
 pub mod elastic;
 pub mod friction;
-pub mod gears;
 pub mod ideal;
 pub mod overrunning;
 pub mod power_loss;
 pub mod rigid;
+pub mod scaled_parameters;
+pub mod transmission;
 pub mod under_way;

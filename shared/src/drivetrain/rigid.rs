@@ -1,8 +1,8 @@
 //! A rigid clutch with flywheels that keep spinning: it obeys Eq. 10, and closing at speed costs the block momentum.
 
-use super::clutch_state::{Coupling, Device, Law, Watch};
-use super::drive::{Drive, Instant, MomentOf, acceleration, command, jolt};
-use super::gears::Gears;
+use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients};
+use super::scaled_parameters::ScaledParameters;
+use super::transmission::{EventContext, PointOf, Transmission, acceleration, command, jolt};
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -10,49 +10,49 @@ use crate::math::value::Value;
 
 /// Two flywheels, a rigid clutch on each.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RigidPair<S>(pub Gears<S>);
+pub struct RigidPair<S>(pub ScaledParameters<S>);
 
 /// ẇ = −c w − d sgn w of idle flywheels, in the present mode's numbers.
 #[inline(always)]
-pub fn coasting<S: Real, V: Value<S>, B: Body<S>>(at: &MomentOf<'_, S, B, V, 2>) -> [V; 2] {
-    [0, 1].map(|i| at.extra[i].scale(-at.law.decay[i]).offset(-at.law.drag[i]))
+pub fn coasting<S: Real, V: Value<S>, B: Body<S>>(at: &PointOf<'_, S, B, V, 2>) -> [V; 2] {
+    [0, 1].map(|i| at.unknowns[i].scale(-at.law.decay[i]).offset(-at.law.drag[i]))
 }
 
-impl<S: Real> Drive<S, 2, 1> for RigidPair<S> {
+impl<S: Real> Transmission<S, 2, 1> for RigidPair<S> {
     const COMMANDED: bool = true;
     const HOLDS: bool = true;
 
     #[inline(always)]
-    fn gears(&self) -> Option<&Gears<S>> {
+    fn parameters(&self) -> Option<&ScaledParameters<S>> {
         Some(&self.0)
     }
 
     #[inline(always)]
-    fn law(&self, direction: Sign, drive: Sign, device: &Device<S>) -> Law<S> {
+    fn law(&self, direction: Sign, terminal_acceleration_sign: Sign, device: &DeviceState<S>) -> ModeCoefficients<S> {
         let mut law = self.0.law(direction, device);
-        law.watch[0] = Watch::Command(drive.unit());
+        law.watch[0] = Guard::Command(terminal_acceleration_sign.unit());
         law
     }
 
     #[inline(always)]
-    fn flow<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 2>) -> (V, [V; 2]) {
+    fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 2>) -> (V, [V; 2]) {
         (acceleration::<S, V, B, 2, true>(at, self.0.rack_push, None), coasting(at))
     }
 
     #[inline(always)]
-    fn guard<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, 2>, acceleration: V, watch: Watch<S>) -> V {
+    fn guard<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 2>, acceleration: V, watch: Guard<S>) -> V {
         match watch {
-            Watch::Command(sign) => command::<S, V, B, 2, true>(at, self.0.rack_push, sign),
+            Guard::Command(sign) => command::<S, V, B, 2, true>(at, self.0.rack_push, sign),
             _ => acceleration,
         }
     }
 
-    fn engage(&self, at: &mut Instant<'_, S>, wheel: usize) {
+    fn engage(&self, at: &mut EventContext<'_, S>, wheel: usize) {
         jolt(&self.0, at, wheel);
     }
 
     #[inline(always)]
-    fn engaged_at_impact(&self, device: &Device<S>) -> usize {
+    fn engaged_at_impact(&self, device: &DeviceState<S>) -> usize {
         device.wheels.iter().filter(|wheel| wheel.coupling == Coupling::Locked).count()
     }
 }

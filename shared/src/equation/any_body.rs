@@ -1,7 +1,7 @@
 //! A body chosen at run time, to the same bits as one known when it is compiled: one piece of code for all.
 
-use super::body::{Body, FullBody, SlenderBody, Turned};
-use super::kinematics::Told;
+use super::body::{Body, FullBody, FullConfiguration, SlenderBody};
+use super::kinematics::RuntimeKinematics;
 use crate::math::scalar::Scalar;
 use crate::math::value::Value;
 
@@ -11,16 +11,16 @@ pub enum AnyBody<S> {
     /// Linearised.
     Slender(SlenderBody<S>),
     /// Exact.
-    Full(FullBody<S, Told>),
+    Full(FullBody<S, RuntimeKinematics>),
 }
 
-/// A posture of either.
+/// A configuration of either.
 #[derive(Clone, Copy, Debug)]
-pub enum AnyPosture<V> {
+pub enum AnyConfiguration<V> {
     /// δ.
     Slender(V),
     /// Of the exact block.
-    Full(Turned<V>),
+    Full(FullConfiguration<V>),
 }
 
 impl<S> AnyBody<S> {
@@ -33,71 +33,71 @@ impl<S> AnyBody<S> {
     }
 }
 
-/// What either body makes of its own posture; a posture of the other one, which is never made, is `otherwise`.
+/// What either body makes of its own configuration; a configuration of the other one, which is never made, is `otherwise`.
 macro_rules! either {
-    ($self:ident, $posture:ident, |$body:ident, $own:ident| $value:expr, $otherwise:expr) => {
-        match ($self, $posture) {
-            (AnyBody::Slender($body), AnyPosture::Slender($own)) => $value,
-            (AnyBody::Full($body), AnyPosture::Full($own)) => $value,
+    ($self:ident, $configuration:ident, |$body:ident, $own:ident| $value:expr, $otherwise:expr) => {
+        match ($self, $configuration) {
+            (AnyBody::Slender($body), AnyConfiguration::Slender($own)) => $value,
+            (AnyBody::Full($body), AnyConfiguration::Full($own)) => $value,
             _ => $otherwise,
         }
     };
 }
 
 impl<S: Scalar> Body<S> for AnyBody<S> {
-    type Posture<V: Value<S>> = AnyPosture<V>;
+    type Configuration<V: Value<S>> = AnyConfiguration<V>;
 
     #[inline]
-    fn posture<V: Value<S>>(&self, side: S, rotation: V) -> AnyPosture<V> {
+    fn configuration<V: Value<S>>(&self, side: S, rotation: V) -> AnyConfiguration<V> {
         match self {
-            AnyBody::Slender(body) => AnyPosture::Slender(body.posture(side, rotation)),
-            AnyBody::Full(body) => AnyPosture::Full(body.posture(side, rotation)),
+            AnyBody::Slender(body) => AnyConfiguration::Slender(body.configuration(side, rotation)),
+            AnyBody::Full(body) => AnyConfiguration::Full(body.configuration(side, rotation)),
         }
     }
 
     #[inline]
-    fn drive<V: Value<S>>(&self, posture: &AnyPosture<V>, ground: [V; 2]) -> V {
-        either!(self, posture, |body, own| body.drive(own, ground), ground[0])
+    fn driving_moment<V: Value<S>>(&self, configuration: &AnyConfiguration<V>, ground: [V; 2]) -> V {
+        either!(self, configuration, |body, own| body.driving_moment(own, ground), ground[0])
     }
 
     #[inline]
-    fn along<V: Value<S>>(&self, posture: &AnyPosture<V>, x: V) -> V {
-        either!(self, posture, |body, own| body.along(own, x), x)
+    fn to_terminal<V: Value<S>>(&self, configuration: &AnyConfiguration<V>, x: V) -> V {
+        either!(self, configuration, |body, own| body.to_terminal(own, x), x)
     }
 
     #[inline]
-    fn terminal_acceleration<V: Value<S>>(&self, posture: &AnyPosture<V>, velocity: V, acceleration: V) -> V {
-        either!(self, posture, |body, own| body.terminal_acceleration(own, velocity, acceleration), acceleration)
+    fn terminal_acceleration<V: Value<S>>(&self, configuration: &AnyConfiguration<V>, velocity: V, acceleration: V) -> V {
+        either!(self, configuration, |body, own| body.terminal_acceleration(own, velocity, acceleration), acceleration)
     }
 
     #[inline]
-    fn over_inertia<V: Value<S>>(&self, posture: &AnyPosture<V>, moment: V, coupling: S, velocity: V) -> V {
-        either!(self, posture, |body, own| body.over_inertia(own, moment, coupling, velocity), moment)
+    fn solve_acceleration<V: Value<S>>(&self, configuration: &AnyConfiguration<V>, moment: V, coupling: S, velocity: V) -> V {
+        either!(self, configuration, |body, own| body.solve_acceleration(own, moment, coupling, velocity), moment)
     }
 
     #[inline]
-    fn switching<V: Value<S>>(&self, posture: &AnyPosture<V>, velocity: V, drive: V) -> V {
-        either!(self, posture, |body, own| body.switching(own, velocity, drive), drive)
+    fn switching<V: Value<S>>(&self, configuration: &AnyConfiguration<V>, velocity: V, driving_moment: V) -> V {
+        either!(self, configuration, |body, own| body.switching(own, velocity, driving_moment), driving_moment)
     }
 
     #[inline]
-    fn paper_power(&self, side: S, posture: &AnyPosture<S>, velocity: S, coupling: S) -> S {
-        either!(self, posture, |body, own| body.paper_power(side, own, velocity, coupling), S::of(0.0))
+    fn paper_power(&self, side: S, configuration: &AnyConfiguration<S>, velocity: S, coupling: S) -> S {
+        either!(self, configuration, |body, own| body.paper_power(side, own, velocity, coupling), S::of(0.0))
     }
 
     #[inline]
-    fn arm(&self, posture: &AnyPosture<S>) -> S {
-        either!(self, posture, |body, own| body.arm(own), S::of(1.0))
+    fn arm(&self, configuration: &AnyConfiguration<S>) -> S {
+        either!(self, configuration, |body, own| body.arm(own), S::of(1.0))
     }
 
     #[inline]
-    fn travel(&self, side: S, posture: &AnyPosture<S>) -> S {
-        either!(self, posture, |body, own| body.travel(side, own), S::of(0.0))
+    fn travel(&self, side: S, configuration: &AnyConfiguration<S>) -> S {
+        either!(self, configuration, |body, own| body.travel(side, own), S::of(0.0))
     }
 
     #[inline]
-    fn factors(&self, posture: &AnyPosture<S>) -> (S, S) {
-        either!(self, posture, |body, own| body.factors(own), (S::of(0.0), S::of(0.0)))
+    fn factors(&self, configuration: &AnyConfiguration<S>) -> (S, S) {
+        either!(self, configuration, |body, own| body.factors(own), (S::of(0.0), S::of(0.0)))
     }
 }
 
@@ -109,7 +109,7 @@ mod tests {
     use crate::equation::lever::TyingPoint;
 
     /// A grid of sides, rotations, velocities and ground accelerations.
-    fn postures() -> impl Iterator<Item = (f32, f32, f32, [f32; 2])> {
+    fn configurations() -> impl Iterator<Item = (f32, f32, f32, [f32; 2])> {
         [-1.0, 1.0].into_iter().flat_map(|side| {
             (0..60).map(move |k| {
                 let x = k as f32;
@@ -119,15 +119,21 @@ mod tests {
     }
 
     fn same_bits<B: Body<f32>>(known: &B, told: &AnyBody<f32>) {
-        for (side, rotation, velocity, ground) in postures() {
-            let (own, other) = (known.posture(side, rotation), told.posture(side, rotation));
-            let drive = known.drive(&own, ground);
+        for (side, rotation, velocity, ground) in configurations() {
+            let (own, other) = (known.configuration(side, rotation), told.configuration(side, rotation));
+            let driving_moment = known.driving_moment(&own, ground);
             let pairs = [
-                (drive, told.drive(&other, ground)),
-                (known.along(&own, velocity), told.along(&other, velocity)),
-                (known.terminal_acceleration(&own, velocity, drive), told.terminal_acceleration(&other, velocity, drive)),
-                (known.over_inertia(&own, drive, 0.375, velocity), told.over_inertia(&other, drive, 0.375, velocity)),
-                (known.switching(&own, velocity, drive), told.switching(&other, velocity, drive)),
+                (driving_moment, told.driving_moment(&other, ground)),
+                (known.to_terminal(&own, velocity), told.to_terminal(&other, velocity)),
+                (
+                    known.terminal_acceleration(&own, velocity, driving_moment),
+                    told.terminal_acceleration(&other, velocity, driving_moment),
+                ),
+                (
+                    known.solve_acceleration(&own, driving_moment, 0.375, velocity),
+                    told.solve_acceleration(&other, driving_moment, 0.375, velocity),
+                ),
+                (known.switching(&own, velocity, driving_moment), told.switching(&other, velocity, driving_moment)),
                 (known.paper_power(side, &own, velocity, 0.375), told.paper_power(side, &other, velocity, 0.375)),
                 (known.arm(&own), told.arm(&other)),
                 (known.travel(side, &own), told.travel(side, &other)),
@@ -147,7 +153,8 @@ mod tests {
         let block = FullBlock { frequency_squared: 3.678, slenderness: 0.1745 };
         let lever = TyingPoint { along: 0.95, across: 0.2 };
         for consistent in [false, true] {
-            let told = AnyBody::Full(FullBody { block, lever, kinematics: Told::told(consistent), vertical: true });
+            let told =
+                AnyBody::Full(FullBody { block, lever, kinematics: RuntimeKinematics::chosen(consistent), vertical: true });
             if consistent {
                 same_bits(&FullBody { block, lever, kinematics: Consistent, vertical: true }, &told);
             } else {

@@ -13,41 +13,41 @@ use super::lever::{Lever, TyingPoint};
 use crate::math::scalar::Scalar;
 use crate::math::value::Value;
 
-/// A block and a lever. A posture is what θ alone decides, worked out once for all that need it.
+/// A block and a lever. A configuration is what θ alone decides, worked out once for all that need it.
 pub trait Body<S: Scalar>: Copy {
     /// δ-dependent quantities.
-    type Posture<V: Value<S>>: Copy;
+    type Configuration<V: Value<S>>: Copy;
 
-    /// The posture at θ (rad) on side s = ±1.
-    fn posture<V: Value<S>>(&self, side: S, rotation: V) -> Self::Posture<V>;
+    /// The configuration at θ (rad) on side s = ±1.
+    fn configuration<V: Value<S>>(&self, side: S, rotation: V) -> Self::Configuration<V>;
 
     /// D for the ground acceleration in g, horizontal and vertical (which is not read where the body knows of none).
-    fn drive<V: Value<S>>(&self, posture: &Self::Posture<V>, ground: [V; 2]) -> V;
+    fn driving_moment<V: Value<S>>(&self, configuration: &Self::Configuration<V>, ground: [V; 2]) -> V;
 
     /// ℓ x.
-    fn along<V: Value<S>>(&self, posture: &Self::Posture<V>, x: V) -> V;
+    fn to_terminal<V: Value<S>>(&self, configuration: &Self::Configuration<V>, x: V) -> V;
 
     /// Acceleration of the terminals per R: ℓθ̈, plus ℓ'θ̇² in the consistent kinematics.
-    fn terminal_acceleration<V: Value<S>>(&self, posture: &Self::Posture<V>, velocity: V, acceleration: V) -> V;
+    fn terminal_acceleration<V: Value<S>>(&self, configuration: &Self::Configuration<V>, velocity: V, acceleration: V) -> V;
 
     /// θ̈ from (1 + k ℓ²) θ̈ + k ℓ ℓ' θ̇² = `moment` (the θ̇² term in the consistent kinematics only).
-    fn over_inertia<V: Value<S>>(&self, posture: &Self::Posture<V>, moment: V, coupling: S, velocity: V) -> V;
+    fn solve_acceleration<V: Value<S>>(&self, configuration: &Self::Configuration<V>, moment: V, coupling: S, velocity: V) -> V;
 
     /// A quantity with the sign of the terminals' acceleration under D alone, whatever is engaged (Eq. 10).
-    fn switching<V: Value<S>>(&self, posture: &Self::Posture<V>, velocity: V, drive: V) -> V;
+    fn switching<V: Value<S>>(&self, configuration: &Self::Configuration<V>, velocity: V, driving_moment: V) -> V;
 
     /// Power that the paper's kinematics take from an engaged flywheel without a cause: −k ℓ ℓ' θ̇³ per λmR²; 0 where
     /// energy is conserved.
-    fn paper_power(&self, side: S, posture: &Self::Posture<S>, velocity: S, coupling: S) -> S;
+    fn paper_power(&self, side: S, configuration: &Self::Configuration<S>, velocity: S, coupling: S) -> S;
 
     /// ℓ.
-    fn arm(&self, posture: &Self::Posture<S>) -> S;
+    fn arm(&self, configuration: &Self::Configuration<S>) -> S;
 
     /// The terminals' travel per R, ∫ ℓ dθ, up to a constant of each side.
-    fn travel(&self, side: S, posture: &Self::Posture<S>) -> S;
+    fn travel(&self, side: S, configuration: &Self::Configuration<S>) -> S;
 
-    /// Factors of ü_g/g and of 1 + v̈_g/g in D at the posture: −p² cos δ and −p² sin δ.
-    fn factors(&self, posture: &Self::Posture<S>) -> (S, S);
+    /// Factors of ü_g/g and of 1 + v̈_g/g in D at the configuration: −p² cos δ and −p² sin δ.
+    fn factors(&self, configuration: &Self::Configuration<S>) -> (S, S);
 }
 
 /// The slender block (Eq. 17-18): sin δ → δ, cos δ → 1, ℓ constant.
@@ -64,21 +64,21 @@ pub struct SlenderBody<S> {
 }
 
 impl<S: Scalar> Body<S> for SlenderBody<S> {
-    type Posture<V: Value<S>> = V;
+    type Configuration<V: Value<S>> = V;
 
     #[inline(always)]
-    fn posture<V: Value<S>>(&self, side: S, rotation: V) -> V {
+    fn configuration<V: Value<S>>(&self, side: S, rotation: V) -> V {
         (-rotation).offset(side * self.slenderness)
     }
 
     #[inline(always)]
-    fn drive<V: Value<S>>(&self, delta: &V, ground: [V; 2]) -> V {
+    fn driving_moment<V: Value<S>>(&self, delta: &V, ground: [V; 2]) -> V {
         let weight = if self.vertical { *delta * ground[1].offset(S::of(1.0)) } else { *delta };
         (weight + ground[0]).scale(-self.frequency_squared)
     }
 
     #[inline(always)]
-    fn along<V: Value<S>>(&self, _delta: &V, x: V) -> V {
+    fn to_terminal<V: Value<S>>(&self, _delta: &V, x: V) -> V {
         x.scale(self.lever)
     }
 
@@ -88,13 +88,13 @@ impl<S: Scalar> Body<S> for SlenderBody<S> {
     }
 
     #[inline(always)]
-    fn over_inertia<V: Value<S>>(&self, _delta: &V, moment: V, coupling: S, _velocity: V) -> V {
+    fn solve_acceleration<V: Value<S>>(&self, _delta: &V, moment: V, coupling: S, _velocity: V) -> V {
         moment.scale(S::of(1.0) / (S::of(1.0) + coupling * self.lever * self.lever))
     }
 
     #[inline(always)]
-    fn switching<V: Value<S>>(&self, _delta: &V, _velocity: V, drive: V) -> V {
-        drive
+    fn switching<V: Value<S>>(&self, _delta: &V, _velocity: V, driving_moment: V) -> V {
+        driving_moment
     }
 
     #[inline(always)]
@@ -133,7 +133,7 @@ pub struct FullBody<S, K> {
 
 /// sin δ, cos δ, ℓ and ℓ'.
 #[derive(Clone, Copy, Debug)]
-pub struct Turned<V> {
+pub struct FullConfiguration<V> {
     sin: V,
     cos: V,
     arm: V,
@@ -141,74 +141,74 @@ pub struct Turned<V> {
 }
 
 impl<S: Scalar, K: BodyKinematics> Body<S> for FullBody<S, K> {
-    type Posture<V: Value<S>> = Turned<V>;
+    type Configuration<V: Value<S>> = FullConfiguration<V>;
 
     #[inline(always)]
-    fn posture<V: Value<S>>(&self, side: S, rotation: V) -> Turned<V> {
+    fn configuration<V: Value<S>>(&self, side: S, rotation: V) -> FullConfiguration<V> {
         let (sin, cos) = (-rotation).offset(side * self.block.slenderness).sin_cos();
         let rate = if self.kinematics.consistent() { Some(self.lever.arm_rate(side, sin, cos)) } else { None };
-        Turned { sin, cos, arm: self.lever.arm(side, sin, cos), rate }
+        FullConfiguration { sin, cos, arm: self.lever.arm(side, sin, cos), rate }
     }
 
     #[inline(always)]
-    fn drive<V: Value<S>>(&self, posture: &Turned<V>, ground: [V; 2]) -> V {
-        let weight = if self.vertical { posture.sin * ground[1].offset(S::of(1.0)) } else { posture.sin };
-        (weight + ground[0] * posture.cos).scale(-self.block.frequency_squared)
+    fn driving_moment<V: Value<S>>(&self, configuration: &FullConfiguration<V>, ground: [V; 2]) -> V {
+        let weight = if self.vertical { configuration.sin * ground[1].offset(S::of(1.0)) } else { configuration.sin };
+        (weight + ground[0] * configuration.cos).scale(-self.block.frequency_squared)
     }
 
     #[inline(always)]
-    fn along<V: Value<S>>(&self, posture: &Turned<V>, x: V) -> V {
-        posture.arm * x
+    fn to_terminal<V: Value<S>>(&self, configuration: &FullConfiguration<V>, x: V) -> V {
+        configuration.arm * x
     }
 
     #[inline(always)]
-    fn terminal_acceleration<V: Value<S>>(&self, posture: &Turned<V>, velocity: V, acceleration: V) -> V {
-        let tangential = posture.arm * acceleration;
-        match posture.rate {
+    fn terminal_acceleration<V: Value<S>>(&self, configuration: &FullConfiguration<V>, velocity: V, acceleration: V) -> V {
+        let tangential = configuration.arm * acceleration;
+        match configuration.rate {
             Some(rate) => tangential + rate * velocity.square(),
             None => tangential,
         }
     }
 
     #[inline(always)]
-    fn over_inertia<V: Value<S>>(&self, posture: &Turned<V>, moment: V, coupling: S, velocity: V) -> V {
-        let inertia = posture.arm.square().scale(coupling).offset(S::of(1.0));
-        match posture.rate {
-            Some(rate) => (moment - (posture.arm * rate * velocity.square()).scale(coupling)) / inertia,
+    fn solve_acceleration<V: Value<S>>(&self, configuration: &FullConfiguration<V>, moment: V, coupling: S, velocity: V) -> V {
+        let inertia = configuration.arm.square().scale(coupling).offset(S::of(1.0));
+        match configuration.rate {
+            Some(rate) => (moment - (configuration.arm * rate * velocity.square()).scale(coupling)) / inertia,
             None => moment / inertia,
         }
     }
 
     #[inline(always)]
-    fn switching<V: Value<S>>(&self, posture: &Turned<V>, velocity: V, drive: V) -> V {
-        match posture.rate {
-            Some(rate) => posture.arm * (posture.arm * drive + rate * velocity.square()),
-            None => drive,
+    fn switching<V: Value<S>>(&self, configuration: &FullConfiguration<V>, velocity: V, driving_moment: V) -> V {
+        match configuration.rate {
+            Some(rate) => configuration.arm * (configuration.arm * driving_moment + rate * velocity.square()),
+            None => driving_moment,
         }
     }
 
     #[inline(always)]
-    fn paper_power(&self, side: S, posture: &Turned<S>, velocity: S, coupling: S) -> S {
+    fn paper_power(&self, side: S, configuration: &FullConfiguration<S>, velocity: S, coupling: S) -> S {
         if self.kinematics.consistent() {
             return S::of(0.0);
         }
-        let rate = self.lever.arm_rate(side, posture.sin, posture.cos);
-        -(coupling * posture.arm * rate * velocity * velocity * velocity)
+        let rate = self.lever.arm_rate(side, configuration.sin, configuration.cos);
+        -(coupling * configuration.arm * rate * velocity * velocity * velocity)
     }
 
     #[inline(always)]
-    fn arm(&self, posture: &Turned<S>) -> S {
-        posture.arm
+    fn arm(&self, configuration: &FullConfiguration<S>) -> S {
+        configuration.arm
     }
 
     #[inline(always)]
-    fn travel(&self, side: S, posture: &Turned<S>) -> S {
+    fn travel(&self, side: S, configuration: &FullConfiguration<S>) -> S {
         // ℓ = A cos δ + s B sin δ with dδ = −dθ.
-        side * self.lever.across * posture.cos - self.lever.along * posture.sin
+        side * self.lever.across * configuration.cos - self.lever.along * configuration.sin
     }
 
     #[inline(always)]
-    fn factors(&self, posture: &Turned<S>) -> (S, S) {
-        (-self.block.frequency_squared * posture.cos, -self.block.frequency_squared * posture.sin)
+    fn factors(&self, configuration: &FullConfiguration<S>) -> (S, S) {
+        (-self.block.frequency_squared * configuration.cos, -self.block.frequency_squared * configuration.sin)
     }
 }

@@ -28,13 +28,13 @@ impl ClutchRule {
     }
 
     /// Whether an inerter is engaged while the velocity has the sign `direction` and the terminals' acceleration the
-    /// sign `drive`.
+    /// sign `terminal_acceleration_sign`.
     #[inline(always)]
-    pub fn engages(self, direction: Sign, drive: Sign) -> bool {
+    pub fn engages(self, direction: Sign, terminal_acceleration_sign: Sign) -> bool {
         match self {
             ClutchRule::Without => false,
             ClutchRule::Always => true,
-            ClutchRule::Resisting => direction == drive,
+            ClutchRule::Resisting => direction == terminal_acceleration_sign,
         }
     }
 

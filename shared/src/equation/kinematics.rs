@@ -22,10 +22,10 @@ impl Kinematics for Consistent {
     const CONSISTENT: bool = true;
 }
 
-/// Kinematics of a body: known when it is compiled, or [`Told`] when it runs.
+/// Kinematics of a body: known when it is compiled, or [`RuntimeKinematics`] when it runs.
 pub trait BodyKinematics: Copy {
     /// Those with the θ̇² term or without; a type that knows better does not ask.
-    fn told(consistent: bool) -> Self;
+    fn chosen(consistent: bool) -> Self;
 
     /// Whether the θ̇² term is there.
     fn consistent(self) -> bool;
@@ -33,7 +33,7 @@ pub trait BodyKinematics: Copy {
 
 impl<K: Kinematics> BodyKinematics for K {
     #[inline(always)]
-    fn told(_consistent: bool) -> K {
+    fn chosen(_consistent: bool) -> K {
         K::default()
     }
 
@@ -45,14 +45,14 @@ impl<K: Kinematics> BodyKinematics for K {
 
 /// Kinematics told at run time: one body for both where code is scarce, to the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Told {
+pub struct RuntimeKinematics {
     consistent: bool,
 }
 
-impl BodyKinematics for Told {
+impl BodyKinematics for RuntimeKinematics {
     #[inline]
-    fn told(consistent: bool) -> Told {
-        Told { consistent }
+    fn chosen(consistent: bool) -> RuntimeKinematics {
+        RuntimeKinematics { consistent }
     }
 
     #[inline]

@@ -65,7 +65,7 @@ impl<S: Real> Elementary<S> {
 mod tests {
     use super::*;
     use crate::ground::harmonic::MavroeidisPapageorgiou;
-    use crate::ground::{Harmonics, Linear, Piece, Quiet, Ricker, Sum};
+    use crate::ground::{GroundSegment, Harmonics, Linear, Quiet, Ricker, Sum};
     use crate::math::sin_cos;
 
     fn change(motion: &Elementary<f64>, t: f64) -> f64 {
@@ -75,7 +75,7 @@ mod tests {
         })
     }
 
-    fn goes_on(piece: &impl Piece<f64>) {
+    fn goes_on(piece: &impl GroundSegment<f64>) {
         for start in [0.0, 0.3, 1.7] {
             let motion = piece.elementary(start).unwrap();
             for t in [0.0, 1e-3, 0.4, 2.0] {

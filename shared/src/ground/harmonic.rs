@@ -2,7 +2,7 @@
 //! of three.
 
 use super::elementary::Wave;
-use super::{Elementary, Piece};
+use super::{Elementary, GroundSegment};
 use crate::math;
 use crate::math::scalar::Real;
 
@@ -74,7 +74,7 @@ impl MavroeidisPapageorgiou {
     }
 }
 
-impl<S: Real, const M: usize> Piece<S> for Harmonics<S, M> {
+impl<S: Real, const M: usize> GroundSegment<S> for Harmonics<S, M> {
     #[inline]
     fn acceleration(&self, time: S) -> S {
         self.terms
@@ -132,7 +132,7 @@ mod tests {
         let sine = Harmonics::sine(1.5, 4.0);
         crate::ground::check::consistency(&sine, &[0.0, 0.3, 1.2]);
         crate::ground::check::consistency(&Harmonics::cosine(0.7, 7.0), &[0.0, 0.3, 0.8]);
-        assert!((Piece::<f64>::acceleration(&sine, 0.1) - 1.5 * math::sin(0.4)).abs() < 1e-15);
+        assert!((GroundSegment::<f64>::acceleration(&sine, 0.1) - 1.5 * math::sin(0.4)).abs() < 1e-15);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! A straight line: between two samples of a record, a rectangular pulse, or quiet ground seen by a controller's tick.
 
-use super::{Elementary, Piece};
+use super::{Elementary, GroundSegment};
 use crate::math::scalar::Real;
 
 /// ü_g/g = start + slope τ.
@@ -26,7 +26,7 @@ impl<S: Real> Linear<S> {
     }
 }
 
-impl<S: Real> Piece<S> for Linear<S> {
+impl<S: Real> GroundSegment<S> for Linear<S> {
     #[inline(always)]
     fn acceleration(&self, time: S) -> S {
         self.start + self.slope * time
@@ -65,6 +65,6 @@ mod tests {
     fn a_line_is_straight() {
         let line = Linear::between(0.3, -0.1, 0.02);
         crate::ground::check::consistency(&line, &[0.0, 0.01]);
-        assert!((Piece::<f64>::acceleration(&line, 0.02) + 0.1).abs() < 1e-15);
+        assert!((GroundSegment::<f64>::acceleration(&line, 0.02) + 0.1).abs() < 1e-15);
     }
 }

@@ -18,7 +18,7 @@ pub use ricker::Ricker;
 use crate::math::scalar::Real;
 
 /// A smooth stretch of ground acceleration ü_g/g over local time τ ≥ 0 (s).
-pub trait Piece<S: Real> {
+pub trait GroundSegment<S: Real> {
     /// ü_g/g at τ.
     fn acceleration(&self, time: S) -> S;
 
@@ -45,7 +45,7 @@ pub trait Piece<S: Real> {
     }
 }
 
-impl<S> core::fmt::Debug for dyn Piece<S> + '_ {
+impl<S> core::fmt::Debug for dyn GroundSegment<S> + '_ {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         formatter.write_str("Piece")
     }
@@ -55,7 +55,7 @@ impl<S> core::fmt::Debug for dyn Piece<S> + '_ {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quiet;
 
-impl<S: Real> Piece<S> for Quiet {
+impl<S: Real> GroundSegment<S> for Quiet {
     #[inline(always)]
     fn acceleration(&self, _time: S) -> S {
         S::ZERO
@@ -91,7 +91,7 @@ impl<S: Real> Piece<S> for Quiet {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sum<A, B>(pub A, pub B);
 
-impl<S: Real, A: Piece<S>, B: Piece<S>> Piece<S> for Sum<A, B> {
+impl<S: Real, A: GroundSegment<S>, B: GroundSegment<S>> GroundSegment<S> for Sum<A, B> {
     #[inline(always)]
     fn acceleration(&self, time: S) -> S {
         self.0.acceleration(time) + self.1.acceleration(time)
@@ -128,7 +128,7 @@ pub(crate) mod check {
     use super::*;
 
     /// A piece's slope and series must be those of its acceleration.
-    pub fn consistency(piece: &impl Piece<f64>, times: &[f64]) {
+    pub fn consistency(piece: &impl GroundSegment<f64>, times: &[f64]) {
         for &time in times {
             let step = 1e-5;
             let slope = (piece.acceleration(time + step) - piece.acceleration(time - step)) / (2.0 * step);
@@ -149,6 +149,6 @@ pub(crate) mod check {
     fn a_sum_is_the_sum() {
         let sum = Sum(Harmonics::sine(1.5, 4.0), Linear { start: 0.2, slope: -0.3 });
         consistency(&sum, &[0.1, 0.9]);
-        assert!((Piece::<f64>::acceleration(&sum, 0.3) - (1.5 * crate::math::sin(1.2) + 0.2 - 0.09)).abs() < 1e-15);
+        assert!((GroundSegment::<f64>::acceleration(&sum, 0.3) - (1.5 * crate::math::sin(1.2) + 0.2 - 0.09)).abs() < 1e-15);
     }
 }

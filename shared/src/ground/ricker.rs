@@ -1,6 +1,6 @@
 //! The Ricker wavelet, second derivative of a Gaussian.
 
-use super::Piece;
+use super::GroundSegment;
 use crate::math;
 use crate::math::scalar::Real;
 
@@ -22,7 +22,7 @@ impl<S: Real> Ricker<S> {
     }
 }
 
-impl<S: Real> Piece<S> for Ricker<S> {
+impl<S: Real> GroundSegment<S> for Ricker<S> {
     fn acceleration(&self, time: S) -> S {
         let (x, gaussian) = self.gaussian(time);
         self.amplitude * (S::ONE - S::of(2.0) * (x * x)) * gaussian
@@ -64,6 +64,6 @@ mod tests {
     fn the_series_is_that_of_the_wavelet() {
         let wavelet = Ricker { amplitude: 0.8, rate: 4.0, centre: 1.0 };
         crate::ground::check::consistency(&wavelet, &[0.2, 0.7, 1.0, 1.4]);
-        assert!((Piece::<f64>::acceleration(&wavelet, 1.0) - 0.8).abs() < 1e-16);
+        assert!((GroundSegment::<f64>::acceleration(&wavelet, 1.0) - 0.8).abs() < 1e-16);
     }
 }

@@ -1,7 +1,7 @@
 //! Values, zeros and extremes of a step's series.
 
 use super::power_series::MAXIMUM_ORDER;
-use super::root::locate;
+use super::root::newton_bracketed;
 use super::scalar::{Real, Scalar};
 use super::sign::Sign;
 
@@ -114,8 +114,9 @@ pub fn first_zero_of<S: Real>(
     from_zero: bool,
 ) -> Option<S> {
     let (_, to, end) = stretch;
-    search(&mut function, curvature, stretch, sign, from_zero)
-        .unwrap_or_else(|left| (sign.times(end) < S::ZERO).then(|| locate(left, to, sign, S::HALF * (left + to), function)))
+    search(&mut function, curvature, stretch, sign, from_zero).unwrap_or_else(|left| {
+        (sign.times(end) < S::ZERO).then(|| newton_bracketed(left, to, sign, S::HALF * (left + to), function))
+    })
 }
 
 /// [`first_zero_of`], or how far it was sought with [`MOST_STRETCHES`].
@@ -147,7 +148,7 @@ fn search<S: Real>(
         if changed {
             if (monotone && !zero_at_left) || w <= smallest {
                 let guess = left + w * S::HALF;
-                return Ok(Some(locate(left, right, sign, guess, function)));
+                return Ok(Some(newton_bracketed(left, right, sign, guess, function)));
             }
         } else {
             let clear = !zero_at_left && sign.times(value).smaller(sign.times(right_value)) > curvature * (w * w) * S::of(0.125);
@@ -245,7 +246,7 @@ fn largest_within<S: Real, F: Curve<S>>(curve: &F, ends: [(S, S, S); 2], floor: 
         return floor;
     }
     let sign = Sign::of(left_slope, Sign::Positive);
-    let at = locate(from, to, sign, from + w * left_slope.abs() / (left_slope.abs() + right_slope.abs()), |t| {
+    let at = newton_bracketed(from, to, sign, from + w * left_slope.abs() / (left_slope.abs() + right_slope.abs()), |t| {
         (curve.value_and_slope(t).1, curve.second_derivative(t))
     });
     floor.larger(curve.value(at).abs())

@@ -8,7 +8,7 @@ use super::sign::Sign;
 /// `function` returns value and slope. Newton steps from `guess`, kept inside a bracket that always shrinks: at most 64
 /// evaluations, usually four. A zero at `left` itself (the event just handled) cannot be returned, because its sign is the
 /// one the caller gives, not a rounding error's.
-pub fn locate<S: Real>(left: S, right: S, before: Sign, guess: S, mut function: impl FnMut(S) -> (S, S)) -> S {
+pub fn newton_bracketed<S: Real>(left: S, right: S, before: Sign, guess: S, mut function: impl FnMut(S) -> (S, S)) -> S {
     let (mut low, mut high) = (left, right);
     let mut x = if guess > low && guess < high { guess } else { S::HALF * (low + high) };
     for _ in 0..64 {
@@ -35,8 +35,8 @@ pub fn locate<S: Real>(left: S, right: S, before: Sign, guess: S, mut function: 
     x
 }
 
-/// [`locate`] for a function without a slope: false position with the Illinois correction, at most 64 evaluations.
-pub fn locate_by_value<S: Real>(left: S, right: S, before: Sign, mut function: impl FnMut(S) -> S) -> S {
+/// [`newton_bracketed`] for a function without a slope: false position with the Illinois correction, at most 64 evaluations.
+pub fn illinois<S: Real>(left: S, right: S, before: Sign, mut function: impl FnMut(S) -> S) -> S {
     let (mut low, mut high) = (left, right);
     let (mut at_low, mut at_high) = (before.times(function(left)), before.times(function(right)));
     let mut last_moved = None;
@@ -74,25 +74,25 @@ mod tests {
 
     #[test]
     fn simple_roots_to_the_last_bits() {
-        let root = locate(0.0_f64, 3.0, Sign::Negative, 1.5, |x| (x * x - 2.0, 2.0 * x));
+        let root = newton_bracketed(0.0_f64, 3.0, Sign::Negative, 1.5, |x| (x * x - 2.0, 2.0 * x));
         assert!((root - core::f64::consts::SQRT_2).abs() < 4e-16);
-        let without_slope = locate_by_value(0.0_f64, 3.0, Sign::Negative, |x| x * x - 2.0);
+        let without_slope = illinois(0.0_f64, 3.0, Sign::Negative, |x| x * x - 2.0);
         assert!((without_slope - core::f64::consts::SQRT_2).abs() < 1e-15);
-        let single = locate_by_value(0.0_f32, 3.0, Sign::Negative, |x| x * x - 2.0);
+        let single = illinois(0.0_f32, 3.0, Sign::Negative, |x| x * x - 2.0);
         assert!((single - core::f32::consts::SQRT_2).abs() < 5e-7);
     }
 
     #[test]
     fn the_root_just_left_behind_is_not_found_again() {
         // Zero at 0 with a rounding error of the wrong sign, and at 1.
-        let root = locate(0.0_f64, 1.7, Sign::Positive, 0.8, |x| (x * (1.0 - x) - 1e-18, 1.0 - 2.0 * x));
+        let root = newton_bracketed(0.0_f64, 1.7, Sign::Positive, 0.8, |x| (x * (1.0 - x) - 1e-18, 1.0 - 2.0 * x));
         assert!((root - 1.0).abs() < 1e-15);
     }
 
     #[test]
     fn a_grazing_root_and_a_flat_one_are_bounded_in_work() {
         let mut count = 0;
-        let root = locate(0.0_f64, 1.0, Sign::Positive, 0.5, |x| {
+        let root = newton_bracketed(0.0_f64, 1.0, Sign::Positive, 0.5, |x| {
             count += 1;
             let d = 0.3 - x;
             (d * d * d, -3.0 * d * d)

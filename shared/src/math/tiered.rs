@@ -183,31 +183,31 @@ mod tests {
     use super::*;
     use crate::ground::{Harmonics, Quiet};
     use crate::math::tier::{Libm, Micromath, OwnPolynomial};
-    use crate::method::dense_output::Method;
+    use crate::method::dense_output::Integrator;
     use crate::method::fixed::FixedStep;
     use crate::method::taylor::Taylor;
-    use crate::motion::state::{Limits, State};
+    use crate::motion::state::{BlockState, Limits};
     use crate::observers::digest::Digest;
-    use crate::structure::added_mass::Carried;
+    use crate::structure::added_mass::AddedMass;
     use crate::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
     use crate::structure::device::{Device, DeviceKind, KinematicsKind};
     use crate::structure::mount::Mount;
     use crate::structure::{REST_SPEED, Restitution, Structure};
 
     /// One cycle of sine and 2.5 s of quiet on a block of 10°, p = 1/s; gives the digest of every stretch and event, and θ.
-    fn run<S: Real, M: Method<S>>(method: M, kinematics: KinematicsKind) -> (u64, f64) {
+    fn run<S: Real, M: Integrator<S>>(method: M, kinematics: KinematicsKind) -> (u64, f64) {
         let device = Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, mount: Mount::CentreOfMass, kinematics };
         let structure = Structure {
             block: Block::of_unit_frequency(10.0_f64.to_radians(), RECTANGLE_INERTIA_RATIO).unwrap(),
             geometry: Geometry::Full,
             device,
-            carried: Carried::NONE,
+            added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(0.85),
             rest_speed: REST_SPEED,
         };
         let system = structure.resolve().unwrap();
         let mut digest = Digest::default();
-        let mut state = State::default();
+        let mut state = BlockState::default();
         let limits = Limits { overturned: S::of(1.57), events: 100_000 };
         let sine = Harmonics::sine(S::of(0.3), S::of(4.0));
         let duration = S::of(core::f64::consts::TAU / 4.0);

@@ -2,18 +2,18 @@
 
 use crate::equation::any_equation::AnyEquation;
 use crate::equation::motion::Motion;
-use crate::ground::Piece;
-use crate::math::root::locate_by_value;
+use crate::ground::GroundSegment;
+use crate::math::root::illinois;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 
 /// Where a step starts and what governs it.
 #[derive(Clone, Copy, Debug)]
-pub struct Start<'a, S> {
+pub struct StepStart<'a, S> {
     /// The equation of motion in force.
     pub equation: &'a AnyEquation<S>,
     /// The ground motion.
-    pub piece: &'a dyn Piece<S>,
+    pub piece: &'a dyn GroundSegment<S>,
     /// s.
     pub side: Sign,
     /// θ.
@@ -32,15 +32,15 @@ pub struct Start<'a, S> {
     pub scale: S,
 }
 
-/// The motion from a [`Start`] over times from 0 to [`Arc::length`], θ and θ̇ and θ̈ at any instant of it.
-pub trait Arc<S: Real> {
+/// The motion from a [`StepStart`] over times from 0 to [`DenseOutput::length`], θ and θ̇ and θ̈ at any instant of it.
+pub trait DenseOutput<S: Real> {
     /// How far it reaches, s; at most what was asked for.
     fn length(&self) -> S;
 
     /// The motion at `time` after the start.
     fn at(&self, time: S) -> Motion<S>;
 
-    /// The motion at [`Arc::length`].
+    /// The motion at [`DenseOutput::length`].
     #[inline(always)]
     fn end(&self) -> Motion<S> {
         self.at(self.length())
@@ -61,14 +61,14 @@ pub trait Arc<S: Real> {
         changes.then(|| zero_between(self, from, to, sign))
     }
 
-    /// First zero of the switching function, as [`Arc::acceleration_zero`]; called only where the two differ.
+    /// First zero of the switching function, as [`DenseOutput::acceleration_zero`]; called only where the two differ.
     fn switching_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
         let _ = from_zero;
         let end = self.switching(to);
-        (sign.times(end) < S::ZERO).then(|| locate_by_value(from, to, sign, |t| self.switching(t)))
+        (sign.times(end) < S::ZERO).then(|| illinois(from, to, sign, |t| self.switching(t)))
     }
 
-    /// θ̈ at [`Arc::length`] where the step has evaluated the equation there: that of the next step's start.
+    /// θ̈ at [`DenseOutput::length`] where the step has evaluated the equation there: that of the next step's start.
     #[inline]
     fn evaluated_end(&self) -> Option<S> {
         None
@@ -82,19 +82,19 @@ pub trait Arc<S: Real> {
 
 /// The zero of θ̈ between `from` and `to`, where its sign just after `from` is `sign`. Apart, because few steps have one.
 #[inline(never)]
-fn zero_between<S: Real, A: Arc<S> + ?Sized>(arc: &A, from: S, to: S, sign: Sign) -> S {
-    locate_by_value(from, to, sign, |t| arc.at(t).acceleration)
+fn zero_between<S: Real, A: DenseOutput<S> + ?Sized>(output: &A, from: S, to: S, sign: Sign) -> S {
+    illinois(from, to, sign, |t| output.at(t).acceleration)
 }
 
 /// A way to integrate: fixed steps or steps of its own choice.
-pub trait Method<S: Real> {
+pub trait Integrator<S: Real> {
     /// Its arcs.
-    type Arc<'a>: Arc<S>
+    type Output<'a>: DenseOutput<S>
     where
         Self: 'a;
 
     /// The arc from `start`.
-    fn arc<'a>(&'a self, start: &'a Start<'a, S>) -> Self::Arc<'a>;
+    fn integrate<'a>(&'a self, start: &'a StepStart<'a, S>) -> Self::Output<'a>;
 
     /// The fixed step (s), if it has one: then steps end on whole multiples of it from the start of each piece.
     fn step(&self) -> Option<S>;

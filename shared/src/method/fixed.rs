@@ -3,7 +3,7 @@
 //! Events inside a step are located by taking the step again with a shorter length, so an event's state has the accuracy
 //! of the method.
 
-use super::dense_output::{Arc, Method, Start};
+use super::dense_output::{DenseOutput, Integrator, StepStart};
 use crate::equation::Equation;
 use crate::equation::any_equation::WithEquation;
 use crate::equation::motion::Motion;
@@ -67,16 +67,16 @@ pub fn runge_kutta_4<S: Scalar, E: Equation<S>>(
 
 /// The arc of a fixed-step method: its end, and the step taken again for every time before it.
 #[derive(Debug)]
-pub struct FixedArc<'a, S> {
+pub struct FixedOutput<'a, S> {
     method: FixedStep<S>,
-    start: &'a Start<'a, S>,
+    start: &'a StepStart<'a, S>,
     first: S,
     end: Motion<S>,
 }
 
-impl<'a, S: Real> FixedArc<'a, S> {
+impl<'a, S: Real> FixedOutput<'a, S> {
     #[inline(always)]
-    pub(crate) fn new(method: FixedStep<S>, start: &'a Start<'a, S>) -> Self {
+    pub(crate) fn new(method: FixedStep<S>, start: &'a StepStart<'a, S>) -> Self {
         let first = if start.acceleration_is_zero {
             S::ZERO
         } else {
@@ -86,11 +86,11 @@ impl<'a, S: Real> FixedArc<'a, S> {
             })
         };
         let end = Self::motion(method, start, first, start.length);
-        FixedArc { method, start, first, end }
+        FixedOutput { method, start, first, end }
     }
 
     #[inline(never)]
-    fn motion(method: FixedStep<S>, start: &Start<'a, S>, first: S, time: S) -> Motion<S> {
+    fn motion(method: FixedStep<S>, start: &StepStart<'a, S>, first: S, time: S) -> Motion<S> {
         start.equation.known(Step { method, start, first, time })
     }
 }
@@ -98,7 +98,7 @@ impl<'a, S: Real> FixedArc<'a, S> {
 /// One step of length `time`, where θ̈ at the start is `first`.
 struct Step<'s, 'a, S> {
     method: FixedStep<S>,
-    start: &'s Start<'a, S>,
+    start: &'s StepStart<'a, S>,
     first: S,
     time: S,
 }
@@ -122,7 +122,7 @@ impl<S: Real> WithEquation<S> for Step<'_, '_, S> {
     }
 }
 
-impl<S: Real> Arc<S> for FixedArc<'_, S> {
+impl<S: Real> DenseOutput<S> for FixedOutput<'_, S> {
     #[inline(always)]
     fn length(&self) -> S {
         self.start.length
@@ -154,12 +154,12 @@ impl<S: Real> Arc<S> for FixedArc<'_, S> {
     }
 }
 
-impl<S: Real> Method<S> for FixedStep<S> {
-    type Arc<'a> = FixedArc<'a, S>;
+impl<S: Real> Integrator<S> for FixedStep<S> {
+    type Output<'a> = FixedOutput<'a, S>;
 
     #[inline(always)]
-    fn arc<'a>(&'a self, start: &'a Start<'a, S>) -> Self::Arc<'a> {
-        FixedArc::new(*self, start)
+    fn integrate<'a>(&'a self, start: &'a StepStart<'a, S>) -> Self::Output<'a> {
+        FixedOutput::new(*self, start)
     }
 
     #[inline(always)]

@@ -4,7 +4,7 @@
 
 use core::cell::Cell;
 
-use super::dense_output::{Arc, Method, Start};
+use super::dense_output::{DenseOutput, Integrator, StepStart};
 use super::motion_series::{StepSeries, Truncation};
 use crate::equation::any_equation::WithEquation;
 use crate::equation::motion::Motion;
@@ -49,7 +49,7 @@ impl<S: Real, const N: usize> Taylor<S, N> {
 
 /// The series of one step.
 #[derive(Clone, Copy, Debug)]
-pub struct TaylorArc<S, const N: usize> {
+pub struct TaylorOutput<S, const N: usize> {
     series: StepSeries<S, N>,
     /// Of the switching function, where it is not the acceleration.
     switching: [S; N],
@@ -57,25 +57,25 @@ pub struct TaylorArc<S, const N: usize> {
     curvature: S,
 }
 
-impl<S: Real, const N: usize> Method<S> for Taylor<S, N> {
-    type Arc<'a> = TaylorArc<S, N>;
+impl<S: Real, const N: usize> Integrator<S> for Taylor<S, N> {
+    type Output<'a> = TaylorOutput<S, N>;
 
     #[inline]
-    fn arc<'a>(&'a self, start: &'a Start<'a, S>) -> TaylorArc<S, N> {
+    fn integrate<'a>(&'a self, start: &'a StepStart<'a, S>) -> TaylorOutput<S, N> {
         let none = [S::ZERO; N];
-        let mut arc = TaylorArc { series: StepSeries::new(start.length), switching: none, curvature: S::ZERO };
+        let mut output = TaylorOutput { series: StepSeries::new(start.length), switching: none, curvature: S::ZERO };
         let mut ground = none;
         start.piece.series(start.time, &mut ground);
         let tolerance = self.tolerance * start.scale.larger(start.rotation.abs());
-        start.equation.known(Expansion { tape: &self.tape, arc: &mut arc, ground: &ground, start, tolerance });
-        let series = &mut arc.series;
+        start.equation.known(Expansion { tape: &self.tape, output: &mut output, ground: &ground, start, tolerance });
+        let series = &mut output.series;
         if self.step.is_none() && series.terms == N {
             for order in [N - 2, N - 1] {
                 series.shorten(order, series.motion.rotation[order].abs(), tolerance);
             }
         }
-        arc.curvature = polynomial::curvature_bound(series.acceleration(), series.length);
-        arc
+        output.curvature = polynomial::curvature_bound(series.acceleration(), series.length);
+        output
     }
 
     #[inline(always)]
@@ -87,9 +87,9 @@ impl<S: Real, const N: usize> Method<S> for Taylor<S, N> {
 /// The coefficients of an arc, order by order.
 struct Expansion<'a, S, const N: usize> {
     tape: &'a Tape<S, N>,
-    arc: &'a mut TaylorArc<S, N>,
+    output: &'a mut TaylorOutput<S, N>,
     ground: &'a [S; N],
-    start: &'a Start<'a, S>,
+    start: &'a StepStart<'a, S>,
     tolerance: S,
 }
 
@@ -100,10 +100,10 @@ impl<S: Real, const N: usize> WithEquation<S> for Expansion<'_, S, N> {
     fn with<E: Switched<S>>(self, equation: &E) {
         // θ, θ̇ and the ground are the first three nodes.
         const GIVEN: usize = 3;
-        let Expansion { tape, arc, ground, start, tolerance } = self;
+        let Expansion { tape, output, ground, start, tolerance } = self;
         let side = start.side.unit();
         let next = Cell::new(GIVEN);
-        arc.series.motion.start(tape, start.rotation, start.velocity);
+        output.series.motion.start(tape, start.rotation, start.velocity);
         let mut truncation = Truncation::new(start.length, tolerance);
         for (k, &push) in ground.iter().enumerate().take(N - 2) {
             tape.set(2, k, push);
@@ -115,24 +115,24 @@ impl<S: Real, const N: usize> WithEquation<S> for Expansion<'_, S, N> {
                 node.set_last(S::ZERO);
             }
             if !equation.switches_with_acceleration() {
-                arc.switching[k] = equation.switching(side, theta, omega, shaking).last();
+                output.switching[k] = equation.switching(side, theta, omega, shaking).last();
             }
-            let rotation = arc.series.motion.extend(tape, k, node.last());
+            let rotation = output.series.motion.extend(tape, k, node.last());
             if truncation.ends_at(k, truncation.term(rotation, push)) {
-                arc.series.terms = k + 3;
+                output.series.terms = k + 3;
                 break;
             }
         }
     }
 }
 
-impl<S: Real, const N: usize> TaylorArc<S, N> {
+impl<S: Real, const N: usize> TaylorOutput<S, N> {
     fn switching_series(&self) -> &[S] {
         &self.switching[..self.series.acceleration().len()]
     }
 }
 
-impl<S: Real, const N: usize> Arc<S> for TaylorArc<S, N> {
+impl<S: Real, const N: usize> DenseOutput<S> for TaylorOutput<S, N> {
     #[inline(always)]
     fn length(&self) -> S {
         self.series.length
@@ -178,7 +178,7 @@ mod tests {
         let equation = AnyEquation::Block(FullBlock { frequency_squared: 1.0, slenderness: 0.3 });
         let piece = Harmonics::sine(2.0, 5.0);
         for time in [0.1, 0.5, 1.0] {
-            let start = Start {
+            let start = StepStart {
                 equation: &equation,
                 piece: &piece,
                 side: Sign::Positive,
@@ -190,16 +190,16 @@ mod tests {
                 acceleration: None,
                 scale: 0.3,
             };
-            let arc = Taylor::<f64, 20>::adaptive(1e-15).arc(&start);
-            let (length, step) = (arc.length(), 1e-3 * arc.length());
-            let rate = |time: f64| arc.at(time).acceleration;
+            let output = Taylor::<f64, 20>::adaptive(1e-15).integrate(&start);
+            let (length, step) = (output.length(), 1e-3 * output.length());
+            let rate = |time: f64| output.at(time).acceleration;
             let mut largest = 0.0_f64;
             for k in 1..1000 {
                 let t = f64::from(k) * step;
                 largest = largest.max(((rate(t + step) - 2.0 * rate(t) + rate(t - step)) / (step * step)).abs());
             }
-            assert!(arc.curvature >= largest * (1.0 - 1e-6), "{} < {largest}", arc.curvature);
-            assert_eq!(arc.curvature, polynomial::curvature_bound(&arc.series.motion.acceleration, length));
+            assert!(output.curvature >= largest * (1.0 - 1e-6), "{} < {largest}", output.curvature);
+            assert_eq!(output.curvature, polynomial::curvature_bound(&output.series.motion.acceleration, length));
         }
     }
 }

@@ -3,13 +3,13 @@
 //! Everything is divided by I_O = λmR²: forces at the rack come as F/(λmR) in 1/s², energies as E/(λmR²) in 1/s², powers in
 //! 1/s³.
 
-use super::observer::{Event, Stretch};
-use super::state::State;
+use super::observer::{Event, MonotoneInterval};
+use super::state::BlockState;
 use crate::drivetrain::power_loss::Spent;
 use crate::equation::motion::Motion;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::method::dense_output::Arc;
+use crate::method::dense_output::DenseOutput;
 
 /// One instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,13 +45,13 @@ impl<S: Real> Snapshot<S> {
 }
 
 /// An arc on which the device can be asked too.
-pub trait DeviceArc<S: Real>: Arc<S> {
+pub trait DeviceOutput<S: Real>: DenseOutput<S> {
     /// Block and device at `time` after the start of the arc.
     fn snapshot(&self, time: S) -> Snapshot<S>;
 }
 
 /// So that who watches arcs of a known type can watch these.
-impl<S: Real> Arc<S> for &dyn DeviceArc<S> {
+impl<S: Real> DenseOutput<S> for &dyn DeviceOutput<S> {
     #[inline(always)]
     fn length(&self) -> S {
         (**self).length()
@@ -83,23 +83,23 @@ impl<S: Real> Arc<S> for &dyn DeviceArc<S> {
     }
 }
 
-/// Told of every stretch, with the device, and every event, in order. Times are local to the piece of ground motion.
+/// Told of every interval, with the device, and every event, in order. Times are local to the piece of ground motion.
 pub trait DeviceObserver<S: Real> {
-    /// The motion over a stretch.
+    /// The motion over an interval.
     #[inline(always)]
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
-        let _ = (arc, stretch);
+    fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        let _ = (output, interval);
     }
 
     /// The block stands on its base while its flywheels may coast, or of no length: what one event left for another at the same instant.
     #[inline(always)]
-    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
-        let _ = (arc, stretch);
+    fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        let _ = (output, interval);
     }
 
     /// An event, with the state after it.
     #[inline(always)]
-    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn device_event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         let _ = (event, time, state);
     }
 }
@@ -110,19 +110,19 @@ impl<S: Real> DeviceObserver<S> for () {}
 /// Two observers.
 impl<S: Real, A: DeviceObserver<S>, B: DeviceObserver<S>> DeviceObserver<S> for (A, B) {
     #[inline(always)]
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
-        self.0.device_stretch(arc, stretch);
-        self.1.device_stretch(arc, stretch);
+    fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        self.0.device_interval(output, interval);
+        self.1.device_interval(output, interval);
     }
 
     #[inline(always)]
-    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
-        self.0.device_stands(arc, stretch);
-        self.1.device_stands(arc, stretch);
+    fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        self.0.device_at_rest(output, interval);
+        self.1.device_at_rest(output, interval);
     }
 
     #[inline(always)]
-    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn device_event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         self.0.device_event(event, time, state);
         self.1.device_event(event, time, state);
     }
@@ -130,17 +130,17 @@ impl<S: Real, A: DeviceObserver<S>, B: DeviceObserver<S>> DeviceObserver<S> for 
 
 impl<S: Real, A: DeviceObserver<S> + ?Sized> DeviceObserver<S> for &mut A {
     #[inline(always)]
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
-        (**self).device_stretch(arc, stretch);
+    fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        (**self).device_interval(output, interval);
     }
 
     #[inline(always)]
-    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
-        (**self).device_stands(arc, stretch);
+    fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        (**self).device_at_rest(output, interval);
     }
 
     #[inline(always)]
-    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn device_event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         (**self).device_event(event, time, state);
     }
 }
@@ -148,21 +148,21 @@ impl<S: Real, A: DeviceObserver<S> + ?Sized> DeviceObserver<S> for &mut A {
 /// One that may be absent.
 impl<S: Real, A: DeviceObserver<S>> DeviceObserver<S> for Option<A> {
     #[inline(always)]
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+    fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         if let Some(watcher) = self {
-            watcher.device_stretch(arc, stretch);
+            watcher.device_interval(output, interval);
         }
     }
 
     #[inline(always)]
-    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+    fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         if let Some(watcher) = self {
-            watcher.device_stands(arc, stretch);
+            watcher.device_at_rest(output, interval);
         }
     }
 
     #[inline(always)]
-    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn device_event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         if let Some(watcher) = self {
             watcher.device_event(event, time, state);
         }

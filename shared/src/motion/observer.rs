@@ -1,10 +1,10 @@
-//! Observers of a motion: told of every monotone stretch and every event. What nobody watches costs nothing.
+//! Observers of a motion: told of every monotone interval and every event. What nobody watches costs nothing.
 
-use super::state::State;
+use super::state::BlockState;
 use crate::equation::motion::Motion;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::method::dense_output::Arc;
+use crate::method::dense_output::DenseOutput;
 use crate::motion::rest::free_decay::Decay;
 
 /// What happened at an instant.
@@ -28,7 +28,7 @@ pub enum Event {
 
 /// A part of an arc over which θ and θ̇ are monotone.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stretch<S> {
+pub struct MonotoneInterval<S> {
     /// Local time in the piece at which the arc starts, s.
     pub start: S,
     /// From here on the arc, s.
@@ -47,22 +47,22 @@ pub struct Stretch<S> {
     pub direction: Sign,
 }
 
-/// Told of every stretch and every event, in order. Times are local to the piece of ground motion.
+/// Told of every interval and every event, in order. Times are local to the piece of ground motion.
 pub trait Observer<S: Real> {
     /// Wants every swing of a free motion; otherwise its end is summed in closed form ([`Decay`]).
     fn every_swing(&self) -> bool {
         true
     }
 
-    /// The motion over a stretch.
+    /// The motion over an interval.
     #[inline(always)]
-    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
-        let _ = (arc, stretch);
+    fn interval(&mut self, output: &dyn DenseOutput<S>, interval: &MonotoneInterval<S>) {
+        let _ = (output, interval);
     }
 
     /// An event, with the state after it.
     #[inline(always)]
-    fn event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         let _ = (event, time, state);
     }
 
@@ -93,13 +93,13 @@ impl<S: Real, A: Observer<S>, B: Observer<S>> Observer<S> for (A, B) {
     }
 
     #[inline(always)]
-    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
-        self.0.stretch(arc, stretch);
-        self.1.stretch(arc, stretch);
+    fn interval(&mut self, output: &dyn DenseOutput<S>, interval: &MonotoneInterval<S>) {
+        self.0.interval(output, interval);
+        self.1.interval(output, interval);
     }
 
     #[inline(always)]
-    fn event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         self.0.event(event, time, state);
         self.1.event(event, time, state);
     }
@@ -116,12 +116,12 @@ impl<S: Real, O: Observer<S> + ?Sized> Observer<S> for &mut O {
     }
 
     #[inline(always)]
-    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
-        (**self).stretch(arc, stretch);
+    fn interval(&mut self, output: &dyn DenseOutput<S>, interval: &MonotoneInterval<S>) {
+        (**self).interval(output, interval);
     }
 
     #[inline(always)]
-    fn event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         (**self).event(event, time, state);
     }
 }

@@ -16,7 +16,7 @@ pub enum Phase {
 
 /// The state of a rocking block.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct State<S> {
+pub struct BlockState<S> {
     /// θ, rad.
     pub rotation: S,
     /// θ̇, rad/s.
@@ -28,12 +28,12 @@ pub struct State<S> {
     /// Sign of θ̇, or at θ̇ = 0 the one it is about to take.
     pub direction: Sign,
     /// Sign of θ̈, or at θ̈ = 0 the one it is about to take.
-    pub push: Sign,
+    pub acceleration_sign: Sign,
     /// Sign of the acceleration of the inerter's terminals; with the paper's kinematics that of θ̈.
-    pub drive: Sign,
+    pub terminal_acceleration_sign: Sign,
     /// θ̈ is zero here, by an event just handled.
-    pub push_is_zero: bool,
-    /// Impacts so far that came in with more than [`System::counted_speed`](super::ideal::System::counted_speed).
+    pub acceleration_is_zero: bool,
+    /// Impacts so far that came in with more than [`IdealSystem::counted_speed`](super::ideal::IdealSystem::counted_speed).
     pub impacts: u32,
 }
 
@@ -79,7 +79,7 @@ impl core::fmt::Display for Stopped {
 
 impl core::error::Error for Stopped {}
 
-/// Bounds of one call of [`System::advance`](super::ideal::System::advance).
+/// Bounds of one call of [`IdealSystem::advance`](super::ideal::IdealSystem::advance).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits<S> {
     /// |θ| (rad) at which an outward motion counts as overturned

@@ -3,12 +3,12 @@
 use crate::math::fnv::Fnv;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::method::dense_output::Arc;
-use crate::motion::device_snapshot::{DeviceArc, DeviceObserver};
-use crate::motion::observer::{Event, Observer, Stretch};
-use crate::motion::state::State;
+use crate::method::dense_output::DenseOutput;
+use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput};
+use crate::motion::observer::{Event, MonotoneInterval, Observer};
+use crate::motion::state::BlockState;
 
-/// [`Fnv`] over the bits of θ and θ̇, the toe and the clutch at the end of every stretch and after every event, and two counts; of a device
+/// [`Fnv`] over the bits of θ and θ̇, the toe and the clutch at the end of every interval and after every event, and two counts; of a device
 /// with a memory also the speeds of both flywheels and which of them are coupled.
 ///
 /// Compared between two machines, builds or versions:
@@ -52,13 +52,13 @@ impl Digest {
 
 impl<S: Real> Observer<S> for Digest {
     #[inline]
-    fn stretch(&mut self, _arc: &dyn Arc<S>, stretch: &Stretch<S>) {
+    fn interval(&mut self, _output: &dyn DenseOutput<S>, interval: &MonotoneInterval<S>) {
         self.stretches = self.stretches.wrapping_add(1);
-        self.instant(stretch.last.rotation, stretch.last.velocity, stretch.side, u8::from(stretch.engaged));
+        self.instant(interval.last.rotation, interval.last.velocity, interval.side, u8::from(interval.engaged));
     }
 
     #[inline]
-    fn event(&mut self, event: Event, _time: S, state: &State<S>) {
+    fn event(&mut self, event: Event, _time: S, state: &BlockState<S>) {
         self.events = self.events.wrapping_add(1);
         let kind = match event {
             Event::Uplift => 2,
@@ -74,14 +74,14 @@ impl<S: Real> Observer<S> for Digest {
 }
 
 impl<S: Real> DeviceObserver<S> for Digest {
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
-        Observer::stretch(self, &arc, stretch);
-        let seen = arc.snapshot(stretch.to);
+    fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        Observer::interval(self, &output, interval);
+        let seen = output.snapshot(interval.to);
         seen.spin.iter().for_each(|&spin| self.hash.number(spin));
         self.hash.byte(seen.engaged.iter().fold(0, |flags, &engaged| flags << 1 | u8::from(engaged)));
     }
 
-    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn device_event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         Observer::event(self, event, time, state);
     }
 }
@@ -94,7 +94,7 @@ mod tests {
     fn every_part_of_an_instant_counts() {
         let of = |rotation: f32, velocity: f32, side, event| {
             let mut digest = Digest::default();
-            digest.event(event, 0.0, &State { rotation, velocity, side, ..State::default() });
+            digest.event(event, 0.0, &BlockState { rotation, velocity, side, ..BlockState::default() });
             assert_eq!((digest.stretches(), digest.events()), (0, 1));
             digest.hash()
         };

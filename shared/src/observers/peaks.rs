@@ -1,10 +1,10 @@
 //! Peak rotation, peak angular acceleration, and the time of the first impact.
 
 use crate::math::scalar::Real;
-use crate::method::dense_output::Arc;
-use crate::motion::observer::{Event, Observer, Stretch};
+use crate::method::dense_output::DenseOutput;
+use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::rest::free_decay::Decay;
-use crate::motion::state::State;
+use crate::motion::state::BlockState;
 
 /// Largest rotation and angular acceleration, and the first impact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -17,7 +17,7 @@ pub struct Peaks<S> {
     pub rocked: bool,
     /// Time of the first impact however weak, s from the origin: whether the block has hit the ground at all.
     pub first_impact: Option<S>,
-    /// Time of the first of the impacts that are counted ([`State::impacts`]), s from the origin.
+    /// Time of the first of the impacts that are counted ([`BlockState::impacts`]), s from the origin.
     pub first_counted_impact: Option<S>,
     /// Time at which the block came to rest or overturned, s from the origin.
     pub ended: Option<S>,
@@ -37,16 +37,16 @@ impl<S: Real> Observer<S> for Peaks<S> {
     }
 
     #[inline]
-    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
-        // θ is monotone here; a largest value inside lies at a turn, where a stretch ends.
-        let (first, last) = (&stretch.first, &stretch.last);
+    fn interval(&mut self, output: &dyn DenseOutput<S>, interval: &MonotoneInterval<S>) {
+        // θ is monotone here; a largest value inside lies at a turn, where an interval ends.
+        let (first, last) = (&interval.first, &interval.last);
         self.rotation = self.rotation.larger(first.rotation.abs()).larger(last.rotation.abs());
         self.acceleration =
-            arc.largest_acceleration((stretch.from, first.acceleration), (stretch.to, last.acceleration), self.acceleration);
+            output.largest_acceleration((interval.from, first.acceleration), (interval.to, last.acceleration), self.acceleration);
     }
 
     #[inline]
-    fn event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         match event {
             Event::Uplift => {
                 self.rocked = true;

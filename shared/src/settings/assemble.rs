@@ -14,7 +14,7 @@ use crate::control::law::any_law::ClutchLaw;
 use crate::control::law::look_ahead::LookAhead;
 use crate::control::law::minimum_dwell::Gate;
 use crate::control::law::{GatedTable, SignTable};
-use crate::control::model::{Facts, KnownAny, KnownBody, KnownFull, KnownSlender, Model};
+use crate::control::model::{Model, ModelParameters, PlantBody};
 use crate::control::monitor::fault::Wheel;
 use crate::control::monitor::{EncoderLimits, FEWEST_WINDOW_TICKS, MonitorParameters, SensorLimits};
 use crate::control::sensing::calibration::Plausible;
@@ -34,13 +34,13 @@ const PAPER: u32 = 1;
 const CONSISTENT: u32 = 2;
 
 /// A controller for whichever body its settings name.
-pub type AnyController = Controller<KnownAny, ClutchLaw>;
+pub type AnyController = Controller<AnyBody<f32>, ClutchLaw>;
 
-impl<B: Into<KnownAny> + KnownBody> Controller<B, ClutchLaw> {
+impl<B: Into<AnyBody<f32>> + PlantBody> Controller<B, ClutchLaw> {
     /// The same to the last bit, its body told at run time.
     pub fn told(self) -> AnyController {
         let Controller { model, instruments, estimator, law, horizon, bands, engaged_at_rest, gate, supervisor } = self;
-        let model = Model::of(model.body.into(), model.facts);
+        let model = Model::of(model.body.into(), model.parameters);
         Controller { model, instruments, estimator, law, horizon, bands, engaged_at_rest, gate, supervisor }
     }
 }
@@ -56,7 +56,7 @@ impl AnyController {
 }
 
 /// A body that settings can name.
-pub trait SettingsBody: KnownBody + PartialEq {
+pub trait SettingsBody: PlantBody + PartialEq {
     /// Its number among the choices of `body`.
     fn choice(&self) -> u32;
 
@@ -67,12 +67,12 @@ pub trait SettingsBody: KnownBody + PartialEq {
     fn put(&self, draft: &mut super::record::Draft);
 }
 
-impl SettingsBody for KnownSlender {
+impl SettingsBody for SlenderBody<f32> {
     fn choice(&self) -> u32 {
         SLENDER
     }
 
-    fn of_settings(settings: &Settings) -> KnownSlender {
+    fn of_settings(settings: &Settings) -> SlenderBody<f32> {
         SlenderBody {
             frequency_squared: settings.real(Item::FrequencySquared),
             slenderness: settings.real(Item::Slenderness),
@@ -86,19 +86,19 @@ impl SettingsBody for KnownSlender {
     }
 }
 
-impl<K: BodyKinematics + PartialEq> SettingsBody for KnownFull<K> {
+impl<K: BodyKinematics + PartialEq> SettingsBody for FullBody<f32, K> {
     fn choice(&self) -> u32 {
         if self.kinematics.consistent() { CONSISTENT } else { PAPER }
     }
 
-    fn of_settings(settings: &Settings) -> KnownFull<K> {
+    fn of_settings(settings: &Settings) -> FullBody<f32, K> {
         FullBody {
             block: FullBlock {
                 frequency_squared: settings.real(Item::FrequencySquared),
                 slenderness: settings.real(Item::Slenderness),
             },
             lever: TyingPoint { along: settings.real(Item::LeverAlong), across: settings.real(Item::LeverAcross) },
-            kinematics: K::told(settings.whole(Item::Body) == CONSISTENT),
+            kinematics: K::chosen(settings.whole(Item::Body) == CONSISTENT),
             vertical: true,
         }
     }
@@ -109,7 +109,7 @@ impl<K: BodyKinematics + PartialEq> SettingsBody for KnownFull<K> {
     }
 }
 
-impl SettingsBody for KnownAny {
+impl SettingsBody for AnyBody<f32> {
     fn choice(&self) -> u32 {
         match self {
             AnyBody::Slender(body) => body.choice(),
@@ -117,10 +117,10 @@ impl SettingsBody for KnownAny {
         }
     }
 
-    fn of_settings(settings: &Settings) -> KnownAny {
+    fn of_settings(settings: &Settings) -> AnyBody<f32> {
         match settings.whole(Item::Body) {
-            SLENDER => AnyBody::Slender(KnownSlender::of_settings(settings)),
-            _ => AnyBody::Full(KnownFull::of_settings(settings)),
+            SLENDER => AnyBody::Slender(SlenderBody::<f32>::of_settings(settings)),
+            _ => AnyBody::Full(FullBody::of_settings(settings)),
         }
     }
 
@@ -138,12 +138,12 @@ const ROUNDING: f32 = 1e-6;
 /// The controller for a body `B`, whatever body the settings name.
 pub(super) fn controller<B: SettingsBody>(settings: &Settings) -> Result<Controller<B, ClutchLaw>, SettingError> {
     let model: Model<B> = model(settings);
-    let square = model.facts.frequency * model.facts.frequency;
-    if (square - model.facts.frequency_squared).abs() > ROUNDING * square {
+    let square = model.parameters.frequency * model.parameters.frequency;
+    if (square - model.parameters.frequency_squared).abs() > ROUNDING * square {
         return Err(SettingError::contradiction(Item::FrequencySquared, Item::Frequency));
     }
     // Where the rack does not move with the block the encoder says nothing.
-    if model.body.arm(&model.body.posture(1.0, 0.0)) <= 0.0 {
+    if model.body.arm(&model.body.configuration(1.0, 0.0)) <= 0.0 {
         return Err(SettingError::contradiction(Item::LeverAcross, Item::LeverAlong));
     }
     Ok(Controller {
@@ -165,7 +165,7 @@ pub(super) fn controller<B: SettingsBody>(settings: &Settings) -> Result<Control
 }
 
 fn model<B: SettingsBody>(settings: &Settings) -> Model<B> {
-    let facts = Facts {
+    let parameters = ModelParameters {
         frequency: settings.real(Item::Frequency),
         frequency_squared: settings.real(Item::FrequencySquared),
         slenderness: settings.real(Item::Slenderness),
@@ -178,7 +178,7 @@ fn model<B: SettingsBody>(settings: &Settings) -> Model<B> {
         drag: settings.real(Item::Drag),
         stops_at_once: settings.switch(Item::StopsAtOnce),
     };
-    Model::of(B::of_settings(settings), facts)
+    Model::of(B::of_settings(settings), parameters)
 }
 
 /// The rows of gains, of which an estimator takes as many numbers as it has.

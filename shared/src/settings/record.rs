@@ -80,18 +80,18 @@ impl Settings {
 fn put_model<B: SettingsBody>(draft: &mut Draft, model: &Model<B>) {
     model.body.put(draft);
     draft.reals(&[
-        (Item::Frequency, model.facts.frequency),
-        (Item::FrequencySquared, model.facts.frequency_squared),
-        (Item::Slenderness, model.facts.slenderness),
-        (Item::Size, model.facts.size),
-        (Item::Restitution, model.facts.restitution),
-        (Item::Uplift, model.facts.uplift),
-        (Item::Coupling, model.facts.coupling),
-        (Item::Decay, model.facts.decay),
-        (Item::Drag, model.facts.drag),
+        (Item::Frequency, model.parameters.frequency),
+        (Item::FrequencySquared, model.parameters.frequency_squared),
+        (Item::Slenderness, model.parameters.slenderness),
+        (Item::Size, model.parameters.size),
+        (Item::Restitution, model.parameters.restitution),
+        (Item::Uplift, model.parameters.uplift),
+        (Item::Coupling, model.parameters.coupling),
+        (Item::Decay, model.parameters.decay),
+        (Item::Drag, model.parameters.drag),
     ]);
-    draft.switch(Item::WheelsSpin, model.facts.wheels_spin);
-    draft.switch(Item::StopsAtOnce, model.facts.stops_at_once);
+    draft.switch(Item::WheelsSpin, model.parameters.wheels_spin);
+    draft.switch(Item::StopsAtOnce, model.parameters.stops_at_once);
 }
 
 fn put_instruments(draft: &mut Draft, instruments: &Instruments) {

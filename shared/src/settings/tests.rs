@@ -14,7 +14,7 @@ use crate::control::law::any_law::ClutchLaw;
 use crate::control::law::look_ahead::LookAhead;
 use crate::control::law::minimum_dwell::Gate;
 use crate::control::law::{GatedTable, SignTable};
-use crate::control::model::{KnownFull, KnownSlender, Model};
+use crate::control::model::Model;
 use crate::control::monitor::fault::Wheel;
 use crate::control::monitor::{EncoderLimits, MonitorParameters};
 use crate::control::sensing::calibration::Plausible;
@@ -22,8 +22,10 @@ use crate::control::sensing::instruments::Instruments;
 use crate::control::sensing::required::Required;
 use crate::control::sensing::sample::{Count, Reading, Sample};
 use crate::control::supervisor::{Parameters, Phase, SafeState, Supervisor};
+use crate::equation::body::FullBody;
+use crate::equation::body::SlenderBody;
 use crate::equation::kinematics::{Consistent, Paper};
-use crate::structure::added_mass::Carried;
+use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
 use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
@@ -38,7 +40,7 @@ fn structure(mount: Mount) -> Structure {
         block: Block::new(2.0, 10_f64.to_radians(), 4.0 / 3.0).unwrap(),
         geometry: Geometry::Full,
         device: Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, mount, kinematics: KinematicsKind::Consistent },
-        carried: Carried::NONE,
+        added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
         rest_speed: REST_SPEED,
     }
@@ -155,7 +157,7 @@ fn example_supervision() -> Parameters {
 fn the_default_is_the_controller_of_an_example() {
     let estimator = Estimator::ModelAided(MODEL_AIDED);
     let supervision = example_supervision();
-    let example: Controller<KnownFull<Consistent>, _> =
+    let example: Controller<FullBody<f32, Consistent>, _> =
         controller(Mount::CentreOfMass, estimator, ClutchLaw::ResistingPredicted, &supervision);
     let settings = Settings::of(&example, &supervision).unwrap();
     for (item, (&derived, default)) in Item::ALL.into_iter().zip(settings.words().iter().zip(Settings::default().words)) {
@@ -177,11 +179,11 @@ fn each(mut check: impl FnMut(&Settings, AnyController)) {
     for supervision in supervisions() {
         for estimator in estimators() {
             for law in laws() {
-                let slender = controller::<KnownSlender>(mount, estimator, law, &supervision);
+                let slender = controller::<SlenderBody<f32>>(mount, estimator, law, &supervision);
                 check(&Settings::of(&slender, &supervision).unwrap(), slender.told());
-                let paper = controller::<KnownFull<Paper>>(mount, estimator, law, &supervision);
+                let paper = controller::<FullBody<f32, Paper>>(mount, estimator, law, &supervision);
                 check(&Settings::of(&paper, &supervision).unwrap(), paper.told());
-                let consistent = controller::<KnownFull<Consistent>>(mount, estimator, law, &supervision);
+                let consistent = controller::<FullBody<f32, Consistent>>(mount, estimator, law, &supervision);
                 let consistent =
                     Controller { horizon: 0.01, bands: 2.0, engaged_at_rest: false, gate: Gate { dwell: 9 }, ..consistent };
                 check(&Settings::of(&consistent, &supervision).unwrap(), consistent.told());
@@ -299,7 +301,7 @@ fn contradictions_are_found_and_named() {
 #[test]
 fn a_controller_that_contradicts_itself_cannot_be_recorded() {
     let p = Parameters::default();
-    let good: Controller<KnownFull<Paper>, _> =
+    let good: Controller<FullBody<f32, Paper>, _> =
         controller(Mount::CentreOfMass, Estimator::ModelAided(MODEL_AIDED), ClutchLaw::Passive, &p);
     assert!(Settings::of(&good, &p).is_ok());
     assert_eq!(Settings::of(&good, &Parameters { shaking: 0.5, ..p }), Err(SettingError::NotRepresentable));
@@ -330,7 +332,7 @@ fn what_settings_allow_the_supervisor_accepts() {
 #[test]
 fn a_controller_of_settings_ticks_as_the_one_that_was_recorded() {
     let p = example_supervision();
-    let made: Controller<KnownFull<Consistent>, _> =
+    let made: Controller<FullBody<f32, Consistent>, _> =
         controller(Mount::CentreOfMass, estimators()[0], ClutchLaw::LookAhead(LookAhead::default()), &p);
     let read = AnyController::of(&Settings::of(&made, &p).unwrap()).unwrap();
     let (mut first, mut second) = (made.start(), read.start());

@@ -9,16 +9,16 @@ use crate::math;
 
 /// A point mass on the block's centre line.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Carried {
+pub struct AddedMass {
     /// μ = carried mass / block mass; 0 to 10.
     pub mass_ratio: f64,
     /// z, m above the base; 0 or more.
     pub height: f64,
 }
 
-impl Carried {
+impl AddedMass {
     /// Nothing; the default.
-    pub const NONE: Carried = Carried { mass_ratio: 0.0, height: 0.0 };
+    pub const NONE: AddedMass = AddedMass { mass_ratio: 0.0, height: 0.0 };
 
     /// Whether there is nothing to carry.
     pub fn is_none(&self) -> bool {
@@ -41,7 +41,7 @@ impl Carried {
     /// no bound above.
     ///
     /// # Errors
-    /// As [`Carried::check`]; a height so great that a result is not finite.
+    /// As [`AddedMass::check`]; a height so great that a result is not finite.
     pub fn block(&self, block: &Block) -> Result<Block, ParameterError> {
         self.check()?;
         let (mu, z) = (self.mass_ratio, self.height);
@@ -78,7 +78,7 @@ mod tests {
     use super::*;
     use crate::equation::Equation;
     use crate::equation::any_equation::AnyEquation;
-    use crate::motion::ideal::System;
+    use crate::motion::ideal::IdealSystem;
     use crate::structure::block::GRAVITY;
     use crate::structure::device::{DeviceKind, KinematicsKind};
     use crate::structure::restitution::Restitution;
@@ -96,7 +96,7 @@ mod tests {
     }
 
     fn look_at(structure: &Structure, rotation: f64, velocity: f64, ground: f64) -> Seen {
-        let system: System<f64> = structure.resolve().unwrap();
+        let system: IdealSystem<f64> = structure.resolve().unwrap();
         let side = if rotation < 0.0 { -1.0 } else { 1.0 };
         Seen {
             released: system.released.acceleration(side, rotation, velocity, ground),
@@ -107,12 +107,12 @@ mod tests {
         }
     }
 
-    fn structure(mount: Mount, carried: Carried) -> Structure {
+    fn structure(mount: Mount, added_mass: AddedMass) -> Structure {
         Structure {
             block: Block::new(2.0, 0.3, 1.4).unwrap(),
             geometry: Geometry::Full,
             device: Device { kind: DeviceKind::Inerter, mass_ratio: 0.7, mount, kinematics: KinematicsKind::Consistent },
-            carried,
+            added_mass,
             restitution: Restitution::MomentumBalance,
             rest_speed: REST_SPEED,
         }
@@ -121,19 +121,19 @@ mod tests {
     const MOUNTS: [Mount; 3] =
         [Mount::CentreOfMass, Mount::TyingPoint { height: 3.3, pulley_ratio: 1.5 }, Mount::BaseCorners { pulley_ratio: 2.0 }];
 
-    const LOADS: [Carried; 5] = [
-        Carried { mass_ratio: 0.01, height: 0.0 },
-        Carried { mass_ratio: 0.2, height: 4.0 },
-        Carried { mass_ratio: 1.0, height: 1.2 },
-        Carried { mass_ratio: 10.0, height: 0.1 },
-        Carried { mass_ratio: 10.0, height: 9.0 },
+    const LOADS: [AddedMass; 5] = [
+        AddedMass { mass_ratio: 0.01, height: 0.0 },
+        AddedMass { mass_ratio: 0.2, height: 4.0 },
+        AddedMass { mass_ratio: 1.0, height: 1.2 },
+        AddedMass { mass_ratio: 10.0, height: 0.1 },
+        AddedMass { mass_ratio: 10.0, height: 9.0 },
     ];
 
     /// θ̈ by torques about the toe: weight and ground inertia of the block's mass and of the carried one, each where it is.
     #[test]
     fn torques_of_block_and_point_mass_give_the_same_acceleration() {
         let (half_width, height) = (2.0 * math::sin(0.3), 2.0 * math::cos(0.3));
-        for (carried, mount) in LOADS.into_iter().flat_map(|carried| MOUNTS.map(|mount| (carried, mount))) {
+        for (added_mass, mount) in LOADS.into_iter().flat_map(|added_mass| MOUNTS.map(|mount| (added_mass, mount))) {
             for (rotation, velocity, ground) in [(0.11, 0.8, 0.4), (0.26, -1.3, -0.9), (-0.2, 0.5, 0.7), (-0.45, -2.0, 0.0)] {
                 let side = if rotation < 0.0 { -1.0 } else { 1.0 };
                 let (sin, cos) = math::sin_cos(rotation);
@@ -142,8 +142,9 @@ mod tests {
                     let (x, y) = (-side * half_width * cos + z * sin, side * half_width * sin + z * cos);
                     GRAVITY * x - GRAVITY * ground * y
                 };
-                let torque = torque(height) + carried.mass_ratio * torque(carried.height);
-                let inertia = 1.4 * 4.0 + carried.mass_ratio * (half_width * half_width + carried.height * carried.height);
+                let torque = torque(height) + added_mass.mass_ratio * torque(added_mass.height);
+                let inertia =
+                    1.4 * 4.0 + added_mass.mass_ratio * (half_width * half_width + added_mass.height * added_mass.height);
                 let tied = |n: f64, z: f64| (n * (side * half_width * sin + z * cos), n * (side * half_width * cos - z * sin));
                 let (travel, rate) = match mount {
                     Mount::CentreOfMass => tied(1.0, height),
@@ -151,13 +152,13 @@ mod tests {
                     Mount::BaseCorners { pulley_ratio: n } => (n * 2.0 * half_width * cos, -n * 2.0 * half_width * sin),
                 };
                 let engaged = (torque - 0.7 * travel * rate * velocity * velocity) / (inertia + 0.7 * travel * travel);
-                let single = structure(mount, carried);
+                let single = structure(mount, added_mass);
                 let seen = look_at(&single, rotation, velocity, ground);
-                assert!((seen.engaged - engaged).abs() < 1e-12, "{carried:?} {mount:?}: {} and {engaged}", seen.engaged);
+                assert!((seen.engaged - engaged).abs() < 1e-12, "{added_mass:?} {mount:?}: {} and {engaged}", seen.engaged);
                 let none = Structure { device: Device { kind: DeviceKind::None, ..single.device }, ..single };
                 let seen = look_at(&none, rotation, velocity, ground);
                 let released = torque / inertia;
-                assert!((seen.released - released).abs() < 1e-12, "{carried:?}: {} and {released}", seen.released);
+                assert!((seen.released - released).abs() < 1e-12, "{added_mass:?}: {} and {released}", seen.released);
             }
         }
     }
@@ -166,12 +167,12 @@ mod tests {
     #[test]
     fn impacts_and_uplift_are_those_of_all_the_masses() {
         let (b, h) = (2.0 * math::sin(0.3), 2.0 * math::cos(0.3));
-        for carried in LOADS {
-            let Carried { mass_ratio: mu, height: z } = carried;
+        for added_mass in LOADS {
+            let AddedMass { mass_ratio: mu, height: z } = added_mass;
             let before = 1.4 * 4.0 - 2.0 * b * b + mu * (z * z - b * b);
             let after = 1.4 * 4.0 + mu * (b * b + z * z);
             let look = |mount, restitution| {
-                let structure = Structure { restitution, ..structure(mount, carried) };
+                let structure = Structure { restitution, ..structure(mount, added_mass) };
                 let seen = structure.resolve::<f64>();
                 assert_eq!(structure.restitution().ok(), seen.as_ref().ok().map(|seen| seen.restitution));
                 seen
@@ -179,19 +180,21 @@ mod tests {
             // A heavy mass near the ground makes a block too stocky to rock on, unless an inerter drives it.
             match look(Mount::CentreOfMass, Restitution::Geometric) {
                 Ok(seen) => {
-                    assert!((seen.restitution - before / after).abs() < 1e-14, "{carried:?}");
+                    assert!((seen.restitution - before / after).abs() < 1e-14, "{added_mass:?}");
                     let threshold = b * (1.0 + mu) / (h + mu * z);
-                    assert!((seen.uplift - threshold).abs() < 1e-13 * threshold, "{carried:?}");
+                    assert!((seen.uplift - threshold).abs() < 1e-13 * threshold, "{added_mass:?}");
                 }
-                Err(error) => assert!(before < 0.0 && error.parameter == "geometric restitution", "{carried:?} {error}"),
+                Err(error) => assert!(before < 0.0 && error.parameter == "geometric restitution", "{added_mass:?} {error}"),
             }
             for (mount, kept, lever) in
                 [(MOUNTS[0], 0.7 * h * h, h), (MOUNTS[1], 0.7 * 4.95 * 4.95, 4.95), (MOUNTS[2], 0.0, 4.0 * b)]
             {
                 let eta = (before + kept) / (after + 0.7 * lever * lever);
                 match look(mount, Restitution::MomentumBalance) {
-                    Ok(seen) => assert!((seen.restitution - eta).abs() < 1e-14, "{carried:?} {mount:?}"),
-                    Err(error) => assert!(eta < 0.0 && error.parameter == "momentum-balance restitution", "{carried:?} {error}"),
+                    Ok(seen) => assert!((seen.restitution - eta).abs() < 1e-14, "{added_mass:?} {mount:?}"),
+                    Err(error) => {
+                        assert!(eta < 0.0 && error.parameter == "momentum-balance restitution", "{added_mass:?} {error}")
+                    }
                 }
             }
         }
@@ -201,17 +204,17 @@ mod tests {
     fn nothing_carried_changes_no_bit_and_no_type() {
         for geometry in [Geometry::Full, Geometry::Slender] {
             for mount in MOUNTS {
-                let bare = Structure { geometry, ..structure(mount, Carried::NONE) };
-                let empty = Structure { carried: Carried { mass_ratio: 0.0, height: 5.0 }, ..bare };
+                let bare = Structure { geometry, ..structure(mount, AddedMass::NONE) };
+                let empty = Structure { added_mass: AddedMass { mass_ratio: 0.0, height: 5.0 }, ..bare };
                 assert_eq!(empty.loaded(), Ok(bare));
                 let look = |structure: Structure| look_at(&structure, 0.21, -0.4, 0.3);
                 assert_eq!(look(empty), look(bare));
             }
         }
-        let bare = structure(Mount::CentreOfMass, Carried::NONE);
+        let bare = structure(Mount::CentreOfMass, AddedMass::NONE);
         let seen = look_at(&bare, 0.21, 0.0, 0.3);
         assert!(matches!(seen.equations[1], AnyEquation::CentreConsistent(_)), "{seen:?}");
-        let loaded = look_at(&Structure { carried: LOADS[1], ..bare }, 0.21, 0.0, 0.3);
+        let loaded = look_at(&Structure { added_mass: LOADS[1], ..bare }, 0.21, 0.0, 0.3);
         assert!(matches!(loaded.equations[1], AnyEquation::PointConsistent(_)), "{loaded:?}");
         assert_ne!(loaded.engaged, seen.engaged);
     }
@@ -220,7 +223,7 @@ mod tests {
     fn a_mass_at_the_centre_of_mass_only_changes_the_inertia() {
         for (lambda, mu) in [(4.0 / 3.0, 0.5), (1.0, 2.0), (2.5, 10.0)] {
             let block = Block::new(3.0, 0.25, lambda).unwrap();
-            let loaded = Carried { mass_ratio: mu, height: 3.0 * math::cos(0.25) }.block(&block).unwrap();
+            let loaded = AddedMass { mass_ratio: mu, height: 3.0 * math::cos(0.25) }.block(&block).unwrap();
             let ratio = (lambda + mu) / (1.0 + mu);
             assert!((loaded.size() - 3.0).abs() < 1e-15 * 4.0 && (loaded.slenderness() - 0.25).abs() < 1e-15);
             assert!((loaded.inertia_ratio() - ratio).abs() < 1e-15 * 4.0);
@@ -232,7 +235,7 @@ mod tests {
     #[test]
     fn a_block_of_three_four_five() {
         let block = Block::new(5.0, math::atan(0.75), 1.2).unwrap();
-        let loaded = Carried { mass_ratio: 1.0, height: 8.0 }.block(&block).unwrap();
+        let loaded = AddedMass { mass_ratio: 1.0, height: 8.0 }.block(&block).unwrap();
         assert!((loaded.size() * loaded.size() - 45.0).abs() < 1e-13);
         assert!((math::tan(loaded.slenderness()) - 0.5).abs() < 1e-15);
         // (1.2 · 25 + 9 + 64) / (2 · 45)
@@ -242,14 +245,14 @@ mod tests {
 
     #[test]
     fn the_slender_model_is_the_limit_of_the_full_one() {
-        for (carried, mount) in LOADS.into_iter().flat_map(|carried| MOUNTS.map(|mount| (carried, mount))) {
-            let slim = Structure { block: Block::new(2.0, 1e-4, 1.4).unwrap(), ..structure(mount, carried) };
+        for (added_mass, mount) in LOADS.into_iter().flat_map(|added_mass| MOUNTS.map(|mount| (added_mass, mount))) {
+            let slim = Structure { block: Block::new(2.0, 1e-4, 1.4).unwrap(), ..structure(mount, added_mass) };
             let alpha = slim.loaded().unwrap().block.slenderness();
             let look = |geometry| look_at(&Structure { geometry, ..slim }, 0.3 * alpha, 0.0, 0.2 * alpha);
             let (full, slender) = (look(Geometry::Full), look(Geometry::Slender));
             // What the slender model leaves out is of the order of α or, where ℓ has a sine in it, of α'.
             let close = |a: f64, b: f64| (a / b - 1.0).abs() < 10.0 * alpha;
-            assert!(close(slender.engaged, full.engaged), "{carried:?} {mount:?}: {slender:?} {full:?}");
+            assert!(close(slender.engaged, full.engaged), "{added_mass:?} {mount:?}: {slender:?} {full:?}");
             assert!(close(slender.uplift, full.uplift) && close(slender.restitution, full.restitution));
         }
     }
@@ -257,8 +260,8 @@ mod tests {
     #[test]
     fn a_vanishing_mass_is_no_mass_in_the_slender_model_too() {
         for mount in MOUNTS {
-            let bare = Structure { geometry: Geometry::Slender, ..structure(mount, Carried::NONE) };
-            let light = Structure { carried: Carried { mass_ratio: 1e-13, height: 4.0 }, ..bare };
+            let bare = Structure { geometry: Geometry::Slender, ..structure(mount, AddedMass::NONE) };
+            let light = Structure { added_mass: AddedMass { mass_ratio: 1e-13, height: 4.0 }, ..bare };
             let look = |structure: Structure| look_at(&structure, 0.21, 0.0, 0.3);
             assert!((look(light).engaged / look(bare).engaged - 1.0).abs() < 1e-11, "{mount:?}");
         }
@@ -267,7 +270,7 @@ mod tests {
     #[test]
     fn loads_outside_their_range_are_named() {
         let error = |mass_ratio, height| {
-            let structure = structure(Mount::CentreOfMass, Carried { mass_ratio, height });
+            let structure = structure(Mount::CentreOfMass, AddedMass { mass_ratio, height });
             String::from(structure.resolve::<f64>().unwrap_err().parameter)
         };
         assert_eq!(error(-0.1, 1.0), "carried mass_ratio");
@@ -276,7 +279,7 @@ mod tests {
         assert_eq!(error(0.1, -1e-9), "carried height");
         assert_eq!(error(0.0, f64::INFINITY), "carried height");
         // The limit of σ is the bare block's.
-        let heavy = structure(Mount::CentreOfMass, Carried { mass_ratio: 9.0, height: 1.0 });
+        let heavy = structure(Mount::CentreOfMass, AddedMass { mass_ratio: 9.0, height: 1.0 });
         let heavy = Structure { device: Device { mass_ratio: 20_000.0, ..heavy.device }, ..heavy };
         let refused = heavy.resolve::<f64>().unwrap_err();
         assert_eq!((refused.parameter, refused.value), ("mass_ratio", 20_000.0));

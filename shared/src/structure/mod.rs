@@ -13,7 +13,7 @@ pub mod inertance;
 pub mod mount;
 pub mod restitution;
 
-use added_mass::Carried;
+use added_mass::AddedMass;
 use block::{Block, Geometry};
 use device::Device;
 use error::ParameterError;
@@ -29,8 +29,8 @@ pub struct Structure {
     pub geometry: Geometry,
     /// The device.
     pub device: Device,
-    /// What rides on the block; [`Carried::NONE`] by default.
-    pub carried: Carried,
+    /// What rides on the block; [`AddedMass::NONE`] by default.
+    pub added_mass: AddedMass,
     /// Impacts.
     pub restitution: Restitution,
     /// θ̇/(pα) below which an impact may end in rest; 1e-12 to 1e-2, [`REST_SPEED`] by default. What remains after it is
@@ -46,7 +46,7 @@ pub const COUNTED_SPEED: f64 = 1e-6;
 
 impl Structure {
     /// The same structure as a block that carries nothing: block, mass ratio and mount are those of the loaded block
-    /// ([`Carried::block`], [`Carried::device`]), `self` as it is when there is nothing to carry. Whatever the block's α, R or λ
+    /// ([`AddedMass::block`], [`AddedMass::device`]), `self` as it is when there is nothing to carry. Whatever the block's α, R or λ
     /// decides (uplift, overturning, impacts) is decided by this one's; dimensionless results (θ/α, ω/p, a_g/(g tan α)) stay
     /// relative to the bare block, so that structures that carry more or less are compared on one scale.
     ///
@@ -55,13 +55,13 @@ impl Structure {
     /// # Errors
     /// [`ParameterError`] names the first parameter of what is carried that is outside its range.
     pub fn loaded(&self) -> Result<Structure, ParameterError> {
-        self.carried.check()?;
-        if self.carried.is_none() {
-            return Ok(Structure { carried: Carried::NONE, ..*self });
+        self.added_mass.check()?;
+        if self.added_mass.is_none() {
+            return Ok(Structure { added_mass: AddedMass::NONE, ..*self });
         }
-        let block = self.carried.block(&self.block)?;
-        let device = self.carried.device(&self.block, self.geometry, &self.device);
-        Ok(Structure { block, device, carried: Carried::NONE, ..*self })
+        let block = self.added_mass.block(&self.block)?;
+        let device = self.added_mass.device(&self.block, self.geometry, &self.device);
+        Ok(Structure { block, device, added_mass: AddedMass::NONE, ..*self })
     }
 
     /// η of its impacts, with what it carries.

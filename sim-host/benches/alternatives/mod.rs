@@ -8,7 +8,7 @@ use sprag_shared::equation::{Equation, FullInerter};
 use sprag_shared::math::scalar::Scalar;
 use sprag_shared::math::value::Value;
 use sprag_shared::math::wide_sine;
-use sprag_shared::motion::step_end::{Detected, DetectedState};
+use sprag_shared::motion::step_end::{TimeStepping, TimeSteppingState};
 use wide::f64x4;
 
 /// An explicit SIMD type for the number.
@@ -107,16 +107,16 @@ impl Acceleration for FullInerter<f64, CentreOfMass, Paper> {
     }
 }
 
-/// The step of `Detected::runge_kutta_4` with each evaluation behind a pointer.
+/// The step of `TimeStepping::runge_kutta_4` with each evaluation behind a pointer.
 #[inline(always)]
 pub fn step_by_pointer(
     equation: &dyn Acceleration,
-    block: &Detected<f64, FullInerter<f64, CentreOfMass, Paper>>,
-    state: DetectedState<f64>,
+    block: &TimeStepping<f64, FullInerter<f64, CentreOfMass, Paper>>,
+    state: TimeSteppingState<f64>,
     ground: [f64; 3],
     h: f64,
-) -> DetectedState<f64> {
-    let DetectedState { rotation, velocity, mut side } = state;
+) -> TimeSteppingState<f64> {
+    let TimeSteppingState { rotation, velocity, mut side } = state;
     if rotation == 0.0 && velocity == 0.0 {
         if ground[0].abs() <= block.uplift {
             return state;
@@ -136,8 +136,8 @@ pub fn step_by_pointer(
     let rotation = rotation + h / 6.0 * (velocity + 2.0 * (omega_2 + omega_3) + omega_4);
     let velocity = velocity + h / 6.0 * (a_1 + 2.0 * (a_2 + a_3) + a_4);
     if rotation * side < 0.0 {
-        DetectedState { rotation, velocity: velocity * block.restitution, side: -side }
+        TimeSteppingState { rotation, velocity: velocity * block.restitution, side: -side }
     } else {
-        DetectedState { rotation, velocity, side }
+        TimeSteppingState { rotation, velocity, side }
     }
 }

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use sprag_shared::equation::clutch_rule::Clutch;
 use sprag_shared::ground::Harmonics;
 use sprag_shared::method::taylor::Taylor;
-use sprag_shared::motion::state::{Limits, Phase, State, Stopped};
+use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
 use sprag_shared::observers::peaks::Peaks;
-use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, KinematicsKind};
 use sprag_shared::structure::error::ParameterError;
@@ -46,7 +46,7 @@ impl PulsedBlock {
                 mount: Mount::CentreOfMass,
                 kinematics: KinematicsKind::Paper,
             },
-            carried: Carried::NONE,
+            added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(self.restitution),
             rest_speed: REST_SPEED,
         })
@@ -74,7 +74,11 @@ impl PulsedBlock {
     }
 
     /// Follows the block by the core to the end of its pulse.
-    fn over_the_pulse(&self, structure: &Structure, method: &Taylor<f64, TERMS>) -> Result<(State<f64>, Peaks<f64>), CaseError> {
+    fn over_the_pulse(
+        &self,
+        structure: &Structure,
+        method: &Taylor<f64, TERMS>,
+    ) -> Result<(BlockState<f64>, Peaks<f64>), CaseError> {
         let system = structure.resolve::<f64>()?;
         let PulsedBlock { pulse, frequency_ratio, amplitude_ratio, .. } = *self;
         let amplitude = amplitude_ratio * system.uplift;
@@ -83,7 +87,7 @@ impl PulsedBlock {
             PulseShape::Cosine => Harmonics::cosine(amplitude, frequency_ratio),
         };
         let overturned = structure.geometry.point_of_no_return(&structure.block, amplitude.abs());
-        let (mut state, mut peaks) = (State::default(), Peaks::default());
+        let (mut state, mut peaks) = (BlockState::default(), Peaks::default());
         let limits = Limits { overturned, events: 1_000_000 };
         system.advance(method, &mut state, &ground, TAU / frequency_ratio, &limits, &mut peaks)?;
         Ok((state, peaks))

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use sprag_shared::math::scalar::Real;
-use sprag_shared::motion::state::{Phase, State};
+use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::peaks::Peaks;
 
 /// The four outcomes of the paper's section 4, in the order of what they ask of the ground.
@@ -21,7 +21,7 @@ pub enum Outcome {
 
 impl Outcome {
     /// The outcome of a motion that ended in `state` with `peaks`.
-    pub fn of<S: Real>(state: &State<S>, peaks: &Peaks<S>) -> Outcome {
+    pub fn of<S: Real>(state: &BlockState<S>, peaks: &Peaks<S>) -> Outcome {
         match (state.phase, peaks.rocked, peaks.first_impact) {
             (Phase::Overturned, _, None) => Outcome::OverturnedWithoutImpact,
             (Phase::Overturned, _, Some(_)) => Outcome::OverturnedAfterImpact,

@@ -23,7 +23,7 @@ pub struct PlainBlock {
 impl PlainBlock {
     /// The block of `structure`, if its inerter turns as the lanes know it.
     pub fn of_structure(structure: &Structure) -> Option<PlainBlock> {
-        let Structure { block, geometry, device, carried, restitution, .. } = structure;
+        let Structure { block, geometry, device, added_mass, restitution, .. } = structure;
         let k = device.mass_ratio / block.inertia_ratio();
         let coupling = match (geometry, device.kind, device.mount, device.kinematics) {
             (_, DeviceKind::None, ..) => 0.0,
@@ -32,7 +32,7 @@ impl PlainBlock {
             _ => return None,
         };
         let restitution = restitution.evaluate(block, *geometry, device).ok()?;
-        carried.is_none().then_some(PlainBlock {
+        added_mass.is_none().then_some(PlainBlock {
             geometry: *geometry,
             device: device.kind,
             slenderness: block.slenderness(),

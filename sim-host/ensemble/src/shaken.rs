@@ -1,6 +1,6 @@
 //! A block under a record: what shakes it, when it uplifts, and what has become of it.
 
-use sprag_shared::motion::state::{Phase, State};
+use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::block::Block;
 
@@ -91,7 +91,7 @@ pub struct Shaken {
 impl Shaken {
     /// Its outcome, if the motion is over.
     pub fn outcome(&self) -> Outcome {
-        Outcome::of(&State { phase: self.phase, ..State::default() }, &self.peaks)
+        Outcome::of(&BlockState { phase: self.phase, ..BlockState::default() }, &self.peaks)
     }
 
     /// max |θ|/α and max |θ̈|/(p²α) of `block`; none when overturned.

@@ -2,18 +2,18 @@
 
 use sprag_shared::equation::any_equation::WithEquation;
 use sprag_shared::equation::switched::Switched;
-use sprag_shared::ground::Piece;
+use sprag_shared::ground::GroundSegment;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::math::tier::{Libm, Micromath, OwnPolynomial};
 use sprag_shared::math::tiered::Tiered;
 use sprag_shared::method::closed_form::ClosedForm;
-use sprag_shared::method::dense_output::{Arc, Method};
+use sprag_shared::method::dense_output::{DenseOutput, Integrator};
 use sprag_shared::method::fixed::FixedStep;
 use sprag_shared::method::taylor::Taylor;
-use sprag_shared::motion::ideal::System;
-use sprag_shared::motion::observer::{Event, Observer, Stretch};
-use sprag_shared::motion::state::{Phase, State};
-use sprag_shared::motion::step_end::{Detected, DetectedState};
+use sprag_shared::motion::ideal::IdealSystem;
+use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
+use sprag_shared::motion::state::{BlockState, Phase};
+use sprag_shared::motion::step_end::{TimeStepping, TimeSteppingState};
 use sprag_shared::observers::peaks::Peaks;
 
 use super::subject::Subject;
@@ -72,12 +72,12 @@ fn step_of(subject: &Subject, variant: &Variant) -> f64 {
     variant.setting.value() / subject.block().frequency_parameter()
 }
 
-fn located<S: Real, M: Method<S>>(subject: &Subject, times: &[f64], method: &M) -> Reading {
+fn located<S: Real, M: Integrator<S>>(subject: &Subject, times: &[f64], method: &M) -> Reading {
     // A structure of a scene has been resolved before.
     let Ok(system) = subject.structure.resolve::<S>() else { return Reading::default() };
     let mut state = match subject.released {
         Some((rotation, velocity, ground)) => system.released_at(S::of(rotation), S::of(velocity), S::of(ground)),
-        None => State::default(),
+        None => BlockState::default(),
     };
     let alpha = subject.block().slenderness();
     let mut watch = Watch::<S> {
@@ -120,21 +120,21 @@ impl<S: Real> Watch<'_, S> {
 
 impl<S: Real> Observer<S> for Watch<'_, S> {
     #[inline]
-    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
-        self.steps += u64::from(stretch.from == S::ZERO);
+    fn interval(&mut self, output: &dyn DenseOutput<S>, interval: &MonotoneInterval<S>) {
+        self.steps += u64::from(interval.from == S::ZERO);
         // θ is monotone here, so its largest value lies at an end.
-        let (first, last) = (stretch.first.rotation.abs(), stretch.last.rotation.abs());
+        let (first, last) = (interval.first.rotation.abs(), interval.last.rotation.abs());
         self.peaks.rotation = self.peaks.rotation.larger(first).larger(last);
-        let start = self.origin + stretch.start.to_f64();
-        let to = start + stretch.to.to_f64();
+        let start = self.origin + interval.start.to_f64();
+        let to = start + interval.to.to_f64();
         while let Some(&at) = self.times.get(self.samples.len()).filter(|at| **at <= to) {
-            let local = S::of(at - start).larger(stretch.from).smaller(stretch.to);
-            self.samples.push((at, arc.at(local).rotation.to_f64() / self.alpha));
+            let local = S::of(at - start).larger(interval.from).smaller(interval.to);
+            self.samples.push((at, output.at(local).rotation.to_f64() / self.alpha));
         }
     }
 
     #[inline]
-    fn event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         self.peaks.event(event, time, state);
         if event == Event::Uplift {
             self.stand_until(self.origin + time.to_f64(), 0.0);
@@ -158,7 +158,7 @@ fn step_end<S: Real>(subject: &Subject, variant: &Variant, times: &[f64]) -> Rea
 
 struct StepEnd<'a, S> {
     subject: &'a Subject,
-    system: &'a System<S>,
+    system: &'a IdealSystem<S>,
     times: &'a [f64],
     method: variant::Method,
     step: S,
@@ -168,9 +168,9 @@ impl<S: Real> WithEquation<S> for StepEnd<'_, S> {
     type Output = Reading;
 
     fn with<E: Switched<S>>(self, engaged: &E) -> Reading {
-        let System { clutch, restitution, uplift, .. } = *self.system;
+        let IdealSystem { clutch, restitution, uplift, .. } = *self.system;
         let released = if clutch.follows_signs() { engaged.without_inerter() } else { *engaged };
-        let block = Detected { released, engaged: *engaged, restitution, uplift };
+        let block = TimeStepping { released, engaged: *engaged, restitution, uplift };
         match self.method {
             variant::Method::SemiImplicitEuler => {
                 self.follow(|state, piece, time, end| block.semi_implicit_euler(state, piece.acceleration(time), end - time))
@@ -185,12 +185,12 @@ impl<S: Real> WithEquation<S> for StepEnd<'_, S> {
 
 impl<S: Real> StepEnd<'_, S> {
     /// Steps to the end, looking at impacts and overturning after each.
-    fn follow(&self, step: impl Fn(DetectedState<S>, &ShapePiece<S>, S, S) -> DetectedState<S>) -> Reading {
+    fn follow(&self, step: impl Fn(TimeSteppingState<S>, &ShapePiece<S>, S, S) -> TimeSteppingState<S>) -> Reading {
         let subject = self.subject;
         let course: Course<'_> = subject.course();
         let alpha = subject.block().slenderness();
         let mut reading = Reading::default();
-        let mut state = DetectedState::at_rest();
+        let mut state = TimeSteppingState::at_rest();
         if let Some((rotation, velocity, _)) = subject.released {
             (state.rotation, state.velocity) = (S::of(rotation), S::of(velocity));
             state.side = if rotation < 0.0 || (rotation == 0.0 && velocity < 0.0) { -S::ONE } else { S::ONE };
@@ -207,11 +207,11 @@ impl<S: Real> StepEnd<'_, S> {
             while time < duration {
                 tick += 1;
                 let end = (S::count(tick) * self.step).smaller(duration);
-                let (side, moving) = (state.side, state != DetectedState::at_rest());
+                let (side, moving) = (state.side, state != TimeSteppingState::at_rest());
                 state = step(state, &piece, time, end);
                 time = end;
                 reading.steps += 1;
-                rocked |= state != DetectedState::at_rest();
+                rocked |= state != TimeSteppingState::at_rest();
                 hit |= moving && side != state.side;
                 peak = peak.larger(state.rotation.abs());
                 if reading.samples.len() < self.times.len() {

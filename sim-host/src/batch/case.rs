@@ -2,9 +2,9 @@
 
 use sprag_shared::ground::{Harmonics, Quiet};
 use sprag_shared::method::taylor::Taylor;
-use sprag_shared::motion::state::{Limits, State};
+use sprag_shared::motion::state::{BlockState, Limits};
 use sprag_shared::observers::peaks::Peaks;
-use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::error::ParameterError;
@@ -93,7 +93,7 @@ impl Case {
                 mount: Mount::CentreOfMass,
                 kinematics: KinematicsKind::Paper,
             },
-            carried: Carried::NONE,
+            added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(self.restitution),
             rest_speed: self.rest_speed,
         })
@@ -112,7 +112,7 @@ impl Case {
             PulseShape::Cosine => Harmonics::cosine(amplitude, self.frequency_ratio),
         };
         let duration = core::f64::consts::TAU / self.frequency_ratio;
-        let mut state = State::default();
+        let mut state = BlockState::default();
         let mut peaks = Peaks::default();
         let limits = |bound| Limits { overturned: self.geometry.point_of_no_return(&structure.block, bound), events: 1_000_000 };
         system.advance(method, &mut state, &pulse, duration, &limits(amplitude.abs()), &mut peaks)?;

@@ -5,8 +5,10 @@ use sprag_shared::control::law::any_law::ClutchLaw;
 use sprag_shared::control::law::look_ahead::LookAhead;
 use sprag_shared::control::law::minimum_dwell::Gate;
 use sprag_shared::control::law::{GatedTable, Law, SignTable};
-use sprag_shared::control::model::{KnownBody, KnownFull, KnownSlender, Model};
+use sprag_shared::control::model::{Model, PlantBody};
 use sprag_shared::control::supervisor::{Parameters, Supervisor};
+use sprag_shared::equation::body::FullBody;
+use sprag_shared::equation::body::SlenderBody;
 use sprag_shared::equation::kinematics::{Consistent, Paper};
 use sprag_shared::settings::assemble::SettingsBody;
 use sprag_shared::settings::kind::{Description, Kind};
@@ -34,9 +36,9 @@ use crate::sensor::Suite;
 use crate::simulation::run::{Failure, Task};
 
 /// A law for every body that a controller can believe in; laws over [`sprag_shared::control::law::Situation`] of any body are.
-pub trait AnyLaw: Law<KnownSlender> + Law<KnownFull<Paper>> + Law<KnownFull<Consistent>> + Copy + 'static {}
+pub trait AnyLaw: Law<SlenderBody<f32>> + Law<FullBody<f32, Paper>> + Law<FullBody<f32, Consistent>> + Copy + 'static {}
 
-impl<L: Law<KnownSlender> + Law<KnownFull<Paper>> + Law<KnownFull<Consistent>> + Copy + 'static> AnyLaw for L {}
+impl<L: Law<SlenderBody<f32>> + Law<FullBody<f32, Paper>> + Law<FullBody<f32, Consistent>> + Copy + 'static> AnyLaw for L {}
 
 /// Why a loop cannot be run, or ended without a result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -143,12 +145,12 @@ impl<'a> LoopTask<'a> {
     ///
     /// # Errors
     /// [`ParameterError`] names the first parameter outside its range.
-    pub fn controller<B: KnownBody, L: Law<B>>(&self, law: L) -> Result<Controller<B, L>, ParameterError> {
+    pub fn controller<B: PlantBody, L: Law<B>>(&self, law: L) -> Result<Controller<B, L>, ParameterError> {
         Ok(self.supervised(law)?.0)
     }
 
     /// The controller, and what its supervisor is made from.
-    fn supervised<B: KnownBody, L: Law<B>>(&self, law: L) -> Result<(Controller<B, L>, Parameters), ParameterError> {
+    fn supervised<B: PlantBody, L: Law<B>>(&self, law: L) -> Result<(Controller<B, L>, Parameters), ParameterError> {
         let structure = self.believed()?;
         let table = self.controller;
         let period = 1.0 / table.rate_hz;
@@ -175,9 +177,9 @@ impl<'a> LoopTask<'a> {
     pub fn settings(&self) -> Result<Settings, ParameterError> {
         let structure = self.structure();
         match (structure.geometry, structure.device.kinematics) {
-            (Geometry::Slender, _) => self.settings_for::<KnownSlender>(),
-            (Geometry::Full, KinematicsKind::Paper) => self.settings_for::<KnownFull<Paper>>(),
-            (Geometry::Full, KinematicsKind::Consistent) => self.settings_for::<KnownFull<Consistent>>(),
+            (Geometry::Slender, _) => self.settings_for::<SlenderBody<f32>>(),
+            (Geometry::Full, KinematicsKind::Paper) => self.settings_for::<FullBody<f32, Paper>>(),
+            (Geometry::Full, KinematicsKind::Consistent) => self.settings_for::<FullBody<f32, Consistent>>(),
         }
     }
 
@@ -193,10 +195,10 @@ impl<'a> LoopTask<'a> {
     pub fn driver<L: AnyLaw>(&self, law: L) -> Result<Box<dyn Driver>, ParameterError> {
         let structure = self.structure();
         Ok(match (structure.geometry, structure.device.kinematics) {
-            (Geometry::Slender, _) => Box::new(Shared::new(self.controller::<KnownSlender, L>(law)?)),
-            (Geometry::Full, KinematicsKind::Paper) => Box::new(Shared::new(self.controller::<KnownFull<Paper>, L>(law)?)),
+            (Geometry::Slender, _) => Box::new(Shared::new(self.controller::<SlenderBody<f32>, L>(law)?)),
+            (Geometry::Full, KinematicsKind::Paper) => Box::new(Shared::new(self.controller::<FullBody<f32, Paper>, L>(law)?)),
             (Geometry::Full, KinematicsKind::Consistent) => {
-                Box::new(Shared::new(self.controller::<KnownFull<Consistent>, L>(law)?))
+                Box::new(Shared::new(self.controller::<FullBody<f32, Consistent>, L>(law)?))
             }
         })
     }

@@ -4,7 +4,7 @@ use sprag_shared::control::controller::{Circumstances, Controller, ControllerSta
 use sprag_shared::control::estimation::estimate::Estimate;
 use sprag_shared::control::law::signs::Signs;
 use sprag_shared::control::law::{DRIFT_TIME, Law, Situation, Wish};
-use sprag_shared::control::model::KnownBody;
+use sprag_shared::control::model::PlantBody;
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::event_log::Entry;
 use sprag_shared::math;
@@ -35,7 +35,7 @@ pub struct Shared<B, L> {
     time: f64,
 }
 
-impl<B: KnownBody, L: Law<B>> Shared<B, L> {
+impl<B: PlantBody, L: Law<B>> Shared<B, L> {
     /// At power-on.
     pub fn new(controller: Controller<B, L>) -> Shared<B, L> {
         let state = controller.start();
@@ -43,7 +43,7 @@ impl<B: KnownBody, L: Law<B>> Shared<B, L> {
     }
 }
 
-impl<B: KnownBody, L: Law<B>> Driver for Shared<B, L> {
+impl<B: PlantBody, L: Law<B>> Driver for Shared<B, L> {
     fn tick(&mut self, sample: &Sample, circumstances: Circumstances) -> Decision {
         self.controller.tick(&mut self.state, sample, circumstances)
     }
@@ -58,11 +58,11 @@ impl<B: KnownBody, L: Law<B>> Driver for Shared<B, L> {
         self.signs = Signs {
             rotation: side,
             velocity: plant.motion.direction,
-            push: plant.motion.drive,
+            push: plant.motion.terminal_acceleration_sign,
             ground: Sign::of(ground[0], self.signs.ground),
             quiet: ground[0] == 0.0,
         };
-        let elapsed = f64::from(model.facts.frequency) * (plant.time - self.time);
+        let elapsed = f64::from(model.parameters.frequency) * (plant.time - self.time);
         self.drift = (self.drift + elapsed * plant.ground[0]) * math::exp(-elapsed / f64::from(DRIFT_TIME));
         self.time = plant.time;
         self.controller.law.wish(&Situation {

@@ -4,11 +4,11 @@ use sprag_shared::drivetrain::clutch_state::Coupling;
 use sprag_shared::equation::body::Body;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::fixed::FixedStep;
-use sprag_shared::motion::device_snapshot::{DeviceArc, DeviceObserver};
-use sprag_shared::motion::hybrid::path::Shaking;
-use sprag_shared::motion::hybrid::{Machine, MachineState};
-use sprag_shared::motion::observer::{Event, Stretch};
-use sprag_shared::motion::state::{Limits, Phase, State, Stopped};
+use sprag_shared::motion::device_snapshot::{DeviceObserver, DeviceOutput};
+use sprag_shared::motion::hybrid::mode_output::Shaking;
+use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
+use sprag_shared::motion::observer::{Event, MonotoneInterval};
+use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
 
 use super::truth::{Places, Shocks};
 use crate::ground_motion::{GroundMotion, Segment, ShapePiece};
@@ -30,7 +30,7 @@ pub struct Whereabouts {
     /// s.
     pub time: f64,
     /// The block.
-    pub motion: State<f64>,
+    pub motion: BlockState<f64>,
     /// Quantity with the sign of the terminals' acceleration (Eq. 10), 1/s²; 0 at rest.
     pub push: f64,
     /// Ground acceleration in g, horizontal and vertical.
@@ -66,9 +66,9 @@ pub struct Surroundings<'a> {
 
 /// A machine and its place in the ground motion.
 pub struct Plant<'a> {
-    machine: Machine<f64>,
+    machine: HybridSystem<f64>,
     method: FixedStep<f64>,
-    state: MachineState<f64>,
+    state: HybridState<f64>,
     surroundings: Surroundings<'a>,
     shocks: Shocks,
     places: Places,
@@ -81,7 +81,7 @@ pub struct Plant<'a> {
 
 impl<'a> Plant<'a> {
     /// Of `machine`, which takes its commands from a controller from now on.
-    pub fn new(mut machine: Machine<f64>, surroundings: Surroundings<'a>) -> Self {
+    pub fn new(mut machine: HybridSystem<f64>, surroundings: Surroundings<'a>) -> Self {
         machine.actuator.controlled = true;
         machine.actuator.engagement_delay += surroundings.latency;
         machine.actuator.release_delay += surroundings.latency;
@@ -114,8 +114,8 @@ impl<'a> Plant<'a> {
             return 0.0;
         }
         let body = &self.machine.body;
-        let posture = body.posture(motion.side.unit(), motion.rotation);
-        body.switching(&posture, motion.velocity, body.drive(&posture, self.state.ground))
+        let configuration = body.configuration(motion.side.unit(), motion.rotation);
+        body.switching(&configuration, motion.velocity, body.driving_moment(&configuration, self.state.ground))
     }
 
     fn segment(&self) -> Option<&'a Segment> {
@@ -206,12 +206,12 @@ impl<'a> Plant<'a> {
 struct Both<'a>(&'a mut dyn Watcher, &'a mut Shocks);
 
 impl DeviceObserver<f64> for Both<'_> {
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
-        self.0.device_stretch(arc, stretch);
-        self.1.device_stretch(arc, stretch);
+    fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+        self.0.device_interval(output, interval);
+        self.1.device_interval(output, interval);
     }
 
-    fn device_event(&mut self, event: Event, time: f64, state: &State<f64>) {
+    fn device_event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
         self.0.device_event(event, time, state);
         self.1.device_event(event, time, state);
     }
@@ -225,12 +225,12 @@ pub struct Extremes {
 }
 
 impl DeviceObserver<f64> for Extremes {
-    fn device_stretch(&mut self, _arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
-        let (first, last) = (stretch.first.rotation.abs(), stretch.last.rotation.abs());
+    fn device_interval(&mut self, _output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+        let (first, last) = (interval.first.rotation.abs(), interval.last.rotation.abs());
         self.peaks.rotation = self.peaks.rotation.larger(first).larger(last);
     }
 
-    fn device_event(&mut self, event: Event, time: f64, state: &State<f64>) {
+    fn device_event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
         sprag_shared::motion::observer::Observer::event(&mut self.peaks, event, time, state);
     }
 }

@@ -5,7 +5,7 @@ use sprag_shared::control::law::Wish;
 use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::Phase as ControllerPhase;
-use sprag_shared::motion::state::{Phase, State, Stopped};
+use sprag_shared::motion::state::{BlockState, Phase, Stopped};
 
 use super::decisions::{DecisionReport, Decisions, Moment};
 use super::disturbance::Disturbance;
@@ -77,7 +77,7 @@ pub enum LoopError {
 #[derive(Clone, Debug)]
 pub struct Ending {
     /// The block.
-    pub motion: State<f64>,
+    pub motion: BlockState<f64>,
     /// Ticks while the ground or the block moved.
     pub ticks: u64,
     /// How good the decisions were.

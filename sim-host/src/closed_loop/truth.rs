@@ -2,10 +2,10 @@
 
 use sprag_shared::equation::body::Body;
 use sprag_shared::math;
-use sprag_shared::motion::device_snapshot::{DeviceArc, DeviceObserver, Snapshot};
-use sprag_shared::motion::hybrid::{Machine, MachineState};
-use sprag_shared::motion::observer::{Event, Stretch};
-use sprag_shared::motion::state::State;
+use sprag_shared::motion::device_snapshot::{DeviceObserver, DeviceOutput, Snapshot};
+use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
+use sprag_shared::motion::observer::{Event, MonotoneInterval};
+use sprag_shared::motion::state::BlockState;
 use sprag_shared::structure::block::GRAVITY;
 
 use crate::sensor::Truth;
@@ -24,12 +24,13 @@ impl Places {
     ///
     /// With c = cos δ and s = sin δ (1 and δ for the slender block) the centre of mass has, relative to the ground, the acceleration
     /// R (c θ̈ + s θ̇², s θ̈ − c θ̇²); a specific force is that minus gravity, turned into the axes of the block.
-    pub fn truth(&self, machine: &Machine<f64>, state: &MachineState<f64>, snapshot: &Snapshot<f64>, shock: f64) -> Truth {
+    pub fn truth(&self, machine: &HybridSystem<f64>, state: &HybridState<f64>, snapshot: &Snapshot<f64>, shock: f64) -> Truth {
         let side = state.motion.side.unit();
         let motion = snapshot.motion;
-        let posture = machine.body.posture(side, motion.rotation);
-        let travel = machine.body.travel(side, &posture) - machine.body.travel(side, &machine.body.posture(side, 0.0));
-        let (across, along) = machine.body.factors(&posture);
+        let configuration = machine.body.configuration(side, motion.rotation);
+        let travel =
+            machine.body.travel(side, &configuration) - machine.body.travel(side, &machine.body.configuration(side, 0.0));
+        let (across, along) = machine.body.factors(&configuration);
         let (c, s) = (-across / self.frequency_squared, -along / self.frequency_squared);
         let acceleration = motion.acceleration + shock;
         let square = motion.velocity * motion.velocity;
@@ -86,18 +87,18 @@ impl Shocks {
 }
 
 impl DeviceObserver<f64> for Shocks {
-    fn device_stretch(&mut self, _arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
+    fn device_interval(&mut self, _output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
         if let Some(before) = self.velocity {
-            let jump = stretch.first.velocity - before;
+            let jump = interval.first.velocity - before;
             if jump.abs() > 1e-9 {
-                self.recent[self.next % 4] = (self.origin + stretch.start, jump);
+                self.recent[self.next % 4] = (self.origin + interval.start, jump);
                 self.next += 1;
             }
         }
-        self.velocity = Some(stretch.last.velocity);
+        self.velocity = Some(interval.last.velocity);
     }
 
-    fn device_event(&mut self, event: Event, _time: f64, _state: &State<f64>) {
+    fn device_event(&mut self, event: Event, _time: f64, _state: &BlockState<f64>) {
         if matches!(event, Event::Rest | Event::Uplift | Event::Overturned) {
             self.velocity = None;
         }

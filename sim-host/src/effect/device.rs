@@ -1,6 +1,6 @@
 //! Effects of where a device is attached and what it weighs: mount, kinematics, weight, rack.
 
-use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
 use sprag_shared::structure::mount::Mount;
 
@@ -67,7 +67,7 @@ pub const WEIGHT: Effect = Effect {
     of_device: true,
     is_on: |scene, index| {
         let device = &scene.devices[index];
-        let on = device.carried != Carried::NONE || device.drivetrain.rack.guided_mass_ratio != 0.0;
+        let on = device.added_mass != AddedMass::NONE || device.drivetrain.rack.guided_mass_ratio != 0.0;
         on.then(|| settings(scene, index, WEIGHT.keys))
     },
 };

@@ -91,7 +91,7 @@ impl Subject<'_> {
 
     /// A quantity per mass of the bare block as one per mass of the block with what rides on it.
     pub fn per_mass(&self, value: f64) -> f64 {
-        value / (1.0 + self.device.carried.mass_ratio)
+        value / (1.0 + self.device.added_mass.mass_ratio)
     }
 
     /// The ground moves vertically too.

@@ -139,13 +139,13 @@ fn numbers(subject: &Subject<'_>) -> Vec<String> {
         with.push(format!("σ = m_r/m = {}", number(subject.loaded.device.mass_ratio)));
     }
     let mut lines = vec![format!("with {}", with.join(",  "))];
-    let carried = &subject.device.carried;
-    if !carried.is_none() {
+    let added_mass = &subject.device.added_mass;
+    if !added_mass.is_none() {
         let bare = &subject.scene.block;
         lines.push(format!(
             "of the block with what rides on it, {} of its mass at {} m; alone: R = {} m,  α = {}°,  λ = {},  σ = {}",
-            number(carried.mass_ratio),
-            number(carried.height),
+            number(added_mass.mass_ratio),
+            number(added_mass.height),
             number(bare.size()),
             number(bare.slenderness().to_degrees()),
             number(bare.inertia_ratio()),

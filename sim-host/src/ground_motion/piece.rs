@@ -1,7 +1,7 @@
 //! A segment's shape in the precision of a run, as the core's steppers see it.
 
 use sprag_shared::ground::harmonic::Harmonic;
-use sprag_shared::ground::{Elementary, Harmonics, Linear, Piece, Quiet, Ricker};
+use sprag_shared::ground::{Elementary, GroundSegment, Harmonics, Linear, Quiet, Ricker};
 use sprag_shared::math::scalar::Real;
 
 use super::{Shape, Smooth};
@@ -46,7 +46,7 @@ impl<S: Real> ShapePiece<S> {
     }
 }
 
-impl<S: Real> Piece<S> for ShapePiece<S> {
+impl<S: Real> GroundSegment<S> for ShapePiece<S> {
     #[inline]
     fn acceleration(&self, time: S) -> S {
         match self {
@@ -146,7 +146,7 @@ macro_rules! each {
     };
 }
 
-impl<S: Real> Piece<S> for MixturePiece<S> {
+impl<S: Real> GroundSegment<S> for MixturePiece<S> {
     fn acceleration(&self, time: S) -> S {
         self.parts.iter().fold(S::ZERO, |sum, (offset, piece)| sum + each!(piece, p => p.acceleration(*offset + time)))
     }
@@ -156,7 +156,7 @@ impl<S: Real> Piece<S> for MixturePiece<S> {
     }
 
     fn curvature_bound(&self) -> S {
-        self.parts.iter().fold(S::ZERO, |sum, (_, piece)| sum + each!(piece, p => Piece::<S>::curvature_bound(p)))
+        self.parts.iter().fold(S::ZERO, |sum, (_, piece)| sum + each!(piece, p => GroundSegment::<S>::curvature_bound(p)))
     }
 
     fn series(&self, time: S, coefficients: &mut [S]) {

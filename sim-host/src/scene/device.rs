@@ -1,7 +1,7 @@
 //! `[[device]]`: which device, where, and what is real about it.
 
 use serde::{Deserialize, Serialize};
-use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::Block;
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::Drivetrain;
@@ -23,7 +23,7 @@ pub struct SceneDevice {
     /// What it has beyond the ideal device; [`Drivetrain::default`] without.
     pub drivetrain: Drivetrain,
     /// What of it rides on the block.
-    pub carried: Carried,
+    pub added_mass: AddedMass,
 }
 
 impl SceneDevice {
@@ -39,11 +39,11 @@ impl SceneDevice {
         key: &KeyOf<'_>,
     ) -> Result<SceneDevice, SceneError> {
         let mut device = resolve_inerter(table, block_mass, key)?;
-        let (mut drivetrain, mut carried) = (Drivetrain::default(), Carried::NONE);
+        let (mut drivetrain, mut added_mass) = (Drivetrain::default(), AddedMass::NONE);
         if device.kind != DeviceKind::None {
             drivetrain = table.drivetrain(&device, block, block_mass, key)?;
             if let Some(weight) = &table.weight {
-                (carried, drivetrain.rack.guided_mass_ratio) = weight.resolve(&device, block, block_mass, key)?;
+                (added_mass, drivetrain.rack.guided_mass_ratio) = weight.resolve(&device, block, block_mass, key)?;
             }
         }
         if drivetrain.has_memory(device.kind) {
@@ -56,7 +56,7 @@ impl SceneDevice {
         }
         drivetrain.check().map_err(|error| key(&table.key_of(error.parameter)).range(error.value, error.range))?;
         let name = table.name.clone().unwrap_or_else(|| default_name(table, all));
-        Ok(SceneDevice { name, device, drivetrain, carried })
+        Ok(SceneDevice { name, device, drivetrain, added_mass })
     }
 
     /// Whether it is the ideal device of the paper, however mounted and whatever it weighs.

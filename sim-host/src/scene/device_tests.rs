@@ -1,6 +1,6 @@
 //! What goes beyond the ideal device: every table, and every refusal.
 
-use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
 
 use super::*;
@@ -51,7 +51,7 @@ fn close(value: f64, expected: f64) {
 fn an_empty_table_is_the_ideal_device() {
     for table in ["flywheel={}", "rack={}", "actuation={}", "weight={}", "engagement=\"ideal\"", "actuation={miss_seed=9}"] {
         let pair = device(2, table);
-        assert!(pair.is_ideal() && pair.carried == Carried::NONE, "{table}");
+        assert!(pair.is_ideal() && pair.added_mass == AddedMass::NONE, "{table}");
     }
     assert_eq!(parsed(&["device.1.flywheel={}"]).unwrap().devices[1].drivetrain, Drivetrain::default());
 }
@@ -122,23 +122,23 @@ fn a_mass_adds_to_what_it_rides_on() {
     let height = 7.354_987_5 * sprag_shared::math::cos(10.0_f64.to_radians());
     let result = |item: &str| {
         let device = device(1, item);
-        (device.carried, device.drivetrain.rack.guided_mass_ratio)
+        (device.added_mass, device.drivetrain.rack.guided_mass_ratio)
     };
-    let carried = |mass_ratio| Carried { mass_ratio, height };
-    assert_eq!(result("weight={ flywheels_ratio = 0.1 }"), (Carried::NONE, 0.0));
-    assert_eq!(result("weight={ flywheels_ratio = 0.1, flywheels_on = \"block\" }"), (carried(0.1), 0.0));
-    assert_eq!(result("weight={ flywheels_kg = 100, flywheels_on = \"block\", rack_ratio = 0.2 }"), (carried(0.1), 0.0));
-    assert_eq!(result("weight={ rack_kg = 200 }"), (Carried::NONE, 0.2));
-    assert_eq!(result("weight={ flywheels_ratio = 0.1, rack_ratio = 0.2, rack_on = \"block\" }"), (carried(0.2), 0.0));
+    let added_mass = |mass_ratio| AddedMass { mass_ratio, height };
+    assert_eq!(result("weight={ flywheels_ratio = 0.1 }"), (AddedMass::NONE, 0.0));
+    assert_eq!(result("weight={ flywheels_ratio = 0.1, flywheels_on = \"block\" }"), (added_mass(0.1), 0.0));
+    assert_eq!(result("weight={ flywheels_kg = 100, flywheels_on = \"block\", rack_ratio = 0.2 }"), (added_mass(0.1), 0.0));
+    assert_eq!(result("weight={ rack_kg = 200 }"), (AddedMass::NONE, 0.2));
+    assert_eq!(result("weight={ flywheels_ratio = 0.1, rack_ratio = 0.2, rack_on = \"block\" }"), (added_mass(0.2), 0.0));
     let mounted = |mount: &[&str]| {
         let weight = "device.1.weight={ flywheels_ratio = 0.1, flywheels_on = \"block\" }";
-        parsed(&[mount, &[weight]].concat()).unwrap().devices[1].carried
+        parsed(&[mount, &[weight]].concat()).unwrap().devices[1].added_mass
     };
     let tied = ["device.1.mount=tying-point", "device.1.mount_height_m=3"];
-    assert_eq!(mounted(&tied), Carried { mass_ratio: 0.1, height: 3.0 });
-    assert_eq!(mounted(&["device.1.mount=base-corners"]), Carried { mass_ratio: 0.1, height: 0.0 });
+    assert_eq!(mounted(&tied), AddedMass { mass_ratio: 0.1, height: 3.0 });
+    assert_eq!(mounted(&["device.1.mount=base-corners"]), AddedMass { mass_ratio: 0.1, height: 0.0 });
     let scene = parsed(&["device.1.weight={ rack_ratio = 0.2, rack_on = \"block\" }"]).unwrap();
-    assert_eq!(scene.structure(1).carried, carried(0.2));
+    assert_eq!(scene.structure(1).added_mass, added_mass(0.2));
 }
 
 #[test]

@@ -228,7 +228,7 @@ fn structure(file: &SceneFile, block: Block, restitution: Restitution, device: &
         block,
         geometry: file.block.geometry.into(),
         device: device.device,
-        carried: device.carried,
+        added_mass: device.added_mass,
         restitution,
         rest_speed: file.run.rest_speed_ratio,
     }

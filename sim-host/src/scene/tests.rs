@@ -1,4 +1,4 @@
-use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::device::KinematicsKind;
 use sprag_shared::structure::mount::Mount;
 
@@ -38,7 +38,7 @@ fn defaults_are_the_papers() {
     let [none, pair] = scene.devices.as_slice() else { panic!("two devices") };
     assert_eq!((none.name.as_str(), pair.name.as_str()), ("none", "clutched pair"));
     assert_eq!((pair.device.mount, pair.device.kinematics), (Mount::CentreOfMass, KinematicsKind::Paper));
-    assert!(none.is_ideal() && pair.is_ideal() && none.carried == Carried::NONE && pair.carried == Carried::NONE);
+    assert!(none.is_ideal() && pair.is_ideal() && none.added_mass == AddedMass::NONE && pair.added_mass == AddedMass::NONE);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use sprag_shared::math;
-use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::Block;
 use sprag_shared::structure::device::Device;
 use sprag_shared::structure::mount::Mount;
@@ -75,7 +75,7 @@ impl WeightTable {
         block: &Block,
         block_mass: Option<f64>,
         key: &KeyOf<'_>,
-    ) -> Result<(Carried, f64), SceneError> {
+    ) -> Result<(AddedMass, f64), SceneError> {
         let mass = |names: [&str; 2], ratio: Option<f64>, kg: Option<f64>, seat: Seat| {
             let given = either(key, (names[0], ratio), (names[1], kg), block_mass, 1.0)?;
             if given.is_none() && seat == Seat::Block {
@@ -96,7 +96,7 @@ impl WeightTable {
             Mount::TyingPoint { height, .. } => height,
             Mount::BaseCorners { .. } => 0.0,
         };
-        let on_block = |mass_ratio: f64| if mass_ratio > 0.0 { Carried { mass_ratio, height } } else { Carried::NONE };
+        let on_block = |mass_ratio: f64| if mass_ratio > 0.0 { AddedMass { mass_ratio, height } } else { AddedMass::NONE };
         match (self.flywheels_on, self.rack_on) {
             (Seat::Block, _) => Ok((on_block(flywheels), 0.0)),
             (Seat::Support, Seat::Block) => Ok((on_block(rack), 0.0)),
@@ -107,7 +107,7 @@ impl WeightTable {
                     let reason = "a vertical rack hangs on the block and not on guides: put it on the block with weight.rack_on";
                     return Err(key(if self.rack_kg.is_some() { RACK[1] } else { RACK[0] }).conflict(reason));
                 }
-                Ok((Carried::NONE, rack))
+                Ok((AddedMass::NONE, rack))
             }
         }
     }

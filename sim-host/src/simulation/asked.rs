@@ -1,9 +1,9 @@
 //! What a scene asks for beyond history, peaks and checks: the energy ledger.
 
 use sprag_shared::math::scalar::Real;
-use sprag_shared::motion::device_snapshot::{DeviceArc, DeviceObserver};
-use sprag_shared::motion::observer::{Event, Stretch};
-use sprag_shared::motion::state::State;
+use sprag_shared::motion::device_snapshot::{DeviceObserver, DeviceOutput};
+use sprag_shared::motion::observer::{Event, MonotoneInterval};
+use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::ledger::{Entries, Ledger};
 use sprag_shared::structure::Structure;
 
@@ -41,15 +41,15 @@ impl<S: Real> Asked<S> {
 }
 
 impl<S: Real> DeviceObserver<S> for Asked<S> {
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
-        self.energy.device_stretch(arc, stretch);
+    fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        self.energy.device_interval(output, interval);
     }
 
-    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
-        self.energy.device_stands(arc, stretch);
+    fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        self.energy.device_at_rest(output, interval);
     }
 
-    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn device_event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         self.energy.device_event(event, time, state);
     }
 }
@@ -88,19 +88,19 @@ impl<S: Real> EnergyHistory<S> {
 }
 
 impl<S: Real> DeviceObserver<S> for EnergyHistory<S> {
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
-        self.ledger.device_stretch(arc, stretch);
-        let time = self.origin + (stretch.start + stretch.to).to_f64();
+    fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        self.ledger.device_interval(output, interval);
+        let time = self.origin + (interval.start + interval.to).to_f64();
         if self.samples.last().is_none_or(|last| time >= last.0 + self.interval) {
             self.write(time);
         }
     }
 
-    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
-        self.device_stretch(arc, stretch);
+    fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        self.device_interval(output, interval);
     }
 
-    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn device_event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         let at = self.origin + time.to_f64();
         // Both sides of a jump.
         if event == Event::Impact || event == Event::Switch {

@@ -79,7 +79,7 @@ fn number<S: Real>(extreme: &Option<Extreme<S>>) -> Option<f64> {
 
 /// Forces of a report are over the weight of the loaded block; results are over that of the bare one.
 fn heavier(task: &Task<'_>) -> f64 {
-    1.0 + task.device().carried.mass_ratio
+    1.0 + task.device().added_mass.mass_ratio
 }
 
 /// Largest |F|/(mg) of both flywheels together on their support.

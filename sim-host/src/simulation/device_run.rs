@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use sprag_shared::math::scalar::Real;
-use sprag_shared::motion::state::State;
+use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::peaks::Peaks;
 
 use super::demand::{Demand, Impulses, support_force_ratio};
@@ -153,7 +153,7 @@ impl<S> From<Trace<S>> for Found {
 
 impl DeviceRun {
     /// Of a motion that ended in `state` with `peaks`. Results stay relative to the bare block.
-    pub(super) fn of<S: Real>(task: &Task<'_>, state: &State<S>, peaks: &Peaks<S>, found: Found) -> DeviceRun {
+    pub(super) fn of<S: Real>(task: &Task<'_>, state: &BlockState<S>, peaks: &Peaks<S>, found: Found) -> DeviceRun {
         let device = task.device().name.clone();
         let (alpha, p) = (task.scene.block.slenderness(), task.scene.block.frequency_parameter());
         let outcome = Outcome::of(state, peaks);

@@ -1,13 +1,13 @@
 //! A system through a whole ground motion and the free time after it.
 
 use sprag_shared::math::scalar::Real;
-use sprag_shared::method::dense_output::Method;
+use sprag_shared::method::dense_output::Integrator;
 use sprag_shared::motion::device_snapshot::DeviceObserver;
-use sprag_shared::motion::hybrid::path::{Shaking, Tracer};
-use sprag_shared::motion::hybrid::{Machine, MachineState};
-use sprag_shared::motion::ideal::System;
+use sprag_shared::motion::hybrid::mode_output::{ModeIntegrator, Shaking};
+use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
+use sprag_shared::motion::ideal::IdealSystem;
 use sprag_shared::motion::observer::Observer;
-use sprag_shared::motion::state::{Limits, Phase, State, Stopped};
+use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
 use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::{Block, Geometry};
@@ -79,10 +79,12 @@ impl<'a> Course<'a> {
 
     /// As [`Course::angle`], for a device: a block that is `lightest` light falls under a weaker push, a guided rack is pushed too, and
     /// friction may hold the block beyond.
-    pub fn machine_angle<S: Real>(&self, machine: &Machine<S>, bound: f64, lightest: f64) -> S {
+    pub fn machine_angle<S: Real>(&self, machine: &HybridSystem<S>, bound: f64, lightest: f64) -> S {
         let p2 = self.block.frequency_parameter_squared();
-        let (held, pushed) =
-            machine.drive.gears().map_or((0.0, 0.0), |gears| (gears.rack_dry.to_f64() / p2, gears.rack_push.to_f64() / p2));
+        let (held, pushed) = machine
+            .transmission
+            .parameters()
+            .map_or((0.0, 0.0), |parameters| (parameters.rack_dry.to_f64() / p2, parameters.rack_push.to_f64() / p2));
         self.angle((bound * (1.0 + pushed) + held) / lightest)
     }
 
@@ -96,15 +98,15 @@ impl<'a> Course<'a> {
     /// [`Stopped`] by the core. An answer of `false` ends the run early, without an error.
     pub fn follow<S, M, O>(
         &self,
-        system: &System<S>,
+        system: &IdealSystem<S>,
         method: &M,
-        state: &mut State<S>,
+        state: &mut BlockState<S>,
         observer: &mut O,
         mut goes_on: impl FnMut() -> bool,
     ) -> Result<(), Stopped>
     where
         S: Real,
-        M: Method<S>,
+        M: Integrator<S>,
         O: Observer<S> + Segmented,
     {
         // The bound of a record falls rarely, and a limit costs an arctangent.
@@ -138,15 +140,15 @@ impl<'a> Course<'a> {
     /// As there.
     pub fn follow_machine<S, T, O>(
         &self,
-        machine: &Machine<S>,
-        tracer: &T,
-        state: &mut MachineState<S>,
+        machine: &HybridSystem<S>,
+        integrator: &T,
+        state: &mut HybridState<S>,
         observer: &mut O,
         mut goes_on: impl FnMut() -> bool,
     ) -> Result<(), Stopped>
     where
         S: Real,
-        T: Tracer<S>,
+        T: ModeIntegrator<S>,
         O: DeviceObserver<S> + Segmented,
     {
         let lightest = self.lightest();
@@ -161,14 +163,14 @@ impl<'a> Course<'a> {
             let up = vertical.and_then(|segments| segments.get(index)).map(|segment| ShapePiece::of(&segment.shape));
             let shaking = Shaking { horizontal: &horizontal, vertical: up.as_ref().map(|piece| piece as _) };
             let (duration, limits) = (S::of(segment.duration), limits(segment.bound));
-            machine.advance(tracer, state, shaking, duration, &limits, observer).map_err(|end| end.after(segment.start))?;
+            machine.advance(integrator, state, shaking, duration, &limits, observer).map_err(|end| end.after(segment.start))?;
         }
         if state.motion.phase == Phase::Overturned || !goes_on() {
             return Ok(());
         }
         observer.segment(self.ground.duration(), None);
         let shaking = Shaking { horizontal: &ShapePiece::Quiet, vertical: None };
-        let ended = machine.advance(tracer, state, shaking, S::of(self.free_time), &limits(0.0), observer);
+        let ended = machine.advance(integrator, state, shaking, S::of(self.free_time), &limits(0.0), observer);
         ended.map_err(|end| end.after(self.ground.duration()))
     }
 }

@@ -1,11 +1,11 @@
 //! Runs of ideal devices, by the loop that knows nothing else.
 
 use sprag_shared::math::scalar::Real;
-use sprag_shared::method::dense_output::Method;
+use sprag_shared::method::dense_output::Integrator;
 use sprag_shared::method::taylor::Taylor;
-use sprag_shared::motion::ideal::System;
+use sprag_shared::motion::ideal::IdealSystem;
 use sprag_shared::motion::ideal::device_view::Watched;
-use sprag_shared::motion::state::{Phase, State};
+use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::peaks::Peaks;
 
 use super::TERMS_F32;
@@ -35,11 +35,11 @@ pub(super) fn run(task: &Task<'_>) -> Result<DeviceRun, Failure> {
     }
 }
 
-fn with_method<S: Real, M: Method<S>>(task: &Task<'_>, method: &M) -> Result<DeviceRun, Failure> {
-    let system: System<S> = task.scene.structure(task.index).resolve()?;
+fn with_method<S: Real, M: Integrator<S>>(task: &Task<'_>, method: &M) -> Result<DeviceRun, Failure> {
+    let system: IdealSystem<S> = task.scene.structure(task.index).resolve()?;
     let loaded = task.loaded()?;
     let course = task.course(&loaded.block);
-    let mut state = State::default();
+    let mut state = BlockState::default();
     if let Some((rotation, velocity)) = task.released() {
         let [ground, _] = task.ground_at_start();
         state = system.released_at(S::of(rotation), S::of(velocity), S::of(ground));

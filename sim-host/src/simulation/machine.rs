@@ -2,8 +2,8 @@
 
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::fixed::FixedStep;
-use sprag_shared::motion::hybrid::Machine;
-use sprag_shared::motion::hybrid::path::Tracer;
+use sprag_shared::motion::hybrid::HybridSystem;
+use sprag_shared::motion::hybrid::mode_output::ModeIntegrator;
 use sprag_shared::motion::hybrid::series::Series;
 use sprag_shared::motion::state::Phase;
 
@@ -28,9 +28,9 @@ pub(super) fn run(task: &Task<'_>) -> Result<DeviceRun, Failure> {
     }
 }
 
-fn follow<S: Real, T: Tracer<S>>(task: &Task<'_>, tracer: &T) -> Result<DeviceRun, Failure> {
+fn follow<S: Real, T: ModeIntegrator<S>>(task: &Task<'_>, integrator: &T) -> Result<DeviceRun, Failure> {
     let structure = task.scene.structure(task.index);
-    let machine: Machine<S> = task.device().drivetrain.resolve(&structure, task.ground.vertical.is_some())?;
+    let machine: HybridSystem<S> = task.device().drivetrain.resolve(&structure, task.ground.vertical.is_some())?;
     let loaded = task.loaded()?;
     let course = task.course(&loaded.block);
     let mut state = match task.released() {
@@ -38,7 +38,9 @@ fn follow<S: Real, T: Tracer<S>>(task: &Task<'_>, tracer: &T) -> Result<DeviceRu
         None => machine.at_rest(),
     };
     let mut watchers = task.watchers::<S>(&loaded)?;
-    course.follow_machine(&machine, tracer, &mut state, &mut watchers, || !task.interrupt.is_set()).map_err(Failure::Stopped)?;
+    course
+        .follow_machine(&machine, integrator, &mut state, &mut watchers, || !task.interrupt.is_set())
+        .map_err(Failure::Stopped)?;
     if task.interrupt.is_set() {
         return Err(Failure::Interrupted);
     }

@@ -1,9 +1,9 @@
 //! Samples a motion for histories.
 
 use sprag_shared::math::scalar::Real;
-use sprag_shared::motion::device_snapshot::{DeviceArc, DeviceObserver, Snapshot};
-use sprag_shared::motion::observer::{Event, Stretch};
-use sprag_shared::motion::state::State;
+use sprag_shared::motion::device_snapshot::{DeviceObserver, DeviceOutput, Snapshot};
+use sprag_shared::motion::observer::{Event, MonotoneInterval};
+use sprag_shared::motion::state::BlockState;
 use sprag_shared::structure::block::GRAVITY;
 
 use super::drive::Segmented;
@@ -125,13 +125,13 @@ impl<'a> Recorder<'a> {
 }
 
 impl<S: Real> DeviceObserver<S> for Recorder<'_> {
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
-        let start = self.origin + stretch.start.to_f64();
+    fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        let start = self.origin + interval.start.to_f64();
         // Summed as the core sums them, so that an arc ends on the very instant at which the next one starts.
-        let at = |time: S| self.origin + (stretch.start + time).to_f64();
-        let (from, to) = (at(stretch.from), at(stretch.to));
+        let at = |time: S| self.origin + (interval.start + time).to_f64();
+        let (from, to) = (at(interval.from), at(interval.to));
         if self.broken {
-            let sample = self.sample(from, &arc.snapshot(stretch.from));
+            let sample = self.sample(from, &output.snapshot(interval.from));
             self.push(sample);
             self.broken = false;
             while self.grid() <= from {
@@ -140,14 +140,14 @@ impl<S: Real> DeviceObserver<S> for Recorder<'_> {
         }
         while self.grid() < to {
             let time = self.grid();
-            let sample = self.sample(time, &arc.snapshot(S::of(time - start)));
+            let sample = self.sample(time, &output.snapshot(S::of(time - start)));
             self.push(sample);
             self.next += 1;
         }
-        self.pending = Some(self.sample(to, &arc.snapshot(stretch.to)));
+        self.pending = Some(self.sample(to, &output.snapshot(interval.to)));
     }
 
-    fn device_event(&mut self, event: Event, time: S, _state: &State<S>) {
+    fn device_event(&mut self, event: Event, time: S, _state: &BlockState<S>) {
         let at = self.origin + time.to_f64();
         match event {
             Event::Uplift => {

@@ -228,7 +228,7 @@ impl<'a> Task<'a> {
 
     /// From F/(λmR) of the loaded block (1/s²) to F/(mg) of the bare one.
     pub fn force_scale(&self, loaded: &Structure) -> f64 {
-        (1.0 + self.device().carried.mass_ratio) / loaded.block.frequency_parameter_squared()
+        (1.0 + self.device().added_mass.mass_ratio) / loaded.block.frequency_parameter_squared()
     }
 
     /// What a ledger and checks have to know of the device.
@@ -242,7 +242,7 @@ impl<'a> Task<'a> {
                 _ => Clutching::Permanent,
             },
             mass_ratio: loaded.device.mass_ratio,
-            rack_mass_ratio: device.drivetrain.rack.guided_mass_ratio / (1.0 + device.carried.mass_ratio),
+            rack_mass_ratio: device.drivetrain.rack.guided_mass_ratio / (1.0 + device.added_mass.mass_ratio),
         }
     }
 

@@ -4,12 +4,12 @@
 use sprag_shared::equation::any_equation::WithEquation;
 use sprag_shared::equation::clutch_rule::ClutchRule;
 use sprag_shared::equation::switched::Switched;
-use sprag_shared::ground::Piece;
+use sprag_shared::ground::GroundSegment;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::math::sign::Sign;
-use sprag_shared::motion::ideal::System;
-use sprag_shared::motion::state::{Phase, State};
-use sprag_shared::motion::step_end::{Detected, DetectedState};
+use sprag_shared::motion::ideal::IdealSystem;
+use sprag_shared::motion::state::{BlockState, Phase};
+use sprag_shared::motion::step_end::{TimeStepping, TimeSteppingState};
 use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::block::GRAVITY;
 
@@ -35,7 +35,7 @@ pub struct Steps {
 #[derive(Debug, Default)]
 pub struct Trace<S> {
     /// Phase and impacts.
-    pub state: State<S>,
+    pub state: BlockState<S>,
     /// Largest values at step ends.
     pub peaks: Peaks<S>,
     /// Samples at step ends, about one an interval.
@@ -51,7 +51,7 @@ pub struct Trace<S> {
 /// Follows a block from rest, or from `start` (θ, θ̇), until the end of the course or `goes_on` says no.
 pub fn follow<S: Real>(
     course: &Course<'_>,
-    system: &System<S>,
+    system: &IdealSystem<S>,
     steps: &Steps,
     start: (S, S),
     goes_on: &mut dyn FnMut() -> bool,
@@ -61,7 +61,7 @@ pub fn follow<S: Real>(
 
 struct Follow<'a, S> {
     course: &'a Course<'a>,
-    system: &'a System<S>,
+    system: &'a IdealSystem<S>,
     steps: &'a Steps,
     start: (S, S),
     goes_on: &'a mut dyn FnMut() -> bool,
@@ -71,17 +71,17 @@ impl<S: Real> WithEquation<S> for Follow<'_, S> {
     type Output = Trace<S>;
 
     fn with<E: Switched<S>>(self, engaged: &E) -> Trace<S> {
-        let System { clutch, restitution, uplift, .. } = *self.system;
+        let IdealSystem { clutch, restitution, uplift, .. } = *self.system;
         let released = if clutch.follows_signs() { engaged.without_inerter() } else { *engaged };
-        let block = Detected { released, engaged: *engaged, restitution, uplift };
+        let block = TimeStepping { released, engaged: *engaged, restitution, uplift };
         trace(&block, clutch, self)
     }
 }
 
-fn trace<S: Real, E: Switched<S>>(block: &Detected<S, E>, clutch: ClutchRule, follow: Follow<'_, S>) -> Trace<S> {
+fn trace<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, clutch: ClutchRule, follow: Follow<'_, S>) -> Trace<S> {
     let Follow { course, steps, start, goes_on, .. } = follow;
     let mut trace = Trace::default();
-    let mut state = DetectedState::at_rest();
+    let mut state = TimeSteppingState::at_rest();
     (state.rotation, state.velocity) = start;
     if start.0 < S::ZERO || (start.0 == S::ZERO && start.1 < S::ZERO) {
         state.side = -S::ONE;
@@ -99,14 +99,14 @@ fn trace<S: Real, E: Switched<S>>(block: &Detected<S, E>, clutch: ClutchRule, fo
             tick += 1;
             let end = (S::count(tick) * h).smaller(duration);
             let (push, push_at_end) = (piece.acceleration(time), piece.acceleration(end));
-            let (before, was_moving) = (state.side, state != DetectedState::at_rest());
+            let (before, was_moving) = (state.side, state != TimeSteppingState::at_rest());
             state = match steps.method {
                 MethodName::SemiImplicitEuler => block.semi_implicit_euler(state, push, end - time),
                 _ => block.runge_kutta_4(state, [push, piece.acceleration(S::HALF * (time + end)), push_at_end], end - time),
             };
             time = end;
             let at = origin + time.to_f64();
-            let moving = state != DetectedState::at_rest();
+            let moving = state != TimeSteppingState::at_rest();
             trace.peaks.rocked |= moving;
             if was_moving && before != state.side {
                 trace.state.impacts += 1;

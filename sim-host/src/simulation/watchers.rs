@@ -1,10 +1,10 @@
 //! Everyone who watches a run: the history, the peaks, the checks, and what the scene asks for beyond them.
 
 use sprag_shared::math::scalar::Real;
-use sprag_shared::motion::device_snapshot::{DeviceArc, DeviceObserver};
+use sprag_shared::motion::device_snapshot::{DeviceObserver, DeviceOutput};
 use sprag_shared::motion::ideal::device_view::Watched;
-use sprag_shared::motion::observer::{Event, Observer, Stretch};
-use sprag_shared::motion::state::State;
+use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
+use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::checks::Checks;
 use sprag_shared::observers::peaks::Peaks;
 
@@ -29,18 +29,18 @@ pub struct Watchers<'a, S> {
 impl<S: Real> DeviceObserver<S> for Watchers<'_, S> {
     // Every loop calls this: inlined where there is but one, it would look cheaper there.
     #[inline(never)]
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
-        self.recorder.device_stretch(arc, stretch);
-        self.peaks.stretch(&arc, stretch);
-        self.checks.device_stretch(arc, stretch);
-        self.asked.device_stretch(arc, stretch);
+    fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        self.recorder.device_interval(output, interval);
+        self.peaks.interval(&output, interval);
+        self.checks.device_interval(output, interval);
+        self.asked.device_interval(output, interval);
     }
 
-    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
-        self.asked.device_stands(arc, stretch);
+    fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        self.asked.device_at_rest(output, interval);
     }
 
-    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn device_event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         DeviceObserver::<S>::device_event(&mut self.recorder, event, time, state);
         self.peaks.event(event, time, state);
         self.checks.device_event(event, time, state);

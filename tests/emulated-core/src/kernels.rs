@@ -16,16 +16,16 @@ use sprag_shared::{
     ground::Harmonics,
     math::sine32,
     method::{
-        dense_output::Method,
+        dense_output::Integrator,
         fixed::{FixedStep, runge_kutta_4},
         taylor::Taylor,
     },
     motion::{
-        device_snapshot::{DeviceArc, DeviceObserver},
-        ideal::System,
-        observer::{Event, Observer, Stretch},
-        state::{Limits, State, Stopped},
-        step_end::{Detected, DetectedState},
+        device_snapshot::{DeviceObserver, DeviceOutput},
+        ideal::IdealSystem,
+        observer::{Event, MonotoneInterval, Observer},
+        state::{BlockState, Limits, Stopped},
+        step_end::{TimeStepping, TimeSteppingState},
     },
 };
 
@@ -55,8 +55,8 @@ const fn slender(inertia: f32) -> SlenderBlock<f32> {
     SlenderBlock { frequency_squared, slenderness: SLENDERNESS, inertia, lever: 1.0 }
 }
 
-const fn detected<E>(released: E, engaged: E, uplift: f32) -> Detected<f32, E> {
-    Detected { released, engaged, restitution: RESTITUTION, uplift }
+const fn detected<E>(released: E, engaged: E, uplift: f32) -> TimeStepping<f32, E> {
+    TimeStepping { released, engaged, restitution: RESTITUTION, uplift }
 }
 
 /// What every step takes.
@@ -67,24 +67,24 @@ struct Step {
 
 /// Clutch by the signs at the start, four evaluations, impact by the sign at the end.
 #[inline(never)]
-fn detected_full(block: &Detected<f32, Inerter>, state: &mut DetectedState<f32>, step: &Step) {
+fn detected_full(block: &TimeStepping<f32, Inerter>, state: &mut TimeSteppingState<f32>, step: &Step) {
     *state = block.runge_kutta_4(*state, step.ground, step.length);
 }
 
 #[inline(never)]
-fn detected_full_euler(block: &Detected<f32, Inerter>, state: &mut DetectedState<f32>, step: &Step) {
+fn detected_full_euler(block: &TimeStepping<f32, Inerter>, state: &mut TimeSteppingState<f32>, step: &Step) {
     *state = block.semi_implicit_euler(*state, step.ground[0], step.length);
 }
 
 #[inline(never)]
-fn detected_slender(block: &Detected<f32, SlenderBlock<f32>>, state: &mut DetectedState<f32>, step: &Step) {
+fn detected_slender(block: &TimeStepping<f32, SlenderBlock<f32>>, state: &mut TimeSteppingState<f32>, step: &Step) {
     *state = block.runge_kutta_4(*state, step.ground, step.length);
 }
 
 /// Four evaluations and nothing else.
 #[inline(never)]
-fn smooth<E: Equation<f32>>(equation: &E, state: &mut DetectedState<f32>, step: &Step) {
-    let DetectedState { rotation, velocity, side } = *state;
+fn smooth<E: Equation<f32>>(equation: &E, state: &mut TimeSteppingState<f32>, step: &Step) {
+    let TimeSteppingState { rotation, velocity, side } = *state;
     let first = equation.acceleration(side, rotation, velocity, step.ground[0]);
     (state.rotation, state.velocity) = runge_kutta_4(equation, side, (rotation, velocity), first, step.ground, step.length);
 }
@@ -113,35 +113,35 @@ struct Tally {
 }
 
 impl Observer<f32> for Tally {
-    fn stretch(&mut self, _arc: &dyn sprag_shared::method::dense_output::Arc<f32>, stretch: &Stretch<f32>) {
-        self.steps += u32::from(stretch.from == 0.0);
+    fn interval(&mut self, _output: &dyn sprag_shared::method::dense_output::DenseOutput<f32>, interval: &MonotoneInterval<f32>) {
+        self.steps += u32::from(interval.from == 0.0);
     }
 
-    fn event(&mut self, _event: Event, _time: f32, _state: &State<f32>) {
+    fn event(&mut self, _event: Event, _time: f32, _state: &BlockState<f32>) {
         self.events += 1;
     }
 }
 
 impl DeviceObserver<f32> for Tally {
-    fn device_stretch(&mut self, _arc: &dyn DeviceArc<f32>, _stretch: &Stretch<f32>) {
+    fn device_interval(&mut self, _output: &dyn DeviceOutput<f32>, _interval: &MonotoneInterval<f32>) {
         self.steps += 1;
     }
 
-    fn device_event(&mut self, _event: Event, _time: f32, _state: &State<f32>) {
+    fn device_event(&mut self, _event: Event, _time: f32, _state: &BlockState<f32>) {
         self.events += 1;
     }
 }
 
 /// One cycle of a sine pulse and every event in it, located.
 #[inline(never)]
-fn passage<M: Method<f32>>(
-    system: &System<f32>,
+fn passage<M: Integrator<f32>>(
+    system: &IdealSystem<f32>,
     method: &M,
     pulse: &Harmonics<f32, 1>,
     tally: &mut Tally,
 ) -> Result<(), Stopped> {
     let limits = Limits { overturned: core::f32::consts::FRAC_PI_2, events: 10_000 };
-    system.advance(method, &mut State::default(), pulse, 1.0, &limits, tally)
+    system.advance(method, &mut BlockState::default(), pulse, 1.0, &limits, tally)
 }
 
 /// What `work` costs.
@@ -156,7 +156,7 @@ fn count(counter: &mut impl FnMut() -> u32, work: impl FnOnce()) -> u32 {
 /// # Errors
 /// If `out` refuses a line.
 pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> fmt::Result {
-    let state = black_box(DetectedState { rotation: 0.08, velocity: 0.21, side: 1.0 });
+    let state = black_box(TimeSteppingState { rotation: 0.08, velocity: 0.21, side: 1.0 });
     let step = black_box(Step { ground: [-0.31, -0.32, -0.33], length: STEP });
     let full = black_box(detected(inerter(0.0), inerter(COUPLING), UPLIFT));
     let slender = black_box(detected(slender(1.0), slender(1.0 + COUPLING), SLENDERNESS));
@@ -191,7 +191,7 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
     line("libm-sinf-and-cosf", count(counter, || libm_sine(&x, &mut result)))?;
     black_box(result);
 
-    let pair = black_box(System {
+    let pair = black_box(IdealSystem {
         released: AnyEquation::Block(BLOCK),
         engaged: AnyEquation::CentrePaper(inerter(COUPLING)),
         restitution: RESTITUTION,
@@ -211,10 +211,10 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
 }
 
 /// The mean cost of a step of an ideal pair with its events located, over one pulse.
-fn located<M: Method<f32>>(
+fn located<M: Integrator<f32>>(
     name: &str,
     method: &M,
-    (pair, pulse): (&System<f32>, &Harmonics<f32, 1>),
+    (pair, pulse): (&IdealSystem<f32>, &Harmonics<f32, 1>),
     counter: &mut impl FnMut() -> u32,
     out: &mut impl fmt::Write,
 ) -> fmt::Result {

@@ -1,11 +1,11 @@
 //! Who watches a case: a digest, or nobody.
 
 use sprag_shared::{
-    method::dense_output::Arc,
+    method::dense_output::DenseOutput,
     motion::{
-        device_snapshot::{DeviceArc, DeviceObserver},
-        observer::{Event, Observer, Stretch},
-        state::State,
+        device_snapshot::{DeviceObserver, DeviceOutput},
+        observer::{Event, MonotoneInterval, Observer},
+        state::BlockState,
     },
     observers::digest::Digest,
 };
@@ -19,14 +19,14 @@ pub struct Watcher {
 
 impl Observer<f32> for Watcher {
     #[inline]
-    fn stretch(&mut self, arc: &dyn Arc<f32>, stretch: &Stretch<f32>) {
+    fn interval(&mut self, output: &dyn DenseOutput<f32>, interval: &MonotoneInterval<f32>) {
         if let Some(digest) = &mut self.digest {
-            digest.stretch(arc, stretch);
+            digest.interval(output, interval);
         }
     }
 
     #[inline]
-    fn event(&mut self, event: Event, time: f32, state: &State<f32>) {
+    fn event(&mut self, event: Event, time: f32, state: &BlockState<f32>) {
         if let Some(digest) = &mut self.digest {
             Observer::event(digest, event, time, state);
         }
@@ -34,13 +34,13 @@ impl Observer<f32> for Watcher {
 }
 
 impl DeviceObserver<f32> for Watcher {
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<f32>, stretch: &Stretch<f32>) {
+    fn device_interval(&mut self, output: &dyn DeviceOutput<f32>, interval: &MonotoneInterval<f32>) {
         if let Some(digest) = &mut self.digest {
-            digest.device_stretch(arc, stretch);
+            digest.device_interval(output, interval);
         }
     }
 
-    fn device_event(&mut self, event: Event, time: f32, state: &State<f32>) {
+    fn device_event(&mut self, event: Event, time: f32, state: &BlockState<f32>) {
         if let Some(digest) = &mut self.digest {
             digest.device_event(event, time, state);
         }

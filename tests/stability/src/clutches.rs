@@ -3,11 +3,11 @@
 use sprag_shared::ground::{Harmonics, Quiet};
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::fixed::FixedStep;
-use sprag_shared::motion::device_snapshot::{DeviceArc, DeviceObserver};
-use sprag_shared::motion::hybrid::Machine;
-use sprag_shared::motion::hybrid::path::Shaking;
-use sprag_shared::motion::observer::{Event, Stretch};
-use sprag_shared::motion::state::{Limits, State, Stopped};
+use sprag_shared::motion::device_snapshot::{DeviceObserver, DeviceOutput};
+use sprag_shared::motion::hybrid::HybridSystem;
+use sprag_shared::motion::hybrid::mode_output::Shaking;
+use sprag_shared::motion::observer::{Event, MonotoneInterval};
+use sprag_shared::motion::state::{BlockState, Limits, Stopped};
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::drivetrain::{Drivetrain, Engagement};
 
@@ -17,7 +17,7 @@ use crate::energy::Energy;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElasticEnd<S> {
     /// The last state, or why there is none.
-    pub state: Result<State<S>, Stopped>,
+    pub state: Result<BlockState<S>, Stopped>,
     /// Largest |θ|, rad.
     pub peak: f64,
     /// Steps begun.
@@ -42,7 +42,7 @@ pub fn elastic_run<S: Real>(
     let damping = 2.0 * damping_ratio * sprag_shared::math::square_root(stiffness * structure.device.mass_ratio);
     let engagement = Engagement::Elastic { stiffness, damping, backlash: 0.0, capacity_ratio: f64::INFINITY };
     let drivetrain = Drivetrain { engagement, ..Drivetrain::default() };
-    let machine: Machine<S> = drivetrain.resolve(structure, false).expect("parameters within range");
+    let machine: HybridSystem<S> = drivetrain.resolve(structure, false).expect("parameters within range");
     let energy = Energy::of(structure);
     let mut watch = Watch { energy, quiet: false, least: f64::INFINITY, peak: 0.0, steps: 0, events: 0, depth: 0.0, gain: 0.0 };
     let mut state = machine.at_rest();
@@ -73,21 +73,21 @@ struct Watch {
 }
 
 impl<S: Real> DeviceObserver<S> for Watch {
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
+    fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         self.steps += 1;
-        self.depth = self.depth.max(-stretch.side.times(stretch.last.rotation).to_f64());
-        self.peak = self.peak.max(stretch.last.rotation.abs().to_f64());
+        self.depth = self.depth.max(-interval.side.times(interval.last.rotation).to_f64());
+        self.peak = self.peak.max(interval.last.rotation.abs().to_f64());
         if self.quiet {
             let p2 = self.energy.frequency * self.energy.frequency;
-            let stored = arc.snapshot(stretch.to).stored.to_f64() / p2;
+            let stored = output.snapshot(interval.to).stored.to_f64() / p2;
             // What moves with the block is counted by the device.
-            let energy = self.energy.at(&stretch.last, stretch.side, false) + stored;
+            let energy = self.energy.at(&interval.last, interval.side, false) + stored;
             self.gain = self.gain.max((energy - self.least) / self.energy.barrier());
             self.least = self.least.min(energy);
         }
     }
 
-    fn device_event(&mut self, _event: Event, _time: S, _state: &State<S>) {
+    fn device_event(&mut self, _event: Event, _time: S, _state: &BlockState<S>) {
         self.events += 1;
     }
 }

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use sprag_shared::equation::motion::Motion;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::math::sign::Sign;
-use sprag_shared::method::dense_output::{Arc, Method, Start};
+use sprag_shared::method::dense_output::{DenseOutput, Integrator, StepStart};
 
 /// Another method, counted: work is bounded by numbers of arcs and of looks at them, never by a clock.
 #[derive(Debug, Default)]
@@ -34,48 +34,48 @@ impl<M> Counted<M> {
 
 /// The arc of a [`Counted`] method.
 #[derive(Debug)]
-pub struct CountedArc<'c, A> {
-    arc: A,
+pub struct CountedOutput<'c, A> {
+    output: A,
     looks: &'c Cell<u64>,
 }
 
-impl<S: Real, A: Arc<S>> Arc<S> for CountedArc<'_, A> {
+impl<S: Real, A: DenseOutput<S>> DenseOutput<S> for CountedOutput<'_, A> {
     fn length(&self) -> S {
-        self.arc.length()
+        self.output.length()
     }
 
     fn at(&self, time: S) -> Motion<S> {
         self.looks.set(self.looks.get() + 1);
-        self.arc.at(time)
+        self.output.at(time)
     }
 
     fn switching(&self, time: S) -> S {
         self.looks.set(self.looks.get() + 1);
-        self.arc.switching(time)
+        self.output.switching(time)
     }
 
     fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        self.arc.acceleration_zero(from, to, sign, from_zero)
+        self.output.acceleration_zero(from, to, sign, from_zero)
     }
 
     fn switching_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        self.arc.switching_zero(from, to, sign, from_zero)
+        self.output.switching_zero(from, to, sign, from_zero)
     }
 
     fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
-        self.arc.largest_acceleration(from, to, floor)
+        self.output.largest_acceleration(from, to, floor)
     }
 }
 
-impl<S: Real, M: Method<S>> Method<S> for Counted<M> {
-    type Arc<'a>
-        = CountedArc<'a, M::Arc<'a>>
+impl<S: Real, M: Integrator<S>> Integrator<S> for Counted<M> {
+    type Output<'a>
+        = CountedOutput<'a, M::Output<'a>>
     where
         Self: 'a;
 
-    fn arc<'a>(&'a self, start: &'a Start<'a, S>) -> Self::Arc<'a> {
+    fn integrate<'a>(&'a self, start: &'a StepStart<'a, S>) -> Self::Output<'a> {
         self.arcs.set(self.arcs.get() + 1);
-        CountedArc { arc: self.method.arc(start), looks: &self.looks }
+        CountedOutput { output: self.method.integrate(start), looks: &self.looks }
     }
 
     fn step(&self) -> Option<S> {

@@ -1,10 +1,10 @@
 //! A structure, followed through a ground motion.
 
 use sprag_shared::math::scalar::Real;
-use sprag_shared::method::dense_output::Method;
+use sprag_shared::method::dense_output::Integrator;
 use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::observer::Observer;
-use sprag_shared::motion::state::{Limits, Phase, State, Stopped};
+use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
 use sprag_shared::structure::Structure;
 
 use crate::log::FullLog;
@@ -34,16 +34,16 @@ pub trait Watcher<S: Real>: Observer<S> {
 ///
 /// # Errors
 /// [`Stopped`] when the motion takes more than a million arcs in one segment, or is no longer finite.
-pub fn follow<S: Real, M: Method<S>, W: Watcher<S>>(
+pub fn follow<S: Real, M: Integrator<S>, W: Watcher<S>>(
     structure: &Structure,
     method: &M,
     start: Start<S>,
     segments: &[Segment<S>],
     watcher: &mut W,
-) -> Result<State<S>, Stopped> {
+) -> Result<BlockState<S>, Stopped> {
     let system = structure.resolve().expect("parameters within range");
     let mut state = match start {
-        Start::Rest => State::default(),
+        Start::Rest => BlockState::default(),
         Start::Released(rotation, velocity) => {
             let ground = segments.first().map_or(S::ZERO, |segment| segment.ground.at_start());
             system.released_at(rotation, velocity, ground)
@@ -61,19 +61,19 @@ pub fn follow<S: Real, M: Method<S>, W: Watcher<S>>(
 }
 
 /// [`follow`] from rest by the tight Taylor method, with every swing integrated.
-pub fn shake(structure: &Structure, segments: &[Segment<f64>]) -> (State<f64>, FullLog) {
+pub fn shake(structure: &Structure, segments: &[Segment<f64>]) -> (BlockState<f64>, FullLog) {
     let mut log = FullLog::default();
     let state = follow(structure, &tight(), Start::Rest, segments, &mut log).expect("a motion that can be followed");
     (state, log)
 }
 
 /// [`follow`] on quiet ground by the tight Taylor method, with every swing integrated.
-pub fn release(structure: &Structure, rotation: f64, velocity: f64, duration: f64, log: &mut FullLog) -> State<f64> {
+pub fn release(structure: &Structure, rotation: f64, velocity: f64, duration: f64, log: &mut FullLog) -> BlockState<f64> {
     follow(structure, &tight(), Start::Released(rotation, velocity), &[Segment::quiet(duration)], log)
         .expect("a motion that can be followed")
 }
 
 /// The block has overturned, and before that no impact.
-pub fn overturned_without_impact(state: &State<f64>) -> bool {
+pub fn overturned_without_impact(state: &BlockState<f64>) -> bool {
     state.phase == Phase::Overturned && state.impacts == 0
 }

@@ -3,10 +3,10 @@
 use sprag_shared::equation::motion::Motion;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::math::sign::Sign;
-use sprag_shared::method::dense_output::Arc;
-use sprag_shared::motion::observer::{Event, Observer, Stretch};
+use sprag_shared::method::dense_output::DenseOutput;
+use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::rest::free_decay::Decay;
-use sprag_shared::motion::state::State;
+use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::peaks::Peaks;
 
 use crate::follow::Watcher;
@@ -19,13 +19,13 @@ pub struct Logged<S> {
     /// When, s.
     pub time: S,
     /// The state after it.
-    pub state: State<S>,
+    pub state: BlockState<S>,
 }
 
 /// Some motions of one stretch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sampled<S> {
-    /// When the stretch begins, s from the start of the motion.
+    /// When the interval begins, s from the start of the motion.
     pub time: S,
     /// The inerter is engaged.
     pub engaged: bool,
@@ -37,7 +37,7 @@ pub struct Sampled<S> {
     pub motions: Vec<Motion<S>>,
 }
 
-/// An observer that remembers peaks, events and, if asked, samples of every stretch. With `EVERY` it wants every swing of
+/// An observer that remembers peaks, events and, if asked, samples of every interval. With `EVERY` it wants every swing of
 /// a free motion; without, the closed form may take over.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Log<S, const EVERY: bool> {
@@ -45,9 +45,9 @@ pub struct Log<S, const EVERY: bool> {
     pub peaks: Peaks<S>,
     /// Events, in order.
     pub events: Vec<Logged<S>>,
-    /// Samples of each stretch.
+    /// Samples of each interval.
     pub stretches: Vec<Sampled<S>>,
-    /// How many intervals each stretch is sampled in; 0 for none.
+    /// How many intervals each interval is sampled in; 0 for none.
     pub intervals: u32,
     /// How often a closed form took over.
     pub decays: u32,
@@ -57,7 +57,7 @@ pub struct Log<S, const EVERY: bool> {
 pub type FullLog = Log<f64, true>;
 
 impl<S: Real, const EVERY: bool> Log<S, EVERY> {
-    /// An empty log that samples every stretch in `intervals` intervals.
+    /// An empty log that samples every interval in `intervals` intervals.
     pub fn sampling(intervals: u32) -> Self {
         Log { intervals, ..Log::default() }
     }
@@ -68,7 +68,7 @@ impl<S: Real, const EVERY: bool> Log<S, EVERY> {
     }
 
     /// The states after all events of one kind.
-    pub fn states(&self, event: Event) -> Vec<State<S>> {
+    pub fn states(&self, event: Event) -> Vec<BlockState<S>> {
         self.events.iter().filter(|logged| logged.event == event).map(|logged| logged.state).collect()
     }
 }
@@ -78,26 +78,26 @@ impl<S: Real, const EVERY: bool> Observer<S> for Log<S, EVERY> {
         EVERY
     }
 
-    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
-        self.peaks.stretch(arc, stretch);
+    fn interval(&mut self, output: &dyn DenseOutput<S>, interval: &MonotoneInterval<S>) {
+        self.peaks.interval(output, interval);
         if self.intervals > 0 {
-            let width = stretch.to - stretch.from;
+            let width = interval.to - interval.from;
             let at = |k: u32| match k {
-                0 => stretch.first,
-                k if k == self.intervals => stretch.last,
-                k => arc.at(stretch.from + width * S::count(k) / S::count(self.intervals)),
+                0 => interval.first,
+                k if k == self.intervals => interval.last,
+                k => output.at(interval.from + width * S::count(k) / S::count(self.intervals)),
             };
             self.stretches.push(Sampled {
-                time: self.peaks.origin + stretch.start + stretch.from,
-                engaged: stretch.engaged,
-                side: stretch.side,
-                direction: stretch.direction,
+                time: self.peaks.origin + interval.start + interval.from,
+                engaged: interval.engaged,
+                side: interval.side,
+                direction: interval.direction,
                 motions: (0..=self.intervals).map(at).collect(),
             });
         }
     }
 
-    fn event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         self.peaks.event(event, time, state);
         self.events.push(Logged { event, time: self.peaks.origin + time, state: *state });
     }
@@ -118,10 +118,10 @@ impl<S: Real, const EVERY: bool> Watcher<S> for Log<S, EVERY> {
 pub fn sane<S: Real, const EVERY: bool>(log: &Log<S, EVERY>) {
     assert!(log.events.is_sorted_by(|a, b| a.time <= b.time), "time runs forward");
     let floor = -64.0 * S::EPSILON.to_f64();
-    for stretch in &log.stretches {
-        for motion in &stretch.motions {
-            let above = stretch.side.times(motion.rotation).to_f64();
-            assert!(above >= floor, "through the floor: {motion:?} on {:?}", stretch.side);
+    for interval in &log.stretches {
+        for motion in &interval.motions {
+            let above = interval.side.times(motion.rotation).to_f64();
+            assert!(above >= floor, "through the floor: {motion:?} on {:?}", interval.side);
         }
     }
     assert!(log.events.len() < 20_000, "{} events", log.events.len());

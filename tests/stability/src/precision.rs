@@ -1,10 +1,10 @@
 //! The two precisions that every case runs in.
 
 use sprag_shared::math::scalar::Real;
-use sprag_shared::method::dense_output::Method;
+use sprag_shared::method::dense_output::Integrator;
 use sprag_shared::method::fixed::FixedStep;
 use sprag_shared::method::taylor::Taylor;
-use sprag_shared::motion::state::{State, Stopped};
+use sprag_shared::motion::state::{BlockState, Stopped};
 use sprag_shared::structure::Structure;
 
 use crate::counted::Counted;
@@ -30,7 +30,7 @@ pub enum Stepping<S> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome<S> {
     /// The last state, or why there is none.
-    pub state: Result<State<S>, Stopped>,
+    pub state: Result<BlockState<S>, Stopped>,
     /// Counts and checks.
     pub tally: Tally<S>,
     /// Arcs begun.
@@ -42,7 +42,7 @@ pub struct Outcome<S> {
 impl<S: Real> Outcome<S> {
     /// The last state of a motion that could be followed.
     #[track_caller]
-    pub fn end(&self) -> State<S> {
+    pub fn end(&self) -> BlockState<S> {
         self.state.unwrap_or_else(|stopped| panic!("{stopped}: {self:?}"))
     }
 }
@@ -56,7 +56,7 @@ pub trait Precision: Real {
     const DENORMAL: Self;
 
     /// The tightest method.
-    type Tight: Method<Self>;
+    type Tight: Integrator<Self>;
 
     /// The Taylor method as tight as the precision allows.
     fn tight() -> Self::Tight;
@@ -86,7 +86,7 @@ pub trait Precision: Real {
         start: Start<Self>,
         segments: &[Segment<Self>],
         log: &mut Log<Self, true>,
-    ) -> Result<State<Self>, Stopped>;
+    ) -> Result<BlockState<Self>, Stopped>;
 
     /// The tolerance for this precision, given those in f64 and in f32.
     fn tolerance(double: f64, single: f64) -> f64;
@@ -129,7 +129,7 @@ macro_rules! precision {
                 start: Start<Self>,
                 segments: &[Segment<Self>],
                 log: &mut Log<Self, true>,
-            ) -> Result<State<Self>, Stopped> {
+            ) -> Result<BlockState<Self>, Stopped> {
                 run(structure, stepping, start, segments, log).0
             }
 
@@ -150,14 +150,14 @@ fn run<S: Precision, W: Watcher<S>>(
     start: Start<S>,
     segments: &[Segment<S>],
     watcher: &mut W,
-) -> (Result<State<S>, Stopped>, (u64, u64)) {
-    fn counted<S: Precision, M: Method<S>, W: Watcher<S>>(
+) -> (Result<BlockState<S>, Stopped>, (u64, u64)) {
+    fn counted<S: Precision, M: Integrator<S>, W: Watcher<S>>(
         structure: &Structure,
         method: M,
         start: Start<S>,
         segments: &[Segment<S>],
         watcher: &mut W,
-    ) -> (Result<State<S>, Stopped>, (u64, u64)) {
+    ) -> (Result<BlockState<S>, Stopped>, (u64, u64)) {
         let method = Counted::new(method);
         let state = follow(structure, &method, start, segments, watcher);
         (state, (method.arcs(), method.looks()))

@@ -1,7 +1,7 @@
 //! Ground motions, segment by segment.
 
 use sprag_shared::ground::harmonic::Harmonic;
-use sprag_shared::ground::{Harmonics, Linear, Piece};
+use sprag_shared::ground::{GroundSegment, Harmonics, Linear};
 use sprag_shared::math::scalar::Real;
 
 /// Smooth ground motion over a stretch of time.
@@ -38,7 +38,7 @@ impl<S: Real> Ground<S> {
     }
 }
 
-impl<S: Real> Piece<S> for Ground<S> {
+impl<S: Real> GroundSegment<S> for Ground<S> {
     fn acceleration(&self, time: S) -> S {
         match self {
             Ground::Line(line) => line.acceleration(time),
@@ -49,7 +49,7 @@ impl<S: Real> Piece<S> for Ground<S> {
 
     fn slope(&self, time: S) -> S {
         match self {
-            Ground::Line(line) => Piece::slope(line, time),
+            Ground::Line(line) => GroundSegment::slope(line, time),
             Ground::Sine(sine) => sine.slope(time),
             Ground::Quiet => S::ZERO,
         }

@@ -1,6 +1,6 @@
 //! Blocks and devices.
 
-use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::mount::Mount;
@@ -17,7 +17,7 @@ pub fn unit_block(geometry: Geometry, slenderness: f64, device: DeviceKind, mass
         block,
         geometry,
         device: Device { kind: device, mass_ratio, mount: Mount::CentreOfMass, kinematics: KinematicsKind::Paper },
-        carried: Carried::NONE,
+        added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(restitution),
         rest_speed: REST_SPEED,
     }

@@ -2,9 +2,9 @@
 
 use sprag_shared::equation::motion::Motion;
 use sprag_shared::math::scalar::Real;
-use sprag_shared::method::dense_output::Arc;
-use sprag_shared::motion::observer::{Event, Observer, Stretch};
-use sprag_shared::motion::state::State;
+use sprag_shared::method::dense_output::DenseOutput;
+use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
+use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::peaks::Peaks;
 
 use crate::energy::Energy;
@@ -17,9 +17,9 @@ pub struct Tally<S> {
     pub peaks: Peaks<S>,
     /// Time from the start of the motion to that of the present segment, s.
     pub origin: f64,
-    /// Monotone stretches.
+    /// Monotone intervals.
     pub stretches: u64,
-    /// Steps: stretches at the start of an arc.
+    /// Steps: intervals at the start of an arc.
     pub steps: u64,
     /// Events: uplift, impact, turn, switch, coupling, rest, overturned.
     pub events: [u64; 7],
@@ -43,7 +43,7 @@ pub struct Tally<S> {
     pub rebound: f64,
     speed: f64,
     last: f64,
-    event: Option<(Event, u64, State<S>)>,
+    event: Option<(Event, u64, BlockState<S>)>,
 }
 
 /// An energy that must not grow.
@@ -109,20 +109,20 @@ impl<S: Real> Tally<S> {
         now
     }
 
-    fn look(&mut self, motion: &Motion<S>, stretch: &Stretch<S>) {
+    fn look(&mut self, motion: &Motion<S>, interval: &MonotoneInterval<S>) {
         let Motion { rotation, velocity, acceleration } = *motion;
         self.not_finite |= !(rotation.is_finite() && velocity.is_finite() && acceleration.is_finite());
-        let below = -stretch.side.times(rotation).to_f64();
+        let below = -interval.side.times(rotation).to_f64();
         self.reach = self.reach.max(below);
         // Below any meaning, where a search that halves a step 64 times has no digits left.
         if below > 1e-36 {
-            let reach = (stretch.start + stretch.to).to_f64();
-            let speed = stretch.first.velocity.abs().larger(stretch.last.velocity.abs()).to_f64();
+            let reach = (interval.start + interval.to).to_f64();
+            let speed = interval.first.velocity.abs().larger(interval.last.velocity.abs()).to_f64();
             let size = self.peaks.rotation.to_f64() + speed * reach;
             self.depth = self.depth.max(below / (S::EPSILON.to_f64() * size));
         }
         if let Some(level) = &mut self.energy {
-            let energy = level.energy.at(motion, stretch.side, stretch.engaged);
+            let energy = level.energy.at(motion, interval.side, interval.engaged);
             level.gain = level.gain.max((energy - level.least) / level.energy.barrier());
             level.least = level.least.min(energy);
             if level.first.is_nan() {
@@ -145,19 +145,19 @@ fn index(event: Event) -> usize {
 }
 
 impl<S: Real> Observer<S> for Tally<S> {
-    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
-        self.peaks.stretch(arc, stretch);
+    fn interval(&mut self, output: &dyn DenseOutput<S>, interval: &MonotoneInterval<S>) {
+        self.peaks.interval(output, interval);
         self.stretches += 1;
-        self.steps += u64::from(stretch.from == S::ZERO);
-        let ulp = S::EPSILON.to_f64() * (stretch.start + stretch.to).to_f64();
-        self.clock(stretch.start + stretch.from, ulp);
-        self.look(&stretch.first, stretch);
-        self.look(&stretch.last, stretch);
-        self.clock(stretch.start + stretch.to, ulp);
-        self.speed = stretch.last.velocity.abs().to_f64();
+        self.steps += u64::from(interval.from == S::ZERO);
+        let ulp = S::EPSILON.to_f64() * (interval.start + interval.to).to_f64();
+        self.clock(interval.start + interval.from, ulp);
+        self.look(&interval.first, interval);
+        self.look(&interval.last, interval);
+        self.clock(interval.start + interval.to, ulp);
+        self.speed = interval.last.velocity.abs().to_f64();
     }
 
-    fn event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         self.peaks.event(event, time, state);
         self.events[index(event)] += 1;
         let now = self.clock(time, S::EPSILON.to_f64() * time.to_f64());

@@ -2,7 +2,7 @@
 
 use sprag_shared::case::{Case, Ending, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::ground::{Harmonics, Linear};
-use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
@@ -31,7 +31,7 @@ fn structure(geometry: Geometry, kind: DeviceKind, restitution: f64) -> Structur
         block: Block::of_unit_frequency(f64::from(SLENDERNESS), RECTANGLE_INERTIA_RATIO).expect("a slenderness within range"),
         geometry,
         device: Device { kind, mass_ratio, kinematics: KinematicsKind::Consistent, ..Device::NONE },
-        carried: Carried::NONE,
+        added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(restitution),
         rest_speed: REST_SPEED,
     }

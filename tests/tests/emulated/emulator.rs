@@ -9,7 +9,7 @@ use std::path::Path;
 use sprag_shared::case::{self, Case, Ending, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::ground::Harmonics;
 use sprag_shared::observers::digest::Digest;
-use sprag_shared::structure::added_mass::Carried;
+use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
@@ -21,7 +21,7 @@ const METHODS: [FixedMethod; 3] = [FixedMethod::SemiImplicitEuler, FixedMethod::
 /// σ = 0.5, η = 0.85.
 fn structure(block: Block, geometry: Geometry, kind: DeviceKind) -> Structure {
     let device = Device { kind, mass_ratio: 0.5, ..Device::NONE };
-    Structure { block, geometry, device, carried: Carried::NONE, restitution: Restitution::Constant(0.85), rest_speed: 1e-6 }
+    Structure { block, geometry, device, added_mass: AddedMass::NONE, restitution: Restitution::Constant(0.85), rest_speed: 1e-6 }
 }
 
 /// A slender block of p = 1/s under one cycle of sine with ω/p and a_g/(gα).
@@ -166,13 +166,13 @@ struct Effect {
     drivetrain: Drivetrain,
     method: FixedMethod,
     restitution: Restitution,
-    carried: Carried,
+    added_mass: AddedMass,
 }
 
 impl Effect {
     fn of(name: &'static str, drivetrain: Drivetrain) -> Effect {
         let restitution = Restitution::Constant(0.85);
-        Effect { name, drivetrain, method: FixedMethod::RungeKutta4, restitution, carried: Carried::NONE }
+        Effect { name, drivetrain, method: FixedMethod::RungeKutta4, restitution, added_mass: AddedMass::NONE }
     }
 }
 
@@ -197,7 +197,7 @@ fn effects() -> Vec<Effect> {
     let (elastic, loose) = (of(spring(0.0, f64::INFINITY), braked), of(spring(0.002, 0.03), braked));
     let all =
         Drivetrain { rack: Rack { guided_mass_ratio: 0.05, ..rack }, actuation: Actuation { rise_time: 0.02, ..late }, ..plates };
-    let gears = Carried { mass_ratio: 0.05, height: 1.0 };
+    let gears = AddedMass { mass_ratio: 0.05, height: 1.0 };
     let balance = Restitution::MomentumBalance;
     vec![
         Effect::of("rigid", rigid),
@@ -210,11 +210,11 @@ fn effects() -> Vec<Effect> {
         Effect::of("rack and bearing friction", Drivetrain { rack, ..of(Engagement::Ideal, coasting) }),
         Effect::of("delays and misses", Drivetrain { actuation: late, ..Drivetrain::default() }),
         Effect {
-            carried: gears,
+            added_mass: gears,
             ..Effect::of("guided rack and carried mass", Drivetrain { rack: guided, ..Drivetrain::default() })
         },
         Effect { restitution: balance, ..Effect::of("momentum balance", rigid) },
-        Effect { restitution: balance, carried: gears, ..Effect::of("all together", all) },
+        Effect { restitution: balance, added_mass: gears, ..Effect::of("all together", all) },
     ]
 }
 
@@ -248,10 +248,10 @@ fn every_effect_is_the_same_on_the_board() {
     // A seed without a probability changes nothing but the loop.
     let seed = Drivetrain { actuation: Actuation { miss_seed: 7, ..Actuation::default() }, ..Drivetrain::default() };
     let mut hashes = [Drivetrain::default(), seed].map(|drivetrain| hash(&real_device(&record, drivetrain))).to_vec();
-    for Effect { name, drivetrain, method, restitution, carried } in effects() {
+    for Effect { name, drivetrain, method, restitution, added_mass } in effects() {
         for geometry in [Geometry::Full, Geometry::Slender] {
             let base = real_device(&record, drivetrain);
-            let case = Case { structure: Structure { geometry, restitution, carried, ..base.structure }, method, ..base };
+            let case = Case { structure: Structure { geometry, restitution, added_mass, ..base.structure }, method, ..base };
             compare(&format!("{name} {geometry:?}"), &case);
             let missed = case.run(&mut ()).unwrap().missed;
             assert_eq!(missed > 0, drivetrain.actuation.miss_probability > 0.0, "{name} {geometry:?}: {missed} missed");

@@ -5,11 +5,11 @@ use core::f64::consts::TAU;
 
 use sprag_shared::math::ln;
 use sprag_shared::math::scalar::Real;
-use sprag_shared::method::dense_output::Method;
+use sprag_shared::method::dense_output::Integrator;
 use sprag_shared::method::fixed::FixedStep;
 use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::observer::Event;
-use sprag_shared::motion::state::{Phase, State};
+use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
@@ -30,7 +30,7 @@ impl Scene {
         [Segment::sine(S::of(level), S::of(self.frequency), S::of(TAU / self.frequency)), Segment::quiet(S::of(self.free))]
     }
 
-    fn by<S: Real, M: Method<S>>(&self, method: &M) -> (State<S>, Log<S, true>) {
+    fn by<S: Real, M: Integrator<S>>(&self, method: &M) -> (BlockState<S>, Log<S, true>) {
         let mut log = Log::default();
         let state =
             follow(&self.structure, method, Start::Rest, &self.segments(), &mut log).expect("a motion that can be followed");
@@ -60,7 +60,10 @@ struct Errors {
 }
 
 /// The events that a run has whatever the method; None if they differ from the reference's.
-fn errors<S: Real>((state, log): &(State<S>, Log<S, true>), (exact, exact_log): &(State<f64>, Log<f64, true>)) -> Errors {
+fn errors<S: Real>(
+    (state, log): &(BlockState<S>, Log<S, true>),
+    (exact, exact_log): &(BlockState<f64>, Log<f64, true>),
+) -> Errors {
     let timed = |event: &Event| matches!(event, Event::Uplift | Event::Impact | Event::Turn | Event::Switch);
     let events: Vec<_> = log.events.iter().filter(|logged| timed(&logged.event)).collect();
     let exact_events: Vec<_> = exact_log.events.iter().filter(|logged| timed(&logged.event)).collect();
@@ -85,7 +88,7 @@ fn order(points: &[(f64, f64)]) -> f64 {
 }
 
 /// Runs `method` with `count` steps from `largest` downward by 1.5 and compares the orders seen with `expected`.
-fn keeps_its_order<M: Method<f64>>(name: &str, expected: f64, largest: f64, count: i32, method: impl Fn(f64) -> M) {
+fn keeps_its_order<M: Integrator<f64>>(name: &str, expected: f64, largest: f64, count: i32, method: impl Fn(f64) -> M) {
     for (index, scene) in scenes().iter().enumerate() {
         let reference = shake(&scene.structure, &scene.segments());
         let switches = reference.1.times(Event::Switch).len();

@@ -6,7 +6,7 @@ use core::f64::consts::{PI, TAU};
 use sprag_shared::math::{asin, atanh, square_root};
 use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::observer::Event;
-use sprag_shared::motion::state::{Phase, State};
+use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
@@ -75,7 +75,7 @@ fn pulse_of(case: &Case, structure: &Structure) -> (f64, f64) {
 
 #[test]
 fn the_tolerance_and_the_order_do_not_show() {
-    fn by<const N: usize>(case: &Case, tolerance: f64) -> (State<f64>, Option<f64>) {
+    fn by<const N: usize>(case: &Case, tolerance: f64) -> (BlockState<f64>, Option<f64>) {
         let structure = case.structure().expect("a structure");
         let (level, duration) = pulse_of(case, &structure);
         let segments = [Segment::sine(level, case.frequency_ratio, duration), Segment::quiet(60.0)];

@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use sprag_shared::equation::clutch_rule::ClutchRule;
 use sprag_shared::math::sign::Sign;
 use sprag_shared::math::sin;
-use sprag_shared::motion::state::{Phase, State};
+use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
 use sprag_sim_host::batch::case::PulseShape;
@@ -20,7 +20,7 @@ fn sine_pulse(
     device: DeviceKind,
     frequency: f64,
     amplitude: f64,
-) -> (State<f64>, f64, FullLog) {
+) -> (BlockState<f64>, f64, FullLog) {
     let pulsed = Pulsed { geometry, degrees, device, shape: PulseShape::Sine, frequency, amplitude };
     let (state, log) = pulsed.follow(TAU / frequency + 60.0);
     (state, log.peaks.rotation / degrees.to_radians(), log)

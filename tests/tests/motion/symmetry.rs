@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use sprag_shared::math::cos;
 use sprag_shared::math::scalar::Real;
-use sprag_shared::method::dense_output::Method;
+use sprag_shared::method::dense_output::Integrator;
 use sprag_shared::method::fixed::FixedStep;
 use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::observer::Event;
@@ -64,7 +64,7 @@ fn segments<S: Real>(structure: &Structure, (amplitude, frequency, samples): &(f
 }
 
 /// A motion and the one under the mirrored ground are mirror images in every bit.
-fn mirrored<S: Real, M: Method<S>>(structure: &Structure, method: &M, segments: &[Segment<S>]) -> Result<(), TestCaseError> {
+fn mirrored<S: Real, M: Integrator<S>>(structure: &Structure, method: &M, segments: &[Segment<S>]) -> Result<(), TestCaseError> {
     let other: Vec<_> = segments.iter().map(|segment| segment.mirrored()).collect();
     let (mut here, mut there) = (Log::<S, true>::sampling(2), Log::<S, true>::sampling(2));
     let first = follow(structure, method, Start::Rest, segments, &mut here);

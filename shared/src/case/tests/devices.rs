@@ -1,8 +1,8 @@
 //! Cases of devices with a memory and of vertical ground motion.
 
 use super::*;
-use crate::motion::hybrid::Machine;
-use crate::motion::hybrid::path::Shaking;
+use crate::motion::hybrid::HybridSystem;
+use crate::motion::hybrid::mode_output::Shaking;
 use crate::motion::hybrid::series::Series;
 
 /// One of every engagement, with losses, and the two halves of a seed; every number is one of single precision.
@@ -164,7 +164,7 @@ fn single_precision_follows_every_device() {
     let up = Shape::Sine(Harmonics::sine(0.25, 16.0));
     let ground = Ground::both_ways(&[(pulse, up)]).unwrap();
     for (index, drivetrain) in drivetrains().into_iter().enumerate() {
-        let machine: Machine<f64> = drivetrain.resolve(&base.structure, true).unwrap();
+        let machine: HybridSystem<f64> = drivetrain.resolve(&base.structure, true).unwrap();
         let mut state = machine.at_rest();
         let limits = Limits { overturned: 1.5, events: 100_000 };
         let (push, lift) = (Harmonics::sine(0.1875, 4.0), Harmonics::sine(0.25, 16.0));

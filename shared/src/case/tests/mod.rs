@@ -7,7 +7,7 @@ use crate::method::taylor::Taylor;
 use crate::motion::state::Limits;
 use crate::observers::digest::Digest;
 use crate::structure::REST_SPEED;
-use crate::structure::added_mass::Carried;
+use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
 use crate::structure::drivetrain::{Actuation, Delay, Engagement, FlywheelLosses, Rack};
@@ -25,7 +25,7 @@ fn figure05(kind: DeviceKind) -> Case<'static> {
             block: Block::new(8.0, alpha, 1.25).unwrap(),
             geometry: Geometry::Slender,
             device: Device { kind, mass_ratio: 0.5, ..Device::NONE },
-            carried: Carried::NONE,
+            added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(0.875),
             rest_speed: f64::from(REST_SPEED as f32),
         },
@@ -82,8 +82,8 @@ fn a_case_comes_back_as_it_went() {
         (Mount::BaseCorners { pulley_ratio: 3.0 }, Restitution::MomentumBalance),
     ] {
         let device = Device { mount, kinematics: KinematicsKind::Consistent, ..base.structure.device };
-        let carried = Carried { mass_ratio: 0.0625, height: 5.5 };
-        let structure = Structure { device, carried, geometry: Geometry::Full, restitution, ..base.structure };
+        let added_mass = AddedMass { mass_ratio: 0.0625, height: 5.5 };
+        let structure = Structure { device, added_mass, geometry: Geometry::Full, restitution, ..base.structure };
         cases.push(Case { structure, method: FixedMethod::SemiImplicitEuler, ..base });
     }
     for case in cases {
@@ -152,14 +152,14 @@ fn bad_words_are_named() {
 #[test]
 fn a_loaded_block_overturns_where_it_is_loaded_to() {
     let base = figure05(DeviceKind::None);
-    let ending = |carried, geometry, rotation| {
-        let structure = Structure { carried, geometry, ..base.structure };
+    let ending = |added_mass, geometry, rotation| {
+        let structure = Structure { added_mass, geometry, ..base.structure };
         let initially = Initially::Released { rotation, velocity: 0.03 };
         Case { structure, initially, ground: Ground::pieces(&[]).unwrap(), ..base }.run(&mut ()).unwrap().ending
     };
     for geometry in [Geometry::Full, Geometry::Slender] {
-        let low = Carried { mass_ratio: 1.0, height: 0.0 };
-        assert_eq!(ending(Carried::NONE, geometry, 0.2), Ending::OverturnedWithoutImpact);
+        let low = AddedMass { mass_ratio: 1.0, height: 0.0 };
+        assert_eq!(ending(AddedMass::NONE, geometry, 0.2), Ending::OverturnedWithoutImpact);
         assert_eq!(ending(low, geometry, 0.2), Ending::Safe);
         assert_eq!(ending(low, geometry, 0.26), Ending::OverturnedWithoutImpact);
     }
@@ -171,7 +171,7 @@ fn a_loaded_block_overturns_where_it_is_loaded_to() {
 fn single_precision_is_close_to_double() {
     let in_double = |structure: &Structure| {
         let system = structure.resolve().unwrap();
-        let (mut state, mut peaks) = (State::default(), Peaks::default());
+        let (mut state, mut peaks) = (BlockState::default(), Peaks::default());
         let method = Taylor::<f64, 24>::adaptive(1e-17);
         let limits = Limits { overturned: 1.0, events: 100_000 };
         let pulse = Harmonics::sine(1.5 * 0.125, 4.0);

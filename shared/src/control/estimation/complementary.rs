@@ -10,7 +10,7 @@
 use super::estimate::{Deviation, Estimate, bounded};
 use super::kalman::{kinematic_estimate, measured_acceleration};
 use super::rest_detection::{Standing, StandingState};
-use crate::control::model::{KnownBody, Model};
+use crate::control::model::{Model, PlantBody};
 use crate::control::sensing::instruments::{Instruments, Measured};
 use crate::equation::motion::Motion;
 use crate::math::sign::Sign;
@@ -52,7 +52,7 @@ impl ComplementaryState {
 impl Complementary {
     /// One tick, with `engaged` flywheels on the rack.
     #[inline]
-    pub fn step<B: KnownBody>(
+    pub fn step<B: PlantBody>(
         &self,
         state: &mut ComplementaryState,
         model: &Model<B>,
@@ -88,7 +88,7 @@ impl Complementary {
         if stood || impact {
             if impact && !stood {
                 state.side = state.side.opposite();
-                state.velocity *= model.facts.restitution;
+                state.velocity *= model.parameters.restitution;
                 state.blank = self.blank;
             }
             state.acceleration = model.acceleration(state.side, state.rotation, state.velocity, seen.ground, engaged);

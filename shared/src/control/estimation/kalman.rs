@@ -11,7 +11,7 @@
 
 use super::estimate::{Deviation, Estimate, bounded};
 use super::rest_detection::{Standing, StandingState};
-use crate::control::model::{KnownBody, Model};
+use crate::control::model::{Model, PlantBody};
 use crate::control::sensing::instruments::{Instruments, Measured};
 use crate::equation::motion::Motion;
 use crate::math::sign::Sign;
@@ -46,21 +46,21 @@ pub struct KalmanState {
 
 /// θ̈ from the specific forces of block and ground, rad/s².
 #[inline]
-pub fn measured_acceleration<B: KnownBody>(
+pub fn measured_acceleration<B: PlantBody>(
     model: &Model<B>,
     (side, rotation, velocity): (Sign, f32, f32),
     block: [f32; 2],
     ground: f32,
 ) -> f32 {
     let (sine, cosine) = sine32::sin_cos(rotation);
-    let relative = (block[0] * cosine + block[1] * sine - ground) / model.facts.size;
+    let relative = (block[0] * cosine + block[1] * sine - ground) / model.parameters.size;
     let (across, along) = model.direction_cosines(side, rotation);
     (relative - along * velocity * velocity) / across
 }
 
 /// The estimate of a filter that has measured θ̈: the sign of the terminals' acceleration is that of the measured one.
 #[inline]
-pub(super) fn kinematic_estimate<B: KnownBody>(
+pub(super) fn kinematic_estimate<B: PlantBody>(
     model: &Model<B>,
     seen: &Measured,
     side: Sign,
@@ -68,13 +68,13 @@ pub(super) fn kinematic_estimate<B: KnownBody>(
     deviation: Deviation,
 ) -> Estimate {
     let Motion { rotation, velocity, acceleration } = *motion;
-    let posture = model.posture(side, rotation);
-    let terminal = model.body.terminal_acceleration(&posture, velocity, acceleration);
+    let configuration = model.configuration(side, rotation);
+    let terminal = model.body.terminal_acceleration(&configuration, velocity, acceleration);
     Estimate {
         rotation,
         velocity,
         side,
-        push: model.body.arm(&posture) * terminal,
+        push: model.body.arm(&configuration) * terminal,
         ground: seen.ground,
         ground_rate: seen.ground_rate,
         standing: false,
@@ -93,7 +93,7 @@ impl KalmanState {
 impl Kalman {
     /// One tick, with `engaged` flywheels on the rack.
     #[inline]
-    pub fn step<B: KnownBody>(
+    pub fn step<B: PlantBody>(
         &self,
         state: &mut KalmanState,
         model: &Model<B>,
@@ -136,7 +136,7 @@ impl Kalman {
         } else if state.side.times(state.rotation) < 0.0 && state.side.times(state.velocity) < 0.0 {
             state.side = state.side.opposite();
             if self.blank > 0 {
-                state.velocity *= model.facts.restitution;
+                state.velocity *= model.parameters.restitution;
             }
             state.acceleration = model.acceleration(state.side, state.rotation, state.velocity, seen.ground, engaged);
             state.blank = self.blank;

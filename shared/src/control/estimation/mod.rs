@@ -12,7 +12,7 @@ pub mod model_aided;
 pub mod prediction;
 pub mod rest_detection;
 
-use crate::control::model::{KnownBody, Model};
+use crate::control::model::{Model, PlantBody};
 use crate::control::sensing::instruments::{Instruments, Measured};
 use crate::control::sensing::required::Required;
 use complementary::{Complementary, ComplementaryState};
@@ -78,7 +78,7 @@ impl Estimator {
 
     /// One tick, with `engaged` flywheels on the rack. A state of another estimator is started anew.
     #[inline]
-    pub fn step<B: KnownBody>(
+    pub fn step<B: PlantBody>(
         &self,
         state: &mut EstimatorState,
         model: &Model<B>,

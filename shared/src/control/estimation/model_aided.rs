@@ -6,7 +6,7 @@
 
 use super::estimate::{Deviation, Estimate, bounded};
 use super::rest_detection::{Standing, StandingState};
-use crate::control::model::{KnownBody, Model};
+use crate::control::model::{Model, PlantBody};
 use crate::control::sensing::instruments::{Instruments, Measured};
 use crate::math::sign::Sign;
 
@@ -46,7 +46,7 @@ impl ModelAidedState {
 impl ModelAided {
     /// One tick, with `engaged` flywheels on the rack.
     #[inline]
-    pub fn step<B: KnownBody>(
+    pub fn step<B: PlantBody>(
         &self,
         state: &mut ModelAidedState,
         model: &Model<B>,
@@ -90,7 +90,7 @@ impl ModelAided {
             state.side = state.side.opposite();
             if self.blank > 0 {
                 // With a gyroscope that is believed again at once the jump is already in its reading.
-                state.velocity *= model.facts.restitution;
+                state.velocity *= model.parameters.restitution;
             }
             state.blank = self.blank;
         }

@@ -1,21 +1,21 @@
 //! The motion a few milliseconds ahead, where a command that is given now takes effect.
 
 use super::estimate::Estimate;
-use crate::control::model::{KnownBody, Model};
+use crate::control::model::{Model, PlantBody};
 
 /// `now` a time `horizon` (s) later, with `engaged` flywheels on the rack until then: one step of Heun's method with the ground's
 /// acceleration carried on along its tangent, and at most one impact. The terminals' acceleration moves by what the model says that it
 /// moves, so that an estimator's own measure of it keeps its offset.
 #[inline]
-pub fn predict<B: KnownBody>(model: &Model<B>, now: &Estimate, engaged: u8, horizon: f32) -> Estimate {
-    predict_from(model, &model.posture(now.side, now.rotation), now, engaged, horizon)
+pub fn predict<B: PlantBody>(model: &Model<B>, now: &Estimate, engaged: u8, horizon: f32) -> Estimate {
+    predict_from(model, &model.configuration(now.side, now.rotation), now, engaged, horizon)
 }
 
-/// [`predict`] where the `posture` of `now` is known already.
+/// [`predict`] where the `configuration` of `now` is known already.
 #[inline]
-pub fn predict_from<B: KnownBody>(
+pub fn predict_from<B: PlantBody>(
     model: &Model<B>,
-    posture: &B::Posture<f32>,
+    configuration: &B::Configuration<f32>,
     now: &Estimate,
     engaged: u8,
     horizon: f32,
@@ -24,16 +24,16 @@ pub fn predict_from<B: KnownBody>(
         return *now;
     }
     let ground = [now.ground[0] + now.ground_rate * horizon, now.ground[1]];
-    let first = model.acceleration_at(posture, now.velocity, now.ground, engaged);
+    let first = model.acceleration_at(configuration, now.velocity, now.ground, engaged);
     let rotation = now.rotation + (now.velocity + 0.5 * first * horizon) * horizon;
     let hits = now.side.times(rotation) < 0.0;
     let side = if hits { now.side.opposite() } else { now.side };
-    let kept = if hits { model.facts.restitution } else { 1.0 };
+    let kept = if hits { model.parameters.restitution } else { 1.0 };
     let reached = kept * (now.velocity + first * horizon);
-    let ahead = model.posture(side, rotation);
+    let ahead = model.configuration(side, rotation);
     let last = model.acceleration_at(&ahead, reached, ground, engaged);
     let velocity = if hits { reached } else { now.velocity + 0.5 * (first + last) * horizon };
-    let before = model.push_at(posture, now.velocity, now.ground);
+    let before = model.push_at(configuration, now.velocity, now.ground);
     let after = model.push_at(&ahead, velocity, ground);
     Estimate { rotation, velocity, side, push: now.push + (after - before), ground, ..*now }
 }
@@ -82,7 +82,7 @@ mod tests {
         let model = example_model();
         let ahead = predict(&model, &at(0.0005, -0.3), 0, 0.004);
         assert_eq!(ahead.side, Sign::Negative);
-        assert!((ahead.velocity / (-0.3 * model.facts.restitution) - 1.0).abs() < 0.02);
+        assert!((ahead.velocity / (-0.3 * model.parameters.restitution) - 1.0).abs() < 0.02);
         assert!(ahead.push > 0.0, "the weight brakes the rise on the other toe");
     }
 

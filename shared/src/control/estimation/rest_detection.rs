@@ -1,7 +1,7 @@
 //! Whether the block stands on both toes, where sensors say nothing but noise.
 
 use super::estimate::Estimate;
-use crate::control::model::{KnownBody, Model};
+use crate::control::model::{Model, PlantBody};
 use crate::control::sensing::instruments::Measured;
 use crate::math::sign::Sign;
 
@@ -39,7 +39,7 @@ impl Standing {
     /// Looks at θ and θ̇ as an estimator has them at this tick; `true` while the block stands. A standing block is let go when the
     /// ground pushes harder than its weight holds, or when it moves; the side it moves to is written to `side`.
     #[inline]
-    pub fn step<B: KnownBody>(
+    pub fn step<B: PlantBody>(
         &self,
         state: &mut StandingState,
         model: &Model<B>,
@@ -47,7 +47,7 @@ impl Standing {
         (rotation, velocity): (f32, f32),
         side: &mut Sign,
     ) -> bool {
-        let holds = model.facts.uplift * (1.0 + seen.ground[1]);
+        let holds = model.parameters.uplift * (1.0 + seen.ground[1]);
         let pushed = seen.ground[0].abs() > holds;
         let moves = rotation.abs() > self.rotation || velocity.abs() > self.velocity;
         if state.stands {

@@ -2,7 +2,7 @@
 
 use super::look_ahead::LookAhead;
 use super::{AlwaysEngaged, GatedTable, Law, Passive, Resisting, SignTable, Situation, Wish};
-use crate::control::model::KnownBody;
+use crate::control::model::PlantBody;
 
 /// The laws that a scene can choose from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +23,7 @@ pub enum ClutchLaw {
     LookAhead(LookAhead),
 }
 
-impl<B: KnownBody> Law<B> for ClutchLaw {
+impl<B: PlantBody> Law<B> for ClutchLaw {
     #[inline]
     fn wish(&self, at: &Situation<'_, B>) -> Wish {
         match self {

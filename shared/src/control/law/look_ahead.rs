@@ -9,7 +9,7 @@
 use super::signs::Signs;
 use super::turn_taking::AHEAD;
 use super::{GatedTable, Law, Situation, Wish, sign_row};
-use crate::control::model::KnownBody;
+use crate::control::model::PlantBody;
 use crate::equation::clutch_rule::wheel_for;
 use crate::math::sign::Sign;
 
@@ -50,9 +50,9 @@ impl Default for LookAhead {
 impl LookAhead {
     /// What comes of a choice: smaller is safer, rad.
     #[inline]
-    fn cost<B: KnownBody>(&self, at: &Situation<'_, B>, engage: bool) -> f32 {
+    fn cost<B: PlantBody>(&self, at: &Situation<'_, B>, engage: bool) -> f32 {
         let model = at.model;
-        let step = self.step / model.facts.frequency;
+        let step = self.step / model.parameters.frequency;
         let (mut rotation, mut velocity, mut side) = (at.estimate.rotation, at.estimate.velocity, at.estimate.side);
         let (mut spins, mut locked) = (at.spins, at.engaged);
         let mut fading = self.fading_half;
@@ -61,13 +61,13 @@ impl LookAhead {
             let ground = [(at.estimate.ground[0] + at.estimate.ground_rate * middle) * fading, at.estimate.ground[1]];
             fading *= self.fading;
             let direction = Sign::of(velocity, at.signs.velocity);
-            let posture = model.body.posture(side.unit(), rotation);
-            let drive = model.body.drive(&posture, ground);
-            let arm = model.body.arm(&posture);
+            let configuration = model.body.configuration(side.unit(), rotation);
+            let driving_moment = model.body.driving_moment(&configuration, ground);
+            let arm = model.body.arm(&configuration);
             let resists = if k < self.chosen {
                 engage
             } else {
-                let push = Sign::of(model.body.switching(&posture, velocity, drive), direction);
+                let push = Sign::of(model.body.switching(&configuration, velocity, driving_moment), direction);
                 let signs = Signs {
                     rotation: side,
                     velocity: direction,
@@ -75,7 +75,7 @@ impl LookAhead {
                     ground: Sign::of(ground[0], direction),
                     quiet: ground[0] == 0.0,
                 };
-                self.base.engages(sign_row(&signs), at.ground_drift, model.facts.uplift)
+                self.base.engages(sign_row(&signs), at.ground_drift, model.parameters.uplift)
             };
             let wheel = wheel_for(direction);
             for (index, (spin, locked)) in spins.iter_mut().zip(&mut locked).enumerate() {
@@ -83,11 +83,11 @@ impl LookAhead {
                 if *locked {
                     *spin = rack;
                 }
-                let ahead = direction.times(*spin) > direction.times(rack) + AHEAD * model.facts.slenderness;
+                let ahead = direction.times(*spin) > direction.times(rack) + AHEAD * model.parameters.slenderness;
                 let wanted = resists && index == wheel && (*locked || !ahead);
-                if wanted && !*locked && model.facts.wheels_spin {
-                    let after = 1.0 + model.facts.coupling * arm * arm;
-                    velocity = (velocity + model.facts.coupling * arm * *spin) / after;
+                if wanted && !*locked && model.parameters.wheels_spin {
+                    let after = 1.0 + model.parameters.coupling * arm * arm;
+                    velocity = (velocity + model.parameters.coupling * arm * *spin) / after;
                 }
                 *locked = wanted;
                 if !wanted {
@@ -95,31 +95,37 @@ impl LookAhead {
                 }
             }
             let engaged = u8::from(locked[0]) + u8::from(locked[1]);
-            velocity += step * model.body.over_inertia(&posture, drive, f32::from(engaged) * model.facts.coupling, velocity);
+            velocity += step
+                * model.body.solve_acceleration(
+                    &configuration,
+                    driving_moment,
+                    f32::from(engaged) * model.parameters.coupling,
+                    velocity,
+                );
             rotation += step * velocity;
             if side.times(rotation) < 0.0 {
-                velocity *= model.facts.restitution;
+                velocity *= model.parameters.restitution;
                 side = Sign::of(velocity, side);
             }
         }
-        let (size, speed) = (rotation.abs(), velocity.abs() / model.facts.frequency);
+        let (size, speed) = (rotation.abs(), velocity.abs() / model.parameters.frequency);
         if side.times(velocity) > 0.0 {
             size + speed
         } else {
-            let beyond = if size > model.facts.slenderness { size - model.facts.slenderness } else { 0.0 };
+            let beyond = if size > model.parameters.slenderness { size - model.parameters.slenderness } else { 0.0 };
             2.0 * beyond + 0.5 * speed
         }
     }
 }
 
-impl<B: KnownBody> Law<B> for LookAhead {
+impl<B: PlantBody> Law<B> for LookAhead {
     #[inline]
     fn wish(&self, at: &Situation<'_, B>) -> Wish {
         if at.estimate.standing {
             return self.base.wish(at);
         }
         let gain = self.cost(at, false) - self.cost(at, true);
-        if gain > self.margin * at.model.facts.slenderness { Wish::Resist } else { Wish::Release }
+        if gain > self.margin * at.model.parameters.slenderness { Wish::Resist } else { Wish::Release }
     }
 }
 
@@ -130,7 +136,7 @@ mod tests {
     use crate::control::tests::{example_model, spinning_model};
 
     fn at(
-        model: &crate::control::model::Model<crate::control::model::KnownFull<crate::equation::kinematics::Paper>>,
+        model: &crate::control::model::Model<crate::equation::body::FullBody<f32, crate::equation::kinematics::Paper>>,
         mirror: f32,
     ) -> Wish {
         let side = Sign::of(mirror, Sign::Positive);

@@ -13,7 +13,7 @@ pub mod signs;
 pub mod turn_taking;
 
 use crate::control::estimation::estimate::Estimate;
-use crate::control::model::{KnownBody, Model};
+use crate::control::model::{Model, PlantBody};
 use serde::{Deserialize, Serialize};
 use signs::Signs;
 
@@ -143,10 +143,10 @@ impl<B> Law<B> for SignTable {
     }
 }
 
-impl<B: KnownBody> Law<B> for GatedTable {
+impl<B: PlantBody> Law<B> for GatedTable {
     #[inline]
     fn wish(&self, at: &Situation<'_, B>) -> Wish {
-        if self.engages(sign_row(&at.signs), at.ground_drift, at.model.facts.uplift) { Wish::Resist } else { Wish::Release }
+        if self.engages(sign_row(&at.signs), at.ground_drift, at.model.parameters.uplift) { Wish::Resist } else { Wish::Release }
     }
 }
 

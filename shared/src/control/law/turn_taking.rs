@@ -2,7 +2,7 @@
 
 use super::Wish;
 use crate::control::estimation::estimate::Estimate;
-use crate::control::model::{KnownBody, Model};
+use crate::control::model::{Model, PlantBody};
 use crate::equation::clutch_rule::wheel_for;
 use crate::math::sign::Sign;
 
@@ -21,13 +21,13 @@ pub const AHEAD: f32 = 0.02;
 impl TurnsState {
     /// The speeds a `period` (s) later: of an engaged flywheel that of the rack, of a released one less than before.
     #[inline]
-    pub fn spin<B: KnownBody>(&mut self, model: &Model<B>, now: &Estimate, engaged: [bool; 2], period: f32) {
+    pub fn spin<B: PlantBody>(&mut self, model: &Model<B>, now: &Estimate, engaged: [bool; 2], period: f32) {
         self.spin_at(model, model.rack_speed(now.side, now.rotation, now.velocity), engaged, period);
     }
 
     /// [`TurnsState::spin`] where the speed of the `rack` is known already.
     #[inline]
-    pub fn spin_at<B: KnownBody>(&mut self, model: &Model<B>, rack: f32, engaged: [bool; 2], period: f32) {
+    pub fn spin_at<B: PlantBody>(&mut self, model: &Model<B>, rack: f32, engaged: [bool; 2], period: f32) {
         for (spin, engaged) in self.spins.iter_mut().zip(engaged) {
             *spin = if engaged { rack } else { model.coasted(*spin, period) };
         }
@@ -36,9 +36,9 @@ impl TurnsState {
     /// The clutches of a block that stands and is to be resisted as soon as it moves. Which way it will move nobody knows, so both flywheels
     /// wait on the rack, and the first motion gives the turn to the one of its direction. One that still spins would push the block.
     #[inline]
-    pub fn wait<B: KnownBody>(&mut self, model: &Model<B>) -> [bool; 2] {
+    pub fn wait<B: PlantBody>(&mut self, model: &Model<B>) -> [bool; 2] {
         self.turn = None;
-        self.spins.map(|spin| spin.abs() <= AHEAD * model.facts.slenderness)
+        self.spins.map(|spin| spin.abs() <= AHEAD * model.parameters.slenderness)
     }
 
     /// The clutches that carry out `wish` for motion in `direction` at θ̇ = `velocity`. A flywheel keeps its turn for as long as the
@@ -46,14 +46,14 @@ impl TurnsState {
     /// to the flywheel of the direction, unless it still runs ahead of the rack, so that taking it on would drive the block; then to the
     /// other one, unless that does too.
     #[inline]
-    pub fn take<B: KnownBody>(&mut self, model: &Model<B>, wish: Wish, direction: Sign, now: &Estimate) -> [bool; 2] {
+    pub fn take<B: PlantBody>(&mut self, model: &Model<B>, wish: Wish, direction: Sign, now: &Estimate) -> [bool; 2] {
         self.turn = match wish {
             Wish::Release => None,
             Wish::Hold => Some(0),
             Wish::Resist => self.turn.or_else(|| {
                 let rack = direction.times(model.rack_speed(now.side, now.rotation, now.velocity));
                 let own = wheel_for(direction);
-                let most = rack + AHEAD * model.facts.slenderness;
+                let most = rack + AHEAD * model.parameters.slenderness;
                 let behind = self.spins.map(|spin| direction.times(spin) <= most);
                 let [first, second] = behind;
                 match (own, first, second) {
@@ -124,7 +124,7 @@ mod tests {
             turns.spin(&model, &moving(0.0), [false, false], 5e-4);
         }
         // ẇ = −c w − d.
-        let (c, d) = (f64::from(model.facts.decay), f64::from(model.facts.drag));
+        let (c, d) = (f64::from(model.parameters.decay), f64::from(model.parameters.drag));
         let exact = -((f64::from(-fast) + d / c) * crate::math::exp(-c) - d / c).max(0.0);
         assert!((f64::from(turns.spins[1]) - exact).abs() < 1e-4, "{} {exact}", turns.spins[1]);
     }

@@ -2,13 +2,14 @@
 
 mod estimators;
 
-use super::model::{KnownFull, Model};
+use super::model::Model;
 use crate::control::estimation::estimate::Estimate;
 use crate::control::law::Situation;
 use crate::control::law::signs::Signs;
+use crate::equation::body::FullBody;
 use crate::equation::kinematics::Paper;
 use crate::math::sign::Sign;
-use crate::structure::added_mass::Carried;
+use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
 use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
@@ -26,25 +27,25 @@ pub fn structure() -> Structure {
             mount: Mount::CentreOfMass,
             kinematics: KinematicsKind::Paper,
         },
-        carried: Carried::NONE,
+        added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
         rest_speed: REST_SPEED,
     }
 }
 
 /// The block of [`structure`] with an ideal pair.
-pub fn example_model() -> Model<KnownFull<Paper>> {
+pub fn example_model() -> Model<FullBody<f32, Paper>> {
     Model::new(&structure(), &Drivetrain::default()).unwrap()
 }
 
 /// With flywheels that spin down slowly.
-pub fn spinning_model() -> Model<KnownFull<Paper>> {
+pub fn spinning_model() -> Model<FullBody<f32, Paper>> {
     let flywheel = FlywheelLosses { viscous_rate: 0.4, dry_deceleration: 0.2, brake_deceleration: 0.0 };
     Model::new(&structure(), &Drivetrain { engagement: Engagement::Rigid, flywheel, ..Drivetrain::default() }).unwrap()
 }
 
 /// A situation with the signs of the four `bits`.
-pub fn situation(model: &Model<KnownFull<Paper>>, bits: u8) -> Situation<'_, KnownFull<Paper>> {
+pub fn situation(model: &Model<FullBody<f32, Paper>>, bits: u8) -> Situation<'_, FullBody<f32, Paper>> {
     let sign = |bit: u8| if bits >> bit & 1 == 1 { Sign::Positive } else { Sign::Negative };
     let signs = Signs { rotation: sign(0), velocity: sign(1), push: sign(2), ground: sign(3), quiet: false };
     Situation { model, estimate: Estimate::default(), signs, engaged: [false; 2], spins: [0.0; 2], ground_drift: 0.0 }

@@ -1,10 +1,10 @@
 //! What a device does when it is asked, and what it goes on with after a reset.
 
 use super::{Answer, Device, Surroundings};
-use crate::control::model::KnownAny;
 use crate::control::supervisor::Phase;
 use crate::control::supervisor::event_log::Kind;
-use crate::device::retained::{Kept, MOST_RESTARTS};
+use crate::device::retained::{MOST_RESTARTS, Retained};
+use crate::equation::any_body::AnyBody;
 use crate::link::*;
 use crate::settings::assemble::AnyController;
 use crate::settings::store::Store;
@@ -22,7 +22,7 @@ mod wraps;
 struct Bench {
     device: Device,
     store: Store<Flash>,
-    rig: Rig<KnownAny>,
+    rig: Rig<AnyBody<f32>>,
 }
 
 impl Bench {
@@ -30,7 +30,7 @@ impl Bench {
         Bench::with(&Settings::default(), None)
     }
 
-    fn with(settings: &Settings, kept: Option<&Kept>) -> Bench {
+    fn with(settings: &Settings, kept: Option<&Retained>) -> Bench {
         let controller = AnyController::of(settings).unwrap();
         let (store, _) = Store::open(Flash::default());
         Bench { device: Device::new(&controller, settings, kept), store, rig: Rig::new(controller.model) }

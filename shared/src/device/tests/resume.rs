@@ -4,7 +4,7 @@ use super::*;
 
 /// What happens to a device at a reset: its memory but for what it keeps is gone, and the encoder goes on from the count that was kept.
 fn reset(bench: &Bench) -> Bench {
-    let kept = Kept::of(&bench.device.kept().words()).unwrap();
+    let kept = Retained::of(&bench.device.retained().words()).unwrap();
     Bench { rig: bench.rig.clone(), ..Bench::with(bench.device.settings(), Some(&kept)) }
 }
 
@@ -17,7 +17,7 @@ fn it_goes_on_where_it_was() {
         bench.ticks(20);
         let mut again = reset(&bench);
         assert!(again.device.resumes());
-        assert_eq!(again.device.kept().spins, bench.device.kept().spins);
+        assert_eq!(again.device.retained().spins, bench.device.retained().spins);
         let mut steady = Bench { device: bench.device.clone(), store: Store::open(Flash::default()).0, rig: bench.rig.clone() };
         for number in 0..40 {
             assert_eq!(again.tick(), Phase::Rocking);
@@ -30,7 +30,7 @@ fn it_goes_on_where_it_was() {
                 *worst = worst.max(own - before);
             }
         }
-        let [calibration, before] = [&again, &steady].map(|bench| bench.device.kept().calibration);
+        let [calibration, before] = [&again, &steady].map(|bench| bench.device.retained().calibration);
         assert_eq!(calibration, before);
     }
     // As near to the truth as one that was not interrupted, but that an impact may be taken a tick earlier or later, which is worth 15 % of some
@@ -81,7 +81,7 @@ fn attached_it_waits_for_a_sample_but_not_for_ever() {
     assert!(again.device.resumes() && again.device.decision().command == again.device.safe_command());
     tell(&mut again, number + 1);
     assert!(!again.device.resumes() && again.device.decision().phase == Phase::Rocking);
-    assert_eq!(again.device.kept().calibration, bench.device.kept().calibration);
+    assert_eq!(again.device.retained().calibration, bench.device.retained().calibration);
     // Or starts from the beginning, where the sender is gone too.
     let mut again = reset(&bench);
     (0..200).for_each(|_| again.device.tick(|_| panic!("its own sensors"), 0.0));

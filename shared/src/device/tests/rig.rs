@@ -2,7 +2,7 @@
 //! shake, seen through sensors with biases, noise and steps. The same on every machine, to the last bit: the emulated core has this file as
 //! a module too.
 
-use sprag_shared::control::model::{KnownBody, Model};
+use sprag_shared::control::model::{Model, PlantBody};
 use sprag_shared::control::sensing::sample::{Count, Reading, Sample};
 use sprag_shared::math::sign::Sign;
 use sprag_shared::math::sine32;
@@ -61,7 +61,7 @@ pub struct Rig<B> {
     noise: u32,
 }
 
-impl<B: KnownBody> Rig<B> {
+impl<B: PlantBody> Rig<B> {
     /// At rest.
     pub fn new(model: Model<B>) -> Rig<B> {
         Rig {
@@ -87,7 +87,7 @@ impl<B: KnownBody> Rig<B> {
         self.shaken += u32::from(self.shakes);
         let ground =
             if self.shakes { GROUND.0 * sine32::sin_cos_of_phase(GROUND.1 * (PERIOD * self.shaken as f32)).0 } else { 0.0 };
-        if self.stands && ground.abs() > self.model.facts.uplift {
+        if self.stands && ground.abs() > self.model.parameters.uplift {
             (self.stands, self.side) = (false, Sign::of(-ground, Sign::Positive));
         }
         let locked = u8::from(self.engaged[0]) + u8::from(self.engaged[1]);
@@ -100,13 +100,14 @@ impl<B: KnownBody> Rig<B> {
         if !self.stands {
             // The centre of mass about the toe, R (−sin δ, cos δ), twice derived.
             let (cosine, sine) = self.model.direction_cosines(self.side, rotation);
-            along += self.model.facts.size * (cosine * self.acceleration + sine * velocity * velocity);
-            up += self.model.facts.size * (sine * self.acceleration - cosine * velocity * velocity);
+            along += self.model.parameters.size * (cosine * self.acceleration + sine * velocity * velocity);
+            up += self.model.parameters.size * (sine * self.acceleration - cosine * velocity * velocity);
         }
         let (sine, cosine) = sine32::sin_cos(rotation);
-        let posture = self.model.body.posture(self.side.unit(), rotation);
-        let standing = self.model.body.posture(self.side.unit(), 0.0);
-        let travel = self.model.body.travel(self.side.unit(), &posture) - self.model.body.travel(self.side.unit(), &standing);
+        let configuration = self.model.body.configuration(self.side.unit(), rotation);
+        let standing = self.model.body.configuration(self.side.unit(), 0.0);
+        let travel =
+            self.model.body.travel(self.side.unit(), &configuration) - self.model.body.travel(self.side.unit(), &standing);
         let number = self.tick;
         Sample {
             gyroscope: self.read(&GYROSCOPE, velocity),
@@ -135,20 +136,21 @@ impl<B: KnownBody> Rig<B> {
             self.velocity += self.acceleration * PERIOD;
             self.rotation += self.velocity * PERIOD;
             if self.side.times(self.rotation) < 0.0 {
-                self.velocity *= model.facts.restitution;
+                self.velocity *= model.parameters.restitution;
                 self.side = self.side.opposite();
                 if self.velocity.abs() < REST_SPEED {
                     (self.rotation, self.velocity, self.stands) = (0.0, 0.0, true);
                 }
             }
         }
-        let arm = model.body.arm(&model.body.posture(self.side.unit(), self.rotation));
+        let arm = model.body.arm(&model.body.configuration(self.side.unit(), self.rotation));
         let clutches = self.commands.iter_mut().zip(&mut self.engaged).zip(&mut self.spins);
         for (((commands, engaged), spin), command) in clutches.zip(command) {
             *commands = *commands << 1 | u32::from(command);
             let closes = *commands >> CLUTCH_TICKS & 1 == 1;
-            if closes && !*engaged && model.facts.wheels_spin && !self.stands {
-                self.velocity = (self.velocity + model.facts.coupling * arm * *spin) / (1.0 + model.facts.coupling * arm * arm);
+            if closes && !*engaged && model.parameters.wheels_spin && !self.stands {
+                self.velocity =
+                    (self.velocity + model.parameters.coupling * arm * *spin) / (1.0 + model.parameters.coupling * arm * arm);
             }
             *engaged = closes;
             *spin = if closes { arm * self.velocity } else { model.coasted(*spin, PERIOD) };

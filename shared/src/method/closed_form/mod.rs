@@ -22,13 +22,13 @@
 use crate::equation::any_equation::AnyEquation;
 use crate::equation::motion::Motion;
 use crate::equation::{Equation, SlenderBlock};
-use crate::ground::{Elementary, Piece};
+use crate::ground::{Elementary, GroundSegment};
 use crate::math::polynomial::{Curve, first_zero_of, largest_magnitude_of};
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::math::stumpff;
-use crate::method::dense_output::{Arc, Method, Start};
-use crate::method::fixed::{FixedArc, FixedStep};
+use crate::method::dense_output::{DenseOutput, Integrator, StepStart};
+use crate::method::fixed::{FixedOutput, FixedStep};
 
 /// Longest arc, in 1/p_σ: what comes later in a step is another arc, so that e^{pτ} stays small and the bounds tight.
 const LONGEST: f64 = 4.0;
@@ -43,28 +43,28 @@ pub struct ClosedForm<S> {
 impl<S: Real> ClosedForm<S> {
     /// Whether motions of `equation` under `piece` have a closed form; otherwise steps are those of [`FixedStep::RungeKutta4`].
     #[inline]
-    pub fn applies(equation: &AnyEquation<S>, piece: &dyn Piece<S>) -> bool {
+    pub fn applies(equation: &AnyEquation<S>, piece: &dyn GroundSegment<S>) -> bool {
         equation.slender().is_some() && piece.elementary(S::ZERO).is_some()
     }
 }
 
 /// The motion over one step.
 #[derive(Debug)]
-pub enum ClosedFormArc<'a, S> {
+pub enum ClosedFormOutput<'a, S> {
     /// In closed form.
     Closed(SlenderArc<S>),
     /// Where there is none.
-    Stepped(FixedArc<'a, S>),
+    Stepped(FixedOutput<'a, S>),
 }
 
-impl<S: Real> Method<S> for ClosedForm<S> {
-    type Arc<'a> = ClosedFormArc<'a, S>;
+impl<S: Real> Integrator<S> for ClosedForm<S> {
+    type Output<'a> = ClosedFormOutput<'a, S>;
 
     #[inline]
-    fn arc<'a>(&'a self, start: &'a Start<'a, S>) -> ClosedFormArc<'a, S> {
+    fn integrate<'a>(&'a self, start: &'a StepStart<'a, S>) -> ClosedFormOutput<'a, S> {
         match (start.equation.slender(), start.piece.elementary(start.time)) {
-            (Some(block), Some(ground)) => ClosedFormArc::Closed(SlenderArc::new(block, ground, start)),
-            _ => ClosedFormArc::Stepped(FixedArc::new(FixedStep::RungeKutta4 { step: self.step }, start)),
+            (Some(block), Some(ground)) => ClosedFormOutput::Closed(SlenderArc::new(block, ground, start)),
+            _ => ClosedFormOutput::Stepped(FixedOutput::new(FixedStep::RungeKutta4 { step: self.step }, start)),
         }
     }
 
@@ -98,7 +98,7 @@ struct Acceleration<S> {
 }
 
 impl<S: Real> SlenderArc<S> {
-    fn new(block: &SlenderBlock<S>, mut ground: Elementary<S>, start: &Start<'_, S>) -> Self {
+    fn new(block: &SlenderBlock<S>, mut ground: Elementary<S>, start: &StepStart<'_, S>) -> Self {
         let rate = block.frequency_squared;
         let acceleration = if start.acceleration_is_zero {
             S::ZERO
@@ -123,14 +123,14 @@ impl<S: Real> SlenderArc<S> {
         let length =
             if rate * (start.length * start.length) > longest * longest { longest / rate.square_root() } else { start.length };
         let here = Motion { rotation: start.rotation, velocity: start.velocity, acceleration };
-        let mut arc = SlenderArc { length, rate, start: here, ground, jerk: rate * relative, end: here, curvature: S::ZERO };
-        let growth = arc.growth(length);
-        arc.end = arc.motion(length, growth);
+        let mut output = SlenderArc { length, rate, start: here, ground, jerk: rate * relative, end: here, curvature: S::ZERO };
+        let growth = output.growth(length);
+        output.end = output.motion(length, growth);
         // d²θ̈/dτ² = p² [p² odd sinh(pτ)/p + even cosh pτ] and of each sine at most ω⁴ times its size.
         let Growth { squared, c2, c3 } = growth;
         let sinh = length * (S::ONE + squared * c3);
-        arc.curvature = rate * (rate * odd.abs() * sinh + even.abs() * (S::ONE + squared * c2)) + bound;
-        arc
+        output.curvature = rate * (rate * odd.abs() * sinh + even.abs() * (S::ONE + squared * c2)) + bound;
+        output
     }
 
     #[inline(always)]
@@ -216,7 +216,7 @@ impl<S: Real> Curve<S> for &SlenderArc<S> {
     }
 }
 
-impl<S: Real> Arc<S> for SlenderArc<S> {
+impl<S: Real> DenseOutput<S> for SlenderArc<S> {
     #[inline(always)]
     fn length(&self) -> S {
         self.length
@@ -252,43 +252,43 @@ impl<S: Real> Arc<S> for SlenderArc<S> {
 }
 
 macro_rules! either {
-    ($arc:expr, $inner:ident => $result:expr) => {
-        match $arc {
-            ClosedFormArc::Closed($inner) => $result,
-            ClosedFormArc::Stepped($inner) => $result,
+    ($output:expr, $inner:ident => $result:expr) => {
+        match $output {
+            ClosedFormOutput::Closed($inner) => $result,
+            ClosedFormOutput::Stepped($inner) => $result,
         }
     };
 }
 
-impl<S: Real> Arc<S> for ClosedFormArc<'_, S> {
+impl<S: Real> DenseOutput<S> for ClosedFormOutput<'_, S> {
     #[inline(always)]
     fn length(&self) -> S {
-        either!(self, arc => arc.length())
+        either!(self, output => output.length())
     }
 
     #[inline]
     fn at(&self, time: S) -> Motion<S> {
-        either!(self, arc => arc.at(time))
+        either!(self, output => output.at(time))
     }
 
     #[inline]
     fn switching(&self, time: S) -> S {
-        either!(self, arc => arc.switching(time))
+        either!(self, output => output.switching(time))
     }
 
     #[inline]
     fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        either!(self, arc => arc.acceleration_zero(from, to, sign, from_zero))
+        either!(self, output => output.acceleration_zero(from, to, sign, from_zero))
     }
 
     #[inline]
     fn switching_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        either!(self, arc => arc.switching_zero(from, to, sign, from_zero))
+        either!(self, output => output.switching_zero(from, to, sign, from_zero))
     }
 
     #[inline]
     fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
-        either!(self, arc => arc.largest_acceleration(from, to, floor))
+        either!(self, output => output.largest_acceleration(from, to, floor))
     }
 }
 

@@ -4,10 +4,10 @@ use crate::ground::harmonic::{Harmonic, MavroeidisPapageorgiou};
 use crate::ground::{Harmonics, Linear, Quiet, Ricker, Sum};
 use crate::math::{asin, exp, square_root};
 use crate::method::taylor::Taylor;
-use crate::motion::observer::{Event, Observer, Stretch};
-use crate::motion::state::{Limits, Phase, State};
+use crate::motion::observer::{Event, MonotoneInterval, Observer};
+use crate::motion::state::{BlockState, Limits, Phase};
 use crate::observers::peaks::Peaks;
-use crate::structure::added_mass::Carried;
+use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
 use crate::structure::mount::Mount;
@@ -71,12 +71,12 @@ struct Log<S> {
 }
 
 impl<S: Real> Observer<S> for Log<S> {
-    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
-        self.peaks.stretch(arc, stretch);
+    fn interval(&mut self, output: &dyn DenseOutput<S>, interval: &MonotoneInterval<S>) {
+        self.peaks.interval(output, interval);
         self.stretches += 1;
     }
 
-    fn event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         self.peaks.event(event, time, state);
         self.events.push((event, (self.peaks.origin + time).to_f64()));
     }
@@ -88,19 +88,19 @@ fn structure(kind: DeviceKind, geometry: Geometry) -> Structure {
         block: Block::of_unit_frequency(SLENDERNESS, RECTANGLE_INERTIA_RATIO).unwrap(),
         geometry,
         device: Device { kind, mass_ratio: 0.5, mount: Mount::CentreOfMass, kinematics: KinematicsKind::Paper },
-        carried: Carried::NONE,
+        added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
         rest_speed: REST_SPEED,
     }
 }
 
-fn run<S: Real, M: Method<S>>(kind: DeviceKind, method: &M, segments: &[Segment]) -> (State<S>, Log<S>) {
+fn run<S: Real, M: Integrator<S>>(kind: DeviceKind, method: &M, segments: &[Segment]) -> (BlockState<S>, Log<S>) {
     follow(&structure(kind, Geometry::Slender), method, segments)
 }
 
-fn follow<S: Real, M: Method<S>>(structure: &Structure, method: &M, segments: &[Segment]) -> (State<S>, Log<S>) {
+fn follow<S: Real, M: Integrator<S>>(structure: &Structure, method: &M, segments: &[Segment]) -> (BlockState<S>, Log<S>) {
     let system = structure.resolve().unwrap();
-    let (mut state, mut log) = (State::default(), Log::default());
+    let (mut state, mut log) = (BlockState::default(), Log::default());
     for (index, segment) in segments.iter().enumerate() {
         // Nothing stronger than 1.5 g follows; on quiet ground an outward motion beyond α does not return.
         let last = index + 1 == segments.len();
@@ -128,7 +128,7 @@ fn motions() -> Vec<Vec<Segment>> {
 }
 
 /// Largest differences of the final state, of all event times and of the peaks from the tight Taylor method.
-fn difference<S: Real>((state, log): &(State<S>, Log<S>), (exact, exact_log): &(State<f64>, Log<f64>)) -> f64 {
+fn difference<S: Real>((state, log): &(BlockState<S>, Log<S>), (exact, exact_log): &(BlockState<f64>, Log<f64>)) -> f64 {
     let kinds = |events: &[(Event, f64)]| events.iter().map(|event| event.0).collect::<Vec<_>>();
     assert_eq!(kinds(&log.events), kinds(&exact_log.events), "the same events in the same order");
     let events = log.events.iter().zip(&exact_log.events).map(|(a, b)| (a.1 - b.1).abs()).fold(0.0, f64::max);
@@ -182,7 +182,7 @@ fn a_short_step_loses_no_digits() {
         // θ = −p² (slope τ³/6 − ω² τ⁴/24 + …): the block turns away from the push, and ü starts at 1.
         let exact = -(slope * step * step * step / 6.0) * (1.0 - frequency * frequency / slope * step / 4.0);
         let pulse = Harmonics::sine(amplitude, frequency);
-        let start = Start {
+        let start = StepStart {
             equation: &AnyEquation::Slender(block),
             piece: &pulse,
             side: Sign::Negative,
@@ -194,10 +194,10 @@ fn a_short_step_loses_no_digits() {
             acceleration: None,
             scale: 1.0,
         };
-        let found = ClosedForm { step }.arc(&start).at(step).rotation;
+        let found = ClosedForm { step }.integrate(&start).at(step).rotation;
         assert!((found / exact - 1.0).abs() < 2e-5 * (step / 1e-3) * (step / 1e-3) + 1e-11, "{step}: {found:e} {exact:e}");
         let pulse = Harmonics::sine(amplitude as f32, frequency as f32);
-        let start = Start {
+        let start = StepStart {
             equation: &AnyEquation::Slender(single),
             piece: &pulse,
             side: Sign::Negative,
@@ -209,7 +209,7 @@ fn a_short_step_loses_no_digits() {
             acceleration: None,
             scale: 1.0,
         };
-        let found = f64::from(ClosedForm { step: step as f32 }.arc(&start).at(step as f32).rotation);
+        let found = f64::from(ClosedForm { step: step as f32 }.integrate(&start).at(step as f32).rotation);
         assert!((found / exact - 1.0).abs() < 1e-3, "{step} in f32: {found:e} {exact:e}");
     }
 }

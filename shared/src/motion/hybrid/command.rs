@@ -1,8 +1,8 @@
 //! From the signs of Eq. 10 to a clutch that has moved: commands, delays, dwell and commands that are missed.
 
-use super::{Machine, MachineState};
-use crate::drivetrain::clutch_state::{Coupling, Watch, Wheel};
-use crate::drivetrain::gears::{Gears, rounded_up};
+use super::{HybridState, HybridSystem};
+use crate::drivetrain::clutch_state::{Coupling, FlywheelState, Guard};
+use crate::drivetrain::scaled_parameters::{ScaledParameters, rounded_up};
 use crate::drivetrain::under_way::UnderWay;
 use crate::equation::clutch_rule::wheel_for;
 use crate::math::scalar::Real;
@@ -26,7 +26,7 @@ pub struct Actuator<S> {
     pub misses: u64,
     /// Seed of the draw.
     pub seed: u64,
-    /// Commands come from a controller ([`Machine::order`]) and not from the signs of Eq. 10.
+    /// Commands come from a controller ([`HybridSystem::order`]) and not from the signs of Eq. 10.
     pub controlled: bool,
 }
 
@@ -58,27 +58,27 @@ impl<S: Real> Actuator<S> {
 const MOST_ANSWERS: usize = 4;
 
 /// Until a rising capacity is full, or overcomes the friction that holds a standing flywheel.
-fn ramp_due<S: Real>(gears: &Gears<S>, wheel: &Wheel<S>, block_held: bool) -> Option<S> {
-    if wheel.coupling == Coupling::Open || wheel.engaged_for >= gears.rise_time {
+fn ramp_due<S: Real>(parameters: &ScaledParameters<S>, wheel: &FlywheelState<S>, block_held: bool) -> Option<S> {
+    if wheel.coupling == Coupling::Open || wheel.engaged_for >= parameters.rise_time {
         return None;
     }
-    let full = gears.rise_time - wheel.engaged_for;
-    let (capacity, growth) = gears.capacity_of(wheel);
+    let full = parameters.rise_time - wheel.engaged_for;
+    let (capacity, growth) = parameters.capacity_of(wheel);
     let held = match wheel.coupling {
         Coupling::Slipping(_) | Coupling::Saturated(_) | Coupling::Elastic(_) => wheel.turning.is_none(),
         Coupling::Locked => block_held,
         _ => false,
     };
-    if !held || gears.standing_friction(wheel).1 == S::ZERO {
+    if !held || parameters.standing_friction(wheel).1 == S::ZERO {
         return Some(full);
     }
-    Some(((gears.inertance * gears.bearing_dry - capacity) / growth).smaller(full))
+    Some(((parameters.inertance * parameters.bearing_dry - capacity) / growth).smaller(full))
 }
 
-impl<S: Real> Machine<S> {
+impl<S: Real> HybridSystem<S> {
     /// Gives the commands that the present signs ask for, and carries out those that are due.
-    pub(super) fn command(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
-        if !self.drive.traits().commanded || state.motion.phase != Phase::Rocking {
+    pub(super) fn command(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+        if !self.transmission.traits().commanded || state.motion.phase != Phase::Rocking {
             return;
         }
         for answer in 0..MOST_ANSWERS {
@@ -86,7 +86,7 @@ impl<S: Real> Machine<S> {
                 self.show_instant(state, time, observer);
             }
             let motion = &state.motion;
-            let resists = motion.direction == motion.drive;
+            let resists = motion.direction == motion.terminal_acceleration_sign;
             let wheel = wheel_for(motion.direction);
             // A block that friction holds has no motion to resist: its commands stay.
             if !self.actuator.controlled && !state.held {
@@ -107,7 +107,7 @@ impl<S: Real> Machine<S> {
                 }
             }
             if state.motion.velocity == velocity {
-                if moved && self.drive.traits().holds && velocity == S::ZERO {
+                if moved && self.transmission.traits().holds && velocity == S::ZERO {
                     // The bearings of a wheel that has just been engaged may hold the block, those of a released one let it go, and a
                     // spring that is let go moves it no more.
                     state.free = false;
@@ -130,7 +130,7 @@ impl<S: Real> Machine<S> {
                 self.look_at_drive(state);
             } else {
                 // A jolt that only slows the block down leaves the sign that asked for it, or a clutch would chatter at its zero.
-                state.jolted = self.drive_sign(state) != state.motion.drive;
+                state.jolted = self.terminal_acceleration_sign(state) != state.motion.terminal_acceleration_sign;
             }
             self.settle(state, time, observer);
         }
@@ -138,7 +138,7 @@ impl<S: Real> Machine<S> {
 
     /// A controller's command to each clutch, at local time 0 of the piece of ground motion that follows. It takes effect after the
     /// delay, at once where there is none.
-    pub fn order(&self, state: &mut MachineState<S>, wanted: [bool; 2], observer: &mut dyn DeviceObserver<S>) {
+    pub fn order(&self, state: &mut HybridState<S>, wanted: [bool; 2], observer: &mut dyn DeviceObserver<S>) {
         // What is to be released is released first, so that two that change places are never both engaged.
         for engage in [false, true] {
             for (index, &wish) in wanted.iter().enumerate() {
@@ -155,20 +155,20 @@ impl<S: Real> Machine<S> {
     }
 
     /// Clutches of a standing block that have been commanded for long.
-    pub fn preset(&self, state: &mut MachineState<S>, engaged: [bool; 2]) {
+    pub fn preset(&self, state: &mut HybridState<S>, engaged: [bool; 2]) {
         for (index, &engage) in engaged.iter().enumerate() {
             let wheel = &mut state.device.wheels[index & 1];
             (wheel.commanded, wheel.obeys, wheel.dwell) = (engage, true, S::ZERO);
             (wheel.pending, wheel.under_way) = (-S::ONE, UnderWay::default());
             if engage {
-                self.with_instant(state, S::ZERO, &mut (), |drive, at| drive.engage(at, index));
+                self.with_instant(state, S::ZERO, &mut (), |transmission, at| transmission.engage(at, index));
             }
         }
         state.motion.velocity = S::ZERO;
     }
 
     /// Commands to the clutches of a standing block that are due.
-    pub(super) fn carry_out_at_rest(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+    pub(super) fn carry_out_at_rest(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         for index in 0..2 {
             while state.device.wheels[index].pending == S::ZERO {
                 self.carry_out(state, index, time, observer);
@@ -178,7 +178,7 @@ impl<S: Real> Machine<S> {
     }
 
     /// A command to one clutch, if it is new.
-    fn give(&self, state: &mut MachineState<S>, index: usize, engage: bool) {
+    fn give(&self, state: &mut HybridState<S>, index: usize, engage: bool) {
         let device = &mut state.device;
         let wheel = &mut device.wheels[index];
         if wheel.commanded == engage {
@@ -207,12 +207,12 @@ impl<S: Real> Machine<S> {
     }
 
     /// Whether the command that is due is one to engage.
-    fn due_command(&self, wheel: &Wheel<S>) -> bool {
+    fn due_command(&self, wheel: &FlywheelState<S>) -> bool {
         if self.actuator.transport { wheel.under_way.first() } else { wheel.commanded }
     }
 
     #[inline(never)]
-    fn carry_out(&self, state: &mut MachineState<S>, index: usize, time: S, observer: &mut dyn DeviceObserver<S>) {
+    fn carry_out(&self, state: &mut HybridState<S>, index: usize, time: S, observer: &mut dyn DeviceObserver<S>) {
         let wheel = &mut state.device.wheels[index];
         let engage = self.due_command(wheel);
         // By a transport delay a command may find the clutch as it shall be: the one before it was missed.
@@ -224,11 +224,11 @@ impl<S: Real> Machine<S> {
         if !moves {
             return;
         }
-        self.with_instant(state, time, observer, |drive, at| {
+        self.with_instant(state, time, observer, |transmission, at| {
             if engage {
-                drive.engage(at, index);
+                transmission.engage(at, index);
             } else {
-                drive.release(at, index);
+                transmission.release(at, index);
             }
         });
         // What the acceleration of Eq. 10 is does not depend on the clutches.
@@ -236,14 +236,14 @@ impl<S: Real> Machine<S> {
     }
 
     /// Time until something happens by the clock alone, s.
-    fn next_due(&self, state: &MachineState<S>) -> Option<S> {
-        if !self.drive.traits().commanded {
+    fn next_due(&self, state: &HybridState<S>) -> Option<S> {
+        if !self.transmission.traits().commanded {
             return None;
         }
         let mut due = state.device.next_due().filter(|time| *time > S::ZERO);
-        if let Some(gears) = self.drive.gears().filter(|gears| gears.rise_time > S::ZERO) {
+        if let Some(parameters) = self.transmission.parameters().filter(|parameters| parameters.rise_time > S::ZERO) {
             for wheel in &state.device.wheels {
-                if let Some(time) = ramp_due(gears, wheel, state.held) {
+                if let Some(time) = ramp_due(parameters, wheel, state.held) {
                     due = Some(due.map_or(time, |sooner: S| sooner.smaller(time)));
                 }
             }
@@ -252,7 +252,7 @@ impl<S: Real> Machine<S> {
     }
 
     /// `stop`, or the instant before it at which something happens by the clock alone.
-    pub(super) fn until_due(&self, state: &mut MachineState<S>, time: S, stop: S) -> S {
+    pub(super) fn until_due(&self, state: &mut HybridState<S>, time: S, stop: S) -> S {
         let Some(due) = self.next_due(state) else { return stop };
         let stop = stop.smaller(time + due);
         if stop <= time {
@@ -263,31 +263,31 @@ impl<S: Real> Machine<S> {
     }
 
     /// A clock has run out: a rising capacity may start a flywheel that stood.
-    pub(super) fn ramps(&self, state: &mut MachineState<S>) {
-        let Some(gears) = self.drive.gears().filter(|gears| gears.rise_time > S::ZERO) else { return };
+    pub(super) fn ramps(&self, state: &mut HybridState<S>) {
+        let Some(parameters) = self.transmission.parameters().filter(|parameters| parameters.rise_time > S::ZERO) else { return };
         for wheel in &mut state.device.wheels {
             if let (Coupling::Slipping(sign) | Coupling::Saturated(sign), None) = (wheel.coupling, wheel.turning) {
-                let capacity = gears.capacity_of(wheel).0;
-                gears.settle(wheel, sign.times(rounded_up(capacity)));
+                let capacity = parameters.capacity_of(wheel).0;
+                parameters.settle(wheel, sign.times(rounded_up(capacity)));
             }
         }
     }
 
     /// Takes the sign of the terminals' acceleration as it is now.
     #[inline(never)]
-    pub(super) fn look_at_drive(&self, state: &mut MachineState<S>) {
-        if self.drive.traits().commanded {
-            (state.motion.drive, state.jolted) = (self.drive_sign(state), false);
+    pub(super) fn look_at_drive(&self, state: &mut HybridState<S>) {
+        if self.transmission.traits().commanded {
+            (state.motion.terminal_acceleration_sign, state.jolted) = (self.terminal_acceleration_sign(state), false);
         }
     }
 
     /// Sign of the terminals' acceleration under weight and ground in the present state; where it is zero, as it was.
     #[inline(never)]
-    fn drive_sign(&self, state: &MachineState<S>) -> Sign {
+    fn terminal_acceleration_sign(&self, state: &HybridState<S>) -> Sign {
         let motion = &state.motion;
-        let law = self.drive.law(motion.direction, Sign::Positive, &state.device);
+        let law = self.transmission.law(motion.direction, Sign::Positive, &state.device);
         let now = crate::equation::motion::Motion { rotation: motion.rotation, velocity: motion.velocity, acceleration: S::ZERO };
-        let moment = self.moment(&law, motion.side, &now, self.drive.load(&state.device), state.ground, S::ZERO);
-        Sign::of(self.drive.guard(&moment, S::ZERO, Watch::Command(S::ONE)), motion.drive)
+        let point = self.point(&law, motion.side, &now, self.transmission.load(&state.device), state.ground, S::ZERO);
+        Sign::of(self.transmission.guard(&point, S::ZERO, Guard::Command(S::ONE)), motion.terminal_acceleration_sign)
     }
 }

@@ -1,6 +1,6 @@
 //! Events that crowd: how a graze is told from a motion, and what is reported of one that does not end.
 
-use super::MachineState;
+use super::HybridState;
 use crate::drivetrain::clutch_state::Coupling;
 use crate::math::scalar::Real;
 use crate::motion::state::{Phase, Stopped};
@@ -16,7 +16,7 @@ pub(super) const AT_ONCE: f64 = 1e-9;
 pub(super) const GRAZE: f64 = 1e-6;
 
 /// The error of a state that events do not let go.
-pub(super) fn too_many<S: Real>(state: &MachineState<S>, time: S) -> Stopped {
+pub(super) fn too_many<S: Real>(state: &HybridState<S>, time: S) -> Stopped {
     let has = |is: fn(&Coupling) -> bool| state.device.wheels.iter().any(|wheel| is(&wheel.coupling));
     let mode = if state.motion.phase == Phase::Rest {
         "the block stands"

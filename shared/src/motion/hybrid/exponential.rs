@@ -9,9 +9,9 @@
 //! that the spring has passed on follows from J = ∫F dt = ((ℓA − r) h − Δẏ)/q. What is frozen makes the step one of order 2, whatever
 //! K and C are (Hochbruck and Ostermann 2010, for the frozen-coefficient view).
 
-use super::path::{KnownStart, PathStart, Place};
-use crate::drivetrain::clutch_state::Law;
-use crate::drivetrain::drive::Drive;
+use super::mode_output::{KnownModeStart, ModeStart, Place};
+use crate::drivetrain::clutch_state::ModeCoefficients;
+use crate::drivetrain::transmission::Transmission;
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
 
@@ -66,24 +66,24 @@ struct Frozen<S, const X: usize> {
 }
 
 /// The law without its springs.
-fn springless<S: Real>(law: &Law<S>) -> Law<S> {
-    Law { stiffness: [S::ZERO; 2], damping: [S::ZERO; 2], ..*law }
+fn springless<S: Real>(law: &ModeCoefficients<S>) -> ModeCoefficients<S> {
+    ModeCoefficients { stiffness: [S::ZERO; 2], damping: [S::ZERO; 2], ..*law }
 }
 
-fn freeze<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-    soft: &KnownStart<'_, S, B, D>,
+fn freeze<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
+    soft: &KnownModeStart<'_, S, B, D>,
     at: &Place<S, X>,
 ) -> Frozen<S, X> {
     let (acceleration, rates) = soft.rates(at);
-    let PathStart { law, side, .. } = *soft.start;
-    let arm = soft.body.arm(&soft.body.posture(side.unit(), at.rotation));
+    let ModeStart { law, side, .. } = *soft.start;
+    let arm = soft.body.arm(&soft.body.configuration(side.unit(), at.rotation));
     let leverage = if soft.is_held() { S::ZERO } else { arm / (S::ONE + law.coupling * arm * arm) };
     Frozen { arm, leverage, acceleration, rates }
 }
 
 /// The frozen system a time `h` after `from`, exactly; `ground` is the ground's acceleration then, in g.
-fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-    known: &KnownStart<'_, S, B, D>,
+fn solve<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
+    known: &KnownModeStart<'_, S, B, D>,
     from: &Place<S, X>,
     frozen: &Frozen<S, X>,
     (h, ground): (S, [S; 2]),
@@ -96,7 +96,9 @@ fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>
     for (value, &rate) in unknowns.iter_mut().zip(&frozen.rates) {
         *value = *value + h * rate;
     }
-    let Some(gears) = known.drive.gears() else { return Place { time: h, ground, rotation, velocity, unknowns } };
+    let Some(parameters) = known.transmission.parameters() else {
+        return Place { time: h, ground, rotation, velocity, unknowns };
+    };
     // A spring between a block and a flywheel that are both held keeps its twist.
     let contact = [0, 1].map(|i| law.stiffness[i] > S::ZERO && !(known.is_held() && law.moves[i] == S::ZERO));
     let both = contact[0] && contact[1];
@@ -104,10 +106,10 @@ fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>
     let twist = [0, 1].map(|i| from.unknowns[i + 2] - law.rest_twist[i]);
     let slide = [0, 1].map(|i| frozen.arm * from.velocity - from.unknowns[i]);
     let push = [0, 1].map(|i| frozen.arm * frozen.acceleration - frozen.rates[i]);
-    let gain = [0, 1].map(|i| if both { gears.mobility } else { law.moves[i] * gears.mobility });
+    let gain = [0, 1].map(|i| if both { parameters.mobility } else { law.moves[i] * parameters.mobility });
     // Impulse of each spring and its integral. Two springs of one kind part into their mean and their difference.
     let mode = |q: S, push: S, y: S, rate: S| {
-        let oscillator = Oscillator { damping: S::HALF * q * gears.damping, stiffness: q * gears.stiffness, push };
+        let oscillator = Oscillator { damping: S::HALF * q * parameters.damping, stiffness: q * parameters.stiffness, push };
         let (y_end, rate_end) = oscillator.after(h, (y, rate));
         let impulse = (push * h - (rate_end - rate)) / q;
         let integral = (push * half_square - (y_end - y - rate * h)) / q;
@@ -117,8 +119,8 @@ fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>
     let springs = if both {
         let two = S::of(2.0);
         let (sum, sum_j, sum_jj) =
-            mode(two * coupled + gears.mobility, push[0] + push[1], twist[0] + twist[1], slide[0] + slide[1]);
-        let (difference, j, jj) = mode(gears.mobility, push[0] - push[1], twist[0] - twist[1], slide[0] - slide[1]);
+            mode(two * coupled + parameters.mobility, push[0] + push[1], twist[0] + twist[1], slide[0] + slide[1]);
+        let (difference, j, jj) = mode(parameters.mobility, push[0] - push[1], twist[0] - twist[1], slide[0] - slide[1]);
         let half = |a: S, b: S| S::HALF * (a + b);
         [(half(sum, difference), half(sum_j, j), half(sum_jj, jj)), (half(sum, -difference), half(sum_j, -j), half(sum_jj, -jj))]
     } else {
@@ -133,22 +135,23 @@ fn solve<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>
             unknowns[i + 2] = law.rest_twist[i] + y;
         } else if law.relaxation[i] > S::ZERO {
             // The twist of a saturated clutch relaxes by K/C: exactly, too.
-            let held = law.slip[i] / gears.stiffness;
-            unknowns[i + 2] = law.rest_twist[i] + held + (twist[i] - held) * (-(gears.stiffness * law.relaxation[i] * h)).exp();
+            let held = law.slip[i] / parameters.stiffness;
+            unknowns[i + 2] =
+                law.rest_twist[i] + held + (twist[i] - held) * (-(parameters.stiffness * law.relaxation[i] * h)).exp();
         }
     }
     Place { time: h, ground, rotation, velocity, unknowns }
 }
 
 /// The state a time `h` after `from`, where the ground's acceleration (in g) is `ground`. Order 2; stable for every stiffness.
-pub(super) fn midpoint<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-    known: &KnownStart<'_, S, B, D>,
+pub(super) fn midpoint<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
+    known: &KnownModeStart<'_, S, B, D>,
     from: &Place<S, X>,
     (h, ground): (S, [S; 2]),
 ) -> Place<S, X> {
     let law = springless(known.start.law);
-    let soft = PathStart { law: &law, ..*known.start };
-    let soft = KnownStart { start: &soft, ..*known };
+    let soft = ModeStart { law: &law, ..*known.start };
+    let soft = KnownModeStart { start: &soft, ..*known };
     let half = S::HALF * h;
     let middle = solve(known, from, &freeze(&soft, from), (half, known.start.ground_at(half)));
     solve(known, from, &freeze(&soft, &middle), (h, ground))

@@ -1,29 +1,33 @@
 //! Dry friction of rack and bearings may hold a block: tilted, where it turns, or on its base, where clutches engage as it starts.
 
-use super::path::{Shaking, Tracer};
+use super::mode_output::{ModeIntegrator, Shaking};
 use super::threshold::{Threshold, earlier};
-use super::{Machine, MachineState};
-use crate::drivetrain::clutch_state::{Coupling, Law, Watch, Wheel};
+use super::{HybridState, HybridSystem};
+use crate::drivetrain::clutch_state::{Coupling, FlywheelState, Guard, ModeCoefficients};
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::motion::device_snapshot::DeviceObserver;
 use crate::motion::state::Limits;
 
-impl<S: Real> Machine<S> {
+impl<S: Real> HybridSystem<S> {
     /// At θ̇ = 0: the way on, if friction lets the block go.
     #[inline(never)]
-    pub(super) fn turned(&self, state: &mut MachineState<S>) {
+    pub(super) fn turned(&self, state: &mut HybridState<S>) {
         let (side, direction) = (state.motion.side, state.motion.direction);
         // A block on its base goes nowhere but up.
         let on = if state.motion.rotation == S::ZERO { side } else { direction };
-        let on_base = self.drive.traits().holds && state.motion.rotation == S::ZERO;
+        let on_base = self.transmission.traits().holds && state.motion.rotation == S::ZERO;
         let goes = |sign: Sign| {
             let threshold = self.breakaway(state, side, sign);
-            if self.drive.traits().holds { threshold.is_exceeded(state.ground) } else { threshold.at(state.ground) > S::ZERO }
+            if self.transmission.traits().holds {
+                threshold.is_exceeded(state.ground)
+            } else {
+                threshold.at(state.ground) > S::ZERO
+            }
         };
         let (goes_on, goes_back) = (goes(on), !on_base && goes(direction.opposite()));
-        state.held = self.drive.traits().holds && !goes_on && !goes_back;
+        state.held = self.transmission.traits().holds && !goes_on && !goes_back;
         if on_base {
             state.motion.direction = side;
         } else if !goes_on && goes_back {
@@ -34,7 +38,7 @@ impl<S: Real> Machine<S> {
     /// Follows a held block until the push is strong enough or `stop`. Returns the time.
     pub(super) fn hold(
         &self,
-        state: &mut MachineState<S>,
+        state: &mut HybridState<S>,
         shaking: Shaking<'_, S>,
         time: S,
         stop: S,
@@ -60,7 +64,7 @@ impl<S: Real> Machine<S> {
     }
 
     /// When a held block is let go before `stop`, and how. On its base it can only go up, and its weight alone may hold it again.
-    fn let_go(&self, state: &MachineState<S>, shaking: Shaking<'_, S>, time: S, stop: S) -> Option<(S, LetGo)> {
+    fn let_go(&self, state: &HybridState<S>, shaking: Shaking<'_, S>, time: S, stop: S) -> Option<(S, LetGo)> {
         let side = state.motion.side;
         let first = |threshold: Threshold<S>| threshold.exceeded(shaking, time, stop);
         let moves = |sign| first(self.breakaway(state, side, sign)).map(|(at, crossing)| (at, LetGo::Moves { sign, crossing }));
@@ -73,7 +77,7 @@ impl<S: Real> Machine<S> {
     }
 
     /// What holds a block on its base without its clutches.
-    fn weight(&self, state: &MachineState<S>) -> Threshold<S> {
+    fn weight(&self, state: &HybridState<S>) -> Threshold<S> {
         let side = state.motion.side;
         self.breakaway(&self.standing(state, S::ZERO, &mut ()), side, side).opposite()
     }
@@ -82,7 +86,7 @@ impl<S: Real> Machine<S> {
     #[inline(never)]
     pub(super) fn set_off(
         &self,
-        state: &mut MachineState<S>,
+        state: &mut HybridState<S>,
         (sign, crossing): (Sign, bool),
         time: S,
         observer: &mut dyn DeviceObserver<S>,
@@ -98,7 +102,7 @@ impl<S: Real> Machine<S> {
     }
 
     /// At θ̇ = 0, where what holds or moves the block has changed: a held block that nothing holds any more goes. Whether it does.
-    pub(super) fn try_to_set_off(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) -> bool {
+    pub(super) fn try_to_set_off(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) -> bool {
         let was_held = state.held;
         self.turned(state);
         let goes = was_held && !state.held;
@@ -109,26 +113,27 @@ impl<S: Real> Machine<S> {
     }
 
     /// A clutch stretches or plays, so that its flywheel swings while the block is held.
-    pub(super) fn has_springs(&self, state: &MachineState<S>) -> bool {
-        let stiff = |wheel: &Wheel<S>| matches!(wheel.coupling, Coupling::Open | Coupling::Locked | Coupling::Slipping(_));
-        self.drive.traits().springs && !state.device.wheels.iter().all(stiff)
+    pub(super) fn has_springs(&self, state: &HybridState<S>) -> bool {
+        let stiff =
+            |wheel: &FlywheelState<S>| matches!(wheel.coupling, Coupling::Open | Coupling::Locked | Coupling::Slipping(_));
+        self.transmission.traits().springs && !state.device.wheels.iter().all(stiff)
     }
 
     /// The equations of a held block: what its springs do moves flywheels alone, until they or the ground overcome the rack's friction.
-    pub(super) fn hold_law(&self, state: &MachineState<S>, law: &mut Law<S>) {
+    pub(super) fn hold_law(&self, state: &HybridState<S>, law: &mut ModeCoefficients<S>) {
         let (side, rotation) = (state.motion.side.unit(), state.motion.rotation);
-        let posture = self.body.posture(side, rotation);
-        let moment = self.body.along(&posture, law.dry.abs());
-        let friction = self.body.over_inertia(&posture, moment, law.coupling, S::ZERO);
+        let configuration = self.body.configuration(side, rotation);
+        let moment = self.body.to_terminal(&configuration, law.dry.abs());
+        let friction = self.body.solve_acceleration(&configuration, moment, law.coupling, S::ZERO);
         law.dry = S::ZERO;
-        law.watch[0] = if rotation == S::ZERO { Watch::HeldDown(friction, side) } else { Watch::Stuck(friction) };
+        law.watch[0] = if rotation == S::ZERO { Guard::HeldDown(friction, side) } else { Guard::Stuck(friction) };
     }
 
-    /// [`Machine::hold`] with springs: one step, up to its first event.
-    pub(super) fn hold_springs<T: Tracer<S>>(
+    /// [`HybridSystem::hold`] with springs: one step, up to its first event.
+    pub(super) fn hold_springs<T: ModeIntegrator<S>>(
         &self,
-        tracer: &T,
-        state: &mut MachineState<S>,
+        integrator: &T,
+        state: &mut HybridState<S>,
         shaking: Shaking<'_, S>,
         (time, stop): (&mut S, S),
         guarded: (&Limits<S>, bool),
@@ -138,7 +143,7 @@ impl<S: Real> Machine<S> {
         let rests = if on_base { self.weight(state).exceeded(shaking, *time, stop) } else { None };
         let end = rests.map_or(stop, |(at, _)| at);
         if end > *time {
-            self.follow(tracer, state, shaking, (time, end), guarded, observer);
+            self.follow(integrator, state, shaking, (time, end), guarded, observer);
         }
         if rests.is_some() && *time == end {
             *state = self.standing(state, *time, observer);
@@ -149,7 +154,7 @@ impl<S: Real> Machine<S> {
     }
 
     /// What moves a held block has reached what holds it.
-    pub(super) fn break_away(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+    pub(super) fn break_away(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         let side = state.motion.side;
         let push = |sign| self.breakaway(state, side, sign).at(state.ground);
         let outward = state.motion.rotation == S::ZERO || push(side) > push(side.opposite());

@@ -1,8 +1,8 @@
 //! What an impact does to block and device, and how impacts that accumulate end in rest.
 
-use super::path::Shaking;
-use super::{Machine, MachineState};
-use crate::drivetrain::clutch_state::WATCHES;
+use super::mode_output::Shaking;
+use super::{HybridState, HybridSystem};
+use crate::drivetrain::clutch_state::GUARDS;
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -14,11 +14,11 @@ use crate::motion::state::Phase;
 /// Pairs of swings below the rest speed that are followed in one piece when their impacts do not end them.
 const MOST_IDLE_SWINGS: f64 = 1e3;
 
-impl<S: Real> Machine<S> {
+impl<S: Real> HybridSystem<S> {
     /// θ = 0. Returns the time, which rest moves on to the end of the impacts that it stands for.
     pub(super) fn impact(
         &self,
-        state: &mut MachineState<S>,
+        state: &mut HybridState<S>,
         shaking: Shaking<'_, S>,
         time: S,
         duration: S,
@@ -32,18 +32,18 @@ impl<S: Real> Machine<S> {
         // A turn and a hit in one ulp leave the direction of before the turn.
         motion.direction = Sign::of(incoming, motion.direction);
         let before = {
-            let posture = self.body.posture(motion.side.unit(), S::ZERO);
-            self.body.along(&posture, incoming)
+            let configuration = self.body.configuration(motion.side.unit(), S::ZERO);
+            self.body.to_terminal(&configuration, incoming)
         };
-        let engaged = self.drive.engaged_at_impact(&state.device);
+        let engaged = self.transmission.engaged_at_impact(&state.device);
         motion.velocity = self.restitution[engaged.min(2)] * incoming;
         motion.side = motion.direction;
         self.look_at_drive(state);
         let velocity = state.motion.velocity;
         observer.device_event(Event::Impact, time, &state.motion);
-        self.with_instant(state, time, observer, |drive, at| {
-            drive.impact(at, before);
-            drive.settle(at);
+        self.with_instant(state, time, observer, |transmission, at| {
+            transmission.impact(at, before);
+            transmission.settle(at);
         });
         if velocity.abs() > self.rest_speed {
             return time;
@@ -72,14 +72,14 @@ impl<S: Real> Machine<S> {
     }
 
     /// The infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]).
-    fn accumulation(&self, standing: &MachineState<S>, speed: S) -> Accumulation<S> {
+    fn accumulation(&self, standing: &HybridState<S>, speed: S) -> Accumulation<S> {
         let side = standing.motion.side;
         let rates = |side: Sign| {
-            let posture = self.body.posture(side.unit(), S::ZERO);
-            let arm = self.body.arm(&posture);
+            let configuration = self.body.configuration(side.unit(), S::ZERO);
+            let arm = self.body.arm(&configuration);
             let held = -self.breakaway(standing, side, side).at(standing.ground);
             let over = |inward: bool| {
-                let inertia = S::ONE + self.drive.swing_coupling(inward) * arm * arm;
+                let inertia = S::ONE + self.transmission.swing_coupling(inward) * arm * arm;
                 (held / inertia).larger(S::EPSILON * S::EPSILON)
             };
             (over(false), over(true))
@@ -88,9 +88,9 @@ impl<S: Real> Machine<S> {
     }
 
     /// Signs and modes of a block that has just been released.
-    pub(super) fn start(&self, state: &mut MachineState<S>) {
+    pub(super) fn start(&self, state: &mut HybridState<S>) {
         let inward = state.motion.side.opposite();
-        state.motion.drive = inward;
+        state.motion.terminal_acceleration_sign = inward;
         self.look_at_drive(state);
         if state.motion.velocity == S::ZERO {
             self.turned(state);
@@ -103,13 +103,13 @@ impl<S: Real> Machine<S> {
     }
 
     /// The ground may have jumped between two pieces.
-    pub(super) fn ground_at_start(&self, state: &mut MachineState<S>, ground: [S; 2], observer: &mut dyn DeviceObserver<S>) {
+    pub(super) fn ground_at_start(&self, state: &mut HybridState<S>, ground: [S; 2], observer: &mut dyn DeviceObserver<S>) {
         let jump = (ground[0] - state.ground[0]).abs().larger((ground[1] - state.ground[1]).abs());
         state.ground = ground;
         let size = ground[0].abs().larger(ground[1].abs()).larger(S::EPSILON);
         if state.motion.phase == Phase::Rocking && jump > size * S::EPSILON * S::of(4096.0) {
             self.look_at_drive(state);
-            state.fresh = [false; WATCHES];
+            state.fresh = [false; GUARDS];
             if state.motion.velocity == S::ZERO {
                 self.try_to_set_off(state, S::ZERO, observer);
             }
@@ -119,10 +119,10 @@ impl<S: Real> Machine<S> {
     }
 
     /// Time passes for an idle device.
-    pub(super) fn idle(&self, state: &mut MachineState<S>, time: S) {
-        if let Some(gears) = self.drive.gears() {
+    pub(super) fn idle(&self, state: &mut HybridState<S>, time: S) {
+        if let Some(parameters) = self.transmission.parameters() {
             for wheel in &mut state.device.wheels {
-                gears.coast(wheel, time);
+                parameters.coast(wheel, time);
             }
         }
         state.device.elapse(time);

@@ -1,7 +1,7 @@
 //! A rocking block whose device has a memory: flywheels that keep spinning, clutches that slip, stretch and come late.
 //!
 //! Such a system is hybrid: smooth motion in one mode, until a watched function reaches zero and another mode takes over. Every
-//! event is located on the path ([`path`]), and every mode is left in one that is consistent at that instant. Ideal devices have
+//! event is located on the path ([`mode_output`]), and every mode is left in one that is consistent at that instant. Ideal devices have
 //! a loop of their own ([`crate::motion::ideal`]) that knows none of this; both agree where both apply.
 //!
 //! As there, signs are part of the state, so that an event just handled is not found again.
@@ -13,7 +13,7 @@ mod crowding;
 pub mod exponential;
 mod hold;
 mod impact;
-pub mod path;
+pub mod mode_output;
 pub mod resolve;
 mod seen;
 pub mod series;
@@ -23,32 +23,32 @@ mod threshold;
 
 pub use command::Actuator;
 
-use crate::drivetrain::any_drive::AnyDrive;
-use crate::drivetrain::clutch_state::{Coupling, Device, Law, WATCHES, Watch};
-use crate::drivetrain::drive::{AnyMoment, Instant, Moment, UNKNOWNS};
+use crate::drivetrain::any_transmission::AnyTransmission;
+use crate::drivetrain::clutch_state::{Coupling, DeviceState, GUARDS, Guard, ModeCoefficients};
 use crate::drivetrain::power_loss::Spent;
+use crate::drivetrain::transmission::{AnyPoint, EvaluationPoint, EventContext, UNKNOWNS};
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
 use crate::equation::motion::Motion;
-use crate::math::root::locate;
+use crate::math::root::newton_bracketed;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::method::dense_output::Arc;
+use crate::method::dense_output::DenseOutput;
 use crate::method::step_grid::next_stop;
 use crate::motion::device_snapshot::{DeviceObserver, Snapshot};
-use crate::motion::observer::{Event, Stretch};
-use crate::motion::state::{Limits, Phase, State, Stopped};
+use crate::motion::observer::{Event, MonotoneInterval};
+use crate::motion::state::{BlockState, Limits, Phase, Stopped};
 use crowding::{AT_ONCE, GRAZE, MOST_AT_ONCE, too_many};
-use path::{Path, PathStart, Shaking, Tracer};
+use mode_output::{ModeIntegrator, ModeOutput, ModeStart, Shaking};
 use seen::Seen;
 
 /// A block with its device, resolved into their equations.
 #[derive(Clone, Copy, Debug)]
-pub struct Machine<S> {
+pub struct HybridSystem<S> {
     /// The block.
     pub body: AnyBody<S>,
     /// The device.
-    pub drive: AnyDrive<S>,
+    pub transmission: AnyTransmission<S>,
     /// Velocity after an impact over that before, with 0, 1 and 2 flywheels engaged through it; each 0 to 1.
     pub restitution: [S; 3],
     /// α, rad: the size of a rotation that matters.
@@ -65,17 +65,17 @@ pub struct Machine<S> {
 
 /// The state of a block with a device.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MachineState<S> {
+pub struct HybridState<S> {
     /// The block's.
-    pub motion: State<S>,
+    pub motion: BlockState<S>,
     /// The device's.
-    pub device: Device<S>,
+    pub device: DeviceState<S>,
     /// Friction holds the block: tilted, at a turn, or on its base, where clutches engaged as it started.
     pub held: bool,
     /// Ground acceleration at the end of the last piece, in g.
     pub ground: [S; 2],
     /// The watched functions that are zero here, by an event just handled.
-    fresh: [bool; WATCHES],
+    fresh: [bool; GUARDS],
     /// What moves a block that stood has just passed what held it.
     free: bool,
     /// The sign of Eq. 10 is one that a jolt left; the acceleration does not agree with it yet.
@@ -93,17 +93,17 @@ enum End {
     Stopped(usize),
 }
 
-impl<S: Real> Machine<S> {
+impl<S: Real> HybridSystem<S> {
     /// A block that stands, with an idle device.
-    pub fn at_rest(&self) -> MachineState<S> {
-        let motion = State::default();
+    pub fn at_rest(&self) -> HybridState<S> {
+        let motion = BlockState::default();
         let ground = [S::ZERO; 2];
-        let mut state = MachineState {
+        let mut state = HybridState {
             motion,
-            device: Device::at_rest(),
+            device: DeviceState::at_rest(),
             held: false,
             ground,
-            fresh: [false; WATCHES],
+            fresh: [false; GUARDS],
             free: false,
             jolted: false,
         };
@@ -112,10 +112,10 @@ impl<S: Real> Machine<S> {
     }
 
     /// A block released at θ (rad) with θ̇ (rad/s) while the ground accelerates by `ground` (in g).
-    pub fn released_at(&self, rotation: S, velocity: S, ground: [S; 2]) -> MachineState<S> {
+    pub fn released_at(&self, rotation: S, velocity: S, ground: [S; 2]) -> HybridState<S> {
         let mut state = self.at_rest();
         let side = Sign::of(rotation, Sign::of(velocity, Sign::Positive));
-        state.motion = State { rotation, velocity, phase: Phase::Rocking, side, ..State::default() };
+        state.motion = BlockState { rotation, velocity, phase: Phase::Rocking, side, ..BlockState::default() };
         state.motion.direction = Sign::of(velocity, side.opposite());
         state.ground = ground;
         self.start(&mut state);
@@ -123,14 +123,14 @@ impl<S: Real> Machine<S> {
     }
 
     /// Follows block and device over a piece of ground motion from its local time 0 to `duration` (s), telling `observer`
-    /// of every stretch and event.
+    /// of every interval and event.
     ///
     /// # Errors
     /// [`Stopped`], with the state as it was then.
-    pub fn advance<T: Tracer<S>>(
+    pub fn advance<T: ModeIntegrator<S>>(
         &self,
-        tracer: &T,
-        state: &mut MachineState<S>,
+        integrator: &T,
+        state: &mut HybridState<S>,
         shaking: Shaking<'_, S>,
         duration: S,
         limits: &Limits<S>,
@@ -170,7 +170,7 @@ impl<S: Real> Machine<S> {
                 observer.device_event(Event::Overturned, time, &state.motion);
                 break;
             }
-            let step = tracer.step().map_or(duration, |step| next_stop(&mut tick, step, time, duration));
+            let step = integrator.step().map_or(duration, |step| next_stop(&mut tick, step, time, duration));
             let mut stop = self.until_due(state, time, step);
             let before = time;
             let grazes = at_once >= MOST_AT_ONCE;
@@ -181,9 +181,9 @@ impl<S: Real> Machine<S> {
             } else if state.held && !self.has_springs(state) {
                 time = self.hold(state, shaking, time, stop, observer);
             } else if state.held {
-                self.hold_springs(tracer, state, shaking, (&mut time, stop), (limits, !grazes), observer);
+                self.hold_springs(integrator, state, shaking, (&mut time, stop), (limits, !grazes), observer);
             } else {
-                self.follow(tracer, state, shaking, (&mut time, stop), (limits, !grazes), observer);
+                self.follow(integrator, state, shaking, (&mut time, stop), (limits, !grazes), observer);
             }
             at_once = if time - before > S::of(AT_ONCE) * unit { 0 } else { at_once + 1 };
             self.ramps(state);
@@ -198,10 +198,10 @@ impl<S: Real> Machine<S> {
 
     /// One step, up to its first event.
     #[inline]
-    fn follow<T: Tracer<S>>(
+    fn follow<T: ModeIntegrator<S>>(
         &self,
-        tracer: &T,
-        state: &mut MachineState<S>,
+        integrator: &T,
+        state: &mut HybridState<S>,
         shaking: Shaking<'_, S>,
         (time, stop): (&mut S, S),
         (limits, guarded): (&Limits<S>, bool),
@@ -209,23 +209,23 @@ impl<S: Real> Machine<S> {
     ) {
         let motion = &state.motion;
         // Without springs a held block has no path.
-        let traits = self.drive.traits();
+        let traits = self.transmission.traits();
         let held = traits.springs && state.held;
-        let watched = if state.jolted { motion.drive.opposite() } else { motion.drive };
-        let mut law = self.drive.law(motion.direction, watched, &state.device);
+        let watched = if state.jolted { motion.terminal_acceleration_sign.opposite() } else { motion.terminal_acceleration_sign };
+        let mut law = self.transmission.law(motion.direction, watched, &state.device);
         if held {
             self.hold_law(state, &mut law);
         }
-        let start = PathStart {
+        let start = ModeStart {
             body: &self.body,
-            drive: &self.drive,
+            transmission: &self.transmission,
             law: &law,
             shaking,
             ground: state.ground,
             side: motion.side,
             rotation: motion.rotation,
             velocity: motion.velocity,
-            extra: self.drive.load(&state.device),
+            unknowns: self.transmission.load(&state.device),
             time: *time,
             length: stop - *time,
             freed: state.free && motion.velocity == S::ZERO,
@@ -234,52 +234,52 @@ impl<S: Real> Machine<S> {
             speed: self.speed,
         };
         debug_assert!(state.ground == shaking.at(*time), "the ground is as it was left");
-        let path = tracer.path(&start);
-        let length = path.length();
+        let output = integrator.integrate(&start);
+        let length = output.length();
         let mut until = length;
         let mut end = End::Reached;
-        if !held && let Some(turn) = path.velocity_zero(until, motion.direction, motion.velocity == S::ZERO) {
+        if !held && let Some(turn) = output.velocity_zero(until, motion.direction, motion.velocity == S::ZERO) {
             (until, end) = (turn, End::Turn);
         }
         for guard in 0..traits.guards {
             if guarded
-                && law.watch[guard] != Watch::Nothing
-                && let Some(zero) = path.guard_zero(guard, until, state.fresh[guard])
+                && law.watch[guard] != Guard::Nothing
+                && let Some(zero) = output.guard_zero(guard, until, state.fresh[guard])
             {
                 (until, end) = (zero, End::Guard(guard));
             }
         }
         if traits.unknowns >= 2
-            && let Some(gears) = self.drive.gears()
+            && let Some(parameters) = self.transmission.parameters()
         {
             for (i, wheel) in state.device.wheels.iter().enumerate() {
                 // Without dry friction nothing changes where a flywheel stands for an instant.
-                let stops = wheel.coupling != Coupling::Locked && gears.dry_of(wheel) > S::ZERO;
+                let stops = wheel.coupling != Coupling::Locked && parameters.dry_of(wheel) > S::ZERO;
                 if let (Some(turning), true) = (wheel.turning, stops)
-                    && let Some(zero) = path.extra_zero(i, until, turning, wheel.spin == S::ZERO)
+                    && let Some(zero) = output.unknown_zero(i, until, turning, wheel.spin == S::ZERO)
                 {
                     (until, end) = (zero, End::Stopped(i));
                 }
             }
         }
-        let mut last = path.at(until);
+        let mut last = output.at(until);
         // θ is monotone up to here.
         let crossing = |level: S, before: Sign| {
-            locate(S::ZERO, until, before, S::HALF * until, |t| {
-                let motion = path.at(t);
+            newton_bracketed(S::ZERO, until, before, S::HALF * until, |t| {
+                let motion = output.at(t);
                 (motion.rotation - level, motion.velocity)
             })
         };
         if motion.side.times(last.rotation) < S::ZERO {
             until = crossing(S::ZERO, motion.side);
-            (end, last) = (End::Impact, path.at(until));
+            (end, last) = (End::Impact, output.at(until));
         } else if motion.side == motion.direction && motion.side.times(last.rotation) > limits.overturned {
             until = crossing(motion.side.times(limits.overturned), motion.side.opposite());
-            (end, last) = (End::Overturned, path.at(until));
+            (end, last) = (End::Overturned, output.at(until));
         }
-        let first = path.at(S::ZERO);
+        let first = output.at(S::ZERO);
         let engaged = state.device.wheels.iter().any(|wheel| wheel.coupling != Coupling::Open);
-        let stretch = Stretch {
+        let interval = MonotoneInterval {
             start: *time,
             from: S::ZERO,
             to: until,
@@ -289,20 +289,20 @@ impl<S: Real> Machine<S> {
             side: motion.side,
             direction: motion.direction,
         };
-        let seen = Seen { machine: self, path: &path, law: &law, state: &*state, shaking, time: *time };
+        let seen = Seen { machine: self, output: &output, law: &law, state: &*state, shaking, time: *time };
         if held && motion.rotation == S::ZERO {
-            observer.device_stands(&seen, &stretch);
+            observer.device_at_rest(&seen, &interval);
         } else {
-            observer.device_stretch(&seen, &stretch);
+            observer.device_interval(&seen, &interval);
         }
-        let extra = path.extra(until);
+        let unknowns = output.unknowns(until);
         *time = if end == End::Reached && length == stop - *time { stop } else { *time + until };
         let motion = &mut state.motion;
         (motion.rotation, motion.velocity) = (last.rotation, last.velocity);
-        let posture = self.body.posture(motion.side.unit(), motion.rotation);
-        self.drive.store(&mut state.device, &extra, self.body.along(&posture, motion.velocity));
+        let configuration = self.body.configuration(motion.side.unit(), motion.rotation);
+        self.transmission.store(&mut state.device, &unknowns, self.body.to_terminal(&configuration, motion.velocity));
         state.device.elapse(until);
-        (state.fresh, state.free) = ([false; WATCHES], false);
+        (state.fresh, state.free) = ([false; GUARDS], false);
         let ground = shaking.at(*time);
         state.ground = ground;
         match end {
@@ -338,10 +338,10 @@ impl<S: Real> Machine<S> {
             }
             End::Guard(index) => {
                 match law.watch[index] {
-                    Watch::Stuck(_) | Watch::HeldDown(..) => return self.break_away(state, *time, observer),
-                    Watch::Command(_) if state.jolted => state.jolted = false,
-                    Watch::Command(_) => motion.drive = motion.drive.opposite(),
-                    watch => self.with_instant(state, *time, observer, |drive, at| drive.reached(at, watch)),
+                    Guard::Stuck(_) | Guard::HeldDown(..) => return self.break_away(state, *time, observer),
+                    Guard::Command(_) if state.jolted => state.jolted = false,
+                    Guard::Command(_) => motion.terminal_acceleration_sign = motion.terminal_acceleration_sign.opposite(),
+                    watch => self.with_instant(state, *time, observer, |transmission, at| transmission.reached(at, watch)),
                 }
                 // Whatever is watched of a flywheel may be zero where its mode changes.
                 for (other, fresh) in state.fresh.iter_mut().enumerate() {
@@ -353,29 +353,29 @@ impl<S: Real> Machine<S> {
     }
 
     /// A flywheel has come to a stop; what acts on it decides which way it goes on, if at all.
-    fn stopped(&self, state: &mut MachineState<S>, index: usize) {
-        let law = self.drive.law(state.motion.direction, state.motion.drive, &state.device);
+    fn stopped(&self, state: &mut HybridState<S>, index: usize) {
+        let law = self.transmission.law(state.motion.direction, state.motion.terminal_acceleration_sign, &state.device);
         let motion = Motion { rotation: state.motion.rotation, velocity: state.motion.velocity, acceleration: S::ZERO };
-        let moment = self.moment(&law, state.motion.side, &motion, self.drive.load(&state.device), state.ground, S::ZERO);
-        let force = self.drive.account(&moment, S::ZERO, &state.device).force[index & 1];
+        let point = self.point(&law, state.motion.side, &motion, self.transmission.load(&state.device), state.ground, S::ZERO);
+        let force = self.transmission.account(&point, S::ZERO, &state.device).force[index & 1];
         let wheel = &mut state.device.wheels[index & 1];
         wheel.spin = S::ZERO;
-        if let Some(gears) = self.drive.gears() {
-            gears.settle(wheel, force);
+        if let Some(parameters) = self.transmission.parameters() {
+            parameters.settle(wheel, force);
         }
     }
 
     /// Lets the device answer an event, and tells of a change of its coupling.
     fn with_instant(
         &self,
-        state: &mut MachineState<S>,
+        state: &mut HybridState<S>,
         time: S,
         observer: &mut dyn DeviceObserver<S>,
-        answer: impl FnOnce(&AnyDrive<S>, &mut Instant<'_, S>),
+        answer: impl FnOnce(&AnyTransmission<S>, &mut EventContext<'_, S>),
     ) {
         let before = state.device.wheels.map(|wheel| wheel.coupling);
         let motion = &mut state.motion;
-        let mut at = Instant {
+        let mut at = EventContext {
             body: &self.body,
             side: motion.side,
             direction: motion.direction,
@@ -384,7 +384,7 @@ impl<S: Real> Machine<S> {
             ground: state.ground,
             device: &mut state.device,
         };
-        answer(&self.drive, &mut at);
+        answer(&self.transmission, &mut at);
         let velocity = at.velocity;
         if velocity != motion.velocity {
             motion.velocity = velocity;
@@ -404,50 +404,50 @@ impl<S: Real> Machine<S> {
 
     /// After a jump of velocity or ground: modes that it ended are left.
     #[inline(never)]
-    fn settle(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
-        self.with_instant(state, time, observer, |drive, at| drive.settle(at));
+    fn settle(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+        self.with_instant(state, time, observer, |transmission, at| transmission.settle(at));
     }
 
     /// Block and device as they are, under the ground's acceleration at the end of the last piece.
-    pub fn now(&self, state: &MachineState<S>) -> Snapshot<S> {
-        let law = self.drive.law(state.motion.direction, state.motion.drive, &state.device);
-        let extra = self.drive.load(&state.device);
+    pub fn now(&self, state: &HybridState<S>) -> Snapshot<S> {
+        let law = self.transmission.law(state.motion.direction, state.motion.terminal_acceleration_sign, &state.device);
+        let unknowns = self.transmission.load(&state.device);
         let mut motion = Motion { rotation: state.motion.rotation, velocity: state.motion.velocity, acceleration: S::ZERO };
         if state.motion.phase == Phase::Rocking && !state.held {
-            let moment = self.moment(&law, state.motion.side, &motion, extra, state.ground, S::ZERO);
-            motion.acceleration = self.drive.acceleration(&moment);
+            let point = self.point(&law, state.motion.side, &motion, unknowns, state.ground, S::ZERO);
+            motion.acceleration = self.transmission.acceleration(&point);
         }
-        self.snapshot(&law, state, motion, extra, state.ground, S::ZERO)
+        self.snapshot(&law, state, motion, unknowns, state.ground, S::ZERO)
     }
 
     /// What an equation needs to know of an instant.
-    fn moment<'a>(
+    fn point<'a>(
         &'a self,
-        law: &'a Law<S>,
+        law: &'a ModeCoefficients<S>,
         side: Sign,
         motion: &Motion<S>,
-        extra: [S; UNKNOWNS],
+        unknowns: [S; UNKNOWNS],
         ground: [S; 2],
         clock: S,
-    ) -> AnyMoment<'a, S, UNKNOWNS> {
-        let posture = self.body.posture(side.unit(), motion.rotation);
-        Moment { body: &self.body, law, posture, velocity: motion.velocity, extra, ground, clock }
+    ) -> AnyPoint<'a, S, UNKNOWNS> {
+        let configuration = self.body.configuration(side.unit(), motion.rotation);
+        EvaluationPoint { body: &self.body, law, configuration, velocity: motion.velocity, unknowns, ground, clock }
     }
 
     /// Block and device at an instant, for watchers.
     fn snapshot(
         &self,
-        law: &Law<S>,
-        state: &MachineState<S>,
+        law: &ModeCoefficients<S>,
+        state: &HybridState<S>,
         motion: Motion<S>,
-        extra: [S; UNKNOWNS],
+        unknowns: [S; UNKNOWNS],
         ground: [S; 2],
         clock: S,
     ) -> Snapshot<S> {
         let side = state.motion.side;
-        let moment = self.moment(law, side, &motion, extra, ground, clock);
-        let account = self.drive.account(&moment, motion.acceleration, &state.device);
-        let kinematics = self.body.paper_power(side.unit(), &moment.posture, motion.velocity, law.coupling);
+        let point = self.point(law, side, &motion, unknowns, ground, clock);
+        let account = self.transmission.account(&point, motion.acceleration, &state.device);
+        let kinematics = self.body.paper_power(side.unit(), &point.configuration, motion.velocity, law.coupling);
         Snapshot {
             motion,
             ground,
@@ -458,7 +458,7 @@ impl<S: Real> Machine<S> {
             stored: account.stored,
             sprung: account.sprung,
             spent: Spent { kinematics, ..account.spent },
-            terminal_velocity: self.body.along(&moment.posture, motion.velocity),
+            terminal_velocity: self.body.to_terminal(&point.configuration, motion.velocity),
         }
     }
 }

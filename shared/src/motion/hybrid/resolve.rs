@@ -1,17 +1,17 @@
 //! From the parameters of a block and its drivetrain to their equations, as [`Structure::resolve`] for ideal devices.
 
-use super::{Actuator, Machine};
-use crate::drivetrain::any_drive::AnyDrive;
+use super::{Actuator, HybridSystem};
+use crate::drivetrain::any_transmission::AnyTransmission;
 use crate::drivetrain::elastic::ElasticPair;
 use crate::drivetrain::friction::FrictionPair;
-use crate::drivetrain::gears::Gears;
 use crate::drivetrain::ideal::{Alone, IdealPair, Single};
 use crate::drivetrain::overrunning::OverrunningPair;
 use crate::drivetrain::rigid::RigidPair;
+use crate::drivetrain::scaled_parameters::ScaledParameters;
 use crate::equation::FullBlock;
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::{FullBody, SlenderBody};
-use crate::equation::kinematics::{BodyKinematics, Told};
+use crate::equation::kinematics::{BodyKinematics, RuntimeKinematics};
 use crate::equation::lever::TyingPoint;
 use crate::math;
 use crate::math::scalar::Real;
@@ -27,9 +27,9 @@ impl Drivetrain {
     ///
     /// # Errors
     /// [`ParameterError`] names the first parameter outside its range.
-    pub fn resolve<S: Real>(&self, structure: &Structure, vertical: bool) -> Result<Machine<S>, ParameterError> {
+    pub fn resolve<S: Real>(&self, structure: &Structure, vertical: bool) -> Result<HybridSystem<S>, ParameterError> {
         self.check()?;
-        let heavier = 1.0 + structure.carried.mass_ratio;
+        let heavier = 1.0 + structure.added_mass.mass_ratio;
         let structure = structure.loaded()?;
         let sigma = structure.device.mass_ratio;
         require("mass_ratio", sigma, (0.0..=10_000.0).contains(&sigma), "from 0 to 10000")?;
@@ -93,7 +93,7 @@ impl Parts {
         })
     }
 
-    fn full<S: Real>(&self) -> Result<FullBody<S, Told>, ParameterError> {
+    fn full<S: Real>(&self) -> Result<FullBody<S, RuntimeKinematics>, ParameterError> {
         let Structure { block, device, .. } = &self.structure;
         let constants = device.mount.lever(block)?;
         Ok(FullBody {
@@ -102,40 +102,40 @@ impl Parts {
                 slenderness: S::of(block.slenderness()),
             },
             lever: TyingPoint { along: S::of(constants.along), across: S::of(constants.across) },
-            kinematics: Told::told(self.remembers() || device.kinematics == KinematicsKind::Consistent),
+            kinematics: RuntimeKinematics::chosen(self.remembers() || device.kinematics == KinematicsKind::Consistent),
             vertical: self.vertical,
         })
     }
 
-    fn gears<S: Real>(&self) -> Gears<S> {
-        Gears::of(&self.drivetrain, &self.structure.block, self.structure.device.mass_ratio, self.heavier)
+    fn parameters<S: Real>(&self) -> ScaledParameters<S> {
+        ScaledParameters::of(&self.drivetrain, &self.structure.block, self.structure.device.mass_ratio, self.heavier)
     }
 
-    fn drive<S: Real>(&self) -> AnyDrive<S> {
-        let gears = self.gears();
+    fn transmission<S: Real>(&self) -> AnyTransmission<S> {
+        let parameters = self.parameters();
         let Drivetrain { engagement, flywheel, rack, .. } = &self.drivetrain;
         let friction = *rack != Rack::default() || flywheel.viscous_rate != 0.0 || flywheel.dry_deceleration != 0.0;
         match (self.structure.device.kind, friction) {
-            (DeviceKind::None, _) => AnyDrive::Alone(Alone),
-            (DeviceKind::Inerter, false) => AnyDrive::Single(Single(gears)),
-            (DeviceKind::Inerter, true) => AnyDrive::SingleWithFriction(Single(gears)),
+            (DeviceKind::None, _) => AnyTransmission::Alone(Alone),
+            (DeviceKind::Inerter, false) => AnyTransmission::Single(Single(parameters)),
+            (DeviceKind::Inerter, true) => AnyTransmission::SingleWithFriction(Single(parameters)),
             (DeviceKind::ClutchedPair, _) => match engagement {
-                Engagement::Ideal if friction => AnyDrive::IdealWithFriction(IdealPair(gears)),
-                Engagement::Ideal => AnyDrive::Ideal(IdealPair(gears)),
-                Engagement::Rigid => AnyDrive::Rigid(RigidPair(gears)),
-                Engagement::Overrunning => AnyDrive::Overrunning(OverrunningPair(gears)),
-                Engagement::Friction { .. } => AnyDrive::Friction(FrictionPair(gears)),
-                Engagement::Elastic { .. } => AnyDrive::Elastic(ElasticPair(gears)),
+                Engagement::Ideal if friction => AnyTransmission::IdealWithFriction(IdealPair(parameters)),
+                Engagement::Ideal => AnyTransmission::Ideal(IdealPair(parameters)),
+                Engagement::Rigid => AnyTransmission::Rigid(RigidPair(parameters)),
+                Engagement::Overrunning => AnyTransmission::Overrunning(OverrunningPair(parameters)),
+                Engagement::Friction { .. } => AnyTransmission::Friction(FrictionPair(parameters)),
+                Engagement::Elastic { .. } => AnyTransmission::Elastic(ElasticPair(parameters)),
             },
         }
     }
 
-    fn machine<S: Real>(&self, body: AnyBody<S>) -> Machine<S> {
+    fn machine<S: Real>(&self, body: AnyBody<S>) -> HybridSystem<S> {
         let block = &self.structure.block;
         let speed = block.frequency_parameter() * block.slenderness();
-        Machine {
+        HybridSystem {
             body,
-            drive: self.drive(),
+            transmission: self.transmission(),
             restitution: self.restitution.map(S::of),
             slenderness: S::of(block.slenderness()),
             speed: S::of(speed),

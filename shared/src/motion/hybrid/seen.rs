@@ -1,69 +1,69 @@
 //! What watchers see: a block on its path, and one that does not move.
 
-use super::path::{Path, Shaking};
-use super::{Machine, MachineState};
-use crate::drivetrain::clutch_state::Law;
+use super::mode_output::{ModeOutput, Shaking};
+use super::{HybridState, HybridSystem};
+use crate::drivetrain::clutch_state::ModeCoefficients;
 use crate::equation::motion::Motion;
 use crate::math::scalar::Real;
-use crate::method::dense_output::Arc;
-use crate::motion::device_snapshot::{DeviceArc, Snapshot};
-use crate::motion::state::State;
+use crate::method::dense_output::DenseOutput;
+use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
+use crate::motion::state::BlockState;
 
 /// A path as watchers see it.
 pub(super) struct Seen<'a, S, A> {
-    pub(super) machine: &'a Machine<S>,
-    pub(super) path: &'a A,
-    pub(super) law: &'a Law<S>,
-    pub(super) state: &'a MachineState<S>,
+    pub(super) machine: &'a HybridSystem<S>,
+    pub(super) output: &'a A,
+    pub(super) law: &'a ModeCoefficients<S>,
+    pub(super) state: &'a HybridState<S>,
     pub(super) shaking: Shaking<'a, S>,
     pub(super) time: S,
 }
 
-impl<S: Real, A: Arc<S>> Arc<S> for Seen<'_, S, A> {
+impl<S: Real, A: DenseOutput<S>> DenseOutput<S> for Seen<'_, S, A> {
     #[inline(always)]
     fn length(&self) -> S {
-        self.path.length()
+        self.output.length()
     }
 
     #[inline(always)]
     fn at(&self, time: S) -> Motion<S> {
-        self.path.at(time)
+        self.output.at(time)
     }
 
     #[inline(always)]
     fn switching(&self, time: S) -> S {
-        self.path.switching(time)
+        self.output.switching(time)
     }
 
     #[inline(always)]
     fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
-        self.path.largest_acceleration(from, to, floor)
+        self.output.largest_acceleration(from, to, floor)
     }
 }
 
-impl<S: Real, A: Path<S>> DeviceArc<S> for Seen<'_, S, A> {
+impl<S: Real, A: ModeOutput<S>> DeviceOutput<S> for Seen<'_, S, A> {
     fn snapshot(&self, time: S) -> Snapshot<S> {
         let ground = self.shaking.at(self.time + time);
-        self.machine.snapshot(self.law, self.state, self.path.at(time), self.path.extra(time), ground, time)
+        self.machine.snapshot(self.law, self.state, self.output.at(time), self.output.unknowns(time), ground, time)
     }
 }
 
 /// A block that does not move, or at one instant. The ground is behind a pointer: one copy of this serves every kind of it.
 pub(super) struct Still<'a, S> {
-    pub(super) machine: &'a Machine<S>,
-    pub(super) state: &'a MachineState<S>,
+    pub(super) machine: &'a HybridSystem<S>,
+    pub(super) state: &'a HybridState<S>,
     /// Acceleration in g, horizontal and vertical, a time (s) after the start.
     pub(super) ground: &'a dyn Fn(S) -> [S; 2],
     pub(super) length: S,
 }
 
-impl<S: Real> Arc<S> for Still<'_, S> {
+impl<S: Real> DenseOutput<S> for Still<'_, S> {
     fn length(&self) -> S {
         self.length
     }
 
     fn at(&self, _time: S) -> Motion<S> {
-        let State { rotation, velocity, .. } = self.state.motion;
+        let BlockState { rotation, velocity, .. } = self.state.motion;
         Motion { rotation, velocity, acceleration: S::ZERO }
     }
 
@@ -72,12 +72,12 @@ impl<S: Real> Arc<S> for Still<'_, S> {
     }
 }
 
-impl<S: Real> DeviceArc<S> for Still<'_, S> {
+impl<S: Real> DeviceOutput<S> for Still<'_, S> {
     fn snapshot(&self, time: S) -> Snapshot<S> {
         let mut state = *self.state;
         self.machine.idle(&mut state, time);
-        let law = self.machine.drive.law(state.motion.direction, state.motion.drive, &state.device);
-        let extra = self.machine.drive.load(&state.device);
-        self.machine.snapshot(&law, &state, self.at(time), extra, (self.ground)(time), S::ZERO)
+        let law = self.machine.transmission.law(state.motion.direction, state.motion.terminal_acceleration_sign, &state.device);
+        let unknowns = self.machine.transmission.load(&state.device);
+        self.machine.snapshot(&law, &state, self.at(time), unknowns, (self.ground)(time), S::ZERO)
     }
 }

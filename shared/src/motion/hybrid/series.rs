@@ -3,9 +3,9 @@
 
 use core::cell::Cell;
 
-use super::path::{KnownStart, Path, PathStart, Tracer, WithStart};
-use crate::drivetrain::clutch_state::{WATCHES, Watch};
-use crate::drivetrain::drive::{Drive, Moment, UNKNOWNS};
+use super::mode_output::{KnownModeStart, ModeIntegrator, ModeOutput, ModeStart, WithModeStart};
+use crate::drivetrain::clutch_state::{GUARDS, Guard};
+use crate::drivetrain::transmission::{EvaluationPoint, Transmission, UNKNOWNS};
 use crate::equation::body::Body;
 use crate::equation::motion::Motion;
 use crate::math::outlined_series::{Quantity, SLOTS};
@@ -13,7 +13,7 @@ use crate::math::power_series::{MAXIMUM_ORDER, Tape};
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::math::{RECIPROCALS, polynomial};
-use crate::method::dense_output::Arc;
+use crate::method::dense_output::DenseOutput;
 use crate::method::motion_series::{StepSeries, Truncation};
 
 /// A Taylor method with `N` coefficients for each quantity (8 to 32), and the tape it works on. One per thread: it is
@@ -45,16 +45,16 @@ impl<S: Real, const N: usize> core::fmt::Debug for Series<S, N> {
 
 /// The series of one step.
 #[derive(Clone, Copy, Debug)]
-pub struct SeriesPath<S, const N: usize> {
+pub struct SeriesModeOutput<S, const N: usize> {
     series: StepSeries<S, N>,
-    extra: [[S; N]; UNKNOWNS],
-    guards: [[S; N]; WATCHES],
+    unknowns: [[S; N]; UNKNOWNS],
+    guards: [[S; N]; GUARDS],
 }
 
 /// The coefficients of a path, order by order.
 struct Expansion<'a, S, const N: usize> {
     tape: &'a Tape<S, N, SLOTS>,
-    path: &'a mut SeriesPath<S, N>,
+    output: &'a mut SeriesModeOutput<S, N>,
     /// Ground acceleration in g, horizontal and vertical.
     ground: &'a [[S; N]; 2],
     /// [`Series::tolerance`] in rad.
@@ -63,28 +63,28 @@ struct Expansion<'a, S, const N: usize> {
     scale: S,
 }
 
-impl<S: Real, const N: usize> WithStart<S> for Expansion<'_, S, N> {
+impl<S: Real, const N: usize> WithModeStart<S> for Expansion<'_, S, N> {
     /// The size of each unknown that matters.
     type Output = [S; UNKNOWNS];
 
     #[inline(always)]
-    fn with<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+    fn with<B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
         self,
-        known: &KnownStart<'_, S, B, D>,
+        known: &KnownModeStart<'_, S, B, D>,
     ) -> Self::Output {
         // θ, θ̇, the ground twice and the clock, then the device's unknowns.
         const GIVEN: usize = 5;
-        let Expansion { tape, path, ground: [ground, vertical], tolerance, scale } = self;
+        let Expansion { tape, output, ground: [ground, vertical], tolerance, scale } = self;
         let start = known.start;
         let shaken_up = start.shaking.vertical.is_some();
         let next = Cell::new(GIVEN + X);
         let side = start.side.unit();
-        path.series.motion.start(tape, start.rotation, start.velocity);
-        for (i, unknown) in path.extra.iter_mut().enumerate().take(X) {
-            unknown[0] = start.extra[i];
-            tape.set(GIVEN + i, 0, start.extra[i]);
+        output.series.motion.start(tape, start.rotation, start.velocity);
+        for (i, unknown) in output.unknowns.iter_mut().enumerate().take(X) {
+            unknown[0] = start.unknowns[i];
+            tape.set(GIVEN + i, 0, start.unknowns[i]);
         }
-        let sizes = known.drive.scales(start.speed);
+        let sizes = known.transmission.scales(start.speed);
         let mut truncation = Truncation::new(start.length, tolerance);
         for k in 0..N - 2 {
             tape.set(2, k, ground[k]);
@@ -96,40 +96,40 @@ impl<S: Real, const N: usize> WithStart<S> for Expansion<'_, S, N> {
             let given = |slot| Quantity(tape.given(&next, k, slot));
             let (theta, omega, push) = (given(0), given(1), given(2));
             let up = if shaken_up { given(3) } else { push };
-            let at = Moment {
+            let at = EvaluationPoint {
                 body: known.body,
                 law: start.law,
-                posture: known.body.posture(side, theta),
+                configuration: known.body.configuration(side, theta),
                 velocity: omega,
-                extra: core::array::from_fn(|i| given(GIVEN + i)),
+                unknowns: core::array::from_fn(|i| given(GIVEN + i)),
                 ground: [push, up],
                 clock: given(4),
             };
-            let (acceleration, rates) = known.drive.flow(&at);
+            let (acceleration, rates) = known.transmission.flow(&at);
             if k == 0 {
                 acceleration.0.set_last(start.first(acceleration.0.last()));
             }
             let a = if known.is_held() { S::ZERO } else { acceleration.0.last() };
             let reciprocal = S::of(RECIPROCALS[(k + 1) & 63]);
-            let rotation = path.series.motion.extend(tape, k, a);
+            let rotation = output.series.motion.extend(tape, k, a);
             let mut term = truncation.term(rotation, ground[k]);
             if shaken_up {
                 term = term.larger((vertical[k] * truncation.power).abs());
             }
             for (i, rate) in rates.iter().enumerate() {
                 let coefficient = rate.0.last() * reciprocal;
-                path.extra[i][k + 1] = coefficient;
+                output.unknowns[i][k + 1] = coefficient;
                 tape.set(GIVEN + i, k + 1, coefficient);
                 term = term.larger((coefficient * truncation.power * start.length).abs() * (scale / sizes[i]));
             }
-            for (i, guard) in path.guards.iter_mut().enumerate().take(G) {
+            for (i, guard) in output.guards.iter_mut().enumerate().take(G) {
                 let watch = start.law.watch[i];
-                if watch != Watch::Nothing {
-                    guard[k] = known.drive.guard(&at, acceleration, watch).0.last();
+                if watch != Guard::Nothing {
+                    guard[k] = known.transmission.guard(&at, acceleration, watch).0.last();
                 }
             }
             if truncation.ends_at(k, term) {
-                path.series.terms = k + 3;
+                output.series.terms = k + 3;
                 break;
             }
         }
@@ -137,13 +137,14 @@ impl<S: Real, const N: usize> WithStart<S> for Expansion<'_, S, N> {
     }
 }
 
-impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
-    type Path<'a> = SeriesPath<S, N>;
+impl<S: Real, const N: usize> ModeIntegrator<S> for Series<S, N> {
+    type Output<'a> = SeriesModeOutput<S, N>;
 
     #[inline(never)]
-    fn path<'a>(&'a self, start: &'a PathStart<'a, S>) -> SeriesPath<S, N> {
+    fn integrate<'a>(&'a self, start: &'a ModeStart<'a, S>) -> SeriesModeOutput<S, N> {
         let none = [S::ZERO; N];
-        let mut path = SeriesPath { series: StepSeries::new(start.length), extra: [none; UNKNOWNS], guards: [none; WATCHES] };
+        let mut output =
+            SeriesModeOutput { series: StepSeries::new(start.length), unknowns: [none; UNKNOWNS], guards: [none; GUARDS] };
         let mut ground = [none; 2];
         start.shaking.horizontal.series(start.time, &mut ground[0]);
         if let Some(piece) = start.shaking.vertical {
@@ -151,18 +152,18 @@ impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
         }
         let scale = start.scale.larger(start.rotation.abs());
         let tolerance = self.tolerance * scale;
-        let sizes = start.known(Expansion { tape: &self.tape, path: &mut path, ground: &ground, tolerance, scale });
-        let SeriesPath { series, extra, .. } = &mut path;
+        let sizes = start.known(Expansion { tape: &self.tape, output: &mut output, ground: &ground, tolerance, scale });
+        let SeriesModeOutput { series, unknowns, .. } = &mut output;
         if self.step.is_none() && series.terms == N {
             // Every unknown counts; those of the first order have one coefficient fewer.
             for order in [N - 2, N - 1] {
                 series.shorten(order, series.motion.rotation[order].abs(), tolerance);
-                for (unknown, &size) in extra.iter().zip(&sizes) {
+                for (unknown, &size) in unknowns.iter().zip(&sizes) {
                     series.shorten(order - 1, unknown[order - 1].abs() * (scale / size), tolerance);
                 }
             }
         }
-        path
+        output
     }
 
     #[inline(always)]
@@ -171,7 +172,7 @@ impl<S: Real, const N: usize> Tracer<S> for Series<S, N> {
     }
 }
 
-impl<S: Real, const N: usize> Arc<S> for SeriesPath<S, N> {
+impl<S: Real, const N: usize> DenseOutput<S> for SeriesModeOutput<S, N> {
     #[inline(always)]
     fn length(&self) -> S {
         self.series.length
@@ -200,11 +201,11 @@ fn zero<S: Real>(coefficients: &[S], to: S, sign: Sign, from_zero: bool) -> Opti
     polynomial::first_zero(coefficients, polynomial::curvature_bound(coefficients, to), S::ZERO, to, sign, from_zero)
 }
 
-impl<S: Real, const N: usize> Path<S> for SeriesPath<S, N> {
+impl<S: Real, const N: usize> ModeOutput<S> for SeriesModeOutput<S, N> {
     #[inline(never)]
-    fn extra(&self, time: S) -> [S; UNKNOWNS] {
+    fn unknowns(&self, time: S) -> [S; UNKNOWNS] {
         let n = self.series.velocity().len();
-        core::array::from_fn(|i| polynomial::value(&self.extra[i][..n], time))
+        core::array::from_fn(|i| polynomial::value(&self.unknowns[i][..n], time))
     }
 
     #[inline(never)]
@@ -225,8 +226,8 @@ impl<S: Real, const N: usize> Path<S> for SeriesPath<S, N> {
     }
 
     #[inline]
-    fn extra_zero(&self, index: usize, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        let unknown = self.extra.get(index)?;
+    fn unknown_zero(&self, index: usize, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+        let unknown = self.unknowns.get(index)?;
         zero(&unknown[..self.series.velocity().len()], to, sign, from_zero)
     }
 }

@@ -1,26 +1,26 @@
 //! A block that stands on its base: what uplifts it, and what may still hold it there.
 
-use super::path::Shaking;
+use super::mode_output::Shaking;
 use super::seen::Still;
 use super::threshold::{Threshold, earlier};
-use super::{Machine, MachineState};
-use crate::drivetrain::clutch_state::{Coupling, WATCHES};
-use crate::drivetrain::drive::open;
+use super::{HybridState, HybridSystem};
+use crate::drivetrain::clutch_state::{Coupling, GUARDS};
+use crate::drivetrain::transmission::open;
 use crate::drivetrain::under_way::UnderWay;
 use crate::equation::motion::Motion;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::motion::device_snapshot::DeviceObserver;
-use crate::motion::observer::{Event, Stretch};
-use crate::motion::state::{Phase, State};
+use crate::motion::observer::{Event, MonotoneInterval};
+use crate::motion::state::{BlockState, Phase};
 
-impl<S: Real> Machine<S> {
+impl<S: Real> HybridSystem<S> {
     /// Block and device of `state` once the block stands.
     #[inline(never)]
-    pub(super) fn standing(&self, state: &MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) -> MachineState<S> {
-        let State { side, direction, impacts, .. } = state.motion;
+    pub(super) fn standing(&self, state: &HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) -> HybridState<S> {
+        let BlockState { side, direction, impacts, .. } = state.motion;
         let mut standing = *state;
-        standing.motion = State { impacts, side, direction, ..State::default() };
+        standing.motion = BlockState { impacts, side, direction, ..BlockState::default() };
         standing.held = false;
         self.part_at_rest(&mut standing, time, observer);
         // A flywheel that a resting block has left with less than rounding stands, or its sign would decide what the next clutch does.
@@ -33,9 +33,9 @@ impl<S: Real> Machine<S> {
     }
 
     /// The clutches of a standing block are open, but for those that a controller holds; a device without clutches stays engaged.
-    pub(super) fn part_at_rest(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
-        let Some(gears) = self.drive.gears() else { return };
-        if !self.drive.traits().commanded && self.drive.traits().unknowns == 0 {
+    pub(super) fn part_at_rest(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+        let Some(parameters) = self.transmission.parameters() else { return };
+        if !self.transmission.traits().commanded && self.transmission.traits().unknowns == 0 {
             state.device.wheels[0].coupling = Coupling::Locked;
             return;
         }
@@ -45,7 +45,7 @@ impl<S: Real> Machine<S> {
         self.with_instant(state, time, observer, |_, at| {
             for wheel in 0..2 {
                 if at.device.wheels[wheel].coupling != Coupling::Open {
-                    open(gears, at, wheel);
+                    open(parameters, at, wheel);
                 }
                 let wheel = &mut at.device.wheels[wheel];
                 (wheel.commanded, wheel.pending, wheel.under_way) = (false, -S::ONE, UnderWay::default());
@@ -55,18 +55,18 @@ impl<S: Real> Machine<S> {
 
     /// The side to which the ground would lift a block on its base, and the threshold there.
     #[inline(never)]
-    fn lifted(&self, state: &MachineState<S>, ground: [S; 2]) -> (Sign, Threshold<S>) {
+    fn lifted(&self, state: &HybridState<S>, ground: [S; 2]) -> (Sign, Threshold<S>) {
         let [positive, negative] = [Sign::Positive, Sign::Negative].map(|side| self.breakaway(state, side, side));
         if positive.at(ground) >= negative.at(ground) { (Sign::Positive, positive) } else { (Sign::Negative, negative) }
     }
 
     /// The moment that lifts a block on its base, over its inertia about the toe; 1/s².
-    pub(super) fn uplifting(&self, state: &MachineState<S>, ground: [S; 2]) -> S {
+    pub(super) fn uplifting(&self, state: &HybridState<S>, ground: [S; 2]) -> S {
         self.lifted(state, ground).1.at(ground)
     }
 
     /// Shows block and device between two changes at one instant.
-    pub(super) fn show_instant(&self, state: &MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+    pub(super) fn show_instant(&self, state: &HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         self.show_still(state, &|_| state.ground, time, S::ZERO, observer);
     }
 
@@ -74,28 +74,29 @@ impl<S: Real> Machine<S> {
     #[inline(never)]
     pub(super) fn show_still(
         &self,
-        state: &MachineState<S>,
+        state: &HybridState<S>,
         ground: &dyn Fn(S) -> [S; 2],
         time: S,
         length: S,
         observer: &mut dyn DeviceObserver<S>,
     ) {
-        let State { rotation, velocity, side, direction, .. } = state.motion;
+        let BlockState { rotation, velocity, side, direction, .. } = state.motion;
         let still = Motion { rotation, velocity, acceleration: S::ZERO };
         let engaged = state.device.wheels.iter().any(|wheel| wheel.coupling != Coupling::Open);
-        let stretch = Stretch { start: time, from: S::ZERO, to: length, first: still, last: still, engaged, side, direction };
-        let arc = Still { machine: self, state, ground, length };
+        let interval =
+            MonotoneInterval { start: time, from: S::ZERO, to: length, first: still, last: still, engaged, side, direction };
+        let output = Still { machine: self, state, ground, length };
         if rotation == S::ZERO || length == S::ZERO {
-            observer.device_stands(&arc, &stretch);
+            observer.device_at_rest(&output, &interval);
         } else {
-            observer.device_stretch(&arc, &stretch);
+            observer.device_interval(&output, &interval);
         }
     }
 
     /// `time` (s), or when before that a flywheel comes to a stop, if the block does not move: it kinks the powers that watchers integrate.
-    pub(super) fn until_stop(&self, state: &MachineState<S>, time: S) -> S {
-        let Some(gears) = self.drive.gears() else { return time };
-        let stops = state.device.wheels.iter().filter_map(|wheel| gears.stops_within(wheel, time));
+    pub(super) fn until_stop(&self, state: &HybridState<S>, time: S) -> S {
+        let Some(parameters) = self.transmission.parameters() else { return time };
+        let stops = state.device.wheels.iter().filter_map(|wheel| parameters.stops_within(wheel, time));
         stops.fold(time, Real::smaller)
     }
 
@@ -103,7 +104,7 @@ impl<S: Real> Machine<S> {
     #[inline(never)]
     pub(super) fn stand(
         &self,
-        state: &mut MachineState<S>,
+        state: &mut HybridState<S>,
         ground: &dyn Fn(S) -> [S; 2],
         time: S,
         end: S,
@@ -120,13 +121,13 @@ impl<S: Real> Machine<S> {
     }
 
     /// How long the clutches of a standing block stay as they are, from `time` to `duration` at most.
-    pub(super) fn stands_until(&self, state: &mut MachineState<S>, time: S, duration: S) -> S {
-        let Some(gears) = self.drive.gears().filter(|_| self.actuator.controlled) else { return duration };
+    pub(super) fn stands_until(&self, state: &mut HybridState<S>, time: S, duration: S) -> S {
+        let Some(parameters) = self.transmission.parameters().filter(|_| self.actuator.controlled) else { return duration };
         let mut stop = self.until_due(state, time, duration);
         for wheel in state.device.wheels.iter_mut().filter(|wheel| matches!(wheel.coupling, Coupling::Slipping(_))) {
-            match gears.stops_within(wheel, stop - time) {
+            match parameters.stops_within(wheel, stop - time) {
                 Some(stops) if time + stops > time => stop = time + stops,
-                Some(stops) => gears.coast(wheel, stops),
+                Some(stops) => parameters.coast(wheel, stops),
                 None => {}
             }
         }
@@ -135,7 +136,7 @@ impl<S: Real> Machine<S> {
 
     /// First instant in [`from`, `to`) at which the ground pushes a standing block harder than its weight holds it, and whether
     /// it gets there by crossing that threshold.
-    pub(super) fn uplift_time(&self, state: &MachineState<S>, shaking: Shaking<'_, S>, from: S, to: S) -> Option<(S, bool)> {
+    pub(super) fn uplift_time(&self, state: &HybridState<S>, shaking: Shaking<'_, S>, from: S, to: S) -> Option<(S, bool)> {
         let first = |side| self.breakaway(state, side, side).exceeded(shaking, from, to);
         earlier([Sign::Positive, Sign::Negative].map(first))
     }
@@ -143,7 +144,7 @@ impl<S: Real> Machine<S> {
     /// Sets the block in motion, to the side to which the ground pushes it. Clutches that engage as it starts may hold it.
     pub(super) fn uplift(
         &self,
-        state: &mut MachineState<S>,
+        state: &mut HybridState<S>,
         ground: [S; 2],
         time: S,
         crossing: bool,
@@ -151,10 +152,17 @@ impl<S: Real> Machine<S> {
     ) {
         let (side, _) = self.lifted(state, ground);
         let impacts = state.motion.impacts;
-        state.motion = State { phase: Phase::Rocking, side, direction: side, push: side, impacts, ..State::default() };
+        state.motion = BlockState {
+            phase: Phase::Rocking,
+            side,
+            direction: side,
+            acceleration_sign: side,
+            impacts,
+            ..BlockState::default()
+        };
         state.ground = ground;
-        (state.fresh, state.free) = ([false; WATCHES], crossing);
-        if self.drive.traits().holds {
+        (state.fresh, state.free) = ([false; GUARDS], crossing);
+        if self.transmission.traits().holds {
             let mut started = *state;
             self.leave_base(&mut started, time, &mut ());
             self.start_clutches(&mut started, time, &mut ());
@@ -168,17 +176,18 @@ impl<S: Real> Machine<S> {
     }
 
     /// The block leaves its base. What lifts it accelerates the terminals its way, and that may have been zero until now.
-    pub(super) fn leave_base(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
-        (state.motion.drive, state.jolted, state.fresh[0]) = (state.motion.side, false, self.drive.traits().commanded);
+    pub(super) fn leave_base(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+        (state.motion.terminal_acceleration_sign, state.jolted, state.fresh[0]) =
+            (state.motion.side, false, self.transmission.traits().commanded);
         observer.device_event(Event::Uplift, time, &state.motion);
     }
 
     /// The clutches answer an uplift, and may hold the block on its base.
-    fn start_clutches(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+    fn start_clutches(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         let before = state.device.wheels.map(|wheel| wheel.coupling);
         self.settle(state, time, observer);
         self.command(state, time, observer);
-        if self.drive.traits().holds
+        if self.transmission.traits().holds
             && state.motion.velocity == S::ZERO
             && state.device.wheels.map(|wheel| wheel.coupling) != before
         {
@@ -187,11 +196,11 @@ impl<S: Real> Machine<S> {
     }
 
     /// A block that falls back on its base under a push to which it would rise, stays there while its clutches hold it.
-    pub(super) fn stay_on_base(&self, state: &mut MachineState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+    pub(super) fn stay_on_base(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         let mut held = *state;
         (held.motion.rotation, held.motion.velocity) = (S::ZERO, S::ZERO);
         let (side, threshold) = self.lifted(&held, state.ground);
-        if self.drive.traits().holds && !threshold.is_exceeded(state.ground) {
+        if self.transmission.traits().holds && !threshold.is_exceeded(state.ground) {
             (held.motion.side, held.motion.direction, held.held) = (side, side, true);
             *state = held;
             observer.device_event(Event::Rest, time, &state.motion);

@@ -1,13 +1,13 @@
 //! Fixed steps for a block with a device. Events inside a step are located by taking the step again with a shorter length.
 
 use super::exponential;
-use super::path::{KnownStart, Path, PathStart, Place, Tracer, WithStart};
-use crate::drivetrain::any_drive::{first, padded};
-use crate::drivetrain::drive::{Drive, UNKNOWNS};
+use super::mode_output::{KnownModeStart, ModeIntegrator, ModeOutput, ModeStart, Place, WithModeStart};
+use crate::drivetrain::any_transmission::{first, padded};
+use crate::drivetrain::transmission::{Transmission, UNKNOWNS};
 use crate::equation::body::Body;
 use crate::equation::motion::Motion;
 use crate::math::scalar::Real;
-use crate::method::dense_output::Arc;
+use crate::method::dense_output::DenseOutput;
 use crate::method::fixed::FixedStep;
 
 /// θ̈ and the rates of the device's unknowns.
@@ -15,9 +15,9 @@ type Rates<S, const X: usize> = (S, [S; X]);
 
 /// The state a time `h` after `from`, where the rates are `rates`; `ground` is the ground's acceleration then, in g.
 #[inline(always)]
-fn advance<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+fn advance<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
     method: FixedStep<S>,
-    known: &KnownStart<'_, S, B, D>,
+    known: &KnownModeStart<'_, S, B, D>,
     (from, rates): (&Place<S, X>, &Rates<S, X>),
     (h, ground): (S, [S; 2]),
 ) -> Place<S, X> {
@@ -34,8 +34,8 @@ fn advance<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usiz
 }
 
 #[inline(always)]
-fn runge_kutta_4<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
-    known: &KnownStart<'_, S, B, D>,
+fn runge_kutta_4<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
+    known: &KnownModeStart<'_, S, B, D>,
     from: &Place<S, X>,
     (a1, r1): (S, &[S; X]),
     (h, ground): (S, [S; 2]),
@@ -70,9 +70,9 @@ fn runge_kutta_4<S: Real, B: Body<S>, D: Drive<S, X, G>, const X: usize, const G
 
 /// The path of a fixed-step method: its ends, and the step taken again for every time between them.
 #[derive(Debug)]
-pub struct FixedPath<'a, S> {
+pub struct FixedModeOutput<'a, S> {
     method: FixedStep<S>,
-    start: &'a PathStart<'a, S>,
+    start: &'a ModeStart<'a, S>,
     /// At the start.
     rates: Rates<S, UNKNOWNS>,
     /// The end, and θ̈ there.
@@ -86,13 +86,13 @@ struct Step<'a, S> {
     time: S,
 }
 
-impl<S: Real> WithStart<S> for Step<'_, S> {
+impl<S: Real> WithModeStart<S> for Step<'_, S> {
     type Output = (Rates<S, UNKNOWNS>, (Place<S, UNKNOWNS>, S));
 
     #[inline(always)]
-    fn with<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(
+    fn with<B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
         self,
-        known: &KnownStart<'_, S, B, D>,
+        known: &KnownModeStart<'_, S, B, D>,
     ) -> Self::Output {
         let from = known.start.place().map(first);
         let rates = match self.rates {
@@ -107,31 +107,34 @@ impl<S: Real> WithStart<S> for Step<'_, S> {
 }
 
 /// Watched function `index` at `place`, where θ̈ is `acceleration`.
-struct Guard<'a, S> {
+struct GuardAt<'a, S> {
     index: usize,
     place: &'a Place<S, UNKNOWNS>,
     acceleration: S,
 }
 
-impl<S: Real> WithStart<S> for Guard<'_, S> {
+impl<S: Real> WithModeStart<S> for GuardAt<'_, S> {
     type Output = S;
 
     #[inline(always)]
-    fn with<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(self, known: &KnownStart<'_, S, B, D>) -> S {
+    fn with<B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
+        self,
+        known: &KnownModeStart<'_, S, B, D>,
+    ) -> S {
         known.guard(self.index, &self.place.map(first), self.acceleration)
     }
 }
 
-impl<'a, S: Real> FixedPath<'a, S> {
-    fn new(method: FixedStep<S>, start: &'a PathStart<'a, S>) -> Self {
+impl<'a, S: Real> FixedModeOutput<'a, S> {
+    fn new(method: FixedStep<S>, start: &'a ModeStart<'a, S>) -> Self {
         let (rates, end) = Self::step(method, start, None, start.length);
-        FixedPath { method, start, rates, end }
+        FixedModeOutput { method, start, rates, end }
     }
 
     #[inline(never)]
     fn step(
         method: FixedStep<S>,
-        start: &PathStart<'_, S>,
+        start: &ModeStart<'_, S>,
         rates: Option<&Rates<S, UNKNOWNS>>,
         time: S,
     ) -> (Rates<S, UNKNOWNS>, (Place<S, UNKNOWNS>, S)) {
@@ -149,7 +152,7 @@ impl<'a, S: Real> FixedPath<'a, S> {
     }
 }
 
-impl<S: Real> Arc<S> for FixedPath<'_, S> {
+impl<S: Real> DenseOutput<S> for FixedModeOutput<'_, S> {
     #[inline(always)]
     fn length(&self) -> S {
         self.start.length
@@ -167,25 +170,25 @@ impl<S: Real> Arc<S> for FixedPath<'_, S> {
     }
 }
 
-impl<S: Real> Path<S> for FixedPath<'_, S> {
+impl<S: Real> ModeOutput<S> for FixedModeOutput<'_, S> {
     #[inline]
-    fn extra(&self, time: S) -> [S; UNKNOWNS] {
+    fn unknowns(&self, time: S) -> [S; UNKNOWNS] {
         self.place(time).0.unknowns
     }
 
     #[inline(never)]
     fn guard(&self, index: usize, time: S) -> S {
         let (place, acceleration) = self.place(time);
-        self.start.known(Guard { index, place: &place, acceleration })
+        self.start.known(GuardAt { index, place: &place, acceleration })
     }
 }
 
-impl<S: Real> Tracer<S> for FixedStep<S> {
-    type Path<'a> = FixedPath<'a, S>;
+impl<S: Real> ModeIntegrator<S> for FixedStep<S> {
+    type Output<'a> = FixedModeOutput<'a, S>;
 
     #[inline(always)]
-    fn path<'a>(&'a self, start: &'a PathStart<'a, S>) -> Self::Path<'a> {
-        FixedPath::new(*self, start)
+    fn integrate<'a>(&'a self, start: &'a ModeStart<'a, S>) -> Self::Output<'a> {
+        FixedModeOutput::new(*self, start)
     }
 
     #[inline(always)]

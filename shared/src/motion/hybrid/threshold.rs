@@ -1,8 +1,8 @@
 //! When weight and ground overcome what holds a block that does not move.
 
-use super::path::Shaking;
-use super::{Machine, MachineState};
-use crate::drivetrain::clutch_state::{Coupling, Wheel};
+use super::mode_output::Shaking;
+use super::{HybridState, HybridSystem};
+use crate::drivetrain::clutch_state::{Coupling, FlywheelState};
 use crate::equation::body::Body;
 use crate::equation::motion::Motion;
 use crate::math::polynomial::first_zero_of;
@@ -80,33 +80,33 @@ impl<S: Real> Threshold<S> {
     }
 }
 
-impl<S: Real> Machine<S> {
+impl<S: Real> HybridSystem<S> {
     /// What moves a block that does not move, tilted to `side`, towards `sign`: weight and ground, against the friction of the rack and of
     /// the flywheels that are coupled to it. Forces of stretched clutches are taken as they are now.
     #[inline(never)]
-    pub(super) fn breakaway(&self, state: &MachineState<S>, side: Sign, sign: Sign) -> Threshold<S> {
-        let posture = self.body.posture(side.unit(), state.motion.rotation);
-        let (horizontal, vertical) = self.body.factors(&posture);
-        let arm = self.body.arm(&posture);
+    pub(super) fn breakaway(&self, state: &HybridState<S>, side: Sign, sign: Sign) -> Threshold<S> {
+        let configuration = self.body.configuration(side.unit(), state.motion.rotation);
+        let (horizontal, vertical) = self.body.factors(&configuration);
+        let arm = self.body.arm(&configuration);
         let (mut push, mut dry, mut force) = (S::ZERO, (S::ZERO, S::ZERO), (S::ZERO, S::ZERO));
         let add = |(a, b): (S, S), (c, d): (S, S)| (a + c, b + d);
-        if let Some(gears) = self.drive.gears() {
-            (push, dry) = (gears.rack_push, (gears.rack_dry, S::ZERO));
-            let sticks = |wheel: &Wheel<S>| match wheel.coupling {
+        if let Some(parameters) = self.transmission.parameters() {
+            (push, dry) = (parameters.rack_push, (parameters.rack_dry, S::ZERO));
+            let sticks = |wheel: &FlywheelState<S>| match wheel.coupling {
                 Coupling::Locked => true,
                 Coupling::Slipping(_) => wheel.spin == S::ZERO,
                 _ => false,
             };
             let wheels = &state.device.wheels;
             for wheel in wheels.iter().filter(|wheel| sticks(wheel)) {
-                dry = add(dry, gears.standing_friction(wheel));
+                dry = add(dry, parameters.standing_friction(wheel));
             }
-            let pulls = |wheel: &Wheel<S>| wheel.coupling != Coupling::Open && !sticks(wheel);
+            let pulls = |wheel: &FlywheelState<S>| wheel.coupling != Coupling::Open && !sticks(wheel);
             if wheels.iter().any(pulls) {
-                let law = self.drive.law(state.motion.direction, state.motion.drive, &state.device);
+                let law = self.transmission.law(state.motion.direction, state.motion.terminal_acceleration_sign, &state.device);
                 let still = Motion { rotation: state.motion.rotation, velocity: S::ZERO, acceleration: S::ZERO };
-                let moment = self.moment(&law, side, &still, self.drive.load(&state.device), state.ground, S::ZERO);
-                let account = self.drive.account(&moment, S::ZERO, &state.device);
+                let point = self.point(&law, side, &still, self.transmission.load(&state.device), state.ground, S::ZERO);
+                let account = self.transmission.account(&point, S::ZERO, &state.device);
                 for (i, _) in wheels.iter().enumerate().filter(|(_, wheel)| pulls(wheel)) {
                     force = add(force, (account.force[i], law.slip_growth[i]));
                 }

@@ -1,25 +1,25 @@
 //! What an impact does, and how impacts that accumulate end in rest.
 
-use super::System;
+use super::IdealSystem;
 use crate::equation::Equation;
-use crate::ground::Piece;
+use crate::ground::GroundSegment;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::motion::observer::{Event, Observer};
-use crate::motion::rest::free_decay::Swings;
+use crate::motion::rest::free_decay::HalfCycles;
 use crate::motion::rest::impact_accumulation::Accumulation;
-use crate::motion::state::{Phase, State};
+use crate::motion::state::{BlockState, Phase};
 
 /// Pairs of swings below the rest speed that are followed in one piece when their impacts do not end them.
 const MOST_IDLE_SWINGS: f64 = 1e3;
 
-impl<S: Real> System<S> {
+impl<S: Real> IdealSystem<S> {
     /// θ = 0: the velocity is multiplied by η and the other toe takes over, or the block comes to rest. Returns the
     /// time, which rest moves on to the end of the impacts that it stands for.
     pub(super) fn impact(
         &self,
-        state: &mut State<S>,
-        piece: &dyn Piece<S>,
+        state: &mut BlockState<S>,
+        piece: &dyn GroundSegment<S>,
         time: S,
         duration: S,
         observer: &mut dyn Observer<S>,
@@ -33,7 +33,7 @@ impl<S: Real> System<S> {
         state.velocity = self.restitution * state.velocity;
         state.side = state.direction;
         let ground = piece.acceleration(time);
-        self.read_push(state, ground);
+        self.read_signs(state, ground);
         observer.event(Event::Impact, time, state);
         // A push beyond the threshold ends impacts too weak for the clock to tell apart: the block uplifts to the other side.
         if self.lifts(ground) {
@@ -53,7 +53,7 @@ impl<S: Real> System<S> {
             let hopeless = state.velocity.abs() <= self.rest_speed * S::EPSILON;
             if holds || lingers || hopeless {
                 let impacts = state.impacts + tail.impacts;
-                *state = State { impacts, side: state.side, direction: state.direction, ..State::default() };
+                *state = BlockState { impacts, side: state.side, direction: state.direction, ..BlockState::default() };
                 let ends = if holds { ends } else { time };
                 observer.event(Event::Rest, ends, state);
                 return ends;
@@ -65,8 +65,8 @@ impl<S: Real> System<S> {
     /// After an impact on quiet ground: the rest of the motion in closed form, or as many whole swings as `duration` has room for.
     pub(super) fn sum_up(
         &self,
-        state: &mut State<S>,
-        swings: &mut Option<Swings<S>>,
+        state: &mut BlockState<S>,
+        swings: &mut Option<HalfCycles<S>>,
         time: S,
         duration: S,
         observer: &mut dyn Observer<S>,
@@ -74,7 +74,7 @@ impl<S: Real> System<S> {
         if state.phase != Phase::Rocking {
             return time;
         }
-        let swings = swings.get_or_insert_with(|| Swings::of(&self.released, &self.engaged, !self.clutch.follows_signs()));
+        let swings = swings.get_or_insert_with(|| HalfCycles::of(&self.released, &self.engaged, !self.clutch.follows_signs()));
         let Some(decay) = swings.decay(state.velocity.abs(), self.restitution, self.counted_speed, duration - time) else {
             return time;
         };
@@ -86,9 +86,17 @@ impl<S: Real> System<S> {
             let velocity = state.direction.times(decay.speed);
             let turned = |sign: Sign| if decay.speed < S::ZERO { sign.opposite() } else { sign };
             let (side, direction) = (turned(state.side), turned(state.direction));
-            *state = State { impacts, velocity, side, direction, push: turned(state.push), drive: turned(state.drive), ..*state };
+            *state = BlockState {
+                impacts,
+                velocity,
+                side,
+                direction,
+                acceleration_sign: turned(state.acceleration_sign),
+                terminal_acceleration_sign: turned(state.terminal_acceleration_sign),
+                ..*state
+            };
         } else {
-            *state = State { impacts, side: state.side, direction: state.direction, ..State::default() };
+            *state = BlockState { impacts, side: state.side, direction: state.direction, ..BlockState::default() };
             observer.event(Event::Rest, ends, state);
         }
         ends

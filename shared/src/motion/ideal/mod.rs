@@ -16,18 +16,18 @@ mod uplift;
 use crate::equation::Equation;
 use crate::equation::any_equation::AnyEquation;
 use crate::equation::clutch_rule::ClutchRule;
-use crate::ground::Piece;
-use crate::math::root::locate;
+use crate::ground::GroundSegment;
+use crate::math::root::newton_bracketed;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::method::dense_output::{Arc, Method, Start};
+use crate::method::dense_output::{DenseOutput, Integrator, StepStart};
 use crate::method::step_grid::next_stop;
-use crate::motion::observer::{Event, Observer, Stretch};
-use crate::motion::state::{Limits, Phase, State, Stopped};
+use crate::motion::observer::{Event, MonotoneInterval, Observer};
+use crate::motion::state::{BlockState, Limits, Phase, Stopped};
 
 /// A block with its device, resolved into the equations that it needs and the rule that chooses between them.
 #[derive(Clone, Copy, Debug)]
-pub struct System<S> {
+pub struct IdealSystem<S> {
     /// Equation of motion with the inerter released.
     pub released: AnyEquation<S>,
     /// Equation of motion with the inerter engaged.
@@ -60,41 +60,41 @@ enum End {
     Overturned,
 }
 
-impl<S: Real> System<S> {
+impl<S: Real> IdealSystem<S> {
     /// Whether the inerter is engaged in `state`.
     #[inline(always)]
-    pub fn is_engaged(&self, state: &State<S>) -> bool {
-        state.phase == Phase::Rocking && self.clutch.engages(state.direction, state.drive)
+    pub fn is_engaged(&self, state: &BlockState<S>) -> bool {
+        state.phase == Phase::Rocking && self.clutch.engages(state.direction, state.terminal_acceleration_sign)
     }
 
     /// A block released at θ (rad, not 0) with θ̇ (rad/s) while the ground accelerates by `ground` (in g).
-    pub fn released_at(&self, rotation: S, velocity: S, ground: S) -> State<S> {
+    pub fn released_at(&self, rotation: S, velocity: S, ground: S) -> BlockState<S> {
         let side = Sign::of(rotation, Sign::of(velocity, Sign::Positive));
-        let mut state = State {
+        let mut state = BlockState {
             rotation,
             velocity,
             phase: Phase::Rocking,
             side,
             direction: Sign::of(velocity, side.opposite()),
-            ..State::default()
+            ..BlockState::default()
         };
-        self.read_push(&mut state, ground);
+        self.read_signs(&mut state, ground);
         if velocity == S::ZERO {
-            state.direction = state.push;
+            state.direction = state.acceleration_sign;
         }
         state
     }
 
-    /// Follows the block over `piece` from its local time 0 to `duration` (s), telling `observer` of every stretch and
+    /// Follows the block over `piece` from its local time 0 to `duration` (s), telling `observer` of every interval and
     /// event.
     ///
     /// # Errors
     /// [`Stopped`], with the state as it was then.
-    pub fn advance<M: Method<S>>(
+    pub fn advance<M: Integrator<S>>(
         &self,
         method: &M,
-        state: &mut State<S>,
-        piece: &dyn Piece<S>,
+        state: &mut BlockState<S>,
+        piece: &dyn GroundSegment<S>,
         duration: S,
         limits: &Limits<S>,
         observer: &mut dyn Observer<S>,
@@ -105,7 +105,7 @@ impl<S: Real> System<S> {
         let mut events = 0_u32;
         let mut swings = None;
         let mut undecided = None;
-        state.push_is_zero = false;
+        state.acceleration_is_zero = false;
         while time < duration && state.phase != Phase::Overturned {
             if state.phase == Phase::Rest {
                 match self.uplift_time(piece, time, duration) {
@@ -170,11 +170,11 @@ impl<S: Real> System<S> {
     /// One arc, up to its first event that changes the equation. `acceleration` is θ̈ at `time`, where the arc before has evaluated it.
     #[expect(clippy::too_many_arguments, reason = "one call site, and each is a different thing")]
     #[inline]
-    fn follow<M: Method<S>>(
+    fn follow<M: Integrator<S>>(
         &self,
         method: &M,
-        state: &mut State<S>,
-        piece: &dyn Piece<S>,
+        state: &mut BlockState<S>,
+        piece: &dyn GroundSegment<S>,
         (time, acceleration): (&mut S, &mut Option<S>),
         stop: S,
         limits: &Limits<S>,
@@ -182,7 +182,7 @@ impl<S: Real> System<S> {
     ) -> End {
         let engaged = self.is_engaged(state);
         let equation = if engaged { &self.engaged } else { &self.released };
-        let start = Start {
+        let start = StepStart {
             equation,
             piece,
             side: state.side,
@@ -190,16 +190,16 @@ impl<S: Real> System<S> {
             velocity: state.velocity,
             time: *time,
             length: stop - *time,
-            acceleration_is_zero: state.push_is_zero,
+            acceleration_is_zero: state.acceleration_is_zero,
             acceleration: *acceleration,
             scale: self.slenderness,
         };
-        let arc = method.arc(&start);
-        let length = arc.length();
-        let separate_drive = self.clutch.follows_signs() && !equation.switches_with_acceleration();
+        let output = method.integrate(&start);
+        let length = output.length();
+        let separate_terminal_sign = self.clutch.follows_signs() && !equation.switches_with_acceleration();
         if *time == S::ZERO {
             let before = state.direction;
-            let switched = self.jumped(equation, state, &arc, separate_drive);
+            let switched = self.jumped(equation, state, &output, separate_terminal_sign);
             if state.direction != before && state.rotation != S::ZERO {
                 observer.event(Event::Turn, *time, state);
             }
@@ -208,19 +208,21 @@ impl<S: Real> System<S> {
             }
         }
         let mut from = S::ZERO;
-        let mut first = arc.at(S::ZERO);
-        let mut push_is_zero = state.push_is_zero;
+        let mut first = output.at(S::ZERO);
+        let mut acceleration_is_zero = state.acceleration_is_zero;
         loop {
-            let push_zero = arc.acceleration_zero(from, length, state.push, push_is_zero);
+            let acceleration_zero = output.acceleration_zero(from, length, state.acceleration_sign, acceleration_is_zero);
             // What the clock cannot tell from the end of the step is left to the next one.
-            let drive_zero = if separate_drive && length > stop * S::EPSILON * S::of(4.0) {
-                let bound = push_zero.unwrap_or(length);
+            let switching_zero = if separate_terminal_sign && length > stop * S::EPSILON * S::of(4.0) {
+                let bound = acceleration_zero.unwrap_or(length);
                 let mut zero = None;
                 for to in [bound, length] {
-                    zero = arc.switching_zero(from, to, state.drive, push_is_zero).filter(|&zero| zero <= bound);
+                    zero = output
+                        .switching_zero(from, to, state.terminal_acceleration_sign, acceleration_is_zero)
+                        .filter(|&zero| zero <= bound);
                     // Just after a switch rounding may show the old sign as far as a zero of θ̈ that follows at once: only a longer look
                     // tells that from a switch back.
-                    if push_zero.is_none() || zero.is_none_or(|zero| zero > (*time + length) * S::EPSILON) {
+                    if acceleration_zero.is_none() || zero.is_none_or(|zero| zero > (*time + length) * S::EPSILON) {
                         break;
                     }
                 }
@@ -228,9 +230,9 @@ impl<S: Real> System<S> {
             } else {
                 None
             };
-            let until = drive_zero.or(push_zero).unwrap_or(length);
-            let end = if until == length { arc.end() } else { arc.at(until) };
-            let mut stretch = Stretch {
+            let until = switching_zero.or(acceleration_zero).unwrap_or(length);
+            let end = if until == length { output.end() } else { output.at(until) };
+            let mut interval = MonotoneInterval {
                 start: *time,
                 from,
                 to: until,
@@ -243,106 +245,110 @@ impl<S: Real> System<S> {
             // θ̇ is monotone up to here, so a zero of it shows.
             let turns = state.direction.times(end.velocity) < S::ZERO;
             let (turn, at_turn) = if turns {
-                let turn = locate(from, until, state.direction, S::HALF * (from + until), |t| {
-                    let motion = arc.at(t);
+                let turn = newton_bracketed(from, until, state.direction, S::HALF * (from + until), |t| {
+                    let motion = output.at(t);
                     (motion.velocity, motion.acceleration)
                 });
-                (turn, arc.at(turn))
+                (turn, output.at(turn))
             } else {
                 (until, end)
             };
             // θ is monotone up to the turn.
             if state.side.times(at_turn.rotation) < S::ZERO {
-                let hit = locate(from, turn, state.side, S::HALF * (from + turn), |t| {
-                    let motion = arc.at(t);
+                let hit = newton_bracketed(from, turn, state.side, S::HALF * (from + turn), |t| {
+                    let motion = output.at(t);
                     (motion.rotation, motion.velocity)
                 });
-                (stretch.to, stretch.last) = (hit, arc.at(hit));
-                observer.stretch(&arc, &stretch);
+                (interval.to, interval.last) = (hit, output.at(hit));
+                observer.interval(&output, &interval);
                 state.rotation = S::ZERO;
-                state.velocity = stretch.last.velocity;
-                state.push_is_zero = false;
+                state.velocity = interval.last.velocity;
+                state.acceleration_is_zero = false;
                 *time = *time + hit;
                 return End::Impact;
             }
             if state.side == state.direction && state.side.times(at_turn.rotation) > limits.overturned {
                 let limit = state.side.times(limits.overturned);
-                let over = locate(from, turn, state.side.opposite(), S::HALF * (from + turn), |t| {
-                    let motion = arc.at(t);
+                let over = newton_bracketed(from, turn, state.side.opposite(), S::HALF * (from + turn), |t| {
+                    let motion = output.at(t);
                     (motion.rotation - limit, motion.velocity)
                 });
-                (stretch.to, stretch.last) = (over, arc.at(over));
-                observer.stretch(&arc, &stretch);
+                (interval.to, interval.last) = (over, output.at(over));
+                observer.interval(&output, &interval);
                 state.rotation = limit;
-                state.velocity = stretch.last.velocity;
+                state.velocity = interval.last.velocity;
                 *time = *time + over;
                 return End::Overturned;
             }
             if turns && self.clutch.follows_signs() && from == S::ZERO && first.velocity == S::ZERO && turn <= stop * S::EPSILON {
                 // It has just turned: back at once would go on without end. The motion shows where it goes.
                 state.direction = state.direction.opposite();
-                state.push = state.direction;
-                if !separate_drive {
-                    state.drive = state.push;
+                state.acceleration_sign = state.direction;
+                if !separate_terminal_sign {
+                    state.terminal_acceleration_sign = state.acceleration_sign;
                 }
                 return End::Undecided;
             }
             if turns {
-                (stretch.to, stretch.last) = (turn, at_turn);
-                observer.stretch(&arc, &stretch);
+                (interval.to, interval.last) = (turn, at_turn);
+                observer.interval(&output, &interval);
                 // Not the sign of θ̈: in a long Euler step θ̇ does not follow it, and a turn back would be found without end.
                 state.direction = state.direction.opposite();
                 if method.step().is_none() {
                     // A block let go in balance, with θ̈ = 0, may not have known which way it is pushed; its turn tells.
-                    state.push = state.direction;
-                    if !separate_drive {
-                        state.drive = state.push;
+                    state.acceleration_sign = state.direction;
+                    if !separate_terminal_sign {
+                        state.terminal_acceleration_sign = state.acceleration_sign;
                     }
                 }
-                observer.event(Event::Turn, *time + turn, &State { rotation: at_turn.rotation, velocity: S::ZERO, ..*state });
+                observer.event(
+                    Event::Turn,
+                    *time + turn,
+                    &BlockState { rotation: at_turn.rotation, velocity: S::ZERO, ..*state },
+                );
                 if self.clutch.follows_signs() {
                     state.rotation = at_turn.rotation;
                     state.velocity = S::ZERO;
-                    state.push_is_zero = false;
+                    state.acceleration_is_zero = false;
                     *time = *time + turn;
                     return End::Switched;
                 }
                 (from, first) = (turn, at_turn);
-                push_is_zero = false;
+                acceleration_is_zero = false;
                 continue;
             }
-            observer.stretch(&arc, &stretch);
-            let at_push_zero = drive_zero.is_none() && push_zero.is_some();
-            if at_push_zero {
-                state.push = state.push.opposite();
+            observer.interval(&output, &interval);
+            let at_acceleration_zero = switching_zero.is_none() && acceleration_zero.is_some();
+            if at_acceleration_zero {
+                state.acceleration_sign = state.acceleration_sign.opposite();
             }
-            if drive_zero.is_some() || (at_push_zero && !separate_drive) {
-                state.drive = state.drive.opposite();
+            if switching_zero.is_some() || (at_acceleration_zero && !separate_terminal_sign) {
+                state.terminal_acceleration_sign = state.terminal_acceleration_sign.opposite();
             }
-            let switches = if separate_drive { drive_zero.is_some() } else { at_push_zero };
+            let switches = if separate_terminal_sign { switching_zero.is_some() } else { at_acceleration_zero };
             if self.clutch.follows_signs() && switches {
                 state.rotation = end.rotation;
                 state.velocity = end.velocity;
-                state.push_is_zero = at_push_zero;
-                if separate_drive {
+                state.acceleration_is_zero = at_acceleration_zero;
+                if separate_terminal_sign {
                     // The other equation's θ̈ may have another sign here.
-                    self.read_push_only(state, piece.acceleration(*time + until));
+                    self.read_acceleration_sign(state, piece.acceleration(*time + until));
                 }
                 *time = *time + until;
                 return End::Switched;
             }
-            if at_push_zero && until < length {
+            if at_acceleration_zero && until < length {
                 (from, first) = (until, end);
-                push_is_zero = true;
+                acceleration_is_zero = true;
                 continue;
             }
             state.rotation = end.rotation;
             state.velocity = end.velocity;
-            state.push_is_zero = at_push_zero;
+            state.acceleration_is_zero = at_acceleration_zero;
             let reached = *time + length;
             *time = if length == stop - *time { stop } else { reached };
             debug_assert!(engaged == self.is_engaged(state), "a change of the clutch ends the arc");
-            *acceleration = arc.evaluated_end().filter(|_| *time == reached);
+            *acceleration = output.evaluated_end().filter(|_| *time == reached);
             return End::Reached;
         }
     }

@@ -1,6 +1,6 @@
 //! From the parameters of a structure to the equations of motion that it needs, chosen once, before the loop.
 
-use super::System;
+use super::IdealSystem;
 use crate::equation::any_equation::AnyEquation;
 use crate::equation::clutch_rule::ClutchRule;
 use crate::equation::lever::{CentreOfMass, TyingPoint};
@@ -18,14 +18,14 @@ impl Structure {
     ///
     /// # Errors
     /// [`ParameterError`] names the first parameter outside its range.
-    pub fn resolve<S: Real>(&self) -> Result<System<S>, ParameterError> {
+    pub fn resolve<S: Real>(&self) -> Result<IdealSystem<S>, ParameterError> {
         let sigma = self.device.mass_ratio;
         require("mass_ratio", sigma, (0.0..=10_000.0).contains(&sigma), "from 0 to 10000")?;
         self.loaded()?.compose()
     }
 
     /// The composition for a structure that carries nothing.
-    fn compose<S: Real>(&self) -> Result<System<S>, ParameterError> {
+    fn compose<S: Real>(&self) -> Result<IdealSystem<S>, ParameterError> {
         let p2 = self.block.frequency_parameter_squared();
         let alpha = self.block.slenderness();
         let device = &self.device;
@@ -39,7 +39,7 @@ impl Structure {
             DeviceKind::ClutchedPair => ClutchRule::Resisting,
         };
         let [released, engaged] = self.equations(p2, coupling)?;
-        Ok(System {
+        Ok(IdealSystem {
             released,
             engaged,
             restitution: S::of(restitution),

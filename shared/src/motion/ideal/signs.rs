@@ -1,57 +1,62 @@
 //! The signs that are part of a block's state, read anew where the ground or the equation may have jumped.
 
-use super::System;
+use super::IdealSystem;
 use crate::equation::Equation;
 use crate::equation::any_equation::AnyEquation;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::method::dense_output::Arc;
-use crate::motion::state::State;
+use crate::method::dense_output::DenseOutput;
+use crate::motion::state::BlockState;
 
-impl<S: Real> System<S> {
+impl<S: Real> IdealSystem<S> {
     /// At the start of a piece the ground may have jumped, and the signs with it. True when the clutch follows, so that
     /// another equation is in force. Rare enough not to be copied into every loop.
     #[inline(never)]
-    pub(super) fn jumped<A: Arc<S>>(
+    pub(super) fn jumped<A: DenseOutput<S>>(
         &self,
         equation: &AnyEquation<S>,
-        state: &mut State<S>,
-        arc: &A,
-        separate_drive: bool,
+        state: &mut BlockState<S>,
+        output: &A,
+        separate_terminal_sign: bool,
     ) -> bool {
-        let start = arc.at(S::ZERO);
-        let before = self.clutch.engages(state.direction, state.drive);
+        let start = output.at(S::ZERO);
+        let before = self.clutch.engages(state.direction, state.terminal_acceleration_sign);
         let (side, rotation, velocity) = (state.side.unit(), state.rotation, state.velocity);
-        state.push = beyond_rounding(start.acceleration, state.push, || equation.acceleration(side, rotation, velocity, S::ZERO));
-        state.drive = if separate_drive {
-            beyond_rounding(arc.switching(S::ZERO), state.drive, || equation.switching(side, rotation, velocity, S::ZERO))
+        state.acceleration_sign = beyond_rounding(start.acceleration, state.acceleration_sign, || {
+            equation.acceleration(side, rotation, velocity, S::ZERO)
+        });
+        state.terminal_acceleration_sign = if separate_terminal_sign {
+            beyond_rounding(output.switching(S::ZERO), state.terminal_acceleration_sign, || {
+                equation.switching(side, rotation, velocity, S::ZERO)
+            })
         } else {
-            state.push
+            state.acceleration_sign
         };
         if start.velocity == S::ZERO {
-            state.direction = state.push;
+            state.direction = state.acceleration_sign;
         }
-        self.clutch.follows_signs() && before != self.clutch.engages(state.direction, state.drive)
+        self.clutch.follows_signs() && before != self.clutch.engages(state.direction, state.terminal_acceleration_sign)
     }
 
     /// Signs of θ̈ and of the terminals' acceleration from the equations.
     #[inline(never)]
-    pub(super) fn read_push(&self, state: &mut State<S>, ground: S) {
+    pub(super) fn read_signs(&self, state: &mut BlockState<S>, ground: S) {
         let inward = state.side.opposite();
-        state.drive = Sign::of(self.engaged.switching(state.side.unit(), state.rotation, state.velocity, ground), inward);
-        self.read_push_only(state, ground);
-        state.push_is_zero = false;
+        state.terminal_acceleration_sign =
+            Sign::of(self.engaged.switching(state.side.unit(), state.rotation, state.velocity, ground), inward);
+        self.read_acceleration_sign(state, ground);
+        state.acceleration_is_zero = false;
     }
 
     #[inline(never)]
-    pub(super) fn read_push_only(&self, state: &mut State<S>, ground: S) {
+    pub(super) fn read_acceleration_sign(&self, state: &mut BlockState<S>, ground: S) {
         let side = state.side.unit();
-        let acceleration = if self.clutch.engages(state.direction, state.drive) {
+        let acceleration = if self.clutch.engages(state.direction, state.terminal_acceleration_sign) {
             self.engaged.acceleration(side, state.rotation, state.velocity, ground)
         } else {
             self.released.acceleration(side, state.rotation, state.velocity, ground)
         };
-        state.push = Sign::of(acceleration, state.side.opposite());
+        state.acceleration_sign = Sign::of(acceleration, state.side.opposite());
     }
 }
 

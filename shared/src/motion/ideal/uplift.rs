@@ -1,18 +1,18 @@
 //! When a block at rest starts to rock, and to which side.
 
-use super::System;
+use super::IdealSystem;
 use crate::equation::Equation;
-use crate::ground::Piece;
+use crate::ground::GroundSegment;
 use crate::math::polynomial::first_zero_of;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::motion::state::{Phase, State};
+use crate::motion::state::{BlockState, Phase};
 
-impl<S: Real> System<S> {
+impl<S: Real> IdealSystem<S> {
     /// First instant in [`from`, `to`) at which the ground pushes harder than the weight holds, and whether it gets
     /// there by crossing the threshold (so that the bracket is zero) or by a jump.
     #[inline(never)]
-    pub(super) fn uplift_time(&self, piece: &dyn Piece<S>, from: S, to: S) -> Option<(S, bool)> {
+    pub(super) fn uplift_time(&self, piece: &dyn GroundSegment<S>, from: S, to: S) -> Option<(S, bool)> {
         let start = piece.acceleration(from);
         if self.lifts(start) {
             return Some((from, false));
@@ -52,24 +52,24 @@ impl<S: Real> System<S> {
     }
 
     /// Sets the block in motion, to the side opposite to the push.
-    pub(super) fn uplift(&self, state: &mut State<S>, ground: S, crossing: bool) {
+    pub(super) fn uplift(&self, state: &mut BlockState<S>, ground: S, crossing: bool) {
         let side = Sign::of(ground, Sign::Positive).opposite();
-        *state = State {
+        *state = BlockState {
             phase: Phase::Rocking,
             side,
             direction: side,
-            push: side,
-            drive: side,
-            push_is_zero: crossing,
+            acceleration_sign: side,
+            terminal_acceleration_sign: side,
+            acceleration_is_zero: crossing,
             impacts: state.impacts,
-            ..State::default()
+            ..BlockState::default()
         };
     }
 }
 
 /// By how much a push of `start` (in g) at the start of a stretch of `length` (s) grows there, as far as its slope and curvature bound tell.
 #[inline(never)]
-fn rises<S: Real>(piece: &dyn Piece<S>, from: S, start: S, length: S) -> S {
+fn rises<S: Real>(piece: &dyn GroundSegment<S>, from: S, start: S, length: S) -> S {
     let slope = Sign::of(start, Sign::Positive).times(piece.slope(from));
     if slope <= S::ZERO {
         return S::ZERO;

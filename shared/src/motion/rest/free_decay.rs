@@ -45,7 +45,7 @@ pub struct Decay<S> {
 
 /// The series of a structure's free swings.
 #[derive(Clone, Copy, Debug)]
-pub struct Swings<S> {
+pub struct HalfCycles<S> {
     /// r_j B_j of the rising part.
     rising: [S; TERMS],
     /// r_j B_j of the falling part.
@@ -62,9 +62,9 @@ pub struct Swings<S> {
     same: bool,
 }
 
-impl<S: Real> Swings<S> {
+impl<S: Real> HalfCycles<S> {
     /// The swings of a block that rises under `rising` and falls back under `falling`; `same` when those are one.
-    pub fn of<R: Equation<S>, F: Equation<S>>(rising: &R, falling: &F, same: bool) -> Swings<S> {
+    pub fn of<R: Equation<S>, F: Equation<S>>(rising: &R, falling: &F, same: bool) -> HalfCycles<S> {
         let tape = Tape::<S, TERMS>::default();
         let mut gain = [S::ZERO; TERMS];
         let up = swing(&tape, rising, falling, if same { None } else { Some(&mut gain) });
@@ -88,7 +88,7 @@ impl<S: Real> Swings<S> {
             reach[k] = reach[k] * S::of(RECIPROCALS[k + 1]);
             gain[k] = gain[k] * S::of(RECIPROCALS[k + 1]);
         }
-        Swings { rising: rises, falling: falls, reach, gain, enough, acceleration: S::ONE / up[0], same }
+        HalfCycles { rising: rises, falling: falls, reach, gain, enough, acceleration: S::ONE / up[0], same }
     }
 
     /// The motion that starts from θ = 0 with `speed` (rad/s), with impacts of restitution `eta` that count down to an
@@ -249,7 +249,7 @@ mod tests {
     /// A slender block's swing from speed v lasts (2/p) atanh(v/(pα)).
     #[test]
     fn the_slender_block_rocks_for_its_closed_form() {
-        let swings = Swings::of(&slender(1.0), &slender(1.0), true);
+        let swings = HalfCycles::of(&slender(1.0), &slender(1.0), true);
         let decay = swings.decay(0.04, 0.85, 1e-7, 1e3).unwrap();
         let exact: f64 = (0..400).map(|n| 2.0 * atanh(0.4 * crate::math::pow(0.85, f64::from(n)))).sum();
         assert!((decay.duration / exact - 1.0).abs() < 1e-12, "{} {exact}", decay.duration);
@@ -263,7 +263,7 @@ mod tests {
     #[test]
     fn the_slender_pair_too() {
         let k = 0.375;
-        let swings = Swings::of(&slender(1.0), &slender(1.0 / (1.0 + k)), false);
+        let swings = HalfCycles::of(&slender(1.0), &slender(1.0 / (1.0 + k)), false);
         let decay = swings.decay(0.03, 0.85, 1e-7, 1e3).unwrap();
         let (mut speed, mut exact) = (0.3_f64, 0.0);
         while speed > 1e-13 {
@@ -275,14 +275,14 @@ mod tests {
 
     #[test]
     fn too_large_motions_are_left_to_the_method() {
-        let swings = Swings::of(&slender(1.0), &slender(1.0), true);
+        let swings = HalfCycles::of(&slender(1.0), &slender(1.0), true);
         assert!(swings.decay(0.099, 0.85, 1e-7, 1e3).is_none());
     }
 
     /// Without loss the block rocks on with the period (4/p) atanh(v/(pα)); with little, almost so.
     #[test]
     fn undying_motions_are_summed_as_far_as_their_time_goes() {
-        let swings = Swings::of(&slender(1.0), &slender(1.0), true);
+        let swings = HalfCycles::of(&slender(1.0), &slender(1.0), true);
         let swing: f64 = 2.0 * atanh(0.01);
         let decay = swings.decay(0.001, 1.0, 1e-7, 60.0).unwrap();
         assert_eq!(f64::from(decay.impacts), (60.0 / swing).floor());

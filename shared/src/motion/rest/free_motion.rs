@@ -93,7 +93,7 @@ impl<I: FirstIntegral> FreeMotion<I> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::structure::added_mass::Carried;
+    use crate::structure::added_mass::AddedMass;
     use crate::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 
     use crate::equation::first_integral::{FullIntegral, SlenderIntegral};
@@ -144,7 +144,7 @@ mod tests {
                         mount: Mount::CentreOfMass,
                         kinematics: KinematicsKind::Paper,
                     },
-                    carried: Carried::NONE,
+                    added_mass: AddedMass::NONE,
                     restitution: Restitution::Constant(0.93),
                     rest_speed: REST_SPEED,
                 };

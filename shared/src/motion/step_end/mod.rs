@@ -6,13 +6,13 @@
 //! That makes it the yardstick for what the equations cost.
 
 use crate::equation::switched::Switched;
-use crate::ground::Piece;
+use crate::ground::GroundSegment;
 use crate::math::scalar::{Real, Scalar};
 use crate::method::fixed::runge_kutta_4;
 
 /// θ, θ̇ and the toe.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DetectedState<S> {
+pub struct TimeSteppingState<S> {
     /// θ, rad.
     pub rotation: S,
     /// θ̇, rad/s.
@@ -21,17 +21,17 @@ pub struct DetectedState<S> {
     pub side: S,
 }
 
-impl<S: Scalar> DetectedState<S> {
+impl<S: Scalar> TimeSteppingState<S> {
     /// A block that stands on both toes.
-    pub fn at_rest() -> DetectedState<S> {
-        DetectedState { rotation: S::of(0.0), velocity: S::of(0.0), side: S::of(1.0) }
+    pub fn at_rest() -> TimeSteppingState<S> {
+        TimeSteppingState { rotation: S::of(0.0), velocity: S::of(0.0), side: S::of(1.0) }
     }
 }
 
 /// A block with a clutched pair whose clutch and impacts are looked at once a step. With `released` equal to `engaged` it
 /// is the block with a single inerter, or with none.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Detected<S, E> {
+pub struct TimeStepping<S, E> {
     /// Equation of motion with the inerter released.
     pub released: E,
     /// Equation of motion with the inerter engaged.
@@ -42,9 +42,9 @@ pub struct Detected<S, E> {
     pub uplift: S,
 }
 
-/// What [`Detected::follow`] saw.
+/// What [`TimeStepping::follow`] saw.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sightings<S> {
+pub struct TimeSteppingPeaks<S> {
     /// Largest |θ| at a step's end, rad.
     pub rotation: S,
     /// Changes of toe.
@@ -53,30 +53,30 @@ pub struct Sightings<S> {
     pub overturned: bool,
 }
 
-impl<S: Scalar, E: Switched<S>> Detected<S, E> {
+impl<S: Scalar, E: Switched<S>> TimeStepping<S, E> {
     /// One step of length `h` (s) with the classical Runge-Kutta method; `ground` is ü_g/g at its start, middle and end.
     #[inline(always)]
-    pub fn runge_kutta_4(&self, state: DetectedState<S>, ground: [S; 3], h: S) -> DetectedState<S> {
+    pub fn runge_kutta_4(&self, state: TimeSteppingState<S>, ground: [S; 3], h: S) -> TimeSteppingState<S> {
         let (side, h) = self.awake(&state, ground[0], h);
         let equation = self.engagement(&state, side, ground[0]);
         let first = equation.acceleration(side, state.rotation, state.velocity, ground[0]);
         let (rotation, velocity) = runge_kutta_4(&equation, side, (state.rotation, state.velocity), first, ground, h);
-        self.impact(DetectedState { rotation, velocity, side })
+        self.impact(TimeSteppingState { rotation, velocity, side })
     }
 
     /// One step of length `h` (s) with the semi-implicit Euler method; `ground` is ü_g/g at its start.
     #[inline(always)]
-    pub fn semi_implicit_euler(&self, state: DetectedState<S>, ground: S, h: S) -> DetectedState<S> {
+    pub fn semi_implicit_euler(&self, state: TimeSteppingState<S>, ground: S, h: S) -> TimeSteppingState<S> {
         let (side, h) = self.awake(&state, ground, h);
         let equation = self.engagement(&state, side, ground);
         let velocity = state.velocity + h * equation.acceleration(side, state.rotation, state.velocity, ground);
-        self.impact(DetectedState { rotation: state.rotation + h * velocity, velocity, side })
+        self.impact(TimeSteppingState { rotation: state.rotation + h * velocity, velocity, side })
     }
 
     /// A block at rest stays there while the push is below the threshold, which is a step of no length; above it the block
     /// uplifts to the side opposite to the push.
     #[inline(always)]
-    fn awake(&self, state: &DetectedState<S>, ground: S, h: S) -> (S, S) {
+    fn awake(&self, state: &TimeSteppingState<S>, ground: S, h: S) -> (S, S) {
         let (zero, one) = (S::of(0.0), S::of(1.0));
         let motion = state.rotation.abs() + state.velocity.abs();
         let moving = motion.exceeds(zero);
@@ -87,16 +87,16 @@ impl<S: Scalar, E: Switched<S>> Detected<S, E> {
 
     /// The equation in force by Eq. 10 at an instant: engaged where acceleration and velocity of the terminals have one sign.
     #[inline(always)]
-    pub fn engagement(&self, state: &DetectedState<S>, side: S, ground: S) -> E {
+    pub fn engagement(&self, state: &TimeSteppingState<S>, side: S, ground: S) -> E {
         let drive = self.released.switching(side, state.rotation, state.velocity, ground);
         E::switched((drive * state.velocity).exceeds(S::of(0.0)), &self.engaged, &self.released)
     }
 
     /// Where θ has changed its sign: θ̇⁺ = η θ̇⁻ and the other toe. θ stays where the step left it.
     #[inline(always)]
-    fn impact(&self, end: DetectedState<S>) -> DetectedState<S> {
+    fn impact(&self, end: TimeSteppingState<S>) -> TimeSteppingState<S> {
         let hit = S::of(0.0).exceeds(end.rotation * end.side);
-        DetectedState {
+        TimeSteppingState {
             rotation: end.rotation,
             velocity: S::select(hit, end.velocity * self.restitution, end.velocity),
             side: S::select(hit, -end.side, end.side),
@@ -104,11 +104,18 @@ impl<S: Scalar, E: Switched<S>> Detected<S, E> {
     }
 }
 
-impl<S: Real, E: Switched<S>> Detected<S, E> {
+impl<S: Real, E: Switched<S>> TimeStepping<S, E> {
     /// Follows `state` over `piece` from its local time 0 to `duration` (s) in Runge-Kutta steps of `h` (s, above 0; the
     /// last one may be shorter), until |θ| passes `overturned` (rad). At most 2²⁴ steps.
-    pub fn follow<P: Piece<S>>(&self, state: &mut DetectedState<S>, piece: &P, duration: S, h: S, overturned: S) -> Sightings<S> {
-        let mut seen = Sightings::<S>::default();
+    pub fn follow<P: GroundSegment<S>>(
+        &self,
+        state: &mut TimeSteppingState<S>,
+        piece: &P,
+        duration: S,
+        h: S,
+        overturned: S,
+    ) -> TimeSteppingPeaks<S> {
+        let mut seen = TimeSteppingPeaks::<S>::default();
         let mut time = S::ZERO;
         let mut push = piece.acceleration(time);
         for tick in 1..=1 << 24 {
@@ -118,7 +125,7 @@ impl<S: Real, E: Switched<S>> Detected<S, E> {
             let end = (S::count(tick) * h).smaller(duration);
             let push_at_end = piece.acceleration(end);
             let ground = [push, piece.acceleration(S::HALF * (time + end)), push_at_end];
-            let before = (state.side, *state != DetectedState::at_rest());
+            let before = (state.side, *state != TimeSteppingState::at_rest());
             *state = self.runge_kutta_4(*state, ground, end - time);
             seen.impacts += u32::from(before.1 && before.0 != state.side);
             seen.rotation = seen.rotation.larger(state.rotation.abs());

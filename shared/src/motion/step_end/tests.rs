@@ -12,24 +12,24 @@ use crate::math::wide_sine;
 const FREQUENCY: f64 = 6.0;
 const AMPLITUDE: f64 = 7.7;
 
-fn slender_pair<S: Real>() -> Detected<S, SlenderBlock<S>> {
+fn slender_pair<S: Real>() -> TimeStepping<S, SlenderBlock<S>> {
     let equation = |inertia: f64| SlenderBlock {
         frequency_squared: S::of(1.0 / inertia),
         slenderness: S::ONE,
         inertia: S::of(inertia),
         lever: S::ONE,
     };
-    Detected { released: equation(1.0), engaged: equation(1.375), restitution: S::of(0.85), uplift: S::ONE }
+    TimeStepping { released: equation(1.0), engaged: equation(1.375), restitution: S::of(0.85), uplift: S::ONE }
 }
 
 /// Clutch and impacts looked at once a step. On quiet ground an outward motion beyond α never returns.
-fn figure10<S: Real>(step: f64) -> Sightings<S> {
+fn figure10<S: Real>(step: f64) -> TimeSteppingPeaks<S> {
     let block = slender_pair::<S>();
     let pulse = Harmonics::sine(S::of(AMPLITUDE), S::of(FREQUENCY));
-    let mut state = DetectedState::at_rest();
+    let mut state = TimeSteppingState::at_rest();
     let first = block.follow(&mut state, &pulse, S::of(TAU / FREQUENCY), S::of(step), S::of(10.0));
     let then = block.follow(&mut state, &Quiet, S::of(20.0), S::of(step), S::of(2.0));
-    Sightings {
+    TimeSteppingPeaks {
         rotation: first.rotation.larger(then.rotation),
         impacts: first.impacts + then.impacts,
         overturned: first.overturned || then.overturned,
@@ -37,13 +37,13 @@ fn figure10<S: Real>(step: f64) -> Sightings<S> {
 }
 
 /// The same with uplift and impacts exact (by bisection of the step), so that only the clutch is looked at once a step.
-fn figure10_with_impacts_located(step: f64) -> Sightings<f64> {
-    let elastic = Detected { restitution: 1.0, ..slender_pair::<f64>() };
+fn figure10_with_impacts_located(step: f64) -> TimeSteppingPeaks<f64> {
+    let elastic = TimeStepping { restitution: 1.0, ..slender_pair::<f64>() };
     let pulse = Harmonics::sine(AMPLITUDE, FREQUENCY);
-    let mut seen = Sightings::<f64>::default();
+    let mut seen = TimeSteppingPeaks::<f64>::default();
     let mut time = crate::math::asin(1.0 / AMPLITUDE) / FREQUENCY;
     // Uplift at the instant at which the push equals the threshold; the sign of θ̇ is then that of θ̈.
-    let mut state = DetectedState { rotation: 0.0, velocity: -1e-15, side: -1.0 };
+    let mut state = TimeSteppingState { rotation: 0.0, velocity: -1e-15, side: -1.0 };
     for (origin, end) in [(0.0, TAU / FREQUENCY), (TAU / FREQUENCY, 12.0)] {
         let push = |t: f64| if origin == 0.0 { pulse.acceleration(t) } else { 0.0 };
         let mut tick = ((time - origin) / step) as u32;
@@ -65,7 +65,7 @@ fn figure10_with_impacts_located(step: f64) -> Sightings<f64> {
                     *if take(middle).side == state.side { &mut low } else { &mut high } = middle;
                 }
                 let hit = take(high);
-                state = DetectedState { rotation: 0.0, velocity: 0.85 * hit.velocity, side: hit.side };
+                state = TimeSteppingState { rotation: 0.0, velocity: 0.85 * hit.velocity, side: hit.side };
                 time += high;
                 seen.impacts += 1;
                 if hit.velocity.abs() < 1e-3 {
@@ -106,9 +106,9 @@ fn a_clutch_looked_at_once_a_step_overturns_figure_10() {
 #[test]
 fn without_a_clutch_the_error_is_that_of_the_impacts() {
     let block = slender_pair::<f64>();
-    let none = Detected { engaged: block.released, ..block };
+    let none = TimeStepping { engaged: block.released, ..block };
     let pulse = Harmonics::sine(1.5, 4.0);
-    let mut state = DetectedState::at_rest();
+    let mut state = TimeSteppingState::at_rest();
     let seen = none.follow(&mut state, &pulse, TAU / 4.0, 1e-4, 2.0);
     let then = none.follow(&mut state, &Quiet, 3.0, 1e-4, 2.0);
     // Figure 5, none: 0.4082.
@@ -119,7 +119,7 @@ fn without_a_clutch_the_error_is_that_of_the_impacts() {
 #[test]
 fn a_block_at_rest_waits_for_the_push() {
     let pair = slender_pair::<f64>();
-    let rest = DetectedState::at_rest();
+    let rest = TimeSteppingState::at_rest();
     let still = pair.runge_kutta_4(rest, [0.9, 2.0, 3.0], 0.01);
     assert_eq!((still.rotation, still.velocity), (0.0, 0.0));
     let up = pair.runge_kutta_4(rest, [1.1, 1.1, 1.1], 0.01);
@@ -172,11 +172,11 @@ impl Scalar for Single {
     }
 }
 
-fn full_pair<S: Scalar, K: Kinematics>() -> Detected<S, FullInerter<S, CentreOfMass, K>> {
+fn full_pair<S: Scalar, K: Kinematics>() -> TimeStepping<S, FullInerter<S, CentreOfMass, K>> {
     let block = FullBlock { frequency_squared: S::of(1.0), slenderness: S::of(0.3) };
     let with =
         |coupling| FullInerter { block, coupling: S::of(coupling), lever: CentreOfMass, kinematics: core::marker::PhantomData };
-    Detected { released: with(0.0), engaged: with(0.375), restitution: S::of(0.85), uplift: S::of(crate::math::tan(0.3)) }
+    TimeStepping { released: with(0.0), engaged: with(0.375), restitution: S::of(0.85), uplift: S::of(crate::math::tan(0.3)) }
 }
 
 /// `N` lanes with amplitudes of their own, each against the same run alone.
@@ -187,8 +187,8 @@ where
     let amplitude = |lane: usize| 0.2 + 0.35 * lane as f64;
     let push = |lane: usize, time: f64| amplitude(lane) * crate::math::sin(4.0 * time.min(TAU / 4.0));
     let (wide, single) = (full_pair::<Lanes<f64, N>, K>(), full_pair::<Single, K>());
-    let mut together = DetectedState::<Lanes<f64, N>>::at_rest();
-    let mut alone = [DetectedState::<Single>::at_rest(); N];
+    let mut together = TimeSteppingState::<Lanes<f64, N>>::at_rest();
+    let mut alone = [TimeSteppingState::<Single>::at_rest(); N];
     let h = 0.01;
     for tick in 0..400 {
         let times = [0.0, 0.5, 1.0].map(|part| h * (f64::from(tick) + part));

@@ -5,7 +5,7 @@ use super::report::Report;
 use super::toe::Toe;
 use crate::math::scalar::Real;
 use crate::motion::observer::Event;
-use crate::motion::state::{Phase, State};
+use crate::motion::state::{BlockState, Phase};
 
 /// What is known of the block just before an event.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ impl<S: Real> Impulses<S> {
     }
 
     /// Raises what `report` has of impulses by those of an event at `time` (s from the origin) that leaves `state`.
-    pub fn event(&mut self, toe: &Toe<S>, report: &mut Report<S>, event: Event, time: S, state: &State<S>) {
+    pub fn event(&mut self, toe: &Toe<S>, report: &mut Report<S>, event: Event, time: S, state: &BlockState<S>) {
         let Some(before) = self.velocity.replace(state.velocity) else { return };
         match event {
             Event::Impact => {

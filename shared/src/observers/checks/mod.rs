@@ -13,12 +13,12 @@ mod toe;
 
 pub use report::{Extreme, Report};
 
-use crate::math::root::locate_by_value;
+use crate::math::root::illinois;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::motion::device_snapshot::{DeviceArc, DeviceObserver, Snapshot};
-use crate::motion::observer::{Event, Stretch};
-use crate::motion::state::State;
+use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput, Snapshot};
+use crate::motion::observer::{Event, MonotoneInterval};
+use crate::motion::state::BlockState;
 use crate::observers::ledger::Account;
 use crate::structure::COUNTED_SPEED;
 use crate::structure::block::{Block, Geometry};
@@ -28,7 +28,7 @@ use impulse::Impulses;
 use search::{LOOKS, instant, largest};
 use toe::Toe;
 
-/// The quantities whose largest values are sought along every stretch: friction, −V, the force of each flywheel, that on the support.
+/// The quantities whose largest values are sought along every interval: friction, −V, the force of each flywheel, that on the support.
 const QUANTITIES: usize = 5;
 
 /// The last of them.
@@ -101,26 +101,26 @@ impl<S: Real> Checks<S> {
         side.times(rotation) - self.toe.slenderness
     }
 
-    /// What has been found at the end of a stretch beyond α up to where |θ| passed it, in case the block never comes back.
-    fn before(&self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) -> Report<S> {
-        let beyond = |rotation: S| self.beyond(stretch.side, rotation);
-        if beyond(stretch.first.rotation) >= S::ZERO {
+    /// What has been found at the end of an interval beyond α up to where |θ| passed it, in case the block never comes back.
+    fn before(&self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) -> Report<S> {
+        let beyond = |rotation: S| self.beyond(interval.side, rotation);
+        if beyond(interval.first.rotation) >= S::ZERO {
             return self.up_to_slenderness.unwrap_or(self.report);
         }
-        let passes = locate_by_value(stretch.from, stretch.to, Sign::Negative, |t| beyond(arc.snapshot(t).motion.rotation));
+        let passes = illinois(interval.from, interval.to, Sign::Negative, |t| beyond(output.snapshot(t).motion.rotation));
         let mut up_to_it = *self;
-        up_to_it.watch(arc, &Stretch { to: passes, last: arc.snapshot(passes).motion, ..*stretch });
+        up_to_it.watch(output, &MonotoneInterval { to: passes, last: output.snapshot(passes).motion, ..*interval });
         up_to_it.report
     }
 
-    /// Whether a stretch may hold a new record of the force on the support. A step follows at most half a swing of a stiff clutch, so
+    /// Whether an interval may hold a new record of the force on the support. A step follows at most half a swing of a stiff clutch, so
     /// that of three looks one shows more than half of what lies between; and where a parabola through them also meets a fourth, no
     /// more lies between than they and its curvature show.
-    fn may_press_harder(&self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) -> bool {
-        let Some(record) = self.report.support.filter(|_| stretch.engaged) else { return stretch.engaged };
+    fn may_press_harder(&self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) -> bool {
+        let Some(record) = self.report.support.filter(|_| interval.engaged) else { return interval.engaged };
         let force = |share: S| {
-            let time = stretch.from + share * (stretch.to - stretch.from);
-            self.toe.over_weight(arc.snapshot(time).support_force())
+            let time = interval.from + share * (interval.to - interval.from);
+            self.toe.over_weight(output.snapshot(time).support_force())
         };
         let [first, middle, last] = [S::ZERO, S::HALF, S::ONE].map(force);
         let seen = first.abs().larger(middle.abs()).larger(last.abs());
@@ -134,19 +134,19 @@ impl<S: Real> Checks<S> {
         seen + curvature + S::of(8.0) * missed > record.value * rounding
     }
 
-    fn watch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
-        let side = stretch.side;
-        let start = self.origin + stretch.start;
-        let span = (stretch.from, stretch.to);
+    fn watch(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        let side = interval.side;
+        let start = self.origin + interval.start;
+        let span = (interval.from, interval.to);
         let mut looks = [[S::ZERO; LOOKS]; QUANTITIES];
         for i in 0..LOOKS {
-            let readings = self.readings(side, &arc.snapshot(instant(span, i)));
+            let readings = self.readings(side, &output.snapshot(instant(span, i)));
             for (values, reading) in looks.iter_mut().zip(readings) {
                 values[i] = reading;
             }
         }
         for (quantity, values) in looks.iter().enumerate().skip(self.first) {
-            let reading = |t: S| self.readings(side, &arc.snapshot(t))[quantity];
+            let reading = |t: S| self.readings(side, &output.snapshot(t))[quantity];
             let (time, value) = largest(span, values, self.report.record(quantity), reading);
             self.report.raise(quantity, value, start + time);
         }
@@ -157,15 +157,15 @@ impl<S: Real> Checks<S> {
             && let Some(lost) = (0..LOOKS).find(|&i| looks[1][i] >= S::ZERO)
         {
             let time = if lost == 0 {
-                stretch.from
+                interval.from
             } else {
-                let upward = |t: S| self.toe.reactions(side, &arc.snapshot(t))[1];
-                locate_by_value(instant(span, lost - 1), instant(span, lost), Sign::Positive, upward)
+                let upward = |t: S| self.toe.reactions(side, &output.snapshot(t))[1];
+                illinois(instant(span, lost - 1), instant(span, lost), Sign::Positive, upward)
             };
             self.report.contact_lost = Some(start + time);
         }
-        // θ is monotone along a stretch, and so is the travel wherever ℓ keeps its sign.
-        for (motion, time) in [(&stretch.first, stretch.from), (&stretch.last, stretch.to)] {
+        // θ is monotone along an interval, and so is the travel wherever ℓ keeps its sign.
+        for (motion, time) in [(&interval.first, interval.from), (&interval.last, interval.to)] {
             let travel = self.toe.travel(side, motion.rotation);
             let way = usize::from(travel < S::ZERO);
             Extreme::raise(&mut self.report.travel[way], travel.abs(), start + time);
@@ -174,19 +174,19 @@ impl<S: Real> Checks<S> {
 }
 
 impl<S: Real> DeviceObserver<S> for Checks<S> {
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
-        let is_beyond = self.beyond(stretch.side, stretch.last.rotation) > S::ZERO;
-        let before = is_beyond.then(|| self.before(arc, stretch));
-        if self.first < SUPPORT || self.may_press_harder(arc, stretch) {
-            self.watch(arc, stretch);
+    fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        let is_beyond = self.beyond(interval.side, interval.last.rotation) > S::ZERO;
+        let before = is_beyond.then(|| self.before(output, interval));
+        if self.first < SUPPORT || self.may_press_harder(output, interval) {
+            self.watch(output, interval);
         }
         self.up_to_slenderness = before;
-        let engaged = if stretch.engaged { arc.snapshot(stretch.to).engaged } else { [false; 2] };
-        self.impulses.velocity = Some(stretch.last.velocity);
+        let engaged = if interval.engaged { output.snapshot(interval.to).engaged } else { [false; 2] };
+        self.impulses.velocity = Some(interval.last.velocity);
         self.impulses.engaged = engaged.map(u32::from).iter().sum();
     }
 
-    fn device_event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn device_event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         self.overturned |= event == Event::Overturned;
         self.impulses.event(&self.toe, &mut self.report, event, self.origin + time, state);
     }

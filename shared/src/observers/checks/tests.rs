@@ -56,25 +56,25 @@ struct Look {
 impl Placed for Probe {}
 
 impl DeviceObserver<f64> for Probe {
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
-        let span = stretch.to - stretch.from;
+    fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+        let span = interval.to - interval.from;
         if span < 0.01 {
             return;
         }
-        let side: f64 = stretch.side.unit();
+        let side: f64 = interval.side.unit();
         let (alpha, step) = (self.alpha, 1e-3);
         for share in [0.2, 0.5, 0.8] {
-            let time = stretch.from + share * span;
+            let time = interval.from + share * span;
             // Turned as in a drawing: the centre of mass starts up and to the left of the right-hand toe.
             let place = |t: f64| {
-                let (sin, cos) = math::sin_cos(arc.at(t).rotation);
+                let (sin, cos) = math::sin_cos(output.at(t).rotation);
                 let (x, y) = (-side * math::sin(alpha), math::cos(alpha));
                 [cos * x + sin * y, cos * y - sin * x]
             };
             let [before, now, after] = [place(time - step), place(time), place(time + step)];
             let path = [0, 1].map(|i| (after[i] - 2.0 * now[i] + before[i]) / (step * step));
-            let snapshot = arc.snapshot(time);
-            let reactions = self.checks.toe.reactions(stretch.side, &snapshot);
+            let snapshot = output.snapshot(time);
+            let reactions = self.checks.toe.reactions(interval.side, &snapshot);
             self.looks.push(Look { side, snapshot, reactions, path });
         }
     }
@@ -210,11 +210,11 @@ struct DenseWatch(Checks<f64>, Dense);
 impl Placed for DenseWatch {}
 
 impl DeviceObserver<f64> for DenseWatch {
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
+    fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
         for i in 0..=2000 {
-            let snapshot = arc.snapshot(stretch.from + (stretch.to - stretch.from) * f64::from(i) / 2000.0);
-            let [horizontal, vertical] = self.0.toe.reactions(stretch.side, &snapshot);
-            let travel = self.0.toe.travel(stretch.side, snapshot.motion.rotation);
+            let snapshot = output.snapshot(interval.from + (interval.to - interval.from) * f64::from(i) / 2000.0);
+            let [horizontal, vertical] = self.0.toe.reactions(interval.side, &snapshot);
+            let travel = self.0.toe.travel(interval.side, snapshot.motion.rotation);
             let dense = &mut self.1;
             dense.friction = dense.friction.max(horizontal.abs() / vertical);
             dense.vertical = dense.vertical.min(vertical);

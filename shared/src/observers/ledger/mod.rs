@@ -7,7 +7,7 @@
 //!
 //! input = −p² ∫ [ (ü_g/g)(cos δ + (m_rack/m) ℓ) + (v̈_g/g) sin δ ] θ̇ dt,  kinetic = ½θ̇²,  potential = p² (cos δ − cos α);
 //!
-//! slender: sin δ → δ, cos δ → 1, potential = p² (α|θ| − ½θ²). Powers are integrated along every stretch by Gauss-Legendre
+//! slender: sin δ → δ, cos δ → 1, potential = p² (α|θ| − ½θ²). Powers are integrated along every interval by Gauss-Legendre
 //! quadrature, with an error far below rounding on a series; what jumps at an event goes to what caused it. No entry is
 //! worked out from the others, so the residual measures all of them.
 
@@ -17,9 +17,9 @@ pub use entries::Entries;
 
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::motion::device_snapshot::{DeviceArc, DeviceObserver, Snapshot};
-use crate::motion::observer::{Event, Stretch};
-use crate::motion::state::State;
+use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput, Snapshot};
+use crate::motion::observer::{Event, MonotoneInterval};
+use crate::motion::state::BlockState;
 use crate::structure::block::{Block, Geometry};
 
 /// What a flywheel's energy may do at an event.
@@ -184,7 +184,7 @@ impl<S: Real> Ledger<S> {
         }
     }
 
-    /// What the device's energy has done between two stretches.
+    /// What the device's energy has done between two intervals.
     fn attribute(&mut self, before: &Balance<S>, after: &Balance<S>) {
         let Since { impact, switch, stood } = self.since;
         if !(impact || switch || stood) {
@@ -241,18 +241,18 @@ impl<S: Real> Ledger<S> {
 }
 
 impl<S: Real> DeviceObserver<S> for Ledger<S> {
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
-        let first = self.balance(stretch.side, &arc.snapshot(stretch.from));
+    fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        let first = self.balance(interval.side, &output.snapshot(interval.from));
         match self.last {
             None => self.entries.initial = first.kinetic + first.potential + first.stored(),
             Some(last) => self.attribute(&last, &first),
         }
         self.since = Since::default();
         let [input, clutch, brake, bearing, rack, kinematics] =
-            crate::math::quadrature::integral(stretch.from, stretch.to, S::HALF / self.frequency, |time| {
-                let snapshot = arc.snapshot(time);
+            crate::math::quadrature::integral(interval.from, interval.to, S::HALF / self.frequency, |time| {
+                let snapshot = output.snapshot(time);
                 let spent = &snapshot.spent;
-                let input = self.input(stretch.side, &snapshot);
+                let input = self.input(interval.side, &snapshot);
                 [input, spent.clutch, spent.brake, spent.bearing, spent.rack, spent.kinematics]
             });
         let entries = &mut self.entries;
@@ -262,14 +262,14 @@ impl<S: Real> DeviceObserver<S> for Ledger<S> {
         entries.bearing = entries.bearing + bearing;
         entries.rack = entries.rack + rack;
         entries.kinematics = entries.kinematics + kinematics;
-        self.state_of_affairs(self.balance(stretch.side, &arc.snapshot(stretch.to)));
+        self.state_of_affairs(self.balance(interval.side, &output.snapshot(interval.to)));
     }
 
-    fn device_stands(&mut self, arc: &dyn DeviceArc<S>, stretch: &Stretch<S>) {
-        self.device_stretch(arc, stretch);
+    fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        self.device_interval(output, interval);
     }
 
-    fn device_event(&mut self, event: Event, _time: S, state: &State<S>) {
+    fn device_event(&mut self, event: Event, _time: S, state: &BlockState<S>) {
         let Some(mut last) = self.last else {
             // Before any motion: a block that uplifts has stood.
             if event == Event::Uplift {

@@ -3,7 +3,7 @@ use crate::drivetrain::power_loss::Spent;
 use crate::equation::motion::Motion;
 use crate::ground::Linear;
 use crate::math;
-use crate::method::dense_output::Arc;
+use crate::method::dense_output::DenseOutput;
 use crate::motion::ideal::device_view::tests::{Placed, Run, Shake, pseudo_record, pulse, structure};
 use crate::motion::state::Phase;
 use crate::structure::Structure;
@@ -22,7 +22,7 @@ fn ledger(structure: &Structure) -> Ledger<f64> {
     Ledger::new(&structure.block, structure.geometry, &Account { clutching, mass_ratio, rack_mass_ratio: 0.0 })
 }
 
-fn follow(structure: &Structure, ground: &[(Shake, f64)], from: Option<(f64, f64)>) -> (State<f64>, Entries<f64>) {
+fn follow(structure: &Structure, ground: &[(Shake, f64)], from: Option<(f64, f64)>) -> (BlockState<f64>, Entries<f64>) {
     let (state, ledger) = Run { structure, ground, from, observer: ledger(structure) }.go();
     (state, ledger.entries())
 }
@@ -49,7 +49,7 @@ fn worst_residual(ground: impl Fn(&Block) -> Vec<(Shake, f64)>) -> f64 {
 }
 
 /// Which entries there are, and their signs.
-fn looks_right(structure: &Structure, state: &State<f64>, entries: &Entries<f64>) {
+fn looks_right(structure: &Structure, state: &BlockState<f64>, entries: &Entries<f64>) {
     let paper = structure.device.kinematics == KinematicsKind::Paper && structure.geometry == Geometry::Full;
     let pair = structure.device.kind == DeviceKind::ClutchedPair;
     assert!(entries.input > 0.0 && entries.impact > 0.0);
@@ -120,11 +120,11 @@ struct UntilImpact(Ledger<f64>, Option<Entries<f64>>);
 impl Placed for UntilImpact {}
 
 impl DeviceObserver<f64> for UntilImpact {
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
-        self.0.device_stretch(arc, stretch);
+    fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+        self.0.device_interval(output, interval);
     }
 
-    fn device_event(&mut self, event: Event, time: f64, state: &State<f64>) {
+    fn device_event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
         if event == Event::Impact {
             self.1.get_or_insert(self.0.entries());
         }
@@ -196,7 +196,7 @@ fn the_barrier_is_the_potential_at_the_top() {
 /// A device whose snapshots are given: flywheels of k = 0.4 on a lever of 1.
 struct Script<F>(F);
 
-impl<F: Fn(f64) -> Snapshot<f64>> Arc<f64> for Script<F> {
+impl<F: Fn(f64) -> Snapshot<f64>> DenseOutput<f64> for Script<F> {
     fn length(&self) -> f64 {
         1.0
     }
@@ -210,7 +210,7 @@ impl<F: Fn(f64) -> Snapshot<f64>> Arc<f64> for Script<F> {
     }
 }
 
-impl<F: Fn(f64) -> Snapshot<f64>> DeviceArc<f64> for Script<F> {
+impl<F: Fn(f64) -> Snapshot<f64>> DeviceOutput<f64> for Script<F> {
     fn snapshot(&self, time: f64) -> Snapshot<f64> {
         (self.0)(time)
     }
@@ -238,7 +238,7 @@ fn scripted(clutching: Clutching, rack_mass_ratio: f64) -> Ledger<f64> {
 
 fn show(ledger: &mut Ledger<f64>, to: f64, script: impl Fn(f64) -> Snapshot<f64>) {
     let ends = [script(0.0).motion, script(to).motion];
-    let stretch = Stretch {
+    let interval = MonotoneInterval {
         start: 0.0,
         from: 0.0,
         to,
@@ -248,11 +248,11 @@ fn show(ledger: &mut Ledger<f64>, to: f64, script: impl Fn(f64) -> Snapshot<f64>
         side: Sign::Positive,
         direction: Sign::Positive,
     };
-    ledger.device_stretch(&Script(script), &stretch);
+    ledger.device_interval(&Script(script), &interval);
 }
 
 fn event(ledger: &mut Ledger<f64>, event: Event, velocity: f64) {
-    ledger.device_event(event, 0.0, &State { velocity, ..State::default() });
+    ledger.device_event(event, 0.0, &BlockState { velocity, ..BlockState::default() });
 }
 
 #[test]

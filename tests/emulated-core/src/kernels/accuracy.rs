@@ -26,14 +26,14 @@ use sprag_shared::{
     },
     method::closed_form::ClosedForm,
     motion::{
-        ideal::System,
-        state::{Limits, State, Stopped},
-        step_end::{Detected, DetectedState},
+        ideal::IdealSystem,
+        state::{BlockState, Limits, Stopped},
+        step_end::{TimeStepping, TimeSteppingState},
     },
     observers::peaks::Peaks,
     structure::{
         REST_SPEED, Restitution, Structure,
-        added_mass::Carried,
+        added_mass::AddedMass,
         block::{Block, Geometry, RECTANGLE_INERTIA_RATIO},
         device::{Device, DeviceKind},
         drivetrain::Drivetrain,
@@ -70,25 +70,25 @@ struct Step<S> {
 }
 
 #[inline(never)]
-fn runge_kutta_4<S: Real, E: Switched<S>>(block: &Detected<S, E>, state: &mut DetectedState<S>, step: &Step<S>) {
+fn runge_kutta_4<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, state: &mut TimeSteppingState<S>, step: &Step<S>) {
     *state = block.runge_kutta_4(*state, step.ground, step.length);
 }
 
 #[inline(never)]
-fn euler<S: Real, E: Switched<S>>(block: &Detected<S, E>, state: &mut DetectedState<S>, step: &Step<S>) {
+fn euler<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, state: &mut TimeSteppingState<S>, step: &Step<S>) {
     *state = block.semi_implicit_euler(*state, step.ground[0], step.length);
 }
 
 /// One step of `method` whose events are seen at its end.
 fn step_end<S: Real, E: Switched<S>>(
-    method: fn(&Detected<S, E>, &mut DetectedState<S>, &Step<S>),
+    method: fn(&TimeStepping<S, E>, &mut TimeSteppingState<S>, &Step<S>),
     (released, engaged): (E, E),
     counter: &mut impl FnMut() -> u32,
 ) -> u32 {
     let [restitution, uplift] = [RESTITUTION, super::UPLIFT].map(|x| S::of(x.into()));
-    let block = black_box(Detected { released, engaged, restitution, uplift });
+    let block = black_box(TimeStepping { released, engaged, restitution, uplift });
     let step = black_box(Step { ground: [-0.31, -0.32, -0.33].map(S::of), length: S::of(STEP.into()) });
-    let mut state = black_box(DetectedState { rotation: S::of(0.08), velocity: S::of(0.21), side: S::ONE });
+    let mut state = black_box(TimeSteppingState { rotation: S::of(0.08), velocity: S::of(0.21), side: S::ONE });
     let instructions = count(counter, || method(&block, &mut state, &step));
     black_box(state);
     instructions
@@ -105,7 +105,7 @@ fn run(
             block: Block::new(2.0, f64::from(super::SLENDERNESS), RECTANGLE_INERTIA_RATIO)?,
             geometry,
             device: Device { kind, mass_ratio: 0.5, ..Device::NONE },
-            carried: Carried::NONE,
+            added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(RESTITUTION.into()),
             rest_speed: REST_SPEED,
         },
@@ -145,7 +145,7 @@ fn closed_form(
     method: &ClosedForm<f32>,
     tally: &mut Tally,
 ) -> Result<(), Stopped> {
-    let system = System {
+    let system = IdealSystem {
         released,
         engaged,
         restitution: RESTITUTION,
@@ -157,7 +157,7 @@ fn closed_form(
     };
     let limits = Limits { overturned: FRAC_PI_2 as f32, events: 10_000 };
     let mut watch = (Peaks::default(), core::mem::take(tally));
-    let done = system.advance(method, &mut State::default(), &black_box(LINE), DURATION, &limits, &mut watch);
+    let done = system.advance(method, &mut BlockState::default(), &black_box(LINE), DURATION, &limits, &mut watch);
     *tally = watch.1;
     done
 }

@@ -10,26 +10,26 @@ use core::{f32::consts::TAU, fmt, hint::black_box};
 use sprag_shared::{
     case::Shape,
     drivetrain::{
-        any_drive::AnyDrive,
+        any_transmission::AnyTransmission,
         elastic::ElasticPair,
         friction::FrictionPair,
-        gears::Gears,
         ideal::{Alone, IdealPair, Single},
         overrunning::OverrunningPair,
         rigid::RigidPair,
+        scaled_parameters::ScaledParameters,
     },
     equation::{
         any_body::AnyBody,
         body::FullBody,
-        kinematics::{BodyKinematics, Told},
+        kinematics::{BodyKinematics, RuntimeKinematics},
         lever::TyingPoint,
     },
     ground::Harmonics,
     method::fixed::FixedStep,
     motion::{
         hybrid::{
-            Actuator, Machine,
-            path::{Shaking, Tracer},
+            Actuator, HybridSystem,
+            mode_output::{ModeIntegrator, Shaking},
         },
         state::{Limits, Stopped},
     },
@@ -85,16 +85,20 @@ const ELASTIC: Drivetrain = Drivetrain {
 };
 const ALL: Drivetrain = Drivetrain { rack: RACK, actuation: LATE, ..FRICTION };
 
-fn body(consistent: bool, vertical: bool) -> FullBody<f32, Told> {
+fn body(consistent: bool, vertical: bool) -> FullBody<f32, RuntimeKinematics> {
     let lever = TyingPoint { along: 1.0, across: 0.0 };
-    FullBody { block: super::BLOCK, lever, kinematics: Told::told(consistent), vertical }
+    FullBody { block: super::BLOCK, lever, kinematics: RuntimeKinematics::chosen(consistent), vertical }
 }
 
 /// A block on its device, with the numbers of the ideal pair's kernel.
-fn machine(body: FullBody<f32, Told>, drive: AnyDrive<f32>, drivetrain: &Drivetrain) -> Machine<f32> {
-    Machine {
+fn machine(
+    body: FullBody<f32, RuntimeKinematics>,
+    transmission: AnyTransmission<f32>,
+    drivetrain: &Drivetrain,
+) -> HybridSystem<f32> {
+    HybridSystem {
         body: AnyBody::Full(body),
-        drive,
+        transmission,
         restitution: [super::RESTITUTION; 3],
         slenderness: super::SLENDERNESS,
         speed: 0.33,
@@ -106,14 +110,14 @@ fn machine(body: FullBody<f32, Told>, drive: AnyDrive<f32>, drivetrain: &Drivetr
 
 /// One cycle of a sine pulse and every event in it, located.
 #[inline(never)]
-fn passage<T: Tracer<f32>>(
-    machine: &Machine<f32>,
-    tracer: &T,
+fn passage<T: ModeIntegrator<f32>>(
+    machine: &HybridSystem<f32>,
+    integrator: &T,
     shaking: Shaking<'_, f32>,
     tally: &mut Tally,
 ) -> Result<(), Stopped> {
     let limits = Limits { overturned: core::f32::consts::FRAC_PI_2, events: 10_000 };
-    machine.advance(tracer, &mut machine.at_rest(), shaking, 1.0, &limits, tally)
+    machine.advance(integrator, &mut machine.at_rest(), shaking, 1.0, &limits, tally)
 }
 
 /// Prints a line for every effect; all zeros on the host.
@@ -122,38 +126,87 @@ fn passage<T: Tracer<f32>>(
 /// If `out` refuses a line.
 pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> fmt::Result {
     let Ok(block) = Block::new(2.0, f64::from(super::SLENDERNESS), RECTANGLE_INERTIA_RATIO) else { return Err(fmt::Error) };
-    let gears = |drivetrain: &Drivetrain| black_box(Gears::<f32>::of(drivetrain, &block, MASS_RATIO, 1.0));
+    let parameters = |drivetrain: &Drivetrain| black_box(ScaledParameters::<f32>::of(drivetrain, &block, MASS_RATIO, 1.0));
     let pulse = black_box(Shape::Sine(Harmonics::sine(0.5, TAU)));
     let up = black_box(Shape::Sine(Harmonics::sine(0.2, 4.0 * TAU)));
     let (level, both) = (Shaking { horizontal: &pulse, vertical: None }, Shaking { horizontal: &pulse, vertical: Some(&up) });
-    let tracer = FixedStep::RungeKutta4 { step: super::STEP };
+    let integrator = FixedStep::RungeKutta4 { step: super::STEP };
     let midpoint = FixedStep::ExponentialMidpoint { step: super::STEP };
     let (paper, consistent) = (body(false, false), body(true, false));
 
     macro_rules! line {
-        ($name:literal, $body:expr, $drive:expr, $drivetrain:expr, $tracer:expr, $shaking:expr) => {{
-            let machine = black_box(machine($body, $drive, &$drivetrain));
-            mean($name, |tally| passage(&machine, $tracer, $shaking, tally), counter, out)?;
+        ($name:literal, $body:expr, $transmission:expr, $drivetrain:expr, $integrator:expr, $shaking:expr) => {{
+            let machine = black_box(machine($body, $transmission, &$drivetrain));
+            mean($name, |tally| passage(&machine, $integrator, $shaking, tally), counter, out)?;
         }};
     }
-    line!("machine-alone", paper, AnyDrive::Alone(Alone), IDEAL, &tracer, level);
-    line!("machine-alone-vertical", body(false, true), AnyDrive::Alone(Alone), IDEAL, &tracer, both);
-    line!("machine-single-friction", paper, AnyDrive::SingleWithFriction(Single(gears(&ROUGH))), ROUGH, &tracer, level);
-    line!("machine-ideal-pair", paper, AnyDrive::Ideal(IdealPair(gears(&IDEAL))), IDEAL, &tracer, level);
-    line!("machine-ideal-pair-friction", paper, AnyDrive::IdealWithFriction(IdealPair(gears(&ROUGH))), ROUGH, &tracer, level);
-    line!("machine-ideal-pair-consistent", consistent, AnyDrive::Ideal(IdealPair(gears(&IDEAL))), IDEAL, &tracer, level);
-    line!("machine-rigid", consistent, AnyDrive::Rigid(RigidPair(gears(&RIGID))), RIGID, &tracer, level);
+    line!("machine-alone", paper, AnyTransmission::Alone(Alone), IDEAL, &integrator, level);
+    line!("machine-alone-vertical", body(false, true), AnyTransmission::Alone(Alone), IDEAL, &integrator, both);
+    line!(
+        "machine-single-friction",
+        paper,
+        AnyTransmission::SingleWithFriction(Single(parameters(&ROUGH))),
+        ROUGH,
+        &integrator,
+        level
+    );
+    line!("machine-ideal-pair", paper, AnyTransmission::Ideal(IdealPair(parameters(&IDEAL))), IDEAL, &integrator, level);
+    line!(
+        "machine-ideal-pair-friction",
+        paper,
+        AnyTransmission::IdealWithFriction(IdealPair(parameters(&ROUGH))),
+        ROUGH,
+        &integrator,
+        level
+    );
+    line!(
+        "machine-ideal-pair-consistent",
+        consistent,
+        AnyTransmission::Ideal(IdealPair(parameters(&IDEAL))),
+        IDEAL,
+        &integrator,
+        level
+    );
+    line!("machine-rigid", consistent, AnyTransmission::Rigid(RigidPair(parameters(&RIGID))), RIGID, &integrator, level);
     line!(
         "machine-overrunning",
         consistent,
-        AnyDrive::Overrunning(OverrunningPair(gears(&OVERRUNNING))),
+        AnyTransmission::Overrunning(OverrunningPair(parameters(&OVERRUNNING))),
         OVERRUNNING,
-        &tracer,
+        &integrator,
         level
     );
-    line!("machine-friction-clutch", consistent, AnyDrive::Friction(FrictionPair(gears(&FRICTION))), FRICTION, &tracer, level);
-    line!("machine-elastic-rk4", consistent, AnyDrive::Elastic(ElasticPair(gears(&ELASTIC))), ELASTIC, &tracer, level);
-    line!("machine-elastic-exponential", consistent, AnyDrive::Elastic(ElasticPair(gears(&ELASTIC))), ELASTIC, &midpoint, level);
-    line!("machine-all-together", body(true, true), AnyDrive::Friction(FrictionPair(gears(&ALL))), ALL, &tracer, both);
+    line!(
+        "machine-friction-clutch",
+        consistent,
+        AnyTransmission::Friction(FrictionPair(parameters(&FRICTION))),
+        FRICTION,
+        &integrator,
+        level
+    );
+    line!(
+        "machine-elastic-rk4",
+        consistent,
+        AnyTransmission::Elastic(ElasticPair(parameters(&ELASTIC))),
+        ELASTIC,
+        &integrator,
+        level
+    );
+    line!(
+        "machine-elastic-exponential",
+        consistent,
+        AnyTransmission::Elastic(ElasticPair(parameters(&ELASTIC))),
+        ELASTIC,
+        &midpoint,
+        level
+    );
+    line!(
+        "machine-all-together",
+        body(true, true),
+        AnyTransmission::Friction(FrictionPair(parameters(&ALL))),
+        ALL,
+        &integrator,
+        both
+    );
     Ok(())
 }

@@ -5,10 +5,10 @@ use core::f64::consts::TAU;
 use sprag_shared::equation::any_equation::WithEquation;
 use sprag_shared::equation::switched::Switched;
 use sprag_shared::math::scalar::Real;
-use sprag_shared::motion::ideal::System;
+use sprag_shared::motion::ideal::IdealSystem;
 use sprag_shared::motion::observer::Event;
 use sprag_shared::motion::state::Phase;
-use sprag_shared::motion::step_end::{Detected, DetectedState};
+use sprag_shared::motion::step_end::{TimeStepping, TimeSteppingState};
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
@@ -68,7 +68,7 @@ fn euler_steps_of_any_length<S: Precision>() {
 }
 
 /// On quiet ground Runge-Kutta steps of up to 0.1/p with located events hardly gain energy, even without loss at impacts. With
-/// impacts noticed at the ends of the same steps ([`Detected`]) each gives the block what it fell too far, until it overturns.
+/// impacts noticed at the ends of the same steps ([`TimeStepping`]) each gives the block what it fell too far, until it overturns.
 fn free_rocking_in_long_steps<S: Precision>() {
     for (step, tolerance) in [(5e-3, 1e-11), (0.02, 1e-9), (0.1, 1e-6)] {
         for geometry in GEOMETRIES {
@@ -97,7 +97,7 @@ fn free_rocking_in_long_steps<S: Precision>() {
 /// noticed, until the block overturns.
 fn detected<S: Precision>(structure: &Structure, rotation: S, step: f64) -> f64 {
     struct Run<S> {
-        system: System<S>,
+        system: IdealSystem<S>,
         energy: Energy,
         rotation: S,
         step: S,
@@ -106,10 +106,10 @@ fn detected<S: Precision>(structure: &Structure, rotation: S, step: f64) -> f64 
         type Output = f64;
 
         fn with<E: Switched<S>>(self, engaged: &E) -> f64 {
-            let System { restitution, uplift, .. } = self.system;
-            let block = Detected { released: *engaged, engaged: *engaged, restitution, uplift };
-            let mut state = DetectedState { rotation: self.rotation, velocity: S::ZERO, side: S::ONE };
-            let energy = |state: &DetectedState<S>| {
+            let IdealSystem { restitution, uplift, .. } = self.system;
+            let block = TimeStepping { released: *engaged, engaged: *engaged, restitution, uplift };
+            let mut state = TimeSteppingState { rotation: self.rotation, velocity: S::ZERO, side: S::ONE };
+            let energy = |state: &TimeSteppingState<S>| {
                 let speed = state.velocity.to_f64() / self.energy.frequency;
                 let rotation = state.rotation.abs().to_f64();
                 let alpha = self.energy.slenderness;
@@ -138,7 +138,7 @@ fn detected<S: Precision>(structure: &Structure, rotation: S, step: f64) -> f64 
 /// The scheme that looks once a step has no order to lose, but it stays finite and ends, at every step.
 fn events_looked_for_once_a_step<S: Precision>() {
     struct Run<'a, S> {
-        system: System<S>,
+        system: IdealSystem<S>,
         structure: &'a Structure,
         step: S,
     }
@@ -146,14 +146,14 @@ fn events_looked_for_once_a_step<S: Precision>() {
         type Output = ();
 
         fn with<E: Switched<S>>(self, engaged: &E) {
-            let System { clutch, restitution, uplift, .. } = self.system;
+            let IdealSystem { clutch, restitution, uplift, .. } = self.system;
             let released = if clutch.follows_signs() { engaged.without_inerter() } else { *engaged };
-            let block = Detected { released, engaged: *engaged, restitution, uplift };
+            let block = TimeStepping { released, engaged: *engaged, restitution, uplift };
             let alpha = self.structure.block.slenderness();
             for amplitude in [0.9, 1.5, 8.0] {
                 let level = S::of(amplitude) * uplift;
                 let pulse = sprag_shared::ground::Harmonics::sine(level, S::of(4.0));
-                let mut state = DetectedState::at_rest();
+                let mut state = TimeSteppingState::at_rest();
                 let seen = block.follow(&mut state, &pulse, S::of(TAU / 4.0), self.step, S::of(1.5));
                 let then = block.follow(&mut state, &sprag_shared::ground::Quiet, S::of(4.0), self.step, S::of(1.5));
                 let most = ((TAU / 4.0 + 4.0) / self.step.to_f64()) as u32 + 2;

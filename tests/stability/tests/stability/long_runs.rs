@@ -3,12 +3,12 @@
 use core::f32::consts::TAU;
 
 use sprag_shared::case::{Case, FixedMethod, Ground, Initially};
-use sprag_shared::ground::{Linear, Piece};
+use sprag_shared::ground::{GroundSegment, Linear};
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::fixed::FixedStep;
-use sprag_shared::motion::ideal::System;
+use sprag_shared::motion::ideal::IdealSystem;
 use sprag_shared::motion::observer::{Event, Observer};
-use sprag_shared::motion::state::{Limits, Phase, State};
+use sprag_shared::motion::state::{BlockState, Limits, Phase};
 use sprag_shared::observers::digest::Digest;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
@@ -46,7 +46,7 @@ struct Watch<S> {
 }
 
 impl<S: Precision> Observer<S> for Watch<S> {
-    fn event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         match event {
             Event::Uplift => self.uplifts.push((self.sample, time)),
             Event::Rest => self.rests += 1,
@@ -56,10 +56,10 @@ impl<S: Precision> Observer<S> for Watch<S> {
     }
 }
 
-fn day<S: Precision>(system: &System<S>, samples: &[S]) -> Vec<(State<S>, Watch<S>)> {
+fn day<S: Precision>(system: &IdealSystem<S>, samples: &[S]) -> Vec<(BlockState<S>, Watch<S>)> {
     let method = FixedStep::RungeKutta4 { step: S::of(INTERVAL) };
     let limits = Limits { overturned: S::ONE, events: 1_000 };
-    let mut state = State::default();
+    let mut state = BlockState::default();
     let mut hours = Vec::new();
     for _ in 0..24 {
         let mut watch = Watch::default();
@@ -138,14 +138,14 @@ fn a_case_keeps_the_time_of_a_long_record() {
 fn a_standing_block_costs_a_few_looks_at_the_ground() {
     use std::cell::Cell;
     struct Looked(Linear<f32>, Cell<u32>);
-    impl Piece<f32> for Looked {
+    impl GroundSegment<f32> for Looked {
         fn acceleration(&self, time: f32) -> f32 {
             self.1.set(self.1.get() + 1);
             self.0.acceleration(time)
         }
 
         fn slope(&self, time: f32) -> f32 {
-            Piece::slope(&self.0, time)
+            GroundSegment::slope(&self.0, time)
         }
 
         fn curvature_bound(&self) -> f32 {
@@ -160,10 +160,10 @@ fn a_standing_block_costs_a_few_looks_at_the_ground() {
     let system = structure.resolve().expect("parameters within range");
     let piece = Looked(Linear::between(0.05, -0.07, 0.005), Cell::new(0));
     let limits = Limits { overturned: 1.0, events: 10 };
-    let mut state = State::default();
+    let mut state = BlockState::default();
     let method = FixedStep::RungeKutta4 { step: 1e-4 };
     system.advance(&method, &mut state, &piece, 0.005, &limits, &mut ()).expect("rest");
-    assert_eq!(state, State::default());
+    assert_eq!(state, BlockState::default());
     // Both thresholds at the start and the end, whatever the step.
     assert!(piece.1.get() <= 8, "{} looks", piece.1.get());
 }

@@ -2,11 +2,11 @@
 
 use std::vec::Vec;
 
-use super::{Ground, Machine, Seen, Watcher, pair, tight};
-use crate::motion::device_snapshot::{DeviceArc, DeviceObserver};
-use crate::motion::hybrid::path::Shaking;
-use crate::motion::observer::{Event, Stretch};
-use crate::motion::state::State;
+use super::{Ground, HybridSystem, Seen, Watcher, pair, tight};
+use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput};
+use crate::motion::hybrid::mode_output::Shaking;
+use crate::motion::observer::{Event, MonotoneInterval};
+use crate::motion::state::BlockState;
 use crate::structure::block::Geometry;
 use crate::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses};
 
@@ -41,7 +41,7 @@ fn a_release_comes_late_by_its_delay() {
 }
 
 /// When a clutch moves that is commanded to engage at 0 and to release 5 ms later, and what the last command wants, after 0.1 s.
-fn pulse(mut machine: Machine<f64>) -> (Vec<f64>, bool) {
+fn pulse(mut machine: HybridSystem<f64>) -> (Vec<f64>, bool) {
     machine.actuator.controlled = true;
     let mut state = machine.released_at(0.1, 0.0, [0.0; 2]);
     let mut watcher = Watcher::default();
@@ -164,15 +164,15 @@ fn the_force_of_a_spring_does_not_jump_with_its_plates() {
         jump: f64,
     }
     impl DeviceObserver<f64> for Forces {
-        fn device_stretch(&mut self, arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
-            let first = arc.snapshot(stretch.from).force;
+        fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+            let first = output.snapshot(interval.from).force;
             for (before, after) in self.last.into_iter().flatten().zip(first) {
                 self.jump = self.jump.max((after - before).abs());
             }
-            self.last = Some(arc.snapshot(stretch.to).force);
+            self.last = Some(output.snapshot(interval.to).force);
         }
 
-        fn device_event(&mut self, event: Event, _time: f64, _state: &State<f64>) {
+        fn device_event(&mut self, event: Event, _time: f64, _state: &BlockState<f64>) {
             self.slips += u32::from(event == Event::Coupling);
             if matches!(event, Event::Switch | Event::Rest) {
                 self.last = None;

@@ -5,9 +5,9 @@ use std::vec::Vec;
 use super::{pair, structure, tight};
 use crate::math;
 use crate::math::sign::Sign;
-use crate::motion::device_snapshot::{DeviceArc, DeviceObserver, Snapshot};
-use crate::motion::observer::{Event, Stretch};
-use crate::motion::state::State;
+use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput, Snapshot};
+use crate::motion::observer::{Event, MonotoneInterval};
+use crate::motion::state::BlockState;
 use crate::observers::checks::{Checks, Report};
 use crate::observers::ledger::{Account, Clutching};
 use crate::structure::Structure;
@@ -31,9 +31,9 @@ fn the_support_takes_what_both_flywheels_pull() {
     #[derive(Default)]
     struct Dense([f64; 2]);
     impl DeviceObserver<f64> for Dense {
-        fn device_stretch(&mut self, arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
+        fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
             for i in 0..=200 {
-                let at = arc.snapshot(stretch.from + (stretch.to - stretch.from) * f64::from(i) / 200.0);
+                let at = output.snapshot(interval.from + (interval.to - interval.from) * f64::from(i) / 200.0);
                 let [first, second] = at.force;
                 self.0 = [self.0[0].max((first + second).abs()), self.0[1].max(first.abs()).max(second.abs())];
             }
@@ -69,15 +69,15 @@ struct Jolts {
 }
 
 impl DeviceObserver<f64> for Jolts {
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
+    fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
         if let (Some((side, before)), true) = (self.before, self.jumped) {
-            self.found.push((side, before, arc.snapshot(stretch.from)));
+            self.found.push((side, before, output.snapshot(interval.from)));
         }
         self.jumped = false;
-        self.before = Some((stretch.side, arc.snapshot(stretch.to)));
+        self.before = Some((interval.side, output.snapshot(interval.to)));
     }
 
-    fn device_event(&mut self, event: Event, _time: f64, state: &State<f64>) {
+    fn device_event(&mut self, event: Event, _time: f64, state: &BlockState<f64>) {
         match (event, &mut self.before) {
             (Event::Impact, Some((side, before))) => {
                 // What is locked slows down with the block.

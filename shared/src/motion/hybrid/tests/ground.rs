@@ -1,8 +1,8 @@
 //! Vertical ground motion, guided racks and rack friction, against what they amount to.
 
 use super::{Ground, pair, shake, structure, tight};
-use crate::motion::hybrid::path::Shaking;
-use crate::motion::hybrid::{Machine, series::Series};
+use crate::motion::hybrid::mode_output::Shaking;
+use crate::motion::hybrid::{HybridSystem, series::Series};
 use crate::motion::observer::Event;
 use crate::motion::state::{Limits, Phase};
 use crate::observers::peaks::Peaks;
@@ -13,16 +13,16 @@ use crate::structure::drivetrain::{Drivetrain, Rack};
 
 /// Largest |θ| and the phase after one piece of ground motion from rest.
 fn shaken(structure: &Structure, horizontal: Ground, vertical: Option<Ground>, duration: f64) -> (f64, Phase) {
-    let machine: Machine<f64> = Drivetrain::default().resolve(structure, vertical.is_some()).unwrap();
+    let machine: HybridSystem<f64> = Drivetrain::default().resolve(structure, vertical.is_some()).unwrap();
     assert_eq!(machine.body.is_vertical(), vertical.is_some());
     struct Watch(Peaks<f64>);
     impl crate::motion::device_snapshot::DeviceObserver<f64> for Watch {
-        fn device_stretch(
+        fn device_interval(
             &mut self,
-            arc: &dyn crate::motion::device_snapshot::DeviceArc<f64>,
-            stretch: &crate::motion::observer::Stretch<f64>,
+            output: &dyn crate::motion::device_snapshot::DeviceOutput<f64>,
+            interval: &crate::motion::observer::MonotoneInterval<f64>,
         ) {
-            crate::motion::observer::Observer::stretch(&mut self.0, &arc, stretch);
+            crate::motion::observer::Observer::interval(&mut self.0, &output, interval);
         }
     }
     let (mut state, mut watch) = (machine.at_rest(), Watch(Peaks::default()));
@@ -90,11 +90,11 @@ fn dry_friction_takes_its_force_times_the_travel() {
     let (p2, alpha) = (structure.block.frequency_parameter_squared(), structure.block.slenderness());
     let force = 0.01;
     let start = 0.6 * alpha;
-    let machine: Machine<f64> = dry(force).resolve(&structure, false).unwrap();
+    let machine: HybridSystem<f64> = dry(force).resolve(&structure, false).unwrap();
     #[derive(Default)]
     struct Turns(std::vec::Vec<f64>);
     impl crate::motion::device_snapshot::DeviceObserver<f64> for Turns {
-        fn device_event(&mut self, event: Event, _time: f64, state: &crate::motion::state::State<f64>) {
+        fn device_event(&mut self, event: Event, _time: f64, state: &crate::motion::state::BlockState<f64>) {
             if event == Event::Turn {
                 self.0.push(state.rotation);
             }
@@ -126,7 +126,7 @@ fn friction_holds_a_block_where_nothing_else_does() {
     // Held while |sin(α − θ)| ≤ F/(mg) cos(α − θ).
     let reach = crate::math::atan(0.02);
     for (angle, held) in [(alpha - 0.99 * reach, true), (alpha - 1.01 * reach, false), (alpha + 0.99 * reach, true)] {
-        let machine: Machine<f64> = dry(0.02).resolve(&structure, false).unwrap();
+        let machine: HybridSystem<f64> = dry(0.02).resolve(&structure, false).unwrap();
         let mut state = machine.released_at(angle, 0.0, [0.0; 2]);
         let quiet = Ground::QUIET;
         let limits = Limits { overturned: 1.5, events: 10_000 };

@@ -10,17 +10,17 @@ mod standing;
 
 use std::vec::Vec;
 
-use super::path::{Shaking, Tracer};
+use super::mode_output::{ModeIntegrator, Shaking};
 use super::series::Series;
-use super::{Machine, MachineState};
-use crate::ground::{Harmonics, Linear, Piece, Quiet};
+use super::{HybridState, HybridSystem};
+use crate::ground::{GroundSegment, Harmonics, Linear, Quiet};
 use crate::method::fixed::FixedStep;
 use crate::method::taylor::Taylor;
 use crate::motion::device_snapshot::DeviceObserver;
 use crate::motion::observer::Event;
-use crate::motion::state::{Limits, State};
+use crate::motion::state::{BlockState, Limits};
 use crate::observers::peaks::Peaks;
-use crate::structure::added_mass::Carried;
+use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
 use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses, Rack};
@@ -47,7 +47,7 @@ impl Ground {
     }
 }
 
-impl Piece<f64> for Ground {
+impl GroundSegment<f64> for Ground {
     fn acceleration(&self, time: f64) -> f64 {
         match self {
             Ground::Sine(sine) => sine.acceleration(time),
@@ -58,7 +58,7 @@ impl Piece<f64> for Ground {
     fn slope(&self, time: f64) -> f64 {
         match self {
             Ground::Sine(sine) => sine.slope(time),
-            Ground::Line(line) => Piece::slope(line, time),
+            Ground::Line(line) => GroundSegment::slope(line, time),
         }
     }
 
@@ -95,10 +95,10 @@ pub struct Seen {
     pub impacts: u32,
     pub ended: Option<f64>,
     pub events: Vec<(Event, f64)>,
-    pub state: State<f64>,
+    pub state: BlockState<f64>,
     pub spins: [f64; 2],
     /// Clutch switches: time, and the state before and after.
-    pub switches: Vec<(f64, State<f64>, State<f64>)>,
+    pub switches: Vec<(f64, BlockState<f64>, BlockState<f64>)>,
 }
 
 pub fn structure(geometry: Geometry, degrees: f64, kind: DeviceKind, sigma: f64, kinematics: KinematicsKind) -> Structure {
@@ -107,7 +107,7 @@ pub fn structure(geometry: Geometry, degrees: f64, kind: DeviceKind, sigma: f64,
         geometry,
         device: Device { kind, mass_ratio: sigma, mount: Mount::CentreOfMass, kinematics },
         restitution: Restitution::Constant(0.85),
-        carried: Carried::NONE,
+        added_mass: AddedMass::NONE,
         rest_speed: REST_SPEED,
     }
 }
@@ -124,22 +124,22 @@ pub fn shake(structure: Structure, amplitude: f64, frequency: f64) -> Shake {
 struct Watcher {
     peaks: Peaks<f64>,
     events: Vec<(Event, f64)>,
-    last: State<f64>,
-    switches: Vec<(f64, State<f64>, State<f64>)>,
+    last: BlockState<f64>,
+    switches: Vec<(f64, BlockState<f64>, BlockState<f64>)>,
 }
 
 impl DeviceObserver<f64> for Watcher {
-    fn device_stretch(
+    fn device_interval(
         &mut self,
-        arc: &dyn crate::motion::device_snapshot::DeviceArc<f64>,
-        stretch: &crate::motion::observer::Stretch<f64>,
+        output: &dyn crate::motion::device_snapshot::DeviceOutput<f64>,
+        interval: &crate::motion::observer::MonotoneInterval<f64>,
     ) {
-        let (rotation, velocity) = (stretch.last.rotation, stretch.last.velocity);
-        self.last = State { rotation, velocity, ..State::default() };
-        crate::motion::observer::Observer::stretch(&mut self.peaks, &arc, stretch);
+        let (rotation, velocity) = (interval.last.rotation, interval.last.velocity);
+        self.last = BlockState { rotation, velocity, ..BlockState::default() };
+        crate::motion::observer::Observer::interval(&mut self.peaks, &output, interval);
     }
 
-    fn device_event(&mut self, event: Event, time: f64, state: &State<f64>) {
+    fn device_event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
         crate::motion::observer::Observer::event(&mut self.peaks, event, time, state);
         self.events.push((event, self.peaks.origin + time));
         if event == Event::Switch {
@@ -164,20 +164,20 @@ impl Shake {
     pub fn ideal(&self) -> Seen {
         struct Every(Peaks<f64>);
         impl crate::motion::observer::Observer<f64> for Every {
-            fn stretch(
+            fn interval(
                 &mut self,
-                arc: &dyn crate::method::dense_output::Arc<f64>,
-                stretch: &crate::motion::observer::Stretch<f64>,
+                output: &dyn crate::method::dense_output::DenseOutput<f64>,
+                interval: &crate::motion::observer::MonotoneInterval<f64>,
             ) {
-                self.0.stretch(arc, stretch);
+                self.0.interval(output, interval);
             }
-            fn event(&mut self, event: Event, time: f64, state: &State<f64>) {
+            fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
                 self.0.event(event, time, state);
             }
         }
         let system = self.structure.resolve().unwrap();
         let method = Taylor::<f64, 20>::adaptive(1e-17);
-        let (mut state, mut peaks) = (State::default(), Every(Peaks::default()));
+        let (mut state, mut peaks) = (BlockState::default(), Every(Peaks::default()));
         let mut origin = 0.0;
         for (ground, duration) in &self.pieces {
             peaks.0.origin = origin;
@@ -198,25 +198,35 @@ impl Shake {
     }
 
     /// By the loop for devices with a memory.
-    pub fn machine<T: Tracer<f64>>(&self, drivetrain: &Drivetrain, method: &T) -> Seen {
+    pub fn machine<T: ModeIntegrator<f64>>(&self, drivetrain: &Drivetrain, method: &T) -> Seen {
         self.watched(drivetrain, method, &mut ())
     }
 
     /// The same, with a `watcher`.
-    pub fn watched<T: Tracer<f64>>(&self, drivetrain: &Drivetrain, method: &T, watcher: &mut dyn DeviceObserver<f64>) -> Seen {
+    pub fn watched<T: ModeIntegrator<f64>>(
+        &self,
+        drivetrain: &Drivetrain,
+        method: &T,
+        watcher: &mut dyn DeviceObserver<f64>,
+    ) -> Seen {
         self.follow(&drivetrain.resolve(&self.structure, false).unwrap(), method, watcher)
     }
 
     /// An elastic clutch by the exponential midpoint method.
     pub fn exponential(&self, drivetrain: &Drivetrain, step: f64) -> Seen {
         let machine = drivetrain.resolve(&self.structure, false).unwrap();
-        assert!(machine.drive.traits().springs, "not an elastic clutch");
+        assert!(machine.transmission.traits().springs, "not an elastic clutch");
         self.follow(&machine, &FixedStep::ExponentialMidpoint { step }, &mut ())
     }
 
-    fn follow<T: Tracer<f64>>(&self, machine: &Machine<f64>, method: &T, watcher: &mut dyn DeviceObserver<f64>) -> Seen {
+    fn follow<T: ModeIntegrator<f64>>(
+        &self,
+        machine: &HybridSystem<f64>,
+        method: &T,
+        watcher: &mut dyn DeviceObserver<f64>,
+    ) -> Seen {
         let mut watcher = (Watcher::default(), watcher);
-        let mut state: MachineState<f64> = machine.at_rest();
+        let mut state: HybridState<f64> = machine.at_rest();
         for (ground, duration) in &self.pieces {
             let shaking = Shaking { horizontal: ground, vertical: None };
             machine.advance(method, &mut state, shaking, *duration, &self.limits(false), &mut watcher).unwrap();

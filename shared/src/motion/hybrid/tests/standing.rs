@@ -5,11 +5,11 @@ use std::vec::Vec;
 use super::{Ground, Shake, pair, shake, structure, tight};
 use crate::math;
 use crate::method::fixed::FixedStep;
-use crate::motion::device_snapshot::{DeviceArc, DeviceObserver};
-use crate::motion::hybrid::Machine;
-use crate::motion::hybrid::path::Shaking;
-use crate::motion::observer::{Event, Stretch};
-use crate::motion::state::{Limits, State};
+use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput};
+use crate::motion::hybrid::HybridSystem;
+use crate::motion::hybrid::mode_output::Shaking;
+use crate::motion::observer::{Event, MonotoneInterval};
+use crate::motion::state::{BlockState, Limits};
 use crate::observers::ledger::{Account, Clutching, Ledger};
 use crate::structure::block::Geometry;
 use crate::structure::device::{DeviceKind, KinematicsKind};
@@ -35,17 +35,17 @@ fn plates(capacity_ratio: f64, rise_time: f64) -> Drivetrain {
 /// long and flywheels that turn at `spin` (1/s), each in its own direction.
 fn uplift(drivetrain: &Drivetrain, engaged: Option<[bool; 2]>, spin: f64) -> f64 {
     let structure = structure(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
-    let mut machine: Machine<f64> = drivetrain.resolve(&structure, false).unwrap();
+    let mut machine: HybridSystem<f64> = drivetrain.resolve(&structure, false).unwrap();
     #[derive(Default)]
     struct First(Option<f64>);
     impl DeviceObserver<f64> for First {
-        fn device_stretch(&mut self, _arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
-            if stretch.last.rotation != 0.0 {
-                self.0 = self.0.or(Some(stretch.start));
+        fn device_interval(&mut self, _output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+            if interval.last.rotation != 0.0 {
+                self.0 = self.0.or(Some(interval.start));
             }
         }
 
-        fn device_event(&mut self, _event: Event, _time: f64, _state: &State<f64>) {}
+        fn device_event(&mut self, _event: Event, _time: f64, _state: &BlockState<f64>) {}
     }
     let mut state = machine.at_rest();
     if let Some(engaged) = engaged {
@@ -167,7 +167,7 @@ fn a_second_uplift_feels_the_spinning_flywheels() {
 fn an_overrunning_clutch_that_has_just_gripped_does_not_push() {
     let structure = structure(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
     let drivetrain = Drivetrain { engagement: Engagement::Overrunning, ..Drivetrain::default() };
-    let machine: Machine<f64> = drivetrain.resolve(&structure, false).unwrap();
+    let machine: HybridSystem<f64> = drivetrain.resolve(&structure, false).unwrap();
     // Outward, against the weight.
     let now = machine.now(&machine.released_at(0.0, 0.1, [0.0; 2]));
     let (velocity, force) = (now.motion.velocity, now.force[0]);

@@ -10,13 +10,13 @@ use crate::equation::Equation;
 use crate::equation::any_equation::AnyEquation;
 use crate::equation::clutch_rule::{ClutchRule, Flywheel};
 use crate::equation::motion::Motion;
-use crate::ground::Piece;
+use crate::ground::GroundSegment;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::method::dense_output::Arc;
-use crate::motion::device_snapshot::{DeviceArc, DeviceObserver, Snapshot};
-use crate::motion::observer::{Event, Observer, Stretch};
-use crate::motion::state::State;
+use crate::method::dense_output::DenseOutput;
+use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput, Snapshot};
+use crate::motion::observer::{Event, MonotoneInterval, Observer};
+use crate::motion::state::BlockState;
 
 /// Shows the motion of an ideal device to a [`DeviceObserver`].
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ pub struct Watched<S, P, O> {
     pub engaged: AnyEquation<S>,
     /// k = σ/λ; 0 without an inerter.
     pub coupling: S,
-    /// The ground motion in force, in the local time of the stretches that follow; the caller keeps it up to date.
+    /// The ground motion in force, in the local time of the intervals that follow; the caller keeps it up to date.
     pub piece: P,
     /// Who watches.
     pub observer: O,
@@ -33,30 +33,30 @@ pub struct Watched<S, P, O> {
     pub clutch: ClutchRule,
 }
 
-impl<S: Real, P: Piece<S>, O: DeviceObserver<S>> Observer<S> for Watched<S, P, O> {
+impl<S: Real, P: GroundSegment<S>, O: DeviceObserver<S>> Observer<S> for Watched<S, P, O> {
     #[inline]
-    fn stretch(&mut self, arc: &dyn Arc<S>, stretch: &Stretch<S>) {
-        let arc = WatchedArc {
-            arc,
+    fn interval(&mut self, output: &dyn DenseOutput<S>, interval: &MonotoneInterval<S>) {
+        let output = WatchedArc {
+            output,
             equation: &self.engaged,
             coupling: self.coupling,
             piece: &self.piece,
-            start: stretch.start,
-            side: stretch.side.unit(),
-            wheel: self.clutch.flywheel(stretch.engaged && self.clutch.has_inerter(), stretch.direction),
+            start: interval.start,
+            side: interval.side.unit(),
+            wheel: self.clutch.flywheel(interval.engaged && self.clutch.has_inerter(), interval.direction),
         };
-        self.observer.device_stretch(&arc, stretch);
+        self.observer.device_interval(&output, interval);
     }
 
     #[inline]
-    fn event(&mut self, event: Event, time: S, state: &State<S>) {
+    fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         self.observer.device_event(event, time, state);
     }
 }
 
 /// An arc and the device that works along it.
 struct WatchedArc<'a, S, P> {
-    arc: &'a dyn Arc<S>,
+    output: &'a dyn DenseOutput<S>,
     equation: &'a AnyEquation<S>,
     coupling: S,
     piece: &'a P,
@@ -65,42 +65,42 @@ struct WatchedArc<'a, S, P> {
     wheel: Flywheel,
 }
 
-impl<S: Real, P: Piece<S>> Arc<S> for WatchedArc<'_, S, P> {
+impl<S: Real, P: GroundSegment<S>> DenseOutput<S> for WatchedArc<'_, S, P> {
     #[inline]
     fn length(&self) -> S {
-        self.arc.length()
+        self.output.length()
     }
 
     #[inline]
     fn at(&self, time: S) -> Motion<S> {
-        self.arc.at(time)
+        self.output.at(time)
     }
 
     #[inline]
     fn switching(&self, time: S) -> S {
-        self.arc.switching(time)
+        self.output.switching(time)
     }
 
     #[inline]
     fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        self.arc.acceleration_zero(from, to, sign, from_zero)
+        self.output.acceleration_zero(from, to, sign, from_zero)
     }
 
     #[inline]
     fn switching_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        self.arc.switching_zero(from, to, sign, from_zero)
+        self.output.switching_zero(from, to, sign, from_zero)
     }
 
     #[inline]
     fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
-        self.arc.largest_acceleration(from, to, floor)
+        self.output.largest_acceleration(from, to, floor)
     }
 }
 
-impl<S: Real, P: Piece<S>> DeviceArc<S> for WatchedArc<'_, S, P> {
+impl<S: Real, P: GroundSegment<S>> DeviceOutput<S> for WatchedArc<'_, S, P> {
     #[inline]
     fn snapshot(&self, time: S) -> Snapshot<S> {
-        let motion = self.arc.at(time);
+        let motion = self.output.at(time);
         let Motion { rotation, velocity, acceleration } = motion;
         // Without a θ̇² term the terminals' acceleration is ℓ times what it is given.
         let terminal_velocity = self.equation.terminal_acceleration(self.side, rotation, S::ZERO, velocity);

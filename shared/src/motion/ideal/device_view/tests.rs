@@ -1,7 +1,7 @@
 use super::*;
 use crate::ground::{Harmonics, Linear};
 use crate::method::taylor::Taylor;
-use crate::motion::ideal::System;
+use crate::motion::ideal::IdealSystem;
 use crate::motion::state::Limits;
 use crate::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -16,7 +16,7 @@ pub(crate) enum Shake {
     Line(Linear<f64>),
 }
 
-impl Piece<f64> for Shake {
+impl GroundSegment<f64> for Shake {
     fn acceleration(&self, time: f64) -> f64 {
         match self {
             Shake::Sine(sine) => sine.acceleration(time),
@@ -34,7 +34,7 @@ impl Piece<f64> for Shake {
     fn curvature_bound(&self) -> f64 {
         match self {
             Shake::Sine(sine) => sine.curvature_bound(),
-            Shake::Line(line) => Piece::<f64>::curvature_bound(line),
+            Shake::Line(line) => GroundSegment::<f64>::curvature_bound(line),
         }
     }
 
@@ -83,7 +83,7 @@ pub(crate) fn structure(
         block: Block::new(2.0, degrees.to_radians(), RECTANGLE_INERTIA_RATIO).unwrap(),
         geometry,
         device: Device { kind, mass_ratio: 0.5, mount, kinematics },
-        carried: crate::structure::added_mass::Carried::NONE,
+        added_mass: crate::structure::added_mass::AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
         rest_speed: REST_SPEED,
     }
@@ -103,8 +103,8 @@ pub(crate) struct Run<'a, O> {
 }
 
 impl<O: Placed> Run<'_, O> {
-    pub(crate) fn go(self) -> (State<f64>, O) {
-        let system: System<f64> = self.structure.resolve().unwrap();
+    pub(crate) fn go(self) -> (BlockState<f64>, O) {
+        let system: IdealSystem<f64> = self.structure.resolve().unwrap();
         let Run { structure, ground, from, mut observer } = self;
         let coupling = structure.device.mass_ratio / structure.block.inertia_ratio();
         let overturned = match structure.geometry {
@@ -114,7 +114,7 @@ impl<O: Placed> Run<'_, O> {
         let limits = Limits { overturned, events: 1_000_000 };
         let mut state = match from {
             Some((rotation, velocity)) => system.released_at(rotation, velocity, ground[0].0.acceleration(0.0)),
-            None => State::default(),
+            None => BlockState::default(),
         };
         let method = Taylor::<f64, 20>::adaptive(1e-17);
         let mut origin = 0.0;
@@ -129,22 +129,22 @@ impl<O: Placed> Run<'_, O> {
     }
 }
 
-/// Looks at the middle of every stretch.
+/// Looks at the middle of every interval.
 #[derive(Default)]
-struct Looks(Vec<(Stretch<f64>, Snapshot<f64>, f64)>);
+struct Looks(Vec<(MonotoneInterval<f64>, Snapshot<f64>, f64)>);
 
 impl Placed for Looks {}
 
 impl DeviceObserver<f64> for Looks {
-    fn device_stretch(&mut self, arc: &dyn DeviceArc<f64>, stretch: &Stretch<f64>) {
-        let time = 0.5 * (stretch.from + stretch.to);
-        let step = 1e-5_f64.min(0.4 * (stretch.to - stretch.from));
+    fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+        let time = 0.5 * (interval.from + interval.to);
+        let step = 1e-5_f64.min(0.4 * (interval.to - interval.from));
         let energy = |t: f64| {
-            let snapshot = arc.snapshot(t);
+            let snapshot = output.snapshot(t);
             0.5 * snapshot.motion.velocity * snapshot.motion.velocity + snapshot.stored
         };
         let rate = (energy(time + step) - energy(time - step)) / (2.0 * step);
-        self.0.push((*stretch, arc.snapshot(time), rate));
+        self.0.push((*interval, output.snapshot(time), rate));
     }
 }
 
@@ -169,23 +169,23 @@ fn force_energy_and_what_the_kinematics_take_fit_the_motion() {
     }
 }
 
-fn check(structure: &Structure, looks: &[(Stretch<f64>, Snapshot<f64>, f64)]) {
+fn check(structure: &Structure, looks: &[(MonotoneInterval<f64>, Snapshot<f64>, f64)]) {
     let (p2, alpha) = (structure.block.frequency_parameter_squared(), structure.block.slenderness());
     let Structure { geometry, device, .. } = structure;
     let mut worked = 0;
-    for (stretch, snapshot, rate) in looks.iter().filter(|(stretch, ..)| stretch.to - stretch.from > 1e-3) {
-        let side: f64 = stretch.side.unit();
+    for (interval, snapshot, rate) in looks.iter().filter(|(interval, ..)| interval.to - interval.from > 1e-3) {
+        let side: f64 = interval.side.unit();
         let delta = alpha * side - snapshot.motion.rotation;
         let (sin, cos) = if *geometry == Geometry::Full { crate::math::sin_cos(delta) } else { (delta, 1.0) };
         let moment = -p2 * (sin + snapshot.ground[0] * cos);
         let lever = device.mount.lever_at(&structure.block, *geometry, snapshot.motion.rotation).unwrap();
         let force = snapshot.force[0] + snapshot.force[1];
-        assert!((moment - lever * force - snapshot.motion.acceleration).abs() < 1e-12 * p2, "{structure:?} {stretch:?}");
+        assert!((moment - lever * force - snapshot.motion.acceleration).abs() < 1e-12 * p2, "{structure:?} {interval:?}");
         let power = moment * snapshot.motion.velocity - snapshot.spent.kinematics;
-        assert!((rate - power).abs() < 1e-7 * p2, "{structure:?} {stretch:?}: {rate} {power}");
-        let wheel = usize::from(device.kind == DeviceKind::ClutchedPair && stretch.direction == Sign::Negative);
+        assert!((rate - power).abs() < 1e-7 * p2, "{structure:?} {interval:?}: {rate} {power}");
+        let wheel = usize::from(device.kind == DeviceKind::ClutchedPair && interval.direction == Sign::Negative);
         assert!(force == snapshot.force[wheel] && !snapshot.engaged[1 - wheel]);
-        assert_eq!(snapshot.engaged[wheel], stretch.engaged && device.kind != DeviceKind::None);
+        assert_eq!(snapshot.engaged[wheel], interval.engaged && device.kind != DeviceKind::None);
         if snapshot.engaged[wheel] {
             worked += 1;
             assert!((snapshot.spin[wheel] - lever * snapshot.motion.velocity).abs() < 1e-14);

@@ -12,7 +12,7 @@ use core::{fmt, hint::black_box};
 use rig::Rig;
 use sprag_shared::control::controller::{Choice, Circumstances, Controller, ControllerState, Decision};
 use sprag_shared::control::law::any_law::ClutchLaw;
-use sprag_shared::control::model::KnownBody;
+use sprag_shared::control::model::PlantBody;
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::math::fnv::Fnv;
@@ -58,7 +58,7 @@ impl<const SIZES: usize> Counts<SIZES> {
 const SIZES: usize = 8192;
 
 #[inline(never)]
-fn tick<B: KnownBody>(
+fn tick<B: PlantBody>(
     controller: &Controller<B, ClutchLaw>,
     state: &mut ControllerState,
     sample: &Sample,
@@ -68,12 +68,12 @@ fn tick<B: KnownBody>(
 }
 
 #[inline(never)]
-fn look<B: KnownBody>(controller: &Controller<B, ClutchLaw>, state: &mut ControllerState, sample: &Sample, choice: &mut Choice) {
+fn look<B: PlantBody>(controller: &Controller<B, ClutchLaw>, state: &mut ControllerState, sample: &Sample, choice: &mut Choice) {
     choice.estimate = controller.look(state, sample);
 }
 
 #[inline(never)]
-fn choose<B: KnownBody>(
+fn choose<B: PlantBody>(
     controller: &Controller<B, ClutchLaw>,
     state: &mut ControllerState,
     sample: &Sample,
@@ -83,7 +83,7 @@ fn choose<B: KnownBody>(
 }
 
 #[inline(never)]
-fn oversee<B: KnownBody>(
+fn oversee<B: PlantBody>(
     controller: &Controller<B, ClutchLaw>,
     state: &mut ControllerState,
     sample: &Sample,
@@ -110,7 +110,7 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
 
 /// A run of `controller`, with `decide` for a tick.
 #[inline(never)]
-fn run<B: KnownBody>(
+fn run<B: PlantBody>(
     controller: &Controller<B, ClutchLaw>,
     mut decide: impl FnMut(&mut ControllerState, &Sample, bool) -> Decision,
 ) -> (Fnv, u32) {
@@ -129,7 +129,7 @@ fn run<B: KnownBody>(
     (digest, commands)
 }
 
-fn whole<B: KnownBody>(
+fn whole<B: PlantBody>(
     name: &str,
     controller: &Controller<B, ClutchLaw>,
     counter: &mut impl FnMut() -> u32,
@@ -150,7 +150,7 @@ fn whole<B: KnownBody>(
     writeln!(out, "digest controller-{name} {:016x} ({commands} commands)", digest.value())
 }
 
-fn parts<B: KnownBody>(
+fn parts<B: PlantBody>(
     controller: &Controller<B, ClutchLaw>,
     counter: &mut impl FnMut() -> u32,
     out: &mut impl fmt::Write,

@@ -1,23 +1,23 @@
 //! The motion of a block and its device over one step, as a method sees it.
 
-use crate::drivetrain::any_drive::{AnyDrive, each_drive};
-use crate::drivetrain::clutch_state::Law;
-use crate::drivetrain::drive::{Drive, Moment, MomentOf, UNKNOWNS};
+use crate::drivetrain::any_transmission::{AnyTransmission, each_transmission};
+use crate::drivetrain::clutch_state::ModeCoefficients;
+use crate::drivetrain::transmission::{EvaluationPoint, PointOf, Transmission, UNKNOWNS};
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
-use crate::ground::Piece;
-use crate::math::root::locate_by_value;
+use crate::ground::GroundSegment;
+use crate::math::root::illinois;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::method::dense_output::Arc;
+use crate::method::dense_output::DenseOutput;
 
 /// Horizontal and vertical ground motion over one piece.
 #[derive(Clone, Copy, Debug)]
 pub struct Shaking<'a, S> {
     /// Horizontal.
-    pub horizontal: &'a dyn Piece<S>,
+    pub horizontal: &'a dyn GroundSegment<S>,
     /// Vertical, for a body that knows of it.
-    pub vertical: Option<&'a dyn Piece<S>>,
+    pub vertical: Option<&'a dyn GroundSegment<S>>,
 }
 
 impl<S: Real> Shaking<'_, S> {
@@ -31,13 +31,13 @@ impl<S: Real> Shaking<'_, S> {
 
 /// Where a step starts and what governs it.
 #[derive(Clone, Copy, Debug)]
-pub struct PathStart<'a, S> {
+pub struct ModeStart<'a, S> {
     /// The block.
     pub body: &'a AnyBody<S>,
     /// The device.
-    pub drive: &'a AnyDrive<S>,
+    pub transmission: &'a AnyTransmission<S>,
     /// Its mode.
-    pub law: &'a Law<S>,
+    pub law: &'a ModeCoefficients<S>,
     /// The ground motion.
     pub shaking: Shaking<'a, S>,
     /// Its acceleration at the start, in g.
@@ -49,7 +49,7 @@ pub struct PathStart<'a, S> {
     /// θ̇.
     pub velocity: S,
     /// The device's unknowns.
-    pub extra: [S; UNKNOWNS],
+    pub unknowns: [S; UNKNOWNS],
     /// Local time in the piece, s.
     pub time: S,
     /// How far the step may reach, s; above 0.
@@ -66,40 +66,46 @@ pub struct PathStart<'a, S> {
 
 /// A step of a block and a device whose types are known.
 #[derive(Clone, Copy, Debug)]
-pub struct KnownStart<'a, S, B, D> {
+pub struct KnownModeStart<'a, S, B, D> {
     /// Where it starts.
-    pub start: &'a PathStart<'a, S>,
+    pub start: &'a ModeStart<'a, S>,
     /// Its block.
     pub body: &'a B,
     /// Its device.
-    pub drive: &'a D,
+    pub transmission: &'a D,
 }
 
 /// What to do with a step once the types of its block and device are known.
-pub trait WithStart<S: Real> {
+pub trait WithModeStart<S: Real> {
     /// The result.
     type Output;
 
     /// Goes on with `known`.
-    fn with<B: Body<S>, D: Drive<S, X, G>, const X: usize, const G: usize>(self, known: &KnownStart<'_, S, B, D>)
-    -> Self::Output;
+    fn with<B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
+        self,
+        known: &KnownModeStart<'_, S, B, D>,
+    ) -> Self::Output;
 }
 
-impl<S: Real> PathStart<'_, S> {
+impl<S: Real> ModeStart<'_, S> {
     /// Goes on with block and device in their own types: one choice for all that `next` evaluates.
     #[inline(always)]
-    pub fn known<W: WithStart<S>>(&self, next: W) -> W::Output {
+    pub fn known<W: WithModeStart<S>>(&self, next: W) -> W::Output {
         match self.body {
-            AnyBody::Slender(body) => each_drive!(self.drive, drive => next.with(&KnownStart { start: self, body, drive })),
-            AnyBody::Full(body) => each_drive!(self.drive, drive => next.with(&KnownStart { start: self, body, drive })),
+            AnyBody::Slender(body) => {
+                each_transmission!(self.transmission, transmission => next.with(&KnownModeStart { start: self, body, transmission }))
+            }
+            AnyBody::Full(body) => {
+                each_transmission!(self.transmission, transmission => next.with(&KnownModeStart { start: self, body, transmission }))
+            }
         }
     }
 
     /// The start itself.
     #[inline(always)]
     pub fn place(&self) -> Place<S, UNKNOWNS> {
-        let PathStart { ground, rotation, velocity, extra, .. } = *self;
-        Place { time: S::ZERO, ground, rotation, velocity, unknowns: extra }
+        let ModeStart { ground, rotation, velocity, unknowns, .. } = *self;
+        Place { time: S::ZERO, ground, rotation, velocity, unknowns }
     }
 
     /// The ground's acceleration (in g) `time` after the start.
@@ -115,30 +121,30 @@ impl<S: Real> PathStart<'_, S> {
     }
 }
 
-impl<S: Real, B: Body<S>, D> KnownStart<'_, S, B, D> {
+impl<S: Real, B: Body<S>, D> KnownModeStart<'_, S, B, D> {
     /// Whether friction holds the block.
     #[inline(always)]
     pub fn is_held<const X: usize, const G: usize>(&self) -> bool
     where
-        D: Drive<S, X, G>,
+        D: Transmission<S, X, G>,
     {
         D::SPRINGS && self.start.held
     }
 
     #[inline(always)]
-    fn moment<const X: usize>(&self, at: &Place<S, X>) -> MomentOf<'_, S, B, S, X> {
-        let posture = self.body.posture(self.start.side.unit(), at.rotation);
+    fn point<const X: usize>(&self, at: &Place<S, X>) -> PointOf<'_, S, B, S, X> {
+        let configuration = self.body.configuration(self.start.side.unit(), at.rotation);
         let Place { time, ground, velocity, unknowns, .. } = *at;
-        Moment { body: self.body, law: self.start.law, posture, velocity, extra: unknowns, ground, clock: time }
+        EvaluationPoint { body: self.body, law: self.start.law, configuration, velocity, unknowns, ground, clock: time }
     }
 
     /// θ̈ and the rates of the device's unknowns.
     #[inline(never)]
     pub fn rates<const X: usize, const G: usize>(&self, at: &Place<S, X>) -> (S, [S; X])
     where
-        D: Drive<S, X, G>,
+        D: Transmission<S, X, G>,
     {
-        let (acceleration, rates) = self.drive.flow(&self.moment(at));
+        let (acceleration, rates) = self.transmission.flow(&self.point(at));
         (if self.is_held() { S::ZERO } else { acceleration }, rates)
     }
 
@@ -146,11 +152,11 @@ impl<S: Real, B: Body<S>, D> KnownStart<'_, S, B, D> {
     #[inline(always)]
     pub fn guard<const X: usize, const G: usize>(&self, index: usize, at: &Place<S, X>, acceleration: S) -> S
     where
-        D: Drive<S, X, G>,
+        D: Transmission<S, X, G>,
     {
-        let moment = self.moment(at);
-        let acceleration = if self.is_held() { self.drive.flow(&moment).0 } else { acceleration };
-        self.drive.guard(&moment, acceleration, self.start.law.watch[index])
+        let point = self.point(at);
+        let acceleration = if self.is_held() { self.transmission.flow(&point).0 } else { acceleration };
+        self.transmission.guard(&point, acceleration, self.start.law.watch[index])
     }
 }
 
@@ -178,12 +184,12 @@ impl<S: Real, const X: usize> Place<S, X> {
     }
 }
 
-/// The motion from a [`PathStart`] over times from 0 to [`Arc::length`]. Zeros are sought in (0, `to`].
+/// The motion from a [`ModeStart`] over times from 0 to [`DenseOutput::length`]. Zeros are sought in (0, `to`].
 ///
 /// The defaults see what the ends of the step show; a method with a series overrides them and proves its answers.
-pub trait Path<S: Real>: Arc<S> {
+pub trait ModeOutput<S: Real>: DenseOutput<S> {
     /// The device's unknowns at `time`.
-    fn extra(&self, time: S) -> [S; UNKNOWNS];
+    fn unknowns(&self, time: S) -> [S; UNKNOWNS];
 
     /// Watched function `index` at `time`.
     fn guard(&self, index: usize, time: S) -> S;
@@ -192,33 +198,33 @@ pub trait Path<S: Real>: Arc<S> {
     fn velocity_zero(&self, to: S, sign: Sign, from_zero: bool) -> Option<S> {
         let _ = from_zero;
         let end = self.at(to).velocity;
-        (sign.times(end) < S::ZERO).then(|| locate_by_value(S::ZERO, to, sign, |t| self.at(t).velocity))
+        (sign.times(end) < S::ZERO).then(|| illinois(S::ZERO, to, sign, |t| self.at(t).velocity))
     }
 
     /// First zero of watched function `index`, positive just after the start.
     fn guard_zero(&self, index: usize, to: S, from_zero: bool) -> Option<S> {
         let _ = from_zero;
         let positive = Sign::Positive;
-        (self.guard(index, to) < S::ZERO).then(|| locate_by_value(S::ZERO, to, positive, |t| self.guard(index, t)))
+        (self.guard(index, to) < S::ZERO).then(|| illinois(S::ZERO, to, positive, |t| self.guard(index, t)))
     }
 
     /// First zero of the device's unknown `index`, of sign `sign` just after the start.
-    fn extra_zero(&self, index: usize, to: S, sign: Sign, from_zero: bool) -> Option<S> {
+    fn unknown_zero(&self, index: usize, to: S, sign: Sign, from_zero: bool) -> Option<S> {
         let _ = from_zero;
-        let value = |t: S| self.extra(t).get(index).copied().unwrap_or(S::ZERO);
-        (sign.times(value(to)) < S::ZERO).then(|| locate_by_value(S::ZERO, to, sign, value))
+        let value = |t: S| self.unknowns(t).get(index).copied().unwrap_or(S::ZERO);
+        (sign.times(value(to)) < S::ZERO).then(|| illinois(S::ZERO, to, sign, value))
     }
 }
 
 /// A way to integrate a block with a device.
-pub trait Tracer<S: Real> {
+pub trait ModeIntegrator<S: Real> {
     /// Its paths.
-    type Path<'a>: Path<S>
+    type Output<'a>: ModeOutput<S>
     where
         Self: 'a;
 
     /// The path from `start`.
-    fn path<'a>(&'a self, start: &'a PathStart<'a, S>) -> Self::Path<'a>;
+    fn integrate<'a>(&'a self, start: &'a ModeStart<'a, S>) -> Self::Output<'a>;
 
     /// The fixed step (s), if it has one.
     fn step(&self) -> Option<S>;

@@ -1,8 +1,8 @@
 //! What every kind of device is to the engine: forces between events, functions to watch, and what to do at an event.
 
-use super::clutch_state::{Coupling, Device, Law, Watch};
-use super::gears::Gears;
+use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients};
 use super::power_loss::Spent;
+use super::scaled_parameters::ScaledParameters;
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
@@ -11,32 +11,32 @@ use crate::math::value::Value;
 
 /// The forces on one instant of a smooth motion, as an equation sees them: `V` is a number or a power series.
 #[derive(Clone, Copy, Debug)]
-pub struct Moment<'a, S, B, P, V, const X: usize> {
+pub struct EvaluationPoint<'a, S, B, P, V, const X: usize> {
     /// The block.
     pub body: &'a B,
     /// The mode.
-    pub law: &'a Law<S>,
+    pub law: &'a ModeCoefficients<S>,
     /// What θ decides.
-    pub posture: P,
+    pub configuration: P,
     /// θ̇.
     pub velocity: V,
     /// The device's own unknowns: speeds of the flywheels, then twists of the clutches.
-    pub extra: [V; X],
+    pub unknowns: [V; X],
     /// Ground acceleration in g, horizontal and vertical.
     pub ground: [V; 2],
     /// Time since the mode's numbers were taken, s.
     pub clock: V,
 }
 
-/// [`Moment`] of a body.
-pub type MomentOf<'a, S, B, V, const X: usize> = Moment<'a, S, B, <B as Body<S>>::Posture<V>, V, X>;
+/// [`EvaluationPoint`] of a body.
+pub type PointOf<'a, S, B, V, const X: usize> = EvaluationPoint<'a, S, B, <B as Body<S>>::Configuration<V>, V, X>;
 
-/// [`Moment`] in numbers, of a body chosen at run time: what events and observers look at.
-pub type AnyMoment<'a, S, const X: usize> = MomentOf<'a, S, AnyBody<S>, S, X>;
+/// [`EvaluationPoint`] in numbers, of a body chosen at run time: what events and observers look at.
+pub type AnyPoint<'a, S, const X: usize> = PointOf<'a, S, AnyBody<S>, S, X>;
 
 /// An event that a device has to answer, in numbers.
 #[derive(Debug)]
-pub struct Instant<'a, S> {
+pub struct EventContext<'a, S> {
     /// The block.
     pub body: &'a AnyBody<S>,
     /// s.
@@ -50,20 +50,20 @@ pub struct Instant<'a, S> {
     /// Ground acceleration in g, horizontal and vertical.
     pub ground: [S; 2],
     /// What the device remembers.
-    pub device: &'a mut Device<S>,
+    pub device: &'a mut DeviceState<S>,
 }
 
-impl<S: Real> Instant<'_, S> {
+impl<S: Real> EventContext<'_, S> {
     /// Speed of the rack over R, 1/s.
     pub fn rack_speed(&self) -> S {
-        let posture = self.body.posture(self.side.unit(), self.rotation);
-        self.body.along(&posture, self.velocity)
+        let configuration = self.body.configuration(self.side.unit(), self.rotation);
+        self.body.to_terminal(&configuration, self.velocity)
     }
 }
 
 /// A kind of device. `X` unknowns of its own, `G` functions to watch. It is a type, so that what a scene does not ask for is
 /// not in its loop.
-pub trait Drive<S: Real, const X: usize, const G: usize>: Copy {
+pub trait Transmission<S: Real, const X: usize, const G: usize>: Copy {
     /// The clutch obeys Eq. 10, so that changes of its command are events.
     const COMMANDED: bool;
     /// Friction of rack and bearings may hold the block at a turn.
@@ -71,25 +71,25 @@ pub trait Drive<S: Real, const X: usize, const G: usize>: Copy {
     /// Clutches may stretch or play, so that flywheels swing while the block is held.
     const SPRINGS: bool = false;
 
-    /// The numbers of the present mode; `drive` is the sign of the terminals' acceleration.
-    fn law(&self, direction: Sign, drive: Sign, device: &Device<S>) -> Law<S>;
+    /// The numbers of the present mode; `driving_moment` is the sign of the terminals' acceleration.
+    fn law(&self, direction: Sign, terminal_acceleration_sign: Sign, device: &DeviceState<S>) -> ModeCoefficients<S>;
 
     /// θ̈ and the rates of the device's unknowns.
-    fn flow<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, X>) -> (V, [V; X]);
+    fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, X>) -> (V, [V; X]);
 
     /// The function of `watch`, where θ̈ is `acceleration`; positive while the mode lasts.
     #[inline(always)]
-    fn guard<V: Value<S>, B: Body<S>>(&self, at: &MomentOf<'_, S, B, V, X>, acceleration: V, watch: Watch<S>) -> V {
+    fn guard<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, X>, acceleration: V, watch: Guard<S>) -> V {
         let _ = (at, watch);
         acceleration
     }
 
     /// The parameters, where there are any.
-    fn gears(&self) -> Option<&Gears<S>>;
+    fn parameters(&self) -> Option<&ScaledParameters<S>>;
 
     /// The device's unknowns at the start of an arc: speeds of the flywheels, then twists of the clutches.
     #[inline(always)]
-    fn load(&self, device: &Device<S>) -> [S; X] {
+    fn load(&self, device: &DeviceState<S>) -> [S; X] {
         let [a, b] = &device.wheels;
         let unknowns = [a.spin, b.spin, a.twist, b.twist];
         core::array::from_fn(|i| unknowns[i % UNKNOWNS])
@@ -97,12 +97,12 @@ pub trait Drive<S: Real, const X: usize, const G: usize>: Copy {
 
     /// And at its end, where the rack has the speed `rack` (over R).
     #[inline(always)]
-    fn store(&self, device: &mut Device<S>, extra: &[S; X], rack: S) {
+    fn store(&self, device: &mut DeviceState<S>, unknowns: &[S; X], rack: S) {
         for (i, wheel) in device.wheels.iter_mut().enumerate() {
-            if let Some(&spin) = extra.get(i) {
+            if let Some(&spin) = unknowns.get(i) {
                 wheel.spin = if wheel.coupling == Coupling::Locked { rack } else { spin };
             }
-            if let Some(&twist) = extra.get(i + 2) {
+            if let Some(&twist) = unknowns.get(i + 2) {
                 wheel.twist = twist;
             }
         }
@@ -116,39 +116,39 @@ pub trait Drive<S: Real, const X: usize, const G: usize>: Copy {
 
     /// A command to engage takes effect.
     #[inline(always)]
-    fn engage(&self, at: &mut Instant<'_, S>, wheel: usize) {
+    fn engage(&self, at: &mut EventContext<'_, S>, wheel: usize) {
         let _ = (at, wheel);
     }
 
     /// A command to release takes effect.
     #[inline(always)]
-    fn release(&self, at: &mut Instant<'_, S>, wheel: usize) {
-        if let Some(gears) = self.gears() {
-            open(gears, at, wheel);
+    fn release(&self, at: &mut EventContext<'_, S>, wheel: usize) {
+        if let Some(parameters) = self.parameters() {
+            open(parameters, at, wheel);
         }
     }
 
     /// The watched function of `watch` has reached zero.
     #[inline(always)]
-    fn reached(&self, at: &mut Instant<'_, S>, watch: Watch<S>) {
+    fn reached(&self, at: &mut EventContext<'_, S>, watch: Guard<S>) {
         let _ = (at, watch);
     }
 
     /// The velocity has jumped, or passed zero: modes that this ends are left.
     #[inline(always)]
-    fn settle(&self, at: &mut Instant<'_, S>) {
+    fn settle(&self, at: &mut EventContext<'_, S>) {
         let _ = at;
     }
 
-    /// An impact, at which the rack's speed jumps from `before` to what it is now; called before [`Drive::settle`].
+    /// An impact, at which the rack's speed jumps from `before` to what it is now; called before [`Transmission::settle`].
     #[inline(always)]
-    fn impact(&self, at: &mut Instant<'_, S>, before: S) {
+    fn impact(&self, at: &mut EventContext<'_, S>, before: S) {
         let _ = (at, before);
     }
 
     /// Flywheels that take part in the change of moment of momentum at an impact.
     #[inline(always)]
-    fn engaged_at_impact(&self, device: &Device<S>) -> usize {
+    fn engaged_at_impact(&self, device: &DeviceState<S>) -> usize {
         let _ = device;
         0
     }
@@ -156,13 +156,15 @@ pub trait Drive<S: Real, const X: usize, const G: usize>: Copy {
     /// Σ k engaged while a block without ground motion falls back (`inward`) or rises.
     #[inline(always)]
     fn swing_coupling(&self, inward: bool) -> S {
-        self.gears().map_or(S::ZERO, |gears| if inward { gears.inertance + gears.rack_coupling } else { gears.rack_coupling })
+        self.parameters().map_or(S::ZERO, |parameters| {
+            if inward { parameters.inertance + parameters.rack_coupling } else { parameters.rack_coupling }
+        })
     }
 
     /// Forces of the two flywheels on the rack, of the rack itself, energy stored, and power lost.
     #[inline(always)]
-    fn account(&self, at: &AnyMoment<'_, S, X>, acceleration: S, device: &Device<S>) -> Account<S> {
-        self.gears().map_or(Account::default(), |gears| account(at, gears, acceleration, device))
+    fn account(&self, at: &AnyPoint<'_, S, X>, acceleration: S, device: &DeviceState<S>) -> Account<S> {
+        self.parameters().map_or(Account::default(), |parameters| account(at, parameters, acceleration, device))
     }
 }
 
@@ -191,83 +193,86 @@ pub struct Account<S> {
 /// θ̈ of a block with `resistance` at the rack beside the law's own: the weight and ground, the rack's inertia and friction.
 #[inline(always)]
 pub fn acceleration<S: Real, V: Value<S>, B: Body<S>, const X: usize, const FRICTION: bool>(
-    at: &MomentOf<'_, S, B, V, X>,
+    at: &PointOf<'_, S, B, V, X>,
     push: S,
     resistance: Option<V>,
 ) -> V {
-    let mut moment = drive::<S, V, B, X, FRICTION>(at, push);
+    let mut moment = driving_moment::<S, V, B, X, FRICTION>(at, push);
     if FRICTION {
-        let own = at.body.along(&at.posture, at.velocity).scale(at.law.viscous).offset(at.law.dry);
+        let own = at.body.to_terminal(&at.configuration, at.velocity).scale(at.law.viscous).offset(at.law.dry);
         let resistance = match resistance {
             Some(other) => own + other,
             None => own,
         };
-        moment = moment - at.body.along(&at.posture, resistance);
+        moment = moment - at.body.to_terminal(&at.configuration, resistance);
     } else if let Some(resistance) = resistance {
-        moment = moment - at.body.along(&at.posture, resistance);
+        moment = moment - at.body.to_terminal(&at.configuration, resistance);
     }
-    at.body.over_inertia(&at.posture, moment, at.law.coupling, at.velocity)
+    at.body.solve_acceleration(&at.configuration, moment, at.law.coupling, at.velocity)
 }
 
 /// D, with the push of the ground on a guided rack.
 #[inline(always)]
-pub fn drive<S: Real, V: Value<S>, B: Body<S>, const X: usize, const RACK: bool>(at: &MomentOf<'_, S, B, V, X>, push: S) -> V {
-    let drive = at.body.drive(&at.posture, at.ground);
-    if RACK { drive - at.body.along(&at.posture, at.ground[0].scale(push)) } else { drive }
+pub fn driving_moment<S: Real, V: Value<S>, B: Body<S>, const X: usize, const RACK: bool>(
+    at: &PointOf<'_, S, B, V, X>,
+    push: S,
+) -> V {
+    let driving_moment = at.body.driving_moment(&at.configuration, at.ground);
+    if RACK { driving_moment - at.body.to_terminal(&at.configuration, at.ground[0].scale(push)) } else { driving_moment }
 }
 
 /// sign · switching function of Eq. 10.
 #[inline(always)]
 pub fn command<S: Real, V: Value<S>, B: Body<S>, const X: usize, const RACK: bool>(
-    at: &MomentOf<'_, S, B, V, X>,
+    at: &PointOf<'_, S, B, V, X>,
     push: S,
     sign: S,
 ) -> V {
-    let drive = drive::<S, V, B, X, RACK>(at, push);
-    at.body.switching(&at.posture, at.velocity, drive).scale(sign)
+    let driving_moment = driving_moment::<S, V, B, X, RACK>(at, push);
+    at.body.switching(&at.configuration, at.velocity, driving_moment).scale(sign)
 }
 
 /// Force of a locked flywheel on the rack: its inertia and its bearing's friction, dry friction with the sign of the motion.
 #[inline(always)]
 pub fn locked_force<S: Real, V: Value<S>, B: Body<S>, const X: usize>(
-    at: &MomentOf<'_, S, B, V, X>,
-    gears: &Gears<S>,
+    at: &PointOf<'_, S, B, V, X>,
+    parameters: &ScaledParameters<S>,
     acceleration: V,
 ) -> V {
-    let inertia = at.body.terminal_acceleration(&at.posture, at.velocity, acceleration);
-    let bearing = at.body.along(&at.posture, at.velocity).scale(gears.bearing_rate);
-    (inertia + bearing).offset(at.law.direction * gears.bearing_dry).scale(gears.inertance)
+    let inertia = at.body.terminal_acceleration(&at.configuration, at.velocity, acceleration);
+    let bearing = at.body.to_terminal(&at.configuration, at.velocity).scale(parameters.bearing_rate);
+    (inertia + bearing).offset(at.law.direction * parameters.bearing_dry).scale(parameters.inertance)
 }
 
 /// The force that a wheel would have to carry if it were locked now, on a block whose other wheels stay as they are.
-pub fn force_if_locked<S: Real, D: Drive<S, X, G>, const X: usize, const G: usize>(
-    drive: &D,
-    gears: &Gears<S>,
-    at: &Instant<'_, S>,
+pub fn force_if_locked<S: Real, D: Transmission<S, X, G>, const X: usize, const G: usize>(
+    transmission: &D,
+    parameters: &ScaledParameters<S>,
+    at: &EventContext<'_, S>,
     wheel: usize,
 ) -> S {
     let mut device = *at.device;
     device.wheels[wheel].coupling = Coupling::Locked;
-    let law = drive.law(at.direction, at.direction, &device);
-    let moment = moment(drive, at.body, &law, at, &device);
-    let (acceleration, _) = drive.flow(&moment);
-    locked_force(&moment, gears, acceleration)
+    let law = transmission.law(at.direction, at.direction, &device);
+    let point = point(transmission, at.body, &law, at, &device);
+    let (acceleration, _) = transmission.flow(&point);
+    locked_force(&point, parameters, acceleration)
 }
 
 /// The numbers of an instant as an equation sees them.
-pub fn moment<'a, S: Real, D: Drive<S, X, G>, const X: usize, const G: usize>(
-    drive: &D,
+pub fn point<'a, S: Real, D: Transmission<S, X, G>, const X: usize, const G: usize>(
+    transmission: &D,
     body: &'a AnyBody<S>,
-    law: &'a Law<S>,
-    at: &Instant<'_, S>,
-    device: &Device<S>,
-) -> AnyMoment<'a, S, X> {
-    Moment {
+    law: &'a ModeCoefficients<S>,
+    at: &EventContext<'_, S>,
+    device: &DeviceState<S>,
+) -> AnyPoint<'a, S, X> {
+    EvaluationPoint {
         body,
         law,
-        posture: body.posture(at.side.unit(), at.rotation),
+        configuration: body.configuration(at.side.unit(), at.rotation),
         velocity: at.velocity,
-        extra: drive.load(device),
+        unknowns: transmission.load(device),
         ground: at.ground,
         clock: S::ZERO,
     }
@@ -275,62 +280,62 @@ pub fn moment<'a, S: Real, D: Drive<S, X, G>, const X: usize, const G: usize>(
 
 /// A rigid clutch closes: block and flywheel exchange momentum,
 /// (1 + (K + k) ℓ²) θ̇⁺ = (1 + K ℓ²) θ̇⁻ + k ℓ w, where K is what was locked already.
-pub fn jolt<S: Real>(gears: &Gears<S>, at: &mut Instant<'_, S>, wheel: usize) {
-    let posture = at.body.posture(at.side.unit(), at.rotation);
-    let arm = at.body.arm(&posture);
+pub fn jolt<S: Real>(parameters: &ScaledParameters<S>, at: &mut EventContext<'_, S>, wheel: usize) {
+    let configuration = at.body.configuration(at.side.unit(), at.rotation);
+    let arm = at.body.arm(&configuration);
     let locked = at.device.wheels.iter().filter(|wheel| wheel.coupling == Coupling::Locked).count();
-    let before = S::ONE + (gears.rack_coupling + S::count(locked as u32) * gears.inertance) * arm * arm;
-    let after = before + gears.inertance * arm * arm;
+    let before = S::ONE + (parameters.rack_coupling + S::count(locked as u32) * parameters.inertance) * arm * arm;
+    let after = before + parameters.inertance * arm * arm;
     let closing = at.device.wheels[wheel].spin;
-    at.velocity = (before * at.velocity + gears.inertance * arm * closing) / after;
+    at.velocity = (before * at.velocity + parameters.inertance * arm * closing) / after;
     at.device.wheels[wheel].coupling = Coupling::Locked;
 }
 
 /// A wheel lets go of the rack, with the rack's speed if it was locked.
-pub fn open<S: Real>(gears: &Gears<S>, at: &mut Instant<'_, S>, wheel: usize) {
+pub fn open<S: Real>(parameters: &ScaledParameters<S>, at: &mut EventContext<'_, S>, wheel: usize) {
     let rack = at.rack_speed();
     let wheel = &mut at.device.wheels[wheel];
     if wheel.coupling == Coupling::Locked {
         wheel.spin = rack;
     }
-    if gears.stops_at_once {
+    if parameters.stops_at_once {
         wheel.spin = S::ZERO;
     }
     wheel.coupling = Coupling::Open;
     wheel.twist = S::ZERO;
-    gears.settle(wheel, S::ZERO);
+    parameters.settle(wheel, S::ZERO);
 }
 
 /// Energy and losses that all kinds share: rack, bearings, brakes, and flywheels at their speeds.
 pub fn account<S: Real, const X: usize>(
-    at: &AnyMoment<'_, S, X>,
-    gears: &Gears<S>,
+    at: &AnyPoint<'_, S, X>,
+    parameters: &ScaledParameters<S>,
     acceleration: S,
-    device: &Device<S>,
+    device: &DeviceState<S>,
 ) -> Account<S> {
-    let rack = at.body.along(&at.posture, at.velocity);
-    let rack_acceleration = at.body.terminal_acceleration(&at.posture, at.velocity, acceleration);
+    let rack = at.body.to_terminal(&at.configuration, at.velocity);
+    let rack_acceleration = at.body.terminal_acceleration(&at.configuration, at.velocity, acceleration);
     let mut account = Account::default();
-    let dry = at.law.direction * gears.rack_dry;
-    account.rack_force = gears.rack_coupling * rack_acceleration
-        + gears.rack_push * at.ground[0]
-        + gears.rack_viscous * rack
+    let dry = at.law.direction * parameters.rack_dry;
+    account.rack_force = parameters.rack_coupling * rack_acceleration
+        + parameters.rack_push * at.ground[0]
+        + parameters.rack_viscous * rack
         + if rack == S::ZERO { S::ZERO } else { dry };
-    account.spent.rack = (gears.rack_viscous * rack + dry) * rack;
-    account.stored = S::HALF * gears.rack_coupling * rack * rack;
+    account.spent.rack = (parameters.rack_viscous * rack + dry) * rack;
+    account.stored = S::HALF * parameters.rack_coupling * rack * rack;
     for (i, wheel) in device.wheels.iter().enumerate() {
         account.engaged[i] = wheel.coupling != Coupling::Open;
         let locked = wheel.coupling == Coupling::Locked;
-        let spin = if locked { rack } else { at.extra.get(i).copied().unwrap_or(S::ZERO) };
+        let spin = if locked { rack } else { at.unknowns.get(i).copied().unwrap_or(S::ZERO) };
         account.spin[i] = spin;
-        account.stored = account.stored + S::HALF * gears.inertance * spin * spin;
-        account.spent.bearing =
-            account.spent.bearing + gears.inertance * (gears.bearing_rate * spin.abs() + gears.bearing_dry) * spin.abs();
+        account.stored = account.stored + S::HALF * parameters.inertance * spin * spin;
+        account.spent.bearing = account.spent.bearing
+            + parameters.inertance * (parameters.bearing_rate * spin.abs() + parameters.bearing_dry) * spin.abs();
         if wheel.coupling == Coupling::Open {
-            account.spent.brake = account.spent.brake + gears.inertance * gears.brake * spin.abs();
+            account.spent.brake = account.spent.brake + parameters.inertance * parameters.brake * spin.abs();
         }
         if locked {
-            account.force[i] = locked_force(at, gears, acceleration);
+            account.force[i] = locked_force(at, parameters, acceleration);
         }
     }
     account

@@ -1,6 +1,6 @@
 //! The numbers of a drivetrain, resolved for one block: forces over λmR, lengths over R, inertance over λm.
 
-use super::clutch_state::{Coupling, Device, Law, Wheel};
+use super::clutch_state::{Coupling, DeviceState, FlywheelState, ModeCoefficients};
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::structure::block::Block;
@@ -8,7 +8,7 @@ use crate::structure::drivetrain::{Drivetrain, Engagement};
 
 /// A drivetrain in the units of the equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gears<S> {
+pub struct ScaledParameters<S> {
     /// k = σ/λ of one flywheel.
     pub inertance: S,
     /// 1/k, or 0 without inertance.
@@ -50,9 +50,9 @@ pub(crate) fn rounded_up<S: Real>(value: S) -> S {
     value * (S::ONE + S::EPSILON * S::of(16.0))
 }
 
-impl<S: Real> Gears<S> {
+impl<S: Real> ScaledParameters<S> {
     /// Of `block`, which weighs `heavier` times as much as the one that the drivetrain's ratios refer to, with σ of its own.
-    pub fn of(drivetrain: &Drivetrain, block: &Block, mass_ratio: f64, heavier: f64) -> Gears<S> {
+    pub fn of(drivetrain: &Drivetrain, block: &Block, mass_ratio: f64, heavier: f64) -> ScaledParameters<S> {
         let (lambda, size, p2) = (block.inertia_ratio(), block.size(), block.frequency_parameter_squared());
         let k = mass_ratio / lambda;
         let Drivetrain { engagement, flywheel, rack, actuation } = drivetrain;
@@ -68,7 +68,7 @@ impl<S: Real> Gears<S> {
         }
         // ε^¾: far above rounding, far below what matters.
         let little = S::EPSILON.square_root() * S::EPSILON.square_root().square_root();
-        Gears {
+        ScaledParameters {
             inertance: S::of(k),
             mobility: S::of(if k > 0.0 { 1.0 / k } else { 0.0 }),
             rack_coupling: S::of(rack.guided_mass_ratio / (lambda * heavier)),
@@ -90,7 +90,7 @@ impl<S: Real> Gears<S> {
 
     /// Capacity now and its growth.
     #[inline]
-    pub fn capacity_of(&self, wheel: &Wheel<S>) -> (S, S) {
+    pub fn capacity_of(&self, wheel: &FlywheelState<S>) -> (S, S) {
         if wheel.engaged_for >= self.rise_time {
             return (self.capacity, S::ZERO);
         }
@@ -100,8 +100,8 @@ impl<S: Real> Gears<S> {
 
     /// The law of rack, bearings, brakes and plates in the present mode.
     #[inline]
-    pub fn law(&self, direction: Sign, device: &Device<S>) -> Law<S> {
-        let mut law = Law::of(direction);
+    pub fn law(&self, direction: Sign, device: &DeviceState<S>) -> ModeCoefficients<S> {
+        let mut law = ModeCoefficients::of(direction);
         law.coupling = self.rack_coupling;
         (law.viscous, law.dry) = (self.rack_viscous, self.rack_dry);
         for (i, wheel) in device.wheels.iter().enumerate() {
@@ -129,7 +129,7 @@ impl<S: Real> Gears<S> {
     /// Dry friction at the rack of a standing flywheel that is coupled to it, and its growth: that of the bearings, as far as the
     /// plates carry it; 1/s² and 1/s³.
     #[inline]
-    pub fn standing_friction(&self, wheel: &Wheel<S>) -> (S, S) {
+    pub fn standing_friction(&self, wheel: &FlywheelState<S>) -> (S, S) {
         let bearing = self.inertance * self.bearing_dry;
         let (capacity, growth) = self.capacity_of(wheel);
         if bearing <= rounded_up(capacity) { (bearing, S::ZERO) } else { (capacity, growth) }
@@ -137,14 +137,14 @@ impl<S: Real> Gears<S> {
 
     /// Deceleration of an idle or engaged flywheel by dry friction, 1/s².
     #[inline]
-    pub fn dry_of(&self, wheel: &Wheel<S>) -> S {
+    pub fn dry_of(&self, wheel: &FlywheelState<S>) -> S {
         if wheel.coupling == Coupling::Open { self.bearing_dry + self.brake } else { self.bearing_dry }
     }
 
     /// Decides which way a flywheel turns on which `force` (1/s²) acts: a standing one starts only beyond its dry friction. Without any it
     /// is never held, or it would miss the first of a force that grows from zero.
     #[inline]
-    pub fn settle(&self, wheel: &mut Wheel<S>, force: S) {
+    pub fn settle(&self, wheel: &mut FlywheelState<S>, force: S) {
         let dry = self.inertance * self.dry_of(wheel);
         wheel.turning = if wheel.spin > S::ZERO {
             Some(Sign::Positive)
@@ -159,7 +159,7 @@ impl<S: Real> Gears<S> {
 
     /// When an idle flywheel stops (s), if that is within `time` (s) but not at its end; to the resolution of the clock.
     #[inline(never)]
-    pub fn stops_within(&self, wheel: &Wheel<S>, time: S) -> Option<S> {
+    pub fn stops_within(&self, wheel: &FlywheelState<S>, time: S) -> Option<S> {
         let stopped = |after: S| {
             let mut wheel = *wheel;
             self.coast(&mut wheel, after);
@@ -186,14 +186,14 @@ impl<S: Real> Gears<S> {
     /// What a flywheel has left of its speed after `time` (s) while the rack stands: ẇ = −c w − d sgn w in closed form, never past
     /// zero.
     #[inline(never)]
-    pub fn coast(&self, wheel: &mut Wheel<S>, time: S) {
+    pub fn coast(&self, wheel: &mut FlywheelState<S>, time: S) {
         if wheel.coupling == Coupling::Locked || wheel.spin == S::ZERO {
             return;
         }
         // The plates of a rack that stands brake it too.
         let slips = matches!(wheel.coupling, Coupling::Slipping(_));
         // A rising capacity counts with its mean.
-        let halfway = Wheel { engaged_for: wheel.engaged_for + S::HALF * time, ..*wheel };
+        let halfway = FlywheelState { engaged_for: wheel.engaged_for + S::HALF * time, ..*wheel };
         let plates = if slips { self.capacity_of(&halfway).0 * self.mobility } else { S::ZERO };
         let (c, d) = (self.bearing_rate, self.dry_of(wheel) + plates);
         let speed = wheel.spin.abs();
