@@ -48,4 +48,4 @@ pub mod summary_table;
 pub mod synthesis;
 
 pub use sprag_ensemble as ensemble;
-pub use sprag_ensemble::outcome;
+pub use sprag_shared::observers::outcome;

@@ -1,13 +1,14 @@
 //! Cases of devices with a memory, and of any device over ground that moves vertically too.
 
 use super::ideal::{STIFF, most_events};
-use super::{Case, CaseError, Ending, FixedMethod, Initially, RunEnd, Shape};
+use super::{Case, CaseError, FixedMethod, Initially, RunEnd, Shape};
 use crate::method::fixed::FixedStep;
 use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput};
 use crate::motion::hybrid::HybridSystem;
 use crate::motion::hybrid::mode_output::Shaking;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits, Phase, Stopped};
+use crate::observers::outcome::Outcome;
 use crate::observers::peaks::Peaks;
 
 /// |θ| at which a block lies on the ground, rad. A device may bring a block back from beyond the angle from which its weight
@@ -74,6 +75,6 @@ fn follow(
         follow(&Shape::Quiet, None, ground.duration(), *free_time)?;
     }
     let Watch { peaks, steps, .. } = watch;
-    let ending = Ending::of(&state.motion, &peaks);
-    Ok(RunEnd { ending, state: state.motion, peaks, steps, missed: state.device.missed })
+    let outcome = Outcome::of(&state.motion, &peaks);
+    Ok(RunEnd { outcome, state: state.motion, peaks, steps, missed: state.device.missed })
 }

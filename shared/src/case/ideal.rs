@@ -1,12 +1,13 @@
 //! Cases of ideal devices over horizontal ground.
 
-use super::{Case, CaseError, Ending, FixedMethod, Initially, RunEnd, Shape, TERMS};
+use super::{Case, CaseError, FixedMethod, Initially, RunEnd, Shape, TERMS};
 use crate::method::dense_output::{DenseOutput, Integrator};
 use crate::method::fixed::FixedStep;
 use crate::method::taylor::Taylor;
 use crate::motion::ideal::IdealSystem;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits, Phase, Stopped};
+use crate::observers::outcome::Outcome;
 use crate::observers::peaks::Peaks;
 
 /// What the exponential midpoint method runs.
@@ -68,7 +69,7 @@ fn follow<M: Integrator<f32>>(
     ground.try_for_each(|shape, _, start, duration| follow(shape, start, duration, overturned))?;
     follow(&Shape::Quiet, ground.duration(), *free_time, no_return(0.0))?;
     let Watch { peaks, steps, .. } = watch;
-    Ok(RunEnd { ending: Ending::of(&state, &peaks), state, peaks, steps, missed: 0 })
+    Ok(RunEnd { outcome: Outcome::of(&state, &peaks), state, peaks, steps, missed: 0 })
 }
 
 /// Events that a piece of `duration` (s) may have: every step (s) may meet a few, and dying impacts accumulate before they are

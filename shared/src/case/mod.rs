@@ -22,7 +22,8 @@ pub use ground::{Ground, GroundPiece, Shape};
 
 use crate::motion::device_snapshot::DeviceObserver;
 use crate::motion::observer::Observer;
-use crate::motion::state::{BlockState, Phase};
+use crate::motion::state::BlockState;
+use crate::observers::outcome::Outcome;
 use crate::observers::peaks::Peaks;
 use crate::structure::Structure;
 use crate::structure::drivetrain::Drivetrain;
@@ -95,45 +96,11 @@ pub struct Case<'a> {
     pub free_time: f32,
 }
 
-/// How a run ended, in the words of the paper's section 4.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ending {
-    /// The block never uplifts.
-    NoRocking,
-    /// It rocks and stays up (Region 3).
-    Safe,
-    /// It overturns before any impact (Region 1).
-    OverturnedWithoutImpact,
-    /// It overturns after one impact or more (Region 2).
-    OverturnedAfterImpact,
-}
-
-impl Ending {
-    /// As tables and files print it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Ending::NoRocking => "no-rocking",
-            Ending::Safe => "safe",
-            Ending::OverturnedWithoutImpact => "overturned-without-impact",
-            Ending::OverturnedAfterImpact => "overturned-after-impact",
-        }
-    }
-
-    fn of(state: &BlockState<f32>, peaks: &Peaks<f32>) -> Ending {
-        match (state.phase, peaks.rocked, state.impacts) {
-            (Phase::Overturned, _, 0) => Ending::OverturnedWithoutImpact,
-            (Phase::Overturned, ..) => Ending::OverturnedAfterImpact,
-            (_, false, _) => Ending::NoRocking,
-            _ => Ending::Safe,
-        }
-    }
-}
-
 /// What a run came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RunEnd {
     /// How it ended.
-    pub ending: Ending,
+    pub outcome: Outcome,
     /// The last state.
     pub state: BlockState<f32>,
     /// Largest rotation and acceleration.

@@ -5,4 +5,5 @@
 pub mod checks;
 pub mod digest;
 pub mod ledger;
+pub mod outcome;
 pub mod peaks;

@@ -13,7 +13,6 @@ pub mod alone;
 pub mod blocks;
 pub mod machine;
 pub mod model;
-pub mod outcome;
 pub mod plain;
 pub mod polynomial;
 pub mod pulsed;

@@ -6,8 +6,8 @@ use sprag_shared::structure::block::{Block, Geometry};
 use sprag_shared::structure::device::DeviceKind;
 
 use crate::model::Model;
-use crate::outcome::Outcome;
 use crate::shaken::Shaken;
+use sprag_shared::observers::outcome::Outcome;
 
 /// How far beyond the threshold a pulse must go to lift a block for certain: nearer, rounding decides.
 const PLAIN_UPLIFT: f64 = 1.0 + 1e-9;

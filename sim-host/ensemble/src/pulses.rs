@@ -12,11 +12,11 @@ use sprag_shared::structure::block::Geometry;
 use crate::alone::{CaseError, TERMS, TIGHT};
 use crate::blocks::{Blocks, Bounds};
 use crate::model::Model;
-use crate::outcome::Outcome;
 use crate::pulsed::{PulseResult, PulseShape, PulsedBlock};
 use crate::rest::{AfterWeakImpact, Sine, WEAK_IMPACT};
 use crate::series::Series;
 use crate::{Mask, Number, WIDTH, number};
+use sprag_shared::observers::outcome::Outcome;
 
 /// Coefficients of θ: with more, steps hardly get longer, because events cut them.
 const SERIES_TERMS: usize = 18;

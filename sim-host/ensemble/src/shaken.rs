@@ -4,8 +4,8 @@ use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::block::Block;
 
-use crate::outcome::Outcome;
 use crate::plain::PlainBlock;
+use sprag_shared::observers::outcome::Outcome;
 
 /// How close to the threshold a push that has jumped beyond it is left to the core: there rounding decides whether the block uplifts.
 pub(crate) const DOUBTFUL_UPLIFT: f64 = 1e-9;

@@ -230,12 +230,7 @@ impl<S: Real> StepEnd<'_, S> {
             }
         }
         reading.peak = peak.to_f64() / alpha;
-        reading.outcome = Some(match (fallen, hit, rocked) {
-            (true, false, _) => Outcome::OverturnedWithoutImpact,
-            (true, true, _) => Outcome::OverturnedAfterImpact,
-            (_, _, false) => Outcome::NoRocking,
-            _ => Outcome::Safe,
-        });
+        reading.outcome = Some(Outcome::new(rocked, hit, fallen));
         reading
     }
 }

@@ -51,7 +51,7 @@ pub fn run_case(words: &[u32], counter: &mut impl FnMut() -> u32, out: &mut impl
     let end = case::run(words, &mut watcher)?;
     let instructions = counter().wrapping_sub(before);
     let digest = watcher.digest.unwrap_or_default();
-    writeln!(out, "outcome {}", end.ending.name())?;
+    writeln!(out, "outcome {}", end.outcome.name())?;
     writeln!(out, "impacts {}", end.state.impacts)?;
     writeln!(out, "peak_rotation_rad {}", end.peaks.rotation)?;
     writeln!(out, "missed_engagements {}", end.missed)?;

@@ -1,7 +1,8 @@
 //! The hard cases that the target runs: single precision, fixed steps, as words that host and board both read.
 
-use sprag_shared::case::{Case, Ending, FixedMethod, Ground, GroundPiece, Initially, Shape};
+use sprag_shared::case::{Case, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::ground::{Harmonics, Linear};
+use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -16,7 +17,7 @@ pub struct TargetCase {
     /// The case.
     pub case: Case<'static>,
     /// How it ends.
-    pub ending: Ending,
+    pub outcome: Outcome,
     /// Most steps that it may take.
     pub steps: u32,
 }
@@ -69,9 +70,9 @@ pub fn target_cases() -> Vec<TargetCase> {
     use DeviceKind::{ClutchedPair, Inerter, None as Alone};
     use Geometry::{Full, Slender};
     let mut cases = Vec::new();
-    let mut add = |name, case, ending, steps| cases.push(TargetCase { name, case, ending, steps });
+    let mut add = |name, case, outcome, steps| cases.push(TargetCase { name, case, outcome, steps });
     let alpha = SLENDERNESS;
-    let safe = Ending::Safe;
+    let safe = Outcome::Safe;
     for (name, kind, restitution) in [
         ("impacts accumulate, η = 0.01", ClutchedPair, 0.01),
         ("impacts accumulate, η = 0.5", Alone, 0.5),
@@ -86,10 +87,10 @@ pub fn target_cases() -> Vec<TargetCase> {
     }
     let single = structure(Slender, Inerter, 0.85);
     add("an ulp inside the equilibrium", released(single, alpha.next_down(), 0.0, 0.02, 60.0), safe, 4_000);
-    let over = Ending::OverturnedWithoutImpact;
+    let over = Outcome::OverturnedWithoutImpact;
     add("an ulp outside the equilibrium", released(single, alpha.next_up(), 0.0, 0.02, 60.0), over, 4_000);
     let pair = structure(Slender, ClutchedPair, 0.85);
-    add("a push at the threshold", shaken(pair, &[(constant(alpha), 10.0)], 0.02, 1.0), Ending::NoRocking, 0);
+    add("a push at the threshold", shaken(pair, &[(constant(alpha), 10.0)], 0.02, 1.0), Outcome::NoRocking, 0);
     let above = alpha.next_up();
     add("an ulp above it for one sample", shaken(pair, &[(constant(above), 0.005)], 5e-4, 5.0), safe, 60);
     let crossing = Shape::Sine(Harmonics::sine(1.5 * alpha, 4.0));

@@ -6,9 +6,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use sprag_shared::case::{self, Case, Ending, FixedMethod, Ground, GroundPiece, Initially, Shape};
+use sprag_shared::case::{self, Case, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::ground::Harmonics;
 use sprag_shared::observers::digest::Digest;
+use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -92,7 +93,7 @@ fn values(lines: &str) -> BTreeMap<&str, &str> {
 }
 
 /// Runs the case here and there; gives how it ends.
-fn compare(name: &str, case: &Case<'_>) -> Ending {
+fn compare(name: &str, case: &Case<'_>) -> Outcome {
     let mut words = vec![0; 16_384];
     let count = case.encode(&mut words).unwrap();
     words.truncate(count);
@@ -104,7 +105,7 @@ fn compare(name: &str, case: &Case<'_>) -> Ending {
     let lines = emulate(&firmware(), folder.path(), Some("case.bin"));
     let board = values(&lines);
     let host = [
-        ("outcome", end.ending.name().to_owned()),
+        ("outcome", end.outcome.name().to_owned()),
         ("impacts", end.state.impacts.to_string()),
         ("peak_rotation_rad", end.peaks.rotation.to_string()),
         ("missed_engagements", end.missed.to_string()),
@@ -120,14 +121,14 @@ fn compare(name: &str, case: &Case<'_>) -> Ending {
     let peak = end.peaks.rotation / case.structure.block.slenderness() as f32;
     println!(
         "{name}: {} peak {peak:.4} impacts {} stretches {} digest {:016x} instructions {} ({} a step)",
-        end.ending.name(),
+        end.outcome.name(),
         end.state.impacts,
         digest.stretches(),
         digest.hash(),
         number("instructions"),
         number("instructions_per_step"),
     );
-    end.ending
+    end.outcome
 }
 
 #[test]
@@ -136,7 +137,7 @@ fn figure05_is_the_same_on_the_board() {
     for kind in DeviceKind::ALL {
         for method in METHODS {
             let case = Case { method, ..figure05(kind) };
-            assert_eq!(compare(&format!("figure05 {kind:?} {method:?}"), &case), Ending::Safe);
+            assert_eq!(compare(&format!("figure05 {kind:?} {method:?}"), &case), Outcome::Safe);
         }
     }
 }
@@ -146,7 +147,7 @@ fn figure05_is_the_same_on_the_board() {
 #[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn figure10_is_the_same_on_the_board() {
     for kind in DeviceKind::ALL {
-        assert_eq!(compare(&format!("figure10 {kind:?}"), &figure10(kind)), Ending::Safe);
+        assert_eq!(compare(&format!("figure10 {kind:?}"), &figure10(kind)), Outcome::Safe);
     }
 }
 

@@ -25,7 +25,7 @@ fn the_hard_cases_are_the_same_on_the_board() {
         let lines = emulate(&elf, folder.path(), Some("case.bin"));
         let board: BTreeMap<&str, &str> = lines.lines().filter_map(|line| line.split_once(' ')).collect();
         for (key, value) in [
-            ("outcome", end.ending.name().to_owned()),
+            ("outcome", end.outcome.name().to_owned()),
             ("impacts", end.state.impacts.to_string()),
             ("peak_rotation_rad", end.peaks.rotation.to_string()),
             ("stretches", digest.stretches().to_string()),
@@ -35,7 +35,7 @@ fn the_hard_cases_are_the_same_on_the_board() {
         ] {
             assert_eq!(board.get(key), Some(&value.as_str()), "{}: {key} on the board and on the host; {lines}", target.name);
         }
-        assert_eq!(end.ending, target.ending, "{}", target.name);
-        println!("{}: {} digest {:016x} instructions {}", target.name, end.ending.name(), digest.hash(), board["instructions"]);
+        assert_eq!(end.outcome, target.outcome, "{}", target.name);
+        println!("{}: {} digest {:016x} instructions {}", target.name, end.outcome.name(), digest.hash(), board["instructions"]);
     }
 }

@@ -5,8 +5,8 @@ use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
 
 use sprag_ensemble::machine::{Registers, run};
-use sprag_ensemble::outcome::Outcome;
 use sprag_ensemble::pulsed::{PulseResult, PulsedBlock};
+use sprag_shared::observers::outcome::Outcome;
 use sprag_sim_host::batch::case::{Case, PulseShape, TERMS, TIGHT};
 
 /// A coarse grid of everything, dense enough that every kind of event occurs.

@@ -133,7 +133,7 @@ fn both_loops_move_an_ideal_device_alike() {
             let other = Case { drivetrain, ..ideal };
             assert!(ideal.is_ideal() && !other.is_ideal());
             let ((a, _), (b, _)) = (digest(&ideal), digest(&other));
-            assert_eq!((a.ending, a.state.phase), (b.ending, b.state.phase), "{geometry:?} {kind:?}");
+            assert_eq!((a.outcome, a.state.phase), (b.outcome, b.state.phase), "{geometry:?} {kind:?}");
             assert!((a.peaks.rotation / b.peaks.rotation - 1.0).abs() < 1e-5, "{geometry:?} {kind:?}: {a:?} {b:?}");
         }
     }

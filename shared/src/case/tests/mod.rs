@@ -152,16 +152,16 @@ fn bad_words_are_named() {
 #[test]
 fn a_loaded_block_overturns_where_it_is_loaded_to() {
     let base = figure05(DeviceKind::None);
-    let ending = |added_mass, geometry, rotation| {
+    let outcome = |added_mass, geometry, rotation| {
         let structure = Structure { added_mass, geometry, ..base.structure };
         let initially = Initially::Released { rotation, velocity: 0.03 };
-        Case { structure, initially, ground: Ground::pieces(&[]).unwrap(), ..base }.run(&mut ()).unwrap().ending
+        Case { structure, initially, ground: Ground::pieces(&[]).unwrap(), ..base }.run(&mut ()).unwrap().outcome
     };
     for geometry in [Geometry::Full, Geometry::Slender] {
         let low = AddedMass { mass_ratio: 1.0, height: 0.0 };
-        assert_eq!(ending(AddedMass::NONE, geometry, 0.2), Ending::OverturnedWithoutImpact);
-        assert_eq!(ending(low, geometry, 0.2), Ending::Safe);
-        assert_eq!(ending(low, geometry, 0.26), Ending::OverturnedWithoutImpact);
+        assert_eq!(outcome(AddedMass::NONE, geometry, 0.2), Outcome::OverturnedWithoutImpact);
+        assert_eq!(outcome(low, geometry, 0.2), Outcome::Safe);
+        assert_eq!(outcome(low, geometry, 0.26), Outcome::OverturnedWithoutImpact);
     }
 }
 
@@ -189,8 +189,8 @@ fn single_precision_is_close_to_double() {
         ] {
             let mut digest = Digest::default();
             let end = Case { method, step, ..case }.run(&mut digest).unwrap();
-            assert_eq!(end.ending, Ending::Safe);
-            assert_eq!(end.state.phase, Phase::Rest, "{kind:?} {method:?}");
+            assert_eq!(end.outcome, Outcome::Safe);
+            assert_eq!(end.state.phase, crate::motion::state::Phase::Rest, "{kind:?} {method:?}");
             let error = end.peaks.rotation.to_f64() / exact - 1.0;
             assert!(error.abs() < tolerance, "{kind:?} {method:?}: {error}");
             assert!(digest.stretches() >= end.steps && digest.events() > 10);

@@ -1,9 +1,10 @@
-//! How a simulation ends.
+//! Outcome of a motion.
 
 use serde::Serialize;
-use sprag_shared::math::scalar::Real;
-use sprag_shared::motion::state::{BlockState, Phase};
-use sprag_shared::observers::peaks::Peaks;
+
+use super::peaks::Peaks;
+use crate::math::scalar::Real;
+use crate::motion::state::{BlockState, Phase};
 
 /// The four outcomes of the paper's section 4, in the order of what they ask of the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
@@ -13,21 +14,26 @@ pub enum Outcome {
     NoRocking,
     /// It rocks and stays up (Region 3).
     Safe,
-    /// It overturns before any impact (Region 1).
+    /// It overturns before any impact, however weak (Region 1).
     OverturnedWithoutImpact,
     /// It overturns after one impact or more (Region 2).
     OverturnedAfterImpact,
 }
 
 impl Outcome {
+    /// The outcome of a motion that `rocked` or not, with an `impact`, however weak, or without, and `overturned` or not.
+    pub fn new(rocked: bool, impact: bool, overturned: bool) -> Outcome {
+        match (overturned, impact, rocked) {
+            (true, false, _) => Outcome::OverturnedWithoutImpact,
+            (true, true, _) => Outcome::OverturnedAfterImpact,
+            (false, _, false) => Outcome::NoRocking,
+            (false, _, true) => Outcome::Safe,
+        }
+    }
+
     /// The outcome of a motion that ended in `state` with `peaks`.
     pub fn of<S: Real>(state: &BlockState<S>, peaks: &Peaks<S>) -> Outcome {
-        match (state.phase, peaks.rocked, peaks.first_impact) {
-            (Phase::Overturned, _, None) => Outcome::OverturnedWithoutImpact,
-            (Phase::Overturned, _, Some(_)) => Outcome::OverturnedAfterImpact,
-            (_, false, _) => Outcome::NoRocking,
-            _ => Outcome::Safe,
-        }
+        Outcome::new(peaks.rocked, peaks.first_impact.is_some(), state.phase == Phase::Overturned)
     }
 
     /// As tables and files print it.
@@ -53,8 +59,8 @@ impl Outcome {
     }
 }
 
-impl std::fmt::Display for Outcome {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl core::fmt::Display for Outcome {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         formatter.pad(self.name())
     }
 }
