@@ -28,9 +28,6 @@ const TOLERANCE: f64 = 3e-15;
 /// Steps within one sample before a block is left to the core.
 const MOST_STEPS: f64 = 5_000.0;
 
-/// Swings below the rest speed, over the time to the next sample, that are not worth following; as the core has it.
-const MOST_IDLE_SWINGS: f64 = 1e3;
-
 /// What a lane keeps of its block beside the numbers.
 #[derive(Clone, Copy, Debug)]
 struct Place {
@@ -206,7 +203,7 @@ impl<'a, 'b> Lanes<'a, 'b> {
         (rest, uplift)
     }
 
-    /// As the core's impact: the rest of a dying motion in closed form.
+    /// As the core's impact: those that accumulate after a weak one, in closed form.
     fn weak_impact<M: Model, C: Clutch>(&mut self, lane: usize, mut place: Place) -> AfterWeakImpact {
         let block = &self.shaken[place.index];
         let (time, step) = (self.lines.time.0[lane], self.lines.step.0[lane]);
@@ -214,11 +211,11 @@ impl<'a, 'b> Lanes<'a, 'b> {
         let push_at = |time: f64| (start + slope * time) / place.threshold;
         let push = push_at(time) * self.blocks.side.0[lane];
         let speed = self.blocks.velocity.0[lane].abs();
-        let hopeless = speed <= self.bounds.weak.0[lane] * f64::EPSILON;
+        let negligible = speed <= self.bounds.weak.0[lane] * f64::EPSILON;
         if push.abs() >= 1.0 {
             if push.abs() <= 1.0 + DOUBTFUL_UPLIFT {
                 self.blocks.hard.set(lane, true);
-            } else if hopeless {
+            } else if negligible {
                 // The push ends impacts that are too weak to tell apart.
                 let side = -push_at(time).signum();
                 self.uplift::<M>(lane, Uplift { sample: place.sample, time, side, crossing: false });
@@ -228,13 +225,8 @@ impl<'a, 'b> Lanes<'a, 'b> {
         }
         let outward = if C::RULE.follows_signs() { 0.0 } else { block.plain.coupling };
         let tail = tail::<M>(push, (speed, block.plain.restitution, block.plain.slenderness), (outward, block.plain.coupling));
-        let ends = time + tail.duration;
-        let holds = ends <= step && push_at(ends).abs() < 1.0;
-        let lingers = step - time > tail.swing * MOST_IDLE_SWINGS;
-        if !(holds || lingers || hopeless) {
-            return AfterWeakImpact::Rocks;
-        }
-        let ends = if holds { ends } else { time };
+        let rest = tail.rest(time, step, negligible, |at| push_at(at).abs() < 1.0);
+        let Some(ends) = rest else { return AfterWeakImpact::Rocks };
         place.impacts += tail.impacts;
         place.ended = Some(self.seconds(&place, ends));
         self.at[lane] = Some(place);

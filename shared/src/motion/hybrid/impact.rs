@@ -11,9 +11,6 @@ use crate::motion::observer::Event;
 use crate::motion::rest::impact_accumulation::Accumulation;
 use crate::motion::state::Phase;
 
-/// Pairs of swings below the rest speed that are followed in one piece when their impacts do not end them.
-const MOST_IDLE_SWINGS: f64 = 1e3;
-
 impl<S: Real> HybridSystem<S> {
     /// θ = 0. Returns the time, which rest moves on to the end of the impacts that it stands for.
     pub(super) fn impact(
@@ -54,14 +51,9 @@ impl<S: Real> HybridSystem<S> {
             return time;
         }
         let tail = self.accumulation(&standing, velocity.abs());
-        let ends = time + tail.duration;
-        let holds = ends <= duration && self.uplifting(&standing, shaking.at(ends)) < S::ZERO;
-        let lingers = duration - time > tail.swing * S::of(MOST_IDLE_SWINGS);
-        let hopeless = velocity.abs() <= self.rest_speed * S::EPSILON;
-        if !(holds || lingers || hopeless) {
-            return time;
-        }
-        let ends = if holds { ends } else { time };
+        let negligible = velocity.abs() <= self.rest_speed * S::EPSILON;
+        let stands = |at| self.uplifting(&standing, shaking.at(at)) < S::ZERO;
+        let Some(ends) = tail.rest(time, duration, negligible, stands) else { return time };
         *state = standing;
         state.motion.impacts += tail.impacts;
         observer.device_event(Event::Rest, ends, &state.motion);

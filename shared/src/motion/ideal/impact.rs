@@ -10,9 +10,6 @@ use crate::motion::rest::free_decay::HalfCycles;
 use crate::motion::rest::impact_accumulation::Accumulation;
 use crate::motion::state::{BlockState, Phase};
 
-/// Pairs of swings below the rest speed that are followed in one piece when their impacts do not end them.
-const MOST_IDLE_SWINGS: f64 = 1e3;
-
 impl<S: Real> IdealSystem<S> {
     /// θ = 0: the velocity is multiplied by η and the other toe takes over, or the block comes to rest. Returns the
     /// time, which rest moves on to the end of the impacts that it stands for.
@@ -46,15 +43,10 @@ impl<S: Real> IdealSystem<S> {
         }
         if state.velocity.abs() <= self.rest_speed {
             let tail = self.accumulation(state.side, state.velocity.abs(), ground);
-            let ends = time + tail.duration;
-            let holds = ends <= duration && piece.acceleration(ends).abs() < self.uplift;
-            // Impacts that hardly take anything would go on through the piece, thousands of them too weak to matter.
-            let lingers = (duration - time) > tail.swing * S::of(MOST_IDLE_SWINGS);
-            let hopeless = state.velocity.abs() <= self.rest_speed * S::EPSILON;
-            if holds || lingers || hopeless {
+            let negligible = state.velocity.abs() <= self.rest_speed * S::EPSILON;
+            if let Some(ends) = tail.rest(time, duration, negligible, |at| piece.acceleration(at).abs() < self.uplift) {
                 let impacts = state.impacts + tail.impacts;
                 *state = BlockState { impacts, side: state.side, direction: state.direction, ..BlockState::default() };
-                let ends = if holds { ends } else { time };
                 observer.event(Event::Rest, ends, state);
                 return ends;
             }

@@ -5,7 +5,10 @@
 
 use crate::math::scalar::Real;
 
-/// What remains of a dying motion.
+/// Pairs of swings that are followed in one segment of the ground when their impacts do not end them.
+const MOST_IDLE_SWINGS: f64 = 1e3;
+
+/// The impacts after a weak one, until rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accumulation<S> {
     /// s; 1e30 where the impacts take nothing.
@@ -42,6 +45,19 @@ impl<S: Real> Accumulation<S> {
             first = !first;
         }
         Accumulation { duration, swing: speed * (here + there), impacts }
+    }
+
+    /// When a block whose impact at `time` they follow is at rest, in a segment of the ground that lasts until `duration` (local times,
+    /// s): at the end of the impacts, if the ground does not lift a block that stands then (`stands`); at once, if the impact was
+    /// `negligible`. `None` where the block rocks on.
+    pub fn rest(&self, time: S, duration: S, negligible: bool, stands: impl FnOnce(S) -> bool) -> Option<S> {
+        let ends = time + self.duration;
+        if ends <= duration && stands(ends) {
+            return Some(ends);
+        }
+        // Impacts that hardly take anything would go on through the segment, thousands of them too weak to matter.
+        let lingers = duration - time > self.swing * S::of(MOST_IDLE_SWINGS);
+        (lingers || negligible).then_some(time)
     }
 }
 
