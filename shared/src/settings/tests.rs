@@ -15,7 +15,7 @@ use crate::control::law::look_ahead::LookAhead;
 use crate::control::law::minimum_dwell::Gate;
 use crate::control::model::Model;
 use crate::control::monitor::fault::Wheel;
-use crate::control::monitor::{EncoderLimits, MonitorParameters};
+use crate::control::monitor::{EncoderLimits, MonitorParameters, SensorLimits};
 use crate::control::sensing::calibration::Plausible;
 use crate::control::sensing::instruments::Instruments;
 use crate::control::sensing::required::Required;
@@ -96,7 +96,18 @@ fn laws() -> Vec<ClutchLaw> {
 /// As good as the defaults, and different from them in everything.
 fn supervisions() -> [Parameters; 2] {
     let defaults = Parameters::default();
+    let limits = |more: f32| SensorLimits {
+        stale_time: 0.004 + more,
+        stuck_time: 0.006 + more,
+        stuck_time_moving: 0.007 + more,
+        full_scale: 10.0 + more,
+        saturation_time: 0.008 + more,
+    };
+    // Every field is named, so that a new one is thought of here too.
     let monitor = MonitorParameters {
+        gyroscope: limits(0.0),
+        block_accelerometer: limits(0.01),
+        ground_accelerometer: limits(0.02),
         encoder: EncoderLimits { stale_time: 0.004, counts_per_radian: -398_477.88, travel: 70_000 },
         contradiction_time: 0.01,
         slow_contradiction_time: 0.08,
@@ -108,7 +119,6 @@ fn supervisions() -> [Parameters; 2] {
         sensor_delay: 0.003,
         moving_rate: 0.03,
         gravity: 9.806_65,
-        ..MonitorParameters::default().with_noise([20.0, 5.0, 2.0], 0.001)
     };
     let other = Parameters {
         period: 0.001,
