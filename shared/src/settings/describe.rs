@@ -139,7 +139,7 @@ impl fmt::Display for Line {
     }
 }
 
-/// How a parameter is bound by another one that [`super::assemble`] or [`super::board`] compares it with.
+/// How a parameter is bound by another one that [`super::assemble`] or [`super::wiring`] compares it with.
 fn relation(index: u16) -> &'static str {
     let is = |item: Item| item.index() == index;
     if is(Item::CalibrationPatience) {

@@ -5,6 +5,9 @@
 //! - [`assemble`]: from words to a controller; [`record`]: and back; [`wiring`]: what only a board needs to know;
 //! - [`store`]: in flash.
 //!
+//! A new parameter of the controller goes into [`table`], [`assemble`] and [`record`]; one of a board's wiring into [`table`] and
+//! [`wiring`].
+//!
 //! Names, units and everything that prints stand in [`kind::Description`]s only, which firmware does not contain.
 //!
 //! The room imports `math`, `equation` and `control`.

@@ -12,12 +12,15 @@ use crate::control::estimation::model_aided::ModelAided;
 use crate::control::estimation::rest_detection::Standing;
 use crate::control::law::any_law::ClutchLaw;
 use crate::control::law::look_ahead::LookAhead;
+use crate::control::law::minimum_dwell::Gate;
 use crate::control::law::{GatedTable, SignTable};
-use crate::control::model::Model;
+use crate::control::model::{Model, ModelParameters};
 use crate::control::monitor::fault::Wheel;
 use crate::control::monitor::{EncoderLimits, MonitorParameters, SensorLimits};
+use crate::control::sensing::calibration::Plausible;
 use crate::control::sensing::instruments::Instruments;
-use crate::control::supervisor::{self, SafeState};
+use crate::control::sensing::required::Required;
+use crate::control::supervisor::{Parameters, SafeState};
 
 /// Words that nobody has checked yet; the defaults where nothing is put.
 pub struct Draft {
@@ -54,20 +57,21 @@ impl Settings {
     /// [`SettingError`] for a number that no setting can be, or a controller whose parts contradict each other.
     pub fn of<B: SettingsBody>(
         controller: &Controller<B, ClutchLaw>,
-        supervision: &supervisor::Parameters,
+        supervision: &Parameters,
     ) -> Result<Settings, SettingError> {
         let mut draft = Draft { words: DEFAULTS };
-        draft.word(Item::Body, controller.model.body.choice());
-        put_model(&mut draft, &controller.model);
-        put_instruments(&mut draft, &controller.instruments);
-        put_estimator(&mut draft, &controller.estimator);
-        put_law(&mut draft, &controller.law);
-        draft.real(Item::Horizon, controller.horizon);
-        draft.real(Item::Bands, controller.bands);
-        draft.switch(Item::EngagedAtRest, controller.engaged_at_rest);
-        draft.word(Item::Dwell, controller.gate.dwell.into());
+        // Whatever is put down is taken apart whole, here and below: a field that is forgotten does not compile.
+        let Controller { model, instruments, estimator, law, horizon, bands, engaged_at_rest, gate, supervisor: _ } = controller;
+        let Gate { dwell } = *gate;
+        put_model(&mut draft, model);
+        put_instruments(&mut draft, instruments);
+        put_estimator(&mut draft, estimator);
+        put_law(&mut draft, law);
+        draft.real(Item::Horizon, *horizon);
+        draft.real(Item::Bands, *bands);
+        draft.switch(Item::EngagedAtRest, *engaged_at_rest);
+        draft.word(Item::Dwell, dwell.into());
         put_supervision(&mut draft, supervision);
-        put_monitor(&mut draft, &supervision.monitor);
         let settings = Settings::from_words(&draft.words)?;
         if self::controller::<B>(&settings)? == *controller && self::supervision(&settings) == *supervision {
             Ok(settings)
@@ -78,30 +82,52 @@ impl Settings {
 }
 
 fn put_model<B: SettingsBody>(draft: &mut Draft, model: &Model<B>) {
+    let ModelParameters {
+        frequency,
+        frequency_squared,
+        slenderness,
+        size,
+        restitution,
+        uplift,
+        coupling,
+        wheels_spin,
+        decay,
+        drag,
+        stops_at_once,
+    } = model.parameters;
+    draft.word(Item::Body, model.body.choice());
     model.body.put(draft);
     draft.reals(&[
-        (Item::Frequency, model.parameters.frequency),
-        (Item::FrequencySquared, model.parameters.frequency_squared),
-        (Item::Slenderness, model.parameters.slenderness),
-        (Item::Size, model.parameters.size),
-        (Item::Restitution, model.parameters.restitution),
-        (Item::Uplift, model.parameters.uplift),
-        (Item::Coupling, model.parameters.coupling),
-        (Item::Decay, model.parameters.decay),
-        (Item::Drag, model.parameters.drag),
+        (Item::Frequency, frequency),
+        (Item::FrequencySquared, frequency_squared),
+        (Item::Slenderness, slenderness),
+        (Item::Size, size),
+        (Item::Restitution, restitution),
+        (Item::Uplift, uplift),
+        (Item::Coupling, coupling),
+        (Item::Decay, decay),
+        (Item::Drag, drag),
     ]);
-    draft.switch(Item::WheelsSpin, model.parameters.wheels_spin);
-    draft.switch(Item::StopsAtOnce, model.parameters.stops_at_once);
+    draft.switch(Item::WheelsSpin, wheels_spin);
+    draft.switch(Item::StopsAtOnce, stops_at_once);
 }
 
 fn put_instruments(draft: &mut Draft, instruments: &Instruments) {
-    let [value, growth] = instruments.gains();
+    let Instruments {
+        period,
+        travel_per_count,
+        gyroscope_delay,
+        encoder_delay,
+        ground_delay,
+        gains: [value, growth],
+        period_inverse: _,
+    } = *instruments;
     draft.reals(&[
-        (Item::Period, instruments.period),
-        (Item::TravelPerCount, instruments.travel_per_count),
-        (Item::GyroscopeDelay, instruments.gyroscope_delay),
-        (Item::EncoderDelay, instruments.encoder_delay),
-        (Item::GroundDelay, instruments.ground_delay),
+        (Item::Period, period),
+        (Item::TravelPerCount, travel_per_count),
+        (Item::GyroscopeDelay, gyroscope_delay),
+        (Item::EncoderDelay, encoder_delay),
+        (Item::GroundDelay, ground_delay),
         (Item::TrackingValue, value),
         (Item::TrackingGrowth, growth),
     ]);
@@ -180,63 +206,102 @@ fn put_law(draft: &mut Draft, law: &ClutchLaw) {
     draft.word(Item::Law, choice);
 }
 
-fn put_supervision(draft: &mut Draft, parameters: &supervisor::Parameters) {
-    let safe_state = match parameters.safe_state {
+fn put_supervision(draft: &mut Draft, parameters: &Parameters) {
+    let Parameters {
+        // Of the instruments too.
+        period: _,
+        monitor,
+        required,
+        safe_state,
+        both_allowed,
+        self_test_clutches,
+        boot_time,
+        actuator_time,
+        feedback_time,
+        stillness_time,
+        calibration_time,
+        calibration_patience,
+        quiet_time,
+        recover_after,
+        plausible,
+        shaking,
+        moving_counts,
+        overrun_ticks,
+        overrun_limit,
+    } = *parameters;
+    let Required { gyroscope, block_accelerometer, ground_accelerometer, encoder } = required;
+    let Plausible { gyroscope: plausible_gyroscope, accelerometer: plausible_accelerometer } = plausible;
+    let safe_state = match safe_state {
         SafeState::Released => 0,
         SafeState::Engaged(Wheel::First) => 1,
         SafeState::Engaged(Wheel::Second) => 2,
     };
     draft.word(Item::SafeState, safe_state);
-    draft.switch(Item::RequiredGyroscope, parameters.required.gyroscope);
-    draft.switch(Item::RequiredBlockAccelerometer, parameters.required.block_accelerometer);
-    draft.switch(Item::RequiredGroundAccelerometer, parameters.required.ground_accelerometer);
-    draft.switch(Item::RequiredEncoder, parameters.required.encoder);
-    draft.switch(Item::BothAllowed, parameters.both_allowed);
-    draft.switch(Item::SelfTestClutches, parameters.self_test_clutches);
+    draft.switch(Item::RequiredGyroscope, gyroscope);
+    draft.switch(Item::RequiredBlockAccelerometer, block_accelerometer);
+    draft.switch(Item::RequiredGroundAccelerometer, ground_accelerometer);
+    draft.switch(Item::RequiredEncoder, encoder);
+    draft.switch(Item::BothAllowed, both_allowed);
+    draft.switch(Item::SelfTestClutches, self_test_clutches);
     // A negative number becomes one that is refused.
-    draft.word(Item::MovingCounts, parameters.moving_counts as u32);
-    draft.word(Item::OverrunTicks, parameters.overrun_ticks);
+    draft.word(Item::MovingCounts, moving_counts as u32);
+    draft.word(Item::OverrunTicks, overrun_ticks);
     draft.reals(&[
-        (Item::BootTime, parameters.boot_time),
-        (Item::ActuatorTime, parameters.actuator_time),
-        (Item::FeedbackTime, parameters.feedback_time),
-        (Item::StillnessTime, parameters.stillness_time),
-        (Item::CalibrationTime, parameters.calibration_time),
-        (Item::CalibrationPatience, parameters.calibration_patience),
-        (Item::QuietTime, parameters.quiet_time),
-        (Item::RecoverAfter, parameters.recover_after),
-        (Item::PlausibleGyroscope, parameters.plausible.gyroscope),
-        (Item::PlausibleAccelerometer, parameters.plausible.accelerometer),
-        (Item::Shaking, parameters.shaking),
-        (Item::OverrunLimit, parameters.overrun_limit),
+        (Item::BootTime, boot_time),
+        (Item::ActuatorTime, actuator_time),
+        (Item::FeedbackTime, feedback_time),
+        (Item::StillnessTime, stillness_time),
+        (Item::CalibrationTime, calibration_time),
+        (Item::CalibrationPatience, calibration_patience),
+        (Item::QuietTime, quiet_time),
+        (Item::RecoverAfter, recover_after),
+        (Item::PlausibleGyroscope, plausible_gyroscope),
+        (Item::PlausibleAccelerometer, plausible_accelerometer),
+        (Item::Shaking, shaking),
+        (Item::OverrunLimit, overrun_limit),
     ]);
+    put_monitor(draft, &monitor);
 }
 
 fn put_monitor(draft: &mut Draft, monitor: &MonitorParameters) {
-    for (items, limits) in [
-        (GYROSCOPE, &monitor.gyroscope),
-        (BLOCK_ACCELEROMETER, &monitor.block_accelerometer),
-        (GROUND_ACCELEROMETER, &monitor.ground_accelerometer),
-    ] {
-        let SensorLimits { stale_time, stuck_time, stuck_time_moving, full_scale, saturation_time } = *limits;
+    let MonitorParameters {
+        gyroscope,
+        block_accelerometer,
+        ground_accelerometer,
+        encoder,
+        contradiction_time,
+        slow_contradiction_time,
+        rest_contradiction_time,
+        rest_tolerance,
+        count_tolerance,
+        rate_tolerance,
+        lever_tolerance,
+        sensor_delay,
+        moving_rate,
+        gravity,
+    } = *monitor;
+    for (items, limits) in
+        [(GYROSCOPE, gyroscope), (BLOCK_ACCELEROMETER, block_accelerometer), (GROUND_ACCELEROMETER, ground_accelerometer)]
+    {
+        let SensorLimits { stale_time, stuck_time, stuck_time_moving, full_scale, saturation_time } = limits;
         for (item, value) in items.into_iter().zip([stale_time, stuck_time, stuck_time_moving, full_scale, saturation_time]) {
             draft.real(item, value);
         }
     }
-    let EncoderLimits { stale_time, counts_per_radian, travel } = monitor.encoder;
+    let EncoderLimits { stale_time, counts_per_radian, travel } = encoder;
     draft.word(Item::EncoderTravel, travel as u32);
     draft.reals(&[
         (Item::EncoderStaleTime, stale_time),
         (Item::CountsPerRadian, counts_per_radian),
-        (Item::ContradictionTime, monitor.contradiction_time),
-        (Item::SlowContradictionTime, monitor.slow_contradiction_time),
-        (Item::RestContradictionTime, monitor.rest_contradiction_time),
-        (Item::RestTolerance, monitor.rest_tolerance),
-        (Item::CountTolerance, monitor.count_tolerance),
-        (Item::RateTolerance, monitor.rate_tolerance),
-        (Item::LeverTolerance, monitor.lever_tolerance),
-        (Item::SensorDelay, monitor.sensor_delay),
-        (Item::MovingRate, monitor.moving_rate),
-        (Item::Gravity, monitor.gravity),
+        (Item::ContradictionTime, contradiction_time),
+        (Item::SlowContradictionTime, slow_contradiction_time),
+        (Item::RestContradictionTime, rest_contradiction_time),
+        (Item::RestTolerance, rest_tolerance),
+        (Item::CountTolerance, count_tolerance),
+        (Item::RateTolerance, rate_tolerance),
+        (Item::LeverTolerance, lever_tolerance),
+        (Item::SensorDelay, sensor_delay),
+        (Item::MovingRate, moving_rate),
+        (Item::Gravity, gravity),
     ]);
 }

@@ -13,10 +13,9 @@ use crate::control::estimation::rest_detection::Standing;
 use crate::control::law::any_law::ClutchLaw;
 use crate::control::law::look_ahead::LookAhead;
 use crate::control::law::minimum_dwell::Gate;
-use crate::control::law::{GatedTable, SignTable};
 use crate::control::model::Model;
 use crate::control::monitor::fault::Wheel;
-use crate::control::monitor::{EncoderLimits, MonitorParameters};
+use crate::control::monitor::{EncoderLimits, MonitorParameters, SensorLimits};
 use crate::control::sensing::calibration::Plausible;
 use crate::control::sensing::instruments::Instruments;
 use crate::control::sensing::required::Required;
@@ -68,23 +67,47 @@ fn estimators() -> [Estimator; 3] {
     ]
 }
 
-fn laws() -> [ClutchLaw; 7] {
-    let base = GatedTable { table: 0b1001_0110, row: 3, threshold: 0.7 };
-    [
-        ClutchLaw::Passive,
-        ClutchLaw::AlwaysEngaged,
-        ClutchLaw::Resisting,
-        ClutchLaw::ResistingPredicted,
-        ClutchLaw::SignTable(SignTable::EITHER),
-        ClutchLaw::GatedTable(base),
-        ClutchLaw::LookAhead(LookAhead { step: 0.11, chosen: 4, fading: 0.7, fading_half: 0.8, margin: 0.02, base }),
-    ]
+/// How many choices `item` has.
+fn choices(item: Item) -> u32 {
+    Description::at(item.index()).unwrap().most + 1
+}
+
+/// Each that has a name, its parameters different from the defaults.
+fn laws() -> Vec<ClutchLaw> {
+    let mut settings = Settings::default();
+    let reals = [
+        (Item::LawThreshold, 0.7),
+        (Item::LawStep, 0.11),
+        (Item::LawFading, 0.7),
+        (Item::LawFadingHalf, 0.8),
+        (Item::LawMargin, 0.02_f32),
+    ];
+    let wholes = [(Item::LawTable, 0b1001_0110), (Item::LawRow, 3), (Item::LawChosen, 4)];
+    for (item, word) in reals.map(|(item, value)| (item, value.to_bits())).into_iter().chain(wholes) {
+        settings.set(item.index(), word).unwrap();
+    }
+    let law = |word| {
+        settings.set(Item::Law.index(), word).unwrap();
+        AnyController::of(&settings).unwrap().law
+    };
+    (0..choices(Item::Law)).map(law).collect()
 }
 
 /// As good as the defaults, and different from them in everything.
 fn supervisions() -> [Parameters; 2] {
     let defaults = Parameters::default();
+    let limits = |more: f32| SensorLimits {
+        stale_time: 0.004 + more,
+        stuck_time: 0.006 + more,
+        stuck_time_moving: 0.007 + more,
+        full_scale: 10.0 + more,
+        saturation_time: 0.008 + more,
+    };
+    // Every field is named, so that a new one is thought of here too.
     let monitor = MonitorParameters {
+        gyroscope: limits(0.0),
+        block_accelerometer: limits(0.01),
+        ground_accelerometer: limits(0.02),
         encoder: EncoderLimits { stale_time: 0.004, counts_per_radian: -398_477.88, travel: 70_000 },
         contradiction_time: 0.01,
         slow_contradiction_time: 0.08,
@@ -96,7 +119,6 @@ fn supervisions() -> [Parameters; 2] {
         sensor_delay: 0.003,
         moving_rate: 0.03,
         gravity: 9.806_65,
-        ..MonitorParameters::default().with_noise([20.0, 5.0, 2.0], 0.001)
     };
     let other = Parameters {
         period: 0.001,
@@ -200,7 +222,24 @@ fn there_and_back_without_losing_a_bit() {
         assert_eq!(Settings::from_words(settings.words()), Ok(*settings));
         count += 1;
     });
-    assert_eq!(count, 2 * 3 * 7 * 3);
+    assert_eq!(count, 2 * [Item::Body, Item::Estimator, Item::Law].map(choices).iter().product::<u32>());
+}
+
+/// What is made of a choice that has a name, and is written down, has that name again.
+#[test]
+fn every_choice_is_itself_again() {
+    for (index, description) in (0..).zip(Description::all()) {
+        if matches!(description.kind, Kind::Choice(_)) && description.used != Use::Board {
+            for word in description.least..=description.most {
+                let mut settings = Settings::default();
+                settings.set(index, word).unwrap();
+                let controller = AnyController::of(&settings).unwrap();
+                let again = Settings::of(&controller, &super::assemble::supervision(&settings));
+                let name = description.show(word);
+                assert_eq!(again.map(|again| again.get(index)), Ok(Some(word)), "{}: {name}", description.name);
+            }
+        }
+    }
 }
 
 /// Words that a parameter might have instead, all within its range.

@@ -37,6 +37,9 @@ impl<B: PlantBody> Law<B> for ClutchLaw {
     }
 
     fn predicts(&self) -> bool {
-        !matches!(self, ClutchLaw::Passive | ClutchLaw::AlwaysEngaged | ClutchLaw::Resisting)
+        match self {
+            ClutchLaw::Passive | ClutchLaw::AlwaysEngaged | ClutchLaw::Resisting => false,
+            ClutchLaw::ResistingPredicted | ClutchLaw::SignTable(_) | ClutchLaw::GatedTable(_) | ClutchLaw::LookAhead(_) => true,
+        }
     }
 }

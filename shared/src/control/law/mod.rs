@@ -3,8 +3,12 @@
 //! All fit one signature, [`Law`], so that a law of one's own can be put in the place of these: it sees a [`Situation`] and says what it
 //! wants. Which of the two flywheels that is, and when a clutch may move, is decided after it ([`turn_taking`], [`minimum_dwell`]).
 //!
-//! [`look_ahead`]: a law that runs the equation of motion ahead; [`any_law`]: a law chosen at run time; [`signs`]: hysteresis. The room
-//! imports `math`, `equation`, `control::model` and `control::estimation`.
+//! [`look_ahead`]: a law that runs the equation of motion ahead; [`any_law`]: a law chosen at run time; [`signs`]: hysteresis.
+//!
+//! A new law goes into a file of its own here and into [`any_law`]; to be chosen by settings, into `settings::{table, assemble, record}`; by
+//! a scene, into the `LawName` of the host.
+//!
+//! The room imports `math`, `equation`, `control::model` and `control::estimation`.
 
 pub mod any_law;
 pub mod look_ahead;

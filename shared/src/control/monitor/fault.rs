@@ -100,79 +100,68 @@ pub enum Recovery {
     NotNeeded,
 }
 
-impl Fault {
-    /// Every fault there is.
-    pub const ALL: [Fault; 31] = {
-        use Sensor::{BlockAccelerometer, Encoder, GroundAccelerometer, Gyroscope};
-        [
-            Fault::Stale(Gyroscope),
-            Fault::Stuck(Gyroscope),
-            Fault::Saturated(Gyroscope),
-            Fault::NotFinite(Gyroscope),
-            Fault::Contradiction(Gyroscope),
-            Fault::Stale(BlockAccelerometer),
-            Fault::Stuck(BlockAccelerometer),
-            Fault::Saturated(BlockAccelerometer),
-            Fault::NotFinite(BlockAccelerometer),
-            Fault::Contradiction(BlockAccelerometer),
-            Fault::Stale(GroundAccelerometer),
-            Fault::Stuck(GroundAccelerometer),
-            Fault::Saturated(GroundAccelerometer),
-            Fault::NotFinite(GroundAccelerometer),
-            Fault::Contradiction(GroundAccelerometer),
-            Fault::Stale(Encoder),
-            Fault::Stuck(Encoder),
-            Fault::Saturated(Encoder),
-            Fault::NotFinite(Encoder),
-            Fault::Contradiction(Encoder),
-            Fault::ClutchEngagedUnbidden(Wheel::First),
-            Fault::ClutchEngagedUnbidden(Wheel::Second),
-            Fault::ClutchRefuses(Wheel::First),
-            Fault::ClutchRefuses(Wheel::Second),
-            Fault::BothClutches,
-            Fault::SelfTestFailed(Wheel::First),
-            Fault::SelfTestFailed(Wheel::Second),
-            Fault::Overrun,
-            Fault::EstimateNotFinite,
-            Fault::CalibrationAbandoned,
-            Fault::SelfTestAbandoned,
-        ]
-    };
+/// Makes a list of faults and their codes into [`Fault::ALL`] and both directions of [`Fault::code`]. A fault that is missing from the list
+/// does not compile.
+macro_rules! codes {
+    ($($code:literal $fault:ident $(($part:ident::$which:ident))?;)*) => {
+        impl Fault {
+            /// Every fault there is.
+            pub const ALL: [Fault; [$($code),*].len()] = [$(Fault::$fault $(($part::$which))?),*];
 
-    /// A number for logs and telegrams, of two digits: the sensor (1 to 4) and what it did, 5x a clutch, 6x the controller itself, 7x a
-    /// warning. Numbers are never given anew.
-    pub fn code(self) -> u16 {
-        let of = |sensor| match sensor {
-            Sensor::Gyroscope => 10,
-            Sensor::BlockAccelerometer => 20,
-            Sensor::GroundAccelerometer => 30,
-            Sensor::Encoder => 40,
-        };
-        match self {
-            Fault::Stale(sensor) => of(sensor) + 1,
-            Fault::Stuck(sensor) => of(sensor) + 2,
-            Fault::Saturated(sensor) => of(sensor) + 3,
-            Fault::NotFinite(sensor) => of(sensor) + 4,
-            Fault::Contradiction(sensor) => of(sensor) + 5,
-            Fault::ClutchEngagedUnbidden(Wheel::First) => 51,
-            Fault::ClutchEngagedUnbidden(Wheel::Second) => 52,
-            Fault::ClutchRefuses(Wheel::First) => 53,
-            Fault::ClutchRefuses(Wheel::Second) => 54,
-            Fault::BothClutches => 55,
-            Fault::SelfTestFailed(Wheel::First) => 56,
-            Fault::SelfTestFailed(Wheel::Second) => 57,
-            Fault::Overrun => 61,
-            Fault::EstimateNotFinite => 62,
-            Fault::CalibrationAbandoned => 71,
-            Fault::SelfTestAbandoned => 72,
+            /// A number for logs and telegrams, of two digits: the sensor (1 to 4) and what it did, 5x a clutch, 6x the controller itself,
+            /// 7x a warning. Numbers are never given anew.
+            pub fn code(self) -> u16 {
+                match self {
+                    $(Fault::$fault $(($part::$which))? => $code,)*
+                }
+            }
+
+            /// The fault of a [`Fault::code`].
+            pub fn from_code(code: u16) -> Option<Fault> {
+                match code {
+                    $($code => Some(Fault::$fault $(($part::$which))?),)*
+                    _ => None,
+                }
+            }
         }
-    }
+    };
+}
 
-    /// The fault of a [`Fault::code`].
-    pub fn from_code(code: u16) -> Option<Fault> {
-        Fault::ALL.into_iter().find(|fault| fault.code() == code)
-    }
+codes! {
+    11 Stale(Sensor::Gyroscope);
+    12 Stuck(Sensor::Gyroscope);
+    13 Saturated(Sensor::Gyroscope);
+    14 NotFinite(Sensor::Gyroscope);
+    15 Contradiction(Sensor::Gyroscope);
+    21 Stale(Sensor::BlockAccelerometer);
+    22 Stuck(Sensor::BlockAccelerometer);
+    23 Saturated(Sensor::BlockAccelerometer);
+    24 NotFinite(Sensor::BlockAccelerometer);
+    25 Contradiction(Sensor::BlockAccelerometer);
+    31 Stale(Sensor::GroundAccelerometer);
+    32 Stuck(Sensor::GroundAccelerometer);
+    33 Saturated(Sensor::GroundAccelerometer);
+    34 NotFinite(Sensor::GroundAccelerometer);
+    35 Contradiction(Sensor::GroundAccelerometer);
+    41 Stale(Sensor::Encoder);
+    42 Stuck(Sensor::Encoder);
+    43 Saturated(Sensor::Encoder);
+    44 NotFinite(Sensor::Encoder);
+    45 Contradiction(Sensor::Encoder);
+    51 ClutchEngagedUnbidden(Wheel::First);
+    52 ClutchEngagedUnbidden(Wheel::Second);
+    53 ClutchRefuses(Wheel::First);
+    54 ClutchRefuses(Wheel::Second);
+    55 BothClutches;
+    56 SelfTestFailed(Wheel::First);
+    57 SelfTestFailed(Wheel::Second);
+    61 Overrun;
+    62 EstimateNotFinite;
+    71 CalibrationAbandoned;
+    72 SelfTestAbandoned;
+}
 
+impl Fault {
     /// The sensor that is at fault.
     pub fn sensor(self) -> Option<Sensor> {
         match self {
@@ -181,7 +170,14 @@ impl Fault {
             | Fault::Saturated(sensor)
             | Fault::NotFinite(sensor)
             | Fault::Contradiction(sensor) => Some(sensor),
-            _ => None,
+            Fault::ClutchEngagedUnbidden(_)
+            | Fault::ClutchRefuses(_)
+            | Fault::BothClutches
+            | Fault::SelfTestFailed(_)
+            | Fault::Overrun
+            | Fault::EstimateNotFinite
+            | Fault::CalibrationAbandoned
+            | Fault::SelfTestAbandoned => None,
         }
     }
 

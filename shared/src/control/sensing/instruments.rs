@@ -23,8 +23,9 @@ pub struct Instruments {
     /// … and the ground accelerometer.
     pub ground_delay: f32,
     /// Tracking of the ground's acceleration: gain of the value and gain of its growth over the period.
-    gains: [f32; 2],
-    period_inverse: f32,
+    pub(crate) gains: [f32; 2],
+    /// 1 over `period`.
+    pub(crate) period_inverse: f32,
 }
 
 /// Largest growth of the ground's acceleration that is extrapolated, g/s: a record of 1 g with 20 Hz in it. What grows faster is a
@@ -67,11 +68,6 @@ impl Instruments {
             gains,
             period_inverse: 1.0 / period,
         }
-    }
-
-    /// Gains of the tracking: of the value, and of its growth over the period.
-    pub fn gains(&self) -> [f32; 2] {
-        self.gains
     }
 
     /// The readings of one tick; what has not been read anew since the last tick is marked so.

@@ -7,6 +7,7 @@ use crate::device::retained::{MOST_RESTARTS, Retained};
 use crate::equation::any_body::AnyBody;
 use crate::link::*;
 use crate::settings::assemble::AnyController;
+use crate::settings::kind::Description;
 use crate::settings::store::Store;
 use crate::settings::{COUNT, Item, Settings};
 use flash::Flash;
@@ -181,7 +182,8 @@ fn what_may_not_be_is_refused() {
     let check = Settings::default().check();
     assert_eq!(bench.ask(Request::Apply { check: check ^ 1, store: true }), Reply::Refused(Refusal::Check(check)));
     let law = Item::Law.index();
-    assert_eq!(bench.draft(Item::Law, 7), Reply::Refused(Refusal::OutOfRange(law)));
+    let no_law = Description::at(law).unwrap().most + 1;
+    assert_eq!(bench.draft(Item::Law, no_law), Reply::Refused(Refusal::OutOfRange(law)));
     let nan = f32::NAN.to_bits();
     assert_eq!(bench.draft(Item::Size, nan), Reply::Refused(Refusal::OutOfRange(Item::Size.index())));
     let words = |first, count| Request::Write(Words { first, count, words: [0; WORD_BLOCK] });
