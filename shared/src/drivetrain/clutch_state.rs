@@ -22,6 +22,45 @@ pub enum Coupling {
     Saturated(Sign),
 }
 
+// Every variant is named, so that a new one is placed in each set.
+impl Coupling {
+    /// Engaged clutch: any connection of rack and flywheel, the gear play included.
+    #[inline(always)]
+    pub fn is_engaged(self) -> bool {
+        match self {
+            Coupling::Open => false,
+            Coupling::Locked | Coupling::Slipping(_) | Coupling::InPlay | Coupling::Elastic(_) | Coupling::Saturated(_) => true,
+        }
+    }
+
+    /// Engaged elastic clutch, whose twist is a state: within its play, in contact or saturated.
+    #[inline(always)]
+    pub fn has_twist(self) -> bool {
+        match self {
+            Coupling::Open | Coupling::Locked | Coupling::Slipping(_) => false,
+            Coupling::InPlay | Coupling::Elastic(_) | Coupling::Saturated(_) => true,
+        }
+    }
+
+    /// Sign of the force of plates that slip; none while they stick or are open.
+    #[inline(always)]
+    pub fn slip_sign(self) -> Option<Sign> {
+        match self {
+            Coupling::Slipping(sign) | Coupling::Saturated(sign) => Some(sign),
+            Coupling::Open | Coupling::Locked | Coupling::InPlay | Coupling::Elastic(_) => None,
+        }
+    }
+
+    /// Side of the play on which an elastic clutch is in contact; none within the play and for other clutches.
+    #[inline(always)]
+    pub fn contact_side(self) -> Option<Sign> {
+        match self {
+            Coupling::Elastic(side) | Coupling::Saturated(side) => Some(side),
+            Coupling::Open | Coupling::Locked | Coupling::Slipping(_) | Coupling::InPlay => None,
+        }
+    }
+}
+
 /// One flywheel and its clutch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FlywheelState<S> {

@@ -112,12 +112,12 @@ impl<S: Real> ScaledParameters<S> {
                 continue;
             }
             if let Some(turning) = wheel.turning {
-                let brake = if wheel.coupling == Coupling::Open { self.brake } else { S::ZERO };
+                let brake = if wheel.coupling.is_engaged() { S::ZERO } else { self.brake };
                 law.decay[i] = self.bearing_rate;
                 law.drag[i] = turning.times(self.bearing_dry + brake);
                 law.moves[i] = S::ONE;
             }
-            if let Coupling::Slipping(sign) | Coupling::Saturated(sign) = wheel.coupling {
+            if let Some(sign) = wheel.coupling.slip_sign() {
                 let (capacity, growth) = self.capacity_of(wheel);
                 (law.slip[i], law.slip_growth[i]) = (sign.times(capacity), sign.times(growth));
             }
@@ -138,7 +138,7 @@ impl<S: Real> ScaledParameters<S> {
     /// Deceleration of an idle or engaged flywheel by dry friction, 1/s².
     #[inline]
     pub fn dry_of(&self, wheel: &FlywheelState<S>) -> S {
-        if wheel.coupling == Coupling::Open { self.bearing_dry + self.brake } else { self.bearing_dry }
+        if wheel.coupling.is_engaged() { self.bearing_dry } else { self.bearing_dry + self.brake }
     }
 
     /// Decides which way a flywheel turns on which `force` (1/s²) acts: a standing one starts only beyond its dry friction. Without any it

@@ -324,14 +324,14 @@ pub fn account<S: Real, const X: usize>(
     account.spent.rack = (parameters.rack_viscous * rack + dry) * rack;
     account.stored = S::HALF * parameters.rack_coupling * rack * rack;
     for (i, wheel) in device.wheels.iter().enumerate() {
-        account.engaged[i] = wheel.coupling != Coupling::Open;
+        account.engaged[i] = wheel.coupling.is_engaged();
         let locked = wheel.coupling == Coupling::Locked;
         let spin = if locked { rack } else { at.unknowns.get(i).copied().unwrap_or(S::ZERO) };
         account.spin[i] = spin;
         account.stored = account.stored + S::HALF * parameters.inertance * spin * spin;
         account.spent.bearing = account.spent.bearing
             + parameters.inertance * (parameters.bearing_rate * spin.abs() + parameters.bearing_dry) * spin.abs();
-        if wheel.coupling == Coupling::Open {
+        if !wheel.coupling.is_engaged() {
             account.spent.brake = account.spent.brake + parameters.inertance * parameters.brake * spin.abs();
         }
         if locked {

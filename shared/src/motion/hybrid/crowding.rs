@@ -17,16 +17,16 @@ pub(super) const GRAZE: f64 = 1e-6;
 
 /// The error of a state that events do not let go.
 pub(super) fn too_many<S: Real>(state: &HybridState<S>, time: S) -> Stopped {
-    let has = |is: fn(&Coupling) -> bool| state.device.wheels.iter().any(|wheel| is(&wheel.coupling));
+    let has = |is: fn(Coupling) -> bool| state.device.wheels.iter().any(|wheel| is(wheel.coupling));
     let mode = if state.motion.phase == Phase::Rest {
         "the block stands"
     } else if state.held {
         "friction holds the block"
-    } else if has(|coupling| matches!(coupling, Coupling::Slipping(_) | Coupling::Saturated(_))) {
+    } else if has(|coupling| coupling.slip_sign().is_some()) {
         "a clutch slips"
-    } else if has(|coupling| matches!(coupling, Coupling::InPlay | Coupling::Elastic(_))) {
+    } else if has(Coupling::has_twist) {
         "a clutch stretches"
-    } else if has(|coupling| *coupling == Coupling::Locked) {
+    } else if has(Coupling::is_engaged) {
         "a clutch holds"
     } else {
         "the clutches are open"

@@ -3,7 +3,7 @@
 use super::mode_output::{ModeIntegrator, Shaking};
 use super::threshold::{Threshold, earlier};
 use super::{HybridState, HybridSystem};
-use crate::drivetrain::clutch_state::{Coupling, FlywheelState, Guard, ModeCoefficients};
+use crate::drivetrain::clutch_state::{Guard, ModeCoefficients};
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -114,9 +114,7 @@ impl<S: Real> HybridSystem<S> {
 
     /// A clutch stretches or plays, so that its flywheel swings while the block is held.
     pub(super) fn has_springs(&self, state: &HybridState<S>) -> bool {
-        let stiff =
-            |wheel: &FlywheelState<S>| matches!(wheel.coupling, Coupling::Open | Coupling::Locked | Coupling::Slipping(_));
-        self.transmission.traits().springs && !state.device.wheels.iter().all(stiff)
+        self.transmission.traits().springs && state.device.wheels.iter().any(|wheel| wheel.coupling.has_twist())
     }
 
     /// The equations of a held block: what its springs do moves flywheels alone, until they or the ground overcome the rack's friction.

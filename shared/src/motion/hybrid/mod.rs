@@ -278,7 +278,7 @@ impl<S: Real> HybridSystem<S> {
             (end, last) = (End::Overturned, output.at(until));
         }
         let first = output.at(S::ZERO);
-        let engaged = state.device.wheels.iter().any(|wheel| wheel.coupling != Coupling::Open);
+        let engaged = state.device.wheels.iter().any(|wheel| wheel.coupling.is_engaged());
         let interval = MonotoneInterval {
             start: *time,
             from: S::ZERO,
@@ -394,8 +394,7 @@ impl<S: Real> HybridSystem<S> {
             }
         }
         let after = state.device.wheels.map(|wheel| wheel.coupling);
-        let open = |wheels: [Coupling; 2]| wheels.map(|coupling| coupling == Coupling::Open);
-        if open(before) != open(after) {
+        if before.map(Coupling::is_engaged) != after.map(Coupling::is_engaged) {
             observer.device_event(Event::Switch, time, &state.motion);
         } else if before != after {
             observer.device_event(Event::Coupling, time, &state.motion);

@@ -44,7 +44,7 @@ impl<S: Real> HybridSystem<S> {
         }
         self.with_instant(state, time, observer, |_, at| {
             for wheel in 0..2 {
-                if at.device.wheels[wheel].coupling != Coupling::Open {
+                if at.device.wheels[wheel].coupling.is_engaged() {
                     open(parameters, at, wheel);
                 }
                 let wheel = &mut at.device.wheels[wheel];
@@ -82,7 +82,7 @@ impl<S: Real> HybridSystem<S> {
     ) {
         let BlockState { rotation, velocity, side, direction, .. } = state.motion;
         let still = Motion { rotation, velocity, acceleration: S::ZERO };
-        let engaged = state.device.wheels.iter().any(|wheel| wheel.coupling != Coupling::Open);
+        let engaged = state.device.wheels.iter().any(|wheel| wheel.coupling.is_engaged());
         let interval =
             MonotoneInterval { start: time, from: S::ZERO, to: length, first: still, last: still, engaged, side, direction };
         let output = Still { machine: self, state, ground, length };

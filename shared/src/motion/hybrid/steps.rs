@@ -29,7 +29,9 @@ fn advance<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const 
             Place { time: h, ground, rotation: from.rotation + h * velocity, velocity, unknowns }
         }
         FixedStep::ExponentialMidpoint { .. } if D::SPRINGS => exponential::midpoint(known, from, (h, ground)),
-        _ => runge_kutta_4(known, from, (first, &rates.1), (h, ground)),
+        FixedStep::RungeKutta4 { .. } | FixedStep::ExponentialMidpoint { .. } => {
+            runge_kutta_4(known, from, (first, &rates.1), (h, ground))
+        }
     }
 }
 

@@ -95,13 +95,13 @@ impl<S: Real> HybridSystem<S> {
             let sticks = |wheel: &FlywheelState<S>| match wheel.coupling {
                 Coupling::Locked => true,
                 Coupling::Slipping(_) => wheel.spin == S::ZERO,
-                _ => false,
+                Coupling::Open | Coupling::InPlay | Coupling::Elastic(_) | Coupling::Saturated(_) => false,
             };
             let wheels = &state.device.wheels;
             for wheel in wheels.iter().filter(|wheel| sticks(wheel)) {
                 dry = add(dry, parameters.standing_friction(wheel));
             }
-            let pulls = |wheel: &FlywheelState<S>| wheel.coupling != Coupling::Open && !sticks(wheel);
+            let pulls = |wheel: &FlywheelState<S>| wheel.coupling.is_engaged() && !sticks(wheel);
             if wheels.iter().any(pulls) {
                 let law = self.transmission.law(state.motion.direction, state.motion.terminal_acceleration_sign, &state.device);
                 let still = Motion { rotation: state.motion.rotation, velocity: S::ZERO, acceleration: S::ZERO };
