@@ -119,7 +119,15 @@ pub struct FullInerter<S, L, K> {
     /// ℓ(θ).
     pub lever: L,
     /// Paper or consistent.
-    pub kinematics: PhantomData<K>,
+    kinematics: PhantomData<K>,
+}
+
+impl<S, L, K> FullInerter<S, L, K> {
+    /// Block with the inerter's coupling κ k at the lever ℓ(θ).
+    #[inline(always)]
+    pub const fn new(block: FullBlock<S>, coupling: S, lever: L) -> Self {
+        FullInerter { block, coupling, lever, kinematics: PhantomData }
+    }
 }
 
 impl<S: Scalar, L: Lever<S>, K: Kinematics> FullInerter<S, L, K> {
