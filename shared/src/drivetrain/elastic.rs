@@ -1,4 +1,4 @@
-//! A clutch with a torsional spring, a damper and gear play, and plates in series with it that slip at their capacity.
+//! Elastic clutch: a torsional spring, a damper and gear play, in series with plates that slip at their capacity.
 //!
 //! With x the twist as travel of the rack over R and o the edge of the play on the side in contact,
 //! F = K (x − o) + C ẋ and ẋ = ℓθ̇ − w; within the play F = 0. Saturated plates hold F at the capacity; the twist then relaxes as

@@ -1,4 +1,4 @@
-//! The equations of motion, each written once.
+//! Equations of motion of the rocking block, each written once.
 //!
 //! With s = sgn θ and δ = αs − θ, everything divided by I_O = λmR² (DESIGN, after Eq. 13-16):
 //!

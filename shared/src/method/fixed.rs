@@ -69,7 +69,7 @@ pub fn runge_kutta_4<S: Scalar, E: Equation<S>>(
     (rotation + sixth * (velocity + two * (omega_2 + omega_3) + omega_4), velocity + sixth * (first + two * (a_2 + a_3) + a_4))
 }
 
-/// The arc of a fixed-step method: its end, and the step taken again for every time before it.
+/// Dense output of a fixed-step method: its end, and the step taken again for every time before it.
 #[derive(Debug)]
 pub struct FixedOutput<'a, S> {
     method: FixedStep<S>,

@@ -1,4 +1,4 @@
-//! The models of a block that lanes know: their equations of motion, and their first integrals after the ground has stopped.
+//! Models of the block in SIMD lanes: equations of motion, and first integrals after the ground has stopped.
 
 use sprag_shared::equation::first_integral::{FirstIntegral, FullIntegral, SlenderIntegral};
 use sprag_shared::equation::kinematics::Paper;

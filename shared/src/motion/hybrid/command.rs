@@ -1,4 +1,4 @@
-//! From the signs of Eq. 10 to a clutch that has moved: commands, delays, dwell and commands that are missed.
+//! Actuation of the clutch: commands by the signs of Eq. 10, delays, dwell and missed commands.
 
 use super::{HybridState, HybridSystem};
 use crate::drivetrain::clutch_state::{Coupling, FlywheelState, Guard};
@@ -76,7 +76,7 @@ fn ramp_due<S: Real>(parameters: &ScaledParameters<S>, wheel: &FlywheelState<S>,
 }
 
 impl<S: Real> HybridSystem<S> {
-    /// Gives the commands that the present signs ask for, and carries out those that are due.
+    /// Gives the commands that the present signs ask for, and executes those that are due.
     pub(super) fn command(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         if !self.transmission.traits().commanded || state.motion.phase != Phase::Rocking {
             return;
@@ -136,7 +136,7 @@ impl<S: Real> HybridSystem<S> {
         }
     }
 
-    /// A controller's command to each clutch, at local time 0 of the piece of ground motion that follows. It takes effect after the
+    /// A controller's command to each clutch, at local time 0 of the ground segment that follows. It takes effect after the
     /// delay, at once where there is none.
     pub fn order(&self, state: &mut HybridState<S>, wanted: [bool; 2], observer: &mut dyn DeviceObserver<S>) {
         // What is to be released is released first, so that two that change places are never both engaged.
@@ -256,7 +256,7 @@ impl<S: Real> HybridSystem<S> {
         let Some(due) = self.next_due(state) else { return stop };
         let stop = stop.smaller(time + due);
         if stop <= time {
-            // What the clock cannot tell from now is due now.
+            // What is due within rounding of now is due now.
             state.device.elapse(due);
         }
         stop

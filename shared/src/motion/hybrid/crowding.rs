@@ -1,4 +1,4 @@
-//! Events that crowd: how a graze is told from a motion, and what is reported of one that does not end.
+//! Limits on crowded events (chattering): detection of a graze, and the error of one that does not end.
 
 use super::HybridState;
 use crate::drivetrain::clutch_state::Coupling;
@@ -12,7 +12,7 @@ pub(super) const MOST_AT_ONCE: u32 = 16;
 /// How far apart events at once are, in 1/p.
 pub(super) const AT_ONCE: f64 = 1e-9;
 
-/// How far a graze is followed without guards, in 1/p: what they watch stays below the square of that.
+/// How far a graze is followed without guards, in 1/p: their values stay below the square of that.
 pub(super) const GRAZE: f64 = 1e-6;
 
 /// The error of a state that events do not let go.

@@ -1,4 +1,4 @@
-//! What an impact does, and how impacts that accumulate end in rest.
+//! Impact, and the decision between rocking and rest after it.
 
 use super::IdealSystem;
 use crate::equation::Equation;
@@ -10,7 +10,7 @@ use crate::motion::rest::free_decay::HalfCycles;
 use crate::motion::rest::impact_accumulation::Accumulation;
 use crate::motion::state::{BlockState, Phase};
 
-/// Pairs of swings below the rest speed that are followed in one piece when their impacts do not end them.
+/// Pairs of swings below the rest speed that are followed at once when their impacts do not end them.
 const MOST_IDLE_SWINGS: f64 = 1e3;
 
 impl<S: Real> IdealSystem<S> {
@@ -35,7 +35,7 @@ impl<S: Real> IdealSystem<S> {
         let ground = piece.acceleration(time);
         self.read_signs(state, ground);
         observer.event(Event::Impact, time, state);
-        // A push beyond the threshold ends impacts too weak for the clock to tell apart: the block uplifts to the other side.
+        // A ground acceleration above the threshold ends impacts too weak for the clock to tell apart: the block uplifts to the other side.
         if self.lifts(ground) {
             let rate = self.released.acceleration(state.side.unit(), S::ZERO, S::ZERO, ground);
             let unresolved = state.side.times(rate) < S::ZERO && time + state.velocity.abs() / rate.abs() == time;
@@ -48,7 +48,7 @@ impl<S: Real> IdealSystem<S> {
             let tail = self.accumulation(state.side, state.velocity.abs(), ground);
             let ends = time + tail.duration;
             let holds = ends <= duration && piece.acceleration(ends).abs() < self.uplift;
-            // Impacts that hardly take anything would go on through the piece, thousands of them too weak to matter.
+            // Impacts that hardly take anything would go on through the ground segment, thousands of them too weak to matter.
             let lingers = (duration - time) > tail.swing * S::of(MOST_IDLE_SWINGS);
             let hopeless = state.velocity.abs() <= self.rest_speed * S::EPSILON;
             if holds || lingers || hopeless {
@@ -82,7 +82,7 @@ impl<S: Real> IdealSystem<S> {
         let impacts = state.impacts.saturating_add(decay.impacts);
         let ends = (time + decay.duration).smaller(duration);
         if decay.speed != S::ZERO {
-            // Still rocking at the end of its time: the last, incomplete swing is left to the method.
+            // Still rocking at the end of its time: the last, incomplete swing is integrated by the method.
             let velocity = state.direction.times(decay.speed);
             let turned = |sign: Sign| if decay.speed < S::ZERO { sign.opposite() } else { sign };
             let (side, direction) = (turned(state.side), turned(state.direction));

@@ -1,4 +1,4 @@
-//! From the parameters of a structure to the equations of motion that it needs, chosen once, before the loop.
+//! Resolution of a structure's parameters into its equations of motion, once, before the loop.
 
 use super::IdealSystem;
 use crate::equation::any_equation::AnyEquation;
@@ -13,7 +13,7 @@ use crate::structure::mount::Mount;
 use crate::structure::{COUNTED_SPEED, Structure};
 
 impl Structure {
-    /// The equations of the structure with what it carries, and its clutch.
+    /// Equations of the structure with its added mass, and its clutch.
     ///
     /// # Errors
     /// [`ParameterError`] names the first parameter outside its range.
@@ -23,7 +23,7 @@ impl Structure {
         self.loaded()?.compose()
     }
 
-    /// The composition for a structure that carries nothing.
+    /// Equations of a structure without added mass.
     fn compose<S: Real>(&self) -> Result<IdealSystem<S>, ParameterError> {
         let alpha = self.block.slenderness();
         let device = &self.device;
