@@ -1,6 +1,6 @@
 //! Equations of motion of the rocking block, each written once.
 //!
-//! With s = sgn θ and δ = αs − θ, everything divided by I_O = λmR² (DESIGN, after Eq. 13-16):
+//! With s = sgn θ and δ = αs − θ, everything divided by I_O = λmR² (Eq. 13-16, and the same with consistent kinematics):
 //!
 //! (1 + κ k ℓ²) θ̈ + κ k ℓ ℓ' θ̇² = −p² [ sin δ + (ü_g/g) cos δ ],  k = σ/λ,
 //!
