@@ -6,7 +6,6 @@
 //! thumbv7em-none-eabihf`.
 
 use std::hint::black_box;
-use std::marker::PhantomData;
 use std::time::Instant;
 
 use sprag_shared::equation::kinematics::Paper;
@@ -32,7 +31,7 @@ const STEP: f64 = 0.01;
 /// α = 10°, σ = 0.5, η = 0.85, p = 1.
 fn pair<S: Scalar, L: Lever<S>>(lever: L) -> Pair<S, L> {
     let block = FullBlock { frequency_squared: S::of(1.0), slenderness: S::of(0.174_532_925) };
-    let with = |coupling: f64| FullInerter { block, coupling: S::of(coupling), lever, kinematics: PhantomData };
+    let with = |coupling: f64| FullInerter::new(block, S::of(coupling), lever);
     TimeStepping { released: with(0.0), engaged: with(0.375), restitution: S::of(0.85), uplift: S::of(0.176_327) }
 }
 

@@ -1,7 +1,7 @@
-//! A kind of device chosen at run time.
+//! Run-time choice of the transmission.
 //!
-//! The event loop asks a device one thing at an event and need not know which kind it is; only the steps of a method, which evaluate it
-//! many times, are compiled for each ([`crate::motion::hybrid::mode_output::ModeStart::known`]). So there is one event loop, not one for each device.
+//! Only the steps of a method, which evaluate the device many times, are compiled for each kind
+//! ([`crate::motion::hybrid::mode_output::ModeStart::known`]); the event loop is compiled once.
 
 use super::clutch_state::{DeviceState, Guard, ModeCoefficients};
 use super::elastic::ElasticPair;
@@ -37,7 +37,7 @@ pub enum AnyTransmission<S> {
     Elastic(ElasticPair<S>),
 }
 
-/// What the event loop needs to know of a kind ([`Transmission`]).
+/// Traits of a kind for the event loop ([`Transmission`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Traits {
     /// [`Transmission::COMMANDED`].
@@ -48,7 +48,7 @@ pub struct Traits {
     pub springs: bool,
     /// Unknowns of its own, at most [`UNKNOWNS`].
     pub unknowns: usize,
-    /// Functions that it watches.
+    /// Number of its guards.
     pub guards: usize,
 }
 

@@ -1,10 +1,10 @@
-//! What a device remembers, and the numbers that its present mode puts into the equations.
+//! State of a device, coefficients of its mode, and guards.
 
 use super::under_way::UnderWay;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 
-/// How one flywheel hangs on the rack at an instant.
+/// Connection of one flywheel to the rack: the discrete state of its clutch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Coupling {
     /// Not at all.
@@ -22,7 +22,46 @@ pub enum Coupling {
     Saturated(Sign),
 }
 
-/// One flywheel and its clutch.
+// Every variant is named, so that a new one is placed in each set.
+impl Coupling {
+    /// Engaged clutch: any connection of rack and flywheel, the gear play included.
+    #[inline(always)]
+    pub fn is_engaged(self) -> bool {
+        match self {
+            Coupling::Open => false,
+            Coupling::Locked | Coupling::Slipping(_) | Coupling::InPlay | Coupling::Elastic(_) | Coupling::Saturated(_) => true,
+        }
+    }
+
+    /// Engaged elastic clutch, whose twist is a state: within its play, in contact or saturated.
+    #[inline(always)]
+    pub fn has_twist(self) -> bool {
+        match self {
+            Coupling::Open | Coupling::Locked | Coupling::Slipping(_) => false,
+            Coupling::InPlay | Coupling::Elastic(_) | Coupling::Saturated(_) => true,
+        }
+    }
+
+    /// Sign of the force of plates that slip; none while they stick or are open.
+    #[inline(always)]
+    pub fn slip_sign(self) -> Option<Sign> {
+        match self {
+            Coupling::Slipping(sign) | Coupling::Saturated(sign) => Some(sign),
+            Coupling::Open | Coupling::Locked | Coupling::InPlay | Coupling::Elastic(_) => None,
+        }
+    }
+
+    /// Side of the play on which an elastic clutch is in contact; none within the play and for other clutches.
+    #[inline(always)]
+    pub fn contact_side(self) -> Option<Sign> {
+        match self {
+            Coupling::Elastic(side) | Coupling::Saturated(side) => Some(side),
+            Coupling::Open | Coupling::Locked | Coupling::Slipping(_) | Coupling::InPlay => None,
+        }
+    }
+}
+
+/// State of one flywheel and its clutch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FlywheelState<S> {
     /// Speed of a rack that would move with it, over R, 1/s. Of a locked flywheel it is stale: the rack's counts.
@@ -47,7 +86,7 @@ pub struct FlywheelState<S> {
     pub engaged_for: S,
 }
 
-/// Both flywheels. A device with one uses the first.
+/// State of both flywheels. A device with one uses the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DeviceState<S> {
     /// The one for positive motion, and the one for negative.
@@ -90,7 +129,7 @@ impl<S: Real> DeviceState<S> {
     }
 }
 
-/// The numbers of one mode: the equations between two events are smooth with them. What a device does not have is zero here
+/// Coefficients of one mode: the equations between two events are smooth with them. What a device does not have is zero here
 /// and not looked at by its type.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModeCoefficients<S> {
@@ -122,11 +161,11 @@ pub struct ModeCoefficients<S> {
     pub follows: [S; 2],
     /// Rate at which the twist of a saturated clutch relaxes, 1/s.
     pub relaxation: [S; 2],
-    /// What the guards watch.
+    /// Guards of the mode.
     pub watch: [Guard<S>; GUARDS],
 }
 
-/// A function that is positive for as long as a mode lasts.
+/// Guard of a mode: a function that is positive while the mode lasts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Guard<S> {
     /// Nothing.
@@ -154,7 +193,7 @@ pub enum Guard<S> {
     HeldDown(S, S),
 }
 
-/// Most functions that a device watches: the command, and two of each flywheel.
+/// Largest number of guards of a device: the command, and two of each flywheel.
 pub const GUARDS: usize = 5;
 
 impl<S: Real> ModeCoefficients<S> {

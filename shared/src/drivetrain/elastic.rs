@@ -1,4 +1,4 @@
-//! A clutch with a torsional spring, a damper and gear play, and plates in series with it that slip at their capacity.
+//! Elastic clutch: a torsional spring, a damper and gear play, in series with plates that slip at their capacity.
 //!
 //! With x the twist as travel of the rack over R and o the edge of the play on the side in contact,
 //! F = K (x − o) + C ẋ and ẋ = ℓθ̇ − w; within the play F = 0. Saturated plates hold F at the capacity; the twist then relaxes as
@@ -33,10 +33,8 @@ impl<S: Real> ElasticPair<S> {
     fn force(&self, at: &EventContext<'_, S>, wheel: usize) -> S {
         let rack = at.rack_speed();
         let wheel = &at.device.wheels[wheel];
-        let edge = match wheel.coupling {
-            Coupling::Elastic(side) | Coupling::Saturated(side) => side.times(self.0.half_play),
-            _ => return S::ZERO,
-        };
+        let Some(side) = wheel.coupling.contact_side() else { return S::ZERO };
+        let edge = side.times(self.0.half_play);
         self.0.stiffness * (wheel.twist - edge) + self.0.damping * (rack - wheel.spin)
     }
 
@@ -201,7 +199,9 @@ impl<S: Real> Transmission<S, 4, GUARDS> for ElasticPair<S> {
         let mut account = account(at, &self.0, acceleration, device);
         let rack = at.body.to_terminal(&at.configuration, at.velocity);
         for (i, wheel) in device.wheels.iter().enumerate() {
-            let (Coupling::Elastic(_) | Coupling::Saturated(_)) = wheel.coupling else { continue };
+            if wheel.coupling.contact_side().is_none() {
+                continue;
+            }
             let twist = at.unknowns[i + 2] - at.law.rest_twist[i];
             let plates = at.law.slip[i] + at.law.slip_growth[i] * at.clock;
             let relative = rack - at.unknowns[i];

@@ -1,4 +1,4 @@
-//! A friction clutch: plates carry force up to their capacity and slip beyond it. Stick and slip begin at located events: slip
+//! Friction clutch: plates transmit force up to their capacity and slip above it. Stick and slip begin at located events: slip
 //! when the force of a locked flywheel reaches the capacity, stick when the plates run at one speed and can hold it.
 
 use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients};

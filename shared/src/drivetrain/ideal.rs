@@ -1,5 +1,5 @@
-//! Devices without a memory: none, one inerter, and the ideal clutched pair, for scenes in which something else than the device
-//! calls for this engine. With `FRICTION` the rack and the bearings lose energy, and a guided rack has a mass.
+//! Ideal devices in the hybrid loop: none, one inerter, and the ideal clutched pair, for scenes that need this loop for another
+//! reason. With `FRICTION` the rack and the bearings lose energy, and a guided rack has a mass.
 
 use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients};
 use super::scaled_parameters::ScaledParameters;

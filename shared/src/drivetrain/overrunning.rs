@@ -1,5 +1,5 @@
-//! One-way (sprag) clutches: nobody commands them. Each holds while its flywheel resists the block and lets go as soon as the
-//! flywheel would drive it; it holds again when the block has caught up, so that there is never a jolt.
+//! Overrunning (sprag) clutches, without commands. Each locks while its flywheel resists the block, opens when the flywheel would
+//! accelerate it, and locks again at equal speeds, so that there is never a jolt.
 
 use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients};
 use super::rigid::coasting;
@@ -69,7 +69,7 @@ impl<S: Real> Transmission<S, 2, 1> for OverrunningPair<S> {
             open(&self.0, at, other);
         }
         let resists = |at: &EventContext<'_, S>| at.direction.times(force_if_locked(self, &self.0, at, wheel)) > S::ZERO;
-        // What stands still is held by the clutch until the push overcomes the bearings.
+        // What stands still is held by the clutch until the force overcomes the bearings.
         let stands = rack == S::ZERO;
         let spin = at.device.wheels[wheel].spin;
         if at.device.wheels[wheel].coupling != Coupling::Locked {

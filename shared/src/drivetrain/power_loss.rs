@@ -1,6 +1,6 @@
 //! Power losses of a device, by cause.
 
-/// Where energy goes, or a rate of it.
+/// Energy losses by cause, or their rates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Spent<S> {
     /// Slip and damping of the clutches.

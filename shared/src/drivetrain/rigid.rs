@@ -1,4 +1,4 @@
-//! A rigid clutch with flywheels that keep spinning: it obeys Eq. 10, and closing at speed costs the block momentum.
+//! Rigid clutch with flywheels that spin on: it obeys Eq. 10, and closing at unequal speeds is a plastic impact.
 
 use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients};
 use super::scaled_parameters::ScaledParameters;

@@ -1,4 +1,4 @@
-//! The numbers of a drivetrain, resolved for one block: forces over λmR, lengths over R, inertance over λm.
+//! Drivetrain parameters in the units of the equations: forces over λmR, lengths over R, inertance over λm.
 
 use super::clutch_state::{Coupling, DeviceState, FlywheelState, ModeCoefficients};
 use crate::math::scalar::Real;
@@ -6,7 +6,7 @@ use crate::math::sign::Sign;
 use crate::structure::block::Block;
 use crate::structure::drivetrain::{Drivetrain, Engagement};
 
-/// A drivetrain in the units of the equations.
+/// Drivetrain parameters in the units of the equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScaledParameters<S> {
     /// k = σ/λ of one flywheel.
@@ -31,7 +31,7 @@ pub struct ScaledParameters<S> {
     pub stops_at_once: bool,
     /// Capacity of the plates, 1/s²; infinite without plates.
     pub capacity: S,
-    /// What they carry at first contact, 1/s²: enough to tell stick from slip there.
+    /// Their capacity at first contact, 1/s²: large enough to distinguish stick from slip there.
     pub contact: S,
     /// Time to full capacity, s.
     pub rise_time: S,
@@ -98,7 +98,7 @@ impl<S: Real> ScaledParameters<S> {
         (self.contact + growth * wheel.engaged_for, growth)
     }
 
-    /// The law of rack, bearings, brakes and plates in the present mode.
+    /// Coefficients of the present mode: rack, bearings, brakes and plates.
     #[inline]
     pub fn law(&self, direction: Sign, device: &DeviceState<S>) -> ModeCoefficients<S> {
         let mut law = ModeCoefficients::of(direction);
@@ -112,12 +112,12 @@ impl<S: Real> ScaledParameters<S> {
                 continue;
             }
             if let Some(turning) = wheel.turning {
-                let brake = if wheel.coupling == Coupling::Open { self.brake } else { S::ZERO };
+                let brake = if wheel.coupling.is_engaged() { S::ZERO } else { self.brake };
                 law.decay[i] = self.bearing_rate;
                 law.drag[i] = turning.times(self.bearing_dry + brake);
                 law.moves[i] = S::ONE;
             }
-            if let Coupling::Slipping(sign) | Coupling::Saturated(sign) = wheel.coupling {
+            if let Some(sign) = wheel.coupling.slip_sign() {
                 let (capacity, growth) = self.capacity_of(wheel);
                 (law.slip[i], law.slip_growth[i]) = (sign.times(capacity), sign.times(growth));
             }
@@ -127,7 +127,7 @@ impl<S: Real> ScaledParameters<S> {
     }
 
     /// Dry friction at the rack of a standing flywheel that is coupled to it, and its growth: that of the bearings, as far as the
-    /// plates carry it; 1/s² and 1/s³.
+    /// plates transmit it; 1/s² and 1/s³.
     #[inline]
     pub fn standing_friction(&self, wheel: &FlywheelState<S>) -> (S, S) {
         let bearing = self.inertance * self.bearing_dry;
@@ -138,7 +138,7 @@ impl<S: Real> ScaledParameters<S> {
     /// Deceleration of an idle or engaged flywheel by dry friction, 1/s².
     #[inline]
     pub fn dry_of(&self, wheel: &FlywheelState<S>) -> S {
-        if wheel.coupling == Coupling::Open { self.bearing_dry + self.brake } else { self.bearing_dry }
+        if wheel.coupling.is_engaged() { self.bearing_dry } else { self.bearing_dry + self.brake }
     }
 
     /// Decides which way a flywheel turns on which `force` (1/s²) acts: a standing one starts only beyond its dry friction. Without any it

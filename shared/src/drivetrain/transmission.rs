@@ -1,4 +1,4 @@
-//! What every kind of device is to the engine: forces between events, functions to watch, and what to do at an event.
+//! Contract of a transmission: rates between events, guards, and answers to events.
 
 use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients};
 use super::power_loss::Spent;
@@ -9,14 +9,14 @@ use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::math::value::Value;
 
-/// The forces on one instant of a smooth motion, as an equation sees them: `V` is a number or a power series.
+/// Point at which a mode's equations are evaluated: `V` is a number or a power series.
 #[derive(Clone, Copy, Debug)]
 pub struct EvaluationPoint<'a, S, B, P, V, const X: usize> {
     /// The block.
     pub body: &'a B,
     /// The mode.
     pub law: &'a ModeCoefficients<S>,
-    /// What θ decides.
+    /// The body's configuration at θ.
     pub configuration: P,
     /// θ̇.
     pub velocity: V,
@@ -31,7 +31,7 @@ pub struct EvaluationPoint<'a, S, B, P, V, const X: usize> {
 /// [`EvaluationPoint`] of a body.
 pub type PointOf<'a, S, B, V, const X: usize> = EvaluationPoint<'a, S, B, <B as Body<S>>::Configuration<V>, V, X>;
 
-/// [`EvaluationPoint`] in numbers, of a body chosen at run time: what events and observers look at.
+/// [`EvaluationPoint`] in numbers, of a body chosen at run time, for events and observers.
 pub type AnyPoint<'a, S, const X: usize> = PointOf<'a, S, AnyBody<S>, S, X>;
 
 /// An event that a device has to answer, in numbers.
@@ -49,7 +49,7 @@ pub struct EventContext<'a, S> {
     pub velocity: S,
     /// Ground acceleration in g, horizontal and vertical.
     pub ground: [S; 2],
-    /// What the device remembers.
+    /// State of the device.
     pub device: &'a mut DeviceState<S>,
 }
 
@@ -61,23 +61,23 @@ impl<S: Real> EventContext<'_, S> {
     }
 }
 
-/// A kind of device. `X` unknowns of its own, `G` functions to watch. It is a type, so that what a scene does not ask for is
+/// Transmission of one kind, with `X` unknowns and `G` guards. It is a type, so that what a scene does not ask for is
 /// not in its loop.
 pub trait Transmission<S: Real, const X: usize, const G: usize>: Copy {
     /// The clutch obeys Eq. 10, so that changes of its command are events.
     const COMMANDED: bool;
     /// Friction of rack and bearings may hold the block at a turn.
     const HOLDS: bool;
-    /// Clutches may stretch or play, so that flywheels swing while the block is held.
+    /// Elastic clutches, so that flywheels may swing while the block is held.
     const SPRINGS: bool = false;
 
-    /// The numbers of the present mode; `driving_moment` is the sign of the terminals' acceleration.
+    /// Coefficients of the present mode; `driving_moment` is the sign of the terminals' acceleration.
     fn law(&self, direction: Sign, terminal_acceleration_sign: Sign, device: &DeviceState<S>) -> ModeCoefficients<S>;
 
     /// θ̈ and the rates of the device's unknowns.
     fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, X>) -> (V, [V; X]);
 
-    /// The function of `watch`, where θ̈ is `acceleration`; positive while the mode lasts.
+    /// Value of the guard `watch`, where θ̈ is `acceleration`; positive while the mode lasts.
     #[inline(always)]
     fn guard<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, X>, acceleration: V, watch: Guard<S>) -> V {
         let _ = (at, watch);
@@ -87,7 +87,7 @@ pub trait Transmission<S: Real, const X: usize, const G: usize>: Copy {
     /// The parameters, where there are any.
     fn parameters(&self) -> Option<&ScaledParameters<S>>;
 
-    /// The device's unknowns at the start of an arc: speeds of the flywheels, then twists of the clutches.
+    /// The device's unknowns at the start of a step: speeds of the flywheels, then twists of the clutches.
     #[inline(always)]
     fn load(&self, device: &DeviceState<S>) -> [S; X] {
         let [a, b] = &device.wheels;
@@ -128,7 +128,7 @@ pub trait Transmission<S: Real, const X: usize, const G: usize>: Copy {
         }
     }
 
-    /// The watched function of `watch` has reached zero.
+    /// The guard `watch` has reached zero.
     #[inline(always)]
     fn reached(&self, at: &mut EventContext<'_, S>, watch: Guard<S>) {
         let _ = (at, watch);
@@ -171,10 +171,10 @@ pub trait Transmission<S: Real, const X: usize, const G: usize>: Copy {
 /// Most unknowns that a device has of its own.
 pub const UNKNOWNS: usize = 4;
 
-/// What watchers ask of a device at an instant ([`crate::motion::device_snapshot::Snapshot`]).
+/// Forces, speeds, energy and losses of a device at an instant ([`crate::motion::device_snapshot::Snapshot`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Account<S> {
-    /// Force of each flywheel's drive on the rack, 1/s².
+    /// Force of each flywheel on the rack, 1/s².
     pub force: [S; 2],
     /// Of the rack itself, 1/s².
     pub rack_force: S,
@@ -211,7 +211,7 @@ pub fn acceleration<S: Real, V: Value<S>, B: Body<S>, const X: usize, const FRIC
     at.body.solve_acceleration(&at.configuration, moment, at.law.coupling, at.velocity)
 }
 
-/// D, with the push of the ground on a guided rack.
+/// D, with the inertia force of the ground's acceleration on a guided rack.
 #[inline(always)]
 pub fn driving_moment<S: Real, V: Value<S>, B: Body<S>, const X: usize, const RACK: bool>(
     at: &PointOf<'_, S, B, V, X>,
@@ -244,7 +244,7 @@ pub fn locked_force<S: Real, V: Value<S>, B: Body<S>, const X: usize>(
     (inertia + bearing).offset(at.law.direction * parameters.bearing_dry).scale(parameters.inertance)
 }
 
-/// The force that a wheel would have to carry if it were locked now, on a block whose other wheels stay as they are.
+/// The force on a wheel if it were locked now, on a block whose other wheels stay as they are.
 pub fn force_if_locked<S: Real, D: Transmission<S, X, G>, const X: usize, const G: usize>(
     transmission: &D,
     parameters: &ScaledParameters<S>,
@@ -259,7 +259,7 @@ pub fn force_if_locked<S: Real, D: Transmission<S, X, G>, const X: usize, const 
     locked_force(&point, parameters, acceleration)
 }
 
-/// The numbers of an instant as an equation sees them.
+/// The [`EvaluationPoint`] of an instant.
 pub fn point<'a, S: Real, D: Transmission<S, X, G>, const X: usize, const G: usize>(
     transmission: &D,
     body: &'a AnyBody<S>,
@@ -278,7 +278,7 @@ pub fn point<'a, S: Real, D: Transmission<S, X, G>, const X: usize, const G: usi
     }
 }
 
-/// A rigid clutch closes: block and flywheel exchange momentum,
+/// Plastic impact of a rigid clutch that closes: block and flywheel exchange momentum,
 /// (1 + (K + k) ℓ²) θ̇⁺ = (1 + K ℓ²) θ̇⁻ + k ℓ w, where K is what was locked already.
 pub fn jolt<S: Real>(parameters: &ScaledParameters<S>, at: &mut EventContext<'_, S>, wheel: usize) {
     let configuration = at.body.configuration(at.side.unit(), at.rotation);
@@ -291,7 +291,7 @@ pub fn jolt<S: Real>(parameters: &ScaledParameters<S>, at: &mut EventContext<'_,
     at.device.wheels[wheel].coupling = Coupling::Locked;
 }
 
-/// A wheel lets go of the rack, with the rack's speed if it was locked.
+/// Release of a wheel, with the rack's speed if it was locked.
 pub fn open<S: Real>(parameters: &ScaledParameters<S>, at: &mut EventContext<'_, S>, wheel: usize) {
     let rack = at.rack_speed();
     let wheel = &mut at.device.wheels[wheel];
@@ -324,14 +324,14 @@ pub fn account<S: Real, const X: usize>(
     account.spent.rack = (parameters.rack_viscous * rack + dry) * rack;
     account.stored = S::HALF * parameters.rack_coupling * rack * rack;
     for (i, wheel) in device.wheels.iter().enumerate() {
-        account.engaged[i] = wheel.coupling != Coupling::Open;
+        account.engaged[i] = wheel.coupling.is_engaged();
         let locked = wheel.coupling == Coupling::Locked;
         let spin = if locked { rack } else { at.unknowns.get(i).copied().unwrap_or(S::ZERO) };
         account.spin[i] = spin;
         account.stored = account.stored + S::HALF * parameters.inertance * spin * spin;
         account.spent.bearing = account.spent.bearing
             + parameters.inertance * (parameters.bearing_rate * spin.abs() + parameters.bearing_dry) * spin.abs();
-        if wheel.coupling == Coupling::Open {
+        if !wheel.coupling.is_engaged() {
             account.spent.brake = account.spent.brake + parameters.inertance * parameters.brake * spin.abs();
         }
         if locked {

@@ -1,4 +1,4 @@
-//! Commands on their way to a clutch whose delay is one of transport.
+//! Queue of commands under a transport delay.
 
 use crate::math::scalar::Real;
 

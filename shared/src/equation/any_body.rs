@@ -1,4 +1,4 @@
-//! A body chosen at run time, to the same bits as one known when it is compiled: one piece of code for all.
+//! Run-time choice of the body, with the same bits as a body known at compile time.
 
 use super::body::{Body, FullBody, FullConfiguration, SlenderBody};
 use super::kinematics::RuntimeKinematics;
@@ -24,7 +24,7 @@ pub enum AnyConfiguration<V> {
 }
 
 impl<S> AnyBody<S> {
-    /// Whether it knows of vertical ground motion.
+    /// Whether it has vertical ground motion.
     pub fn is_vertical(&self) -> bool {
         match self {
             AnyBody::Slender(body) => body.vertical,
@@ -33,7 +33,7 @@ impl<S> AnyBody<S> {
     }
 }
 
-/// What either body makes of its own configuration; a configuration of the other one, which is never made, is `otherwise`.
+/// Dispatch on body and configuration; a configuration of the other one, which is never made, is `otherwise`.
 macro_rules! either {
     ($self:ident, $configuration:ident, |$body:ident, $own:ident| $value:expr, $otherwise:expr) => {
         match ($self, $configuration) {

@@ -1,7 +1,7 @@
-//! The equation of motion of an ideal device, chosen among all at run time.
+//! Run-time choice of the equation of motion of an ideal device.
 //!
-//! The event loop asks an equation one thing at a time and need not know which it is; only the steps of a method, which evaluate it
-//! many times, are compiled for each ([`AnyEquation::known`]). So there is one event loop, not one for each equation.
+//! Only the steps of a method, which evaluate the equation many times, are compiled for each type ([`AnyEquation::known`]); the event loop
+//! is compiled once.
 
 use super::kinematics::{Consistent, Paper};
 use super::lever::{CentreOfMass, TyingPoint};
@@ -27,7 +27,7 @@ pub enum AnyEquation<S> {
     PointConsistent(FullInerter<S, TyingPoint<S>, Consistent>),
 }
 
-/// What to do with an equation once its type is known.
+/// Continuation that receives the equation in its own type.
 pub trait WithEquation<S: Real> {
     /// The result.
     type Output;

@@ -1,6 +1,6 @@
-//! The block as its device sees it: what drives it, and the lever of the inerter's terminals.
+//! Equation of motion in parts: moment of weight and ground D, and lever ℓ of the inerter's terminals.
 //!
-//! With δ = αs − θ and everything divided by I_O = λmR², the weight and the ground drive the block by
+//! With δ = αs − θ and everything divided by I_O = λmR², the moment of weight and ground is
 //!
 //! D = −p² [ (1 + v̈_g/g) sin δ + (ü_g/g) cos δ ],
 //!
@@ -21,7 +21,7 @@ pub trait Body<S: Scalar>: Copy {
     /// The configuration at θ (rad) on side s = ±1.
     fn configuration<V: Value<S>>(&self, side: S, rotation: V) -> Self::Configuration<V>;
 
-    /// D for the ground acceleration in g, horizontal and vertical (which is not read where the body knows of none).
+    /// D for the ground acceleration in g, horizontal and vertical (the vertical one is not read by a body without it).
     fn driving_moment<V: Value<S>>(&self, configuration: &Self::Configuration<V>, ground: [V; 2]) -> V;
 
     /// ℓ x.

@@ -1,4 +1,4 @@
-//! When the ideal clutch engages: not at all, always, or by Eq. 10.
+//! Clutch rule of an ideal device: never engaged, always, or by Eq. 10.
 
 use crate::math::sign::Sign;
 

@@ -1,11 +1,11 @@
-//! The first integral of a free motion.
+//! First integral (energy) of free rocking.
 //!
 //! On quiet ground and between clutch switches, with q = α − |θ| and k = σ/λ while the inerter is engaged (0 while not), in units of 1/p,
 //!
 //! ½ω² + atan(√k cos q)/√k = constant (full model, paper kinematics, inerter at the centre of mass; k → 0: ½ω² + cos q),
 //! ω² − q²/(1 + kℓ²) = constant (slender model),
 //!
-//! the integrals of θ̈ over θ of Eq. 13-18. What becomes of a block after a pulse, and its peaks, need no integration then
+//! the integrals of θ̈ over θ of Eq. 13-18. The outcome after a pulse and the peaks then need no integration
 //! ([`crate::motion::rest::free_motion`]). Differences of cosines and arc tangents are written so that nothing cancels.
 
 use crate::math;

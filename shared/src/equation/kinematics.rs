@@ -24,7 +24,7 @@ impl Kinematics for Consistent {
 
 /// Kinematics of a body: known when it is compiled, or [`RuntimeKinematics`] when it runs.
 pub trait BodyKinematics: Copy {
-    /// Those with the θ̇² term or without; a type that knows better does not ask.
+    /// Kinematics with the θ̇² term or without; a type known at compile time ignores the argument.
     fn chosen(consistent: bool) -> Self;
 
     /// Whether the θ̇² term is there.
@@ -43,7 +43,7 @@ impl<K: Kinematics> BodyKinematics for K {
     }
 }
 
-/// Kinematics told at run time: one body for both where code is scarce, to the same bits.
+/// Kinematics chosen at run time: one body for both where code is scarce, to the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RuntimeKinematics {
     consistent: bool,

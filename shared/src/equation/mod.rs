@@ -1,6 +1,6 @@
-//! The equations of motion, each written once.
+//! Equations of motion of the rocking block, each written once.
 //!
-//! With s = sgn θ and δ = αs − θ, everything divided by I_O = λmR² (DESIGN, after Eq. 13-16):
+//! With s = sgn θ and δ = αs − θ, everything divided by I_O = λmR² (Eq. 13-16, and the same with consistent kinematics):
 //!
 //! (1 + κ k ℓ²) θ̈ + κ k ℓ ℓ' θ̇² = −p² [ sin δ + (ü_g/g) cos δ ],  k = σ/λ,
 //!
@@ -119,7 +119,15 @@ pub struct FullInerter<S, L, K> {
     /// ℓ(θ).
     pub lever: L,
     /// Paper or consistent.
-    pub kinematics: PhantomData<K>,
+    kinematics: PhantomData<K>,
+}
+
+impl<S, L, K> FullInerter<S, L, K> {
+    /// Block with the inerter's coupling κ k at the lever ℓ(θ).
+    #[inline(always)]
+    pub const fn new(block: FullBlock<S>, coupling: S, lever: L) -> Self {
+        FullInerter { block, coupling, lever, kinematics: PhantomData }
+    }
 }
 
 impl<S: Scalar, L: Lever<S>, K: Kinematics> FullInerter<S, L, K> {

@@ -1,4 +1,4 @@
-//! The motion over one step, as a method sees it.
+//! Contract of an integrator, and dense output: θ, θ̇ and θ̈ at any time of a step.
 
 use crate::equation::any_equation::AnyEquation;
 use crate::equation::motion::Motion;
@@ -20,7 +20,7 @@ pub struct StepStart<'a, S> {
     pub rotation: S,
     /// θ̇.
     pub velocity: S,
-    /// Local time in the piece, s.
+    /// Local time in the ground segment, s.
     pub time: S,
     /// How far the step may reach, s; above 0.
     pub length: S,
@@ -88,14 +88,14 @@ fn zero_between<S: Real, A: DenseOutput<S> + ?Sized>(output: &A, from: S, to: S,
 
 /// A way to integrate: fixed steps or steps of its own choice.
 pub trait Integrator<S: Real> {
-    /// Its arcs.
+    /// Its dense output.
     type Output<'a>: DenseOutput<S>
     where
         Self: 'a;
 
-    /// The arc from `start`.
+    /// The step from `start`.
     fn integrate<'a>(&'a self, start: &'a StepStart<'a, S>) -> Self::Output<'a>;
 
-    /// The fixed step (s), if it has one: then steps end on whole multiples of it from the start of each piece.
+    /// The fixed step (s), if it has one: then steps end on whole multiples of it from the start of each ground segment.
     fn step(&self) -> Option<S>;
 }

@@ -2,6 +2,8 @@
 //!
 //! Events inside a step are located by taking the step again with a shorter length, so an event's state has the accuracy
 //! of the method.
+//!
+//! For a block with a device, the same methods are in [`crate::motion::hybrid::steps`].
 
 use super::dense_output::{DenseOutput, Integrator, StepStart};
 use crate::equation::Equation;
@@ -35,9 +37,11 @@ impl<S: Real> FixedStep<S> {
     /// The step, s.
     #[inline(always)]
     pub fn step(&self) -> S {
-        let (FixedStep::SemiImplicitEuler { step } | FixedStep::RungeKutta4 { step } | FixedStep::ExponentialMidpoint { step }) =
-            *self;
-        step
+        match *self {
+            FixedStep::SemiImplicitEuler { step } | FixedStep::RungeKutta4 { step } | FixedStep::ExponentialMidpoint { step } => {
+                step
+            }
+        }
     }
 }
 
@@ -65,7 +69,7 @@ pub fn runge_kutta_4<S: Scalar, E: Equation<S>>(
     (rotation + sixth * (velocity + two * (omega_2 + omega_3) + omega_4), velocity + sixth * (first + two * (a_2 + a_3) + a_4))
 }
 
-/// The arc of a fixed-step method: its end, and the step taken again for every time before it.
+/// Dense output of a fixed-step method: its end, and the step taken again for every time before it.
 #[derive(Debug)]
 pub struct FixedOutput<'a, S> {
     method: FixedStep<S>,
@@ -111,12 +115,15 @@ impl<S: Real> WithEquation<S> for Step<'_, '_, S> {
         let Step { method, start, first, time } = self;
         let side = start.side.unit();
         let push = start.piece.acceleration(start.time + time);
-        let (rotation, velocity) = if let FixedStep::SemiImplicitEuler { .. } = method {
-            let velocity = start.velocity + time * first;
-            (start.rotation + time * velocity, velocity)
-        } else {
-            let ground = [S::ZERO, start.piece.acceleration(start.time + S::HALF * time), push];
-            runge_kutta_4(equation, side, (start.rotation, start.velocity), first, ground, time)
+        let (rotation, velocity) = match method {
+            FixedStep::SemiImplicitEuler { .. } => {
+                let velocity = start.velocity + time * first;
+                (start.rotation + time * velocity, velocity)
+            }
+            FixedStep::RungeKutta4 { .. } | FixedStep::ExponentialMidpoint { .. } => {
+                let ground = [S::ZERO, start.piece.acceleration(start.time + S::HALF * time), push];
+                runge_kutta_4(equation, side, (start.rotation, start.velocity), first, ground, time)
+            }
         };
         Motion { rotation, velocity, acceleration: equation.acceleration(side, rotation, velocity, push) }
     }

@@ -1,4 +1,4 @@
-//! The power series of a rocking motion over one step.
+//! Power-series recurrence of a rocking motion over one step.
 //!
 //! With θ̈ = Σ a_k t^k, of which the equation of motion gives one coefficient after the other over the nodes of a [`Tape`],
 //! θ̇_{k+1} = a_k/(k+1) and θ_{k+2} = θ̇_{k+1}/(k+2) (Jorba and Zou 2005).

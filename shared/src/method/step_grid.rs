@@ -1,9 +1,9 @@
-//! Where fixed steps end: at whole multiples of the step from the start of a piece, counted so that no rounding adds up.
+//! Step grid of a fixed-step method: steps end at whole multiples of the step from the start of a ground segment, counted so that no rounding adds up.
 
 use crate::math::scalar::Real;
 
 /// The first whole multiple of `step` (s, above 0) after `time` (s), or `end` (s) if that comes first. `tick` is the multiple found
-/// last, 0 at the start of a piece; what was slept through since then is leapt over, so that a long rest costs no time.
+/// last, 0 at the start of a ground segment; steps during a rest are skipped, so that a long rest costs no time.
 #[inline]
 pub fn next_stop<S: Real>(tick: &mut u32, step: S, time: S, end: S) -> S {
     let next = S::count(tick.wrapping_add(1)) * step;

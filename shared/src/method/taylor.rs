@@ -1,4 +1,4 @@
-//! The Taylor method: the solution's own power series over each step, and with it events to the last bits.
+//! Taylor method of variable order and step: the power series of the solution over each step.
 //!
 //! [`super::motion_series`] has the recurrence.
 
@@ -53,7 +53,7 @@ pub struct TaylorOutput<S, const N: usize> {
     series: StepSeries<S, N>,
     /// Of the switching function, where it is not the acceleration.
     switching: [S; N],
-    /// Bound of d²θ̈/dt² over the arc.
+    /// Bound of d²θ̈/dt² over the step.
     curvature: S,
 }
 
@@ -84,7 +84,7 @@ impl<S: Real, const N: usize> Integrator<S> for Taylor<S, N> {
     }
 }
 
-/// The coefficients of an arc, order by order.
+/// The coefficients of a step's power series, order by order.
 struct Expansion<'a, S, const N: usize> {
     tape: &'a Tape<S, N>,
     output: &'a mut TaylorOutput<S, N>,

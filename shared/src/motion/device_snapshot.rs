@@ -1,4 +1,4 @@
-//! A block and its device at one instant, as those see it who watch forces and energies.
+//! Snapshot of block and device at one instant, for observers of forces and energies.
 //!
 //! Everything is divided by I_O = λmR²: forces at the rack come as F/(λmR) in 1/s², energies as E/(λmR²) in 1/s², powers in
 //! 1/s³.
@@ -20,7 +20,7 @@ pub struct Snapshot<S> {
     pub ground: [S; 2],
     /// ℓθ̇, the velocity of the rack over R; 1/s.
     pub terminal_velocity: S,
-    /// What each flywheel's drive exerts on the rack, positive where it resists positive motion; F/(λmR), 1/s².
+    /// Force of each flywheel on the rack, positive where it resists positive motion; F/(λmR), 1/s².
     pub force: [S; 2],
     /// Friction and inertia of the rack itself, the same way.
     pub rack_force: S,
@@ -44,13 +44,13 @@ impl<S: Real> Snapshot<S> {
     }
 }
 
-/// An arc on which the device can be asked too.
+/// Dense output with snapshots of the device.
 pub trait DeviceOutput<S: Real>: DenseOutput<S> {
-    /// Block and device at `time` after the start of the arc.
+    /// Block and device at `time` after the start of the step.
     fn snapshot(&self, time: S) -> Snapshot<S>;
 }
 
-/// So that who watches arcs of a known type can watch these.
+/// For observers written over a known type of dense output.
 impl<S: Real> DenseOutput<S> for &dyn DeviceOutput<S> {
     #[inline(always)]
     fn length(&self) -> S {
@@ -83,7 +83,7 @@ impl<S: Real> DenseOutput<S> for &dyn DeviceOutput<S> {
     }
 }
 
-/// Told of every interval, with the device, and every event, in order. Times are local to the piece of ground motion.
+/// Observer of monotone intervals with the device, and of events, in order. Times are local to the ground segment.
 pub trait DeviceObserver<S: Real> {
     /// The motion over an interval.
     #[inline(always)]
@@ -104,7 +104,7 @@ pub trait DeviceObserver<S: Real> {
     }
 }
 
-/// Nobody.
+/// Observer that ignores everything.
 impl<S: Real> DeviceObserver<S> for () {}
 
 /// Two observers.

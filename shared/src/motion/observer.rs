@@ -1,4 +1,4 @@
-//! Observers of a motion: told of every monotone interval and every event. What nobody watches costs nothing.
+//! Contract of an observer: it receives every monotone interval and every event. An unused observer costs nothing.
 
 use super::state::BlockState;
 use crate::equation::motion::Motion;
@@ -26,14 +26,14 @@ pub enum Event {
     Overturned,
 }
 
-/// A part of an arc over which θ and θ̇ are monotone.
+/// Monotone interval: a part of a step over which θ and θ̇ are monotone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MonotoneInterval<S> {
-    /// Local time in the piece at which the arc starts, s.
+    /// Local time in the ground segment at which the step starts, s.
     pub start: S,
-    /// From here on the arc, s.
+    /// Start, s from the start of the step.
     pub from: S,
-    /// To here on the arc, s.
+    /// End, s from the start of the step.
     pub to: S,
     /// The motion at `from`.
     pub first: Motion<S>,
@@ -47,7 +47,7 @@ pub struct MonotoneInterval<S> {
     pub direction: Sign,
 }
 
-/// Told of every interval and every event, in order. Times are local to the piece of ground motion.
+/// Observer of monotone intervals and events, in order. Times are local to the ground segment.
 pub trait Observer<S: Real> {
     /// Wants every swing of a free motion; otherwise its end is summed in closed form ([`Decay`]).
     fn every_swing(&self) -> bool {
@@ -73,7 +73,7 @@ pub trait Observer<S: Real> {
     }
 }
 
-/// Nobody.
+/// Observer that ignores everything.
 impl<S: Real> Observer<S> for () {
     fn every_swing(&self) -> bool {
         false

@@ -37,25 +37,25 @@ pub struct BlockState<S> {
     pub impacts: u32,
 }
 
-/// Why a piece was not finished.
+/// Error that ends the integration of a ground segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stopped {
-    /// More events than [`Limits::events`] in one piece.
+    /// More events than [`Limits::events`] in one ground segment.
     TooManyEvents {
-        /// Time in the piece, s.
+        /// Time in the ground segment, s.
         time: f64,
         /// The mode of block and clutches then.
         mode: &'static str,
     },
     /// A state that is not finite.
     NotFinite {
-        /// Time in the piece, s.
+        /// Time in the ground segment, s.
         time: f64,
     },
 }
 
 impl Stopped {
-    /// The same, with times from the start of a motion in which the piece begins at `start` (s).
+    /// The same, with times from the start of a motion in which the segment begins at `start` (s).
     pub fn after(self, start: f64) -> Stopped {
         match self {
             Stopped::TooManyEvents { time, mode } => Stopped::TooManyEvents { time: start + time, mode },
@@ -85,6 +85,6 @@ pub struct Limits<S> {
     /// |θ| (rad) at which an outward motion counts as overturned
     /// ([`crate::structure::block::Geometry::point_of_no_return`], or π/2).
     pub overturned: S,
-    /// Arcs that one call may take.
+    /// Steps that one call may take.
     pub events: u32,
 }

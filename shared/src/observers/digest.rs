@@ -1,4 +1,4 @@
-//! A fingerprint of a motion: two runs with the same digest went through the same bits.
+//! Digest (hash) of a motion: two runs with the same digest went through the same bits.
 
 use crate::math::fnv::Fnv;
 use crate::math::scalar::Real;
@@ -12,7 +12,7 @@ use crate::motion::state::BlockState;
 /// with a memory also the speeds of both flywheels and which of them are coupled.
 ///
 /// Compared between two machines, builds or versions:
-/// - counts differ: the runs took different ways. An event was seen by one and missed by the other, or a step was cut
+/// - counts differ: the runs differ in their events. One located an event that the other missed, or a step was cut
 ///   elsewhere; look at the events first.
 /// - only the hash differs: the same events in the same order, but some operation rounded differently on the way (a fused
 ///   multiplication, another library, another order of terms).
@@ -32,7 +32,7 @@ impl Digest {
         self.hash.value()
     }
 
-    /// Stretches so far.
+    /// Intervals so far.
     pub fn stretches(&self) -> u32 {
         self.stretches
     }

@@ -21,7 +21,7 @@ pub struct Peaks<S> {
     pub first_counted_impact: Option<S>,
     /// Time at which the block came to rest or overturned, s from the origin.
     pub ended: Option<S>,
-    /// Time of the present piece's start from the origin, s; the caller sets it.
+    /// Time of the present ground segment's start from the origin, s; the caller sets it.
     pub origin: S,
 }
 

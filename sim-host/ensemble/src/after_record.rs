@@ -13,7 +13,7 @@ use crate::shaken::Shaken;
 const MOST_EVENTS: u32 = 1_000_000;
 
 impl Shaken {
-    /// What has become of it `free_time` (s) after its record, which ended at `duration` (s).
+    /// Its state `free_time` (s) after its record, which ended at `duration` (s).
     ///
     /// # Errors
     /// The core's.

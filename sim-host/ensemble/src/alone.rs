@@ -52,7 +52,7 @@ impl PulsedBlock {
         })
     }
 
-    /// What becomes of it, by the core: one step of one block at a time.
+    /// Its outcome by the core: one step of one block at a time.
     ///
     /// # Errors
     /// [`CaseError`] for a parameter outside its range, or a motion that cannot be followed.

@@ -1,4 +1,4 @@
-//! Several blocks from event to event.
+//! Event-driven integration of several blocks, one in each SIMD lane.
 //!
 //! Each block is looked at in the mirror that puts it on the positive side, so that an impact turns its ground motion about. A step
 //! ends at the first zero of θ̈, θ̇ or θ in it, found in this order as in [`sprag_shared::motion::ideal`]: between zeros of θ̈ the velocity
@@ -28,7 +28,7 @@ pub struct Blocks {
     pub velocity: Number,
     /// Moves outward.
     pub outward: Mask,
-    /// Is pushed outward: the sign of θ̈.
+    /// θ̈ is outward.
     pub pushed: Mask,
     /// θ̈ = 0 here, by an event just handled.
     pub at_zero: Mask,
@@ -126,7 +126,7 @@ impl Blocks {
         }
     }
 
-    /// The block in `lane` uplifts now to `side`, ±1, by a push that crosses the threshold or that has jumped beyond it.
+    /// The block in `lane` uplifts now to `side`, ±1, by a ground acceleration that crosses the threshold or that has jumped beyond it.
     #[inline]
     pub fn uplift(&mut self, lane: usize, side: f64, crossing: bool) {
         (self.rotation.0[lane], self.velocity.0[lane], self.side.0[lane]) = (0.0, 0.0, side);

@@ -1,8 +1,8 @@
-//! Many blocks at once: overturning maps, rocking spectra and fragilities at the speed of the machine's registers.
+//! SIMD ensemble of blocks: overturning maps, rocking spectra and fragilities at the speed of the machine's registers.
 //!
 //! [`blocks`] steps several blocks side by side, in lanes, by the equations of motion and the series that every other part uses;
-//! [`pulses`] keeps the lanes filled with blocks under pulses ([`pulsed`]), decides what becomes of each after its pulse by the first
-//! integral of its free motion, and hands the few that the lanes cannot settle to the core ([`alone`]). [`records`] does the same for
+//! [`pulses`] keeps the lanes filled with blocks under pulses ([`pulsed`]), decides the outcome of each after its pulse by the first
+//! integral of free rocking, and hands the few that the lanes cannot settle to the core ([`alone`]). [`records`] does the same for
 //! blocks under records ([`shaken`]), and [`after_record`] goes on from there. [`machine`] picks the widest registers of the machine
 //! that runs it: the bits of a result do not depend on them, nor on a block's neighbours.
 //!

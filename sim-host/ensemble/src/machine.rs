@@ -107,7 +107,7 @@ impl Work for UnderRecords<'_, '_> {
     }
 }
 
-/// What becomes of each of `pulsed`, in their order.
+/// Outcome of each of `pulsed`, in their order.
 ///
 /// # Errors
 /// The first [`CaseError`], with the number of its block.
@@ -125,7 +125,7 @@ pub fn run(pulsed: &[PulsedBlock], registers: Registers) -> Result<Vec<PulseResu
     Ok(results)
 }
 
-/// What their records do to each of `shaken`, in their order; `None` for those that are left to the core.
+/// What their records do to each of `shaken`, in their order; `None` for those that the core takes.
 pub fn shake(shaken: &[ShakenBlock<'_>], registers: Registers) -> Vec<Option<Shaken>> {
     let mut results = vec![None; shaken.len()];
     let kind = |block: &ShakenBlock<'_>| (block.plain.geometry, block.plain.device);

@@ -1,6 +1,4 @@
-//! The models of a block that lanes know: their equations of motion, and their first integrals after the ground has stopped.
-
-use std::marker::PhantomData;
+//! Models of the block in SIMD lanes: equations of motion, and first integrals after the ground has stopped.
 
 use sprag_shared::equation::first_integral::{FirstIntegral, FullIntegral, SlenderIntegral};
 use sprag_shared::equation::kinematics::Paper;
@@ -92,7 +90,7 @@ impl Model for FullWithInerter {
     #[inline(always)]
     fn modes(slenderness: Number, coupling: Number) -> Modes<Self::Equation> {
         let block = full(slenderness);
-        let engaged = FullInerter { block, coupling, lever: CentreOfMass, kinematics: PhantomData };
+        let engaged = FullInerter::new(block, coupling, CentreOfMass);
         Modes { released: engaged.with_coupling(number(0.0)), engaged }
     }
 

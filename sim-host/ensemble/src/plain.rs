@@ -1,11 +1,11 @@
-//! Which blocks and devices the lanes know.
+//! Blocks and devices that the lanes integrate.
 
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
 use sprag_shared::structure::mount::Mount;
 
-/// A block with an ideal device, at rest at first, of which nothing is asked but what becomes of it.
+/// A block with an ideal device, at rest at first, of which only the outcome is asked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlainBlock {
     /// Full or slender.
@@ -21,7 +21,7 @@ pub struct PlainBlock {
 }
 
 impl PlainBlock {
-    /// The block of `structure`, if its inerter turns as the lanes know it.
+    /// The block of `structure`, if the lanes have its device.
     pub fn of_structure(structure: &Structure) -> Option<PlainBlock> {
         let Structure { block, geometry, device, added_mass, restitution, .. } = structure;
         let k = device.mass_ratio / block.inertia_ratio();

@@ -1,7 +1,7 @@
 //! Values, zeros and extremes of a step's series, of several blocks at once.
 //!
-//! As [`sprag_shared::math::polynomial`], but where that one halves a stretch until it knows what lies inside, these lanes ask what is plain
-//! from the coefficients ([`shape`]), and leave the rest to shorter steps or to that core.
+//! As [`sprag_shared::math::polynomial`], but where that one halves an interval until its zeros are isolated, these lanes use what the
+//! coefficients show ([`shape`]); the rest is done by shorter steps or by the core.
 
 pub use sprag_shared::math::polynomial::{value, value_and_slope};
 use sprag_shared::math::scalar::Scalar;

@@ -1,4 +1,4 @@
-//! A dimensionless block under one cycle of a pulse, and what becomes of it.
+//! A dimensionless block under one cycle of a pulse, and its outcome.
 
 use sprag_shared::equation::clutch_rule::Clutch;
 use sprag_shared::motion::rest::free_motion::{FreeMotion, Legs};
@@ -42,7 +42,7 @@ pub struct PulsedBlock {
     pub amplitude_ratio: f64,
 }
 
-/// What becomes of it, decided without a horizon: a block that stands goes on until it rests.
+/// Its outcome, decided without a horizon: a block that stands goes on until it rests.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PulseResult {
     /// Outcome.
@@ -80,7 +80,7 @@ impl PulsedBlock {
         PulseResult { outcome: Outcome::Safe, peak_rotation: rotation / alpha, peak_acceleration: acceleration / alpha }
     }
 
-    /// What becomes of a motion that the pulse leaves at |θ| = `rotation` with the outward `velocity` and these peaks.
+    /// Outcome of a motion that the pulse leaves at |θ| = `rotation` with the outward `velocity` and these peaks.
     #[inline]
     pub(crate) fn settle<M: Model, C: Clutch>(
         &self,

@@ -24,7 +24,7 @@ const SERIES_TERMS: usize = 18;
 /// Size of the last terms of a step's series over α.
 pub const TOLERANCE: f64 = 3e-15;
 
-/// Steps of one block before it is left to the core; most take a dozen.
+/// Steps of one block before the core takes it; most take a dozen.
 const MOST_STEPS: u32 = 400;
 
 /// The pulses of the blocks in the lanes, each in its block's mirror: ü_g/g = A sin(ωt + φ).
@@ -171,7 +171,7 @@ pub(crate) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [Pu
                         if threshold.0 != block.slenderness {
                             threshold = (block.slenderness, M::uplift_threshold(block.slenderness));
                         }
-                        // A push to the positive side lifts the block to the other; the sign of the pulse only mirrors the motion.
+                        // A positive ground acceleration uplifts the block to the negative side; the sign of the pulse only mirrors the motion.
                         let amplitude = block.amplitude_ratio.abs() * threshold.1;
                         let sine = block.pulse == PulseShape::Sine;
                         slenderness.0[lane] = block.slenderness;

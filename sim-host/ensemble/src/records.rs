@@ -25,10 +25,10 @@ const SERIES_TERMS: usize = 9;
 /// Size of the last terms of a step's series over α.
 const TOLERANCE: f64 = 3e-15;
 
-/// Steps within one sample before a block is left to the core.
+/// Steps within one sample before the core takes a block.
 const MOST_STEPS: f64 = 5_000.0;
 
-/// What a lane keeps of its block beside the numbers.
+/// Data of a lane's block beside the numbers.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     index: usize,
@@ -163,7 +163,7 @@ impl<'a, 'b> Lanes<'a, 'b> {
         self.lines.time.0[lane] = time;
         (self.lines.start.0[lane], self.lines.end.0[lane]) = (block.at(sample), block.at(sample + 1));
         if M::GEOMETRY == Geometry::Slender {
-            // A slender block has no ground to lie on: it has overturned when no push that is to come brings it back.
+            // A slender block has no ground to lie on: it has overturned when no ground acceleration still to come brings it back.
             self.bounds.no_return.0[lane] = block.plain.slenderness + block.factor.abs() * block.samples.bounds[sample];
         }
     }
@@ -244,7 +244,7 @@ impl<'a, 'b> Lanes<'a, 'b> {
         }
     }
 
-    /// What has become of the block in `lane`.
+    /// Outcome of the block in `lane`.
     fn shaken(&self, place: &Place, lane: usize, phase: Phase) -> Shaken {
         let (p, side) = (self.shaken[place.index].frequency_parameter, self.blocks.side.0[lane]);
         let moves = if phase == Phase::Rest { 0.0 } else { side };

@@ -1,4 +1,4 @@
-//! Impacts that accumulate to rest under a pulse, and the push that lifts the block again.
+//! Impacts that accumulate to rest under a pulse, and the ground acceleration that uplifts the block again.
 
 use std::f64::consts::PI;
 
@@ -36,18 +36,18 @@ pub enum AfterWeakImpact {
         /// Whole half-cycles of the sine before that; if their number is even, to the side to which it lifts first.
         half_cycles: f64,
     },
-    /// The push does not let it rest.
+    /// The ground acceleration prevents rest.
     Unsettled,
 }
 
 /// The impacts that follow a weak one, which leaves a block of slenderness `alpha` (rad) with `speed` (rad; p = 1) on a side where the
-/// push is `push` (in units of the threshold, positive inward, below 1), under couplings κ k of the clutch while it moves outward and inward.
+/// ground acceleration is `push` (in units of the threshold, positive inward, below 1), under couplings κ k of the clutch while it moves outward and inward.
 pub fn tail<M: Model>(
     push: f64,
     (speed, restitution, alpha): (f64, f64, f64),
     (outward, inward): (f64, f64),
 ) -> Accumulation<f64> {
-    // Just as a block at rest, one that hardly moves is held by the rest of the threshold: |θ̈| is linear in the push.
+    // Just as a block at rest, one that hardly moves is held by the rest of the threshold: |θ̈| is linear in the ground acceleration.
     let rates = |push: f64| {
         let held = 1.0 + push;
         (held * M::rate(alpha, outward), held * M::rate(alpha, inward))

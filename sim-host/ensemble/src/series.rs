@@ -100,7 +100,7 @@ impl<const TERMS: usize> Series<TERMS> {
 }
 
 /// x to the `exponent` (0 to 1) to about 7 %, for choosing step sizes only: as [`sprag_shared::math::scalar::Real::rough_power`], from the
-/// high halves of the bits, whose conversions registers know.
+/// high halves of the bits, for which registers have conversions.
 #[inline(always)]
 fn rough_power(x: Number, exponent: f64) -> Number {
     const ONE: i32 = 0x3ff0_0000;

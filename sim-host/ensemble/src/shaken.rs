@@ -1,4 +1,4 @@
-//! A block under a record: what shakes it, when it uplifts, and what has become of it.
+//! A block under a record: its parameters, its uplift and its outcome.
 
 use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::peaks::Peaks;
@@ -7,7 +7,7 @@ use sprag_shared::structure::block::Block;
 use crate::plain::PlainBlock;
 use sprag_shared::observers::outcome::Outcome;
 
-/// How close to the threshold a push that has jumped beyond it is left to the core: there rounding decides whether the block uplifts.
+/// Distance to the threshold below which the core takes a ground acceleration that has jumped above it: there rounding decides whether the block uplifts.
 pub(crate) const DOUBTFUL_UPLIFT: f64 = 1e-9;
 
 /// A record as blocks feel it: straight lines between samples.
@@ -110,7 +110,7 @@ pub(crate) struct Uplift {
     pub(crate) time: f64,
     /// ±1.
     pub(crate) side: f64,
-    /// The push crosses the threshold, or has jumped beyond it.
+    /// The ground acceleration crosses the threshold, or has jumped above it.
     pub(crate) crossing: bool,
 }
 
@@ -145,7 +145,7 @@ impl ShakenBlock<'_> {
         (start, (self.at(sample + 1) - start) / self.step())
     }
 
-    /// The first uplift from `time` after `sample` on, where the push is not beyond the `threshold`; or that it is there, hardly.
+    /// The first uplift from `time` after `sample` on, where the ground acceleration is not above the `threshold`; or that it is there, hardly.
     pub(crate) fn next_uplift(&self, sample: usize, time: f64, threshold: f64) -> Result<Option<Uplift>, Doubtful> {
         let (start, slope) = self.line(sample);
         let now = start + slope * time;

@@ -1,6 +1,5 @@
 //! The structure of a closed loop: any device that takes commands, followed over the ground motion a short piece at a time.
 
-use sprag_shared::drivetrain::clutch_state::Coupling;
 use sprag_shared::equation::body::Body;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::fixed::FixedStep;
@@ -189,7 +188,7 @@ impl<'a> Plant<'a> {
             motion: self.state.motion,
             push: self.push(),
             ground: now.ground,
-            engaged: self.state.device.wheels.map(|wheel| wheel.coupling != Coupling::Open),
+            engaged: self.state.device.wheels.map(|wheel| wheel.coupling.is_engaged()),
             spins: now.spin,
             missed: self.state.device.missed,
         }

@@ -20,7 +20,10 @@ pub const ENGAGEMENT: Effect = Effect {
     }],
     of_device: true,
     is_on: |scene, index| {
-        let on = matches!(scene.devices[index].drivetrain.engagement, Engagement::Rigid | Engagement::Overrunning);
+        let on = match scene.devices[index].drivetrain.engagement {
+            Engagement::Rigid | Engagement::Overrunning => true,
+            Engagement::Ideal | Engagement::Friction { .. } | Engagement::Elastic { .. } => false,
+        };
         on.then(|| settings(scene, index, ENGAGEMENT.keys))
     },
 };
@@ -45,8 +48,10 @@ pub const CLUTCH: Effect = Effect {
     ],
     of_device: true,
     is_on: |scene, index| {
-        let engagement = scene.devices[index].drivetrain.engagement;
-        let on = matches!(engagement, Engagement::Friction { .. } | Engagement::Elastic { .. });
+        let on = match scene.devices[index].drivetrain.engagement {
+            Engagement::Friction { .. } | Engagement::Elastic { .. } => true,
+            Engagement::Ideal | Engagement::Rigid | Engagement::Overrunning => false,
+        };
         on.then(|| settings(scene, index, CLUTCH.keys))
     },
 };

@@ -23,12 +23,12 @@ pub(super) fn flywheels(subject: &Subject<'_>) -> Vec<String> {
             lines.push("ẇᵢ = Fᵢ/m_r − c wᵢ − (d + b) sgn wᵢ,  wᵢ the speed of a rack that would move with flywheel i".to_owned());
             true
         }
-        (DeviceKind::ClutchedPair, _) => {
+        (DeviceKind::ClutchedPair, Engagement::Rigid | Engagement::Overrunning | Engagement::Friction { .. }) => {
             lines.push("a locked flywheel moves with the rack, wᵢ = R ℓ θ̇; any other by".to_owned());
             lines.push("ẇᵢ = Fᵢ/m_r − c wᵢ − (d + b) sgn wᵢ,  wᵢ the speed of a rack that would move with flywheel i".to_owned());
             true
         }
-        _ => {
+        (DeviceKind::None | DeviceKind::Inerter, _) => {
             lines.push("the flywheel always moves with the rack, w = R ℓ θ̇".to_owned());
             false
         }
@@ -89,27 +89,23 @@ pub(super) fn engagement(subject: &Subject<'_>) -> Vec<String> {
     }
     let drivetrain = &subject.device.drivetrain;
     let turns = "the first flywheel works on positive motion, the second on negative";
-    if drivetrain.engagement == Engagement::Overrunning {
-        return vec![
-            format!("nobody commands it; {turns}"),
-            "a flywheel holds while it resists, lets go when it would drive the block, and holds again when the block catches up"
-                .to_owned(),
-        ];
-    }
-    let mut lines = vec![format!("commanded while acceleration and velocity of the terminals have one sign (Eq. 10); {turns}")];
-    lines.push(
-        match drivetrain.engagement {
-            Engagement::Ideal => "a stopped flywheel takes on the rack's speed without a loss of momentum",
-            Engagement::Rigid => {
-                "block and flywheel exchange momentum: (λ + (K + σ) ℓ²) θ̇⁺ = (λ + K ℓ²) θ̇⁻ + σ ℓ w/R, K already locked"
-            }
-            Engagement::Friction { .. } => "plates slip until flywheel and rack have one speed: no jump",
-            Engagement::Elastic { .. } | Engagement::Overrunning => {
-                "the spring starts without twist, in the middle of the backlash: no jump"
-            }
+    let start = match drivetrain.engagement {
+        Engagement::Overrunning => {
+            return vec![
+                format!("nobody commands it; {turns}"),
+                "a flywheel holds while it resists, lets go when it would drive the block, and holds again when the block catches up"
+                    .to_owned(),
+            ];
         }
-        .to_owned(),
-    );
+        Engagement::Ideal => "a stopped flywheel takes on the rack's speed without a loss of momentum",
+        Engagement::Rigid => {
+            "block and flywheel exchange momentum: (λ + (K + σ) ℓ²) θ̇⁺ = (λ + K ℓ²) θ̇⁻ + σ ℓ w/R, K already locked"
+        }
+        Engagement::Friction { .. } => "plates slip until flywheel and rack have one speed: no jump",
+        Engagement::Elastic { .. } => "the spring starts without twist, in the middle of the backlash: no jump",
+    };
+    let mut lines = vec![format!("commanded while acceleration and velocity of the terminals have one sign (Eq. 10); {turns}")];
+    lines.push(start.to_owned());
     let Actuation { engagement_delay, release_delay, delay, rise_time, dwell, miss_probability, miss_seed } =
         drivetrain.actuation;
     if drivetrain.actuation != Actuation::default() {

@@ -115,13 +115,14 @@ impl Scene {
 /// Released flywheels that spin on for ever because nothing is said of what slows them down.
 fn of_coasting(table: &DeviceTable, device: &SceneDevice, index: usize) -> Option<(String, String)> {
     let engagement = device.drivetrain.engagement;
-    if table.kind != Kind::ClutchedPair || engagement == Engagement::Ideal || table.flywheel.is_some() {
+    if table.kind != Kind::ClutchedPair || table.flywheel.is_some() {
         return None;
     }
-    let (key, given) = match (&table.clutch, engagement) {
-        (Some(_), _) => ("clutch", "is given"),
-        (None, Engagement::Overrunning) => ("engagement", "is \"overrunning\""),
-        (None, _) => ("engagement", "is \"rigid\""),
+    let (key, given) = match engagement {
+        Engagement::Ideal => return None,
+        Engagement::Rigid => ("engagement", "is \"rigid\""),
+        Engagement::Overrunning => ("engagement", "is \"overrunning\""),
+        Engagement::Friction { .. } | Engagement::Elastic { .. } => ("clutch", "is given"),
     };
     let cure = if engagement == Engagement::Overrunning {
         format!("set device.{index}.flywheel.viscous_rate_1_s or dry_deceleration_m_s2")

@@ -102,7 +102,9 @@ fn trace<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, clutch: ClutchRule
             let (before, was_moving) = (state.side, state != TimeSteppingState::at_rest());
             state = match steps.method {
                 MethodName::SemiImplicitEuler => block.semi_implicit_euler(state, push, end - time),
-                _ => block.runge_kutta_4(state, [push, piece.acceleration(S::HALF * (time + end)), push_at_end], end - time),
+                MethodName::RungeKutta4 | MethodName::Taylor | MethodName::ExponentialMidpoint => {
+                    block.runge_kutta_4(state, [push, piece.acceleration(S::HALF * (time + end)), push_at_end], end - time)
+                }
             };
             time = end;
             let at = origin + time.to_f64();

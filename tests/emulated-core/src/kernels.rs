@@ -7,7 +7,7 @@ mod accuracy;
 mod controller;
 mod devices;
 
-use core::{fmt, hint::black_box, marker::PhantomData};
+use core::{fmt, hint::black_box};
 use sprag_shared::{
     equation::{
         Equation, FullBlock, FullInerter, SlenderBlock, any_equation::AnyEquation, clutch_rule::ClutchRule, kinematics::Paper,
@@ -47,7 +47,7 @@ const STEP: f32 = 0.005;
 const BLOCK: FullBlock<f32> = FullBlock { frequency_squared: FREQUENCY_SQUARED, slenderness: SLENDERNESS };
 
 const fn inerter(coupling: f32) -> Inerter {
-    FullInerter { block: BLOCK, coupling, lever: CentreOfMass, kinematics: PhantomData }
+    FullInerter::new(BLOCK, coupling, CentreOfMass)
 }
 
 const fn slender(inertia: f32) -> SlenderBlock<f32> {

@@ -1,10 +1,10 @@
-//! The slender block's motion in closed form: exact to rounding, however long the step.
+//! Closed form of the slender block's motion: exact to rounding, however long the step.
 //!
 //! Between two events θ̈ = p_σ² (θ − αs − ü), with ü in g, is linear. Over a time τ from the step's start (index 0)
 //!
 //! θ = θ₀ + θ̇₀ sinh(pτ)/p + θ̈₀ (cosh pτ − 1)/p² + f(τ),  f̈ = p² (f − \[ü(τ) − ü₀\]), f and ḟ zero at 0:
 //!
-//! the motion that goes on by itself and the answer to the *change* of the ground's push. With
+//! the free motion and the response to the *change* of the ground's acceleration. With
 //! ü − ü₀ = b τ + Σ \[ a (cos ωτ − 1) + c sin ωτ \]
 //!
 //! f = −b (sinh(pτ)/p − τ) + Σ p²/(p²+ω²) \[ a (ω²(cosh pτ − 1)/p² − 1 + cos ωτ) − c (ω sinh(pτ)/p − sin ωτ) \].
@@ -15,8 +15,8 @@
 //! θ̈ has a bounded second derivative with a simple bound, so its zeros are located with the proof that the Taylor method has,
 //! and none is missed however long the step.
 //!
-//! It applies to slender blocks under pieces that are [`Elementary`]: straight lines and sines, so records, pulses and
-//! Mavroeidis-Papageorgiou wavelets. [`ClosedForm::applies`] tells beforehand. Anywhere else ([`Ricker`](crate::ground::Ricker)'s wavelet, the full model)
+//! It applies to slender blocks under ground segments that are [`Elementary`]: straight lines and sines, so records, pulses and
+//! Mavroeidis-Papageorgiou wavelets. [`ClosedForm::applies`] checks this. Anywhere else ([`Ricker`](crate::ground::Ricker)'s wavelet, the full model)
 //! the method takes the Runge-Kutta step of the same length: never wrong, but of order 4.
 
 use crate::equation::any_equation::AnyEquation;
@@ -30,7 +30,7 @@ use crate::math::stumpff;
 use crate::method::dense_output::{DenseOutput, Integrator, StepStart};
 use crate::method::fixed::{FixedOutput, FixedStep};
 
-/// Longest arc, in 1/p_σ: what comes later in a step is another arc, so that e^{pτ} stays small and the bounds tight.
+/// Longest step, in 1/p_σ, so that e^{pτ} stays small and the bounds tight.
 const LONGEST: f64 = 4.0;
 
 /// The closed form, step by step.
@@ -86,7 +86,7 @@ pub struct SlenderArc<S> {
     /// dθ̈/dτ at the start.
     jerk: S,
     end: Motion<S>,
-    /// Bound of d²θ̈/dτ² over the arc.
+    /// Bound of d²θ̈/dτ² over the step.
     curvature: S,
 }
 

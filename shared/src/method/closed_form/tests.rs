@@ -122,7 +122,7 @@ fn motions() -> Vec<Vec<Segment>> {
         vec![Segment::sine(0.5, 3.0, core::f64::consts::FRAC_PI_2), quiet],
         vec![Segment::wavelet(1.4, 0.4, 0.6), quiet],
         record.collect(),
-        // Long and fast, so that arcs hold many zeros of θ̈.
+        // Long and fast, so that steps hold many zeros of θ̈.
         vec![Segment { duration: 9.0, ..Segment::sine(0.9, 11.0, 0.4) }, quiet],
     ]
 }
@@ -251,7 +251,7 @@ fn boundary(kind: DeviceKind, near: f64, pulse: impl Fn(f64) -> Segment) -> f64 
     high
 }
 
-/// Boundaries that are known in closed form, with one arc for each event.
+/// Boundaries that are known in closed form, with one step for each event.
 #[test]
 fn overturning_boundaries() {
     for (kind, p) in [(DeviceKind::None, 1.0), (DeviceKind::Inerter, square_root(1.0 / 1.375))] {

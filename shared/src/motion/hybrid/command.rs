@@ -1,4 +1,4 @@
-//! From the signs of Eq. 10 to a clutch that has moved: commands, delays, dwell and commands that are missed.
+//! Actuation of the clutch: commands by the signs of Eq. 10, delays, dwell and missed commands.
 
 use super::{HybridState, HybridSystem};
 use crate::drivetrain::clutch_state::{Coupling, FlywheelState, Guard};
@@ -59,7 +59,7 @@ const MOST_ANSWERS: usize = 4;
 
 /// Until a rising capacity is full, or overcomes the friction that holds a standing flywheel.
 fn ramp_due<S: Real>(parameters: &ScaledParameters<S>, wheel: &FlywheelState<S>, block_held: bool) -> Option<S> {
-    if wheel.coupling == Coupling::Open || wheel.engaged_for >= parameters.rise_time {
+    if !wheel.coupling.is_engaged() || wheel.engaged_for >= parameters.rise_time {
         return None;
     }
     let full = parameters.rise_time - wheel.engaged_for;
@@ -67,7 +67,7 @@ fn ramp_due<S: Real>(parameters: &ScaledParameters<S>, wheel: &FlywheelState<S>,
     let held = match wheel.coupling {
         Coupling::Slipping(_) | Coupling::Saturated(_) | Coupling::Elastic(_) => wheel.turning.is_none(),
         Coupling::Locked => block_held,
-        _ => false,
+        Coupling::Open | Coupling::InPlay => false,
     };
     if !held || parameters.standing_friction(wheel).1 == S::ZERO {
         return Some(full);
@@ -76,7 +76,7 @@ fn ramp_due<S: Real>(parameters: &ScaledParameters<S>, wheel: &FlywheelState<S>,
 }
 
 impl<S: Real> HybridSystem<S> {
-    /// Gives the commands that the present signs ask for, and carries out those that are due.
+    /// Gives the commands that the present signs ask for, and executes those that are due.
     pub(super) fn command(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         if !self.transmission.traits().commanded || state.motion.phase != Phase::Rocking {
             return;
@@ -136,7 +136,7 @@ impl<S: Real> HybridSystem<S> {
         }
     }
 
-    /// A controller's command to each clutch, at local time 0 of the piece of ground motion that follows. It takes effect after the
+    /// A controller's command to each clutch, at local time 0 of the ground segment that follows. It takes effect after the
     /// delay, at once where there is none.
     pub fn order(&self, state: &mut HybridState<S>, wanted: [bool; 2], observer: &mut dyn DeviceObserver<S>) {
         // What is to be released is released first, so that two that change places are never both engaged.
@@ -185,7 +185,7 @@ impl<S: Real> HybridSystem<S> {
             return;
         }
         wheel.commanded = engage;
-        let open = wheel.coupling == Coupling::Open;
+        let open = !wheel.coupling.is_engaged();
         let delay = if engage {
             device.engagements += 1;
             wheel.obeys = !self.actuator.misses(device.engagements);
@@ -216,7 +216,7 @@ impl<S: Real> HybridSystem<S> {
         let wheel = &mut state.device.wheels[index];
         let engage = self.due_command(wheel);
         // By a transport delay a command may find the clutch as it shall be: the one before it was missed.
-        let moves = engage == (wheel.coupling == Coupling::Open);
+        let moves = engage != wheel.coupling.is_engaged();
         if moves {
             (wheel.dwell, wheel.engaged_for) = (self.actuator.dwell, S::ZERO);
         }
@@ -256,7 +256,7 @@ impl<S: Real> HybridSystem<S> {
         let Some(due) = self.next_due(state) else { return stop };
         let stop = stop.smaller(time + due);
         if stop <= time {
-            // What the clock cannot tell from now is due now.
+            // What is due within rounding of now is due now.
             state.device.elapse(due);
         }
         stop
@@ -266,7 +266,7 @@ impl<S: Real> HybridSystem<S> {
     pub(super) fn ramps(&self, state: &mut HybridState<S>) {
         let Some(parameters) = self.transmission.parameters().filter(|parameters| parameters.rise_time > S::ZERO) else { return };
         for wheel in &mut state.device.wheels {
-            if let (Coupling::Slipping(sign) | Coupling::Saturated(sign), None) = (wheel.coupling, wheel.turning) {
+            if let (Some(sign), None) = (wheel.coupling.slip_sign(), wheel.turning) {
                 let capacity = parameters.capacity_of(wheel).0;
                 parameters.settle(wheel, sign.times(rounded_up(capacity)));
             }

@@ -1,4 +1,4 @@
-//! Events that crowd: how a graze is told from a motion, and what is reported of one that does not end.
+//! Limits on crowded events (chattering): detection of a graze, and the error of one that does not end.
 
 use super::HybridState;
 use crate::drivetrain::clutch_state::Coupling;
@@ -12,21 +12,21 @@ pub(super) const MOST_AT_ONCE: u32 = 16;
 /// How far apart events at once are, in 1/p.
 pub(super) const AT_ONCE: f64 = 1e-9;
 
-/// How far a graze is followed without guards, in 1/p: what they watch stays below the square of that.
+/// How far a graze is followed without guards, in 1/p: their values stay below the square of that.
 pub(super) const GRAZE: f64 = 1e-6;
 
 /// The error of a state that events do not let go.
 pub(super) fn too_many<S: Real>(state: &HybridState<S>, time: S) -> Stopped {
-    let has = |is: fn(&Coupling) -> bool| state.device.wheels.iter().any(|wheel| is(&wheel.coupling));
+    let has = |is: fn(Coupling) -> bool| state.device.wheels.iter().any(|wheel| is(wheel.coupling));
     let mode = if state.motion.phase == Phase::Rest {
         "the block stands"
     } else if state.held {
         "friction holds the block"
-    } else if has(|coupling| matches!(coupling, Coupling::Slipping(_) | Coupling::Saturated(_))) {
+    } else if has(|coupling| coupling.slip_sign().is_some()) {
         "a clutch slips"
-    } else if has(|coupling| matches!(coupling, Coupling::InPlay | Coupling::Elastic(_))) {
+    } else if has(Coupling::has_twist) {
         "a clutch stretches"
-    } else if has(|coupling| *coupling == Coupling::Locked) {
+    } else if has(Coupling::is_engaged) {
         "a clutch holds"
     } else {
         "the clutches are open"

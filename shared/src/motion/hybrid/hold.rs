@@ -1,9 +1,9 @@
-//! Dry friction of rack and bearings may hold a block: tilted, where it turns, or on its base, where clutches engage as it starts.
+//! Sticking of the block by dry friction of rack and bearings: tilted, where it turns, or on its base, where clutches engage as it starts.
 
 use super::mode_output::{ModeIntegrator, Shaking};
 use super::threshold::{Threshold, earlier};
 use super::{HybridState, HybridSystem};
-use crate::drivetrain::clutch_state::{Coupling, FlywheelState, Guard, ModeCoefficients};
+use crate::drivetrain::clutch_state::{Guard, ModeCoefficients};
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -35,7 +35,7 @@ impl<S: Real> HybridSystem<S> {
         }
     }
 
-    /// Follows a held block until the push is strong enough or `stop`. Returns the time.
+    /// Follows a held block until the ground overcomes friction or `stop`. Returns the time.
     pub(super) fn hold(
         &self,
         state: &mut HybridState<S>,
@@ -52,7 +52,7 @@ impl<S: Real> HybridSystem<S> {
         if until > time {
             self.show_still(state, &|t| shaking.at(time + t), time, until - time, observer);
         }
-        // What the clock cannot tell from now still stops a flywheel.
+        // A stop within rounding of now still stops a flywheel.
         self.idle(state, length);
         state.ground = shaking.at(until);
         match end {
@@ -112,11 +112,9 @@ impl<S: Real> HybridSystem<S> {
         goes
     }
 
-    /// A clutch stretches or plays, so that its flywheel swings while the block is held.
+    /// An elastic clutch is engaged, so that its flywheel swings while the block is held.
     pub(super) fn has_springs(&self, state: &HybridState<S>) -> bool {
-        let stiff =
-            |wheel: &FlywheelState<S>| matches!(wheel.coupling, Coupling::Open | Coupling::Locked | Coupling::Slipping(_));
-        self.transmission.traits().springs && !state.device.wheels.iter().all(stiff)
+        self.transmission.traits().springs && state.device.wheels.iter().any(|wheel| wheel.coupling.has_twist())
     }
 
     /// The equations of a held block: what its springs do moves flywheels alone, until they or the ground overcome the rack's friction.
@@ -166,7 +164,7 @@ impl<S: Real> HybridSystem<S> {
 /// What lets a held block go.
 #[derive(Clone, Copy, Debug)]
 enum LetGo {
-    /// The push overcomes friction.
+    /// The ground overcomes friction.
     Moves {
         /// Towards.
         sign: Sign,

@@ -1,4 +1,4 @@
-//! What an impact does to block and device, and how impacts that accumulate end in rest.
+//! Impact of a block with a device, and the decision between rocking and rest after it.
 
 use super::mode_output::Shaking;
 use super::{HybridState, HybridSystem};
@@ -94,7 +94,7 @@ impl<S: Real> HybridSystem<S> {
         }
     }
 
-    /// The ground may have jumped between two pieces.
+    /// The ground may have jumped between two ground segments.
     pub(super) fn ground_at_start(&self, state: &mut HybridState<S>, ground: [S; 2], observer: &mut dyn DeviceObserver<S>) {
         let jump = (ground[0] - state.ground[0]).abs().larger((ground[1] - state.ground[1]).abs());
         state.ground = ground;

@@ -1,8 +1,8 @@
-//! A rocking block whose device has a memory: flywheels that keep spinning, clutches that slip, stretch and come late.
+//! Event-driven integration of a block whose device has a memory: flywheels that spin on, clutches that slip, elastic clutches, delays.
 //!
-//! Such a system is hybrid: smooth motion in one mode, until a watched function reaches zero and another mode takes over. Every
-//! event is located on the path ([`mode_output`]), and every mode is left in one that is consistent at that instant. Ideal devices have
-//! a loop of their own ([`crate::motion::ideal`]) that knows none of this; both agree where both apply.
+//! Such a system is hybrid: smooth motion in one mode, until a guard reaches zero and another mode takes over. Every
+//! event is located in the dense output ([`mode_output`]), and every mode is left in one that is consistent at that instant. Ideal devices have
+//! a loop of their own ([`crate::motion::ideal`]) without modes; both agree where both apply.
 //!
 //! As there, signs are part of the state, so that an event just handled is not found again.
 //!
@@ -72,9 +72,9 @@ pub struct HybridState<S> {
     pub device: DeviceState<S>,
     /// Friction holds the block: tilted, at a turn, or on its base, where clutches engaged as it started.
     pub held: bool,
-    /// Ground acceleration at the end of the last piece, in g.
+    /// Ground acceleration at the end of the last ground segment, in g.
     pub ground: [S; 2],
-    /// The watched functions that are zero here, by an event just handled.
+    /// The guards that are zero here, by an event just handled.
     fresh: [bool; GUARDS],
     /// What moves a block that stood has just passed what held it.
     free: bool,
@@ -122,7 +122,7 @@ impl<S: Real> HybridSystem<S> {
         state
     }
 
-    /// Follows block and device over a piece of ground motion from its local time 0 to `duration` (s), telling `observer`
+    /// Follows block and device over a ground segment from its local time 0 to `duration` (s), giving `observer`
     /// of every interval and event.
     ///
     /// # Errors
@@ -208,7 +208,7 @@ impl<S: Real> HybridSystem<S> {
         observer: &mut dyn DeviceObserver<S>,
     ) {
         let motion = &state.motion;
-        // Without springs a held block has no path.
+        // Without springs a held block needs no step.
         let traits = self.transmission.traits();
         let held = traits.springs && state.held;
         let watched = if state.jolted { motion.terminal_acceleration_sign.opposite() } else { motion.terminal_acceleration_sign };
@@ -278,7 +278,7 @@ impl<S: Real> HybridSystem<S> {
             (end, last) = (End::Overturned, output.at(until));
         }
         let first = output.at(S::ZERO);
-        let engaged = state.device.wheels.iter().any(|wheel| wheel.coupling != Coupling::Open);
+        let engaged = state.device.wheels.iter().any(|wheel| wheel.coupling.is_engaged());
         let interval = MonotoneInterval {
             start: *time,
             from: S::ZERO,
@@ -343,7 +343,7 @@ impl<S: Real> HybridSystem<S> {
                     Guard::Command(_) => motion.terminal_acceleration_sign = motion.terminal_acceleration_sign.opposite(),
                     watch => self.with_instant(state, *time, observer, |transmission, at| transmission.reached(at, watch)),
                 }
-                // Whatever is watched of a flywheel may be zero where its mode changes.
+                // Any guard of a flywheel may be zero where its mode changes.
                 for (other, fresh) in state.fresh.iter_mut().enumerate() {
                     *fresh |= (other == 0) == (index == 0) && other % 2 == index % 2;
                 }
@@ -365,7 +365,7 @@ impl<S: Real> HybridSystem<S> {
         }
     }
 
-    /// Lets the device answer an event, and tells of a change of its coupling.
+    /// Answer of the device to an event; a change of its coupling is reported.
     fn with_instant(
         &self,
         state: &mut HybridState<S>,
@@ -394,8 +394,7 @@ impl<S: Real> HybridSystem<S> {
             }
         }
         let after = state.device.wheels.map(|wheel| wheel.coupling);
-        let open = |wheels: [Coupling; 2]| wheels.map(|coupling| coupling == Coupling::Open);
-        if open(before) != open(after) {
+        if before.map(Coupling::is_engaged) != after.map(Coupling::is_engaged) {
             observer.device_event(Event::Switch, time, &state.motion);
         } else if before != after {
             observer.device_event(Event::Coupling, time, &state.motion);
@@ -408,7 +407,7 @@ impl<S: Real> HybridSystem<S> {
         self.with_instant(state, time, observer, |transmission, at| transmission.settle(at));
     }
 
-    /// Block and device as they are, under the ground's acceleration at the end of the last piece.
+    /// Block and device as they are, under the ground's acceleration at the end of the last ground segment.
     pub fn now(&self, state: &HybridState<S>) -> Snapshot<S> {
         let law = self.transmission.law(state.motion.direction, state.motion.terminal_acceleration_sign, &state.device);
         let unknowns = self.transmission.load(&state.device);
@@ -420,7 +419,7 @@ impl<S: Real> HybridSystem<S> {
         self.snapshot(&law, state, motion, unknowns, state.ground, S::ZERO)
     }
 
-    /// What an equation needs to know of an instant.
+    /// The evaluation point of an instant.
     fn point<'a>(
         &'a self,
         law: &'a ModeCoefficients<S>,
@@ -434,7 +433,7 @@ impl<S: Real> HybridSystem<S> {
         EvaluationPoint { body: &self.body, law, configuration, velocity: motion.velocity, unknowns, ground, clock }
     }
 
-    /// Block and device at an instant, for watchers.
+    /// Snapshot of block and device at an instant, for observers.
     fn snapshot(
         &self,
         law: &ModeCoefficients<S>,

@@ -1,4 +1,4 @@
-//! The motion of a block and its device over one step, as a method sees it.
+//! Mode output: dense output over one step with the unknowns and guards of a device.
 
 use crate::drivetrain::any_transmission::{AnyTransmission, each_transmission};
 use crate::drivetrain::clutch_state::ModeCoefficients;
@@ -11,12 +11,12 @@ use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
 
-/// Horizontal and vertical ground motion over one piece.
+/// Horizontal and vertical ground motion over one ground segment.
 #[derive(Clone, Copy, Debug)]
 pub struct Shaking<'a, S> {
     /// Horizontal.
     pub horizontal: &'a dyn GroundSegment<S>,
-    /// Vertical, for a body that knows of it.
+    /// Vertical, for a body that has it.
     pub vertical: Option<&'a dyn GroundSegment<S>>,
 }
 
@@ -50,13 +50,13 @@ pub struct ModeStart<'a, S> {
     pub velocity: S,
     /// The device's unknowns.
     pub unknowns: [S; UNKNOWNS],
-    /// Local time in the piece, s.
+    /// Local time in the ground segment, s.
     pub time: S,
     /// How far the step may reach, s; above 0.
     pub length: S,
     /// The block has just been set free where what moves it passed what held it: θ̈ has the direction of the motion, or is zero.
     pub freed: bool,
-    /// Friction holds the block: θ̈ = 0, whatever acts. Only devices with springs have a path then.
+    /// Friction holds the block: θ̈ = 0, whatever acts. Only devices with springs take steps then.
     pub held: bool,
     /// Size of a rotation that matters (rad), for tolerances.
     pub scale: S,
@@ -114,7 +114,7 @@ impl<S: Real> ModeStart<'_, S> {
         self.shaking.at(self.time + time)
     }
 
-    /// θ̈ at the start, from the equation's `acceleration`: the rounding of a zero must not push a freed block back.
+    /// θ̈ at the start, from the equation's `acceleration`: the rounding of a zero must not accelerate a freed block backwards.
     #[inline(always)]
     pub fn first(&self, acceleration: S) -> S {
         if self.freed && self.law.direction * acceleration < S::ZERO { S::ZERO } else { acceleration }
@@ -148,7 +148,7 @@ impl<S: Real, B: Body<S>, D> KnownModeStart<'_, S, B, D> {
         (if self.is_held() { S::ZERO } else { acceleration }, rates)
     }
 
-    /// Watched function `index`, where θ̈ is `acceleration`.
+    /// Guard `index`, where θ̈ is `acceleration`.
     #[inline(always)]
     pub fn guard<const X: usize, const G: usize>(&self, index: usize, at: &Place<S, X>, acceleration: S) -> S
     where
@@ -186,12 +186,12 @@ impl<S: Real, const X: usize> Place<S, X> {
 
 /// The motion from a [`ModeStart`] over times from 0 to [`DenseOutput::length`]. Zeros are sought in (0, `to`].
 ///
-/// The defaults see what the ends of the step show; a method with a series overrides them and proves its answers.
+/// The defaults use the ends of the step; a method with a series overrides them and proves its answers.
 pub trait ModeOutput<S: Real>: DenseOutput<S> {
     /// The device's unknowns at `time`.
     fn unknowns(&self, time: S) -> [S; UNKNOWNS];
 
-    /// Watched function `index` at `time`.
+    /// Guard `index` at `time`.
     fn guard(&self, index: usize, time: S) -> S;
 
     /// First zero of θ̇, which has the sign `sign` just after the start, and is zero there with `from_zero`.
@@ -201,7 +201,7 @@ pub trait ModeOutput<S: Real>: DenseOutput<S> {
         (sign.times(end) < S::ZERO).then(|| illinois(S::ZERO, to, sign, |t| self.at(t).velocity))
     }
 
-    /// First zero of watched function `index`, positive just after the start.
+    /// First zero of guard `index`, positive just after the start.
     fn guard_zero(&self, index: usize, to: S, from_zero: bool) -> Option<S> {
         let _ = from_zero;
         let positive = Sign::Positive;
@@ -218,12 +218,12 @@ pub trait ModeOutput<S: Real>: DenseOutput<S> {
 
 /// A way to integrate a block with a device.
 pub trait ModeIntegrator<S: Real> {
-    /// Its paths.
+    /// Its mode output.
     type Output<'a>: ModeOutput<S>
     where
         Self: 'a;
 
-    /// The path from `start`.
+    /// The step from `start`.
     fn integrate<'a>(&'a self, start: &'a ModeStart<'a, S>) -> Self::Output<'a>;
 
     /// The fixed step (s), if it has one.

@@ -1,4 +1,4 @@
-//! From the parameters of a block and its drivetrain to their equations, as [`Structure::resolve`] for ideal devices.
+//! Resolution of the parameters of block and drivetrain into their equations, as [`Structure::resolve`] for ideal devices.
 
 use super::{Actuator, HybridSystem};
 use crate::drivetrain::any_transmission::AnyTransmission;

@@ -1,4 +1,4 @@
-//! What watchers see: a block on its path, and one that does not move.
+//! Snapshots for observers: along the mode output, and of a block that does not move.
 
 use super::mode_output::{ModeOutput, Shaking};
 use super::{HybridState, HybridSystem};
@@ -9,7 +9,7 @@ use crate::method::dense_output::DenseOutput;
 use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
 use crate::motion::state::BlockState;
 
-/// A path as watchers see it.
+/// Mode output with snapshots.
 pub(super) struct Seen<'a, S, A> {
     pub(super) machine: &'a HybridSystem<S>,
     pub(super) output: &'a A,

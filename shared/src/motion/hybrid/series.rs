@@ -1,5 +1,5 @@
-//! The Taylor method for a block with a device: one power series for every unknown and every watched function, and with
-//! them events to the last bits ([`crate::method::taylor`]).
+//! The Taylor method for a block with a device: one power series for every unknown and every guard
+//! ([`crate::method::taylor`]).
 
 use core::cell::Cell;
 
@@ -51,7 +51,7 @@ pub struct SeriesModeOutput<S, const N: usize> {
     guards: [[S; N]; GUARDS],
 }
 
-/// The coefficients of a path, order by order.
+/// The coefficients of a step's power series, order by order.
 struct Expansion<'a, S, const N: usize> {
     tape: &'a Tape<S, N, SLOTS>,
     output: &'a mut SeriesModeOutput<S, N>,

@@ -1,4 +1,4 @@
-//! A block that stands on its base: what uplifts it, and what may still hold it there.
+//! Uplift of a standing block with a device.
 
 use super::mode_output::Shaking;
 use super::seen::Still;
@@ -44,7 +44,7 @@ impl<S: Real> HybridSystem<S> {
         }
         self.with_instant(state, time, observer, |_, at| {
             for wheel in 0..2 {
-                if at.device.wheels[wheel].coupling != Coupling::Open {
+                if at.device.wheels[wheel].coupling.is_engaged() {
                     open(parameters, at, wheel);
                 }
                 let wheel = &mut at.device.wheels[wheel];
@@ -82,7 +82,7 @@ impl<S: Real> HybridSystem<S> {
     ) {
         let BlockState { rotation, velocity, side, direction, .. } = state.motion;
         let still = Motion { rotation, velocity, acceleration: S::ZERO };
-        let engaged = state.device.wheels.iter().any(|wheel| wheel.coupling != Coupling::Open);
+        let engaged = state.device.wheels.iter().any(|wheel| wheel.coupling.is_engaged());
         let interval =
             MonotoneInterval { start: time, from: S::ZERO, to: length, first: still, last: still, engaged, side, direction };
         let output = Still { machine: self, state, ground, length };
@@ -93,7 +93,7 @@ impl<S: Real> HybridSystem<S> {
         }
     }
 
-    /// `time` (s), or when before that a flywheel comes to a stop, if the block does not move: it kinks the powers that watchers integrate.
+    /// `time` (s), or when before that a flywheel comes to a stop, if the block does not move: it kinks the powers that observers integrate.
     pub(super) fn until_stop(&self, state: &HybridState<S>, time: S) -> S {
         let Some(parameters) = self.transmission.parameters() else { return time };
         let stops = state.device.wheels.iter().filter_map(|wheel| parameters.stops_within(wheel, time));
@@ -134,14 +134,14 @@ impl<S: Real> HybridSystem<S> {
         stop
     }
 
-    /// First instant in [`from`, `to`) at which the ground pushes a standing block harder than its weight holds it, and whether
+    /// First instant in [`from`, `to`) at which the ground acceleration exceeds a standing block's uplift threshold, and whether
     /// it gets there by crossing that threshold.
     pub(super) fn uplift_time(&self, state: &HybridState<S>, shaking: Shaking<'_, S>, from: S, to: S) -> Option<(S, bool)> {
         let first = |side| self.breakaway(state, side, side).exceeded(shaking, from, to);
         earlier([Sign::Positive, Sign::Negative].map(first))
     }
 
-    /// Sets the block in motion, to the side to which the ground pushes it. Clutches that engage as it starts may hold it.
+    /// Sets the block in motion, to the side to which the ground turns it. Clutches that engage as it starts may hold it.
     pub(super) fn uplift(
         &self,
         state: &mut HybridState<S>,
@@ -195,7 +195,7 @@ impl<S: Real> HybridSystem<S> {
         }
     }
 
-    /// A block that falls back on its base under a push to which it would rise, stays there while its clutches hold it.
+    /// A block that falls back on its base under a ground acceleration that would uplift it, stays there while its clutches hold it.
     pub(super) fn stay_on_base(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         let mut held = *state;
         (held.motion.rotation, held.motion.velocity) = (S::ZERO, S::ZERO);

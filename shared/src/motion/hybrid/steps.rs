@@ -1,4 +1,4 @@
-//! Fixed steps for a block with a device. Events inside a step are located by taking the step again with a shorter length.
+//! Fixed-step methods for a block with a device. Events inside a step are located by taking the step again with a shorter length.
 
 use super::exponential;
 use super::mode_output::{KnownModeStart, ModeIntegrator, ModeOutput, ModeStart, Place, WithModeStart};
@@ -29,7 +29,9 @@ fn advance<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const 
             Place { time: h, ground, rotation: from.rotation + h * velocity, velocity, unknowns }
         }
         FixedStep::ExponentialMidpoint { .. } if D::SPRINGS => exponential::midpoint(known, from, (h, ground)),
-        _ => runge_kutta_4(known, from, (first, &rates.1), (h, ground)),
+        FixedStep::RungeKutta4 { .. } | FixedStep::ExponentialMidpoint { .. } => {
+            runge_kutta_4(known, from, (first, &rates.1), (h, ground))
+        }
     }
 }
 
@@ -68,7 +70,7 @@ fn runge_kutta_4<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, 
     }
 }
 
-/// The path of a fixed-step method: its ends, and the step taken again for every time between them.
+/// Mode output of a fixed-step method: its ends, and the step taken again for every time between them.
 #[derive(Debug)]
 pub struct FixedModeOutput<'a, S> {
     method: FixedStep<S>,
@@ -106,7 +108,7 @@ impl<S: Real> WithModeStart<S> for Step<'_, S> {
     }
 }
 
-/// Watched function `index` at `place`, where θ̈ is `acceleration`.
+/// Guard `index` at `place`, where θ̈ is `acceleration`.
 struct GuardAt<'a, S> {
     index: usize,
     place: &'a Place<S, UNKNOWNS>,

@@ -1,4 +1,4 @@
-//! When weight and ground overcome what holds a block that does not move.
+//! Breakaway threshold of a block that does not move.
 
 use super::mode_output::Shaking;
 use super::{HybridState, HybridSystem};
@@ -75,14 +75,14 @@ impl<S: Real> Threshold<S> {
             curvature = curvature + self.vertical.abs() * vertical.curvature_bound();
         }
         let zero = first_zero_of(value, curvature, (from, to, end), Sign::Negative, above);
-        // What the clock cannot tell from the end of the piece is left to the next one.
+        // A breakaway within rounding of the segment's end belongs to the next segment.
         zero.filter(|&t| to - t > to * S::EPSILON * S::of(4.0)).map(|t| (t, true))
     }
 }
 
 impl<S: Real> HybridSystem<S> {
     /// What moves a block that does not move, tilted to `side`, towards `sign`: weight and ground, against the friction of the rack and of
-    /// the flywheels that are coupled to it. Forces of stretched clutches are taken as they are now.
+    /// the flywheels that are coupled to it. Forces of elastic clutches are taken as they are now.
     #[inline(never)]
     pub(super) fn breakaway(&self, state: &HybridState<S>, side: Sign, sign: Sign) -> Threshold<S> {
         let configuration = self.body.configuration(side.unit(), state.motion.rotation);
@@ -95,13 +95,13 @@ impl<S: Real> HybridSystem<S> {
             let sticks = |wheel: &FlywheelState<S>| match wheel.coupling {
                 Coupling::Locked => true,
                 Coupling::Slipping(_) => wheel.spin == S::ZERO,
-                _ => false,
+                Coupling::Open | Coupling::InPlay | Coupling::Elastic(_) | Coupling::Saturated(_) => false,
             };
             let wheels = &state.device.wheels;
             for wheel in wheels.iter().filter(|wheel| sticks(wheel)) {
                 dry = add(dry, parameters.standing_friction(wheel));
             }
-            let pulls = |wheel: &FlywheelState<S>| wheel.coupling != Coupling::Open && !sticks(wheel);
+            let pulls = |wheel: &FlywheelState<S>| wheel.coupling.is_engaged() && !sticks(wheel);
             if wheels.iter().any(pulls) {
                 let law = self.transmission.law(state.motion.direction, state.motion.terminal_acceleration_sign, &state.device);
                 let still = Motion { rotation: state.motion.rotation, velocity: S::ZERO, acceleration: S::ZERO };

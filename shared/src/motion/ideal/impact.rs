@@ -1,4 +1,4 @@
-//! What an impact does, and how impacts that accumulate end in rest.
+//! Impact, and the decision between rocking and rest after it.
 
 use super::IdealSystem;
 use crate::equation::Equation;
@@ -32,7 +32,7 @@ impl<S: Real> IdealSystem<S> {
         let ground = piece.acceleration(time);
         self.read_signs(state, ground);
         observer.event(Event::Impact, time, state);
-        // A push beyond the threshold ends impacts too weak for the clock to tell apart: the block uplifts to the other side.
+        // A ground acceleration above the threshold ends impacts too weak for the clock to tell apart: the block uplifts to the other side.
         if self.lifts(ground) {
             let rate = self.released.acceleration(state.side.unit(), S::ZERO, S::ZERO, ground);
             let unresolved = state.side.times(rate) < S::ZERO && time + state.velocity.abs() / rate.abs() == time;
@@ -74,7 +74,7 @@ impl<S: Real> IdealSystem<S> {
         let impacts = state.impacts.saturating_add(decay.impacts);
         let ends = (time + decay.duration).smaller(duration);
         if decay.speed != S::ZERO {
-            // Still rocking at the end of its time: the last, incomplete swing is left to the method.
+            // Still rocking at the end of its time: the last, incomplete swing is integrated by the method.
             let velocity = state.direction.times(decay.speed);
             let turned = |sign: Sign| if decay.speed < S::ZERO { sign.opposite() } else { sign };
             let (side, direction) = (turned(state.side), turned(state.direction));

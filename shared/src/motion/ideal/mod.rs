@@ -1,6 +1,6 @@
-//! A rocking block from event to event.
+//! Event-driven integration of a block with an ideal device.
 //!
-//! Between events the motion is one smooth arc. Within an arc the zeros of θ̈ are found first; between them θ̇ is monotone,
+//! Between events the motion is smooth. Within a step the zeros of θ̈ are found first; between them θ̇ is monotone,
 //! so its zeros show as changes of sign; between those θ is monotone, so its zeros do. No crossing is missed however
 //! close two of them lie, and the signs themselves are part of the state: an event just handled has already changed its
 //! sign, so it cannot be found a second time.
@@ -46,9 +46,9 @@ pub struct IdealSystem<S> {
     pub clutch: ClutchRule,
 }
 
-/// What ended an arc's scan.
+/// Result of the search for events in a step.
 enum End {
-    /// The arc was followed to its end.
+    /// No event that ends the step.
     Reached,
     /// A clutch switched, or the block turned about and its clutch with it.
     Switched,
@@ -85,7 +85,7 @@ impl<S: Real> IdealSystem<S> {
         state
     }
 
-    /// Follows the block over `piece` from its local time 0 to `duration` (s), telling `observer` of every interval and
+    /// Follows the block over `piece` from its local time 0 to `duration` (s), giving `observer` every interval and
     /// event.
     ///
     /// # Errors
@@ -167,7 +167,7 @@ impl<S: Real> IdealSystem<S> {
         Ok(())
     }
 
-    /// One arc, up to its first event that changes the equation. `acceleration` is θ̈ at `time`, where the arc before has evaluated it.
+    /// One step, up to its first event that changes the equation. `acceleration` is θ̈ at `time`, where the step before has evaluated it.
     #[expect(clippy::too_many_arguments, reason = "one call site, and each is a different thing")]
     #[inline]
     fn follow<M: Integrator<S>>(
@@ -212,7 +212,7 @@ impl<S: Real> IdealSystem<S> {
         let mut acceleration_is_zero = state.acceleration_is_zero;
         loop {
             let acceleration_zero = output.acceleration_zero(from, length, state.acceleration_sign, acceleration_is_zero);
-            // What the clock cannot tell from the end of the step is left to the next one.
+            // An event within rounding of the step's end belongs to the next step.
             let switching_zero = if separate_terminal_sign && length > stop * S::EPSILON * S::of(4.0) {
                 let bound = acceleration_zero.unwrap_or(length);
                 let mut zero = None;
@@ -295,7 +295,7 @@ impl<S: Real> IdealSystem<S> {
                 // Not the sign of θ̈: in a long Euler step θ̇ does not follow it, and a turn back would be found without end.
                 state.direction = state.direction.opposite();
                 if method.step().is_none() {
-                    // A block let go in balance, with θ̈ = 0, may not have known which way it is pushed; its turn tells.
+                    // A block let go in balance, with θ̈ = 0, may have the wrong sign of θ̈; its turn gives it.
                     state.acceleration_sign = state.direction;
                     if !separate_terminal_sign {
                         state.terminal_acceleration_sign = state.acceleration_sign;

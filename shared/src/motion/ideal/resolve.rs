@@ -1,4 +1,4 @@
-//! From the parameters of a structure to the equations of motion that it needs, chosen once, before the loop.
+//! Resolution of a structure's parameters into its equations of motion, once, before the loop.
 
 use super::IdealSystem;
 use crate::equation::any_equation::AnyEquation;
@@ -11,10 +11,9 @@ use crate::structure::device::{DeviceKind, KinematicsKind};
 use crate::structure::error::{ParameterError, require};
 use crate::structure::mount::Mount;
 use crate::structure::{COUNTED_SPEED, Structure};
-use core::marker::PhantomData;
 
 impl Structure {
-    /// The equations of the structure with what it carries, and its clutch.
+    /// Equations of the structure with its added mass, and its clutch.
     ///
     /// # Errors
     /// [`ParameterError`] names the first parameter outside its range.
@@ -24,12 +23,10 @@ impl Structure {
         self.loaded()?.compose()
     }
 
-    /// The composition for a structure that carries nothing.
+    /// Equations of a structure without added mass.
     fn compose<S: Real>(&self) -> Result<IdealSystem<S>, ParameterError> {
-        let p2 = self.block.frequency_parameter_squared();
         let alpha = self.block.slenderness();
         let device = &self.device;
-        let coupling = device.mass_ratio / self.block.inertia_ratio();
         let speed = self.block.frequency_parameter() * alpha;
         let rest = require("rest_speed", self.rest_speed, (1e-12..=1e-2).contains(&self.rest_speed), "from 1e-12 to 1e-2")?;
         let restitution = self.restitution.evaluate(&self.block, self.geometry, device)?;
@@ -38,7 +35,7 @@ impl Structure {
             DeviceKind::Inerter => ClutchRule::Always,
             DeviceKind::ClutchedPair => ClutchRule::Resisting,
         };
-        let [released, engaged] = self.equations(p2, coupling)?;
+        let [released, engaged] = self.equations()?;
         Ok(IdealSystem {
             released,
             engaged,
@@ -52,9 +49,10 @@ impl Structure {
     }
 
     /// The equations with the inerter released and engaged; what the device cannot be is the other one again.
-    fn equations<S: Real>(&self, p2: f64, coupling: f64) -> Result<[AnyEquation<S>; 2], ParameterError> {
+    fn equations<S: Real>(&self) -> Result<[AnyEquation<S>; 2], ParameterError> {
         let Structure { block, device, .. } = self;
-        let alpha = block.slenderness();
+        let (p2, alpha) = (block.frequency_parameter_squared(), block.slenderness());
+        let coupling = device.mass_ratio / block.inertia_ratio();
         if self.geometry == Geometry::Slender {
             let squared = device.mount.slender_lever_squared(block)?;
             let equation = |engaged: bool| {
@@ -79,17 +77,13 @@ impl Structure {
             let coupling = S::of(coupling);
             match (device.mount, device.kinematics) {
                 (Mount::CentreOfMass, KinematicsKind::Paper) => {
-                    AnyEquation::CentrePaper(FullInerter { block, coupling, lever: CentreOfMass, kinematics: PhantomData })
+                    AnyEquation::CentrePaper(FullInerter::new(block, coupling, CentreOfMass))
                 }
                 (Mount::CentreOfMass, KinematicsKind::Consistent) => {
-                    AnyEquation::CentreConsistent(FullInerter { block, coupling, lever: CentreOfMass, kinematics: PhantomData })
+                    AnyEquation::CentreConsistent(FullInerter::new(block, coupling, CentreOfMass))
                 }
-                (_, KinematicsKind::Paper) => {
-                    AnyEquation::PointPaper(FullInerter { block, coupling, lever: point, kinematics: PhantomData })
-                }
-                (_, KinematicsKind::Consistent) => {
-                    AnyEquation::PointConsistent(FullInerter { block, coupling, lever: point, kinematics: PhantomData })
-                }
+                (_, KinematicsKind::Paper) => AnyEquation::PointPaper(FullInerter::new(block, coupling, point)),
+                (_, KinematicsKind::Consistent) => AnyEquation::PointConsistent(FullInerter::new(block, coupling, point)),
             }
         };
         let engaged = inerter(coupling);

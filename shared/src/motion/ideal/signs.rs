@@ -9,7 +9,7 @@ use crate::method::dense_output::DenseOutput;
 use crate::motion::state::BlockState;
 
 impl<S: Real> IdealSystem<S> {
-    /// At the start of a piece the ground may have jumped, and the signs with it. True when the clutch follows, so that
+    /// At the start of a ground segment the ground may have jumped, and the signs with it. True when the clutch follows, so that
     /// another equation is in force. Rare enough not to be copied into every loop.
     #[inline(never)]
     pub(super) fn jumped<A: DenseOutput<S>>(
@@ -61,7 +61,7 @@ impl<S: Real> IdealSystem<S> {
 }
 
 /// The sign of `value`, whose part without the ground is `quiet`; the `known` one where the two parts cancel to rounding, because
-/// that is where an event at the end of the last piece has left it.
+/// that is where an event at the end of the last ground segment has left it.
 #[inline]
 fn beyond_rounding<S: Real>(value: S, known: Sign, quiet: impl FnOnce() -> S) -> Sign {
     let sign = Sign::of(value, known);

@@ -1,4 +1,4 @@
-//! When a block at rest starts to rock, and to which side.
+//! Uplift of a block at rest: its time and side.
 
 use super::IdealSystem;
 use crate::equation::Equation;
@@ -9,7 +9,7 @@ use crate::math::sign::Sign;
 use crate::motion::state::{BlockState, Phase};
 
 impl<S: Real> IdealSystem<S> {
-    /// First instant in [`from`, `to`) at which the ground pushes harder than the weight holds, and whether it gets
+    /// First instant in [`from`, `to`) at which the ground acceleration exceeds the uplift threshold, and whether it gets
     /// there by crossing the threshold (so that the bracket is zero) or by a jump.
     #[inline(never)]
     pub(super) fn uplift_time(&self, piece: &dyn GroundSegment<S>, from: S, to: S) -> Option<(S, bool)> {
@@ -20,7 +20,7 @@ impl<S: Real> IdealSystem<S> {
         // What the equation holds is the threshold, or within rounding of it.
         let threshold = self.uplift.larger(start.abs());
         if start.abs() == threshold && rises(piece, from, start, to - from) > threshold * S::EPSILON {
-            // Cut at the very crossing: a search that starts on a zero might take a short push for a graze.
+            // Cut at the very crossing: a search that starts on a zero might take a short excess for a graze.
             return Some((from, true));
         }
         let end = piece.acceleration(to);
@@ -39,19 +39,19 @@ impl<S: Real> IdealSystem<S> {
             (Some(a), Some(b)) => Some(a.smaller(b)),
             (a, b) => a.or(b),
         };
-        // What the clock cannot tell from the end of the piece is left to the next one.
+        // An uplift within rounding of the segment's end belongs to the next segment.
         first.filter(|&t| to - t > to * S::EPSILON * S::of(4.0)).map(|t| (t, true))
     }
 
-    /// Whether a push of `ground` (in g) lifts the block: beyond the threshold by so little that the equation, as it rounds, still
-    /// pushes back, it does not, or uplift and impact would follow each other without end.
+    /// Whether a ground acceleration of `ground` (in g) uplifts the block: above the threshold by so little that the rounded equation still
+    /// gives θ̈ towards the base, it does not, or uplift and impact would follow each other without end.
     #[inline(never)]
     pub(super) fn lifts(&self, ground: S) -> bool {
         let side = Sign::of(ground, Sign::Positive).opposite();
         ground.abs() > self.uplift && side.times(self.released.acceleration(side.unit(), S::ZERO, S::ZERO, ground)) > S::ZERO
     }
 
-    /// Sets the block in motion, to the side opposite to the push.
+    /// Sets the block in motion, to the side opposite to the ground acceleration.
     pub(super) fn uplift(&self, state: &mut BlockState<S>, ground: S, crossing: bool) {
         let side = Sign::of(ground, Sign::Positive).opposite();
         *state = BlockState {
@@ -67,7 +67,7 @@ impl<S: Real> IdealSystem<S> {
     }
 }
 
-/// By how much a push of `start` (in g) at the start of a stretch of `length` (s) grows there, as far as its slope and curvature bound tell.
+/// Bound of the growth of a ground acceleration of `start` (in g) over an interval of `length` (s), by its slope and curvature.
 #[inline(never)]
 fn rises<S: Real>(piece: &dyn GroundSegment<S>, from: S, start: S, length: S) -> S {
     let slope = Sign::of(start, Sign::Positive).times(piece.slope(from));

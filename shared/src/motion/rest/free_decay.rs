@@ -1,4 +1,4 @@
-//! The rest of a free motion, in closed form.
+//! Free decay: the remaining swings of a free motion, summed in closed form.
 //!
 //! On quiet ground every swing of a block follows from the speed it starts with, because between clutch switches the
 //! motion has a first integral: with θ̈ = a(θ), ½θ̇² falls by x = −∫a dθ. Along a swing take x for the variable; then

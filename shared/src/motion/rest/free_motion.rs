@@ -1,4 +1,4 @@
-//! What becomes of a block once the ground stands still, decided without integration and without a horizon.
+//! Outcome of free rocking by the energy integral, without integration.
 //!
 //! After the ground has stopped, every turn, every impact speed and the fall beyond the tip follow from the first integral
 //! ([`crate::equation::first_integral`]) of the legs of the motion: outward, from beyond the tip back to it, and inward. Each impact takes

@@ -1,4 +1,4 @@
-//! The infinitely many impacts that follow a weak one, in closed form.
+//! Impact accumulation: the infinitely many impacts that follow a weak one, in closed form.
 //!
 //! θ is too small to change the rates: on each side the block decelerates at a₁ and falls back at a₂, so a swing that starts at
 //! θ̇ = v lasts v/a₁ + v/√(a₁a₂) and the next one starts at v η √(a₂/a₁).
@@ -8,7 +8,7 @@ use crate::math::scalar::Real;
 /// Pairs of swings that are followed in one segment of the ground when their impacts do not end them.
 const MOST_IDLE_SWINGS: f64 = 1e3;
 
-/// The impacts after a weak one, until rest.
+/// Sums over an impact accumulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accumulation<S> {
     /// s; 1e30 where the impacts take nothing.

@@ -1,6 +1,6 @@
-//! The scheme that most simulations use, and the paper's: fixed steps at whose ends the clutch is "re-evaluated according
+//! Time stepping without event location, as in most simulations and the paper: fixed steps at whose ends the clutch is "re-evaluated according
 //! to Equation 10" and impacts are noticed. Nothing is located, so every event comes late by up to a step: an error of
-//! order one, whatever the method between events. [`crate::motion::ideal`] is the exact counterpart.
+//! order one, whatever the method between events. The event-driven counterpart is [`crate::motion::ideal`].
 //!
 //! There is no branch in a step, only selection, so the same lines run in f32 on the target, in f64, and in SIMD lanes.
 //! That makes it the yardstick for what the equations cost.
@@ -42,7 +42,7 @@ pub struct TimeStepping<S, E> {
     pub uplift: S,
 }
 
-/// What [`TimeStepping::follow`] saw.
+/// Outcome of [`TimeStepping::follow`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TimeSteppingPeaks<S> {
     /// Largest |θ| at a step's end, rad.
@@ -73,8 +73,8 @@ impl<S: Scalar, E: Switched<S>> TimeStepping<S, E> {
         self.impact(TimeSteppingState { rotation: state.rotation + h * velocity, velocity, side })
     }
 
-    /// A block at rest stays there while the push is below the threshold, which is a step of no length; above it the block
-    /// uplifts to the side opposite to the push.
+    /// A block at rest stays there while the ground acceleration is below the threshold, which is a step of no length; above it the block
+    /// uplifts to the side opposite to the ground acceleration.
     #[inline(always)]
     fn awake(&self, state: &TimeSteppingState<S>, ground: S, h: S) -> (S, S) {
         let (zero, one) = (S::of(0.0), S::of(1.0));

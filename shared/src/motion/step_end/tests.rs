@@ -174,8 +174,7 @@ impl Scalar for Single {
 
 fn full_pair<S: Scalar, K: Kinematics>() -> TimeStepping<S, FullInerter<S, CentreOfMass, K>> {
     let block = FullBlock { frequency_squared: S::of(1.0), slenderness: S::of(0.3) };
-    let with =
-        |coupling| FullInerter { block, coupling: S::of(coupling), lever: CentreOfMass, kinematics: core::marker::PhantomData };
+    let with = |coupling| FullInerter::new(block, S::of(coupling), CentreOfMass);
     TimeStepping { released: with(0.0), engaged: with(0.375), restitution: S::of(0.85), uplift: S::of(crate::math::tan(0.3)) }
 }
 

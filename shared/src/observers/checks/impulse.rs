@@ -7,10 +7,10 @@ use crate::math::scalar::Real;
 use crate::motion::observer::Event;
 use crate::motion::state::{BlockState, Phase};
 
-/// What is known of the block just before an event.
+/// State of the block just before an event.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Impulses<S> {
-    /// θ̇, rad/s; none before the first stretch.
+    /// θ̇, rad/s; none before the first interval.
     pub velocity: Option<S>,
     /// Flywheels that are engaged.
     pub engaged: u32,

@@ -1,4 +1,4 @@
-//! Checks of the assumptions behind a motion, and of what it asks of its parts: an effect that only watches.
+//! Checks of the model's assumptions (no sliding, no free flight) and of the forces on the parts, by an observer.
 //!
 //! The toe must bear what block and device press on it, with the forces and impulses that `checks/toe.rs` derives. The model does not slide
 //! while |H|/V stays below the friction that there is, and keeps its toe on the ground while V > 0.
@@ -34,11 +34,11 @@ const QUANTITIES: usize = 5;
 /// The last of them.
 const SUPPORT: usize = 4;
 
-/// Watches reactions, impulses, forces and travel. Its [`Report`] holds extremes while the block rocks; a block that stands asks for
+/// Observer of reactions, impulses, forces and travel. Its [`Report`] holds extremes while the block rocks; a block that stands asks for
 /// a friction of |ü_g/g|/(1 + v̈_g/g), which is below tan α.
 #[derive(Clone, Copy, Debug)]
 pub struct Checks<S> {
-    /// Time of the present piece's start from the origin, s; the caller sets it.
+    /// Time of the present ground segment's start from the origin, s; the caller sets it.
     pub origin: S,
     report: Report<S>,
     toe: Toe<S>,
@@ -74,7 +74,7 @@ impl<S: Real> Checks<S> {
         Checks { first: SUPPORT, ..self }
     }
 
-    /// What was found up to the last stretch or event.
+    /// What was found up to the last interval or event.
     pub fn report(&self) -> Report<S> {
         self.report
     }

@@ -1,4 +1,4 @@
-//! What the checks found.
+//! Extremes found by the checks.
 
 use crate::math::scalar::Real;
 

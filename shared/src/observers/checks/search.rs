@@ -1,14 +1,14 @@
-//! The largest value of a quantity along a stretch, between the instants at which it is looked at too.
+//! Maximum of a quantity over a monotone interval, between its samples too.
 
 use crate::math::scalar::Real;
 
-/// Instants at which a stretch is looked at, with its ends; a maximum between two of them is then sought out.
+/// Samples of an interval, its ends included; a maximum between two of them is then sought out.
 pub(super) const LOOKS: usize = 10;
 
 /// Steps of the search for a maximum, which shorten its bracket by 0.618 each.
 const SEARCH_STEPS: u32 = 32;
 
-/// Look number `i` at a stretch from `from` to `to` (s).
+/// Sample number `i` of an interval from `from` to `to` (s).
 pub(super) fn instant<S: Real>((from, to): (S, S), i: usize) -> S {
     if i + 1 == LOOKS { to } else { from + S::of(i as f64) * ((to - from) / S::of(LOOKS as f64 - 1.0)) }
 }

@@ -38,7 +38,7 @@ fn watch(structure: &Structure, ground: &[(Shake, f64)]) -> Report<f64> {
     seen.report()
 }
 
-/// Every stretch at three instants, with its reactions and the centre of mass moved by hand.
+/// Every monotone interval at three instants, with its reactions and the centre of mass moved by hand.
 struct Probe {
     checks: Checks<f64>,
     alpha: f64,

@@ -1,4 +1,4 @@
-//! What the toe bears: forces of a smooth motion, and impulses where θ̇ jumps.
+//! Reactions at the toe: forces of a smooth motion, and impulses where θ̇ jumps.
 //!
 //! With the centre of mass at (−R sin δ, R cos δ) from the toe, δ = αs − θ, x to the right and positive rotation clockwise about
 //! the right-hand toe, Newton's second law gives per weight mg
@@ -34,7 +34,7 @@ use crate::structure::block::{Block, Geometry};
 use crate::structure::error::ParameterError;
 use crate::structure::mount::{LeverConstants, Mount};
 
-/// Block and device as the toe feels them.
+/// Parameters of block and device for the reactions at the toe.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Toe<S> {
     geometry: Geometry,

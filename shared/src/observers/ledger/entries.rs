@@ -1,4 +1,4 @@
-//! What a ledger holds.
+//! Entries of the energy ledger.
 
 use crate::math::scalar::Real;
 

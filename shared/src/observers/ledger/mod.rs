@@ -1,4 +1,4 @@
-//! The energy ledger: where the work of the ground goes.
+//! Energy ledger: balance of the ground's work, by cause.
 //!
 //! In the frame that moves with the ground, everything divided by λmR² (1/s²; times λmR² it is joules, over
 //! [`Ledger::barrier`] it is a share of the barrier to overturning):
@@ -37,7 +37,7 @@ pub enum Clutching {
     Rigid,
 }
 
-/// The masses and the clutch that a ledger has to know of.
+/// Masses and clutch, as a ledger needs them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Account {
     /// The clutch.
@@ -48,7 +48,7 @@ pub struct Account {
     pub rack_mass_ratio: f64,
 }
 
-/// Keeps the [`Entries`] of a motion.
+/// Observer that sums the [`Entries`] of a motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Ledger<S> {
     entries: Entries<S>,
@@ -77,7 +77,7 @@ struct Balance<S> {
     locked: [bool; 2],
 }
 
-/// What has happened since the last stretch.
+/// Events since the last interval.
 #[derive(Clone, Copy, Debug, Default)]
 struct Since {
     impact: bool,
@@ -137,7 +137,7 @@ impl<S: Real> Ledger<S> {
         ledger
     }
 
-    /// The entries up to the last stretch or event.
+    /// The entries up to the last interval or event.
     pub fn entries(&self) -> Entries<S> {
         self.entries
     }
@@ -281,7 +281,7 @@ impl<S: Real> DeviceObserver<S> for Ledger<S> {
         match event {
             Event::Impact => {
                 let left = if last.kinetic > S::ZERO { kinetic / last.kinetic } else { S::ONE };
-                // An ideal clutch lets go at the impact, or holds on: the next stretch tells.
+                // An ideal clutch lets go at the impact, or holds on: the next interval shows.
                 let device = last.slow(left, matches!(self.clutching, Clutching::Permanent | Clutching::Rigid));
                 self.entries.impact = self.entries.impact + last.kinetic - kinetic + device;
                 last.kinetic = kinetic;

@@ -1,4 +1,4 @@
-//! The largest |θ̈| of a step.
+//! Peak |θ̈| of a step.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -12,11 +12,11 @@ use crate::{Mask, Number, WIDTH, number};
 /// How often a step may be cut in [`WIDTH`] parts to look inside.
 const DEEPEST: usize = 5;
 
-/// What the two ends of a step tell of what lies between them.
+/// Extremes within a step, as far as its two ends show.
 struct Between {
     /// |θ̈| has one crest.
     crest: Mask,
-    /// They do not tell.
+    /// Not decided by the ends.
     doubtful: Mask,
     /// The sign of s̈, which θ̈ has at its crest.
     sign: Number,
@@ -76,7 +76,7 @@ pub fn may_exceed(motion: &Motion, end: (Number, &Place), known: Number) -> Mask
     crest | doubtful
 }
 
-/// The larger of `known` and max |θ̈| of the step to `end`, and the lanes in which it could not be told.
+/// The larger of `known` and max |θ̈| of the step to `end`, and the lanes in which it is not decided.
 #[inline(always)]
 pub fn largest(motion: &Motion, end: (Number, &Place), known: Number) -> (Number, Mask) {
     let Between { crest, doubtful, sign } = between(motion, end, known);
@@ -97,7 +97,7 @@ pub fn largest(motion: &Motion, end: (Number, &Place), known: Number) -> (Number
     (largest, unknown)
 }
 
-/// The larger of `known` and max |θ̈| of one block, whose motion is in every lane, up to `length`; none if it cannot be told.
+/// The larger of `known` and max |θ̈| of one block, whose motion is in every lane, up to `length`; none if it is not decided.
 #[inline(always)]
 fn look_inside(motion: &Motion, length: f64, known: f64) -> Option<f64> {
     let mut largest = known;

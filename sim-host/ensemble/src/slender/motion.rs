@@ -157,7 +157,7 @@ impl Motion {
     }
 }
 
-/// How x and ẋ change over a short time where ẍ = c x, to the fifth power of the time: x by more than its rate tells.
+/// How x and ẋ change over a short time where ẍ = c x, to the fifth power of the time: x by more than its rate alone gives.
 struct Change {
     /// c.
     factor: Number,

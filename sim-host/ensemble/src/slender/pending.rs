@@ -42,7 +42,7 @@ impl Pending {
         }
     }
 
-    /// Puts what is left into `results`; returns the numbers of those whose peaks could not be told.
+    /// Puts what is left into `results`; returns the numbers of those whose peaks are not decided.
     #[inline(always)]
     pub fn finish(&mut self, results: &mut [PulseResult]) -> &[usize] {
         while !self.ended.is_empty() {

@@ -17,7 +17,7 @@ use crate::{Mask, Number, WIDTH, number};
 /// The longest step: time²/I is then below what [`Motion::at`] takes, because I is 1 or more.
 const LONGEST: f64 = 2.0;
 
-/// How soon a zero of θ̇ or θ̈ may come, in units of the time in which anything changes, before it is left to the core.
+/// How soon a zero of θ̇ or θ̈ may come, in units of the time in which anything changes, before the core takes the block.
 const TINY: f64 = 1e-10;
 
 /// Steps in closed form.
@@ -182,7 +182,7 @@ mod tests {
     use super::*;
     use crate::slender::tests::{motions, samples};
 
-    /// Wherever θ̈ is looked at, it has the zeros that the ends tell of, and no others.
+    /// Wherever θ̈ is looked at, it has the zeros that the ends show, and no others.
     #[test]
     fn a_stretch_has_the_zeros_that_it_is_said_to_have() {
         let (mut changes, mut halved) = (0, 0);

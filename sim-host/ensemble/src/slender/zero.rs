@@ -1,4 +1,4 @@
-//! Where θ, θ̇, θ̈ or its slope vanishes in a step.
+//! Zeros of θ, θ̇, θ̈ and its slope in a step.
 
 use sprag_shared::math::scalar::Scalar;
 

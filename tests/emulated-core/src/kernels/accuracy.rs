@@ -11,7 +11,7 @@
 
 use super::{RESTITUTION, STEP, Tally, count, mean};
 use crate::watcher::Watcher;
-use core::{f64::consts::FRAC_PI_2, fmt, hint::black_box, marker::PhantomData};
+use core::{f64::consts::FRAC_PI_2, fmt, hint::black_box};
 use sprag_shared::{
     case::{Case, CaseError, FixedMethod, Ground, GroundPiece, Initially, Shape},
     equation::{
@@ -51,7 +51,7 @@ fn full<S: Real>() -> FullBlock<S> {
 }
 
 fn inerter<S: Real>(coupling: f32) -> FullInerter<S, CentreOfMass, Paper> {
-    FullInerter { block: full(), coupling: S::of(coupling.into()), lever: CentreOfMass, kinematics: PhantomData }
+    FullInerter::new(full(), S::of(coupling.into()), CentreOfMass)
 }
 
 fn slender<S: Real>(inertia: f32) -> SlenderBlock<S> {

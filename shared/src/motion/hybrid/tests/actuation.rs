@@ -76,7 +76,7 @@ fn a_command_shorter_than_the_delay_is_lost_or_late() {
     }
 }
 
-/// Where every command outlasts its delay, both kinds are one, to the last bit. The last swings of a dying motion are shorter than any delay.
+/// Where every command outlasts its delay, both kinds are one, to the last bit. The last swings before rest are shorter than any delay.
 #[test]
 fn delays_that_cut_nothing_short_are_one() {
     let shake = pair(Geometry::Full, 3.0, 5.0);

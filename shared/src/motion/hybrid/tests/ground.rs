@@ -11,7 +11,7 @@ use crate::structure::block::Geometry;
 use crate::structure::device::{DeviceKind, KinematicsKind};
 use crate::structure::drivetrain::{Drivetrain, Rack};
 
-/// Largest |θ| and the phase after one piece of ground motion from rest.
+/// Largest |θ| and the phase after one ground segment from rest.
 fn shaken(structure: &Structure, horizontal: Ground, vertical: Option<Ground>, duration: f64) -> (f64, Phase) {
     let machine: HybridSystem<f64> = Drivetrain::default().resolve(structure, vertical.is_some()).unwrap();
     assert_eq!(machine.body.is_vertical(), vertical.is_some());

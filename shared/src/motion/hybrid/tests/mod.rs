@@ -77,7 +77,7 @@ impl GroundSegment<f64> for Ground {
     }
 }
 
-/// A block under pieces of ground motion, then left alone.
+/// A block under ground segments, then left alone.
 #[derive(Clone, Debug)]
 pub struct Shake {
     pub structure: Structure,

@@ -1,4 +1,4 @@
-//! An ideal device as those see it who watch forces and energies: the arcs of [`crate::motion::ideal`], with a snapshot.
+//! Snapshots of an ideal device along the dense output of [`crate::motion::ideal`], for observers of forces and energies.
 //!
 //! The clutch of an ideal device has no memory: a working flywheel moves with the rack, an idle one stands still. So
 //! with κ = 1 while it works, force and energy follow from the block's motion alone,
@@ -27,7 +27,7 @@ pub struct Watched<S, P, O> {
     pub coupling: S,
     /// The ground motion in force, in the local time of the intervals that follow; the caller keeps it up to date.
     pub piece: P,
-    /// Who watches.
+    /// The observer.
     pub observer: O,
     /// When it engages.
     pub clutch: ClutchRule,
@@ -54,7 +54,7 @@ impl<S: Real, P: GroundSegment<S>, O: DeviceObserver<S>> Observer<S> for Watched
     }
 }
 
-/// An arc and the device that works along it.
+/// Dense output with the ideal device engaged over it.
 struct WatchedArc<'a, S, P> {
     output: &'a dyn DenseOutput<S>,
     equation: &'a AnyEquation<S>,

@@ -9,7 +9,7 @@ use crate::structure::mount::Mount;
 use crate::structure::{REST_SPEED, Restitution, Structure};
 use std::vec::Vec;
 
-/// A smooth piece of a test's ground motion.
+/// A ground segment of a test.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Shake {
     Sine(Harmonics<f64, 1>),
@@ -89,12 +89,12 @@ pub(crate) fn structure(
     }
 }
 
-/// An observer that may want to know when a piece starts.
+/// An observer that may want to know when a ground segment starts.
 pub(crate) trait Placed: DeviceObserver<f64> {
     fn place(&mut self, _origin: f64) {}
 }
 
-/// Runs a structure over pieces of ground motion, from rest or from θ and θ̇.
+/// Runs a structure over ground segments, from rest or from θ and θ̇.
 pub(crate) struct Run<'a, O> {
     pub structure: &'a Structure,
     pub ground: &'a [(Shake, f64)],
@@ -151,7 +151,7 @@ impl DeviceObserver<f64> for Looks {
 const MOUNTS: [Mount; 3] =
     [Mount::CentreOfMass, Mount::TyingPoint { height: 3.0, pulley_ratio: 1.5 }, Mount::BaseCorners { pulley_ratio: 4.0 }];
 
-/// θ̈ with the block's own equation and the force on the rack must be that of the arc, and block and flywheel must gain what
+/// θ̈ with the block's own equation and the force on the rack must be that of the dense output, and block and flywheel must gain what
 /// weight and ground do to them plus what the kinematics give.
 #[test]
 fn force_energy_and_what_the_kinematics_take_fit_the_motion() {
