@@ -8,8 +8,9 @@
 //! ideal devices; here the same parts stand apart, so that a device with a memory can put its own forces between them.
 
 use super::FullBlock;
+use super::configuration::FullConfiguration;
 use super::kinematics::BodyKinematics;
-use super::lever::{Lever, TyingPoint};
+use super::lever::TyingPoint;
 use crate::math::scalar::Scalar;
 use crate::math::value::Value;
 
@@ -131,84 +132,58 @@ pub struct FullBody<S, K> {
     pub vertical: bool,
 }
 
-/// sin δ, cos δ, ℓ and ℓ'.
-#[derive(Clone, Copy, Debug)]
-pub struct FullConfiguration<V> {
-    sin: V,
-    cos: V,
-    arm: V,
-    rate: Option<V>,
-}
-
 impl<S: Scalar, K: BodyKinematics> Body<S> for FullBody<S, K> {
     type Configuration<V: Value<S>> = FullConfiguration<V>;
 
     #[inline(always)]
     fn configuration<V: Value<S>>(&self, side: S, rotation: V) -> FullConfiguration<V> {
-        let (sin, cos) = (-rotation).offset(side * self.block.slenderness).sin_cos();
-        let rate = if self.kinematics.consistent() { Some(self.lever.arm_rate(side, sin, cos)) } else { None };
-        FullConfiguration { sin, cos, arm: self.lever.arm(side, sin, cos), rate }
+        FullConfiguration::new(&self.lever, self.kinematics.consistent(), side, self.block.delta(side, rotation))
     }
 
     #[inline(always)]
-    fn driving_moment<V: Value<S>>(&self, configuration: &FullConfiguration<V>, ground: [V; 2]) -> V {
-        let weight = if self.vertical { configuration.sin * ground[1].offset(S::of(1.0)) } else { configuration.sin };
-        (weight + ground[0] * configuration.cos).scale(-self.block.frequency_squared)
+    fn driving_moment<V: Value<S>>(&self, at: &FullConfiguration<V>, ground: [V; 2]) -> V {
+        let weight = if self.vertical { at.sin * ground[1].offset(S::of(1.0)) } else { at.sin };
+        self.block.driving_moment(weight, at.cos, ground[0])
     }
 
     #[inline(always)]
-    fn to_terminal<V: Value<S>>(&self, configuration: &FullConfiguration<V>, x: V) -> V {
-        configuration.arm * x
+    fn to_terminal<V: Value<S>>(&self, at: &FullConfiguration<V>, x: V) -> V {
+        at.arm * x
     }
 
     #[inline(always)]
-    fn terminal_acceleration<V: Value<S>>(&self, configuration: &FullConfiguration<V>, velocity: V, acceleration: V) -> V {
-        let tangential = configuration.arm * acceleration;
-        match configuration.rate {
-            Some(rate) => tangential + rate * velocity.square(),
-            None => tangential,
-        }
+    fn terminal_acceleration<V: Value<S>>(&self, at: &FullConfiguration<V>, velocity: V, acceleration: V) -> V {
+        at.terminal_acceleration(velocity, acceleration)
     }
 
     #[inline(always)]
-    fn solve_acceleration<V: Value<S>>(&self, configuration: &FullConfiguration<V>, moment: V, coupling: S, velocity: V) -> V {
-        let inertia = configuration.arm.square().scale(coupling).offset(S::of(1.0));
-        match configuration.rate {
-            Some(rate) => (moment - (configuration.arm * rate * velocity.square()).scale(coupling)) / inertia,
-            None => moment / inertia,
-        }
+    fn solve_acceleration<V: Value<S>>(&self, at: &FullConfiguration<V>, moment: V, coupling: S, velocity: V) -> V {
+        at.solve_acceleration(moment, coupling, velocity)
     }
 
     #[inline(always)]
-    fn switching<V: Value<S>>(&self, configuration: &FullConfiguration<V>, velocity: V, driving_moment: V) -> V {
-        match configuration.rate {
-            Some(rate) => configuration.arm * (configuration.arm * driving_moment + rate * velocity.square()),
-            None => driving_moment,
-        }
+    fn switching<V: Value<S>>(&self, at: &FullConfiguration<V>, velocity: V, driving_moment: V) -> V {
+        at.switching(velocity, driving_moment)
     }
 
     #[inline(always)]
-    fn paper_power(&self, side: S, configuration: &FullConfiguration<S>, velocity: S, coupling: S) -> S {
-        if self.kinematics.consistent() {
-            return S::of(0.0);
-        }
-        let rate = self.lever.arm_rate(side, configuration.sin, configuration.cos);
-        -(coupling * configuration.arm * rate * velocity * velocity * velocity)
+    fn paper_power(&self, side: S, at: &FullConfiguration<S>, velocity: S, coupling: S) -> S {
+        at.paper_power(&self.lever, side, velocity, coupling)
     }
 
     #[inline(always)]
-    fn arm(&self, configuration: &FullConfiguration<S>) -> S {
-        configuration.arm
+    fn arm(&self, at: &FullConfiguration<S>) -> S {
+        at.arm
     }
 
     #[inline(always)]
-    fn travel(&self, side: S, configuration: &FullConfiguration<S>) -> S {
+    fn travel(&self, side: S, at: &FullConfiguration<S>) -> S {
         // ℓ = A cos δ + s B sin δ with dδ = −dθ.
-        side * self.lever.across * configuration.cos - self.lever.along * configuration.sin
+        side * self.lever.across * at.cos - self.lever.along * at.sin
     }
 
     #[inline(always)]
-    fn factors(&self, configuration: &FullConfiguration<S>) -> (S, S) {
-        (-self.block.frequency_squared * configuration.cos, -self.block.frequency_squared * configuration.sin)
+    fn factors(&self, at: &FullConfiguration<S>) -> (S, S) {
+        (-self.block.frequency_squared * at.cos, -self.block.frequency_squared * at.sin)
     }
 }

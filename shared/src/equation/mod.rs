@@ -15,6 +15,7 @@ pub mod any_body;
 pub mod any_equation;
 pub mod body;
 pub mod clutch_rule;
+pub mod configuration;
 pub mod first_integral;
 pub mod kinematics;
 pub mod lever;
@@ -25,6 +26,7 @@ use core::marker::PhantomData;
 
 use crate::math::scalar::Scalar;
 use crate::math::value::Value;
+use configuration::FullConfiguration;
 use kinematics::Kinematics;
 use lever::Lever;
 
@@ -68,12 +70,17 @@ pub struct FullBlock<S> {
 }
 
 impl<S: Scalar> FullBlock<S> {
-    /// −p² [ sin δ + (ü_g/g) cos δ ] with sin δ and cos δ.
+    /// δ = αs − θ on side s = ±1.
     #[inline(always)]
-    fn drive<V: Value<S>>(&self, side: S, rotation: V, ground: V) -> (V, V, V) {
-        let (sin, cos) = (-rotation).offset(side * self.slenderness).sin_cos();
-        let bracket = sin + ground * cos;
-        (bracket.scale(-self.frequency_squared), sin, cos)
+    pub fn delta<V: Value<S>>(&self, side: S, rotation: V) -> V {
+        (-rotation).offset(side * self.slenderness)
+    }
+
+    /// Driving moment D = −p² [w sin δ + (ü_g/g) cos δ] per λmR², with `weight` w sin δ; w is 1, or 1 + v̈_g/g where the ground moves
+    /// vertically too.
+    #[inline(always)]
+    pub fn driving_moment<V: Value<S>>(&self, weight: V, cos: V, ground: V) -> V {
+        (weight + ground * cos).scale(-self.frequency_squared)
     }
 }
 
@@ -85,7 +92,8 @@ impl<S: Scalar> Equation<S> for FullBlock<S> {
 
     #[inline(always)]
     fn acceleration<V: Value<S>>(&self, side: S, rotation: V, _velocity: V, ground: V) -> V {
-        self.drive(side, rotation, ground).0
+        let (sin, cos) = self.delta(side, rotation).sin_cos();
+        self.driving_moment(sin, cos, ground)
     }
 
     #[inline(always)]
@@ -131,6 +139,11 @@ impl<S, L, K> FullInerter<S, L, K> {
 }
 
 impl<S: Scalar, L: Lever<S>, K: Kinematics> FullInerter<S, L, K> {
+    #[inline(always)]
+    fn at<V: Value<S>>(&self, side: S, rotation: V) -> FullConfiguration<V> {
+        FullConfiguration::new(&self.lever, K::CONSISTENT, side, self.block.delta(side, rotation))
+    }
+
     /// The same mount with another coupling κ k.
     #[inline(always)]
     pub fn with_coupling(self, coupling: S) -> Self {
@@ -146,53 +159,29 @@ impl<S: Scalar, L: Lever<S>, K: Kinematics> Equation<S> for FullInerter<S, L, K>
 
     #[inline(always)]
     fn acceleration<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V {
-        let (drive, sin, cos) = self.block.drive(side, rotation, ground);
-        let arm = self.lever.arm(side, sin, cos);
-        let inertia = arm.square().scale(self.coupling).offset(S::of(1.0));
-        if K::CONSISTENT {
-            let rate = self.lever.arm_rate(side, sin, cos);
-            (drive - (arm * rate * velocity.square()).scale(self.coupling)) / inertia
-        } else {
-            drive / inertia
-        }
+        let at = self.at(side, rotation);
+        at.solve_acceleration(self.block.driving_moment(at.sin, at.cos, ground), self.coupling, velocity)
     }
 
-    /// Paper: −p² \[bracket\], the sign of θ̈. Consistent: ℓ (ℓ·(−p² \[bracket\]) + ℓ' θ̇²), the sign of the terminals'
-    /// acceleration along their travel, from which κ has dropped out.
     #[inline(always)]
     fn switching<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V {
-        let (drive, sin, cos) = self.block.drive(side, rotation, ground);
-        if K::CONSISTENT {
-            let arm = self.lever.arm(side, sin, cos);
-            let rate = self.lever.arm_rate(side, sin, cos);
-            arm * (arm * drive + rate * velocity.square())
-        } else {
-            drive
-        }
+        let at = self.at(side, rotation);
+        at.switching(velocity, self.block.driving_moment(at.sin, at.cos, ground))
     }
 
     #[inline(always)]
     fn terminal_acceleration(&self, side: S, rotation: S, velocity: S, acceleration: S) -> S {
-        let (sin, cos) = Value::sin_cos(side * self.block.slenderness - rotation);
-        let along = self.lever.arm(side, sin, cos) * acceleration;
-        if K::CONSISTENT { along + self.lever.arm_rate(side, sin, cos) * (velocity * velocity) } else { along }
+        self.at(side, rotation).terminal_acceleration(velocity, acceleration)
     }
 
     #[inline(always)]
     fn inertia(&self, side: S, rotation: S) -> S {
-        let (sin, cos) = Value::sin_cos(side * self.block.slenderness - rotation);
-        let arm = self.lever.arm(side, sin, cos);
-        S::of(1.0) + self.coupling * (arm * arm)
+        self.at(side, rotation).inertia(self.coupling)
     }
 
     #[inline(always)]
     fn paper_power(&self, side: S, rotation: S, velocity: S) -> S {
-        if K::CONSISTENT {
-            return S::of(0.0);
-        }
-        let (sin, cos) = Value::sin_cos(side * self.block.slenderness - rotation);
-        let (arm, rate) = (self.lever.arm(side, sin, cos), self.lever.arm_rate(side, sin, cos));
-        -(self.coupling * arm * rate * (velocity * velocity * velocity))
+        self.at(side, rotation).paper_power(&self.lever, side, velocity, self.coupling)
     }
 }
 
