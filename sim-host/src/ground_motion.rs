@@ -1,37 +1,24 @@
 //! A whole ground motion: smooth pieces in a row, of one pulse, one record, or the sum of several.
 
-mod piece;
+mod sum_segment;
 
-use sprag_shared::ground::{GroundSegment, Harmonics, Linear, Ricker};
+use sprag_shared::ground::{AnySegment, GroundSegment, Linear};
 use sprag_shared::structure::block::GRAVITY;
 
-pub use piece::{MixturePiece, ShapePiece};
-
-/// A smooth piece of one motion, in g over local time in s.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Smooth {
-    /// A straight line.
-    Linear(Linear<f64>),
-    /// A sine.
-    Single(Harmonics<f64, 1>),
-    /// Three sines.
-    Triple(Harmonics<f64, 3>),
-    /// A Ricker wavelet.
-    Ricker(Ricker<f64>),
-}
+pub use sum_segment::SumSegment;
 
 /// One motion of a sum: its start and its pieces.
 #[derive(Clone, Debug)]
 pub struct Component {
     start: f64,
     /// End of each piece after the start (s), and the piece in its own time.
-    pieces: Vec<(f64, Smooth)>,
+    pieces: Vec<(f64, AnySegment<f64>)>,
 }
 
 impl Component {
     /// One smooth piece of `duration` (s).
-    pub fn pulse(start: f64, duration: f64, smooth: Smooth) -> Component {
-        Component { start, pieces: vec![(duration, smooth)] }
+    pub fn pulse(start: f64, duration: f64, segment: AnySegment<f64>) -> Component {
+        Component { start, pieces: vec![(duration, segment)] }
     }
 
     /// Samples (in g) every `step` (s), straight lines between them; a single sample moves nothing.
@@ -40,16 +27,13 @@ impl Component {
         let mut previous = None;
         for (index, sample) in samples.enumerate() {
             if let Some(first) = previous {
-                pieces.push((index as f64 * step, Smooth::Linear(Linear::between(first, sample, step))));
+                pieces.push((index as f64 * step, AnySegment::Linear(Linear::between(first, sample, step))));
             }
             previous = Some(sample);
         }
         Component { start, pieces }
     }
 }
-
-/// The pieces in force over one segment, each with the local time at which the segment starts.
-pub type Mixture = Vec<(f64, Smooth)>;
 
 /// A stretch between two kinks of the sum.
 #[derive(Clone, Debug)]
@@ -59,18 +43,9 @@ pub struct Segment {
     /// s.
     pub duration: f64,
     /// What shakes.
-    pub shape: Shape,
+    pub shape: SumSegment<f64>,
     /// Bound of |ü_g/g| from here to the end of the motion.
     pub bound: f64,
-}
-
-/// The sum over a segment.
-#[derive(Clone, Debug)]
-pub enum Shape {
-    /// Records only, or nothing: a straight line.
-    Linear(Linear<f64>),
-    /// Anything else.
-    Mixture(Mixture),
 }
 
 /// A ground motion from time 0 on; quiet after its last segment.
@@ -101,27 +76,19 @@ impl GroundMotion {
         let mut segments = Vec::with_capacity(times.len());
         for pair in times.windows(2) {
             let (start, end) = (pair[0], pair[1]);
-            let mut mixture = Mixture::new();
+            let mut parts = Vec::new();
             for (component, index) in components.iter().zip(&mut at) {
                 while component.pieces.get(*index).is_some_and(|(end, _)| component.start + end <= start) {
                     *index += 1;
                 }
                 if component.start <= start
-                    && let Some((_, smooth)) = component.pieces.get(*index)
+                    && let Some((_, segment)) = component.pieces.get(*index)
                 {
                     let piece_start = if *index == 0 { 0.0 } else { component.pieces[*index - 1].0 };
-                    mixture.push((start - (component.start + piece_start), *smooth));
+                    parts.push((start - (component.start + piece_start), *segment));
                 }
             }
-            let lines: Option<Vec<Linear<f64>>> = mixture.iter().map(|part| part.1.line(part.0)).collect();
-            let shape = match lines {
-                Some(lines) => Shape::Linear(lines.iter().fold(Linear { start: 0.0, slope: 0.0 }, |sum, l| Linear {
-                    start: sum.start + l.start,
-                    slope: sum.slope + l.slope,
-                })),
-                None => Shape::Mixture(mixture),
-            };
-            segments.push(Segment { start, duration: end - start, shape, bound: 0.0 });
+            segments.push(Segment { start, duration: end - start, shape: SumSegment::of(parts), bound: 0.0 });
         }
         let mut bound = 0.0_f64;
         for segment in segments.iter_mut().rev() {
@@ -145,7 +112,7 @@ impl GroundMotion {
     pub fn peak_m_s2(&self) -> f64 {
         let mut peak = 0.0_f64;
         for segment in &self.segments {
-            let inner = if matches!(segment.shape, Shape::Linear(_)) { 1 } else { 2000 };
+            let inner = if matches!(segment.shape, SumSegment::Single(AnySegment::Linear(_))) { 1 } else { 2000 };
             for k in 0..=inner {
                 peak = peak.max(segment.shape.acceleration(segment.duration * f64::from(k) / f64::from(inner)).abs());
             }
@@ -198,55 +165,10 @@ fn kinks(components: &[Component]) -> Vec<f64> {
     times
 }
 
-impl Smooth {
-    /// As a straight line from local time `offset`, if it is one.
-    fn line(&self, offset: f64) -> Option<Linear<f64>> {
-        match self {
-            Smooth::Linear(line) => Some(Linear { start: line.start + line.slope * offset, slope: line.slope }),
-            _ => None,
-        }
-    }
-
-    fn bound(&self) -> f64 {
-        match self {
-            Smooth::Linear(line) => line.start.abs(),
-            Smooth::Single(harmonics) => harmonics.terms.iter().map(|term| term.amplitude.abs()).sum(),
-            Smooth::Triple(harmonics) => harmonics.terms.iter().map(|term| term.amplitude.abs()).sum(),
-            Smooth::Ricker(wavelet) => wavelet.amplitude.abs(),
-        }
-    }
-}
-
-impl Shape {
-    fn bound(&self, duration: f64) -> f64 {
-        match self {
-            Shape::Linear(line) => line.start.abs().max((line.start + line.slope * duration).abs()),
-            Shape::Mixture(parts) => parts
-                .iter()
-                .map(|(offset, smooth)| match smooth.line(*offset) {
-                    Some(line) => line.start.abs().max((line.start + line.slope * duration).abs()),
-                    None => smooth.bound(),
-                })
-                .sum(),
-        }
-    }
-
-    /// ü_g/g at local time `time` (s).
-    pub fn acceleration(&self, time: f64) -> f64 {
-        match self {
-            Shape::Linear(line) => GroundSegment::<f64>::acceleration(line, time),
-            Shape::Mixture(parts) => MixturePiece::<f64>::of(parts).acceleration(time),
-        }
-    }
-
-    /// Upper bound of |d²(ü_g/g)/dt²|, 1/s².
-    fn curvature_bound(&self) -> f64 {
-        ShapePiece::<f64>::of(self).curvature_bound()
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use sprag_shared::ground::{Harmonics, Ricker};
+
     use super::*;
 
     fn at(motion: &GroundMotion, time: f64) -> f64 {
@@ -257,8 +179,8 @@ mod tests {
     #[test]
     fn a_sum_is_that_of_its_parts_at_every_time() {
         let record = Component::record(0.5, 0.25, [0.1, -0.2, 0.3, 0.0].into_iter());
-        let sine = Component::pulse(0.6, 1.0, Smooth::Single(Harmonics::sine(0.4, core::f64::consts::TAU)));
-        let block = Component::pulse(0.0, 0.8, Smooth::Linear(Linear::constant(0.05)));
+        let sine = Component::pulse(0.6, 1.0, AnySegment::Sine(Harmonics::sine(0.4, core::f64::consts::TAU)));
+        let block = Component::pulse(0.0, 0.8, AnySegment::Linear(Linear::constant(0.05)));
         let parts = [record, sine, block];
         let sum = GroundMotion::sum(&parts);
         for k in 0..200 {
@@ -281,10 +203,10 @@ mod tests {
     fn parts() -> Vec<Component> {
         vec![
             Component::record(0.5, 0.25, [0.1, -0.2, 0.3, 0.0].into_iter()),
-            Component::pulse(0.6, 1.0, Smooth::Single(Harmonics::sine(0.4, core::f64::consts::TAU))),
-            Component::pulse(0.0, 0.8, Smooth::Linear(Linear::constant(0.05))),
+            Component::pulse(0.6, 1.0, AnySegment::Sine(Harmonics::sine(0.4, core::f64::consts::TAU))),
+            Component::pulse(0.0, 0.8, AnySegment::Linear(Linear::constant(0.05))),
             Component::record(1.1, 0.1, (0..30).map(|k| 0.02 * f64::from(k % 7) - 0.05)),
-            Component::pulse(2.0, 0.7, Smooth::Ricker(Ricker { amplitude: 0.3, rate: 17.0, centre: 0.35 })),
+            Component::pulse(2.0, 0.7, AnySegment::Ricker(Ricker { amplitude: 0.3, rate: 17.0, centre: 0.35 })),
         ]
     }
 
@@ -329,7 +251,7 @@ mod tests {
             assert!(taken, "{lowest} at {when}");
             assert!(fractions().take(5000).all(|fraction| at(&motion, 4.5 * fraction) >= lowest - 2e-9), "{lowest} at {when}");
         }
-        let sine = GroundMotion::sum(&[Component::pulse(0.5, 1.0, Smooth::Single(Harmonics::sine(0.4, 7.0)))]);
+        let sine = GroundMotion::sum(&[Component::pulse(0.5, 1.0, AnySegment::Sine(Harmonics::sine(0.4, 7.0)))]);
         let (lowest, when) = sine.lowest();
         assert!((lowest + 0.4).abs() < 1e-9 && (when - 0.5 - 1.5 * core::f64::consts::PI / 7.0).abs() < 1e-4);
         assert_eq!(GroundMotion::default().lowest(), (0.0, 0.0));

@@ -19,8 +19,8 @@ pub mod shipped;
 use std::path::PathBuf;
 
 pub use sprag_stability::{
-    Dice, FullLog, GEOMETRIES, Ground, Log, Logged, Sampled, Segment, Start, boundary, follow, overturned_without_impact,
-    relative, release, resized, sane, shake, tight, unit_block,
+    Dice, FullLog, GEOMETRIES, Log, Logged, Sampled, Segment, Start, boundary, follow, overturned_without_impact, relative,
+    release, resized, sane, shake, tight, unit_block,
 };
 
 /// A file of the folder beside the repository.

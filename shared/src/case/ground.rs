@@ -1,23 +1,11 @@
 //! The ground motion of a case: a few shapes in closed form, or a record.
 
 use super::{CaseError, MOST_PIECES};
-use crate::ground::{Elementary, GroundSegment, Harmonics, Linear, Quiet, Ricker};
+use crate::ground::{AnySegment, GroundSegment, Linear};
 use crate::structure::error::{ParameterError, require};
 
 /// One shape of ground acceleration, in g, over local time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shape {
-    /// None.
-    Quiet,
-    /// A straight line.
-    Linear(Linear<f32>),
-    /// One sine.
-    Sine(Harmonics<f32, 1>),
-    /// Three, as a Mavroeidis-Papageorgiou wavelet has.
-    ThreeSines(Harmonics<f32, 3>),
-    /// A Ricker wavelet.
-    Ricker(Ricker<f32>),
-}
+pub type Shape = AnySegment<f32>;
 
 /// A shape and how long it lasts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -202,13 +190,7 @@ impl GroundPiece {
         if self.duration == 0.0 {
             return 0.0;
         }
-        match &self.shape {
-            Shape::Quiet => 0.0,
-            Shape::Linear(line) => line.start.abs().max(line.acceleration(self.duration).abs()),
-            Shape::Sine(sines) => sines.terms.iter().map(|term| term.amplitude.abs()).sum(),
-            Shape::ThreeSines(sines) => sines.terms.iter().map(|term| term.amplitude.abs()).sum(),
-            Shape::Ricker(wavelet) => wavelet.amplitude.abs(),
-        }
+        self.shape.bound(self.duration)
     }
 
     /// Lower bound of the value.
@@ -216,59 +198,6 @@ impl GroundPiece {
         match &self.shape {
             Shape::Linear(line) if self.duration > 0.0 => line.start.min(line.acceleration(self.duration)),
             _ => -self.bound(),
-        }
-    }
-}
-
-/// A shape is chosen at every look, not before the loop: one loop for each structure and method is what fits the flash.
-impl GroundSegment<f32> for Shape {
-    #[inline]
-    fn acceleration(&self, time: f32) -> f32 {
-        match self {
-            Shape::Quiet => 0.0,
-            Shape::Linear(piece) => piece.acceleration(time),
-            Shape::Sine(piece) => piece.acceleration(time),
-            Shape::ThreeSines(piece) => piece.acceleration(time),
-            Shape::Ricker(piece) => piece.acceleration(time),
-        }
-    }
-
-    fn slope(&self, time: f32) -> f32 {
-        match self {
-            Shape::Quiet => 0.0,
-            Shape::Linear(piece) => GroundSegment::slope(piece, time),
-            Shape::Sine(piece) => piece.slope(time),
-            Shape::ThreeSines(piece) => piece.slope(time),
-            Shape::Ricker(piece) => piece.slope(time),
-        }
-    }
-
-    fn curvature_bound(&self) -> f32 {
-        match self {
-            Shape::Quiet | Shape::Linear(_) => 0.0,
-            Shape::Sine(piece) => piece.curvature_bound(),
-            Shape::ThreeSines(piece) => piece.curvature_bound(),
-            Shape::Ricker(piece) => piece.curvature_bound(),
-        }
-    }
-
-    fn series(&self, time: f32, coefficients: &mut [f32]) {
-        match self {
-            Shape::Quiet => Quiet.series(time, coefficients),
-            Shape::Linear(piece) => piece.series(time, coefficients),
-            Shape::Sine(piece) => piece.series(time, coefficients),
-            Shape::ThreeSines(piece) => piece.series(time, coefficients),
-            Shape::Ricker(piece) => piece.series(time, coefficients),
-        }
-    }
-
-    fn elementary(&self, time: f32) -> Option<Elementary<f32>> {
-        match self {
-            Shape::Quiet => Quiet.elementary(time),
-            Shape::Linear(piece) => piece.elementary(time),
-            Shape::Sine(piece) => piece.elementary(time),
-            Shape::ThreeSines(piece) => piece.elementary(time),
-            Shape::Ricker(piece) => piece.elementary(time),
         }
     }
 }

@@ -36,6 +36,25 @@ impl<S: Real> Harmonics<S, 1> {
     }
 }
 
+impl<S: Real, const M: usize> Harmonics<S, M> {
+    /// Upper bound of |ü_g/g|.
+    pub fn bound(&self) -> S {
+        self.terms.iter().fold(S::ZERO, |sum, term| sum + term.amplitude.abs())
+    }
+
+    /// In precision `T`.
+    pub fn to<T: Real>(&self) -> Harmonics<T, M> {
+        let precise = |number: S| T::of(number.to_f64());
+        Harmonics {
+            terms: self.terms.map(|term| Harmonic {
+                amplitude: precise(term.amplitude),
+                frequency: precise(term.frequency),
+                phase: precise(term.phase),
+            }),
+        }
+    }
+}
+
 /// The near-fault pulse of Mavroeidis and Papageorgiou (2003), in velocity
 ///
 /// v(τ) = (A/2) [1 + cos(2πf(τ−t₀)/γ)] cos(2πf(τ−t₀) + ν),  |τ − t₀| ≤ γ/(2f),

@@ -24,6 +24,21 @@ impl<S: Real> Linear<S> {
     pub fn constant(level: S) -> Linear<S> {
         Linear { start: level, slope: S::ZERO }
     }
+
+    /// The same line from `delay` (s) on, in a time of its own.
+    pub fn after(&self, delay: S) -> Linear<S> {
+        Linear { start: self.acceleration(delay), slope: self.slope }
+    }
+
+    /// Upper bound of |ü_g/g| over `duration` (s).
+    pub fn bound(&self, duration: S) -> S {
+        self.start.abs().larger(self.acceleration(duration).abs())
+    }
+
+    /// In precision `T`.
+    pub fn to<T: Real>(&self) -> Linear<T> {
+        Linear { start: T::of(self.start.to_f64()), slope: T::of(self.slope.to_f64()) }
+    }
 }
 
 impl<S: Real> GroundSegment<S> for Linear<S> {

@@ -5,11 +5,13 @@
 //!
 //! The room imports `math` and `structure`.
 
+pub mod any_segment;
 pub mod elementary;
 pub mod harmonic;
 pub mod linear;
 pub mod ricker;
 
+pub use any_segment::AnySegment;
 pub use elementary::Elementary;
 pub use harmonic::Harmonics;
 pub use linear::Linear;

@@ -20,6 +20,12 @@ impl<S: Real> Ricker<S> {
         let x = self.rate * (time - self.centre);
         (x, (-(x * x)).exp())
     }
+
+    /// In precision `T`.
+    pub fn to<T: Real>(&self) -> Ricker<T> {
+        let precise = |number: S| T::of(number.to_f64());
+        Ricker { amplitude: precise(self.amplitude), rate: precise(self.rate), centre: precise(self.centre) }
+    }
 }
 
 impl<S: Real> GroundSegment<S> for Ricker<S> {

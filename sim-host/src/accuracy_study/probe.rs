@@ -19,7 +19,7 @@ use sprag_shared::observers::peaks::Peaks;
 use super::subject::Subject;
 use super::variant::{self, Number, Setting, Variant};
 use crate::batch::case::TERMS;
-use crate::ground_motion::{Segment, ShapePiece};
+use crate::ground_motion::{Segment, SumSegment};
 use crate::outcome::Outcome;
 use crate::scene::accuracy::EventTreatment;
 use crate::simulation::drive::{Course, Segmented};
@@ -185,7 +185,7 @@ impl<S: Real> WithEquation<S> for StepEnd<'_, S> {
 
 impl<S: Real> StepEnd<'_, S> {
     /// Steps to the end, looking at impacts and overturning after each.
-    fn follow(&self, step: impl Fn(TimeSteppingState<S>, &ShapePiece<S>, S, S) -> TimeSteppingState<S>) -> Reading {
+    fn follow(&self, step: impl Fn(TimeSteppingState<S>, &SumSegment<S>, S, S) -> TimeSteppingState<S>) -> Reading {
         let subject = self.subject;
         let course: Course<'_> = subject.course();
         let alpha = subject.block().slenderness();
@@ -200,7 +200,7 @@ impl<S: Real> StepEnd<'_, S> {
         let segments =
             course.ground.segments().iter().map(|segment| (segment.start, segment.duration, Some(segment))).chain([quiet]);
         'all: for (origin, duration, segment) in segments {
-            let piece = segment.map_or(ShapePiece::Quiet, |s| ShapePiece::of(&s.shape));
+            let piece = segment.map_or(SumSegment::QUIET, |s| s.shape.to());
             let overturned: S = course.angle(segment.map_or(0.0, |segment| segment.bound));
             let duration = S::of(duration);
             let (mut time, mut tick) = (S::ZERO, 0);

@@ -1,11 +1,11 @@
 //! The motions that are followed.
 
-use sprag_shared::ground::Harmonics;
+use sprag_shared::ground::{AnySegment, GroundSegment, Harmonics};
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::{Block, Geometry};
 use sprag_shared::structure::error::ParameterError;
 
-use crate::ground_motion::{Component, GroundMotion, Shape, Smooth};
+use crate::ground_motion::{Component, GroundMotion, SumSegment};
 use crate::scene::Scene;
 use crate::scene::motions::GroundMotions;
 use crate::simulation::drive::{Course, Overturning};
@@ -65,7 +65,7 @@ impl Subject {
         let at = |(from, to): (f64, f64), index: usize| from + (to - from) * (index as f64 + 0.5) / count as f64;
         let cell = |index: usize| {
             let frequency = at(FREQUENCIES, index % count) * p;
-            let pulse = Smooth::Single(Harmonics::sine(at(AMPLITUDES, index / count) * threshold, frequency));
+            let pulse = AnySegment::Sine(Harmonics::sine(at(AMPLITUDES, index / count) * threshold, frequency));
             let ground = GroundMotion::sum(&[Component::pulse(0.0, core::f64::consts::TAU / frequency, pulse)]);
             let free_time = FREE_TIME_RATIO / p;
             Subject { ground, free_time, released: None, overturning: Overturning::Proven, ..self.clone() }
@@ -90,10 +90,10 @@ impl Subject {
 
     /// The slender block has closed forms under lines and sines.
     pub fn has_closed_form(&self) -> bool {
-        let smooth = |part: &(f64, Smooth)| matches!(part.1, Smooth::Linear(_) | Smooth::Single(_) | Smooth::Triple(_));
-        let known = |shape: &Shape| match shape {
-            Shape::Linear(_) => true,
-            Shape::Mixture(parts) => parts.iter().all(smooth),
+        let closed = |segment: &AnySegment<f64>| !matches!(segment, AnySegment::Ricker(_));
+        let known = |shape: &SumSegment<f64>| match shape {
+            SumSegment::Single(segment) => closed(segment),
+            SumSegment::Several(parts) => parts.iter().all(|(_, part)| closed(part)),
         };
         self.loaded.geometry == Geometry::Slender && self.ground.segments().iter().all(|segment| known(&segment.shape))
     }

@@ -10,7 +10,7 @@ use sprag_shared::motion::observer::{Event, MonotoneInterval};
 use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
 
 use super::truth::{Places, Shocks};
-use crate::ground_motion::{GroundMotion, Segment, ShapePiece};
+use crate::ground_motion::{GroundMotion, Segment, SumSegment};
 use crate::scene::motions::GroundMotions;
 use crate::sensor::Truth;
 use crate::simulation::drive::{Course, Segmented};
@@ -73,7 +73,7 @@ pub struct Plant<'a> {
     places: Places,
     time: f64,
     index: usize,
-    pieces: Option<(ShapePiece<f64>, Option<ShapePiece<f64>>)>,
+    pieces: Option<(SumSegment<f64>, Option<SumSegment<f64>>)>,
     limits: Limits<f64>,
     lightest: f64,
 }
@@ -125,8 +125,8 @@ impl<'a> Plant<'a> {
     fn enter_segment(&mut self) {
         let horizontal = self.segment();
         let vertical = self.surroundings.ground.vertical.as_ref().map(GroundMotion::segments);
-        let up = vertical.and_then(|segments| segments.get(self.index)).map(|segment| ShapePiece::of(&segment.shape));
-        self.pieces = Some((horizontal.map_or(ShapePiece::Quiet, |segment| ShapePiece::of(&segment.shape)), up));
+        let up = vertical.and_then(|segments| segments.get(self.index)).map(|segment| segment.shape.to());
+        self.pieces = Some((horizontal.map_or(SumSegment::QUIET, |segment| segment.shape.to()), up));
         let bound = horizontal.map_or(0.0, |segment| segment.bound);
         self.limits.overturned = self.surroundings.course.machine_angle(&self.machine, bound, self.lightest);
     }

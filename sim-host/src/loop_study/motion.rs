@@ -3,13 +3,14 @@
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
+use sprag_shared::ground::AnySegment;
 use sprag_shared::ground::harmonic::MavroeidisPapageorgiou;
 use sprag_shared::math;
 use sprag_shared::structure::block::{Block, GRAVITY};
 
 use super::bench::{StudyError, records_of};
 use crate::cloud::study_file::RecordTable;
-use crate::ground_motion::{Component, GroundMotion, Smooth};
+use crate::ground_motion::{Component, GroundMotion};
 
 /// A ground motion of a study.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,7 +73,7 @@ impl Motion {
 /// Largest acceleration, g, of a Mavroeidis-Papageorgiou pulse of γ and ν (degrees) with A = 1 m/s and `frequency` (Hz).
 fn peak((oscillations, phase): (f64, f64), frequency: f64) -> f64 {
     let wavelet = MavroeidisPapageorgiou { velocity_amplitude: 1.0, frequency, oscillations, phase: phase.to_radians() };
-    let pulse = Component::pulse(0.0, wavelet.duration(), Smooth::Triple(wavelet.harmonics()));
+    let pulse = Component::pulse(0.0, wavelet.duration(), AnySegment::ThreeSines(wavelet.harmonics()));
     GroundMotion::sum(&[pulse]).peak_m_s2() / GRAVITY
 }
 

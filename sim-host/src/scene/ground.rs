@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use sprag_shared::ground::harmonic::MavroeidisPapageorgiou;
-use sprag_shared::ground::{Harmonics, Linear, Ricker};
+use sprag_shared::ground::{AnySegment, Harmonics, Linear, Ricker};
 use sprag_shared::structure::block::{Block, GRAVITY};
 
 use super::error::{Key, SceneError};
 use super::schema::KeyOf;
-use crate::ground_motion::{Component, Smooth};
+use crate::ground_motion::Component;
 use crate::record::{Component as RecordComponent, ReadOptions, Record, RecordError, RecordSummary, TIME_STEP_RANGE_S, Units};
 
 /// One `[[ground]]` or `[[vertical]]` table.
@@ -232,20 +232,20 @@ impl GroundTable {
         let frequency = self
             .frequency_ratio
             .map_or_else(|| self.frequency_hz.unwrap_or_default() * core::f64::consts::TAU, |ratio| ratio * p);
-        let one = |duration: f64, smooth: Smooth| Component::pulse(self.start_s, duration, smooth);
+        let one = |duration: f64, segment| Component::pulse(self.start_s, duration, segment);
         let cycle = core::f64::consts::TAU / frequency;
         Ok(match self.motion {
-            Motion::Sine => one(cycle, Smooth::Single(Harmonics::sine(amplitude, frequency))),
-            Motion::HalfSine => one(cycle / 2.0, Smooth::Single(Harmonics::sine(amplitude, frequency))),
-            Motion::Cosine => one(cycle, Smooth::Single(Harmonics::cosine(amplitude, frequency))),
+            Motion::Sine => one(cycle, AnySegment::Sine(Harmonics::sine(amplitude, frequency))),
+            Motion::HalfSine => one(cycle / 2.0, AnySegment::Sine(Harmonics::sine(amplitude, frequency))),
+            Motion::Cosine => one(cycle, AnySegment::Sine(Harmonics::cosine(amplitude, frequency))),
             Motion::Rectangular => {
                 let duration = self.duration_s.unwrap_or_else(|| self.duration_ratio.unwrap_or_default() / p);
-                one(duration, Smooth::Linear(Linear::constant(amplitude)))
+                one(duration, AnySegment::Linear(Linear::constant(amplitude)))
             }
             Motion::Ricker => {
                 let rate = frequency / 2.0;
                 let centre = RICKER_REACH / rate;
-                one(2.0 * centre, Smooth::Ricker(Ricker { amplitude, rate, centre }))
+                one(2.0 * centre, AnySegment::Ricker(Ricker { amplitude, rate, centre }))
             }
             Motion::MavroeidisPapageorgiou => {
                 let wavelet = MavroeidisPapageorgiou {
@@ -254,7 +254,7 @@ impl GroundTable {
                     oscillations: self.oscillations.unwrap_or_default(),
                     phase: self.phase_deg.unwrap_or_default().to_radians(),
                 };
-                one(wavelet.duration(), Smooth::Triple(wavelet.harmonics()))
+                one(wavelet.duration(), AnySegment::ThreeSines(wavelet.harmonics()))
             }
             Motion::Record => {
                 let record = self.record(folder, direction, key)?;

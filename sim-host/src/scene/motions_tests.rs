@@ -1,5 +1,7 @@
 //! Horizontal and vertical ground motion of a scene.
 
+use sprag_shared::ground::GroundSegment;
+
 use super::Scene;
 use super::motions::GroundMotions;
 

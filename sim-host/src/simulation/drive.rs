@@ -12,7 +12,7 @@ use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::{Block, Geometry};
 
-use crate::ground_motion::{GroundMotion, Segment, ShapePiece};
+use crate::ground_motion::{GroundMotion, Segment, SumSegment};
 
 /// Arcs that one segment of ground motion may take.
 const MOST_ARCS: u32 = 50_000_000;
@@ -122,7 +122,7 @@ impl<'a> Course<'a> {
             }
             let duration = S::of(segment.duration);
             // One type for every shape: a branch a call costs less than a second copy of every stepper.
-            let piece = ShapePiece::of(&segment.shape);
+            let piece = segment.shape.to();
             system.advance(method, state, &piece, duration, &limits, observer).map_err(|end| end.after(segment.start))?;
         }
         if state.phase == Phase::Overturned || !goes_on() {
@@ -130,7 +130,7 @@ impl<'a> Course<'a> {
         }
         observer.segment(self.ground.duration(), None);
         let (limits, duration) = (self.limits(0.0), S::of(self.free_time));
-        let ended = system.advance(method, state, &ShapePiece::Quiet, duration, &limits, observer);
+        let ended = system.advance(method, state, &SumSegment::QUIET, duration, &limits, observer);
         ended.map_err(|end| end.after(self.ground.duration()))
     }
 
@@ -159,8 +159,8 @@ impl<'a> Course<'a> {
                 return Ok(());
             }
             observer.segment(segment.start, Some(segment));
-            let horizontal = ShapePiece::of(&segment.shape);
-            let up = vertical.and_then(|segments| segments.get(index)).map(|segment| ShapePiece::of(&segment.shape));
+            let horizontal = segment.shape.to();
+            let up = vertical.and_then(|segments| segments.get(index)).map(|segment| segment.shape.to());
             let shaking = Shaking { horizontal: &horizontal, vertical: up.as_ref().map(|piece| piece as _) };
             let (duration, limits) = (S::of(segment.duration), limits(segment.bound));
             machine.advance(integrator, state, shaking, duration, &limits, observer).map_err(|end| end.after(segment.start))?;
@@ -169,7 +169,7 @@ impl<'a> Course<'a> {
             return Ok(());
         }
         observer.segment(self.ground.duration(), None);
-        let shaking = Shaking { horizontal: &ShapePiece::Quiet, vertical: None };
+        let shaking = Shaking { horizontal: &SumSegment::QUIET, vertical: None };
         let ended = machine.advance(integrator, state, shaking, S::of(self.free_time), &limits(0.0), observer);
         ended.map_err(|end| end.after(self.ground.duration()))
     }

@@ -13,7 +13,7 @@ use super::device_run::{DeviceRun, Found};
 use super::run::{Failure, Task};
 use super::step_end::{self, Steps};
 use crate::batch::case::TERMS;
-use crate::ground_motion::ShapePiece;
+use crate::ground_motion::SumSegment;
 use crate::scene::accuracy::{EventTreatment, Precision};
 
 /// Runs the device of `task`.
@@ -61,7 +61,7 @@ fn with_method<S: Real, M: Integrator<S>>(task: &Task<'_>, method: &M) -> Result
     }
     let coupling = S::of(loaded.device.mass_ratio / loaded.block.inertia_ratio());
     let mut watchers = task.watchers::<S>(&loaded)?;
-    let still = ShapePiece::Quiet;
+    let still = SumSegment::QUIET;
     let mut watched = Watched { engaged: system.engaged, clutch: system.clutch, coupling, piece: still, observer: &mut watchers };
     course.follow(&system, method, &mut state, &mut watched, goes_on).map_err(Failure::Stopped)?;
     if task.interrupt.is_set() {

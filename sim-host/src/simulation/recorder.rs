@@ -1,5 +1,6 @@
 //! Samples a motion for histories.
 
+use sprag_shared::ground::GroundSegment;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::device_snapshot::{DeviceObserver, DeviceOutput, Snapshot};
 use sprag_shared::motion::observer::{Event, MonotoneInterval};

@@ -14,7 +14,7 @@ use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::block::GRAVITY;
 
 use super::drive::Course;
-use crate::ground_motion::ShapePiece;
+use crate::ground_motion::SumSegment;
 use crate::history::Sample;
 use crate::scene::accuracy::MethodName;
 
@@ -90,7 +90,7 @@ fn trace<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, clutch: ClutchRule
     let quiet = (course.ground.duration(), course.free_time, None);
     let segments = course.ground.segments().iter().map(|segment| (segment.start, segment.duration, Some(segment))).chain([quiet]);
     for (origin, duration, segment) in segments {
-        let piece = segment.map_or(ShapePiece::Quiet, |s| ShapePiece::of(&s.shape));
+        let piece = segment.map_or(SumSegment::QUIET, |s| s.shape.to());
         let overturned: S = course.angle(segment.map_or(0.0, |segment| segment.bound));
         let h = S::of(steps.step);
         let (mut time, mut tick) = (S::ZERO, 0);

@@ -11,7 +11,7 @@ use sprag_shared::observers::peaks::Peaks;
 use super::asked::Asked;
 use super::drive::Segmented;
 use super::recorder::Recorder;
-use crate::ground_motion::{Segment, ShapePiece};
+use crate::ground_motion::{Segment, SumSegment};
 
 /// What a scene wants to know of a run.
 #[derive(Debug)]
@@ -60,11 +60,11 @@ impl<S: Real> Segmented for Watchers<'_, S> {
 }
 
 /// An ideal device as its watchers see it.
-impl<S: Real, O: DeviceObserver<S> + Segmented> Segmented for Watched<S, ShapePiece<S>, O> {
+impl<S: Real, O: DeviceObserver<S> + Segmented> Segmented for Watched<S, SumSegment<S>, O> {
     fn segment(&mut self, start: f64, segment: Option<&Segment>) {
         self.piece = match segment {
-            Some(segment) => ShapePiece::of(&segment.shape),
-            None => ShapePiece::Quiet,
+            Some(segment) => segment.shape.to(),
+            None => SumSegment::QUIET,
         };
         self.observer.segment(start, segment);
     }

@@ -1,5 +1,6 @@
 //! A structure, followed through a ground motion.
 
+use sprag_shared::ground::GroundSegment;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::dense_output::Integrator;
 use sprag_shared::method::taylor::Taylor;
@@ -45,7 +46,7 @@ pub fn follow<S: Real, M: Integrator<S>, W: Watcher<S>>(
     let mut state = match start {
         Start::Rest => BlockState::default(),
         Start::Released(rotation, velocity) => {
-            let ground = segments.first().map_or(S::ZERO, |segment| segment.ground.at_start());
+            let ground = segments.first().map_or(S::ZERO, |segment| segment.ground.acceleration(S::ZERO));
             system.released_at(rotation, velocity, ground)
         }
     };

@@ -25,6 +25,6 @@ pub use follow::{Start, Watcher, follow, overturned_without_impact, release, sha
 pub use log::{FullLog, Log, Logged, Sampled, sane};
 pub use number::{boundary, relative};
 pub use precision::{Outcome, Precision, Stepping};
-pub use segment::{Ground, Segment};
+pub use segment::Segment;
 pub use structures::{GEOMETRIES, resized, unit_block};
 pub use tally::{Level, Tally};

@@ -219,7 +219,7 @@ fn accumulating_impacts_end_in_rest_at_their_closed_form() {
                             Segment::constant(push * alpha, 300.0)
                         } else {
                             Segment {
-                                ground: sprag_tests::Ground::Line(sprag_shared::ground::Linear {
+                                ground: sprag_shared::ground::AnySegment::Linear(sprag_shared::ground::Linear {
                                     start: push * alpha,
                                     slope: 1e-13 * alpha,
                                 }),

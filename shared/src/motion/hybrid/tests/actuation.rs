@@ -2,7 +2,8 @@
 
 use std::vec::Vec;
 
-use super::{Ground, HybridSystem, Seen, Watcher, pair, tight};
+use super::{HybridSystem, Seen, Watcher, pair, tight};
+use crate::ground::Quiet;
 use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput};
 use crate::motion::hybrid::mode_output::Shaking;
 use crate::motion::observer::{Event, MonotoneInterval};
@@ -45,7 +46,7 @@ fn pulse(mut machine: HybridSystem<f64>) -> (Vec<f64>, bool) {
     machine.actuator.controlled = true;
     let mut state = machine.released_at(0.1, 0.0, [0.0; 2]);
     let mut watcher = Watcher::default();
-    let shaking = Shaking { horizontal: &Ground::QUIET, vertical: None };
+    let shaking = Shaking { horizontal: &Quiet, vertical: None };
     let limits = pair(Geometry::Full, 1.0, 1.0).limits(true);
     for (wanted, until) in [([false, true], 0.005), ([false, false], 0.095)] {
         machine.order(&mut state, wanted, &mut watcher);

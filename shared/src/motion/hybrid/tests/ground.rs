@@ -1,6 +1,7 @@
 //! Vertical ground motion, guided racks and rack friction, against what they amount to.
 
-use super::{Ground, pair, shake, structure, tight};
+use super::{constant, pair, shake, sine, structure, tight};
+use crate::ground::{AnySegment, Quiet};
 use crate::motion::hybrid::mode_output::Shaking;
 use crate::motion::hybrid::{HybridSystem, series::Series};
 use crate::motion::observer::Event;
@@ -12,7 +13,7 @@ use crate::structure::device::{DeviceKind, KinematicsKind};
 use crate::structure::drivetrain::{Drivetrain, Rack};
 
 /// Largest |θ| and the phase after one ground segment from rest.
-fn shaken(structure: &Structure, horizontal: Ground, vertical: Option<Ground>, duration: f64) -> (f64, Phase) {
+fn shaken(structure: &Structure, horizontal: AnySegment<f64>, vertical: Option<AnySegment<f64>>, duration: f64) -> (f64, Phase) {
     let machine: HybridSystem<f64> = Drivetrain::default().resolve(structure, vertical.is_some()).unwrap();
     assert_eq!(machine.body.is_vertical(), vertical.is_some());
     struct Watch(Peaks<f64>);
@@ -42,9 +43,9 @@ fn constant_vertical_acceleration_is_another_gravity() {
                 let structure = structure(geometry, 12.0, kind, 0.4, KinematicsKind::Consistent);
                 let (amplitude, frequency) = (0.9, 12.0);
                 let stretch = f64::sqrt(1.0 + vertical);
-                let plain = shaken(&structure, Ground::sine(amplitude, frequency), None, 2.0);
-                let push = Ground::sine(amplitude * (1.0 + vertical), frequency * stretch);
-                let lifted = shaken(&structure, push, Some(Ground::constant(vertical)), 2.0 / stretch);
+                let plain = shaken(&structure, sine(amplitude, frequency), None, 2.0);
+                let push = sine(amplitude * (1.0 + vertical), frequency * stretch);
+                let lifted = shaken(&structure, push, Some(constant(vertical)), 2.0 / stretch);
                 assert_eq!(plain.1, lifted.1);
                 assert!((plain.0 / lifted.0 - 1.0).abs() < 1e-10, "{geometry:?} {kind:?} {vertical}: {plain:?} {lifted:?}");
             }
@@ -58,8 +59,8 @@ fn vertical_acceleration_moves_the_uplift_threshold() {
     let structure = structure(Geometry::Full, 12.0, DeviceKind::None, 0.0, KinematicsKind::Paper);
     let threshold = crate::math::tan(structure.block.slenderness());
     for (push, rocks) in [(0.999, false), (1.001, true)] {
-        let push = Ground::constant(threshold * 0.7 * push);
-        let (_, phase) = shaken(&structure, push, Some(Ground::constant(-0.3)), 0.5);
+        let push = constant(threshold * 0.7 * push);
+        let (_, phase) = shaken(&structure, push, Some(constant(-0.3)), 0.5);
         assert_eq!(phase == Phase::Rocking, rocks);
     }
 }
@@ -102,9 +103,8 @@ fn dry_friction_takes_its_force_times_the_travel() {
     }
     let mut state = machine.released_at(start, 0.0, [0.0; 2]);
     let mut turns = Turns::default();
-    let quiet = Ground::QUIET;
     let limits = Limits { overturned: 1.0, events: 10_000 };
-    let shaking = Shaking { horizontal: &quiet, vertical: None };
+    let shaking = Shaking { horizontal: &Quiet, vertical: None };
     machine.advance(&Series::<f64, 20>::adaptive(1e-17), &mut state, shaking, 6.0, &limits, &mut turns).unwrap();
     // p²(α|θ| − θ²/2) falls by p² F/(mg) over every unit of travel.
     let energy = |theta: f64| p2 * (alpha * theta.abs() - 0.5 * theta * theta);
@@ -128,9 +128,8 @@ fn friction_holds_a_block_where_nothing_else_does() {
     for (angle, held) in [(alpha - 0.99 * reach, true), (alpha - 1.01 * reach, false), (alpha + 0.99 * reach, true)] {
         let machine: HybridSystem<f64> = dry(0.02).resolve(&structure, false).unwrap();
         let mut state = machine.released_at(angle, 0.0, [0.0; 2]);
-        let quiet = Ground::QUIET;
         let limits = Limits { overturned: 1.5, events: 10_000 };
-        let shaking = Shaking { horizontal: &quiet, vertical: None };
+        let shaking = Shaking { horizontal: &Quiet, vertical: None };
         machine.advance(&Series::<f64, 20>::adaptive(1e-17), &mut state, shaking, 1.0, &limits, &mut ()).unwrap();
         let (rotation, stays) = (state.motion.rotation, state.held);
         assert_eq!(stays, held, "at {angle}");
@@ -144,7 +143,7 @@ fn devices_are_symmetric() {
     for (name, drivetrain) in super::drivetrains() {
         let shake = pair(Geometry::Full, 3.0, 5.0);
         let mut mirrored = shake.clone();
-        if let (Ground::Sine(sine), _) = &mut mirrored.pieces[0] {
+        if let (AnySegment::Sine(sine), _) = &mut mirrored.pieces[0] {
             sine.terms[0].amplitude = -sine.terms[0].amplitude;
         }
         let (one, other) = (shake.machine(&drivetrain, &tight()), mirrored.machine(&drivetrain, &tight()));

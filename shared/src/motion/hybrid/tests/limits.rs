@@ -2,7 +2,8 @@
 
 use std::vec::Vec;
 
-use super::{Ground, Seen, pair, shake, structure, tight};
+use super::{Seen, constant, pair, shake, structure, tight};
+use crate::ground::AnySegment;
 use crate::motion::observer::Event;
 use crate::structure::block::Geometry;
 use crate::structure::device::{DeviceKind, KinematicsKind};
@@ -98,7 +99,7 @@ fn the_first_swing_of_an_overrunning_clutch_is_ideal() {
 pub fn engaging_at_speed(geometry: Geometry) -> super::Shake {
     let mut shake = pair(geometry, 1.0, 1.0);
     let push = -2.0 * geometry.uplift_threshold(&shake.structure.block);
-    shake.pieces = std::vec![(Ground::constant(push), 0.15), (Ground::QUIET, 0.07), (Ground::constant(push), 0.05)];
+    shake.pieces = std::vec![(constant(push), 0.15), (AnySegment::Quiet, 0.07), (constant(push), 0.05)];
     shake.free_time = 3.0;
     shake
 }

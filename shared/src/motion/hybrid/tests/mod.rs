@@ -13,7 +13,7 @@ use std::vec::Vec;
 use super::mode_output::{ModeIntegrator, Shaking};
 use super::series::Series;
 use super::{HybridState, HybridSystem};
-use crate::ground::{GroundSegment, Harmonics, Linear, Quiet};
+use crate::ground::{AnySegment, Harmonics, Linear, Quiet};
 use crate::method::fixed::FixedStep;
 use crate::method::taylor::Taylor;
 use crate::motion::device_snapshot::DeviceObserver;
@@ -28,53 +28,12 @@ use crate::structure::mount::Mount;
 use crate::structure::restitution::Restitution;
 use crate::structure::{REST_SPEED, Structure};
 
-/// Every ground motion of these tests as one type, so that there is one copy of every loop.
-#[derive(Clone, Copy, Debug)]
-pub enum Ground {
-    Sine(Harmonics<f64, 1>),
-    Line(Linear<f64>),
+fn sine(amplitude: f64, frequency: f64) -> AnySegment<f64> {
+    AnySegment::Sine(Harmonics::sine(amplitude, frequency))
 }
 
-impl Ground {
-    pub const QUIET: Ground = Ground::Line(Linear { start: 0.0, slope: 0.0 });
-
-    pub fn sine(amplitude: f64, frequency: f64) -> Ground {
-        Ground::Sine(Harmonics::sine(amplitude, frequency))
-    }
-
-    pub fn constant(level: f64) -> Ground {
-        Ground::Line(Linear::constant(level))
-    }
-}
-
-impl GroundSegment<f64> for Ground {
-    fn acceleration(&self, time: f64) -> f64 {
-        match self {
-            Ground::Sine(sine) => sine.acceleration(time),
-            Ground::Line(line) => line.acceleration(time),
-        }
-    }
-
-    fn slope(&self, time: f64) -> f64 {
-        match self {
-            Ground::Sine(sine) => sine.slope(time),
-            Ground::Line(line) => GroundSegment::slope(line, time),
-        }
-    }
-
-    fn curvature_bound(&self) -> f64 {
-        match self {
-            Ground::Sine(sine) => sine.curvature_bound(),
-            Ground::Line(_) => 0.0,
-        }
-    }
-
-    fn series(&self, time: f64, coefficients: &mut [f64]) {
-        match self {
-            Ground::Sine(sine) => sine.series(time, coefficients),
-            Ground::Line(line) => line.series(time, coefficients),
-        }
-    }
+fn constant(level: f64) -> AnySegment<f64> {
+    AnySegment::Linear(Linear::constant(level))
 }
 
 /// A block under ground segments, then left alone.
@@ -82,7 +41,7 @@ impl GroundSegment<f64> for Ground {
 pub struct Shake {
     pub structure: Structure,
     /// Each with its duration, s.
-    pub pieces: Vec<(Ground, f64)>,
+    pub pieces: Vec<(AnySegment<f64>, f64)>,
     /// s.
     pub free_time: f64,
 }
@@ -115,7 +74,7 @@ pub fn structure(geometry: Geometry, degrees: f64, kind: DeviceKind, sigma: f64,
 pub fn shake(structure: Structure, amplitude: f64, frequency: f64) -> Shake {
     let p = structure.block.frequency_parameter();
     let amplitude = amplitude * structure.geometry.uplift_threshold(&structure.block);
-    let cycle = (Ground::sine(amplitude, frequency * p), core::f64::consts::TAU / (frequency * p));
+    let cycle = (sine(amplitude, frequency * p), core::f64::consts::TAU / (frequency * p));
     Shake { structure, pieces: std::vec![cycle], free_time: 12.0 / p }
 }
 
@@ -151,10 +110,7 @@ impl DeviceObserver<f64> for Watcher {
 
 impl Shake {
     fn limits(&self, quiet: bool) -> Limits<f64> {
-        let largest = |(ground, _): &(Ground, f64)| match ground {
-            Ground::Sine(sine) => sine.terms[0].amplitude.abs(),
-            Ground::Line(line) => line.start.abs(),
-        };
+        let largest = |(ground, duration): &(AnySegment<f64>, f64)| ground.bound(*duration);
         let bound = if quiet { 0.0 } else { self.pieces.iter().map(largest).fold(0.0, f64::max) };
         let block = self.structure.loaded().unwrap().block;
         Limits { overturned: self.structure.geometry.point_of_no_return(&block, bound), events: 100_000 }
@@ -232,7 +188,7 @@ impl Shake {
             machine.advance(method, &mut state, shaking, *duration, &self.limits(false), &mut watcher).unwrap();
             watcher.0.peaks.origin += duration;
         }
-        let shaking = Shaking { horizontal: &Ground::QUIET, vertical: None };
+        let shaking = Shaking { horizontal: &Quiet, vertical: None };
         machine.advance(method, &mut state, shaking, self.free_time, &self.limits(true), &mut watcher).unwrap();
         let own = watcher.0;
         Seen {

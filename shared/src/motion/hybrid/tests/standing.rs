@@ -2,7 +2,8 @@
 
 use std::vec::Vec;
 
-use super::{Ground, Shake, pair, shake, structure, tight};
+use super::{Shake, pair, shake, sine, structure, tight};
+use crate::ground::{AnySegment, Linear};
 use crate::math;
 use crate::method::fixed::FixedStep;
 use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput};
@@ -54,7 +55,7 @@ fn uplift(drivetrain: &Drivetrain, engaged: Option<[bool; 2]>, spin: f64) -> f64
         machine.preset(&mut state, engaged);
     }
     (state.device.wheels[0].spin, state.device.wheels[1].spin) = (spin, -spin);
-    let ramp = Ground::Line(crate::ground::Linear { start: 0.0, slope: SLOPE });
+    let ramp = Linear { start: 0.0, slope: SLOPE };
     let shaking = Shaking { horizontal: &ramp, vertical: None };
     let limits = Limits { overturned: 1.0, events: 10_000 };
     let mut first = First::default();
@@ -142,8 +143,8 @@ fn a_second_uplift_feels_the_spinning_flywheels() {
     let block = structure(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
     let mut shake: Shake = shake(block, 1.8, 4.6);
     let threshold = shake.structure.geometry.uplift_threshold(&shake.structure.block);
-    shake.pieces.push((Ground::QUIET, 8.3));
-    shake.pieces.push((Ground::sine(1.05 * threshold, core::f64::consts::PI), 0.55));
+    shake.pieces.push((AnySegment::Quiet, 8.3));
+    shake.pieces.push((sine(1.05 * threshold, core::f64::consts::PI), 0.55));
     shake.free_time = 0.0;
     let damped = Engagement::Elastic { stiffness: 3e3, damping: 8.0, backlash: 0.0, capacity_ratio: f64::INFINITY };
     let account = Account { clutching: Clutching::Real, mass_ratio: 0.5, rack_mass_ratio: 0.0 };
@@ -185,7 +186,7 @@ fn a_block_that_is_held_on_its_base_has_not_rocked() {
     let [alone, held] = thresholds();
     for (push, uplifts) in [(0.5 * (alone + held), 0), (held + 1e-4, 1)] {
         // Half a sine, so that it comes and goes.
-        let pieces = std::vec![(Ground::sine(push, 2.0), core::f64::consts::FRAC_PI_2)];
+        let pieces = std::vec![(sine(push, 2.0), core::f64::consts::FRAC_PI_2)];
         let shake = Shake { structure: block, pieces, free_time: 1.0 };
         for engagement in [Engagement::Ideal, Engagement::Rigid, Engagement::Friction { capacity_ratio: 0.1 }] {
             let seen = shake.machine(&bearings(engagement), &tight());

@@ -1,0 +1,86 @@
+//! A ground segment chosen at run time.
+
+use super::{Elementary, GroundSegment, Harmonics, Linear, Quiet, Ricker};
+use crate::math::scalar::Real;
+
+/// A ground segment of any shape. It is chosen at every look, not before the loop: one loop for each structure and method is what
+/// fits the flash.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AnySegment<S> {
+    /// None.
+    Quiet,
+    /// A straight line.
+    Linear(Linear<S>),
+    /// One sine.
+    Sine(Harmonics<S, 1>),
+    /// Three, as a Mavroeidis-Papageorgiou wavelet has.
+    ThreeSines(Harmonics<S, 3>),
+    /// A Ricker wavelet.
+    Ricker(Ricker<S>),
+}
+
+macro_rules! each {
+    ($segment:expr, $inner:ident => $result:expr) => {
+        match $segment {
+            AnySegment::Quiet => {
+                let $inner = &Quiet;
+                $result
+            }
+            AnySegment::Linear($inner) => $result,
+            AnySegment::Sine($inner) => $result,
+            AnySegment::ThreeSines($inner) => $result,
+            AnySegment::Ricker($inner) => $result,
+        }
+    };
+}
+
+impl<S: Real> AnySegment<S> {
+    /// Upper bound of |ü_g/g| over `duration` (s).
+    pub fn bound(&self, duration: S) -> S {
+        match self {
+            AnySegment::Quiet => S::ZERO,
+            AnySegment::Linear(line) => line.bound(duration),
+            AnySegment::Sine(sine) => sine.bound(),
+            AnySegment::ThreeSines(sines) => sines.bound(),
+            AnySegment::Ricker(wavelet) => wavelet.amplitude.abs(),
+        }
+    }
+
+    /// In precision `T`.
+    pub fn to<T: Real>(&self) -> AnySegment<T> {
+        match self {
+            AnySegment::Quiet => AnySegment::Quiet,
+            AnySegment::Linear(line) => AnySegment::Linear(line.to()),
+            AnySegment::Sine(sine) => AnySegment::Sine(sine.to()),
+            AnySegment::ThreeSines(sines) => AnySegment::ThreeSines(sines.to()),
+            AnySegment::Ricker(wavelet) => AnySegment::Ricker(wavelet.to()),
+        }
+    }
+}
+
+impl<S: Real> GroundSegment<S> for AnySegment<S> {
+    #[inline]
+    fn acceleration(&self, time: S) -> S {
+        each!(self, segment => segment.acceleration(time))
+    }
+
+    fn slope(&self, time: S) -> S {
+        each!(self, segment => segment.slope(time))
+    }
+
+    fn curvature_bound(&self) -> S {
+        each!(self, segment => segment.curvature_bound())
+    }
+
+    fn series(&self, time: S, coefficients: &mut [S]) {
+        each!(self, segment => segment.series(time, coefficients));
+    }
+
+    fn is_quiet(&self) -> bool {
+        matches!(self, AnySegment::Quiet)
+    }
+
+    fn elementary(&self, time: S) -> Option<Elementary<S>> {
+        each!(self, segment => segment.elementary(time))
+    }
+}
