@@ -1,4 +1,4 @@
-//! How a simulation ends.
+//! Outcome of a simulation.
 
 use serde::Serialize;
 use sprag_shared::math::scalar::Real;
