@@ -14,7 +14,7 @@ use super::transmission::{Account, AnyPoint, EvaluationPoint, EventContext, Tran
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 
-/// One of the kinds of device.
+/// Transmission of any kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AnyTransmission<S> {
     /// The block alone.
@@ -89,7 +89,7 @@ fn of_kind<'a, S: Real, const X: usize>(at: &AnyPoint<'a, S, UNKNOWNS>) -> AnyPo
 }
 
 impl<S: Real> AnyTransmission<S> {
-    /// What kind of device it is.
+    /// Traits of the kind.
     #[inline]
     pub fn traits(&self) -> Traits {
         fn of<S: Real, D: Transmission<S, X, G>, const X: usize, const G: usize>(_: &D) -> Traits {

@@ -7,18 +7,18 @@ use crate::math::sign::Sign;
 /// Connection of one flywheel to the rack: the discrete state of its clutch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Coupling {
-    /// Not at all.
+    /// No connection: the clutch is open.
     #[default]
     Open,
-    /// Rigidly.
+    /// Rigid connection: one speed.
     Locked,
-    /// By the friction of slipping plates, which pull the flywheel along with this sign.
+    /// Friction of slipping plates: force on the flywheel with this sign.
     Slipping(Sign),
-    /// Engaged, but within the gear play.
+    /// Engaged within the gear play: no force.
     InPlay,
-    /// By its spring and damper, on this side of the play.
+    /// Spring and damper in contact on this side of the play.
     Elastic(Sign),
-    /// By spring and damper at the capacity of slipping plates, with this sign.
+    /// Spring and damper in contact, force at the capacity of slipping plates, with this sign.
     Saturated(Sign),
 }
 
@@ -93,7 +93,7 @@ pub struct DeviceState<S> {
     pub wheels: [FlywheelState<S>; 2],
     /// Commands to engage so far.
     pub engagements: u32,
-    /// Of these, missed.
+    /// Engagements missed so far.
     pub missed: u32,
 }
 
@@ -141,21 +141,21 @@ pub struct ModeCoefficients<S> {
     pub viscous: S,
     /// Dry resistance at the rack with the sign of the motion, 1/s².
     pub dry: S,
-    /// Per flywheel: its speed decays by this rate, 1/s, …
+    /// Viscous rate of each flywheel, 1/s.
     pub decay: [S; 2],
-    /// … and by this deceleration with its sign, 1/s².
+    /// Dry deceleration of each flywheel with its sign, 1/s².
     pub drag: [S; 2],
     /// 1 while forces move the flywheel, 0 while friction holds it.
     pub moves: [S; 2],
-    /// Force of slipping plates, 1/s², …
+    /// Force of slipping plates, 1/s².
     pub slip: [S; 2],
-    /// … and its growth, 1/s³.
+    /// Growth of the force of slipping plates, 1/s³.
     pub slip_growth: [S; 2],
     /// Stiffness of a clutch in contact, 1/s².
     pub stiffness: [S; 2],
-    /// Its damping, 1/s.
+    /// Damping of a clutch in contact, 1/s.
     pub damping: [S; 2],
-    /// Twist at which it is without force.
+    /// Twist at which a clutch in contact is without force.
     pub rest_twist: [S; 2],
     /// 1 while the twist follows the relative motion, else 0.
     pub follows: [S; 2],

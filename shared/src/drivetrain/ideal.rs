@@ -9,7 +9,7 @@ use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::math::value::Value;
 
-/// The block alone.
+/// Block without a device.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Alone;
 

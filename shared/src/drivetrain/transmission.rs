@@ -14,11 +14,11 @@ use crate::math::value::Value;
 pub struct EvaluationPoint<'a, S, B, P, V, const X: usize> {
     /// The block.
     pub body: &'a B,
-    /// The mode.
+    /// Coefficients of the mode.
     pub law: &'a ModeCoefficients<S>,
     /// The body's configuration at θ.
     pub configuration: P,
-    /// θ̇.
+    /// θ̇, rad/s.
     pub velocity: V,
     /// The device's own unknowns: speeds of the flywheels, then twists of the clutches.
     pub unknowns: [V; X],
@@ -34,7 +34,7 @@ pub type PointOf<'a, S, B, V, const X: usize> = EvaluationPoint<'a, S, B, <B as 
 /// [`EvaluationPoint`] in numbers, of a body chosen at run time, for events and observers.
 pub type AnyPoint<'a, S, const X: usize> = PointOf<'a, S, AnyBody<S>, S, X>;
 
-/// An event that a device has to answer, in numbers.
+/// Event context: block and device at an event that the device answers.
 #[derive(Debug)]
 pub struct EventContext<'a, S> {
     /// The block.
@@ -95,7 +95,7 @@ pub trait Transmission<S: Real, const X: usize, const G: usize>: Copy {
         core::array::from_fn(|i| unknowns[i % UNKNOWNS])
     }
 
-    /// And at its end, where the rack has the speed `rack` (over R).
+    /// Stores the unknowns at the end of a step, where the rack has the speed `rack` (over R).
     #[inline(always)]
     fn store(&self, device: &mut DeviceState<S>, unknowns: &[S; X], rack: S) {
         for (i, wheel) in device.wheels.iter_mut().enumerate() {
@@ -168,7 +168,7 @@ pub trait Transmission<S: Real, const X: usize, const G: usize>: Copy {
     }
 }
 
-/// Most unknowns that a device has of its own.
+/// Largest number of a device's own unknowns.
 pub const UNKNOWNS: usize = 4;
 
 /// Forces, speeds, energy and losses of a device at an instant ([`crate::motion::device_snapshot::Snapshot`]).
@@ -176,15 +176,15 @@ pub const UNKNOWNS: usize = 4;
 pub struct Account<S> {
     /// Force of each flywheel on the rack, 1/s².
     pub force: [S; 2],
-    /// Of the rack itself, 1/s².
+    /// Force of the rack itself, 1/s².
     pub rack_force: S,
-    /// Which are coupled.
+    /// Engaged flywheels.
     pub engaged: [bool; 2],
     /// Speeds of the flywheels, 1/s.
     pub spin: [S; 2],
     /// Energy in flywheels, rack and springs, 1/s².
     pub stored: S,
-    /// What of it is in springs, 1/s².
+    /// Energy of the springs alone, 1/s².
     pub sprung: S,
     /// Power lost, 1/s³; the paper's kinematics are not in it.
     pub spent: Spent<S>,

@@ -2,11 +2,11 @@
 
 use crate::math::scalar::Real;
 
-/// As many as fit. Within 50 ms a clutch gets one or two.
+/// Capacity of the queue. Within 50 ms a clutch gets one or two.
 pub const MOST_UNDER_WAY: usize = 8;
 
-/// Commands in order, each with its wait after the one before it. Where a new one finds no place, it takes back the newest if that is of the
-/// other kind, as with an inertial delay; one of the same kind changes nothing.
+/// Queue of commands in order, each with its wait after the one before it. In a full queue a new one takes back the newest if that is of
+/// the other kind, as with an inertial delay; one of the same kind changes nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct UnderWay<S> {
     waits: [S; MOST_UNDER_WAY],

@@ -14,12 +14,12 @@ use super::lever::TyingPoint;
 use crate::math::scalar::Scalar;
 use crate::math::value::Value;
 
-/// A block and a lever. A configuration is what θ alone decides, worked out once for all that need it.
+/// Block and lever: the terms of the equation of motion at a configuration.
 pub trait Body<S: Scalar>: Copy {
-    /// δ-dependent quantities.
+    /// Quantities that θ alone decides: sin δ, cos δ, ℓ, ℓ'.
     type Configuration<V: Value<S>>: Copy;
 
-    /// The configuration at θ (rad) on side s = ±1.
+    /// Configuration at θ (rad) on side s = ±1.
     fn configuration<V: Value<S>>(&self, side: S, rotation: V) -> Self::Configuration<V>;
 
     /// D for the ground acceleration in g, horizontal and vertical (the vertical one is not read by a body without it).
@@ -41,7 +41,7 @@ pub trait Body<S: Scalar>: Copy {
     /// energy is conserved.
     fn paper_power(&self, side: S, configuration: &Self::Configuration<S>, velocity: S, coupling: S) -> S;
 
-    /// ℓ.
+    /// Lever ℓ.
     fn arm(&self, configuration: &Self::Configuration<S>) -> S;
 
     /// The terminals' travel per R, ∫ ℓ dθ, up to a constant of each side.

@@ -2,7 +2,7 @@
 
 use crate::math::sign::Sign;
 
-/// The rule of an ideal device.
+/// Clutch rule of an ideal device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ClutchRule {
     /// There is no inerter.
@@ -38,7 +38,7 @@ impl ClutchRule {
         }
     }
 
-    /// The flywheel that works.
+    /// Engaged flywheel.
     pub fn flywheel(self, engaged: bool, direction: Sign) -> Flywheel {
         match (engaged, self.follows_signs(), direction) {
             (false, _, _) => Flywheel::Idle,
@@ -48,7 +48,7 @@ impl ClutchRule {
     }
 }
 
-/// A rule as a type, so that lanes without a clutch have no clutch in their loop.
+/// Clutch rule as a type, so that lanes without a clutch have no clutch in their loop.
 pub trait Clutch: Copy {
     /// The rule.
     const RULE: ClutchRule;
@@ -78,7 +78,7 @@ impl Clutch for ClutchedPair {
     const RULE: ClutchRule = ClutchRule::Resisting;
 }
 
-/// Which flywheel transfers force.
+/// Flywheel that transfers force.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Flywheel {
     /// None.

@@ -10,7 +10,7 @@
 
 use crate::math;
 
-/// How ω² changes with q along a free motion in one mode of the clutch; q in rad, below π/2, ω in p rad.
+/// First integral of one mode of the clutch: ω² as a function of q along a free motion; q in rad, below π/2, ω in p rad.
 pub trait FirstIntegral: Copy {
     /// ω² at q = `to` of a motion that has ω² = `squared` at q = `from`; not above 0 where it does not get there.
     fn squared_speed(&self, from: f64, squared: f64, to: f64) -> f64;
@@ -22,7 +22,7 @@ pub trait FirstIntegral: Copy {
     fn acceleration(&self, q: f64) -> f64;
 }
 
-/// The slender block: θ̈ = −q p²/(1 + κ k ℓ²) (Eq. 17-18).
+/// First integral of the slender block: θ̈ = −q p²/(1 + κ k ℓ²) (Eq. 17-18).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlenderIntegral {
     /// 1 + κ k ℓ².
@@ -48,7 +48,7 @@ impl FirstIntegral for SlenderIntegral {
     }
 }
 
-/// The full block, its inerter at the centre of mass: (1 + κ k cos² q) θ̈ = −p² sin q (Eq. 13-16).
+/// First integral of the full block, its inerter at the centre of mass: (1 + κ k cos² q) θ̈ = −p² sin q (Eq. 13-16).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FullIntegral {
     /// κ k.

@@ -1,16 +1,16 @@
 //! Kinematics of the inerter's terminals: the paper's (Eq. 11) and the consistent ones.
 
-/// How the terminal's acceleration follows from the block's: with or without the θ̇² term.
+/// Kinematics of the terminals as a type: with or without the θ̇² term.
 pub trait Kinematics: Copy + Default {
     /// Whether the θ̇² term is there.
     const CONSISTENT: bool;
 }
 
-/// Eq. 11 as printed: ü = ℓ R θ̈.
+/// Kinematics of the paper, Eq. 11 as printed: ü = ℓ R θ̈.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Paper;
 
-/// The full derivative of the terminal's travel: ü = R (ℓ θ̈ + ℓ' θ̇²). Conserves energy.
+/// Consistent kinematics, the full derivative of the terminals' travel: ü = R (ℓ θ̈ + ℓ' θ̇²). Conserves energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Consistent;
 

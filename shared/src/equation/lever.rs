@@ -9,16 +9,16 @@
 use crate::math::scalar::Scalar;
 use crate::math::value::Value;
 
-/// ℓ(θ) of one mount. `side` is s = ±1; `sin` and `cos` are of δ.
+/// Lever ℓ(θ) of one mount. `side` is s = ±1; `sin` and `cos` are of δ.
 pub trait Lever<S: Scalar>: Copy {
-    /// ℓ, per R.
+    /// Lever ℓ, per R.
     fn arm<V: Value<S>>(&self, side: S, sin: V, cos: V) -> V;
 
-    /// ℓ' = dℓ/dθ, per R.
+    /// Rate of the lever ℓ' = dℓ/dθ, per R.
     fn arm_rate<V: Value<S>>(&self, side: S, sin: V, cos: V) -> V;
 }
 
-/// Horizontal, at the centre of mass: ℓ = cos δ.
+/// Lever of a horizontal inerter at the centre of mass: ℓ = cos δ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CentreOfMass;
 
@@ -34,7 +34,7 @@ impl<S: Scalar> Lever<S> for CentreOfMass {
     }
 }
 
-/// Any other point and direction: ℓ = A cos δ + s B sin δ.
+/// Lever of any other point and direction: ℓ = A cos δ + s B sin δ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TyingPoint<S> {
     /// A.

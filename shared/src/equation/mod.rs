@@ -30,7 +30,7 @@ use configuration::FullConfiguration;
 use kinematics::Kinematics;
 use lever::Lever;
 
-/// A second-order equation of motion of one rotation, smooth between events.
+/// Equation of motion of one rotation, of second order and smooth between events.
 pub trait Equation<S: Scalar>: Copy {
     /// Whether the clutch's switching function is the acceleration itself (paper kinematics), so that one search finds
     /// the zeros of both.
@@ -60,7 +60,7 @@ pub trait Equation<S: Scalar>: Copy {
     fn paper_power(&self, side: S, rotation: S, velocity: S) -> S;
 }
 
-/// The block alone, or with its inerter released: Eq. 2.
+/// Equation of motion of the block alone, or with its inerter released (Eq. 2): θ̈ = −p² [ sin δ + (ü_g/g) cos δ ].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FullBlock<S> {
     /// p², 1/s².
@@ -117,16 +117,16 @@ impl<S: Scalar> Equation<S> for FullBlock<S> {
     }
 }
 
-/// The block with its inerter engaged: Eq. 13-16 for any mount, or with its inerter released but watched by the clutch.
+/// Equation of motion of the block with its inerter (Eq. 13-16, any mount); κ = 0 with the inerter released.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FullInerter<S, L, K> {
-    /// The block.
+    /// Equation of the block alone.
     pub block: FullBlock<S>,
     /// κ k: σ/λ while engaged, 0 while released. In SIMD lanes each lane has its own.
     pub coupling: S,
-    /// ℓ(θ).
+    /// Lever ℓ(θ).
     pub lever: L,
-    /// Paper or consistent.
+    /// Kinematics, paper or consistent.
     kinematics: PhantomData<K>,
 }
 
@@ -185,7 +185,7 @@ impl<S: Scalar, L: Lever<S>, K: Kinematics> Equation<S> for FullInerter<S, L, K>
     }
 }
 
-/// The slender block (Eq. 17-18), where an engaged inerter only lowers the frequency parameter:
+/// Equation of motion of the slender block (Eq. 17-18), where an engaged inerter only lowers the frequency parameter:
 /// θ̈ = −p_σ² [ αs − θ + ü_g/g ],  p_σ² = p²/(1 + κ k ℓ²).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlenderBlock<S> {

@@ -1,12 +1,12 @@
 //! The motion of the block at an instant: rotation, angular velocity, angular acceleration.
 
-/// θ, θ̇ and θ̈ at one instant (rad, rad/s, rad/s²).
+/// Motion at one instant: θ, θ̇ and θ̈ (rad, rad/s, rad/s²).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion<S> {
-    /// θ.
+    /// θ, rad.
     pub rotation: S,
-    /// θ̇.
+    /// θ̇, rad/s.
     pub velocity: S,
-    /// θ̈.
+    /// θ̈, rad/s².
     pub acceleration: S,
 }

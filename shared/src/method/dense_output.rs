@@ -7,22 +7,22 @@ use crate::math::root::illinois;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 
-/// Where a step starts and what governs it.
+/// Start of a step: state, equation and ground motion.
 #[derive(Clone, Copy, Debug)]
 pub struct StepStart<'a, S> {
     /// The equation of motion in force.
     pub equation: &'a AnyEquation<S>,
     /// The ground motion.
     pub piece: &'a dyn GroundSegment<S>,
-    /// s.
+    /// s = sgn θ.
     pub side: Sign,
-    /// θ.
+    /// θ, rad.
     pub rotation: S,
-    /// θ̇.
+    /// θ̇, rad/s.
     pub velocity: S,
     /// Local time in the ground segment, s.
     pub time: S,
-    /// How far the step may reach, s; above 0.
+    /// Largest length of the step, s; above 0.
     pub length: S,
     /// The bracket is zero here because an event was located on it; its rounding error must not count.
     pub acceleration_is_zero: bool,
@@ -32,9 +32,9 @@ pub struct StepStart<'a, S> {
     pub scale: S,
 }
 
-/// The motion from a [`StepStart`] over times from 0 to [`DenseOutput::length`], θ and θ̇ and θ̈ at any instant of it.
+/// Dense output: the motion from a [`StepStart`] over times from 0 to [`DenseOutput::length`], θ and θ̇ and θ̈ at any instant of it.
 pub trait DenseOutput<S: Real> {
-    /// How far it reaches, s; at most what was asked for.
+    /// Length of the step, s; at most the one asked for.
     fn length(&self) -> S;
 
     /// The motion at `time` after the start.
@@ -46,7 +46,7 @@ pub trait DenseOutput<S: Real> {
         self.at(self.length())
     }
 
-    /// The clutch's switching function.
+    /// Switching function of the clutch (Eq. 10).
     fn switching(&self, time: S) -> S;
 
     /// First zero of θ̈ in (`from`, `to`], where θ̈ has the sign `sign` just after `from`. `from_zero` says that θ̈ is
@@ -86,9 +86,9 @@ fn zero_between<S: Real, A: DenseOutput<S> + ?Sized>(output: &A, from: S, to: S,
     illinois(from, to, sign, |t| output.at(t).acceleration)
 }
 
-/// A way to integrate: fixed steps or steps of its own choice.
+/// Integrator with dense output: fixed steps or steps of its own choice.
 pub trait Integrator<S: Real> {
-    /// Its dense output.
+    /// Dense output of its steps.
     type Output<'a>: DenseOutput<S>
     where
         Self: 'a;

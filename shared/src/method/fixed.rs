@@ -12,23 +12,23 @@ use crate::equation::motion::Motion;
 use crate::equation::switched::Switched;
 use crate::math::scalar::{Real, Scalar};
 
-/// A method of fixed steps, each with its step in s (above 0).
+/// Fixed-step method, each with its step in s (above 0).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FixedStep<S> {
     /// Semi-implicit (symplectic) Euler: velocities first, then positions with the new velocities. Order 1.
     SemiImplicitEuler {
-        /// s.
+        /// Step, s.
         step: S,
     },
     /// The classical Runge-Kutta method. Order 4.
     RungeKutta4 {
-        /// s.
+        /// Step, s.
         step: S,
     },
     /// The exponential midpoint method ([`crate::motion::hybrid::exponential`]) for elastic clutches, order 2; for all other devices the
     /// Runge-Kutta method.
     ExponentialMidpoint {
-        /// s.
+        /// Step, s.
         step: S,
     },
 }

@@ -8,14 +8,14 @@ use crate::math::power_series::Tape;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::{RECIPROCALS, polynomial};
 
-/// Coefficients of θ, θ̇ and θ̈; θ̇ has one less than θ, and θ̈ two. What their arrays have beyond is zero.
+/// Power series of θ, θ̇ and θ̈; θ̇ has one less than θ, and θ̈ two. What their arrays have beyond is zero.
 #[derive(Clone, Copy, Debug)]
 pub struct MotionSeries<S, const N: usize> {
-    /// Of θ.
+    /// Coefficients of θ.
     pub rotation: [S; N],
-    /// Of θ̇.
+    /// Coefficients of θ̇.
     pub velocity: [S; N],
-    /// Of θ̈.
+    /// Coefficients of θ̈.
     pub acceleration: [S; N],
 }
 
@@ -55,7 +55,7 @@ impl<S: Scalar, const N: usize> MotionSeries<S, N> {
 /// A [`MotionSeries`] that holds from 0 to a length.
 #[derive(Clone, Copy, Debug)]
 pub struct StepSeries<S, const N: usize> {
-    /// How far it holds, s.
+    /// Length on which the series holds, s.
     pub length: S,
     /// Coefficients of θ in use.
     pub terms: usize,
@@ -69,19 +69,19 @@ impl<S: Real, const N: usize> StepSeries<S, N> {
         StepSeries { length, terms: N, motion: MotionSeries::default() }
     }
 
-    /// Of θ.
+    /// Coefficients of θ.
     #[inline(always)]
     pub fn rotation(&self) -> &[S] {
         &self.motion.rotation[..self.terms.min(N)]
     }
 
-    /// Of θ̇.
+    /// Coefficients of θ̇.
     #[inline(always)]
     pub fn velocity(&self) -> &[S] {
         &self.motion.velocity[..self.terms.min(N) - 1]
     }
 
-    /// Of θ̈.
+    /// Coefficients of θ̈.
     #[inline(always)]
     pub fn acceleration(&self) -> &[S] {
         &self.motion.acceleration[..self.terms.min(N) - 2]

@@ -47,11 +47,11 @@ impl<S: Real, const N: usize> Taylor<S, N> {
     }
 }
 
-/// The series of one step.
+/// Dense output of one step as power series.
 #[derive(Clone, Copy, Debug)]
 pub struct TaylorOutput<S, const N: usize> {
     series: StepSeries<S, N>,
-    /// Of the switching function, where it is not the acceleration.
+    /// Coefficients of the switching function, where it is not the acceleration.
     switching: [S; N],
     /// Bound of d²θ̈/dt² over the step.
     curvature: S,

@@ -11,7 +11,7 @@ use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
 
-/// One instant.
+/// Snapshot of block and device at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Snapshot<S> {
     /// θ, θ̇, θ̈.
@@ -30,7 +30,7 @@ pub struct Snapshot<S> {
     pub spin: [S; 2],
     /// Kinetic energy of flywheels and rack, and of springs; E/(λmR²), 1/s².
     pub stored: S,
-    /// What of it is in springs.
+    /// Energy of the springs alone.
     pub sprung: S,
     /// Power lost, 1/s³.
     pub spent: Spent<S>,
@@ -85,7 +85,7 @@ impl<S: Real> DenseOutput<S> for &dyn DeviceOutput<S> {
 
 /// Observer of monotone intervals with the device, and of events, in order. Times are local to the ground segment.
 pub trait DeviceObserver<S: Real> {
-    /// The motion over an interval.
+    /// Motion over a monotone interval.
     #[inline(always)]
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         let _ = (output, interval);
@@ -107,7 +107,7 @@ pub trait DeviceObserver<S: Real> {
 /// Observer that ignores everything.
 impl<S: Real> DeviceObserver<S> for () {}
 
-/// Two observers.
+/// Pair of observers, called in order.
 impl<S: Real, A: DeviceObserver<S>, B: DeviceObserver<S>> DeviceObserver<S> for (A, B) {
     #[inline(always)]
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
@@ -145,7 +145,7 @@ impl<S: Real, A: DeviceObserver<S> + ?Sized> DeviceObserver<S> for &mut A {
     }
 }
 
-/// One that may be absent.
+/// Observer that may be absent.
 impl<S: Real, A: DeviceObserver<S>> DeviceObserver<S> for Option<A> {
     #[inline(always)]
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {

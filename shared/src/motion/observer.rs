@@ -7,22 +7,22 @@ use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
 use crate::motion::rest::free_decay::Decay;
 
-/// What happened at an instant.
+/// Event of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// The block leaves its rest.
+    /// Uplift: the block leaves its rest.
     Uplift,
-    /// θ = 0; the state is the one after the impact.
+    /// Impact, θ = 0; the state is the one after the impact.
     Impact,
-    /// θ̇ = 0 at a largest rotation.
+    /// Turn: θ̇ = 0 at a largest rotation.
     Turn,
     /// The clutch engaged or released; the state is the one after it.
     Switch,
     /// A clutch of a device with a memory stuck, slipped, or took up its play; the state is the one after it.
     Coupling,
-    /// The impacts have accumulated to rest.
+    /// Rest: the impacts have accumulated.
     Rest,
-    /// The block cannot return.
+    /// Overturning: the block cannot return.
     Overturned,
 }
 
@@ -41,7 +41,7 @@ pub struct MonotoneInterval<S> {
     pub last: Motion<S>,
     /// The inerter is engaged.
     pub engaged: bool,
-    /// s.
+    /// s = sgn θ.
     pub side: Sign,
     /// Sign of θ̇.
     pub direction: Sign,
@@ -54,7 +54,7 @@ pub trait Observer<S: Real> {
         true
     }
 
-    /// The motion over an interval.
+    /// Motion over a monotone interval.
     #[inline(always)]
     fn interval(&mut self, output: &dyn DenseOutput<S>, interval: &MonotoneInterval<S>) {
         let _ = (output, interval);
@@ -66,7 +66,7 @@ pub trait Observer<S: Real> {
         let _ = (event, time, state);
     }
 
-    /// The rest of a free motion, summed.
+    /// Free decay: the remaining swings, summed in closed form.
     #[inline(always)]
     fn decay(&mut self, decay: &Decay<S>) {
         let _ = decay;
@@ -80,7 +80,7 @@ impl<S: Real> Observer<S> for () {
     }
 }
 
-/// Two observers.
+/// Pair of observers, called in order.
 impl<S: Real, A: Observer<S>, B: Observer<S>> Observer<S> for (A, B) {
     fn every_swing(&self) -> bool {
         self.0.every_swing() || self.1.every_swing()

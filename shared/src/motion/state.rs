@@ -2,15 +2,15 @@
 
 use crate::math::sign::Sign;
 
-/// What the block does.
+/// Phase of the motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Phase {
-    /// Stands on both toes.
+    /// Rest: the block stands on both toes.
     #[default]
     Rest,
-    /// Turns about one toe.
+    /// Rocking: it turns about one toe.
     Rocking,
-    /// Cannot return.
+    /// Overturned: it cannot return.
     Overturned,
 }
 

@@ -1,4 +1,4 @@
-//! Outcome of a motion.
+//! Outcome of a motion: which of the four of the paper (section 4).
 
 use serde::Serialize;
 

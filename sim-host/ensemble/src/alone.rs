@@ -23,7 +23,7 @@ pub const TERMS: usize = 20;
 /// Tolerance of the series' last terms that stands for "to rounding".
 pub const TIGHT: f64 = 1e-15;
 
-/// Why a case has no result.
+/// Error of a case without a result.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CaseError {
     /// A parameter outside its range.
@@ -73,7 +73,7 @@ impl PulsedBlock {
         })
     }
 
-    /// Follows the block by the core to the end of its pulse.
+    /// Integration of the block by the core to the end of its pulse.
     fn over_the_pulse(
         &self,
         structure: &Structure,

@@ -19,7 +19,7 @@ use crate::{Mask, Number, WIDTH, number};
 /// Halvings of a step that a block may ask for.
 pub(crate) const MOST_HALVINGS: u32 = 24;
 
-/// The state of the blocks and what they have been through; p = 1.
+/// State of the blocks in the lanes, with their peaks and events; p = 1.
 #[derive(Clone, Copy, Debug)]
 pub struct Blocks {
     /// |θ|, rad.
@@ -32,7 +32,7 @@ pub struct Blocks {
     pub pushed: Mask,
     /// θ̈ = 0 here, by an event just handled.
     pub at_zero: Mask,
-    /// The sign of θ̈ is to be read anew.
+    /// The sign of θ̈ must be evaluated again.
     pub fresh: Mask,
     /// +1, or −1 where the mirror turns the ground motion about.
     pub side: Number,
@@ -48,31 +48,31 @@ pub struct Blocks {
     pub overturned: Mask,
     /// Has just passed it so slowly that impacts accumulate.
     pub weak: Mask,
-    /// To be followed by other means.
+    /// The core must integrate it.
     pub hard: Mask,
 }
 
-/// Where a step ends, and by which event, if any.
+/// End of a step, and its event, if any.
 #[derive(Clone, Copy, Debug)]
 pub struct Arrival {
     /// θ, rad.
     pub rotation: Number,
     /// θ̇, rad.
     pub velocity: Number,
-    /// At θ = 0.
+    /// Impact: θ = 0.
     pub hit: Mask,
-    /// At θ̇ = 0.
+    /// Turn: θ̇ = 0.
     pub turned: Mask,
-    /// At θ̈ = 0.
+    /// Zero of the acceleration: θ̈ = 0.
     pub rate_zero: Mask,
-    /// θ̈ has changed its sign on the way.
+    /// θ̈ has changed its sign within the step.
     pub passed: Mask,
 }
 
-/// What does not change along the way.
+/// Parameters of the blocks.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
-    /// η.
+    /// Restitution η.
     pub restitution: Number,
     /// |θ| beyond which an outward motion does not return, rad.
     pub no_return: Number,
@@ -87,14 +87,14 @@ pub struct Bounds {
 /// Equations of motion with the inerter released and engaged.
 #[derive(Clone, Copy, Debug)]
 pub struct Modes<E> {
-    /// Released.
+    /// Equation with the inerter released.
     pub released: E,
-    /// Engaged.
+    /// Equation with the inerter engaged.
     pub engaged: E,
 }
 
 impl Default for Blocks {
-    /// Blocks at rest that nothing has happened to.
+    /// Blocks at rest, without peaks and events.
     fn default() -> Blocks {
         let zero = number(0.0);
         Blocks {
@@ -117,7 +117,7 @@ impl Default for Blocks {
 }
 
 impl Blocks {
-    /// Puts a new block into `lane`, which nothing has happened to.
+    /// New block in `lane`, without peaks and events.
     #[inline]
     pub fn renew(&mut self, lane: usize) {
         (self.peak_rotation.0[lane], self.peak_acceleration.0[lane]) = (0.0, 0.0);
@@ -126,7 +126,7 @@ impl Blocks {
         }
     }
 
-    /// The block in `lane` uplifts now to `side`, ±1, by a ground acceleration that crosses the threshold or that has jumped beyond it.
+    /// The block in `lane` uplifts now to `side`, ±1, by a ground acceleration that crosses the threshold or has jumped above it.
     #[inline]
     pub fn uplift(&mut self, lane: usize, side: f64, crossing: bool) {
         (self.rotation.0[lane], self.velocity.0[lane], self.side.0[lane]) = (0.0, 0.0, side);

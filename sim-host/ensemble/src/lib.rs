@@ -25,13 +25,13 @@ pub mod slender;
 
 use sprag_shared::math::lanes::{LaneMask, Lanes};
 
-/// Blocks side by side: the doubles of one 512-bit register, of two of 256 bits, or of four of 128.
+/// Number of lanes: the doubles of one 512-bit register, of two of 256 bits, or of four of 128.
 pub const WIDTH: usize = 8;
 
-/// One quantity of every block.
+/// One quantity of the block in every lane.
 pub type Number = Lanes<f64, WIDTH>;
 
-/// One answer about every block.
+/// One condition of the block in every lane.
 pub type Mask = LaneMask<WIDTH>;
 
 /// The same number in every lane.

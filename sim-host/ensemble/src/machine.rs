@@ -18,13 +18,13 @@ use crate::pulses;
 use crate::records;
 use crate::shaken::{Shaken, ShakenBlock};
 
-/// Which registers the lanes are in.
+/// Width of the SIMD registers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Registers {
-    /// The widest that this machine has.
+    /// The widest registers of this machine.
     #[default]
     Widest,
-    /// Those that every machine of the target has.
+    /// The registers that every machine of the target has.
     Baseline,
 }
 
@@ -125,7 +125,7 @@ pub fn run(pulsed: &[PulsedBlock], registers: Registers) -> Result<Vec<PulseResu
     Ok(results)
 }
 
-/// What their records do to each of `shaken`, in their order; `None` for those that the core takes.
+/// Final state of each of `shaken`, in their order; `None` for those that the core takes.
 pub fn shake(shaken: &[ShakenBlock<'_>], registers: Registers) -> Vec<Option<Shaken>> {
     let mut results = vec![None; shaken.len()];
     let kind = |block: &ShakenBlock<'_>| (block.plain.geometry, block.plain.device);

@@ -13,13 +13,13 @@ use crate::pulses::{BySeries, Stepping};
 use crate::slender::step::ClosedForm;
 use crate::{Number, number};
 
-/// A model of a block; p = 1.
+/// Model of a block in SIMD lanes; p = 1.
 pub trait Model {
-    /// Its equation of motion.
+    /// Equation of motion.
     type Equation: Switched<Number>;
-    /// Its first integral.
+    /// First integral.
     type Integral: FirstIntegral;
-    /// How it is followed under pulses.
+    /// Integrator under pulses.
     type Stepping: Stepping;
 
     /// Full or slender.
@@ -45,15 +45,15 @@ pub trait Model {
     }
 }
 
-/// The full block alone.
+/// Model of the full block alone.
 #[derive(Clone, Copy, Debug)]
 pub struct FullAlone;
 
-/// The full block with an inerter at its centre of mass, paper kinematics.
+/// Model of the full block with an inerter at its centre of mass, paper kinematics.
 #[derive(Clone, Copy, Debug)]
 pub struct FullWithInerter;
 
-/// The slender block with any inerter, or none with k = 0.
+/// Model of the slender block with any inerter, or none with k = 0.
 #[derive(Clone, Copy, Debug)]
 pub struct Slender;
 

@@ -16,7 +16,7 @@ pub struct PlainBlock {
     pub slenderness: f64,
     /// k = σ/λ; for the slender model kℓ², with any mount.
     pub coupling: f64,
-    /// η.
+    /// Restitution η.
     pub restitution: f64,
 }
 

@@ -32,13 +32,13 @@ pub struct PulsedBlock {
     pub slenderness: f64,
     /// k = σ/λ; for the slender model kℓ², with any mount.
     pub coupling: f64,
-    /// η.
+    /// Restitution η.
     pub restitution: f64,
     /// Shape of the pulse.
     pub pulse: PulseShape,
-    /// ω_g/p.
+    /// Frequency ratio ω_g/p.
     pub frequency_ratio: f64,
-    /// a_g/(g tan α), or a_g/(gα) for the slender model.
+    /// Amplitude ratio a_g/(g tan α), or a_g/(gα) for the slender model.
     pub amplitude_ratio: f64,
 }
 

@@ -32,17 +32,17 @@ const MOST_STEPS: u32 = 400;
 pub struct Pulses {
     /// A on the side to which the pulse first lifts the block.
     pub amplitude: Number,
-    /// ω.
+    /// Angular frequency ω.
     pub frequency: Number,
-    /// φ, 0 or π/2.
+    /// Phase φ, 0 or π/2.
     pub phase: Number,
-    /// t, from the start of the pulse.
+    /// Time t from the start of the pulse.
     pub time: Number,
-    /// When it ends.
+    /// End of the pulse.
     pub duration: Number,
 }
 
-/// A way to follow blocks under pulses.
+/// Integrator of blocks under pulses.
 pub trait Stepping: Default {
     /// A new block in `lane`.
     fn renew(&mut self, _lane: usize) {}
@@ -90,7 +90,7 @@ impl<M: Model> Stepping for BySeries<M> {
 }
 
 impl Pulses {
-    /// Up to their ends.
+    /// Time left of each pulse.
     #[inline(always)]
     pub fn left(&self) -> Number {
         self.duration - self.time

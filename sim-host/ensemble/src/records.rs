@@ -43,11 +43,11 @@ struct Place {
 
 /// The ground under the blocks in the lanes: straight lines since their last samples.
 struct Lines {
-    /// Since the sample.
+    /// Time since the sample.
     time: Number,
-    /// Between samples.
+    /// Interval between samples.
     step: Number,
-    /// Samples a unit of time.
+    /// Sampling rate, per unit of time.
     rate: Number,
     /// ü_g/g at the sample.
     start: Number,
@@ -64,7 +64,7 @@ impl Lines {
     }
 }
 
-/// What follows a weak impact.
+/// Decision after a weak impact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum AfterWeakImpact {
     /// It goes on to rock.

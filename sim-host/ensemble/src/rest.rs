@@ -16,22 +16,22 @@ pub const WEAK_IMPACT: f64 = REST_SPEED;
 pub struct Sine {
     /// |A|, above 1.
     pub amplitude: f64,
-    /// ω.
+    /// Angular frequency ω.
     pub frequency: f64,
-    /// φ, rad.
+    /// Phase φ, rad.
     pub phase: f64,
-    /// When it ends.
+    /// End of the sine.
     pub duration: f64,
 }
 
-/// What follows a weak impact.
+/// Decision after a weak impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AfterWeakImpact {
     /// It rests until the pulse is over.
     Rests,
     /// It rests, and uplifts at `time`.
     Uplifts {
-        /// From the start of the pulse.
+        /// Time from the start of the pulse.
         time: f64,
         /// Whole half-cycles of the sine before that; if their number is even, to the side to which it lifts first.
         half_cycles: f64,
@@ -40,7 +40,7 @@ pub enum AfterWeakImpact {
     Unsettled,
 }
 
-/// The impacts that follow a weak one, which leaves a block of slenderness `alpha` (rad) with `speed` (rad; p = 1) on a side where the
+/// Impact accumulation after a weak impact, which leaves a block of slenderness `alpha` (rad) with `speed` (rad; p = 1) on a side where the
 /// ground acceleration is `push` (in units of the threshold, positive inward, below 1), under couplings κ k of the clutch while it moves outward and inward.
 pub fn tail<M: Model>(
     push: f64,
@@ -56,7 +56,7 @@ pub fn tail<M: Model>(
 }
 
 impl Sine {
-    /// What follows an impact at `time`; the rest is that of [`tail`].
+    /// Decision after an impact at `time`; the rest is that of [`tail`].
     pub fn after_weak_impact<M: Model>(
         &self,
         time: f64,

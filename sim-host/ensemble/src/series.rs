@@ -14,11 +14,11 @@ use crate::{Mask, Number, number};
 /// Quantities of an equation of motion on the tape.
 const SLOTS: usize = 18;
 
-/// The series of one step: scratch space, not state. θ has `TERMS` coefficients, θ̇ one less, θ̈ and the ground motion two less; what
+/// Power series of one step: scratch space, not state. θ has `TERMS` coefficients, θ̇ one less, θ̈ and the ground motion two less; what
 /// their arrays have beyond is zero.
 pub struct Series<const TERMS: usize> {
     tape: Tape<Number, TERMS, SLOTS>,
-    /// Of ü_g/g about the start of the step; the caller sets it.
+    /// Coefficients of ü_g/g about the start of the step; the caller sets it.
     pub ground: [Number; TERMS],
     motion: MotionSeries<Number, TERMS>,
 }
@@ -39,25 +39,25 @@ impl<const TERMS: usize> Series<TERMS> {
     /// Coefficients of θ̈ and of the ground motion.
     pub const RATES: usize = TERMS - 2;
 
-    /// Of θ.
+    /// Coefficients of θ.
     #[inline(always)]
     pub fn rotation(&self) -> &[Number; TERMS] {
         &self.motion.rotation
     }
 
-    /// Of θ̇.
+    /// Coefficients of θ̇.
     #[inline(always)]
     pub fn velocity(&self) -> &[Number] {
         &self.motion.velocity[..TERMS - 1]
     }
 
-    /// Of θ̈.
+    /// Coefficients of θ̈.
     #[inline(always)]
     pub fn acceleration(&self) -> &[Number] {
         &self.motion.acceleration[..Self::RATES]
     }
 
-    /// Of θ̈, divided by t where it is zero at the start; what is beyond [`Self::RATES`] is zero.
+    /// Coefficients of θ̈, divided by t where it is zero at the start; what is beyond [`Self::RATES`] is zero.
     #[inline(always)]
     pub fn acceleration_off_zero(&self, at_zero: Mask) -> [Number; TERMS] {
         deflated(&self.motion.acceleration, at_zero)

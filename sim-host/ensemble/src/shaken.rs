@@ -10,12 +10,12 @@ use sprag_shared::observers::outcome::Outcome;
 /// Distance to the threshold below which the core takes a ground acceleration that has jumped above it: there rounding decides whether the block uplifts.
 pub(crate) const DOUBTFUL_UPLIFT: f64 = 1e-9;
 
-/// A record as blocks feel it: straight lines between samples.
+/// Ground acceleration of a record: straight lines between samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Samples {
-    /// s.
+    /// Interval between samples, s.
     pub(crate) step: f64,
-    /// ü_g/g.
+    /// Samples of ü_g/g.
     pub(crate) values: Vec<f64>,
     /// max |ü_g/g| from each sample on.
     pub(crate) bounds: Vec<f64>,
@@ -38,7 +38,7 @@ impl Samples {
         &self.values
     }
 
-    /// When it ends, s.
+    /// Duration, s.
     pub fn duration(&self) -> f64 {
         self.step * self.values.len().saturating_sub(1) as f64
     }
@@ -69,11 +69,11 @@ pub struct ShakenBlock<'a> {
     pub frequency_parameter: f64,
     /// The record.
     pub samples: &'a Samples,
-    /// Factor on it.
+    /// Factor on the record.
     pub factor: f64,
 }
 
-/// What a record has done to a block, at its end or when it overturned.
+/// Final state and peaks of a block under a record, at its end or when it overturned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shaken {
     /// Rest, rocking or overturned.
@@ -101,14 +101,14 @@ impl Shaken {
     }
 }
 
-/// When and where a block at rest uplifts.
+/// Uplift of a block at rest: time and side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Uplift {
-    /// After which it comes.
+    /// Sample before the uplift.
     pub(crate) sample: usize,
-    /// From that sample on, in units of 1/p.
+    /// Time since that sample, in units of 1/p.
     pub(crate) time: f64,
-    /// ±1.
+    /// Side to which it uplifts, ±1.
     pub(crate) side: f64,
     /// The ground acceleration crosses the threshold, or has jumped above it.
     pub(crate) crossing: bool,
@@ -128,7 +128,7 @@ impl ShakenBlock<'_> {
             && (1e-9..1e4).contains(&(samples.bounds[0] * factor.abs()))
     }
 
-    /// Between samples, in units of 1/p.
+    /// Interval between samples, in units of 1/p.
     pub(crate) fn step(&self) -> f64 {
         self.frequency_parameter * self.samples.step
     }

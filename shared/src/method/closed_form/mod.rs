@@ -33,10 +33,10 @@ use crate::method::fixed::{FixedOutput, FixedStep};
 /// Longest step, in 1/p_σ, so that e^{pτ} stays small and the bounds tight.
 const LONGEST: f64 = 4.0;
 
-/// The closed form, step by step.
+/// Integrator by the closed form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClosedForm<S> {
-    /// Step, s; above 0. Results do not depend on it, only how often the motion is looked at.
+    /// Step, s; above 0. Results do not depend on it, only how often the motion is sampled.
     pub step: S,
 }
 
@@ -48,12 +48,12 @@ impl<S: Real> ClosedForm<S> {
     }
 }
 
-/// The motion over one step.
+/// Dense output of one step.
 #[derive(Debug)]
 pub enum ClosedFormOutput<'a, S> {
-    /// In closed form.
+    /// Motion in closed form.
     Closed(SlenderArc<S>),
-    /// Where there is none.
+    /// Motion by Runge-Kutta, where there is no closed form.
     Stepped(FixedOutput<'a, S>),
 }
 

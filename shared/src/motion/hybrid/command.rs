@@ -11,20 +11,20 @@ use crate::motion::device_snapshot::DeviceObserver;
 use crate::motion::state::Phase;
 use crate::structure::drivetrain::{Actuation, Delay};
 
-/// What lies between a command and the clutch, resolved.
+/// Actuator between a command and its clutch: delays, dwell, misses.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Actuator<S> {
-    /// s.
+    /// Delay of an engagement, s.
     pub engagement_delay: S,
-    /// s.
+    /// Delay of a release, s.
     pub release_delay: S,
-    /// A command that another one follows before its delay is over takes effect nevertheless.
+    /// Transport delay: a command takes effect even if another one follows before its delay is over.
     pub transport: bool,
-    /// s.
+    /// Dwell: least time between two moves, s.
     pub dwell: S,
-    /// An engagement is missed when its number draws less than this out of 2³².
+    /// Miss probability in units of 2⁻³².
     pub misses: u64,
-    /// Seed of the draw.
+    /// Seed of the misses.
     pub seed: u64,
     /// Commands come from a controller ([`HybridSystem::order`]) and not from the signs of Eq. 10.
     pub controlled: bool,
@@ -54,10 +54,10 @@ impl<S: Real> Actuator<S> {
     }
 }
 
-/// Most answers to one event: a jolt may change the signs that caused it.
+/// Largest number of answers to one event: a jolt may change the signs that caused it.
 const MOST_ANSWERS: usize = 4;
 
-/// Until a rising capacity is full, or overcomes the friction that holds a standing flywheel.
+/// Time (s) until a rising capacity is full, or overcomes the friction that holds a standing flywheel.
 fn ramp_due<S: Real>(parameters: &ScaledParameters<S>, wheel: &FlywheelState<S>, block_held: bool) -> Option<S> {
     if !wheel.coupling.is_engaged() || wheel.engaged_for >= parameters.rise_time {
         return None;

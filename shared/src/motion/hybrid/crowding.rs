@@ -5,17 +5,17 @@ use crate::drivetrain::clutch_state::Coupling;
 use crate::math::scalar::Real;
 use crate::motion::state::{Phase, Stopped};
 
-/// Events that may follow one another at once before that is taken for a graze: a guard touches zero, and rounding decides in which mode
+/// Number of events at once that is taken for a graze: a guard touches zero, and rounding decides in which mode
 /// the motion goes on, anew each time.
 pub(super) const MOST_AT_ONCE: u32 = 16;
 
-/// How far apart events at once are, in 1/p.
+/// Largest time between events at once, in 1/p.
 pub(super) const AT_ONCE: f64 = 1e-9;
 
-/// How far a graze is followed without guards, in 1/p: their values stay below the square of that.
+/// Time for which a graze is followed without guards, in 1/p: their values stay below the square of that.
 pub(super) const GRAZE: f64 = 1e-6;
 
-/// The error of a state that events do not let go.
+/// Error of too many events at once, with the mode.
 pub(super) fn too_many<S: Real>(state: &HybridState<S>, time: S) -> Stopped {
     let has = |is: fn(Coupling) -> bool| state.device.wheels.iter().any(|wheel| is(wheel.coupling));
     let mode = if state.motion.phase == Phase::Rest {

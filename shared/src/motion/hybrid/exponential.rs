@@ -56,7 +56,7 @@ impl<S: Real> Oscillator<S> {
     }
 }
 
-/// What is frozen over a step.
+/// Coefficients frozen over a step.
 struct Frozen<S, const X: usize> {
     arm: S,
     /// ℓ/(1 + K_r ℓ²).

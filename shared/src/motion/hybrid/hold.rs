@@ -11,7 +11,7 @@ use crate::motion::device_snapshot::DeviceObserver;
 use crate::motion::state::Limits;
 
 impl<S: Real> HybridSystem<S> {
-    /// At θ̇ = 0: the way on, if friction lets the block go.
+    /// Stick or slip of the block at θ̇ = 0, and its direction after it.
     #[inline(never)]
     pub(super) fn turned(&self, state: &mut HybridState<S>) {
         let (side, direction) = (state.motion.side, state.motion.direction);
@@ -63,7 +63,7 @@ impl<S: Real> HybridSystem<S> {
         until
     }
 
-    /// When a held block is let go before `stop`, and how. On its base it can only go up, and its weight alone may hold it again.
+    /// Breakaway of a held block before `stop`: time and kind. On its base it can only go up, and its weight alone may hold it again.
     fn let_go(&self, state: &HybridState<S>, shaking: Shaking<'_, S>, time: S, stop: S) -> Option<(S, LetGo)> {
         let side = state.motion.side;
         let first = |threshold: Threshold<S>| threshold.exceeded(shaking, time, stop);
@@ -76,7 +76,7 @@ impl<S: Real> HybridSystem<S> {
         earlier(ends)
     }
 
-    /// What holds a block on its base without its clutches.
+    /// Moment that holds a block on its base without its clutches.
     fn weight(&self, state: &HybridState<S>) -> Threshold<S> {
         let side = state.motion.side;
         self.breakaway(&self.standing(state, S::ZERO, &mut ()), side, side).opposite()
@@ -117,7 +117,7 @@ impl<S: Real> HybridSystem<S> {
         self.transmission.traits().springs && state.device.wheels.iter().any(|wheel| wheel.coupling.has_twist())
     }
 
-    /// The equations of a held block: what its springs do moves flywheels alone, until they or the ground overcome the rack's friction.
+    /// Mode of a held block: its springs move the flywheels alone, until they or the ground overcome the rack's friction.
     pub(super) fn hold_law(&self, state: &HybridState<S>, law: &mut ModeCoefficients<S>) {
         let (side, rotation) = (state.motion.side.unit(), state.motion.rotation);
         let configuration = self.body.configuration(side, rotation);
@@ -151,7 +151,7 @@ impl<S: Real> HybridSystem<S> {
         }
     }
 
-    /// What moves a held block has reached what holds it.
+    /// Breakaway of a held block: the moving moment has reached the holding one.
     pub(super) fn break_away(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         let side = state.motion.side;
         let push = |sign| self.breakaway(state, side, sign).at(state.ground);
@@ -161,16 +161,16 @@ impl<S: Real> HybridSystem<S> {
     }
 }
 
-/// What lets a held block go.
+/// Cause of a held block's breakaway.
 #[derive(Clone, Copy, Debug)]
 enum LetGo {
     /// The ground overcomes friction.
     Moves {
-        /// Towards.
+        /// Direction of the motion.
         sign: Sign,
-        /// By crossing the threshold, not by a jump.
+        /// The threshold is crossed, not passed by a jump.
         crossing: bool,
     },
-    /// On its base, the weight alone holds it.
+    /// The block rests on its base: its weight alone holds it.
     Rests,
 }

@@ -12,7 +12,7 @@ use crate::motion::rest::impact_accumulation::Accumulation;
 use crate::motion::state::Phase;
 
 impl<S: Real> HybridSystem<S> {
-    /// θ = 0. Returns the time, which rest moves on to the end of the impacts that it stands for.
+    /// Impact at θ = 0. Returns the time, which rest moves on to the end of the impacts that it stands for.
     pub(super) fn impact(
         &self,
         state: &mut HybridState<S>,
@@ -63,7 +63,7 @@ impl<S: Real> HybridSystem<S> {
         ends
     }
 
-    /// The infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]).
+    /// Impact accumulation: the infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]).
     fn accumulation(&self, standing: &HybridState<S>, speed: S) -> Accumulation<S> {
         let side = standing.motion.side;
         let rates = |side: Sign| {

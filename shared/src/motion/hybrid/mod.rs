@@ -42,12 +42,12 @@ use crowding::{AT_ONCE, GRAZE, MOST_AT_ONCE, too_many};
 use mode_output::{ModeIntegrator, ModeOutput, ModeStart, Shaking};
 use seen::Seen;
 
-/// A block with its device, resolved into their equations.
+/// Hybrid system of a block and its device: equations, modes and guards.
 #[derive(Clone, Copy, Debug)]
 pub struct HybridSystem<S> {
-    /// The block.
+    /// Equations of the block.
     pub body: AnyBody<S>,
-    /// The device.
+    /// Transmission of the device.
     pub transmission: AnyTransmission<S>,
     /// Velocity after an impact over that before, with 0, 1 and 2 flywheels engaged through it; each 0 to 1.
     pub restitution: [S; 3],
@@ -59,16 +59,16 @@ pub struct HybridSystem<S> {
     pub rest_speed: S,
     /// θ̇ (rad/s) below which an impact does not count.
     pub counted_speed: S,
-    /// What lies between a command and the clutch.
+    /// Actuator of the clutches.
     pub actuator: Actuator<S>,
 }
 
-/// The state of a block with a device.
+/// State of a block with a device.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HybridState<S> {
-    /// The block's.
+    /// State of the block.
     pub motion: BlockState<S>,
-    /// The device's.
+    /// State of the device.
     pub device: DeviceState<S>,
     /// Friction holds the block: tilted, at a turn, or on its base, where clutches engaged as it started.
     pub held: bool,
@@ -76,13 +76,13 @@ pub struct HybridState<S> {
     pub ground: [S; 2],
     /// The guards that are zero here, by an event just handled.
     fresh: [bool; GUARDS],
-    /// What moves a block that stood has just passed what held it.
+    /// Breakaway: the moving moment has just passed the holding one.
     free: bool,
     /// The sign of Eq. 10 is one that a jolt left; the acceleration does not agree with it yet.
     jolted: bool,
 }
 
-/// What ended a step.
+/// Event that ends a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum End {
     Reached,

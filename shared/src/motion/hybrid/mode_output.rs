@@ -29,30 +29,30 @@ impl<S: Real> Shaking<'_, S> {
     }
 }
 
-/// Where a step starts and what governs it.
+/// Start of a step: state, mode and ground motion.
 #[derive(Clone, Copy, Debug)]
 pub struct ModeStart<'a, S> {
-    /// The block.
+    /// Equations of the block.
     pub body: &'a AnyBody<S>,
     /// The device.
     pub transmission: &'a AnyTransmission<S>,
-    /// Its mode.
+    /// Coefficients of the mode.
     pub law: &'a ModeCoefficients<S>,
     /// The ground motion.
     pub shaking: Shaking<'a, S>,
-    /// Its acceleration at the start, in g.
+    /// Ground acceleration at the start, in g.
     pub ground: [S; 2],
-    /// s.
+    /// s = sgn θ.
     pub side: Sign,
-    /// θ.
+    /// θ, rad.
     pub rotation: S,
-    /// θ̇.
+    /// θ̇, rad/s.
     pub velocity: S,
     /// The device's unknowns.
     pub unknowns: [S; UNKNOWNS],
     /// Local time in the ground segment, s.
     pub time: S,
-    /// How far the step may reach, s; above 0.
+    /// Largest length of the step, s; above 0.
     pub length: S,
     /// The block has just been set free where what moves it passed what held it: θ̈ has the direction of the motion, or is zero.
     pub freed: bool,
@@ -67,15 +67,15 @@ pub struct ModeStart<'a, S> {
 /// A step of a block and a device whose types are known.
 #[derive(Clone, Copy, Debug)]
 pub struct KnownModeStart<'a, S, B, D> {
-    /// Where it starts.
+    /// Start of the step.
     pub start: &'a ModeStart<'a, S>,
-    /// Its block.
+    /// Block in its own type.
     pub body: &'a B,
-    /// Its device.
+    /// Transmission in its own type.
     pub transmission: &'a D,
 }
 
-/// What to do with a step once the types of its block and device are known.
+/// Continuation that receives block and device in their own types.
 pub trait WithModeStart<S: Real> {
     /// The result.
     type Output;
@@ -160,16 +160,16 @@ impl<S: Real, B: Body<S>, D> KnownModeStart<'_, S, B, D> {
     }
 }
 
-/// What is known of an instant of a step.
+/// State at one instant of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<S, const X: usize> {
-    /// Since the start, s.
+    /// Time since the start, s.
     pub time: S,
     /// Ground acceleration in g, horizontal and vertical.
     pub ground: [S; 2],
-    /// θ.
+    /// θ, rad.
     pub rotation: S,
-    /// θ̇.
+    /// θ̇, rad/s.
     pub velocity: S,
     /// The device's unknowns.
     pub unknowns: [S; X],
@@ -184,7 +184,7 @@ impl<S: Real, const X: usize> Place<S, X> {
     }
 }
 
-/// The motion from a [`ModeStart`] over times from 0 to [`DenseOutput::length`]. Zeros are sought in (0, `to`].
+/// Mode output: the motion from a [`ModeStart`] over times from 0 to [`DenseOutput::length`]. Zeros are sought in (0, `to`].
 ///
 /// The defaults use the ends of the step; a method with a series overrides them and proves its answers.
 pub trait ModeOutput<S: Real>: DenseOutput<S> {
@@ -216,9 +216,9 @@ pub trait ModeOutput<S: Real>: DenseOutput<S> {
     }
 }
 
-/// A way to integrate a block with a device.
+/// Integrator of a block with a device.
 pub trait ModeIntegrator<S: Real> {
-    /// Its mode output.
+    /// Mode output of its steps.
     type Output<'a>: ModeOutput<S>
     where
         Self: 'a;
@@ -226,6 +226,6 @@ pub trait ModeIntegrator<S: Real> {
     /// The step from `start`.
     fn integrate<'a>(&'a self, start: &'a ModeStart<'a, S>) -> Self::Output<'a>;
 
-    /// The fixed step (s), if it has one.
+    /// Fixed step (s), if the method has one.
     fn step(&self) -> Option<S>;
 }

@@ -48,7 +48,7 @@ impl<S: Real, A: ModeOutput<S>> DeviceOutput<S> for Seen<'_, S, A> {
     }
 }
 
-/// A block that does not move, or at one instant. The ground is behind a pointer: one copy of this serves every kind of it.
+/// Dense output of a block that does not move, or of one instant. The ground is behind a pointer: one copy of this serves every kind of it.
 pub(super) struct Still<'a, S> {
     pub(super) machine: &'a HybridSystem<S>,
     pub(super) state: &'a HybridState<S>,

@@ -43,7 +43,7 @@ impl<S: Real, const N: usize> core::fmt::Debug for Series<S, N> {
     }
 }
 
-/// The series of one step.
+/// Mode output of one step as power series.
 #[derive(Clone, Copy, Debug)]
 pub struct SeriesModeOutput<S, const N: usize> {
     series: StepSeries<S, N>,

@@ -65,12 +65,12 @@ impl<S: Real> HybridSystem<S> {
         self.lifted(state, ground).1.at(ground)
     }
 
-    /// Shows block and device between two changes at one instant.
+    /// Observation of block and device between two changes at one instant.
     pub(super) fn show_instant(&self, state: &HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         self.show_still(state, &|_| state.ground, time, S::ZERO, observer);
     }
 
-    /// Shows a block that does not move, from `time` on for `length` (s), and its device.
+    /// Observation of a block that does not move, from `time` on for `length` (s), and of its device.
     #[inline(never)]
     pub(super) fn show_still(
         &self,
@@ -175,7 +175,7 @@ impl<S: Real> HybridSystem<S> {
         self.start_clutches(state, time, observer);
     }
 
-    /// The block leaves its base. What lifts it accelerates the terminals its way, and that may have been zero until now.
+    /// Uplift: θ̈ and the terminals' acceleration take the sign of the motion, and may have been zero until now.
     pub(super) fn leave_base(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
         (state.motion.terminal_acceleration_sign, state.jolted, state.fresh[0]) =
             (state.motion.side, false, self.transmission.traits().commanded);

@@ -18,7 +18,7 @@ pub(super) struct Threshold<S> {
     horizontal: S,
     vertical: S,
     constant: S,
-    /// As the plates of engaged clutches close on, 1/s³.
+    /// d, the growth by the capacity of engaged plates, 1/s³.
     growth: S,
 }
 
@@ -36,7 +36,7 @@ impl<S: Real> Threshold<S> {
         self.horizontal * ground[0] + self.vertical * (S::ONE + ground[1]) + self.constant
     }
 
-    /// How far rounding may take it from zero.
+    /// Bound of its rounding error.
     fn rounding(&self, ground: [S; 2]) -> S {
         let terms = (self.horizontal * ground[0]).abs() + self.vertical.abs() * (S::ONE + ground[1]).abs() + self.constant.abs();
         terms * S::EPSILON * S::of(ROUNDINGS)
@@ -81,7 +81,7 @@ impl<S: Real> Threshold<S> {
 }
 
 impl<S: Real> HybridSystem<S> {
-    /// What moves a block that does not move, tilted to `side`, towards `sign`: weight and ground, against the friction of the rack and of
+    /// Breakaway threshold of a block at θ̇ = 0, tilted to `side`, towards `sign`: weight and ground, against the friction of the rack and of
     /// the flywheels that are coupled to it. Forces of elastic clutches are taken as they are now.
     #[inline(never)]
     pub(super) fn breakaway(&self, state: &HybridState<S>, side: Sign, sign: Sign) -> Threshold<S> {

@@ -11,7 +11,7 @@ use crate::motion::rest::impact_accumulation::Accumulation;
 use crate::motion::state::{BlockState, Phase};
 
 impl<S: Real> IdealSystem<S> {
-    /// θ = 0: the velocity is multiplied by η and the other toe takes over, or the block comes to rest. Returns the
+    /// Impact at θ = 0: the velocity is multiplied by η and the other toe takes over, or the block comes to rest. Returns the
     /// time, which rest moves on to the end of the impacts that it stands for.
     pub(super) fn impact(
         &self,
@@ -54,7 +54,7 @@ impl<S: Real> IdealSystem<S> {
         time
     }
 
-    /// After an impact on quiet ground: the rest of the motion in closed form, or as many whole swings as `duration` has room for.
+    /// Free decay after an impact on quiet ground, in closed form, or as many whole swings as `duration` has room for.
     pub(super) fn sum_up(
         &self,
         state: &mut BlockState<S>,
@@ -94,7 +94,7 @@ impl<S: Real> IdealSystem<S> {
         ends
     }
 
-    /// The infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]).
+    /// Impact accumulation: the infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]).
     fn accumulation(&self, side: Sign, speed: S, ground: S) -> Accumulation<S> {
         let rates = |side: Sign| {
             let rate = |engaged: bool| {

@@ -25,16 +25,16 @@ use crate::method::step_grid::next_stop;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits, Phase, Stopped};
 
-/// A block with its device, resolved into the equations that it needs and the rule that chooses between them.
+/// Block with an ideal device: its equations, and the clutch rule that chooses between them.
 #[derive(Clone, Copy, Debug)]
 pub struct IdealSystem<S> {
     /// Equation of motion with the inerter released.
     pub released: AnyEquation<S>,
     /// Equation of motion with the inerter engaged.
     pub engaged: AnyEquation<S>,
-    /// Velocity after an impact over that before, 0 to 1.
+    /// Restitution η: velocity after an impact over that before, 0 to 1.
     pub restitution: S,
-    /// Ground acceleration (in g) above which the block uplifts.
+    /// Uplift threshold: ground acceleration (in g) above which the block uplifts.
     pub uplift: S,
     /// α, rad: the size of a rotation that matters.
     pub slenderness: S,
@@ -42,7 +42,7 @@ pub struct IdealSystem<S> {
     pub rest_speed: S,
     /// θ̇ (rad/s) below which an impact does not count; infinitely many follow in finite time.
     pub counted_speed: S,
-    /// The clutch.
+    /// Clutch rule.
     pub clutch: ClutchRule,
 }
 
@@ -54,9 +54,9 @@ enum End {
     Switched,
     /// Rounding leaves open to which side a block at a turn moves off.
     Undecided,
-    /// θ = 0.
+    /// Impact: θ = 0.
     Impact,
-    /// |θ| passed the limit.
+    /// Overturning: |θ| passed the limit.
     Overturned,
 }
 

@@ -27,7 +27,7 @@ const TOLERANCE: f64 = 1e-13;
 /// Swings that are summed one by one before giving up.
 const MOST_SWINGS: u32 = 20_000;
 
-/// A free motion summed to its end, or to the last impact within its time.
+/// Free decay summed to its end, or to the last impact within its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Decay<S> {
     /// Time summed, s.

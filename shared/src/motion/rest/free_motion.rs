@@ -19,14 +19,14 @@ pub struct Legs<I> {
     pub inward: I,
 }
 
-/// A free motion: where it starts, and what the block makes of it.
+/// Free motion of a block on quiet ground: its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FreeMotion<I> {
     /// α, rad.
     pub slenderness: f64,
     /// η, 0 to 1.
     pub restitution: f64,
-    /// Its integrals.
+    /// First integrals of its legs.
     pub legs: Legs<I>,
 }
 

@@ -11,9 +11,9 @@ const MOST_IDLE_SWINGS: f64 = 1e3;
 /// Sums over an impact accumulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accumulation<S> {
-    /// s; 1e30 where the impacts take nothing.
+    /// Duration, s; 1e30 where the impacts take nothing.
     pub duration: S,
-    /// Of the first two swings, s.
+    /// Duration of the first two swings, s.
     pub swing: S,
     /// Impacts that still count.
     pub impacts: u32,

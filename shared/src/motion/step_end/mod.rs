@@ -10,14 +10,14 @@ use crate::ground::GroundSegment;
 use crate::math::scalar::{Real, Scalar};
 use crate::method::fixed::runge_kutta_4;
 
-/// θ, θ̇ and the toe.
+/// State of the block in time stepping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimeSteppingState<S> {
     /// θ, rad.
     pub rotation: S,
     /// θ̇, rad/s.
     pub velocity: S,
-    /// s = ±1.
+    /// s = ±1, the toe.
     pub side: S,
 }
 

@@ -22,7 +22,7 @@ use crate::motion::observer::{Event, MonotoneInterval};
 use crate::motion::state::BlockState;
 use crate::structure::block::{Block, Geometry};
 
-/// What a flywheel's energy may do at an event.
+/// Rule for a flywheel's energy at an event, by clutch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Clutching {
     /// No clutch: one flywheel moves with the rack for ever, through impacts too.
@@ -184,7 +184,7 @@ impl<S: Real> Ledger<S> {
         }
     }
 
-    /// What the device's energy has done between two intervals.
+    /// Change of the device's energy between two intervals.
     fn attribute(&mut self, before: &Balance<S>, after: &Balance<S>) {
         let Since { impact, switch, stood } = self.since;
         if !(impact || switch || stood) {

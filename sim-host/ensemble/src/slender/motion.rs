@@ -21,11 +21,11 @@ pub struct Motion {
     pub phase: Number,
     /// Sine and cosine of that.
     turn: (Number, Number),
-    /// Where it starts.
+    /// State at the start of the step.
     pub start: Place,
 }
 
-/// Where a motion is.
+/// State of a motion at one instant.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
     /// θ, rad.
@@ -58,7 +58,7 @@ impl Motion {
         Motion { slenderness, rate, frequency, amplitude, phase, turn, start }
     }
 
-    /// The same motion, looked at from `place` on, where it is at `time`.
+    /// The same motion from `place` on, its state at `time`.
     #[inline(always)]
     pub fn from(&self, time: Number, place: Place) -> Motion {
         let phase = self.phase + self.frequency * time;

@@ -5,7 +5,7 @@ use sprag_shared::math::scalar::Scalar;
 use super::{Motion, Place};
 use crate::{Mask, Number, number};
 
-/// What is to vanish, in each lane one of these or nothing.
+/// Function whose zero is sought, in each lane one of these or none.
 #[derive(Clone, Copy, Debug)]
 pub struct Wanted {
     /// θ.
@@ -29,7 +29,7 @@ impl Wanted {
         self.rotation | self.velocity | self.acceleration | self.slope
     }
 
-    /// What is to vanish, at `place`.
+    /// Value at `place` of the function whose zero is sought.
     #[inline(always)]
     fn of(&self, motion: &Motion, place: &Place) -> Sum {
         let (rate, forced) = (motion.rate, -(motion.frequency * motion.frequency));
