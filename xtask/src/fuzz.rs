@@ -2,7 +2,7 @@
 //! flags that cargo-fuzz uses without a sanitizer, so that nothing but a C++ compiler needs installing.
 
 use crate::{
-    process::{cargo_in, executables, filtered, host},
+    process::{cargo_in, executables, filtered, host, run as done},
     stop::Stop,
     tools,
 };
@@ -57,6 +57,15 @@ pub fn run(root: &Path, only: Option<&str>, seconds: u32, inputs: Inputs) -> Res
         fuzz_one(&fuzz, name, program, seconds, inputs)?;
     }
     Ok(())
+}
+
+/// Checks that the targets still compile, without the instrumentation that makes building them slow.
+///
+/// # Errors
+/// If one does not.
+pub fn check(root: &Path) -> Result<(), Stop> {
+    tools::need_cxx()?;
+    done(&mut cargo_in(root, WORKSPACE, &["check", "--all-targets"]))
 }
 
 /// Builds all targets and gives their names, in order, and programs.

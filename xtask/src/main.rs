@@ -34,6 +34,7 @@ Usage: cargo xtask <task> [options]
 Tasks:
   test      every check, in order; stops at the first that fails
   ci        the same
+  nightly   the same, and each fuzz target from its seeds on
   firmware  build the images for the board, hold their sizes against tests/emulated-core/size.budget and
             firmware/size.budget, and prove that no panic can be reached from the firmware's control tick
   effects   measure what each effect costs, on the host under callgrind and on the emulated board, and write
@@ -93,7 +94,8 @@ fn run(mut args: impl Iterator<Item = String>) -> Result<(), Stop> {
     let root = workspace_root()?;
     match words.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         [..] if overwrite && words != ["firmware"] => Err(Stop::usage("--overwrite is only for firmware")),
-        ["test" | "ci"] => test::run(&root, seconds),
+        ["test" | "ci"] => test::run(&root, None),
+        ["nightly"] => test::run(&root, Some(seconds)),
         ["firmware"] => {
             tools::need_board_target(&root)?;
             test::images(&root, &mut Steps::default(), overwrite).map(drop)

@@ -12,11 +12,11 @@ use crate::{
 };
 use std::path::Path;
 
-/// Runs every check; each fuzz target gets so many seconds.
+/// Runs every check; where `fuzz_seconds` are given, each fuzz target too, for so long.
 ///
 /// # Errors
 /// At the first check that fails.
-pub fn run(root: &Path, fuzz_seconds: u32) -> Result<(), Stop> {
+pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     let mut steps = Steps::default();
     steps.step("tools", || {
         tools::need_board_target(root)?;
@@ -55,7 +55,10 @@ pub fn run(root: &Path, fuzz_seconds: u32) -> Result<(), Stop> {
         ))
     })?;
     steps.step("tests", || tests(root, &built))?;
-    steps.step("fuzzing", || fuzz::run(root, None, fuzz_seconds, Inputs::Same))
+    match fuzz_seconds {
+        Some(seconds) => steps.step("fuzzing", || fuzz::run(root, None, seconds, Inputs::Same)),
+        None => steps.step("fuzz targets", || fuzz::check(root)),
+    }
 }
 
 /// Runs every test of the workspace but those whose needs this machine cannot meet, which are named. A need that it may not meet is the
