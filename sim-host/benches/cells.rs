@@ -6,6 +6,7 @@
 
 use std::hint::black_box;
 
+use sprag_loops::{Method, Precision};
 use sprag_shared::equation::{Equation, SlenderBlock};
 use sprag_shared::method::fixed::runge_kutta_4;
 use sprag_shared::method::taylor::Taylor;
@@ -18,7 +19,7 @@ use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::Drivetrain;
 use sprag_shared::structure::mount::Mount;
 use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
-use sprag_sim_host::batch::case::{TERMS, TIGHT};
+use sprag_sim_host::batch::case::TIGHT;
 use sprag_sim_host::closed_loop::plant::Extremes;
 use sprag_sim_host::ground_motion::{Component, GroundMotion};
 use sprag_sim_host::simulation::drive::{Course, Overturning};
@@ -38,12 +39,12 @@ fn main() {
     let steps = yardstick();
     println!("yardstick: {:.1} million slender Runge-Kutta steps a second\n", steps / 1e6);
     println!("{:8} {:14} {:>14} {:>22}", "geometry", "device", "cells/s", "yardstick steps/cell");
-    let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
+    let method = f64::ideal(Method::Adaptive(TIGHT));
     for geometry in [Geometry::Full, Geometry::Slender] {
         let (mut count, mut total) = (0, 0.0);
         for device in DeviceKind::ALL {
             let cells = cells(geometry, device);
-            let seconds = fastest(PASSES, || cells.iter().for_each(|case| _ = black_box(case.run(&method))));
+            let seconds = fastest(PASSES, || cells.iter().for_each(|case| _ = black_box(case.run(&*method))));
             (count, total) = (count + cells.len(), total + seconds);
             let rate = cells.len() as f64 / seconds;
             println!("{:8} {:14} {rate:14.0} {:22.0}", format!("{geometry:?}"), format!("{device:?}"), steps / rate);

@@ -7,10 +7,10 @@
 use std::hint::black_box;
 
 use rayon::prelude::*;
-use sprag_shared::method::taylor::Taylor;
+use sprag_loops::{Method, Precision};
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
-use sprag_sim_host::batch::case::{TERMS, TIGHT};
+use sprag_sim_host::batch::case::TIGHT;
 use sprag_sim_host::ensemble::machine::{Registers, run};
 use sprag_sim_host::ensemble::pulsed::PulsedBlock;
 
@@ -29,8 +29,8 @@ fn main() {
             let cases = cells(geometry, device);
             let pulsed: Vec<PulsedBlock> = cases.iter().map(PulsedBlock::from).collect();
             let lanes = |registers| fastest(PASSES, || drop(black_box(run(&pulsed, registers))));
-            let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
-            let alone = fastest(3, || cases.iter().for_each(|case| _ = black_box(case.run(&method))));
+            let method = f64::ideal(Method::Adaptive(TIGHT));
+            let alone = fastest(3, || cases.iter().for_each(|case| _ = black_box(case.run(&*method))));
             let seconds = [lanes(Registers::Widest), lanes(Registers::Baseline), alone];
             count += cases.len();
             for (total, seconds) in totals.iter_mut().zip(seconds) {

@@ -7,8 +7,8 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use sprag_loops::{Method, Precision};
 use sprag_shared::math;
-use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::added_mass::AddedMass;
@@ -16,7 +16,7 @@ use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::mount::Mount;
 use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
-use sprag_sim_host::batch::case::{TERMS, TIGHT};
+use sprag_sim_host::batch::case::TIGHT;
 use sprag_sim_host::ensemble::machine::{Registers, shake};
 use sprag_sim_host::ensemble::plain::PlainBlock;
 use sprag_sim_host::ensemble::shaken::{Samples, Shaken, ShakenBlock};
@@ -131,6 +131,6 @@ fn motion(seed: u32) -> Vec<f64> {
 fn alone(structure: &Structure, ground: &GroundMotion) -> (BlockState<f64>, Peaks<f64>) {
     let course = Course::of(structure, ground, FREE_TIME, Overturning::Reached);
     let (mut state, mut peaks) = (BlockState::default(), Peaks::default());
-    let _ = course.follow(&structure.resolve().unwrap(), &Taylor::<f64, TERMS>::adaptive(TIGHT), &mut state, &mut peaks, || true);
+    let _ = course.follow(&structure.resolve().unwrap(), &*f64::ideal(Method::Adaptive(TIGHT)), &mut state, &mut peaks, || true);
     (state, peaks)
 }

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use sprag_shared::equation::clutch_rule::Clutch;
 use sprag_shared::ground::Harmonics;
+pub use sprag_shared::method::taylor::TERMS;
 use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
 use sprag_shared::observers::peaks::Peaks;
@@ -16,9 +17,6 @@ use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
 
 use crate::model::Model;
 use crate::pulsed::{PulseResult, PulseShape, PulsedBlock};
-
-/// Coefficients of the series that bulk work uses: the fastest at tight accuracy (`cargo bench`).
-pub const TERMS: usize = 20;
 
 /// Tolerance of the series' last terms that stands for "to rounding".
 pub const TIGHT: f64 = 1e-15;

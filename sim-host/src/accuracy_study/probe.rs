@@ -1,15 +1,14 @@
 //! One motion, followed in one way.
 
+use sprag_loops::{IdealLoop, Method, Precision};
 use sprag_shared::equation::any_equation::WithEquation;
 use sprag_shared::equation::switched::Switched;
 use sprag_shared::ground::GroundSegment;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::math::tier::{Libm, Micromath, OwnPolynomial};
 use sprag_shared::math::tiered::Tiered;
-use sprag_shared::method::closed_form::ClosedForm;
-use sprag_shared::method::dense_output::{DenseOutput, Integrator};
+use sprag_shared::method::dense_output::DenseOutput;
 use sprag_shared::method::fixed::FixedStep;
-use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::ideal::IdealSystem;
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::state::{BlockState, Phase};
@@ -18,14 +17,10 @@ use sprag_shared::observers::peaks::Peaks;
 
 use super::subject::Subject;
 use super::variant::{self, Number, Setting, Variant};
-use crate::batch::case::TERMS;
 use crate::ground_motion::{Segment, SumSegment};
 use crate::outcome::Outcome;
 use crate::scene::accuracy::EventTreatment;
 use crate::simulation::drive::{Course, Segmented};
-
-/// Terms of the series in f32: more would only add rounding.
-const TERMS_F32: usize = 12;
 
 /// What became of a motion.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -43,28 +38,27 @@ pub struct Reading {
 /// Follows `subject` as `variant` says, and looks at θ at the `times` (s, ascending).
 pub fn read(subject: &Subject, variant: &Variant, times: &[f64]) -> Reading {
     match variant.number {
-        Number::F64Libm => with_any_method::<f64, TERMS>(subject, variant, times),
-        Number::F32Own => with_any_method::<f32, TERMS_F32>(subject, variant, times),
+        Number::F64Libm => with_any_method::<f64>(subject, variant, times),
+        Number::F32Own => with_any_method::<f32>(subject, variant, times),
         Number::F64Own => step_end::<Tiered<f64, OwnPolynomial>>(subject, variant, times),
         Number::F32Libm => step_end::<Tiered<f32, Libm>>(subject, variant, times),
         Number::F32Micromath => step_end::<Tiered<f32, Micromath>>(subject, variant, times),
     }
 }
 
-fn with_any_method<S: Real, const N: usize>(subject: &Subject, variant: &Variant, times: &[f64]) -> Reading {
+fn with_any_method<S: Precision>(subject: &Subject, variant: &Variant, times: &[f64]) -> Reading {
     if variant.events == EventTreatment::StepEnd {
         return step_end::<S>(subject, variant, times);
     }
     let step = || S::of(step_of(subject, variant));
-    match (variant.method, variant.setting) {
-        (variant::Method::SemiImplicitEuler, _) => located(subject, times, &FixedStep::SemiImplicitEuler { step: step() }),
-        (variant::Method::RungeKutta4, _) => located(subject, times, &FixedStep::RungeKutta4 { step: step() }),
-        (variant::Method::ClosedForm, _) => located(subject, times, &ClosedForm { step: step() }),
-        (variant::Method::Taylor, Setting::Step(_)) => located(subject, times, &Taylor::<S, N>::fixed(step())),
-        (variant::Method::Taylor, Setting::Tolerance(tolerance)) => {
-            located(subject, times, &Taylor::<S, N>::adaptive(S::of(tolerance)))
-        }
-    }
+    let method = match (variant.method, variant.setting) {
+        (variant::Method::SemiImplicitEuler, _) => Method::Fixed(FixedStep::SemiImplicitEuler { step: step() }),
+        (variant::Method::RungeKutta4, _) => Method::Fixed(FixedStep::RungeKutta4 { step: step() }),
+        (variant::Method::ClosedForm, _) => Method::ClosedForm(step()),
+        (variant::Method::Taylor, Setting::Step(_)) => Method::Series(step()),
+        (variant::Method::Taylor, Setting::Tolerance(tolerance)) => Method::Adaptive(S::of(tolerance)),
+    };
+    located(subject, times, &*S::ideal(method))
 }
 
 /// The fixed step, s.
@@ -72,7 +66,7 @@ fn step_of(subject: &Subject, variant: &Variant) -> f64 {
     variant.setting.value() / subject.block().frequency_parameter()
 }
 
-fn located<S: Real, M: Integrator<S>>(subject: &Subject, times: &[f64], method: &M) -> Reading {
+fn located<S: Real>(subject: &Subject, times: &[f64], method: &dyn IdealLoop<S>) -> Reading {
     // A structure of a scene has been resolved before.
     let Ok(system) = subject.structure.resolve::<S>() else { return Reading::default() };
     let mut state = match subject.released {

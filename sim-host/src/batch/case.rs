@@ -1,7 +1,6 @@
 //! One case of a batch: a dimensionless block under one cycle of a pulse.
 
 use sprag_shared::ground::{Harmonics, Quiet};
-use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::state::{BlockState, Limits};
 use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::added_mass::AddedMass;
@@ -11,9 +10,10 @@ use sprag_shared::structure::error::ParameterError;
 use sprag_shared::structure::mount::Mount;
 use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
 
-pub use sprag_ensemble::alone::{CaseError, TERMS, TIGHT};
+pub use sprag_ensemble::alone::{CaseError, TIGHT};
 pub use sprag_ensemble::pulsed::PulseShape;
 use sprag_ensemble::pulsed::PulsedBlock;
+use sprag_loops::{IdealLoop, Method, Precision};
 
 use crate::accuracy::answer::{Answer, Comparable, answer};
 use crate::accuracy::{Accuracy, Compared};
@@ -99,11 +99,11 @@ impl Case {
         })
     }
 
-    /// Runs the case by the Taylor method.
+    /// Runs the case by `method`.
     ///
     /// # Errors
     /// [`CaseError`] for a parameter outside its range, or a motion that cannot be followed.
-    pub fn run<const N: usize>(&self, method: &Taylor<f64, N>) -> Result<CaseResult, CaseError> {
+    pub fn run(&self, method: &dyn IdealLoop<f64>) -> Result<CaseResult, CaseError> {
         let structure = self.structure()?;
         let system = structure.resolve::<f64>()?;
         let amplitude = self.amplitude_ratio * system.uplift;
@@ -115,9 +115,9 @@ impl Case {
         let mut state = BlockState::default();
         let mut peaks = Peaks::default();
         let limits = |bound| Limits { overturned: self.geometry.point_of_no_return(&structure.block, bound), events: 1_000_000 };
-        system.advance(method, &mut state, &pulse, duration, &limits(amplitude.abs()), &mut peaks)?;
+        method.advance(&system, &mut state, &pulse, duration, &limits(amplitude.abs()), &mut peaks)?;
         peaks.origin = duration;
-        system.advance(method, &mut state, &Quiet, self.free_time, &limits(0.0), &mut peaks)?;
+        method.advance(&system, &mut state, &Quiet, self.free_time, &limits(0.0), &mut peaks)?;
         let outcome = Outcome::of(&state, &peaks);
         Ok(CaseResult {
             outcome,
@@ -134,7 +134,7 @@ impl Case {
     /// # Errors
     /// Those of [`Case::run`].
     pub fn answer(&self, accuracy: Accuracy) -> Result<Answer<CaseResult>, CaseError> {
-        answer(accuracy, |closeness| self.run(&Taylor::<f64, TERMS>::adaptive(closeness.tolerance)))
+        answer(accuracy, |closeness| self.run(&*f64::ideal(Method::Adaptive(closeness.tolerance))))
     }
 }
 

@@ -1,5 +1,6 @@
 //! The structure of a closed loop: any device that takes commands, followed over the ground motion a short piece at a time.
 
+use sprag_loops::{HybridLoop, Method, hybrid};
 use sprag_shared::equation::body::Body;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::fixed::FixedStep;
@@ -66,7 +67,7 @@ pub struct Surroundings<'a> {
 /// A machine and its place in the ground motion.
 pub struct Plant<'a> {
     machine: HybridSystem<f64>,
-    method: FixedStep<f64>,
+    method: Box<dyn HybridLoop<f64>>,
     state: HybridState<f64>,
     surroundings: Surroundings<'a>,
     shocks: Shocks,
@@ -94,7 +95,7 @@ impl<'a> Plant<'a> {
             if surroundings.exponential { FixedStep::ExponentialMidpoint { step } } else { FixedStep::RungeKutta4 { step } };
         Plant {
             machine,
-            method,
+            method: hybrid(Method::Fixed(method)),
             state,
             surroundings,
             shocks: Shocks::new(surroundings.shock),
@@ -172,7 +173,7 @@ impl<'a> Plant<'a> {
                 let shaking = Shaking { horizontal: &horizontal, vertical: vertical.as_ref().map(|piece| piece as _) };
                 let mut both = Both(watcher, &mut self.shocks);
                 let ended =
-                    self.machine.advance(&self.method, &mut self.state, shaking, end - self.time, &self.limits, &mut both);
+                    self.method.advance(&self.machine, &mut self.state, shaking, end - self.time, &self.limits, &mut both);
                 ended.map_err(|stopped| stopped.after(self.time))?;
             }
             self.time = end;

@@ -6,13 +6,13 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use rayon::prelude::*;
-use sprag_shared::method::taylor::Taylor;
+use sprag_loops::{Method, Precision};
 
 use super::ended;
 use super::out_arguments::OverwriteArguments;
 use crate::accuracy::answer::Comparable;
 use crate::accuracy::{Accuracy, AccuracyArguments, ErrorEstimate, budget};
-use crate::batch::case::{Case, CaseError, CaseResult, TERMS};
+use crate::batch::case::{Case, CaseError, CaseResult};
 use crate::batch::table::{CASE_COLUMNS, ERROR_COLUMNS, RESULT_COLUMNS, TableError, read_cases, shown, write_result};
 use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, claim_file};
@@ -149,10 +149,10 @@ fn run_or_fail(arguments: &BatchArguments, err: &mut impl Write, interrupt: &Int
         cases
             .par_chunks(CHUNK)
             .flat_map_iter(|chunk| {
-                let method = Taylor::<f64, TERMS>::adaptive(arguments.tolerance);
+                let method = f64::ideal(Method::Adaptive(arguments.tolerance));
                 let row = |case: &Case| match accuracy {
                     Some(accuracy) => case.answer(accuracy).map(|answer| (answer.result, Some(answer.error))),
-                    None => case.run(&method).map(|result| (result, None)),
+                    None => case.run(&*method).map(|result| (result, None)),
                 };
                 let stop = interrupt.is_set();
                 let answers: Vec<_> = if stop { Vec::new() } else { chunk.iter().map(|(_, case)| row(case)).collect() };

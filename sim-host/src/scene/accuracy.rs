@@ -1,6 +1,7 @@
 //! `[accuracy]`: how a scene is integrated.
 
 use serde::{Deserialize, Serialize};
+use sprag_loops::Method;
 use sprag_shared::method::fixed::FixedStep;
 
 use super::error::SceneError;
@@ -32,6 +33,11 @@ impl MethodName {
             MethodName::SemiImplicitEuler => Some(FixedStep::SemiImplicitEuler { step }),
             MethodName::ExponentialMidpoint => Some(FixedStep::ExponentialMidpoint { step }),
         }
+    }
+
+    /// The method in steps of `step` (s).
+    pub fn in_steps<S: Copy>(self, step: S) -> Method<S> {
+        self.fixed(step).map_or(Method::Series(step), Method::Fixed)
     }
 
     /// As scenes spell it.

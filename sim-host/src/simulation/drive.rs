@@ -1,9 +1,9 @@
 //! A system through a whole ground motion and the free time after it.
 
+use sprag_loops::{HybridLoop, IdealLoop};
 use sprag_shared::math::scalar::Real;
-use sprag_shared::method::dense_output::Integrator;
 use sprag_shared::motion::device_snapshot::DeviceObserver;
-use sprag_shared::motion::hybrid::mode_output::{ModeIntegrator, Shaking};
+use sprag_shared::motion::hybrid::mode_output::Shaking;
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
 use sprag_shared::motion::ideal::IdealSystem;
 use sprag_shared::motion::observer::Observer;
@@ -96,17 +96,16 @@ impl<'a> Course<'a> {
     ///
     /// # Errors
     /// [`Stopped`] by the core. An answer of `false` ends the run early, without an error.
-    pub fn follow<S, M, O>(
+    pub fn follow<S, O>(
         &self,
         system: &IdealSystem<S>,
-        method: &M,
+        method: &dyn IdealLoop<S>,
         state: &mut BlockState<S>,
         observer: &mut O,
         mut goes_on: impl FnMut() -> bool,
     ) -> Result<(), Stopped>
     where
         S: Real,
-        M: Integrator<S>,
         O: Observer<S> + Segmented,
     {
         // The bound of a record falls rarely, and a limit costs an arctangent.
@@ -123,14 +122,14 @@ impl<'a> Course<'a> {
             let duration = S::of(segment.duration);
             // One type for every shape: a branch a call costs less than a second copy of every stepper.
             let piece = segment.shape.to();
-            system.advance(method, state, &piece, duration, &limits, observer).map_err(|end| end.after(segment.start))?;
+            method.advance(system, state, &piece, duration, &limits, observer).map_err(|end| end.after(segment.start))?;
         }
         if state.phase == Phase::Overturned || !goes_on() {
             return Ok(());
         }
         observer.segment(self.ground.duration(), None);
         let (limits, duration) = (self.limits(0.0), S::of(self.free_time));
-        let ended = system.advance(method, state, &SumSegment::QUIET, duration, &limits, observer);
+        let ended = method.advance(system, state, &SumSegment::QUIET, duration, &limits, observer);
         ended.map_err(|end| end.after(self.ground.duration()))
     }
 
@@ -138,17 +137,16 @@ impl<'a> Course<'a> {
     ///
     /// # Errors
     /// As there.
-    pub fn follow_machine<S, T, O>(
+    pub fn follow_machine<S, O>(
         &self,
         machine: &HybridSystem<S>,
-        integrator: &T,
+        integrator: &dyn HybridLoop<S>,
         state: &mut HybridState<S>,
         observer: &mut O,
         mut goes_on: impl FnMut() -> bool,
     ) -> Result<(), Stopped>
     where
         S: Real,
-        T: ModeIntegrator<S>,
         O: DeviceObserver<S> + Segmented,
     {
         let lightest = self.lightest();
@@ -163,14 +161,14 @@ impl<'a> Course<'a> {
             let up = vertical.and_then(|segments| segments.get(index)).map(|segment| segment.shape.to());
             let shaking = Shaking { horizontal: &horizontal, vertical: up.as_ref().map(|piece| piece as _) };
             let (duration, limits) = (S::of(segment.duration), limits(segment.bound));
-            machine.advance(integrator, state, shaking, duration, &limits, observer).map_err(|end| end.after(segment.start))?;
+            integrator.advance(machine, state, shaking, duration, &limits, observer).map_err(|end| end.after(segment.start))?;
         }
         if state.motion.phase == Phase::Overturned || !goes_on() {
             return Ok(());
         }
         observer.segment(self.ground.duration(), None);
         let shaking = Shaking { horizontal: &SumSegment::QUIET, vertical: None };
-        let ended = machine.advance(integrator, state, shaking, S::of(self.free_time), &limits(0.0), observer);
+        let ended = integrator.advance(machine, state, shaking, S::of(self.free_time), &limits(0.0), observer);
         ended.map_err(|end| end.after(self.ground.duration()))
     }
 }

@@ -1,18 +1,14 @@
 //! Runs of ideal devices, by the loop that knows nothing else.
 
-use sprag_shared::math::scalar::Real;
-use sprag_shared::method::dense_output::Integrator;
-use sprag_shared::method::taylor::Taylor;
+use sprag_loops::Method;
 use sprag_shared::motion::ideal::IdealSystem;
 use sprag_shared::motion::ideal::device_view::Watched;
 use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::peaks::Peaks;
 
-use super::TERMS_F32;
 use super::device_run::{DeviceRun, Found};
 use super::run::{Failure, Task};
 use super::step_end::{self, Steps};
-use crate::batch::case::TERMS;
 use crate::ground_motion::SumSegment;
 use crate::scene::accuracy::{EventTreatment, Precision};
 
@@ -20,22 +16,13 @@ use crate::scene::accuracy::{EventTreatment, Precision};
 pub(super) fn run(task: &Task<'_>) -> Result<DeviceRun, Failure> {
     let accuracy = &task.scene.file.accuracy;
     match (accuracy.precision, task.step()) {
-        (Precision::F64, None) => with_method(task, &Taylor::<f64, TERMS>::adaptive(accuracy.tolerance)),
-        (Precision::F64, Some(step)) => match accuracy.method.fixed(step) {
-            Some(method) => with_method(task, &method),
-            None => with_method(task, &Taylor::<f64, TERMS>::fixed(step)),
-        },
-        (Precision::F32, step) => {
-            let step = step.unwrap_or(1e-3) as f32;
-            match accuracy.method.fixed(step) {
-                Some(method) => with_method(task, &method),
-                None => with_method(task, &Taylor::<f32, TERMS_F32>::fixed(step)),
-            }
-        }
+        (Precision::F64, None) => with_method(task, Method::Adaptive(accuracy.tolerance)),
+        (Precision::F64, Some(step)) => with_method(task, accuracy.method.in_steps(step)),
+        (Precision::F32, step) => with_method(task, accuracy.method.in_steps(step.unwrap_or(1e-3) as f32)),
     }
 }
 
-fn with_method<S: Real, M: Integrator<S>>(task: &Task<'_>, method: &M) -> Result<DeviceRun, Failure> {
+fn with_method<S: sprag_loops::Precision>(task: &Task<'_>, method: Method<S>) -> Result<DeviceRun, Failure> {
     let system: IdealSystem<S> = task.scene.structure(task.index).resolve()?;
     let loaded = task.loaded()?;
     let course = task.course(&loaded.block);
@@ -63,7 +50,7 @@ fn with_method<S: Real, M: Integrator<S>>(task: &Task<'_>, method: &M) -> Result
     let mut watchers = task.watchers::<S>(&loaded)?;
     let still = SumSegment::QUIET;
     let mut watched = Watched { engaged: system.engaged, clutch: system.clutch, coupling, piece: still, observer: &mut watchers };
-    course.follow(&system, method, &mut state, &mut watched, goes_on).map_err(Failure::Stopped)?;
+    course.follow(&system, &*S::ideal(method), &mut state, &mut watched, goes_on).map_err(Failure::Stopped)?;
     if task.interrupt.is_set() {
         return Err(Failure::Interrupted);
     }

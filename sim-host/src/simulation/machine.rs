@@ -1,34 +1,29 @@
 //! Runs of devices with a memory, or over ground that moves vertically too.
 
+use sprag_loops::{HybridLoop, Method, hybrid, hybrid_f32};
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::fixed::FixedStep;
 use sprag_shared::motion::hybrid::HybridSystem;
-use sprag_shared::motion::hybrid::mode_output::ModeIntegrator;
-use sprag_shared::motion::hybrid::series::Series;
 use sprag_shared::motion::state::Phase;
 
 use super::device_run::{DeviceRun, Found};
 use super::run::{Failure, Task};
-use crate::batch::case::TERMS;
 use crate::scene::accuracy::Precision;
 
 /// Runs the device of `task`.
 pub(super) fn run(task: &Task<'_>) -> Result<DeviceRun, Failure> {
     let accuracy = &task.scene.file.accuracy;
     match (accuracy.precision, task.step()) {
-        (Precision::F64, None) => follow(task, &Series::<f64, TERMS>::adaptive(accuracy.tolerance)),
-        (Precision::F64, Some(step)) => match accuracy.method.fixed(step) {
-            Some(method) => follow(task, &method),
-            None => follow(task, &Series::<f64, TERMS>::fixed(step)),
-        },
+        (Precision::F64, None) => follow(task, &*hybrid(Method::Adaptive(accuracy.tolerance))),
+        (Precision::F64, Some(step)) => follow(task, &*hybrid(accuracy.method.in_steps(step))),
         (Precision::F32, step) => {
             let step = step.unwrap_or(1e-3) as f32;
-            follow(task, &accuracy.method.fixed(step).unwrap_or(FixedStep::RungeKutta4 { step }))
+            follow(task, &*hybrid_f32(accuracy.method.fixed(step).unwrap_or(FixedStep::RungeKutta4 { step })))
         }
     }
 }
 
-fn follow<S: Real, T: ModeIntegrator<S>>(task: &Task<'_>, integrator: &T) -> Result<DeviceRun, Failure> {
+fn follow<S: Real>(task: &Task<'_>, method: &dyn HybridLoop<S>) -> Result<DeviceRun, Failure> {
     let structure = task.scene.structure(task.index);
     let machine: HybridSystem<S> = task.device().drivetrain.resolve(&structure, task.ground.vertical.is_some())?;
     let loaded = task.loaded()?;
@@ -38,9 +33,7 @@ fn follow<S: Real, T: ModeIntegrator<S>>(task: &Task<'_>, integrator: &T) -> Res
         None => machine.at_rest(),
     };
     let mut watchers = task.watchers::<S>(&loaded)?;
-    course
-        .follow_machine(&machine, integrator, &mut state, &mut watchers, || !task.interrupt.is_set())
-        .map_err(Failure::Stopped)?;
+    course.follow_machine(&machine, method, &mut state, &mut watchers, || !task.interrupt.is_set()).map_err(Failure::Stopped)?;
     if task.interrupt.is_set() {
         return Err(Failure::Interrupted);
     }

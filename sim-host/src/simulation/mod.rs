@@ -19,6 +19,3 @@ pub mod watchers;
 
 pub use device_run::{DeviceRun, ErrorReport};
 pub use run::{RunError, simulate, simulate_for_study};
-
-/// Terms of the series in f32: more would only add rounding.
-const TERMS_F32: usize = 12;

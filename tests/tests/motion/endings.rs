@@ -3,6 +3,7 @@
 
 use core::f64::consts::{PI, TAU};
 
+use sprag_loops::{Method, Precision};
 use sprag_shared::math::{asin, atanh, square_root};
 use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::observer::Event;
@@ -10,7 +11,7 @@ use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
-use sprag_sim_host::batch::case::{Case, CaseResult, PulseShape, TERMS, TIGHT};
+use sprag_sim_host::batch::case::{Case, CaseResult, PulseShape, TIGHT};
 use sprag_sim_host::outcome::Outcome;
 use sprag_tests::{Dice, FullLog, GEOMETRIES, Log, Segment, Start, follow, relative, release, sane, shake, tight, unit_block};
 
@@ -33,7 +34,7 @@ fn cases(count: usize) -> Vec<Case> {
 }
 
 fn run(case: &Case, tolerance: f64) -> CaseResult {
-    case.run(&Taylor::<f64, TERMS>::adaptive(tolerance)).expect("a case that can be run")
+    case.run(&*f64::ideal(Method::Adaptive(tolerance))).expect("a case that can be run")
 }
 
 /// The same outcome, the same impacts, the same end to a millionth.
@@ -323,11 +324,11 @@ fn with_full_restitution_free_rocking_goes_on() {
 /// in rest, so that every case has its result.
 #[test]
 fn a_motion_that_never_dies_has_a_result() {
-    let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
+    let method = f64::ideal(Method::Adaptive(TIGHT));
     for (restitution, device) in [(1.0, DeviceKind::None), (1.0, DeviceKind::Inerter), (0.999_999_9, DeviceKind::None)] {
         for (excess, rests) in [(1e-6, true), (0.05, false)] {
             let case = Case { restitution, device, amplitude_ratio: 1.0 + excess, ..Case::default() };
-            let result = case.run(&method).unwrap_or_else(|error| panic!("{error}: η = {restitution}, {device:?}, {excess}"));
+            let result = case.run(&*method).unwrap_or_else(|error| panic!("{error}: η = {restitution}, {device:?}, {excess}"));
             assert_eq!(result.outcome, Outcome::Safe);
             let end = TAU / case.frequency_ratio + case.free_time;
             assert_eq!(result.end_time < end - 1e-9, rests, "η = {restitution}, {device:?}, {excess}: {}", result.end_time);

@@ -1,9 +1,9 @@
 //! Time has no unit: what is a thousand times as fast is followed as well.
 
+use sprag_loops::{Method, Precision};
 use sprag_shared::math;
-use sprag_shared::method::taylor::Taylor;
 use sprag_shared::structure::block::Geometry;
-use sprag_sim_host::batch::case::{Case, PulseShape, TERMS, TIGHT};
+use sprag_sim_host::batch::case::{Case, PulseShape, TIGHT};
 use sprag_sim_host::outcome::Outcome;
 use sprag_sim_host::scene::Scene;
 use sprag_sim_host::simulation::DeviceRun;
@@ -74,7 +74,7 @@ fn pulses_of_any_frequency_are_those_of_the_closed_form() {
             free_time: 10.0,
             ..Case::default()
         };
-        let result = case.run(&Taylor::<f64, TERMS>::adaptive(TIGHT)).unwrap();
+        let result = case.run(&*f64::ideal(Method::Adaptive(TIGHT))).unwrap();
         let found = result.peak_rotation;
         assert!((found / expected - 1.0).abs() < 1e-9, "ω/p = {frequency}: {found}, not {expected}");
     }

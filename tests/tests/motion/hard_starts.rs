@@ -3,14 +3,14 @@
 
 use core::f64::consts::TAU;
 
+use sprag_loops::{Method, Precision};
 use sprag_shared::math::sign::Sign;
 use sprag_shared::math::{acosh, asin, cos, cosh, exp, sinh, square_root};
-use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::observer::Event;
 use sprag_shared::motion::state::Phase;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
-use sprag_sim_host::batch::case::{Case, PulseShape, TERMS, TIGHT};
+use sprag_sim_host::batch::case::{Case, PulseShape, TIGHT};
 use sprag_sim_host::outcome::Outcome;
 use sprag_tests::{
     Dice, FullLog, GEOMETRIES, Log, Segment, Start, boundary, follow, relative, release, sane, shake, tight, unit_block,
@@ -153,14 +153,14 @@ fn uplift_at_the_threshold_and_just_above() {
                     for sign in [1.0, -1.0] {
                         for still in [0.0, 0.5, 1.0 - 1e-12, 1.0] {
                             let result = Case { amplitude_ratio: sign * still, ..case }
-                                .run(&Taylor::<f64, TERMS>::adaptive(TIGHT))
+                                .run(&*f64::ideal(Method::Adaptive(TIGHT)))
                                 .expect("a result");
                             assert_eq!((result.outcome, result.impacts), (Outcome::NoRocking, 0), "at {still}");
                             assert_eq!((result.peak_rotation, result.peak_acceleration), (0.0, 0.0));
                         }
                         for above in [1e-12, 1e-9, 1e-6] {
                             let result = Case { amplitude_ratio: sign * (1.0 + above), ..case }
-                                .run(&Taylor::<f64, TERMS>::adaptive(TIGHT))
+                                .run(&*f64::ideal(Method::Adaptive(TIGHT)))
                                 .expect("a result");
                             assert_eq!(
                                 result.outcome,

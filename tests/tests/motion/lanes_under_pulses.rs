@@ -1,13 +1,13 @@
 //! Blocks under pulses in lanes against the core, which follows one at a time.
 
-use sprag_shared::method::taylor::Taylor;
+use sprag_loops::{Method, Precision};
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
 
 use sprag_ensemble::machine::{Registers, run};
 use sprag_ensemble::pulsed::{PulseResult, PulsedBlock};
 use sprag_shared::observers::outcome::Outcome;
-use sprag_sim_host::batch::case::{Case, PulseShape, TERMS, TIGHT};
+use sprag_sim_host::batch::case::{Case, PulseShape, TIGHT};
 
 /// A coarse grid of everything, dense enough that every kind of event occurs.
 fn cases(geometry: Geometry, device: DeviceKind, side: u32) -> Vec<Case> {
@@ -30,7 +30,7 @@ fn cases(geometry: Geometry, device: DeviceKind, side: u32) -> Vec<Case> {
 /// The lanes against the core, whose free motions are followed for 60/p.
 #[test]
 fn blocks_in_lanes_do_what_they_do_alone() {
-    let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
+    let method = f64::ideal(Method::Adaptive(TIGHT));
     for geometry in [Geometry::Full, Geometry::Slender] {
         for device in DeviceKind::ALL {
             let cases = cases(geometry, device, 17);
@@ -38,7 +38,7 @@ fn blocks_in_lanes_do_what_they_do_alone() {
             let results = run(&pulsed, Registers::Widest).unwrap();
             let mut seen = [0; 4];
             for (case, found) in cases.iter().zip(&results) {
-                let alone = case.run(&method).unwrap();
+                let alone = case.run(&*method).unwrap();
                 assert_eq!(found.outcome, alone.outcome, "{case:?}");
                 seen[found.outcome as usize] += 1;
                 if !alone.outcome.overturned() {

@@ -1,7 +1,7 @@
 //! Blocks under records in lanes against the core, which follows one at a time.
 
+use sprag_loops::{Method, Precision};
 use sprag_shared::math;
-use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::added_mass::AddedMass;
@@ -13,7 +13,7 @@ use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
 use sprag_ensemble::machine::{Registers, shake};
 use sprag_ensemble::plain::PlainBlock;
 use sprag_ensemble::shaken::{Samples, Shaken, ShakenBlock};
-use sprag_sim_host::batch::case::{TERMS, TIGHT};
+use sprag_sim_host::batch::case::TIGHT;
 use sprag_sim_host::ground_motion::{Component, GroundMotion};
 use sprag_sim_host::simulation::drive::{Course, Overturning};
 
@@ -56,9 +56,7 @@ fn shaken<'a>(structure: &Structure, samples: &'a Samples, factor: f64) -> Shake
 fn alone(structure: &Structure, ground: &GroundMotion) -> (BlockState<f64>, Peaks<f64>) {
     let course = Course::of(structure, ground, FREE_TIME, Overturning::Reached);
     let (mut state, mut peaks) = (BlockState::default(), Peaks::default());
-    course
-        .follow(&structure.resolve().unwrap(), &Taylor::<f64, TERMS>::adaptive(TIGHT), &mut state, &mut peaks, || true)
-        .unwrap();
+    course.follow(&structure.resolve().unwrap(), &*f64::ideal(Method::Adaptive(TIGHT)), &mut state, &mut peaks, || true).unwrap();
     (state, peaks)
 }
 

@@ -1,20 +1,20 @@
 //! The 1,260 reference cells, computed independently in 113-bit arithmetic.
 
-use sprag_shared::method::taylor::Taylor;
-use sprag_sim_host::batch::case::{Case, CaseResult, TERMS, TIGHT};
+use sprag_loops::{Method, Precision};
+use sprag_sim_host::batch::case::{Case, CaseResult, TIGHT};
 use sprag_tests::reference::{RelativeErrors, cells};
 
 #[test]
 #[ignore = "needs the reference cells beside the repository: run by cargo xtask test"]
 fn every_cell() {
     let cells = cells();
-    let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
+    let method = f64::ideal(Method::Adaptive(TIGHT));
     let (mut rotation, mut acceleration, mut impact) =
         (RelativeErrors::default(), RelativeErrors::default(), RelativeErrors::default());
     let mut wrong = Vec::new();
     for answer in &cells {
         let (id, case) = (&answer.id, &answer.case);
-        let result = case.run(&method).expect("a case that can be run");
+        let result = case.run(&*method).expect("a case that can be run");
         if result.outcome.name() != answer.outcome || result.first_impact_time.is_some() != answer.first_impact_time.is_some() {
             wrong.push((id.clone(), result.outcome.name(), answer.outcome.clone()));
             continue;
