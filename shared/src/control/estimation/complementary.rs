@@ -10,7 +10,7 @@
 use super::estimate::{Deviation, Estimate, bounded};
 use super::kalman::{kinematic_estimate, measured_acceleration};
 use super::rest_detection::{Standing, StandingState};
-use crate::control::model::{Model, PlantBody};
+use crate::control::model::Model;
 use crate::control::sensing::instruments::{Instruments, Measured};
 use crate::equation::motion::Motion;
 use crate::math::sign::Sign;
@@ -52,10 +52,10 @@ impl ComplementaryState {
 impl Complementary {
     /// One tick, with `engaged` flywheels on the rack.
     #[inline]
-    pub fn step<B: PlantBody>(
+    pub fn step(
         &self,
         state: &mut ComplementaryState,
-        model: &Model<B>,
+        model: &Model,
         instruments: &Instruments,
         seen: &Measured,
         engaged: u8,

@@ -11,8 +11,9 @@
 
 use super::estimate::{Deviation, Estimate, bounded};
 use super::rest_detection::{Standing, StandingState};
-use crate::control::model::{Model, PlantBody};
+use crate::control::model::Model;
 use crate::control::sensing::instruments::{Instruments, Measured};
+use crate::equation::body::Body;
 use crate::equation::motion::Motion;
 use crate::math::sign::Sign;
 use crate::math::sine32;
@@ -46,12 +47,7 @@ pub struct KalmanState {
 
 /// θ̈ from the specific forces of block and ground, rad/s².
 #[inline]
-pub fn measured_acceleration<B: PlantBody>(
-    model: &Model<B>,
-    (side, rotation, velocity): (Sign, f32, f32),
-    block: [f32; 2],
-    ground: f32,
-) -> f32 {
+pub fn measured_acceleration(model: &Model, (side, rotation, velocity): (Sign, f32, f32), block: [f32; 2], ground: f32) -> f32 {
     let (sine, cosine) = sine32::sin_cos(rotation);
     let relative = (block[0] * cosine + block[1] * sine - ground) / model.parameters.size;
     let (across, along) = model.direction_cosines(side, rotation);
@@ -60,8 +56,8 @@ pub fn measured_acceleration<B: PlantBody>(
 
 /// The estimate of a filter that has measured θ̈: the sign of the terminals' acceleration is that of the measured one.
 #[inline]
-pub(super) fn kinematic_estimate<B: PlantBody>(
-    model: &Model<B>,
+pub(super) fn kinematic_estimate(
+    model: &Model,
     seen: &Measured,
     side: Sign,
     motion: &Motion<f32>,
@@ -93,10 +89,10 @@ impl KalmanState {
 impl Kalman {
     /// One tick, with `engaged` flywheels on the rack.
     #[inline]
-    pub fn step<B: PlantBody>(
+    pub fn step(
         &self,
         state: &mut KalmanState,
-        model: &Model<B>,
+        model: &Model,
         instruments: &Instruments,
         seen: &Measured,
         engaged: u8,

@@ -12,7 +12,7 @@ pub mod model_aided;
 pub mod prediction;
 pub mod rest_detection;
 
-use crate::control::model::{Model, PlantBody};
+use crate::control::model::Model;
 use crate::control::sensing::instruments::{Instruments, Measured};
 use crate::control::sensing::required::Required;
 use complementary::{Complementary, ComplementaryState};
@@ -78,10 +78,10 @@ impl Estimator {
 
     /// One tick, with `engaged` flywheels on the rack. A state of another estimator is started anew.
     #[inline]
-    pub fn step<B: PlantBody>(
+    pub fn step(
         &self,
         state: &mut EstimatorState,
-        model: &Model<B>,
+        model: &Model,
         instruments: &Instruments,
         seen: &Measured,
         engaged: u8,

@@ -6,7 +6,7 @@
 
 use super::estimate::{Deviation, Estimate, bounded};
 use super::rest_detection::{Standing, StandingState};
-use crate::control::model::{Model, PlantBody};
+use crate::control::model::Model;
 use crate::control::sensing::instruments::{Instruments, Measured};
 use crate::math::sign::Sign;
 
@@ -46,10 +46,10 @@ impl ModelAidedState {
 impl ModelAided {
     /// One tick, with `engaged` flywheels on the rack.
     #[inline]
-    pub fn step<B: PlantBody>(
+    pub fn step(
         &self,
         state: &mut ModelAidedState,
-        model: &Model<B>,
+        model: &Model,
         instruments: &Instruments,
         seen: &Measured,
         engaged: u8,

@@ -1,7 +1,7 @@
 //! Whether the block stands on both toes, where sensors say nothing but noise.
 
 use super::estimate::Estimate;
-use crate::control::model::{Model, PlantBody};
+use crate::control::model::Model;
 use crate::control::sensing::instruments::Measured;
 use crate::math::sign::Sign;
 
@@ -39,10 +39,10 @@ impl Standing {
     /// Looks at θ and θ̇ as an estimator has them at this tick; `true` while the block stands. A standing block is let go when the
     /// ground pushes harder than its weight holds, or when it moves; the side it moves to is written to `side`.
     #[inline]
-    pub fn step<B: PlantBody>(
+    pub fn step(
         &self,
         state: &mut StandingState,
-        model: &Model<B>,
+        model: &Model,
         seen: &Measured,
         (rotation, velocity): (f32, f32),
         side: &mut Sign,
