@@ -132,7 +132,7 @@ impl<L: Law> Controller<L> {
     pub fn start(&self) -> ControllerState {
         ControllerState {
             instruments: InstrumentsState::default(),
-            estimator: self.estimator.start(),
+            estimator: EstimatorState::default(),
             calibration: Calibration::default(),
             signs: Signs::default(),
             stood: true,
@@ -147,7 +147,8 @@ impl<L: Law> Controller<L> {
     // In place: a second state would be most of a microcontroller's stack.
     pub fn restart(&self, state: &mut ControllerState) {
         let ControllerState { instruments, estimator, calibration, signs, stood, turns, gate, drift, supervisor } = state;
-        (*instruments, *estimator, *calibration) = (InstrumentsState::default(), self.estimator.start(), Calibration::default());
+        (*instruments, *estimator, *calibration) =
+            (InstrumentsState::default(), EstimatorState::default(), Calibration::default());
         (*signs, *stood, *turns) = (Signs::default(), true, TurnsState::default());
         (*gate, *drift) = (GateState::default(), 0.0);
         supervisor.restart();
@@ -166,7 +167,7 @@ impl<L: Law> Controller<L> {
         self.restart(state);
         state.calibration = *calibration;
         // The tick that follows takes the same sample, after moving the estimate on by a period.
-        state.estimator = self.estimator.met(rotation - velocity * self.instruments.period, velocity);
+        state.estimator = EstimatorState::met(rotation - velocity * self.instruments.period, velocity);
         state.turns.spins = spins;
         self.supervisor.resume(&mut state.supervisor, calibration);
     }
@@ -245,7 +246,7 @@ impl<L: Law> Controller<L> {
         if verdict.just_calibrated {
             state.calibration = verdict.calibration;
             state.instruments = InstrumentsState::default();
-            state.estimator = self.estimator.start();
+            state.estimator = EstimatorState::default();
         }
         Decision { command: verdict.command, estimate, wish, phase: verdict.phase, fault: verdict.fault }
     }
