@@ -23,10 +23,10 @@ mod app {
     use crate::log::info;
     use crate::{last_words, memory, stack, tick};
     use core::mem::MaybeUninit;
+    use sprag_shared::control::controller::Controller;
     use sprag_shared::device::retained::Retained;
     use sprag_shared::device::{Answer, Device};
     use sprag_shared::settings::Settings;
-    use sprag_shared::settings::assemble::AnyController;
     use sprag_shared::settings::store::Store;
 
     #[shared]
@@ -70,12 +70,12 @@ mod app {
         settings: Option<&Settings>,
         kept: Option<&Retained>,
     ) -> (&'static mut Device, bool) {
-        let stored = settings.and_then(|settings| Some((*settings, AnyController::of(settings).ok()?)));
+        let stored = settings.and_then(|settings| Some((*settings, Controller::of(settings).ok()?)));
         let found = stored.is_some();
         let (settings, controller) = stored.unwrap_or_else(|| {
             let settings = Settings::default();
             // The tests make a controller of the defaults.
-            let Ok(controller) = AnyController::of(&settings) else { last_words::stop() };
+            let Ok(controller) = Controller::of(&settings) else { last_words::stop() };
             (settings, controller)
         });
         (put(place, &controller, &settings, kept), found)
@@ -85,7 +85,7 @@ mod app {
     #[inline(never)]
     fn put<'a>(
         place: &'a mut MaybeUninit<Device>,
-        controller: &AnyController,
+        controller: &Controller,
         settings: &Settings,
         kept: Option<&Retained>,
     ) -> &'a mut Device {

@@ -1,16 +1,13 @@
 //! The samples of a closed loop, to be played to its controller again with something changed.
 
-use sprag_shared::equation::body::FullBody;
 use std::collections::VecDeque;
 
 use sprag_shared::control::controller::{Circumstances, Controller, ControllerState, Decision};
 use sprag_shared::control::law::Wish;
-use sprag_shared::control::law::any_law::ClutchLaw;
 use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::event_log::{Entry, Kind};
 use sprag_shared::control::supervisor::{Phase, Requests};
-use sprag_shared::equation::kinematics::Paper;
 use sprag_shared::motion::state::Phase as Standing;
 use sprag_sim_host::closed_loop::driver::Driver;
 use sprag_sim_host::closed_loop::plant::{Extremes, Whereabouts};
@@ -19,16 +16,13 @@ use sprag_sim_host::scene::controller::EstimatorName;
 
 use crate::device_loop::{decides, is_way, pulse};
 
-/// What the loops here are driven by: the full block with the paper's kinematics.
-pub type TapeController = Controller<FullBody<f32, Paper>, ClutchLaw>;
-
 /// Ticks from a command to the feedback that it has been followed.
 const FEEDBACK: usize = 3;
 
 /// A controller, and what its sensors said before, during and after a motion.
 pub struct Tape {
     /// The controller.
-    pub controller: TapeController,
+    pub controller: Controller,
     /// Nothing moves; the controller arms itself.
     pub prelude: Vec<Sample>,
     /// A sine pulse of three thresholds and the free rocking after it, down to rest.
@@ -112,7 +106,7 @@ pub fn numbered_on(sample: &Sample, later: u32) -> Sample {
 
 /// A controller at work, and what has to hold at every tick.
 pub struct Player<'a> {
-    controller: &'a TapeController,
+    controller: &'a Controller,
     /// Its state.
     pub state: ControllerState,
     clutches: VecDeque<[bool; 2]>,
@@ -123,7 +117,7 @@ pub struct Player<'a> {
 
 impl<'a> Player<'a> {
     /// At power-on.
-    pub fn new(controller: &'a TapeController) -> Player<'a> {
+    pub fn new(controller: &'a Controller) -> Player<'a> {
         let clutches = VecDeque::from(vec![controller.supervisor.safe(); FEEDBACK]);
         Player { controller, state: controller.start(), clutches, phase: Phase::Boot, asked: Requests::default() }
     }

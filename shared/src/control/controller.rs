@@ -3,10 +3,11 @@
 //! Readings, estimate, prediction, law, turn, dwell and supervisor in a row, in single precision, without a panic, a heap or a loop whose
 //! length depends on data. The host simulates this code and the firmware runs it.
 
-use super::model::{Model, PlantBody};
+use super::model::Model;
 use crate::control::estimation::estimate::Estimate;
 use crate::control::estimation::prediction::predict_from;
 use crate::control::estimation::{Estimator, EstimatorState};
+use crate::control::law::any_law::ClutchLaw;
 use crate::control::law::minimum_dwell::{Gate, GateState};
 use crate::control::law::signs::Signs;
 use crate::control::law::turn_taking::TurnsState;
@@ -16,6 +17,7 @@ use crate::control::sensing::calibration::Calibration;
 use crate::control::sensing::instruments::{Instruments, InstrumentsState};
 use crate::control::sensing::sample::Sample;
 use crate::control::supervisor::{Phase, Requests, Supervisor, SupervisorInput, SupervisorState};
+use crate::equation::body::Body;
 use crate::math::fnv::Fnv;
 use crate::math::sign::Sign;
 use serde::{Deserialize, Serialize};
@@ -23,11 +25,11 @@ use serde::{Deserialize, Serialize};
 /// Steps after which a rotation from the rack's travel is exact in single precision.
 const NEWTON_STEPS: u32 = 4;
 
-/// Parameters of a controller for a body `B` by a law `L`.
+/// Parameters of a controller by a law `L`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Controller<B, L> {
+pub struct Controller<L = ClutchLaw> {
     /// The structure as it is believed to be.
-    pub model: Model<B>,
+    pub model: Model,
     /// The sensors.
     pub instruments: Instruments,
     /// The estimator.
@@ -125,12 +127,12 @@ impl Decision {
     }
 }
 
-impl<B: PlantBody, L: Law<B>> Controller<B, L> {
+impl<L: Law> Controller<L> {
     /// State at power-on.
     pub fn start(&self) -> ControllerState {
         ControllerState {
             instruments: InstrumentsState::default(),
-            estimator: self.estimator.start(),
+            estimator: EstimatorState::default(),
             calibration: Calibration::default(),
             signs: Signs::default(),
             stood: true,
@@ -145,7 +147,8 @@ impl<B: PlantBody, L: Law<B>> Controller<B, L> {
     // In place: a second state would be most of a microcontroller's stack.
     pub fn restart(&self, state: &mut ControllerState) {
         let ControllerState { instruments, estimator, calibration, signs, stood, turns, gate, drift, supervisor } = state;
-        (*instruments, *estimator, *calibration) = (InstrumentsState::default(), self.estimator.start(), Calibration::default());
+        (*instruments, *estimator, *calibration) =
+            (InstrumentsState::default(), EstimatorState::default(), Calibration::default());
         (*signs, *stood, *turns) = (Signs::default(), true, TurnsState::default());
         (*gate, *drift) = (GateState::default(), 0.0);
         supervisor.restart();
@@ -164,7 +167,7 @@ impl<B: PlantBody, L: Law<B>> Controller<B, L> {
         self.restart(state);
         state.calibration = *calibration;
         // The tick that follows takes the same sample, after moving the estimate on by a period.
-        state.estimator = self.estimator.met(rotation - velocity * self.instruments.period, velocity);
+        state.estimator = EstimatorState::met(rotation - velocity * self.instruments.period, velocity);
         state.turns.spins = spins;
         self.supervisor.resume(&mut state.supervisor, calibration);
     }
@@ -243,7 +246,7 @@ impl<B: PlantBody, L: Law<B>> Controller<B, L> {
         if verdict.just_calibrated {
             state.calibration = verdict.calibration;
             state.instruments = InstrumentsState::default();
-            state.estimator = self.estimator.start();
+            state.estimator = EstimatorState::default();
         }
         Decision { command: verdict.command, estimate, wish, phase: verdict.phase, fault: verdict.fault }
     }

@@ -4,7 +4,7 @@
 //! dynamics is written nowhere else.
 
 use crate::equation::FullBlock;
-use crate::equation::any_body::AnyBody;
+use crate::equation::any_body::{AnyBody, AnyConfiguration};
 use crate::equation::body::{Body, FullBody, SlenderBody};
 use crate::equation::kinematics::{BodyKinematics, RuntimeKinematics};
 use crate::equation::lever::TyingPoint;
@@ -16,63 +16,25 @@ use crate::structure::device::KinematicsKind;
 use crate::structure::drivetrain::{Drivetrain, Engagement};
 use crate::structure::error::ParameterError;
 
-/// A body that a [`Structure`] can be resolved into for the controller. Its vertical ground motion is always looked at.
-pub trait PlantBody: Body<f32> {
-    /// The body of `structure`, which carries nothing.
-    ///
-    /// # Errors
-    /// [`ParameterError`] for a mount outside its range.
-    fn of(structure: &Structure) -> Result<Self, ParameterError>;
-}
-
-impl From<SlenderBody<f32>> for AnyBody<f32> {
-    fn from(body: SlenderBody<f32>) -> AnyBody<f32> {
-        AnyBody::Slender(body)
-    }
-}
-
-impl<K: BodyKinematics> From<FullBody<f32, K>> for AnyBody<f32> {
-    fn from(body: FullBody<f32, K>) -> AnyBody<f32> {
-        let FullBody { block, lever, kinematics, vertical } = body;
-        AnyBody::Full(FullBody { block, lever, kinematics: RuntimeKinematics::chosen(kinematics.consistent()), vertical })
-    }
-}
-
-impl PlantBody for AnyBody<f32> {
-    fn of(structure: &Structure) -> Result<Self, ParameterError> {
-        Ok(match structure.geometry {
-            Geometry::Slender => SlenderBody::<f32>::of(structure)?.into(),
-            Geometry::Full => AnyBody::Full(FullBody::<f32, RuntimeKinematics>::of(structure)?),
-        })
-    }
-}
-
-impl PlantBody for SlenderBody<f32> {
-    fn of(structure: &Structure) -> Result<Self, ParameterError> {
-        let block = &structure.block;
-        Ok(SlenderBody {
-            frequency_squared: block.frequency_parameter_squared() as f32,
-            slenderness: block.slenderness() as f32,
-            lever: math::square_root(structure.device.mount.slender_lever_squared(block)?) as f32,
-            vertical: true,
-        })
-    }
-}
-
-impl<K: BodyKinematics> PlantBody for FullBody<f32, K> {
-    fn of(structure: &Structure) -> Result<Self, ParameterError> {
-        let block = &structure.block;
-        let lever = structure.device.mount.lever(block)?;
-        Ok(FullBody {
-            block: FullBlock {
-                frequency_squared: block.frequency_parameter_squared() as f32,
-                slenderness: block.slenderness() as f32,
-            },
-            lever: TyingPoint { along: lever.along as f32, across: lever.across as f32 },
-            kinematics: K::chosen(structure.device.kinematics == KinematicsKind::Consistent),
-            vertical: true,
-        })
-    }
+/// The body of `structure`, which carries nothing. Its vertical ground motion is always looked at.
+fn body_of(structure: &Structure) -> Result<AnyBody<f32>, ParameterError> {
+    let (block, device) = (&structure.block, &structure.device);
+    let (frequency_squared, slenderness) = (block.frequency_parameter_squared() as f32, block.slenderness() as f32);
+    Ok(match structure.geometry {
+        Geometry::Slender => {
+            let lever = math::square_root(device.mount.slender_lever_squared(block)?) as f32;
+            AnyBody::Slender(SlenderBody { frequency_squared, slenderness, lever, vertical: true })
+        }
+        Geometry::Full => {
+            let lever = device.mount.lever(block)?;
+            AnyBody::Full(FullBody {
+                block: FullBlock { frequency_squared, slenderness },
+                lever: TyingPoint { along: lever.along as f32, across: lever.across as f32 },
+                kinematics: RuntimeKinematics::chosen(device.kinematics == KinematicsKind::Consistent),
+                vertical: true,
+            })
+        }
+    })
 }
 
 /// What the controller knows of the structure beside its body.
@@ -104,18 +66,18 @@ pub struct ModelParameters {
 
 /// What the controller knows of the structure.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Model<B> {
+pub struct Model {
     /// The block.
-    pub body: B,
+    pub body: AnyBody<f32>,
     /// The rest.
     pub parameters: ModelParameters,
     /// Travel over R of each side's toe at θ = 0, by [`Body::travel`], for s = +1.
     standing_travel: f32,
 }
 
-impl<B: PlantBody> Model<B> {
+impl Model {
     /// Of a `body` in single precision, to the same bits wherever it is made.
-    pub fn of(body: B, parameters: ModelParameters) -> Model<B> {
+    pub fn of(body: AnyBody<f32>, parameters: ModelParameters) -> Model {
         Model { body, parameters, standing_travel: body.travel(1.0, &body.configuration(1.0, 0.0)) }
     }
 
@@ -123,10 +85,10 @@ impl<B: PlantBody> Model<B> {
     ///
     /// # Errors
     /// [`ParameterError`] names the first parameter outside its range.
-    pub fn new(structure: &Structure, drivetrain: &Drivetrain) -> Result<Model<B>, ParameterError> {
+    pub fn new(structure: &Structure, drivetrain: &Drivetrain) -> Result<Model, ParameterError> {
         let structure = structure.loaded()?;
         let block = &structure.block;
-        let body = B::of(&structure)?;
+        let body = body_of(&structure)?;
         let wheels_spin = drivetrain.engagement != Engagement::Ideal;
         let flywheel = &drivetrain.flywheel;
         let stops_at_once = !wheels_spin || flywheel.brake_deceleration.is_infinite();
@@ -149,7 +111,7 @@ impl<B: PlantBody> Model<B> {
 
     /// What θ alone decides, to be worked out once for all that need it.
     #[inline]
-    pub fn configuration(&self, side: Sign, rotation: f32) -> B::Configuration<f32> {
+    pub fn configuration(&self, side: Sign, rotation: f32) -> AnyConfiguration<f32> {
         self.body.configuration(side.unit(), rotation)
     }
 
@@ -162,7 +124,7 @@ impl<B: PlantBody> Model<B> {
 
     /// [`Model::push`] in a configuration.
     #[inline]
-    pub fn push_at(&self, configuration: &B::Configuration<f32>, velocity: f32, ground: [f32; 2]) -> f32 {
+    pub fn push_at(&self, configuration: &AnyConfiguration<f32>, velocity: f32, ground: [f32; 2]) -> f32 {
         self.body.switching(configuration, velocity, self.body.driving_moment(configuration, ground))
     }
 
@@ -174,7 +136,7 @@ impl<B: PlantBody> Model<B> {
 
     /// [`Model::acceleration`] in a configuration.
     #[inline]
-    pub fn acceleration_at(&self, configuration: &B::Configuration<f32>, velocity: f32, ground: [f32; 2], engaged: u8) -> f32 {
+    pub fn acceleration_at(&self, configuration: &AnyConfiguration<f32>, velocity: f32, ground: [f32; 2], engaged: u8) -> f32 {
         let driving_moment = self.body.driving_moment(configuration, ground);
         self.body.solve_acceleration(configuration, driving_moment, f32::from(engaged) * self.parameters.coupling, velocity)
     }
@@ -212,17 +174,16 @@ impl<B: PlantBody> Model<B> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::equation::kinematics::{Consistent, Paper};
     use crate::structure::block::{Block, Geometry};
     use crate::structure::device::{Device, DeviceKind, KinematicsKind};
     use crate::structure::mount::Mount;
     use crate::structure::{REST_SPEED, Restitution};
 
-    fn structure(geometry: Geometry, mount: Mount) -> Structure {
+    fn structure(geometry: Geometry, mount: Mount, kinematics: KinematicsKind) -> Structure {
         Structure {
             block: Block::new(2.0, 0.2, 4.0 / 3.0).unwrap(),
             geometry,
-            device: Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, mount, kinematics: KinematicsKind::Paper },
+            device: Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, mount, kinematics },
             added_mass: crate::structure::added_mass::AddedMass::NONE,
             restitution: Restitution::Constant(0.85),
             rest_speed: REST_SPEED,
@@ -235,13 +196,14 @@ mod tests {
         for mount in
             [Mount::CentreOfMass, Mount::TyingPoint { height: 3.0, pulley_ratio: 1.5 }, Mount::BaseCorners { pulley_ratio: 2.0 }]
         {
-            inverse::<FullBody<f32, Paper>>(&structure(Geometry::Full, mount));
-            inverse::<SlenderBody<f32>>(&structure(Geometry::Slender, mount));
+            for geometry in [Geometry::Full, Geometry::Slender] {
+                inverse(&structure(geometry, mount, KinematicsKind::Paper));
+            }
         }
     }
 
-    fn inverse<B: PlantBody>(structure: &Structure) {
-        let model = Model::<B>::new(structure, &Drivetrain::default()).unwrap();
+    fn inverse(structure: &Structure) {
+        let model = Model::new(structure, &Drivetrain::default()).unwrap();
         for rotation in [-0.3_f32, -0.05, -1e-4, 1e-4, 0.02, 0.19, 0.4] {
             let side = Sign::of(rotation, Sign::Positive);
             // ∫ ℓ dθ by the midpoint rule in double precision.
@@ -261,12 +223,10 @@ mod tests {
     #[test]
     fn eq_10_sees_the_terminals_acceleration_in_the_kinematics_of_the_model() {
         let at = |v: f32| {
-            let paper =
-                Model::<FullBody<f32, Paper>>::new(&structure(Geometry::Full, Mount::CentreOfMass), &Drivetrain::default())
-                    .unwrap();
-            let exact =
-                Model::<FullBody<f32, Consistent>>::new(&structure(Geometry::Full, Mount::CentreOfMass), &Drivetrain::default())
-                    .unwrap();
+            let [paper, exact] = [KinematicsKind::Paper, KinematicsKind::Consistent].map(|kinematics| {
+                let structure = structure(Geometry::Full, Mount::CentreOfMass, kinematics);
+                Model::new(&structure, &Drivetrain::default()).unwrap()
+            });
             (paper.push(Sign::Positive, 0.1, v, [0.02, 0.0]), exact.push(Sign::Positive, 0.1, v, [0.02, 0.0]))
         };
         let (paper, _) = at(0.3);
@@ -289,7 +249,7 @@ mod tests {
             },
             ..Drivetrain::default()
         };
-        let model = Model::<SlenderBody<f32>>::new(&structure(Geometry::Slender, Mount::CentreOfMass), &drivetrain).unwrap();
+        let model = Model::new(&structure(Geometry::Slender, Mount::CentreOfMass, KinematicsKind::Paper), &drivetrain).unwrap();
         let mut spin = -0.3;
         for _ in 0..2000 {
             let next = model.coasted(spin, 5e-4);

@@ -3,13 +3,12 @@
 use embedded_storage::nor_flash::NorFlash;
 
 use super::{Answer, Device, Mailbox, Surroundings};
-use crate::control::controller::Decision;
+use crate::control::controller::{Controller, Decision};
 use crate::control::sensing::sample::Sample;
 use crate::control::supervisor::Phase;
 use crate::link::{
     Done, Identity, LOG_BLOCK, LogBlock, LogEntry, Pace, Refusal, Reply, Request, State, TickSample, WORD_BLOCK, Words,
 };
-use crate::settings::assemble::AnyController;
 use crate::settings::store::{Store, StoreError};
 use crate::settings::wiring::Wiring;
 use crate::settings::{COUNT, SettingError, Settings};
@@ -162,7 +161,7 @@ impl Device {
         if check != own {
             return refused(Refusal::Check(own));
         }
-        if let Err(error) = Wiring::check(&self.draft).and_then(|()| AnyController::of(&self.draft).map(|_| ())) {
+        if let Err(error) = Wiring::check(&self.draft).and_then(|()| Controller::of(&self.draft).map(|_| ())) {
             return refused(refusal(error));
         }
         if keep {
@@ -181,7 +180,7 @@ impl Device {
             // Asked twice, or nothing new: the controller goes on.
             return Answer::Reply(done);
         }
-        match AnyController::of(&self.draft) {
+        match Controller::of(&self.draft) {
             Ok(controller) => (self.settings, self.controller) = (self.draft, controller),
             Err(error) => return Answer::Reply(Reply::Refused(refusal(error))),
         }

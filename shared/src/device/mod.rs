@@ -16,13 +16,12 @@ mod tests;
 
 pub use mailbox::Mailbox;
 
-use crate::control::controller::{Circumstances, ControllerState, Decision};
+use crate::control::controller::{Circumstances, Controller, ControllerState, Decision};
 use crate::control::sensing::sample::Sample;
 use crate::control::supervisor::Phase;
 use crate::link::reset_cause::Cause;
 use crate::link::{Mishap, Pace, Reply, TickReport};
 use crate::settings::Settings;
-use crate::settings::assemble::AnyController;
 use retained::{MOST_RESTARTS, Retained};
 
 /// For how many ticks the first sample after a reset is waited for, before the controller starts from the beginning.
@@ -76,7 +75,7 @@ pub struct Device {
     draft: Settings,
     /// The settings in force are those that a reset would find.
     lasting: bool,
-    controller: AnyController,
+    controller: Controller,
     state: ControllerState,
     resuming: Option<Retained>,
     waited: u32,
@@ -101,7 +100,7 @@ impl Device {
     /// With the `controller` of `settings`, going on with what has been `kept` over a reset, if anything.
     // Not inlined, and not a `Result`: the value is large, and must be made where it stays.
     #[inline(never)]
-    pub fn new(controller: &AnyController, settings: &Settings, kept: Option<&Retained>) -> Device {
+    pub fn new(controller: &Controller, settings: &Settings, kept: Option<&Retained>) -> Device {
         let restarts = kept.map_or(0, |kept| kept.restarts.saturating_add(1));
         Device {
             settings: *settings,

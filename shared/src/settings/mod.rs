@@ -2,11 +2,10 @@
 //! very controller, bit for bit, that the host simulates.
 //!
 //! - [`table`]: the parameters; [`kind`]: what each may be; [`describe`]: in words, for the host;
-//! - [`assemble`]: from words to a controller; [`record`]: and back; [`wiring`]: what only a board needs to know;
+//! - [`assemble`]: from words to a controller, and back; [`wiring`]: what only a board needs to know;
 //! - [`store`]: in flash.
 //!
-//! A new parameter of the controller goes into [`table`], [`assemble`] and [`record`]; one of a board's wiring into [`table`] and
-//! [`wiring`].
+//! A new parameter of the controller goes into [`table`] and `parts`; one of a board's wiring into [`table`] and [`wiring`].
 //!
 //! Names, units and everything that prints stand in [`kind::Description`]s only, which firmware does not contain.
 //!
@@ -16,7 +15,7 @@ pub mod assemble;
 pub mod describe;
 pub mod kind;
 mod limits;
-pub mod record;
+mod parts;
 pub mod store;
 pub mod table;
 #[cfg(test)]
@@ -26,7 +25,7 @@ pub mod wiring;
 pub use limits::LAYOUT;
 pub use table::{COUNT, Item};
 
-/// The words of a controller, each within its range; [`assemble::AnyController::of`] says whether they go together.
+/// The words of a controller, each within its range; [`Controller::of`](crate::control::controller::Controller::of) says whether they go together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
     words: [u32; COUNT],

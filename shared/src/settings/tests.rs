@@ -1,7 +1,7 @@
 //! Settings are controllers: there and back without losing a bit, and no word without a meaning.
 
-use super::assemble::{AnyController, SettingsBody};
 use super::kind::{Description, Kind, Use};
+use super::parts::Part;
 use super::*;
 use crate::control::controller::{Circumstances, Controller};
 use crate::control::estimation::Estimator;
@@ -21,9 +21,6 @@ use crate::control::sensing::instruments::Instruments;
 use crate::control::sensing::required::Required;
 use crate::control::sensing::sample::{Count, Reading, Sample};
 use crate::control::supervisor::{Parameters, Phase, SafeState, Supervisor};
-use crate::equation::body::FullBody;
-use crate::equation::body::SlenderBody;
-use crate::equation::kinematics::{Consistent, Paper};
 use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -34,11 +31,18 @@ use std::collections::BTreeSet;
 use std::string::ToString;
 use std::vec::Vec;
 
-fn structure(mount: Mount) -> Structure {
+/// Every body that settings can name.
+const BODIES: [(Geometry, KinematicsKind); 3] = [
+    (Geometry::Slender, KinematicsKind::Consistent),
+    (Geometry::Full, KinematicsKind::Paper),
+    (Geometry::Full, KinematicsKind::Consistent),
+];
+
+fn structure((geometry, kinematics): (Geometry, KinematicsKind), mount: Mount) -> Structure {
     Structure {
         block: Block::new(2.0, 10_f64.to_radians(), 4.0 / 3.0).unwrap(),
-        geometry: Geometry::Full,
-        device: Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, mount, kinematics: KinematicsKind::Consistent },
+        geometry,
+        device: Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, mount, kinematics },
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
         rest_speed: REST_SPEED,
@@ -88,7 +92,7 @@ fn laws() -> Vec<ClutchLaw> {
     }
     let law = |word| {
         settings.set(Item::Law.index(), word).unwrap();
-        AnyController::of(&settings).unwrap().law
+        Controller::of(&settings).unwrap().law
     };
     (0..choices(Item::Law)).map(law).collect()
 }
@@ -144,12 +148,12 @@ fn supervisions() -> [Parameters; 2] {
     [defaults, other]
 }
 
-fn controller<B: SettingsBody>(mount: Mount, estimator: Estimator, law: ClutchLaw, p: &Parameters) -> Controller<B, ClutchLaw> {
+fn controller(structure: &Structure, estimator: Estimator, law: ClutchLaw, p: &Parameters) -> Controller {
     let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 5.0 };
     let drivetrain = Drivetrain { engagement: Engagement::Rigid, flywheel, ..Drivetrain::default() };
     let delay = 5.324_236_549_240_234e-4;
     Controller {
-        model: Model::new(&structure(mount), &drivetrain).unwrap(),
+        model: Model::new(structure, &drivetrain).unwrap(),
         instruments: Instruments::new(p.period.into(), 5e-6 / 2.0, [delay, 0.0, delay], 0.0015).unwrap(),
         estimator,
         law,
@@ -161,9 +165,14 @@ fn controller<B: SettingsBody>(mount: Mount, estimator: Estimator, law: ClutchLa
     }
 }
 
+/// The full block with the consistent kinematics.
+fn example() -> Structure {
+    structure(BODIES[2], Mount::CentreOfMass)
+}
+
 /// The defaults, with the sensors that the estimator needs and the encoder's counts at half of the block's α.
 fn example_supervision() -> Parameters {
-    let structure = structure(Mount::CentreOfMass);
+    let structure = example();
     let block = &structure.block;
     let lever = structure.device.mount.lever_at(block, structure.geometry, 0.5 * block.slenderness()).unwrap();
     let monitor = MonitorParameters::default();
@@ -179,14 +188,13 @@ fn example_supervision() -> Parameters {
 fn the_default_is_the_controller_of_an_example() {
     let estimator = Estimator::ModelAided(MODEL_AIDED);
     let supervision = example_supervision();
-    let example: Controller<FullBody<f32, Consistent>, _> =
-        controller(Mount::CentreOfMass, estimator, ClutchLaw::ResistingPredicted, &supervision);
+    let example = controller(&example(), estimator, ClutchLaw::ResistingPredicted, &supervision);
     let settings = Settings::of(&example, &supervision).unwrap();
     for (item, (&derived, default)) in Item::ALL.into_iter().zip(settings.words().iter().zip(Settings::default().words)) {
         let description = Description::at(item.index()).unwrap();
         assert_eq!(derived, default, "{item:?} is {:?}", description.show(derived).to_string());
     }
-    assert_eq!(AnyController::of(&Settings::default()), Ok(example.told()));
+    assert_eq!(Controller::of(&Settings::default()), Ok(example));
     let look_ahead = LookAhead::default();
     let law = ClutchLaw::LookAhead(look_ahead);
     assert_eq!(
@@ -196,19 +204,18 @@ fn the_default_is_the_controller_of_an_example() {
 }
 
 /// Every body by every estimator, law and supervision, and what `check` makes of its settings.
-fn each(mut check: impl FnMut(&Settings, AnyController)) {
+fn each(mut check: impl FnMut(&Settings, Controller)) {
     let mount = Mount::TyingPoint { height: 1.5, pulley_ratio: 2.0 };
     for supervision in supervisions() {
         for estimator in estimators() {
             for law in laws() {
-                let slender = controller::<SlenderBody<f32>>(mount, estimator, law, &supervision);
-                check(&Settings::of(&slender, &supervision).unwrap(), slender.told());
-                let paper = controller::<FullBody<f32, Paper>>(mount, estimator, law, &supervision);
-                check(&Settings::of(&paper, &supervision).unwrap(), paper.told());
-                let consistent = controller::<FullBody<f32, Consistent>>(mount, estimator, law, &supervision);
-                let consistent =
-                    Controller { horizon: 0.01, bands: 2.0, engaged_at_rest: false, gate: Gate { dwell: 9 }, ..consistent };
-                check(&Settings::of(&consistent, &supervision).unwrap(), consistent.told());
+                for (index, body) in BODIES.into_iter().enumerate() {
+                    let mut made = controller(&structure(body, mount), estimator, law, &supervision);
+                    if index == 2 {
+                        (made.horizon, made.bands, made.engaged_at_rest, made.gate) = (0.01, 2.0, false, Gate { dwell: 9 });
+                    }
+                    check(&Settings::of(&made, &supervision).unwrap(), made);
+                }
             }
         }
     }
@@ -218,7 +225,7 @@ fn each(mut check: impl FnMut(&Settings, AnyController)) {
 fn there_and_back_without_losing_a_bit() {
     let mut count = 0;
     each(|settings, controller| {
-        assert_eq!(AnyController::of(settings), Ok(controller));
+        assert_eq!(Controller::of(settings), Ok(controller));
         assert_eq!(Settings::from_words(settings.words()), Ok(*settings));
         count += 1;
     });
@@ -233,8 +240,8 @@ fn every_choice_is_itself_again() {
             for word in description.least..=description.most {
                 let mut settings = Settings::default();
                 settings.set(index, word).unwrap();
-                let controller = AnyController::of(&settings).unwrap();
-                let again = Settings::of(&controller, &super::assemble::supervision(&settings));
+                let controller = Controller::of(&settings).unwrap();
+                let again = Settings::of(&controller, &Parameters::read(&settings));
                 let name = description.show(word);
                 assert_eq!(again.map(|again| again.get(index)), Ok(Some(word)), "{}: {name}", description.name);
             }
@@ -262,7 +269,7 @@ fn every_word_has_its_effect_or_is_said_to_have_none() {
             for other in others(description, word) {
                 let mut changed = *settings;
                 if changed.set(index, other).is_ok() {
-                    changes += usize::from(AnyController::of(&changed).is_ok_and(|other| other != controller));
+                    changes += usize::from(Controller::of(&changed).is_ok_and(|other| other != controller));
                 }
             }
             assert_eq!(changes > 0, description.applies(settings), "{} of {controller:?}", description.name);
@@ -330,7 +337,7 @@ fn contradictions_are_found_and_named() {
     for (item, value, other, beginning) in cases {
         let mut settings = Settings::default();
         settings.set(item.index(), value.to_bits()).unwrap();
-        let error = AnyController::of(&settings).unwrap_err();
+        let error = Controller::of(&settings).unwrap_err();
         assert_eq!(error, SettingError::contradiction(item, other));
         let line = error.describe(&settings).to_string();
         assert!(line.starts_with(beginning), "{line}");
@@ -340,8 +347,7 @@ fn contradictions_are_found_and_named() {
 #[test]
 fn a_controller_that_contradicts_itself_cannot_be_recorded() {
     let p = Parameters::default();
-    let good: Controller<FullBody<f32, Paper>, _> =
-        controller(Mount::CentreOfMass, Estimator::ModelAided(MODEL_AIDED), ClutchLaw::Passive, &p);
+    let good = controller(&structure(BODIES[1], Mount::CentreOfMass), Estimator::ModelAided(MODEL_AIDED), ClutchLaw::Passive, &p);
     assert!(Settings::of(&good, &p).is_ok());
     assert_eq!(Settings::of(&good, &Parameters { shaking: 0.5, ..p }), Err(SettingError::NotRepresentable));
     let other_tick = Parameters { period: 0.000_4, ..p };
@@ -359,8 +365,8 @@ fn what_settings_allow_the_supervisor_accepts() {
         for word in [description.least, description.most] {
             let mut settings = Settings::default();
             settings.set(index, word).unwrap();
-            let accepted = Supervisor::new(&super::assemble::supervision(&settings));
-            if AnyController::of(&settings).is_ok() {
+            let accepted = Supervisor::new(&Parameters::read(&settings));
+            if Controller::of(&settings).is_ok() {
                 assert!(accepted.is_ok(), "{}: {accepted:?}", description.name);
             }
         }
@@ -371,9 +377,8 @@ fn what_settings_allow_the_supervisor_accepts() {
 #[test]
 fn a_controller_of_settings_ticks_as_the_one_that_was_recorded() {
     let p = example_supervision();
-    let made: Controller<FullBody<f32, Consistent>, _> =
-        controller(Mount::CentreOfMass, estimators()[0], ClutchLaw::LookAhead(LookAhead::default()), &p);
-    let read = AnyController::of(&Settings::of(&made, &p).unwrap()).unwrap();
+    let made = controller(&example(), estimators()[0], ClutchLaw::LookAhead(LookAhead::default()), &p);
+    let read = Controller::of(&Settings::of(&made, &p).unwrap()).unwrap();
     let (mut first, mut second) = (made.start(), read.start());
     let (mut rocked, mut engaged) = (false, [false; 2]);
     for number in 1..12_000_u32 {

@@ -5,16 +5,12 @@ use sprag_shared::control::law::any_law::ClutchLaw;
 use sprag_shared::control::law::look_ahead::LookAhead;
 use sprag_shared::control::law::minimum_dwell::Gate;
 use sprag_shared::control::law::{GatedTable, Law, SignTable};
-use sprag_shared::control::model::{Model, PlantBody};
+use sprag_shared::control::model::Model;
 use sprag_shared::control::supervisor::{Parameters, Supervisor};
-use sprag_shared::equation::body::FullBody;
-use sprag_shared::equation::body::SlenderBody;
-use sprag_shared::equation::kinematics::{Consistent, Paper};
-use sprag_shared::settings::assemble::SettingsBody;
 use sprag_shared::settings::kind::{Description, Kind};
 use sprag_shared::settings::{SettingError, Settings};
 use sprag_shared::structure::Structure;
-use sprag_shared::structure::block::{Block, Geometry};
+use sprag_shared::structure::block::Block;
 use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::{Drivetrain, Engagement};
 use sprag_shared::structure::error::ParameterError;
@@ -34,11 +30,6 @@ use crate::scene::controller::{ControllerTable, LawName};
 use crate::scene::motions::GroundMotions;
 use crate::sensor::Suite;
 use crate::simulation::run::{Failure, Task};
-
-/// A law for every body that a controller can believe in; laws over [`sprag_shared::control::law::Situation`] of any body are.
-pub trait AnyLaw: Law<SlenderBody<f32>> + Law<FullBody<f32, Paper>> + Law<FullBody<f32, Consistent>> + Copy + 'static {}
-
-impl<L: Law<SlenderBody<f32>> + Law<FullBody<f32, Paper>> + Law<FullBody<f32, Consistent>> + Copy + 'static> AnyLaw for L {}
 
 /// Why a loop cannot be run, or ended without a result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -141,16 +132,16 @@ impl<'a> LoopTask<'a> {
         self.controller.latency_s + actuation.engagement_delay.max(actuation.release_delay)
     }
 
-    /// The controller for bodies `B`, by `law`.
+    /// The controller by `law`.
     ///
     /// # Errors
     /// [`ParameterError`] names the first parameter outside its range.
-    pub fn controller<B: PlantBody, L: Law<B>>(&self, law: L) -> Result<Controller<B, L>, ParameterError> {
+    pub fn controller<L: Law>(&self, law: L) -> Result<Controller<L>, ParameterError> {
         Ok(self.supervised(law)?.0)
     }
 
     /// The controller, and what its supervisor is made from.
-    fn supervised<B: PlantBody, L: Law<B>>(&self, law: L) -> Result<(Controller<B, L>, Parameters), ParameterError> {
+    fn supervised<L: Law>(&self, law: L) -> Result<(Controller<L>, Parameters), ParameterError> {
         let structure = self.believed()?;
         let table = self.controller;
         let period = 1.0 / table.rate_hz;
@@ -175,32 +166,16 @@ impl<'a> LoopTask<'a> {
     /// # Errors
     /// As [`LoopTask::controller`], and for what a board's settings cannot be.
     pub fn settings(&self) -> Result<Settings, ParameterError> {
-        let structure = self.structure();
-        match (structure.geometry, structure.device.kinematics) {
-            (Geometry::Slender, _) => self.settings_for::<SlenderBody<f32>>(),
-            (Geometry::Full, KinematicsKind::Paper) => self.settings_for::<FullBody<f32, Paper>>(),
-            (Geometry::Full, KinematicsKind::Consistent) => self.settings_for::<FullBody<f32, Consistent>>(),
-        }
-    }
-
-    fn settings_for<B: SettingsBody>(&self) -> Result<Settings, ParameterError> {
-        let (controller, supervision) = self.supervised::<B, _>(self.controller.clutch_law())?;
+        let (controller, supervision) = self.supervised(self.controller.clutch_law())?;
         Settings::of(&controller, &supervision).map_err(unfit)
     }
 
-    /// The controller at power-on, for the body that the scene calls for.
+    /// The controller at power-on.
     ///
     /// # Errors
     /// As [`LoopTask::controller`].
-    pub fn driver<L: AnyLaw>(&self, law: L) -> Result<Box<dyn Driver>, ParameterError> {
-        let structure = self.structure();
-        Ok(match (structure.geometry, structure.device.kinematics) {
-            (Geometry::Slender, _) => Box::new(Shared::new(self.controller::<SlenderBody<f32>, L>(law)?)),
-            (Geometry::Full, KinematicsKind::Paper) => Box::new(Shared::new(self.controller::<FullBody<f32, Paper>, L>(law)?)),
-            (Geometry::Full, KinematicsKind::Consistent) => {
-                Box::new(Shared::new(self.controller::<FullBody<f32, Consistent>, L>(law)?))
-            }
-        })
+    pub fn driver<L: Law + 'static>(&self, law: L) -> Result<Box<dyn Driver>, ParameterError> {
+        Ok(Box::new(Shared::new(self.controller(law)?)))
     }
 
     /// Clock of the loop.

@@ -4,7 +4,6 @@ use sprag_shared::control::controller::{Circumstances, Controller, ControllerSta
 use sprag_shared::control::estimation::estimate::Estimate;
 use sprag_shared::control::law::signs::Signs;
 use sprag_shared::control::law::{DRIFT_TIME, Law, Situation, Wish};
-use sprag_shared::control::model::PlantBody;
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::event_log::Entry;
 use sprag_shared::math;
@@ -25,9 +24,9 @@ pub trait Driver {
 }
 
 /// The shared controller and its state.
-pub struct Shared<B, L> {
+pub struct Shared<L> {
     /// Parameters.
-    pub controller: Controller<B, L>,
+    pub controller: Controller<L>,
     /// State.
     pub state: ControllerState,
     signs: Signs,
@@ -35,15 +34,15 @@ pub struct Shared<B, L> {
     time: f64,
 }
 
-impl<B: PlantBody, L: Law<B>> Shared<B, L> {
+impl<L: Law> Shared<L> {
     /// At power-on.
-    pub fn new(controller: Controller<B, L>) -> Shared<B, L> {
+    pub fn new(controller: Controller<L>) -> Shared<L> {
         let state = controller.start();
         Shared { controller, state, signs: Signs::default(), drift: 0.0, time: 0.0 }
     }
 }
 
-impl<B: PlantBody, L: Law<B>> Driver for Shared<B, L> {
+impl<L: Law> Driver for Shared<L> {
     fn tick(&mut self, sample: &Sample, circumstances: Circumstances) -> Decision {
         self.controller.tick(&mut self.state, sample, circumstances)
     }

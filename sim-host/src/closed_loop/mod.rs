@@ -13,4 +13,4 @@ pub mod run;
 mod supervision;
 mod truth;
 
-pub use assemble::{AnyLaw, LoopFailure, LoopTask};
+pub use assemble::{LoopFailure, LoopTask};

@@ -1,7 +1,7 @@
 //! Settings as text: `NAME=VALUE` on a command line, and TOML files.
 
+use sprag_shared::control::controller::Controller;
 use sprag_shared::settings::Settings;
-use sprag_shared::settings::assemble::AnyController;
 use sprag_shared::settings::kind::{Description, Kind, Use};
 use sprag_shared::settings::wiring::Wiring;
 
@@ -83,7 +83,7 @@ pub fn value(settings: &Settings, name: &str) -> Result<String, String> {
 /// # Errors
 /// One line that names two parameters that contradict each other.
 pub fn check(settings: &Settings) -> Result<(), String> {
-    let both = AnyController::of(settings).and_then(|_| Wiring::check(settings));
+    let both = Controller::of(settings).and_then(|_| Wiring::check(settings));
     both.map_err(|error| error.describe(settings).to_string())?;
     derived::check(settings)
 }

@@ -5,7 +5,7 @@ use libfuzzer_sys::fuzz_target;
 use sprag_shared::device::{Answer, Device, Surroundings};
 use sprag_shared::link::{Deframer, MAX_FRAME, Reply, Request, encode};
 use sprag_shared::settings::Settings;
-use sprag_shared::settings::assemble::AnyController;
+use sprag_shared::control::controller::Controller;
 use sprag_shared::settings::store::Store;
 
 #[path = "../../../shared/src/device/tests/flash.rs"]
@@ -29,7 +29,7 @@ fn obey(device: &mut Device, store: &mut Store<Flash>, tag: u8, request: &Reques
 
 fuzz_target!(|input: &[u8]| {
     let settings = Settings::default();
-    let controller = AnyController::of(&settings).expect("the defaults are a controller");
+    let controller = Controller::of(&settings).expect("the defaults are a controller");
     let mut device = Device::new(&controller, &settings, None);
     let mut store = Store::open(Flash::default()).0;
     let mut deframer = Deframer::new();
@@ -44,7 +44,7 @@ fuzz_target!(|input: &[u8]| {
         obey(&mut device, &mut store, 1, &request);
         rest = more;
     }
-    assert!(AnyController::of(device.settings()).is_ok(), "settings in force that are no controller");
+    assert!(Controller::of(device.settings()).is_ok(), "settings in force that are no controller");
     let answer = obey(&mut device, &mut store, 2, &Request::Identify);
     assert!(matches!(answer, Answer::Reply(Reply::Identity(_))), "{answer:?}");
 });

@@ -13,8 +13,8 @@ use sprag_sim_host::loop_study::motion::Motion;
 #[derive(Clone, Copy)]
 struct OutwardOnly;
 
-impl<B> Law<B> for OutwardOnly {
-    fn wish(&self, at: &Situation<'_, B>) -> Wish {
+impl Law for OutwardOnly {
+    fn wish(&self, at: &Situation<'_>) -> Wish {
         let outward = at.signs.velocity == at.signs.rotation;
         let accelerating = at.signs.push == at.signs.velocity;
         if outward && accelerating { Wish::Resist } else { Wish::Release }

@@ -7,13 +7,12 @@
 //!
 //! critically damped (Higgins 1975). The acceleration is the measured one through a low-pass of its own.
 
-use super::estimate::{Deviation, Estimate, bounded};
-use super::kalman::{kinematic_estimate, measured_acceleration};
-use super::rest_detection::{Standing, StandingState};
-use crate::control::model::{Model, PlantBody};
+use super::estimate::{Deviation, Estimate};
+use super::kalman::measured_acceleration;
+use super::rest_detection::Standing;
+use super::state::EstimatorState;
+use crate::control::model::Model;
 use crate::control::sensing::instruments::{Instruments, Measured};
-use crate::equation::motion::Motion;
-use crate::math::sign::Sign;
 
 /// Parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,70 +29,41 @@ pub struct Complementary {
     pub deviation: Deviation,
 }
 
-/// State.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ComplementaryState {
-    rotation: f32,
-    velocity: f32,
-    acceleration: f32,
-    side: Sign,
-    blank: u16,
-    standing: StandingState,
-}
-
-impl ComplementaryState {
-    /// Of a block that is met in motion at θ and θ̇.
-    pub(super) fn met(rotation: f32, velocity: f32) -> ComplementaryState {
-        let side = Sign::of(rotation, Sign::of(velocity, Sign::Positive));
-        ComplementaryState { rotation, velocity, side, standing: StandingState::ROCKING, ..ComplementaryState::default() }
-    }
-}
-
 impl Complementary {
     /// One tick, with `engaged` flywheels on the rack.
     #[inline]
-    pub fn step<B: PlantBody>(
+    pub fn step(
         &self,
-        state: &mut ComplementaryState,
-        model: &Model<B>,
+        state: &mut EstimatorState,
+        model: &Model,
         instruments: &Instruments,
         seen: &Measured,
         engaged: u8,
     ) -> Estimate {
-        let period = instruments.period;
         state.blank = state.blank.saturating_sub(1);
-        if let (Some(block), 0, false) = (seen.block, state.blank, state.standing.stands) {
-            let at = (state.side, state.rotation, state.velocity);
-            let measured = measured_acceleration(model, at, block, seen.ground_force[0]);
+        if let (Some(block), 0, true) = (seen.block, state.blank, state.rocks) {
+            let measured = measured_acceleration(model, state, block, seen.ground_force[0]);
             state.acceleration += self.smoothing * (measured - state.acceleration);
         }
-        let ahead = if state.standing.stands { 0.0 } else { state.acceleration };
-        let velocity = state.velocity + ahead * period;
-        let rotation = state.rotation + 0.5 * (state.velocity + velocity) * period;
-        let (rotation, velocity, _) = bounded(rotation, velocity, 0.0);
-        (state.rotation, state.velocity) = (rotation, velocity);
+        let ahead = if state.rocks { state.acceleration } else { 0.0 };
+        state.advance(ahead, instruments.period);
         if let Some(travel) = seen.travel {
-            let then = rotation - velocity * instruments.encoder_delay;
-            let error = model.rotation_of_travel(travel, then, Sign::of(travel, state.side)) - then;
+            let error = state.encoder_error(model, instruments, travel);
             state.rotation += self.gains[0] * error;
             state.velocity += self.gains[1] * error;
         }
-        (state.rotation, state.velocity, state.acceleration) = bounded(state.rotation, state.velocity, state.acceleration);
-        let stood = state.standing.stands;
-        if self.standing.step(&mut state.standing, model, seen, (state.rotation, state.velocity), &mut state.side) {
-            (state.rotation, state.velocity, state.acceleration) = (0.0, 0.0, 0.0);
+        state.bound();
+        let stood = !state.rocks;
+        if self.standing.step(state, model, seen) {
             return Standing::estimate(seen, state.side);
         }
-        let impact = state.side.times(state.rotation) < 0.0 && state.side.times(state.velocity) < 0.0;
+        let impact = state.hits();
         if stood || impact {
-            if impact && !stood {
-                state.side = state.side.opposite();
-                state.velocity *= model.parameters.restitution;
-                state.blank = self.blank;
+            if !stood {
+                state.impact(model.parameters.restitution, self.blank);
             }
-            state.acceleration = model.acceleration(state.side, state.rotation, state.velocity, seen.ground, engaged);
+            state.acceleration = state.modelled_acceleration(model, seen, engaged);
         }
-        let motion = Motion { rotation: state.rotation, velocity: state.velocity, acceleration: state.acceleration };
-        kinematic_estimate(model, seen, state.side, &motion, self.deviation)
+        state.kinematic_estimate(model, seen, self.deviation)
     }
 }

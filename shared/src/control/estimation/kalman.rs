@@ -10,11 +10,10 @@
 //! the other toe.
 
 use super::estimate::{Deviation, Estimate, bounded};
-use super::rest_detection::{Standing, StandingState};
-use crate::control::model::{Model, PlantBody};
+use super::rest_detection::Standing;
+use super::state::EstimatorState;
+use crate::control::model::Model;
 use crate::control::sensing::instruments::{Instruments, Measured};
-use crate::equation::motion::Motion;
-use crate::math::sign::Sign;
 use crate::math::sine32;
 
 /// Parameters.
@@ -32,116 +31,60 @@ pub struct Kalman {
     pub deviation: Deviation,
 }
 
-/// State.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct KalmanState {
-    rotation: f32,
-    velocity: f32,
-    acceleration: f32,
-    bias: f32,
-    side: Sign,
-    blank: u16,
-    standing: StandingState,
-}
-
 /// θ̈ from the specific forces of block and ground, rad/s².
 #[inline]
-pub fn measured_acceleration<B: PlantBody>(
-    model: &Model<B>,
-    (side, rotation, velocity): (Sign, f32, f32),
-    block: [f32; 2],
-    ground: f32,
-) -> f32 {
-    let (sine, cosine) = sine32::sin_cos(rotation);
+pub(super) fn measured_acceleration(model: &Model, state: &EstimatorState, block: [f32; 2], ground: f32) -> f32 {
+    let (sine, cosine) = sine32::sin_cos(state.rotation);
     let relative = (block[0] * cosine + block[1] * sine - ground) / model.parameters.size;
-    let (across, along) = model.direction_cosines(side, rotation);
-    (relative - along * velocity * velocity) / across
-}
-
-/// The estimate of a filter that has measured θ̈: the sign of the terminals' acceleration is that of the measured one.
-#[inline]
-pub(super) fn kinematic_estimate<B: PlantBody>(
-    model: &Model<B>,
-    seen: &Measured,
-    side: Sign,
-    motion: &Motion<f32>,
-    deviation: Deviation,
-) -> Estimate {
-    let Motion { rotation, velocity, acceleration } = *motion;
-    let configuration = model.configuration(side, rotation);
-    let terminal = model.body.terminal_acceleration(&configuration, velocity, acceleration);
-    Estimate {
-        rotation,
-        velocity,
-        side,
-        push: model.body.arm(&configuration) * terminal,
-        ground: seen.ground,
-        ground_rate: seen.ground_rate,
-        standing: false,
-        deviation,
-    }
-}
-
-impl KalmanState {
-    /// Of a block that is met in motion at θ and θ̇.
-    pub(super) fn met(rotation: f32, velocity: f32) -> KalmanState {
-        let side = Sign::of(rotation, Sign::of(velocity, Sign::Positive));
-        KalmanState { rotation, velocity, side, standing: StandingState::ROCKING, ..KalmanState::default() }
-    }
+    let (across, along) = model.direction_cosines(state.side, state.rotation);
+    (relative - along * state.velocity * state.velocity) / across
 }
 
 impl Kalman {
     /// One tick, with `engaged` flywheels on the rack.
     #[inline]
-    pub fn step<B: PlantBody>(
+    pub fn step(
         &self,
-        state: &mut KalmanState,
-        model: &Model<B>,
+        state: &mut EstimatorState,
+        model: &Model,
         instruments: &Instruments,
         seen: &Measured,
         engaged: u8,
     ) -> Estimate {
         let period = instruments.period;
-        let ahead = if state.standing.stands { 0.0 } else { state.acceleration };
+        let ahead = if state.rocks { state.acceleration } else { 0.0 };
         let velocity = state.velocity + ahead * period;
         let rotation = state.rotation + (state.velocity + 0.5 * ahead * period) * period;
         let (rotation, velocity, ahead) = bounded(rotation, velocity, ahead);
+        (state.rotation, state.velocity) = (rotation, velocity);
         state.blank = state.blank.saturating_sub(1);
         let believed = state.blank == 0;
-        let travel = seen.travel.map_or(0.0, |travel| {
-            let then = rotation - velocity * instruments.encoder_delay;
-            model.rotation_of_travel(travel, then, Sign::of(travel, state.side)) - then
-        });
+        let travel = seen.travel.map_or(0.0, |travel| state.encoder_error(model, instruments, travel));
         let rate = seen
             .rate
             .filter(|_| believed)
             .map_or(0.0, |rate| rate - state.bias - (velocity - ahead * instruments.gyroscope_delay));
-        let acceleration = seen.block.filter(|_| believed).map_or(0.0, |block| {
-            measured_acceleration(model, (state.side, rotation, velocity), block, seen.ground_force[0]) - ahead
-        });
+        let acceleration = seen
+            .block
+            .filter(|_| believed)
+            .map_or(0.0, |block| measured_acceleration(model, state, block, seen.ground_force[0]) - ahead);
         let [of_rotation, of_velocity, of_acceleration, of_bias] = self.gains;
         let corrected = |gains: [f32; 3]| gains[0] * travel + gains[1] * rate + gains[2] * acceleration;
         state.rotation = rotation + corrected(of_rotation);
         state.velocity = velocity + if rate.abs() > self.jump { rate } else { corrected(of_velocity) };
         state.acceleration = ahead + corrected(of_acceleration);
         state.bias += corrected(of_bias);
-        (state.rotation, state.velocity, state.acceleration) = bounded(state.rotation, state.velocity, state.acceleration);
-        let stood = state.standing.stands;
-        if self.standing.step(&mut state.standing, model, seen, (state.rotation, state.velocity), &mut state.side) {
-            (state.rotation, state.velocity, state.acceleration) = (0.0, 0.0, 0.0);
+        state.bound();
+        let stood = !state.rocks;
+        if self.standing.step(state, model, seen) {
             return Standing::estimate(seen, state.side);
         }
         if stood {
             state.acceleration = model.acceleration(state.side, 0.0, state.velocity, seen.ground, engaged);
-        } else if state.side.times(state.rotation) < 0.0 && state.side.times(state.velocity) < 0.0 {
-            state.side = state.side.opposite();
-            if self.blank > 0 {
-                state.velocity *= model.parameters.restitution;
-            }
-            state.acceleration = model.acceleration(state.side, state.rotation, state.velocity, seen.ground, engaged);
-            state.blank = self.blank;
+        } else if state.hits() {
+            state.impact(if self.blank > 0 { model.parameters.restitution } else { 1.0 }, self.blank);
+            state.acceleration = state.modelled_acceleration(model, seen, engaged);
         }
-        let motion = Motion { rotation: state.rotation, velocity: state.velocity, acceleration: state.acceleration };
-        kinematic_estimate(model, seen, state.side, &motion, self.deviation)
+        state.kinematic_estimate(model, seen, self.deviation)
     }
 }

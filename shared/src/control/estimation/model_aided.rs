@@ -4,11 +4,11 @@
 //! bracket of Eq. 15, which needs only θ and the ground's acceleration, so nothing is differentiated. θ = 0 is an impact: the velocity
 //! takes η and the other toe takes over, and the gyroscope is not believed until its own filter has seen the jump.
 
-use super::estimate::{Deviation, Estimate, bounded};
-use super::rest_detection::{Standing, StandingState};
-use crate::control::model::{Model, PlantBody};
+use super::estimate::{Deviation, Estimate};
+use super::rest_detection::Standing;
+use super::state::EstimatorState;
+use crate::control::model::Model;
 use crate::control::sensing::instruments::{Instruments, Measured};
-use crate::math::sign::Sign;
 
 /// Parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,50 +25,22 @@ pub struct ModelAided {
     pub deviation: Deviation,
 }
 
-/// State.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ModelAidedState {
-    rotation: f32,
-    velocity: f32,
-    side: Sign,
-    blank: u16,
-    standing: StandingState,
-}
-
-impl ModelAidedState {
-    /// Of a block that is met in motion at θ and θ̇.
-    pub(super) fn met(rotation: f32, velocity: f32) -> ModelAidedState {
-        let side = Sign::of(rotation, Sign::of(velocity, Sign::Positive));
-        ModelAidedState { rotation, velocity, side, standing: StandingState::ROCKING, ..ModelAidedState::default() }
-    }
-}
-
 impl ModelAided {
     /// One tick, with `engaged` flywheels on the rack.
     #[inline]
-    pub fn step<B: PlantBody>(
+    pub fn step(
         &self,
-        state: &mut ModelAidedState,
-        model: &Model<B>,
+        state: &mut EstimatorState,
+        model: &Model,
         instruments: &Instruments,
         seen: &Measured,
         engaged: u8,
     ) -> Estimate {
-        let period = instruments.period;
-        let ahead = if state.standing.stands {
-            0.0
-        } else {
-            model.acceleration(state.side, state.rotation, state.velocity, seen.ground, engaged)
-        };
-        let velocity = state.velocity + ahead * period;
-        let rotation = state.rotation + 0.5 * (state.velocity + velocity) * period;
-        let (rotation, velocity, _) = bounded(rotation, velocity, 0.0);
-        (state.rotation, state.velocity) = (rotation, velocity);
-        // Readings are compared with the motion of when they were taken.
+        let ahead = if state.rocks { state.modelled_acceleration(model, seen, engaged) } else { 0.0 };
+        state.advance(ahead, instruments.period);
+        let velocity = state.velocity;
         if let Some(travel) = seen.travel {
-            let then = rotation - velocity * instruments.encoder_delay;
-            let side = Sign::of(travel, state.side);
-            let error = model.rotation_of_travel(travel, then, side) - then;
+            let error = state.encoder_error(model, instruments, travel);
             state.rotation += self.gains[0][0] * error;
             state.velocity += self.gains[1][0] * error;
         }
@@ -79,30 +51,15 @@ impl ModelAided {
             state.rotation += self.gains[0][1] * error;
             state.velocity += share * error;
         }
-        let (rotation, velocity, _) = bounded(state.rotation, state.velocity, 0.0);
-        (state.rotation, state.velocity) = (rotation, velocity);
-        let stood = state.standing.stands;
-        if self.standing.step(&mut state.standing, model, seen, (rotation, velocity), &mut state.side) {
-            (state.rotation, state.velocity) = (0.0, 0.0);
+        state.bound();
+        let stood = !state.rocks;
+        if self.standing.step(state, model, seen) {
             return Standing::estimate(seen, state.side);
         }
-        if !stood && state.side.times(state.rotation) < 0.0 && state.side.times(state.velocity) < 0.0 {
-            state.side = state.side.opposite();
-            if self.blank > 0 {
-                // With a gyroscope that is believed again at once the jump is already in its reading.
-                state.velocity *= model.parameters.restitution;
-            }
-            state.blank = self.blank;
+        if !stood && state.hits() {
+            // With a gyroscope that is believed again at once the jump is already in its reading.
+            state.impact(if self.blank > 0 { model.parameters.restitution } else { 1.0 }, self.blank);
         }
-        Estimate {
-            rotation: state.rotation,
-            velocity: state.velocity,
-            side: state.side,
-            push: model.push(state.side, state.rotation, state.velocity, seen.ground),
-            ground: seen.ground,
-            ground_rate: seen.ground_rate,
-            standing: false,
-            deviation: self.deviation,
-        }
+        state.estimate(seen, model.push(state.side, state.rotation, state.velocity, seen.ground), self.deviation)
     }
 }

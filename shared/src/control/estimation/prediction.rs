@@ -1,25 +1,20 @@
 //! The motion a few milliseconds ahead, where a command that is given now takes effect.
 
 use super::estimate::Estimate;
-use crate::control::model::{Model, PlantBody};
+use crate::control::model::Model;
+use crate::equation::any_body::AnyConfiguration;
 
 /// `now` a time `horizon` (s) later, with `engaged` flywheels on the rack until then: one step of Heun's method with the ground's
 /// acceleration carried on along its tangent, and at most one impact. The terminals' acceleration moves by what the model says that it
 /// moves, so that an estimator's own measure of it keeps its offset.
 #[inline]
-pub fn predict<B: PlantBody>(model: &Model<B>, now: &Estimate, engaged: u8, horizon: f32) -> Estimate {
+pub fn predict(model: &Model, now: &Estimate, engaged: u8, horizon: f32) -> Estimate {
     predict_from(model, &model.configuration(now.side, now.rotation), now, engaged, horizon)
 }
 
 /// [`predict`] where the `configuration` of `now` is known already.
 #[inline]
-pub fn predict_from<B: PlantBody>(
-    model: &Model<B>,
-    configuration: &B::Configuration<f32>,
-    now: &Estimate,
-    engaged: u8,
-    horizon: f32,
-) -> Estimate {
+pub fn predict_from(model: &Model, configuration: &AnyConfiguration<f32>, now: &Estimate, engaged: u8, horizon: f32) -> Estimate {
     if now.standing || horizon <= 0.0 {
         return *now;
     }

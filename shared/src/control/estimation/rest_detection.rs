@@ -1,7 +1,8 @@
 //! Whether the block stands on both toes, where sensors say nothing but noise.
 
 use super::estimate::Estimate;
-use crate::control::model::{Model, PlantBody};
+use super::state::EstimatorState;
+use crate::control::model::Model;
 use crate::control::sensing::instruments::Measured;
 use crate::math::sign::Sign;
 
@@ -16,53 +17,31 @@ pub struct Standing {
     pub ticks: u16,
 }
 
-/// What it remembers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct StandingState {
-    /// It stands.
-    pub stands: bool,
-    ticks: u16,
-}
-
-impl Default for StandingState {
-    fn default() -> Self {
-        StandingState { stands: true, ticks: 0 }
-    }
-}
-
-impl StandingState {
-    /// Of a block that rocks.
-    pub(super) const ROCKING: StandingState = StandingState { stands: false, ticks: 0 };
-}
-
 impl Standing {
-    /// Looks at θ and θ̇ as an estimator has them at this tick; `true` while the block stands. A standing block is let go when the
-    /// ground pushes harder than its weight holds, or when it moves; the side it moves to is written to `side`.
+    /// Looks at the motion as an estimator has it at this tick; `true` while the block stands, and then at θ = 0. A standing block is let go
+    /// when the ground pushes harder than its weight holds, or when it moves, to the side that the state then has.
     #[inline]
-    pub fn step<B: PlantBody>(
-        &self,
-        state: &mut StandingState,
-        model: &Model<B>,
-        seen: &Measured,
-        (rotation, velocity): (f32, f32),
-        side: &mut Sign,
-    ) -> bool {
+    pub(super) fn step(&self, state: &mut EstimatorState, model: &Model, seen: &Measured) -> bool {
+        let (rotation, velocity) = (state.rotation, state.velocity);
         let holds = model.parameters.uplift * (1.0 + seen.ground[1]);
         let pushed = seen.ground[0].abs() > holds;
         let moves = rotation.abs() > self.rotation || velocity.abs() > self.velocity;
-        if state.stands {
+        if !state.rocks {
             if pushed || moves {
-                let otherwise = Sign::of(-seen.ground[0], *side);
-                *side = if moves { Sign::of(velocity + rotation, otherwise) } else { otherwise };
-                *state = StandingState { stands: false, ticks: 0 };
+                let otherwise = Sign::of(-seen.ground[0], state.side);
+                state.side = if moves { Sign::of(velocity + rotation, otherwise) } else { otherwise };
+                (state.rocks, state.still) = (true, 0);
             }
         } else {
-            state.ticks = if pushed || moves { 0 } else { state.ticks.saturating_add(1) };
-            if state.ticks > self.ticks {
-                *state = StandingState { stands: true, ticks: 0 };
+            state.still = if pushed || moves { 0 } else { state.still.saturating_add(1) };
+            if state.still > self.ticks {
+                (state.rocks, state.still) = (false, 0);
             }
         }
-        state.stands
+        if !state.rocks {
+            (state.rotation, state.velocity, state.acceleration) = (0.0, 0.0, 0.0);
+        }
+        !state.rocks
     }
 
     /// What is known of a standing block.

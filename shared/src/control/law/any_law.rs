@@ -2,7 +2,6 @@
 
 use super::look_ahead::LookAhead;
 use super::{AlwaysEngaged, GatedTable, Law, Passive, Resisting, SignTable, Situation, Wish};
-use crate::control::model::PlantBody;
 
 /// The laws that a scene can choose from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,9 +22,9 @@ pub enum ClutchLaw {
     LookAhead(LookAhead),
 }
 
-impl<B: PlantBody> Law<B> for ClutchLaw {
+impl Law for ClutchLaw {
     #[inline]
-    fn wish(&self, at: &Situation<'_, B>) -> Wish {
+    fn wish(&self, at: &Situation<'_>) -> Wish {
         match self {
             ClutchLaw::Passive => Passive.wish(at),
             ClutchLaw::AlwaysEngaged => AlwaysEngaged.wish(at),

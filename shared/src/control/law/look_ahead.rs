@@ -9,7 +9,7 @@
 use super::signs::Signs;
 use super::turn_taking::AHEAD;
 use super::{GatedTable, Law, Situation, Wish, sign_row};
-use crate::control::model::PlantBody;
+use crate::equation::body::Body;
 use crate::equation::clutch_rule::wheel_for;
 use crate::math::sign::Sign;
 
@@ -50,7 +50,7 @@ impl Default for LookAhead {
 impl LookAhead {
     /// What comes of a choice: smaller is safer, rad.
     #[inline]
-    fn cost<B: PlantBody>(&self, at: &Situation<'_, B>, engage: bool) -> f32 {
+    fn cost(&self, at: &Situation<'_>, engage: bool) -> f32 {
         let model = at.model;
         let step = self.step / model.parameters.frequency;
         let (mut rotation, mut velocity, mut side) = (at.estimate.rotation, at.estimate.velocity, at.estimate.side);
@@ -118,9 +118,9 @@ impl LookAhead {
     }
 }
 
-impl<B: PlantBody> Law<B> for LookAhead {
+impl Law for LookAhead {
     #[inline]
-    fn wish(&self, at: &Situation<'_, B>) -> Wish {
+    fn wish(&self, at: &Situation<'_>) -> Wish {
         if at.estimate.standing {
             return self.base.wish(at);
         }
@@ -133,12 +133,10 @@ impl<B: PlantBody> Law<B> for LookAhead {
 mod tests {
     use super::*;
     use crate::control::estimation::estimate::Estimate;
+    use crate::control::model::Model;
     use crate::control::tests::{example_model, spinning_model};
 
-    fn at(
-        model: &crate::control::model::Model<crate::equation::body::FullBody<f32, crate::equation::kinematics::Paper>>,
-        mirror: f32,
-    ) -> Wish {
+    fn at(model: &Model, mirror: f32) -> Wish {
         let side = Sign::of(mirror, Sign::Positive);
         let estimate = Estimate {
             rotation: 0.09 * mirror,

@@ -5,7 +5,7 @@
 //!
 //! [`look_ahead`]: a law that runs the equation of motion ahead; [`any_law`]: a law chosen at run time; [`signs`]: hysteresis.
 //!
-//! A new law goes into a file of its own here and into [`any_law`]; to be chosen by settings, into `settings::{table, assemble, record}`; by
+//! A new law goes into a file of its own here and into [`any_law`]; to be chosen by settings, into `settings::{table, parts}`; by
 //! a scene, into the `LawName` of the host.
 //!
 //! The room imports `math`, `equation`, `control::model` and `control::estimation`.
@@ -17,15 +17,15 @@ pub mod signs;
 pub mod turn_taking;
 
 use crate::control::estimation::estimate::Estimate;
-use crate::control::model::{Model, PlantBody};
+use crate::control::model::Model;
 use serde::{Deserialize, Serialize};
 use signs::Signs;
 
 /// What a law can know.
 #[derive(Clone, Copy, Debug)]
-pub struct Situation<'a, B> {
+pub struct Situation<'a> {
     /// The structure as the controller believes it to be.
-    pub model: &'a Model<B>,
+    pub model: &'a Model,
     /// The motion at the instant at which a command given now takes effect (or now, for a law that does not predict).
     pub estimate: Estimate,
     /// Its signs, with hysteresis.
@@ -55,9 +55,9 @@ pub enum Wish {
 }
 
 /// A rule for the clutches.
-pub trait Law<B> {
+pub trait Law {
     /// What it wants.
-    fn wish(&self, at: &Situation<'_, B>) -> Wish;
+    fn wish(&self, at: &Situation<'_>) -> Wish;
 
     /// It is to be asked about the instant at which its answer takes effect, and not about now.
     fn predicts(&self) -> bool {
@@ -119,37 +119,37 @@ pub fn sign_row(signs: &Signs) -> u8 {
     4 * u8::from(rotation == velocity) + 2 * u8::from(push == velocity) + u8::from(ground == velocity && !quiet)
 }
 
-impl<B> Law<B> for Passive {
+impl Law for Passive {
     #[inline]
-    fn wish(&self, _at: &Situation<'_, B>) -> Wish {
+    fn wish(&self, _at: &Situation<'_>) -> Wish {
         Wish::Release
     }
 }
 
-impl<B> Law<B> for AlwaysEngaged {
+impl Law for AlwaysEngaged {
     #[inline]
-    fn wish(&self, _at: &Situation<'_, B>) -> Wish {
+    fn wish(&self, _at: &Situation<'_>) -> Wish {
         Wish::Hold
     }
 }
 
-impl<B> Law<B> for Resisting {
+impl Law for Resisting {
     #[inline]
-    fn wish(&self, at: &Situation<'_, B>) -> Wish {
+    fn wish(&self, at: &Situation<'_>) -> Wish {
         if at.signs.push == at.signs.velocity { Wish::Resist } else { Wish::Release }
     }
 }
 
-impl<B> Law<B> for SignTable {
+impl Law for SignTable {
     #[inline]
-    fn wish(&self, at: &Situation<'_, B>) -> Wish {
+    fn wish(&self, at: &Situation<'_>) -> Wish {
         if self.0 >> sign_row(&at.signs) & 1 == 1 { Wish::Resist } else { Wish::Release }
     }
 }
 
-impl<B: PlantBody> Law<B> for GatedTable {
+impl Law for GatedTable {
     #[inline]
-    fn wish(&self, at: &Situation<'_, B>) -> Wish {
+    fn wish(&self, at: &Situation<'_>) -> Wish {
         if self.engages(sign_row(&at.signs), at.ground_drift, at.model.parameters.uplift) { Wish::Resist } else { Wish::Release }
     }
 }

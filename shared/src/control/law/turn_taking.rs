@@ -2,7 +2,7 @@
 
 use super::Wish;
 use crate::control::estimation::estimate::Estimate;
-use crate::control::model::{Model, PlantBody};
+use crate::control::model::Model;
 use crate::equation::clutch_rule::wheel_for;
 use crate::math::sign::Sign;
 
@@ -21,13 +21,13 @@ pub const AHEAD: f32 = 0.02;
 impl TurnsState {
     /// The speeds a `period` (s) later: of an engaged flywheel that of the rack, of a released one less than before.
     #[inline]
-    pub fn spin<B: PlantBody>(&mut self, model: &Model<B>, now: &Estimate, engaged: [bool; 2], period: f32) {
+    pub fn spin(&mut self, model: &Model, now: &Estimate, engaged: [bool; 2], period: f32) {
         self.spin_at(model, model.rack_speed(now.side, now.rotation, now.velocity), engaged, period);
     }
 
     /// [`TurnsState::spin`] where the speed of the `rack` is known already.
     #[inline]
-    pub fn spin_at<B: PlantBody>(&mut self, model: &Model<B>, rack: f32, engaged: [bool; 2], period: f32) {
+    pub fn spin_at(&mut self, model: &Model, rack: f32, engaged: [bool; 2], period: f32) {
         for (spin, engaged) in self.spins.iter_mut().zip(engaged) {
             *spin = if engaged { rack } else { model.coasted(*spin, period) };
         }
@@ -36,7 +36,7 @@ impl TurnsState {
     /// The clutches of a block that stands and is to be resisted as soon as it moves. Which way it will move nobody knows, so both flywheels
     /// wait on the rack, and the first motion gives the turn to the one of its direction. One that still spins would push the block.
     #[inline]
-    pub fn wait<B: PlantBody>(&mut self, model: &Model<B>) -> [bool; 2] {
+    pub fn wait(&mut self, model: &Model) -> [bool; 2] {
         self.turn = None;
         self.spins.map(|spin| spin.abs() <= AHEAD * model.parameters.slenderness)
     }
@@ -46,7 +46,7 @@ impl TurnsState {
     /// to the flywheel of the direction, unless it still runs ahead of the rack, so that taking it on would drive the block; then to the
     /// other one, unless that does too.
     #[inline]
-    pub fn take<B: PlantBody>(&mut self, model: &Model<B>, wish: Wish, direction: Sign, now: &Estimate) -> [bool; 2] {
+    pub fn take(&mut self, model: &Model, wish: Wish, direction: Sign, now: &Estimate) -> [bool; 2] {
         self.turn = match wish {
             Wish::Release => None,
             Wish::Hold => Some(0),

@@ -3,12 +3,12 @@
 use std::vec::Vec;
 
 use super::example_model;
-use crate::control::estimation::Estimator;
 use crate::control::estimation::complementary::Complementary;
 use crate::control::estimation::estimate::{Deviation, Estimate};
 use crate::control::estimation::kalman::Kalman;
 use crate::control::estimation::model_aided::ModelAided;
 use crate::control::estimation::rest_detection::Standing;
+use crate::control::estimation::{Estimator, EstimatorState};
 use crate::control::sensing::calibration::Calibration;
 use crate::control::sensing::instruments::{Instruments, InstrumentsState};
 use crate::control::sensing::sample::{Count, Reading, Sample};
@@ -134,7 +134,7 @@ fn sample(truth: &Truth, number: u32, noise: f64, dice: &mut u32) -> Sample {
 fn run(estimator: &Estimator, truths: &[Truth], noise: f64, mut look: impl FnMut(&Truth, &Estimate)) {
     let model = example_model();
     let instruments = Instruments::new(PERIOD, COUNT, [0.0; 3], 0.0015).unwrap();
-    let (mut state, mut reading, mut dice) = (estimator.start(), InstrumentsState::default(), 1);
+    let (mut state, mut reading, mut dice) = (EstimatorState::default(), InstrumentsState::default(), 1);
     for (number, truth) in truths.iter().enumerate() {
         let sample = sample(truth, number as u32 + 1, noise, &mut dice);
         let seen = instruments.read(&mut reading, &sample, &Calibration::default());
@@ -202,7 +202,7 @@ fn no_readings_make_an_estimate_run_away() {
     for period in [5e-4, 0.01] {
         let instruments = Instruments::new(period, COUNT, [1e-3; 3], 0.0015).unwrap();
         for (name, estimator) in estimators() {
-            let (mut state, mut reading, mut dice) = (estimator.start(), InstrumentsState::default(), 7_u32);
+            let (mut state, mut reading, mut dice) = (EstimatorState::default(), InstrumentsState::default(), 7_u32);
             let mut word = || {
                 dice = dice.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
                 dice ^ dice >> 16

@@ -6,8 +6,6 @@ use super::model::Model;
 use crate::control::estimation::estimate::Estimate;
 use crate::control::law::Situation;
 use crate::control::law::signs::Signs;
-use crate::equation::body::FullBody;
-use crate::equation::kinematics::Paper;
 use crate::math::sign::Sign;
 use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry};
@@ -34,18 +32,18 @@ pub fn structure() -> Structure {
 }
 
 /// The block of [`structure`] with an ideal pair.
-pub fn example_model() -> Model<FullBody<f32, Paper>> {
+pub fn example_model() -> Model {
     Model::new(&structure(), &Drivetrain::default()).unwrap()
 }
 
 /// With flywheels that spin down slowly.
-pub fn spinning_model() -> Model<FullBody<f32, Paper>> {
+pub fn spinning_model() -> Model {
     let flywheel = FlywheelLosses { viscous_rate: 0.4, dry_deceleration: 0.2, brake_deceleration: 0.0 };
     Model::new(&structure(), &Drivetrain { engagement: Engagement::Rigid, flywheel, ..Drivetrain::default() }).unwrap()
 }
 
 /// A situation with the signs of the four `bits`.
-pub fn situation(model: &Model<FullBody<f32, Paper>>, bits: u8) -> Situation<'_, FullBody<f32, Paper>> {
+pub fn situation(model: &Model, bits: u8) -> Situation<'_> {
     let sign = |bit: u8| if bits >> bit & 1 == 1 { Sign::Positive } else { Sign::Negative };
     let signs = Signs { rotation: sign(0), velocity: sign(1), push: sign(2), ground: sign(3), quiet: false };
     Situation { model, estimate: Estimate::default(), signs, engaged: [false; 2], spins: [0.0; 2], ground_drift: 0.0 }

@@ -1,12 +1,11 @@
 //! What a device does when it is asked, and what it goes on with after a reset.
 
 use super::{Answer, Device, Surroundings};
+use crate::control::controller::Controller;
 use crate::control::supervisor::Phase;
 use crate::control::supervisor::event_log::Kind;
 use crate::device::retained::{MOST_RESTARTS, Retained};
-use crate::equation::any_body::AnyBody;
 use crate::link::*;
-use crate::settings::assemble::AnyController;
 use crate::settings::kind::Description;
 use crate::settings::store::Store;
 use crate::settings::{COUNT, Item, Settings};
@@ -23,7 +22,7 @@ mod wraps;
 struct Bench {
     device: Device,
     store: Store<Flash>,
-    rig: Rig<AnyBody<f32>>,
+    rig: Rig,
 }
 
 impl Bench {
@@ -32,7 +31,7 @@ impl Bench {
     }
 
     fn with(settings: &Settings, kept: Option<&Retained>) -> Bench {
-        let controller = AnyController::of(settings).unwrap();
+        let controller = Controller::of(settings).unwrap();
         let (store, _) = Store::open(Flash::default());
         Bench { device: Device::new(&controller, settings, kept), store, rig: Rig::new(controller.model) }
     }

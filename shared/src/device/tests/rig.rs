@@ -2,8 +2,9 @@
 //! shake, seen through sensors with biases, noise and steps. The same on every machine, to the last bit: the emulated core has this file as
 //! a module too.
 
-use sprag_shared::control::model::{Model, PlantBody};
+use sprag_shared::control::model::Model;
 use sprag_shared::control::sensing::sample::{Count, Reading, Sample};
+use sprag_shared::equation::body::Body;
 use sprag_shared::math::sign::Sign;
 use sprag_shared::math::sine32;
 use sprag_shared::structure::block::GRAVITY;
@@ -40,8 +41,8 @@ const ENCODER_START: i32 = -12_345;
 
 /// The block, its flywheels, clutches and sensors.
 #[derive(Clone, Debug)]
-pub struct Rig<B> {
-    model: Model<B>,
+pub struct Rig {
+    model: Model,
     /// θ, rad.
     pub rotation: f32,
     /// θ̇, rad/s.
@@ -61,9 +62,9 @@ pub struct Rig<B> {
     noise: u32,
 }
 
-impl<B: PlantBody> Rig<B> {
+impl Rig {
     /// At rest.
-    pub fn new(model: Model<B>) -> Rig<B> {
+    pub fn new(model: Model) -> Rig {
         Rig {
             model,
             rotation: 0.0,

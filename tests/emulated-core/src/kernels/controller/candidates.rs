@@ -13,13 +13,11 @@ use sprag_shared::control::law::any_law::ClutchLaw;
 use sprag_shared::control::law::look_ahead::LookAhead;
 use sprag_shared::control::law::minimum_dwell::Gate;
 use sprag_shared::control::law::{GatedTable, SignTable};
-use sprag_shared::control::model::{Model, PlantBody};
+use sprag_shared::control::model::Model;
 use sprag_shared::control::monitor::{EncoderLimits, MonitorParameters, SensorLimits};
 use sprag_shared::control::sensing::calibration::Plausible;
 use sprag_shared::control::sensing::instruments::Instruments;
 use sprag_shared::control::supervisor::{Parameters, Supervisor};
-use sprag_shared::equation::body::FullBody;
-use sprag_shared::equation::kinematics::{Consistent, Paper};
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -137,7 +135,7 @@ impl Candidate {
     ///
     /// # Errors
     /// As [`Candidate::controller`].
-    pub fn paper(&self) -> Result<Controller<FullBody<f32, Paper>, ClutchLaw>, fmt::Error> {
+    pub fn paper(&self) -> Result<Controller, fmt::Error> {
         self.controller(KinematicsKind::Paper, &Drivetrain::default()).map_err(|_| fmt::Error)
     }
 
@@ -145,17 +143,13 @@ impl Candidate {
     ///
     /// # Errors
     /// As [`Candidate::controller`].
-    pub fn consistent(&self) -> Result<Controller<FullBody<f32, Consistent>, ClutchLaw>, fmt::Error> {
+    pub fn consistent(&self) -> Result<Controller, fmt::Error> {
         let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 5.0 };
         let rigid = Drivetrain { engagement: Engagement::Rigid, flywheel, ..Drivetrain::default() };
         self.controller(KinematicsKind::Consistent, &rigid).map_err(|_| fmt::Error)
     }
 
-    fn controller<B: PlantBody>(
-        &self,
-        kinematics: KinematicsKind,
-        drivetrain: &Drivetrain,
-    ) -> Result<Controller<B, ClutchLaw>, ParameterError> {
+    fn controller(&self, kinematics: KinematicsKind, drivetrain: &Drivetrain) -> Result<Controller, ParameterError> {
         let structure = Structure {
             block: Block::new(2.0, 10.0 * core::f64::consts::PI / 180.0, RECTANGLE_INERTIA_RATIO)?,
             geometry: Geometry::Full,

@@ -11,8 +11,6 @@ use candidates::{ideal, spinning};
 use core::{fmt, hint::black_box};
 use rig::Rig;
 use sprag_shared::control::controller::{Choice, Circumstances, Controller, ControllerState, Decision};
-use sprag_shared::control::law::any_law::ClutchLaw;
-use sprag_shared::control::model::PlantBody;
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::math::fnv::Fnv;
@@ -58,38 +56,22 @@ impl<const SIZES: usize> Counts<SIZES> {
 const SIZES: usize = 8192;
 
 #[inline(never)]
-fn tick<B: PlantBody>(
-    controller: &Controller<B, ClutchLaw>,
-    state: &mut ControllerState,
-    sample: &Sample,
-    decision: &mut Decision,
-) {
+fn tick(controller: &Controller, state: &mut ControllerState, sample: &Sample, decision: &mut Decision) {
     *decision = controller.tick(state, sample, Circumstances::default());
 }
 
 #[inline(never)]
-fn look<B: PlantBody>(controller: &Controller<B, ClutchLaw>, state: &mut ControllerState, sample: &Sample, choice: &mut Choice) {
+fn look(controller: &Controller, state: &mut ControllerState, sample: &Sample, choice: &mut Choice) {
     choice.estimate = controller.look(state, sample);
 }
 
 #[inline(never)]
-fn choose<B: PlantBody>(
-    controller: &Controller<B, ClutchLaw>,
-    state: &mut ControllerState,
-    sample: &Sample,
-    choice: &mut Choice,
-) {
+fn choose(controller: &Controller, state: &mut ControllerState, sample: &Sample, choice: &mut Choice) {
     (choice.wish, choice.wanted) = controller.choose(state, &choice.estimate, sample.engaged);
 }
 
 #[inline(never)]
-fn oversee<B: PlantBody>(
-    controller: &Controller<B, ClutchLaw>,
-    state: &mut ControllerState,
-    sample: &Sample,
-    choice: Choice,
-    decision: &mut Decision,
-) {
+fn oversee(controller: &Controller, state: &mut ControllerState, sample: &Sample, choice: Choice, decision: &mut Decision) {
     *decision = controller.oversee(state, sample, Circumstances::default(), choice);
 }
 
@@ -110,10 +92,7 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
 
 /// A run of `controller`, with `decide` for a tick.
 #[inline(never)]
-fn run<B: PlantBody>(
-    controller: &Controller<B, ClutchLaw>,
-    mut decide: impl FnMut(&mut ControllerState, &Sample, bool) -> Decision,
-) -> (Fnv, u32) {
+fn run(controller: &Controller, mut decide: impl FnMut(&mut ControllerState, &Sample, bool) -> Decision) -> (Fnv, u32) {
     let (mut state, mut rig, mut digest) = (controller.start(), Rig::new(controller.model), Fnv::default());
     let (mut armed, mut commands, mut last) = (false, 0, [false; 2]);
     for tick in 0..TICKS[0] + TICKS[1] {
@@ -129,12 +108,7 @@ fn run<B: PlantBody>(
     (digest, commands)
 }
 
-fn whole<B: PlantBody>(
-    name: &str,
-    controller: &Controller<B, ClutchLaw>,
-    counter: &mut impl FnMut() -> u32,
-    out: &mut impl fmt::Write,
-) -> fmt::Result {
+fn whole(name: &str, controller: &Controller, counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> fmt::Result {
     let mut counts = Counts::<SIZES>::NONE;
     let mut decision = Decision::before([false; 2]);
     let (digest, commands) = run(black_box(controller), |state, sample, armed| {
@@ -150,11 +124,7 @@ fn whole<B: PlantBody>(
     writeln!(out, "digest controller-{name} {:016x} ({commands} commands)", digest.value())
 }
 
-fn parts<B: PlantBody>(
-    controller: &Controller<B, ClutchLaw>,
-    counter: &mut impl FnMut() -> u32,
-    out: &mut impl fmt::Write,
-) -> fmt::Result {
+fn parts(controller: &Controller, counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> fmt::Result {
     let mut counts = [Counts::<{ SIZES / 4 }>::NONE; 3];
     let mut decision = Decision::before([false; 2]);
     let mut choice = Choice { estimate: decision.estimate, wish: decision.wish, wanted: decision.command };
