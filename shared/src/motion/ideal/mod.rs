@@ -190,8 +190,7 @@ impl<S: Real> IdealSystem<S> {
             velocity: state.velocity,
             time: *time,
             length: stop - *time,
-            acceleration_is_zero: state.acceleration_is_zero,
-            acceleration: *acceleration,
+            acceleration: if state.acceleration_is_zero { Some(S::ZERO) } else { *acceleration },
             scale: self.slenderness,
         };
         let output = method.integrate(&start);
