@@ -41,7 +41,7 @@ struct Watch<'o> {
 impl DeviceObserver<f32> for Watch<'_> {
     fn device_interval(&mut self, output: &dyn DeviceOutput<f32>, interval: &MonotoneInterval<f32>) {
         self.steps += 1;
-        self.peaks.interval(&output, interval);
+        self.peaks.interval(output.motion(), interval);
         self.observer.device_interval(output, interval);
     }
 

@@ -131,7 +131,7 @@ impl<S: Real> DeviceState<S> {
 
 /// Coefficients of one mode: the equations between two events are smooth with them. What a device does not have is zero here
 /// and not looked at by its type.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ModeCoefficients<S> {
     /// Sign of θ̇.
     pub direction: S,
@@ -199,23 +199,6 @@ pub const GUARDS: usize = 5;
 impl<S: Real> ModeCoefficients<S> {
     /// Nothing engaged, nothing lost, motion in `direction`.
     pub fn of(direction: Sign) -> ModeCoefficients<S> {
-        let none = [S::ZERO; 2];
-        ModeCoefficients {
-            direction: direction.unit(),
-            coupling: S::ZERO,
-            viscous: S::ZERO,
-            dry: S::ZERO,
-            decay: none,
-            drag: none,
-            moves: none,
-            slip: none,
-            slip_growth: none,
-            stiffness: none,
-            damping: none,
-            rest_twist: none,
-            follows: none,
-            relaxation: none,
-            watch: [Guard::Nothing; GUARDS],
-        }
+        ModeCoefficients { direction: direction.unit(), ..ModeCoefficients::default() }
     }
 }

@@ -171,22 +171,22 @@ pub trait Transmission<S: Real, const X: usize, const G: usize>: Copy {
 /// Largest number of a device's own unknowns.
 pub const UNKNOWNS: usize = 4;
 
-/// Forces, speeds, energy and losses of a device at an instant ([`crate::motion::device_snapshot::Snapshot`]).
+/// Forces, speeds, energies and losses of a device at an instant ([`crate::motion::device_snapshot::Snapshot`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Account<S> {
-    /// Force of each flywheel on the rack, 1/s².
+    /// Force of each flywheel on the rack, positive where it resists positive motion; F/(λmR), 1/s².
     pub force: [S; 2],
-    /// Force of the rack itself, 1/s².
+    /// Friction and inertia of the rack itself, the same way.
     pub rack_force: S,
-    /// Engaged flywheels.
+    /// Which flywheels are coupled.
     pub engaged: [bool; 2],
-    /// Speeds of the flywheels, 1/s.
+    /// Speed of each flywheel as that of a rack moving with it, over R; 1/s.
     pub spin: [S; 2],
-    /// Energy in flywheels, rack and springs, 1/s².
+    /// Kinetic energy of flywheels and rack, and of springs; E/(λmR²), 1/s².
     pub stored: S,
-    /// Energy of the springs alone, 1/s².
+    /// Energy of the springs alone.
     pub sprung: S,
-    /// Power lost, 1/s³; the paper's kinematics are not in it.
+    /// Power lost, 1/s³; from a transmission, without what the paper's kinematics take.
     pub spent: Spent<S>,
 }
 

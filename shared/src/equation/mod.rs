@@ -34,14 +34,20 @@ use lever::Lever;
 pub trait Equation<S: Scalar>: Copy {
     /// Whether the clutch's switching function is the acceleration itself (paper kinematics), so that one search finds
     /// the zeros of both.
-    fn switches_with_acceleration(&self) -> bool;
+    #[inline(always)]
+    fn switches_with_acceleration(&self) -> bool {
+        true
+    }
 
     /// θ̈ (rad/s²) on `side` s = ±1 for θ (rad), θ̇ (rad/s) and the ground acceleration ü_g/g.
     fn acceleration<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V;
 
     /// A quantity with the sign of the acceleration of the inerter's terminals along their travel, the same whether the
     /// inerter is engaged or not (Eq. 10 compares it with the velocity).
-    fn switching<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V;
+    #[inline(always)]
+    fn switching<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V {
+        self.acceleration(side, rotation, velocity, ground)
+    }
 
     /// Acceleration of the inerter's terminals per R (1/s²): ℓθ̈, plus ℓ'θ̇² in the consistent kinematics.
     fn terminal_acceleration(&self, side: S, rotation: S, velocity: S, acceleration: S) -> S;
@@ -57,7 +63,11 @@ pub trait Equation<S: Scalar>: Copy {
 
     /// Power that the paper's kinematics take without a cause, per λmR² (1/s³): −κ k ℓ ℓ' θ̇³, which is what the energy
     /// ½(1 + κ k ℓ²)θ̇² of block and flywheel misses of the work done on them; 0 where energy is conserved.
-    fn paper_power(&self, side: S, rotation: S, velocity: S) -> S;
+    #[inline(always)]
+    fn paper_power(&self, side: S, rotation: S, velocity: S) -> S {
+        let _ = (side, rotation, velocity);
+        S::of(0.0)
+    }
 }
 
 /// Equation of motion of the block alone, or with its inerter released (Eq. 2): θ̈ = −p² [ sin δ + (ü_g/g) cos δ ].
@@ -86,19 +96,9 @@ impl<S: Scalar> FullBlock<S> {
 
 impl<S: Scalar> Equation<S> for FullBlock<S> {
     #[inline(always)]
-    fn switches_with_acceleration(&self) -> bool {
-        true
-    }
-
-    #[inline(always)]
     fn acceleration<V: Value<S>>(&self, side: S, rotation: V, _velocity: V, ground: V) -> V {
         let (sin, cos) = self.delta(side, rotation).sin_cos();
         self.driving_moment(sin, cos, ground)
-    }
-
-    #[inline(always)]
-    fn switching<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V {
-        self.acceleration(side, rotation, velocity, ground)
     }
 
     #[inline(always)]
@@ -109,11 +109,6 @@ impl<S: Scalar> Equation<S> for FullBlock<S> {
     #[inline(always)]
     fn inertia(&self, _side: S, _rotation: S) -> S {
         S::of(1.0)
-    }
-
-    #[inline(always)]
-    fn paper_power(&self, _side: S, _rotation: S, _velocity: S) -> S {
-        S::of(0.0)
     }
 }
 
@@ -201,18 +196,8 @@ pub struct SlenderBlock<S> {
 
 impl<S: Scalar> Equation<S> for SlenderBlock<S> {
     #[inline(always)]
-    fn switches_with_acceleration(&self) -> bool {
-        true
-    }
-
-    #[inline(always)]
     fn acceleration<V: Value<S>>(&self, side: S, rotation: V, _velocity: V, ground: V) -> V {
         (rotation - ground).offset(-(side * self.slenderness)).scale(self.frequency_squared)
-    }
-
-    #[inline(always)]
-    fn switching<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V {
-        self.acceleration(side, rotation, velocity, ground)
     }
 
     #[inline(always)]
@@ -228,10 +213,5 @@ impl<S: Scalar> Equation<S> for SlenderBlock<S> {
     #[inline(always)]
     fn slender(&self) -> Option<&SlenderBlock<S>> {
         Some(self)
-    }
-
-    #[inline(always)]
-    fn paper_power(&self, _side: S, _rotation: S, _velocity: S) -> S {
-        S::of(0.0)
     }
 }

@@ -35,7 +35,16 @@ pub fn newton_bracketed<S: Real>(left: S, right: S, before: Sign, guess: S, mut 
     x
 }
 
-/// [`newton_bracketed`] for a function without a slope: false position with the Illinois correction, at most 64 evaluations.
+/// The zero in (`left`, `right`] of a function that has the sign `before` just after `left`, if its sign at `right` is the other: what the
+/// ends show, and no more.
+#[inline(always)]
+pub fn zero_shown<S: Real>(left: S, right: S, before: Sign, function: impl Fn(S) -> S) -> Option<S> {
+    (before.times(function(right)) < S::ZERO).then(|| illinois(left, right, before, function))
+}
+
+/// [`newton_bracketed`] for a function without a slope: false position with the Illinois correction, at most 64 evaluations. Apart, because
+/// few steps have a zero.
+#[inline(never)]
 pub fn illinois<S: Real>(left: S, right: S, before: Sign, mut function: impl FnMut(S) -> S) -> S {
     let (mut low, mut high) = (left, right);
     let (mut at_low, mut at_high) = (before.times(function(left)), before.times(function(right)));

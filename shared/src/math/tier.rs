@@ -23,7 +23,10 @@ pub trait Tier<S>: Copy + Debug + Default + PartialEq + PartialOrd + Send + Sync
     fn sin_cos(x: S) -> (S, S);
 
     /// Sine and cosine of any phase (rad), up to ±10,000 in f32 and ±1e6 in f64.
-    fn sin_cos_of_phase(x: S) -> (S, S);
+    #[inline]
+    fn sin_cos_of_phase(x: S) -> (S, S) {
+        Self::sin_cos(x)
+    }
 }
 
 /// libm: what a Rust program without `std` uses unless it says otherwise. Right to the last bit or the one before it.
@@ -47,11 +50,6 @@ impl Tier<f32> for Libm {
     fn sin_cos(x: f32) -> (f32, f32) {
         (libm::sinf(x), libm::cosf(x))
     }
-
-    #[inline]
-    fn sin_cos_of_phase(x: f32) -> (f32, f32) {
-        <Libm as Tier<f32>>::sin_cos(x)
-    }
 }
 
 impl Tier<f64> for Libm {
@@ -59,11 +57,6 @@ impl Tier<f64> for Libm {
 
     #[inline]
     fn sin_cos(x: f64) -> (f64, f64) {
-        super::sin_cos(x)
-    }
-
-    #[inline]
-    fn sin_cos_of_phase(x: f64) -> (f64, f64) {
         super::sin_cos(x)
     }
 }
@@ -110,11 +103,6 @@ impl Tier<f32> for Micromath {
     fn sin_cos(x: f32) -> (f32, f32) {
         // By name: on a host the methods of `std` would come first.
         (F32Ext::sin(x), F32Ext::cos(x))
-    }
-
-    #[inline]
-    fn sin_cos_of_phase(x: f32) -> (f32, f32) {
-        <Micromath as Tier<f32>>::sin_cos(x)
     }
 }
 

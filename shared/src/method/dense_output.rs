@@ -1,9 +1,10 @@
 //! Contract of an integrator, and dense output: θ, θ̇ and θ̈ at any time of a step.
 
+use crate::equation::Equation;
 use crate::equation::any_equation::AnyEquation;
 use crate::equation::motion::Motion;
 use crate::ground::GroundSegment;
-use crate::math::root::illinois;
+use crate::math::root::zero_shown;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 
@@ -24,12 +25,21 @@ pub struct StepStart<'a, S> {
     pub time: S,
     /// Largest length of the step, s; above 0.
     pub length: S,
-    /// The bracket is zero here because an event was located on it; its rounding error must not count.
-    pub acceleration_is_zero: bool,
-    /// θ̈ here, where the step before has evaluated it.
+    /// θ̈ here, where it is known: from the step before, which has evaluated it, or zero because an event was located on it, so that the
+    /// equation's rounding error must not count.
     pub acceleration: Option<S>,
     /// Size of a rotation that matters (rad), for tolerances.
     pub scale: S,
+}
+
+impl<S: Real> StepStart<'_, S> {
+    /// θ̈ at the start, from `equation` where it is not known.
+    #[inline(always)]
+    pub fn first_acceleration<E: Equation<S>>(&self, equation: &E) -> S {
+        self.acceleration.unwrap_or_else(|| {
+            equation.acceleration(self.side.unit(), self.rotation, self.velocity, self.piece.acceleration(self.time))
+        })
+    }
 }
 
 /// Dense output: the motion from a [`StepStart`] over times from 0 to [`DenseOutput::length`], θ and θ̇ and θ̈ at any instant of it.
@@ -56,16 +66,13 @@ pub trait DenseOutput<S: Real> {
     #[inline(always)]
     fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
         let _ = from_zero;
-        let end = if to == self.length() { self.end() } else { self.at(to) };
-        let changes = sign.times(end.acceleration) < S::ZERO;
-        changes.then(|| zero_between(self, from, to, sign))
+        zero_shown(from, to, sign, |t| self.at(t).acceleration)
     }
 
     /// First zero of the switching function, as [`DenseOutput::acceleration_zero`]; called only where the two differ.
     fn switching_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
         let _ = from_zero;
-        let end = self.switching(to);
-        (sign.times(end) < S::ZERO).then(|| illinois(from, to, sign, |t| self.switching(t)))
+        zero_shown(from, to, sign, |t| self.switching(t))
     }
 
     /// θ̈ at [`DenseOutput::length`] where the step has evaluated the equation there: that of the next step's start.
@@ -78,12 +85,6 @@ pub trait DenseOutput<S: Real> {
     fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
         floor.larger(from.1.abs()).larger(to.1.abs())
     }
-}
-
-/// The zero of θ̈ between `from` and `to`, where its sign just after `from` is `sign`. Apart, because few steps have one.
-#[inline(never)]
-fn zero_between<S: Real, A: DenseOutput<S> + ?Sized>(output: &A, from: S, to: S, sign: Sign) -> S {
-    illinois(from, to, sign, |t| output.at(t).acceleration)
 }
 
 /// Integrator with dense output: fixed steps or steps of its own choice.

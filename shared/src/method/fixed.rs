@@ -81,14 +81,7 @@ pub struct FixedOutput<'a, S> {
 impl<'a, S: Real> FixedOutput<'a, S> {
     #[inline(always)]
     pub(crate) fn new(method: FixedStep<S>, start: &'a StepStart<'a, S>) -> Self {
-        let first = if start.acceleration_is_zero {
-            S::ZERO
-        } else {
-            start.acceleration.unwrap_or_else(|| {
-                let push = start.piece.acceleration(start.time);
-                start.equation.acceleration(start.side.unit(), start.rotation, start.velocity, push)
-            })
-        };
+        let first = start.first_acceleration(start.equation);
         let end = Self::motion(method, start, first, start.length);
         FixedOutput { method, start, first, end }
     }

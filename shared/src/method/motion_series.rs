@@ -121,8 +121,6 @@ pub struct Truncation<S> {
     tolerance: S,
     /// length^k.
     pub power: S,
-    /// length^(k + 2).
-    motion_power: S,
     previous: S,
 }
 
@@ -130,13 +128,13 @@ impl<S: Real> Truncation<S> {
     /// For a step of `length` (s), where terms below `tolerance` (rad) do not matter.
     #[inline(always)]
     pub fn new(length: S, tolerance: S) -> Self {
-        Truncation { length, tolerance, power: S::ONE, motion_power: length * length, previous: S::ONE }
+        Truncation { length, tolerance, power: S::ONE, previous: S::ONE }
     }
 
     /// The larger term of θ_{k+2} and of a coefficient k of the ground.
     #[inline(always)]
     pub fn term(&self, rotation: S, ground: S) -> S {
-        (rotation * self.motion_power).abs().larger((ground * self.power).abs())
+        (rotation * (self.power * self.length * self.length)).abs().larger((ground * self.power).abs())
     }
 
     /// Whether the series may end with order k, whose largest term is `term`.
@@ -145,7 +143,6 @@ impl<S: Real> Truncation<S> {
         let ends = k >= 3 && term <= self.tolerance && self.previous <= self.tolerance * S::of(50.0);
         self.previous = term;
         self.power = self.power * self.length;
-        self.motion_power = self.motion_power * self.length;
         ends
     }
 }

@@ -114,8 +114,10 @@ impl<S: Real, const N: usize> WithEquation<S> for Expansion<'_, S, N> {
             let given = |slot| tape.given(&next, k, slot);
             let (theta, omega, shaking) = (given(0), given(1), given(2));
             let node = equation.acceleration(side, theta, omega, shaking);
-            if k == 0 && start.acceleration_is_zero {
-                node.set_last(S::ZERO);
+            if k == 0
+                && let Some(known) = start.acceleration
+            {
+                node.set_last(known);
             }
             if !equation.switches_with_acceleration() {
                 output.switching[k] = equation.switching(side, theta, omega, shaking).last();
@@ -189,7 +191,6 @@ mod tests {
                 velocity: 0.2,
                 time,
                 length: 10.0,
-                acceleration_is_zero: false,
                 acceleration: None,
                 scale: 0.3,
             };

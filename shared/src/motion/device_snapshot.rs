@@ -5,10 +5,9 @@
 
 use super::observer::{Event, MonotoneInterval};
 use super::state::BlockState;
-use crate::drivetrain::power_loss::Spent;
+use crate::drivetrain::transmission::Account;
 use crate::equation::motion::Motion;
 use crate::math::scalar::Real;
-use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
 
 /// Snapshot of block and device at one instant.
@@ -20,67 +19,25 @@ pub struct Snapshot<S> {
     pub ground: [S; 2],
     /// ℓθ̇, the velocity of the rack over R; 1/s.
     pub terminal_velocity: S,
-    /// Force of each flywheel on the rack, positive where it resists positive motion; F/(λmR), 1/s².
-    pub force: [S; 2],
-    /// Friction and inertia of the rack itself, the same way.
-    pub rack_force: S,
-    /// Which flywheels are coupled.
-    pub engaged: [bool; 2],
-    /// Speed of each flywheel as that of a rack moving with it, over R; 1/s.
-    pub spin: [S; 2],
-    /// Kinetic energy of flywheels and rack, and of springs; E/(λmR²), 1/s².
-    pub stored: S,
-    /// Energy of the springs alone.
-    pub sprung: S,
-    /// Power lost, 1/s³.
-    pub spent: Spent<S>,
+    /// Forces, speeds, energies and losses of the device.
+    pub device: Account<S>,
 }
 
 impl<S: Real> Snapshot<S> {
     /// F₁ + F₂, what both flywheels together press on their support; F/(λmR), 1/s². Friction of the rack's guides is not in it.
     #[inline]
     pub fn support_force(&self) -> S {
-        self.force[0] + self.force[1]
+        self.device.force[0] + self.device.force[1]
     }
 }
 
 /// Dense output with snapshots of the device.
-pub trait DeviceOutput<S: Real>: DenseOutput<S> {
+pub trait DeviceOutput<S: Real> {
+    /// The motion of the block alone.
+    fn motion(&self) -> &dyn DenseOutput<S>;
+
     /// Block and device at `time` after the start of the step.
     fn snapshot(&self, time: S) -> Snapshot<S>;
-}
-
-/// For observers written over a known type of dense output.
-impl<S: Real> DenseOutput<S> for &dyn DeviceOutput<S> {
-    #[inline(always)]
-    fn length(&self) -> S {
-        (**self).length()
-    }
-
-    #[inline(always)]
-    fn at(&self, time: S) -> Motion<S> {
-        (**self).at(time)
-    }
-
-    #[inline(always)]
-    fn switching(&self, time: S) -> S {
-        (**self).switching(time)
-    }
-
-    #[inline(always)]
-    fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        (**self).acceleration_zero(from, to, sign, from_zero)
-    }
-
-    #[inline(always)]
-    fn switching_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        (**self).switching_zero(from, to, sign, from_zero)
-    }
-
-    #[inline(always)]
-    fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
-        (**self).largest_acceleration(from, to, floor)
-    }
 }
 
 /// Observer of monotone intervals with the device, and of events, in order. Times are local to the ground segment.

@@ -1,5 +1,6 @@
 //! The state of a rocking block, the bounds of its integration, and why an integration stops.
 
+use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 
 /// Phase of the motion.
@@ -35,6 +36,26 @@ pub struct BlockState<S> {
     pub acceleration_is_zero: bool,
     /// Impacts so far that came in with more than [`IdealSystem::counted_speed`](super::ideal::IdealSystem::counted_speed).
     pub impacts: u32,
+}
+
+impl<S: Real> BlockState<S> {
+    /// The block on its base at its uplift to `side`, which all its signs take.
+    pub(super) fn uplifted(&self, side: Sign) -> BlockState<S> {
+        BlockState {
+            phase: Phase::Rocking,
+            side,
+            direction: side,
+            acceleration_sign: side,
+            terminal_acceleration_sign: side,
+            impacts: self.impacts,
+            ..BlockState::default()
+        }
+    }
+
+    /// The block at rest after `impacts`.
+    pub(super) fn rested(&self, impacts: u32) -> BlockState<S> {
+        BlockState { impacts, side: self.side, direction: self.direction, ..BlockState::default() }
+    }
 }
 
 /// Error that ends the integration of a ground segment.

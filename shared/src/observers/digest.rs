@@ -75,10 +75,10 @@ impl<S: Real> Observer<S> for Digest {
 
 impl<S: Real> DeviceObserver<S> for Digest {
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
-        Observer::interval(self, &output, interval);
+        Observer::interval(self, output.motion(), interval);
         let seen = output.snapshot(interval.to);
-        seen.spin.iter().for_each(|&spin| self.hash.number(spin));
-        self.hash.byte(seen.engaged.iter().fold(0, |flags, &engaged| flags << 1 | u8::from(engaged)));
+        seen.device.spin.iter().for_each(|&spin| self.hash.number(spin));
+        self.hash.byte(seen.device.engaged.iter().fold(0, |flags, &engaged| flags << 1 | u8::from(engaged)));
     }
 
     fn device_event(&mut self, event: Event, time: S, state: &BlockState<S>) {

@@ -72,6 +72,10 @@ pub struct Arrival {
 /// Parameters of the blocks.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
+    /// α, rad.
+    pub slenderness: Number,
+    /// Coupling k.
+    pub coupling: Number,
     /// Restitution η.
     pub restitution: Number,
     /// |θ| beyond which an outward motion does not return, rad.
@@ -82,6 +86,14 @@ pub struct Bounds {
     pub counted: Number,
     /// Size of the last terms of θ, rad, where |θ| is below 1 rad.
     pub tolerance: Number,
+}
+
+impl Bounds {
+    /// A harmless block, whose motions idle lanes go through.
+    pub(crate) fn harmless() -> Bounds {
+        let (zero, one) = (number(0.0), number(1.0));
+        Bounds { slenderness: one, coupling: zero, restitution: zero, no_return: one, weak: zero, counted: zero, tolerance: one }
+    }
 }
 
 /// Equations of motion with the inerter released and engaged.

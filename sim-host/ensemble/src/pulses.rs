@@ -58,8 +58,8 @@ pub trait Stepping: Default {
         &[]
     }
 
-    /// One step of blocks of these slendernesses α (rad) and couplings k, at most up to the end of their pulses; returns how far each went.
-    fn step<C: Clutch>(&mut self, blocks: &mut Blocks, bounds: &Bounds, block: (Number, Number), pulses: &Pulses) -> Number;
+    /// One step of blocks, at most up to the end of their pulses; returns how far each went.
+    fn step<C: Clutch>(&mut self, blocks: &mut Blocks, bounds: &Bounds, pulses: &Pulses) -> Number;
 }
 
 /// Steps by power series.
@@ -77,15 +77,10 @@ impl<M> Default for BySeries<M> {
 
 impl<M: Model> Stepping for BySeries<M> {
     #[inline(always)]
-    fn step<C: Clutch>(
-        &mut self,
-        blocks: &mut Blocks,
-        bounds: &Bounds,
-        (slenderness, coupling): (Number, Number),
-        pulses: &Pulses,
-    ) -> Number {
+    fn step<C: Clutch>(&mut self, blocks: &mut Blocks, bounds: &Bounds, pulses: &Pulses) -> Number {
         pulses.series(blocks.side, &mut self.series.ground[..SERIES_TERMS - 2]);
-        blocks.step::<M::Equation, C, SERIES_TERMS>(&M::modes(slenderness, coupling), bounds, &mut self.series, pulses.left())
+        let modes = M::modes(bounds.slenderness, bounds.coupling);
+        blocks.step::<M::Equation, C, SERIES_TERMS>(&modes, bounds, &mut self.series, pulses.left())
     }
 }
 
@@ -130,10 +125,8 @@ pub(crate) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [Pu
     let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
     let mut stepping = M::Stepping::default();
     let mut blocks = Blocks::default();
-    // Idle lanes go through the motions of a harmless block.
-    let (mut slenderness, mut coupling) = (one, zero);
     let mut pulses = Pulses { amplitude: zero, frequency: one, phase: zero, time: zero, duration: one };
-    let mut bounds = Bounds { restitution: zero, no_return: one, weak: zero, counted: zero, tolerance: one };
+    let mut bounds = Bounds::harmless();
     let mut at = [None; WIDTH];
     let mut steps = [0_u32; WIDTH];
     let mut rests = Mask::NONE;
@@ -174,8 +167,8 @@ pub(crate) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [Pu
                         // A positive ground acceleration uplifts the block to the negative side; the sign of the pulse only mirrors the motion.
                         let amplitude = block.amplitude_ratio.abs() * threshold.1;
                         let sine = block.pulse == PulseShape::Sine;
-                        slenderness.0[lane] = block.slenderness;
-                        coupling.0[lane] = block.coupling;
+                        bounds.slenderness.0[lane] = block.slenderness;
+                        bounds.coupling.0[lane] = block.coupling;
                         pulses.amplitude.0[lane] = -amplitude;
                         pulses.frequency.0[lane] = block.frequency_ratio;
                         pulses.phase.0[lane] = if sine { 0.0 } else { FRAC_PI_2 };
@@ -215,7 +208,7 @@ pub(crate) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [Pu
             }
         }
         let left = pulses.left();
-        let went = stepping.step::<C>(&mut blocks, &bounds, (slenderness, coupling), &pulses);
+        let went = stepping.step::<C>(&mut blocks, &bounds, &pulses);
         pulses.time = pulses.time + went;
         for (lane, count) in steps.iter_mut().enumerate() {
             *count += 1;

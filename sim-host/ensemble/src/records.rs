@@ -81,8 +81,6 @@ struct Lanes<'a, 'b> {
     blocks: Blocks,
     bounds: Bounds,
     lines: Lines,
-    slenderness: Number,
-    coupling: Number,
     at: [Option<Place>; WIDTH],
     next: usize,
 }
@@ -93,11 +91,8 @@ impl<'a, 'b> Lanes<'a, 'b> {
         Lanes {
             shaken,
             blocks: Blocks::default(),
-            bounds: Bounds { restitution: zero, no_return: one, weak: zero, counted: zero, tolerance: one },
+            bounds: Bounds::harmless(),
             lines: Lines { time: zero, step: one, rate: one, start: zero, end: zero },
-            // Idle lanes go through the motions of a harmless block.
-            slenderness: one,
-            coupling: zero,
             at: [None; WIDTH],
             next: 0,
         }
@@ -123,8 +118,8 @@ impl<'a, 'b> Lanes<'a, 'b> {
                 Ok(Some(uplift)) => uplift,
             };
             let alpha = block.plain.slenderness;
-            self.slenderness.0[lane] = alpha;
-            self.coupling.0[lane] = block.plain.coupling;
+            self.bounds.slenderness.0[lane] = alpha;
+            self.bounds.coupling.0[lane] = block.plain.coupling;
             self.bounds.restitution.0[lane] = block.plain.restitution;
             self.bounds.no_return.0[lane] = FRAC_PI_2;
             self.bounds.weak.0[lane] = WEAK_IMPACT * alpha;
@@ -294,12 +289,12 @@ pub(crate) fn run<M: Model, C: Clutch>(shaken: &[ShakenBlock<'_>], results: &mut
     }
     let mut steps = zero;
     while lanes.at.iter().any(Option::is_some) {
-        let Lanes { blocks, lines, bounds, slenderness, coupling, .. } = &mut lanes;
+        let Lanes { blocks, lines, bounds, .. } = &mut lanes;
         let (now, slope) = lines.now();
         (series.ground[0], series.ground[1]) = (now * blocks.side, slope * blocks.side);
         let left = lines.step - lines.time;
         let before = blocks.impact;
-        let modes = M::modes(*slenderness, *coupling);
+        let modes = M::modes(bounds.slenderness, bounds.coupling);
         let went = blocks.step::<M::Equation, C, SERIES_TERMS>(&modes, bounds, &mut series, left);
         lines.time = lines.time + went;
         let mut over = !left.exceeds(went);

@@ -190,7 +190,7 @@ impl<'a> Plant<'a> {
             push: self.push(),
             ground: now.ground,
             engaged: self.state.device.wheels.map(|wheel| wheel.coupling.is_engaged()),
-            spins: now.spin,
+            spins: now.device.spin,
             missed: self.state.device.missed,
         }
     }

@@ -1,5 +1,6 @@
 //! Samples a motion for histories.
 
+use sprag_shared::drivetrain::transmission::Account;
 use sprag_shared::ground::GroundSegment;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::device_snapshot::{DeviceObserver, DeviceOutput, Snapshot};
@@ -67,7 +68,7 @@ impl<'a> Recorder<'a> {
     }
 
     fn sample<S: Real>(&self, time: f64, snapshot: &Snapshot<S>) -> Sample {
-        let Snapshot { motion, ground, force, engaged, .. } = snapshot;
+        let Snapshot { motion, ground, device: Account { force, engaged, .. }, .. } = snapshot;
         let force_ratio = force.map(|force| force.to_f64() * self.force_scale);
         Sample {
             time_s: time,

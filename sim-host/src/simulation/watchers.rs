@@ -31,7 +31,7 @@ impl<S: Real> DeviceObserver<S> for Watchers<'_, S> {
     #[inline(never)]
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         self.recorder.device_interval(output, interval);
-        self.peaks.interval(&output, interval);
+        self.peaks.interval(output.motion(), interval);
         self.checks.device_interval(output, interval);
         self.asked.device_interval(output, interval);
     }

@@ -79,7 +79,7 @@ impl<S: Real> DeviceObserver<S> for Watch {
         self.peak = self.peak.max(interval.last.rotation.abs().to_f64());
         if self.quiet {
             let p2 = self.energy.frequency * self.energy.frequency;
-            let stored = output.snapshot(interval.to).stored.to_f64() / p2;
+            let stored = output.snapshot(interval.to).device.stored.to_f64() / p2;
             // What moves with the block is counted by the device.
             let energy = self.energy.at(&interval.last, interval.side, false) + stored;
             self.gain = self.gain.max((energy - self.least) / self.energy.barrier());

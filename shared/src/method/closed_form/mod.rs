@@ -100,12 +100,7 @@ struct Acceleration<S> {
 impl<S: Real> SlenderArc<S> {
     fn new(block: &SlenderBlock<S>, mut ground: Elementary<S>, start: &StepStart<'_, S>) -> Self {
         let rate = block.frequency_squared;
-        let acceleration = if start.acceleration_is_zero {
-            S::ZERO
-        } else {
-            let push = start.piece.acceleration(start.time);
-            block.acceleration(start.side.unit(), start.rotation, start.velocity, push)
-        };
+        let acceleration = start.first_acceleration(block);
         // θ̇ less the ground's rate of change, and θ̇ and θ̈ less those of the sines' particular solutions.
         let mut relative = start.velocity - ground.slope;
         let (mut odd, mut even) = (relative, acceleration);

@@ -190,8 +190,7 @@ fn a_short_step_loses_no_digits() {
             velocity: 0.0,
             time,
             length: step,
-            acceleration_is_zero: true,
-            acceleration: None,
+            acceleration: Some(0.0),
             scale: 1.0,
         };
         let found = ClosedForm { step }.integrate(&start).at(step).rotation;
@@ -205,8 +204,7 @@ fn a_short_step_loses_no_digits() {
             velocity: 0.0,
             time: time as f32,
             length: step as f32,
-            acceleration_is_zero: true,
-            acceleration: None,
+            acceleration: Some(0.0),
             scale: 1.0,
         };
         let found = f64::from(ClosedForm { step: step as f32 }.integrate(&start).at(step as f32).rotation);

@@ -286,8 +286,7 @@ impl<S: Real> HybridSystem<S> {
     fn terminal_acceleration_sign(&self, state: &HybridState<S>) -> Sign {
         let motion = &state.motion;
         let law = self.transmission.law(motion.direction, Sign::Positive, &state.device);
-        let now = crate::equation::motion::Motion { rotation: motion.rotation, velocity: motion.velocity, acceleration: S::ZERO };
-        let point = self.point(&law, motion.side, &now, self.transmission.load(&state.device), state.ground, S::ZERO);
+        let point = self.point(&law, motion.side, &self.place(state));
         Sign::of(self.transmission.guard(&point, S::ZERO, Guard::Command(S::ONE)), motion.terminal_acceleration_sign)
     }
 }

@@ -25,7 +25,6 @@ pub use command::Actuator;
 
 use crate::drivetrain::any_transmission::AnyTransmission;
 use crate::drivetrain::clutch_state::{Coupling, DeviceState, GUARDS, Guard, ModeCoefficients};
-use crate::drivetrain::power_loss::Spent;
 use crate::drivetrain::transmission::{AnyPoint, EvaluationPoint, EventContext, UNKNOWNS};
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
@@ -39,7 +38,7 @@ use crate::motion::device_snapshot::{DeviceObserver, Snapshot};
 use crate::motion::observer::{Event, MonotoneInterval};
 use crate::motion::state::{BlockState, Limits, Phase, Stopped};
 use crowding::{AT_ONCE, GRAZE, MOST_AT_ONCE, too_many};
-use mode_output::{ModeIntegrator, ModeOutput, ModeStart, Shaking};
+use mode_output::{ModeIntegrator, ModeOutput, ModeStart, Place, Shaking};
 use seen::Seen;
 
 /// Hybrid system of a block and its device: equations, modes and guards.
@@ -64,7 +63,7 @@ pub struct HybridSystem<S> {
 }
 
 /// State of a block with a device.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HybridState<S> {
     /// State of the block.
     pub motion: BlockState<S>,
@@ -96,17 +95,7 @@ enum End {
 impl<S: Real> HybridSystem<S> {
     /// A block that stands, with an idle device.
     pub fn at_rest(&self) -> HybridState<S> {
-        let motion = BlockState::default();
-        let ground = [S::ZERO; 2];
-        let mut state = HybridState {
-            motion,
-            device: DeviceState::at_rest(),
-            held: false,
-            ground,
-            fresh: [false; GUARDS],
-            free: false,
-            jolted: false,
-        };
+        let mut state = HybridState { device: DeviceState::at_rest(), ..HybridState::default() };
         self.part_at_rest(&mut state, S::ZERO, &mut ());
         state
     }
@@ -354,9 +343,8 @@ impl<S: Real> HybridSystem<S> {
 
     /// A flywheel has come to a stop; what acts on it decides which way it goes on, if at all.
     fn stopped(&self, state: &mut HybridState<S>, index: usize) {
-        let law = self.transmission.law(state.motion.direction, state.motion.terminal_acceleration_sign, &state.device);
-        let motion = Motion { rotation: state.motion.rotation, velocity: state.motion.velocity, acceleration: S::ZERO };
-        let point = self.point(&law, state.motion.side, &motion, self.transmission.load(&state.device), state.ground, S::ZERO);
+        let law = self.law(state);
+        let point = self.point(&law, state.motion.side, &self.place(state));
         let force = self.transmission.account(&point, S::ZERO, &state.device).force[index & 1];
         let wheel = &mut state.device.wheels[index & 1];
         wheel.spin = S::ZERO;
@@ -409,28 +397,31 @@ impl<S: Real> HybridSystem<S> {
 
     /// Block and device as they are, under the ground's acceleration at the end of the last ground segment.
     pub fn now(&self, state: &HybridState<S>) -> Snapshot<S> {
-        let law = self.transmission.law(state.motion.direction, state.motion.terminal_acceleration_sign, &state.device);
-        let unknowns = self.transmission.load(&state.device);
-        let mut motion = Motion { rotation: state.motion.rotation, velocity: state.motion.velocity, acceleration: S::ZERO };
-        if state.motion.phase == Phase::Rocking && !state.held {
-            let point = self.point(&law, state.motion.side, &motion, unknowns, state.ground, S::ZERO);
-            motion.acceleration = self.transmission.acceleration(&point);
-        }
-        self.snapshot(&law, state, motion, unknowns, state.ground, S::ZERO)
+        let (law, place) = (self.law(state), self.place(state));
+        let acceleration = if state.motion.phase == Phase::Rocking && !state.held {
+            self.transmission.acceleration(&self.point(&law, state.motion.side, &place))
+        } else {
+            S::ZERO
+        };
+        self.snapshot(&law, state, &place, acceleration)
+    }
+
+    /// Coefficients of the mode of `state`.
+    fn law(&self, state: &HybridState<S>) -> ModeCoefficients<S> {
+        self.transmission.law(state.motion.direction, state.motion.terminal_acceleration_sign, &state.device)
+    }
+
+    /// `state` as the start of a step.
+    fn place(&self, state: &HybridState<S>) -> Place<S, UNKNOWNS> {
+        let BlockState { rotation, velocity, .. } = state.motion;
+        Place { time: S::ZERO, ground: state.ground, rotation, velocity, unknowns: self.transmission.load(&state.device) }
     }
 
     /// The evaluation point of an instant.
-    fn point<'a>(
-        &'a self,
-        law: &'a ModeCoefficients<S>,
-        side: Sign,
-        motion: &Motion<S>,
-        unknowns: [S; UNKNOWNS],
-        ground: [S; 2],
-        clock: S,
-    ) -> AnyPoint<'a, S, UNKNOWNS> {
-        let configuration = self.body.configuration(side.unit(), motion.rotation);
-        EvaluationPoint { body: &self.body, law, configuration, velocity: motion.velocity, unknowns, ground, clock }
+    fn point<'a>(&'a self, law: &'a ModeCoefficients<S>, side: Sign, at: &Place<S, UNKNOWNS>) -> AnyPoint<'a, S, UNKNOWNS> {
+        let Place { time, ground, rotation, velocity, unknowns } = *at;
+        let configuration = self.body.configuration(side.unit(), rotation);
+        EvaluationPoint { body: &self.body, law, configuration, velocity, unknowns, ground, clock: time }
     }
 
     /// Snapshot of block and device at an instant, for observers.
@@ -438,26 +429,18 @@ impl<S: Real> HybridSystem<S> {
         &self,
         law: &ModeCoefficients<S>,
         state: &HybridState<S>,
-        motion: Motion<S>,
-        unknowns: [S; UNKNOWNS],
-        ground: [S; 2],
-        clock: S,
+        at: &Place<S, UNKNOWNS>,
+        acceleration: S,
     ) -> Snapshot<S> {
         let side = state.motion.side;
-        let point = self.point(law, side, &motion, unknowns, ground, clock);
-        let account = self.transmission.account(&point, motion.acceleration, &state.device);
-        let kinematics = self.body.paper_power(side.unit(), &point.configuration, motion.velocity, law.coupling);
+        let point = self.point(law, side, at);
+        let mut device = self.transmission.account(&point, acceleration, &state.device);
+        device.spent.kinematics = self.body.paper_power(side.unit(), &point.configuration, at.velocity, law.coupling);
         Snapshot {
-            motion,
-            ground,
-            force: account.force,
-            rack_force: account.rack_force,
-            engaged: account.engaged,
-            spin: account.spin,
-            stored: account.stored,
-            sprung: account.sprung,
-            spent: Spent { kinematics, ..account.spent },
-            terminal_velocity: self.body.to_terminal(&point.configuration, motion.velocity),
+            motion: Motion { rotation: at.rotation, velocity: at.velocity, acceleration },
+            ground: at.ground,
+            terminal_velocity: self.body.to_terminal(&point.configuration, at.velocity),
+            device,
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::drivetrain::transmission::{EvaluationPoint, PointOf, Transmission, UN
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
 use crate::ground::GroundSegment;
-use crate::math::root::illinois;
+use crate::math::root::zero_shown;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
@@ -197,22 +197,19 @@ pub trait ModeOutput<S: Real>: DenseOutput<S> {
     /// First zero of θ̇, which has the sign `sign` just after the start, and is zero there with `from_zero`.
     fn velocity_zero(&self, to: S, sign: Sign, from_zero: bool) -> Option<S> {
         let _ = from_zero;
-        let end = self.at(to).velocity;
-        (sign.times(end) < S::ZERO).then(|| illinois(S::ZERO, to, sign, |t| self.at(t).velocity))
+        zero_shown(S::ZERO, to, sign, |t| self.at(t).velocity)
     }
 
     /// First zero of guard `index`, positive just after the start.
     fn guard_zero(&self, index: usize, to: S, from_zero: bool) -> Option<S> {
         let _ = from_zero;
-        let positive = Sign::Positive;
-        (self.guard(index, to) < S::ZERO).then(|| illinois(S::ZERO, to, positive, |t| self.guard(index, t)))
+        zero_shown(S::ZERO, to, Sign::Positive, |t| self.guard(index, t))
     }
 
     /// First zero of the device's unknown `index`, of sign `sign` just after the start.
     fn unknown_zero(&self, index: usize, to: S, sign: Sign, from_zero: bool) -> Option<S> {
         let _ = from_zero;
-        let value = |t: S| self.unknowns(t).get(index).copied().unwrap_or(S::ZERO);
-        (sign.times(value(to)) < S::ZERO).then(|| illinois(S::ZERO, to, sign, value))
+        zero_shown(S::ZERO, to, sign, |t| self.unknowns(t).get(index).copied().unwrap_or(S::ZERO))
     }
 }
 

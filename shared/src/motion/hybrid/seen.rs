@@ -1,6 +1,6 @@
 //! Snapshots for observers: along the mode output, and of a block that does not move.
 
-use super::mode_output::{ModeOutput, Shaking};
+use super::mode_output::{ModeOutput, Place, Shaking};
 use super::{HybridState, HybridSystem};
 use crate::drivetrain::clutch_state::ModeCoefficients;
 use crate::equation::motion::Motion;
@@ -19,32 +19,16 @@ pub(super) struct Seen<'a, S, A> {
     pub(super) time: S,
 }
 
-impl<S: Real, A: DenseOutput<S>> DenseOutput<S> for Seen<'_, S, A> {
-    #[inline(always)]
-    fn length(&self) -> S {
-        self.output.length()
-    }
-
-    #[inline(always)]
-    fn at(&self, time: S) -> Motion<S> {
-        self.output.at(time)
-    }
-
-    #[inline(always)]
-    fn switching(&self, time: S) -> S {
-        self.output.switching(time)
-    }
-
-    #[inline(always)]
-    fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
-        self.output.largest_acceleration(from, to, floor)
-    }
-}
-
 impl<S: Real, A: ModeOutput<S>> DeviceOutput<S> for Seen<'_, S, A> {
+    fn motion(&self) -> &dyn DenseOutput<S> {
+        self.output
+    }
+
     fn snapshot(&self, time: S) -> Snapshot<S> {
         let ground = self.shaking.at(self.time + time);
-        self.machine.snapshot(self.law, self.state, self.output.at(time), self.output.unknowns(time), ground, time)
+        let Motion { rotation, velocity, acceleration } = self.output.at(time);
+        let place = Place { time, ground, rotation, velocity, unknowns: self.output.unknowns(time) };
+        self.machine.snapshot(self.law, self.state, &place, acceleration)
     }
 }
 
@@ -73,11 +57,14 @@ impl<S: Real> DenseOutput<S> for Still<'_, S> {
 }
 
 impl<S: Real> DeviceOutput<S> for Still<'_, S> {
+    fn motion(&self) -> &dyn DenseOutput<S> {
+        self
+    }
+
     fn snapshot(&self, time: S) -> Snapshot<S> {
         let mut state = *self.state;
         self.machine.idle(&mut state, time);
-        let law = self.machine.transmission.law(state.motion.direction, state.motion.terminal_acceleration_sign, &state.device);
-        let unknowns = self.machine.transmission.load(&state.device);
-        self.machine.snapshot(&law, &state, self.at(time), unknowns, (self.ground)(time), S::ZERO)
+        let place = Place { ground: (self.ground)(time), ..self.machine.place(&state) };
+        self.machine.snapshot(&self.machine.law(&state), &state, &place, S::ZERO)
     }
 }

@@ -12,16 +12,13 @@ use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::motion::device_snapshot::DeviceObserver;
 use crate::motion::observer::{Event, MonotoneInterval};
-use crate::motion::state::{BlockState, Phase};
+use crate::motion::state::BlockState;
 
 impl<S: Real> HybridSystem<S> {
     /// Block and device of `state` once the block stands.
     #[inline(never)]
     pub(super) fn standing(&self, state: &HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) -> HybridState<S> {
-        let BlockState { side, direction, impacts, .. } = state.motion;
-        let mut standing = *state;
-        standing.motion = BlockState { impacts, side, direction, ..BlockState::default() };
-        standing.held = false;
+        let mut standing = HybridState { motion: state.motion.rested(state.motion.impacts), held: false, ..*state };
         self.part_at_rest(&mut standing, time, observer);
         // A flywheel that a resting block has left with less than rounding stands, or its sign would decide what the next clutch does.
         for wheel in &mut standing.device.wheels {
@@ -151,15 +148,7 @@ impl<S: Real> HybridSystem<S> {
         observer: &mut dyn DeviceObserver<S>,
     ) {
         let (side, _) = self.lifted(state, ground);
-        let impacts = state.motion.impacts;
-        state.motion = BlockState {
-            phase: Phase::Rocking,
-            side,
-            direction: side,
-            acceleration_sign: side,
-            impacts,
-            ..BlockState::default()
-        };
+        state.motion = state.motion.uplifted(side);
         state.ground = ground;
         (state.fresh, state.free) = ([false; GUARDS], crossing);
         if self.transmission.traits().holds {

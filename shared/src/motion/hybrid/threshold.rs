@@ -1,10 +1,9 @@
 //! Breakaway threshold of a block that does not move.
 
-use super::mode_output::Shaking;
+use super::mode_output::{Place, Shaking};
 use super::{HybridState, HybridSystem};
 use crate::drivetrain::clutch_state::{Coupling, FlywheelState};
 use crate::equation::body::Body;
-use crate::equation::motion::Motion;
 use crate::math::polynomial::first_zero_of;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -103,9 +102,8 @@ impl<S: Real> HybridSystem<S> {
             }
             let pulls = |wheel: &FlywheelState<S>| wheel.coupling.is_engaged() && !sticks(wheel);
             if wheels.iter().any(pulls) {
-                let law = self.transmission.law(state.motion.direction, state.motion.terminal_acceleration_sign, &state.device);
-                let still = Motion { rotation: state.motion.rotation, velocity: S::ZERO, acceleration: S::ZERO };
-                let point = self.point(&law, side, &still, self.transmission.load(&state.device), state.ground, S::ZERO);
+                let law = self.law(state);
+                let point = self.point(&law, side, &Place { velocity: S::ZERO, ..self.place(state) });
                 let account = self.transmission.account(&point, S::ZERO, &state.device);
                 for (i, _) in wheels.iter().enumerate().filter(|(_, wheel)| pulls(wheel)) {
                     force = add(force, (account.force[i], law.slip_growth[i]));

@@ -45,8 +45,7 @@ impl<S: Real> IdealSystem<S> {
             let tail = self.accumulation(state.side, state.velocity.abs(), ground);
             let negligible = state.velocity.abs() <= self.rest_speed * S::EPSILON;
             if let Some(ends) = tail.rest(time, duration, negligible, |at| piece.acceleration(at).abs() < self.uplift) {
-                let impacts = state.impacts + tail.impacts;
-                *state = BlockState { impacts, side: state.side, direction: state.direction, ..BlockState::default() };
+                *state = state.rested(state.impacts + tail.impacts);
                 observer.event(Event::Rest, ends, state);
                 return ends;
             }
@@ -88,7 +87,7 @@ impl<S: Real> IdealSystem<S> {
                 ..*state
             };
         } else {
-            *state = BlockState { impacts, side: state.side, direction: state.direction, ..BlockState::default() };
+            *state = state.rested(impacts);
             observer.event(Event::Rest, ends, state);
         }
         ends
@@ -97,16 +96,11 @@ impl<S: Real> IdealSystem<S> {
     /// Impact accumulation: the infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]).
     fn accumulation(&self, side: Sign, speed: S, ground: S) -> Accumulation<S> {
         let rates = |side: Sign| {
-            let rate = |engaged: bool| {
-                let s = side.unit();
-                let a = if engaged {
-                    self.engaged.acceleration(s, S::ZERO, S::ZERO, ground)
-                } else {
-                    self.released.acceleration(s, S::ZERO, S::ZERO, ground)
-                };
-                a.abs().larger(S::EPSILON * S::EPSILON)
+            let rate = |terminal_acceleration_sign: Sign| {
+                let equation = self.equation(side, terminal_acceleration_sign);
+                equation.acceleration(side.unit(), S::ZERO, S::ZERO, ground).abs().larger(S::EPSILON * S::EPSILON)
             };
-            (rate(self.clutch.engages(side, side.opposite())), rate(self.clutch.engages(side, side)))
+            (rate(side.opposite()), rate(side))
         };
         Accumulation::of(rates(side), rates(side.opposite()), self.restitution, speed, self.counted_speed)
     }

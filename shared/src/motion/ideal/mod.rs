@@ -67,6 +67,12 @@ impl<S: Real> IdealSystem<S> {
         state.phase == Phase::Rocking && self.clutch.engages(state.direction, state.terminal_acceleration_sign)
     }
 
+    /// The equation in force while the block moves in `direction` and its terminals' acceleration has the sign `terminal_acceleration_sign`.
+    #[inline(always)]
+    fn equation(&self, direction: Sign, terminal_acceleration_sign: Sign) -> &AnyEquation<S> {
+        if self.clutch.engages(direction, terminal_acceleration_sign) { &self.engaged } else { &self.released }
+    }
+
     /// A block released at θ (rad, not 0) with θ̇ (rad/s) while the ground accelerates by `ground` (in g).
     pub fn released_at(&self, rotation: S, velocity: S, ground: S) -> BlockState<S> {
         let side = Sign::of(rotation, Sign::of(velocity, Sign::Positive));
@@ -190,8 +196,7 @@ impl<S: Real> IdealSystem<S> {
             velocity: state.velocity,
             time: *time,
             length: stop - *time,
-            acceleration_is_zero: state.acceleration_is_zero,
-            acceleration: *acceleration,
+            acceleration: if state.acceleration_is_zero { Some(S::ZERO) } else { *acceleration },
             scale: self.slenderness,
         };
         let output = method.integrate(&start);
@@ -254,11 +259,14 @@ impl<S: Real> IdealSystem<S> {
                 (until, end)
             };
             // θ is monotone up to the turn.
-            if state.side.times(at_turn.rotation) < S::ZERO {
-                let hit = newton_bracketed(from, turn, state.side, S::HALF * (from + turn), |t| {
+            let crossing = |level: S, before: Sign| {
+                newton_bracketed(from, turn, before, S::HALF * (from + turn), |t| {
                     let motion = output.at(t);
-                    (motion.rotation, motion.velocity)
-                });
+                    (motion.rotation - level, motion.velocity)
+                })
+            };
+            if state.side.times(at_turn.rotation) < S::ZERO {
+                let hit = crossing(S::ZERO, state.side);
                 (interval.to, interval.last) = (hit, output.at(hit));
                 observer.interval(&output, &interval);
                 state.rotation = S::ZERO;
@@ -269,10 +277,7 @@ impl<S: Real> IdealSystem<S> {
             }
             if state.side == state.direction && state.side.times(at_turn.rotation) > limits.overturned {
                 let limit = state.side.times(limits.overturned);
-                let over = newton_bracketed(from, turn, state.side.opposite(), S::HALF * (from + turn), |t| {
-                    let motion = output.at(t);
-                    (motion.rotation - limit, motion.velocity)
-                });
+                let over = crossing(limit, state.side.opposite());
                 (interval.to, interval.last) = (over, output.at(over));
                 observer.interval(&output, &interval);
                 state.rotation = limit;

@@ -51,11 +51,8 @@ impl<S: Real> IdealSystem<S> {
     #[inline(never)]
     pub(super) fn read_acceleration_sign(&self, state: &mut BlockState<S>, ground: S) {
         let side = state.side.unit();
-        let acceleration = if self.clutch.engages(state.direction, state.terminal_acceleration_sign) {
-            self.engaged.acceleration(side, state.rotation, state.velocity, ground)
-        } else {
-            self.released.acceleration(side, state.rotation, state.velocity, ground)
-        };
+        let equation = self.equation(state.direction, state.terminal_acceleration_sign);
+        let acceleration = equation.acceleration(side, state.rotation, state.velocity, ground);
         state.acceleration_sign = Sign::of(acceleration, state.side.opposite());
     }
 }

@@ -6,7 +6,7 @@ use crate::ground::GroundSegment;
 use crate::math::polynomial::first_zero_of;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::motion::state::{BlockState, Phase};
+use crate::motion::state::BlockState;
 
 impl<S: Real> IdealSystem<S> {
     /// First instant in [`from`, `to`) at which the ground acceleration exceeds the uplift threshold, and whether it gets
@@ -54,16 +54,7 @@ impl<S: Real> IdealSystem<S> {
     /// Sets the block in motion, to the side opposite to the ground acceleration.
     pub(super) fn uplift(&self, state: &mut BlockState<S>, ground: S, crossing: bool) {
         let side = Sign::of(ground, Sign::Positive).opposite();
-        *state = BlockState {
-            phase: Phase::Rocking,
-            side,
-            direction: side,
-            acceleration_sign: side,
-            terminal_acceleration_sign: side,
-            acceleration_is_zero: crossing,
-            impacts: state.impacts,
-            ..BlockState::default()
-        };
+        *state = BlockState { acceleration_is_zero: crossing, ..state.uplifted(side) };
     }
 }
 

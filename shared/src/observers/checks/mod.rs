@@ -93,7 +93,7 @@ impl<S: Real> Checks<S> {
         }
         let [horizontal, vertical] = self.toe.reactions(side, snapshot);
         let friction = if vertical > S::ZERO { horizontal.abs() / vertical } else { S::ZERO };
-        [friction, -vertical, weigh(snapshot.force[0]), weigh(snapshot.force[1]), support]
+        [friction, -vertical, weigh(snapshot.device.force[0]), weigh(snapshot.device.force[1]), support]
     }
 
     /// s θ − α.
@@ -181,7 +181,7 @@ impl<S: Real> DeviceObserver<S> for Checks<S> {
             self.watch(output, interval);
         }
         self.up_to_slenderness = before;
-        let engaged = if interval.engaged { output.snapshot(interval.to).engaged } else { [false; 2] };
+        let engaged = if interval.engaged { output.snapshot(interval.to).device.engaged } else { [false; 2] };
         self.impulses.velocity = Some(interval.last.velocity);
         self.impulses.engaged = engaged.map(u32::from).iter().sum();
     }

@@ -67,7 +67,7 @@ impl DeviceObserver<f64> for Probe {
             let time = interval.from + share * span;
             // Turned as in a drawing: the centre of mass starts up and to the left of the right-hand toe.
             let place = |t: f64| {
-                let (sin, cos) = math::sin_cos(output.at(t).rotation);
+                let (sin, cos) = math::sin_cos(output.motion().at(t).rotation);
                 let (x, y) = (-side * math::sin(alpha), math::cos(alpha));
                 [cos * x + sin * y, cos * y - sin * x]
             };
@@ -94,7 +94,7 @@ fn pull(structure: &Structure, look: &Look) -> f64 {
         Mount::CentreOfMass => 1.0,
         Mount::TyingPoint { pulley_ratio, .. } | Mount::BaseCorners { pulley_ratio } => pulley_ratio,
     };
-    pulley * (look.snapshot.force[0] + look.snapshot.force[1]) / structure.block.frequency_parameter_squared()
+    pulley * (look.snapshot.device.force[0] + look.snapshot.device.force[1]) / structure.block.frequency_parameter_squared()
 }
 
 fn each_full(mut visit: impl FnMut(&Structure)) {
@@ -218,10 +218,10 @@ impl DeviceObserver<f64> for DenseWatch {
             let dense = &mut self.1;
             dense.friction = dense.friction.max(horizontal.abs() / vertical);
             dense.vertical = dense.vertical.min(vertical);
-            for (most, force) in dense.force.iter_mut().zip(snapshot.force) {
+            for (most, force) in dense.force.iter_mut().zip(snapshot.device.force) {
                 *most = most.max(self.0.toe.over_weight(force).abs());
             }
-            dense.support = dense.support.max(self.0.toe.over_weight(snapshot.force[0] + snapshot.force[1]).abs());
+            dense.support = dense.support.max(self.0.toe.over_weight(snapshot.device.force[0] + snapshot.device.force[1]).abs());
             dense.travel = [dense.travel[0].max(travel), dense.travel[1].max(-travel)];
         }
     }

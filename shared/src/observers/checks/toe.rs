@@ -122,7 +122,7 @@ impl<S: Real> Toe<S> {
     pub fn reactions(&self, side: Sign, snapshot: &Snapshot<S>) -> [S; 2] {
         let (sin, cos) = self.direction(side, snapshot.motion.rotation);
         let (turn, pull) = (snapshot.motion.acceleration, snapshot.motion.velocity * snapshot.motion.velocity);
-        let device = self.pulley * self.over_weight(snapshot.support_force() + snapshot.rack_force);
+        let device = self.pulley * self.over_weight(snapshot.support_force() + snapshot.device.rack_force);
         let horizontal = snapshot.ground[0] + self.drop_time_squared * (cos * turn + sin * pull);
         let vertical = S::ONE + snapshot.ground[1] + self.drop_time_squared * (sin * turn - cos * pull);
         if self.vertical { [horizontal, vertical + side.times(device)] } else { [horizontal + device, vertical] }

@@ -172,15 +172,15 @@ impl<S: Real> Ledger<S> {
 
     fn balance(&self, side: Sign, snapshot: &Snapshot<S>) -> Balance<S> {
         let half = S::HALF * self.coupling;
-        let flywheel = snapshot.spin.map(|spin| half * spin * spin);
+        let flywheel = snapshot.device.spin.map(|spin| half * spin * spin);
         Balance {
             kinetic: S::HALF * snapshot.motion.velocity * snapshot.motion.velocity,
             potential: self.potential(side, snapshot.motion.rotation),
-            rack: snapshot.stored - snapshot.sprung - flywheel[0] - flywheel[1],
-            springs: snapshot.sprung,
+            rack: snapshot.device.stored - snapshot.device.sprung - flywheel[0] - flywheel[1],
+            springs: snapshot.device.sprung,
             flywheel,
-            engaged: snapshot.engaged,
-            locked: snapshot.spin.map(|spin| spin == snapshot.terminal_velocity),
+            engaged: snapshot.device.engaged,
+            locked: snapshot.device.spin.map(|spin| spin == snapshot.terminal_velocity),
         }
     }
 
@@ -251,7 +251,7 @@ impl<S: Real> DeviceObserver<S> for Ledger<S> {
         let [input, clutch, brake, bearing, rack, kinematics] =
             crate::math::quadrature::integral(interval.from, interval.to, S::HALF / self.frequency, |time| {
                 let snapshot = output.snapshot(time);
-                let spent = &snapshot.spent;
+                let spent = &snapshot.device.spent;
                 let input = self.input(interval.side, &snapshot);
                 [input, spent.clutch, spent.brake, spent.bearing, spent.rack, spent.kinematics]
             });

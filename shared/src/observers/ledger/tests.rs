@@ -1,5 +1,6 @@
 use super::*;
 use crate::drivetrain::power_loss::Spent;
+use crate::drivetrain::transmission::Account as DeviceAccount;
 use crate::equation::motion::Motion;
 use crate::ground::Linear;
 use crate::math;
@@ -211,6 +212,10 @@ impl<F: Fn(f64) -> Snapshot<f64>> DenseOutput<f64> for Script<F> {
 }
 
 impl<F: Fn(f64) -> Snapshot<f64>> DeviceOutput<f64> for Script<F> {
+    fn motion(&self) -> &dyn DenseOutput<f64> {
+        self
+    }
+
     fn snapshot(&self, time: f64) -> Snapshot<f64> {
         (self.0)(time)
     }
@@ -221,13 +226,12 @@ fn snapshot(rotation: f64, velocity: f64, spin: f64, engaged: bool) -> Snapshot<
         motion: Motion { rotation, velocity, acceleration: 0.0 },
         ground: [0.0; 2],
         terminal_velocity: velocity,
-        force: [0.0; 2],
-        rack_force: 0.0,
-        engaged: [engaged, false],
-        spin: [spin, 0.0],
-        stored: 0.2 * spin * spin,
-        sprung: 0.0,
-        spent: Spent::default(),
+        device: DeviceAccount {
+            engaged: [engaged, false],
+            spin: [spin, 0.0],
+            stored: 0.2 * spin * spin,
+            ..DeviceAccount::default()
+        },
     }
 }
 
@@ -289,7 +293,9 @@ fn what_jumps_at_an_event_goes_to_its_cause() {
     assert!((ledger.entries().impact - 5e-7).abs() < 1e-18 && (ledger.entries().stored - 1.8).abs() < 1e-15);
     show(&mut ledger, 2.0, |time| {
         let spin = time - 3.0;
-        Snapshot { spent: Spent { bearing: -0.4 * spin, ..Spent::default() }, ..snapshot(0.0, 0.0, spin, false) }
+        let mut coasting = snapshot(0.0, 0.0, spin, false);
+        coasting.device.spent.bearing = -0.4 * spin;
+        coasting
     });
     assert!((ledger.entries().bearing - 0.2 * 8.0).abs() < 1e-15 && ledger.entries().residual().abs() < 1e-15);
 }
@@ -299,8 +305,10 @@ fn a_spring_that_an_impact_lets_go_is_lost_in_its_clutch() {
     let mut ledger = scripted(Clutching::Real, 0.3);
     // Rack and spring beside a flywheel that turns faster than both.
     let sprung = |velocity: f64, sprung: f64, engaged: bool| {
-        let plain = snapshot(0.0, velocity, -3.0, engaged);
-        Snapshot { stored: plain.stored + 0.12 * velocity * velocity + sprung, sprung, ..plain }
+        let mut snapshot = snapshot(0.0, velocity, -3.0, engaged);
+        snapshot.device.stored = snapshot.device.stored + 0.12 * velocity * velocity + sprung;
+        snapshot.device.sprung = sprung;
+        snapshot
     };
     show(&mut ledger, 0.0, |_| sprung(-2.0, 0.7, true));
     event(&mut ledger, Event::Impact, -1.0);
@@ -315,11 +323,11 @@ fn a_spring_that_an_impact_lets_go_is_lost_in_its_clutch() {
 fn powers_are_integrated_and_the_ground_works_on_block_and_rack() {
     let mut ledger = scripted(Clutching::Real, 0.3);
     // θ = 0.1 + 0.2 t², over ground that pushes steadily by 0.7 g to the side and 0.2 g upward.
-    show(&mut ledger, 1.5, |time| Snapshot {
-        ground: [0.7, 0.2],
-        terminal_velocity: 3.0 * time * time,
-        spent: Spent { clutch: time, brake: 2.0, bearing: math::cos(time), rack: time * time * time, kinematics: -time },
-        ..snapshot(0.1 + 0.2 * time * time, 0.4 * time, 0.0, false)
+    show(&mut ledger, 1.5, |time| {
+        let plain = snapshot(0.1 + 0.2 * time * time, 0.4 * time, 0.0, false);
+        let spent = Spent { clutch: time, brake: 2.0, bearing: math::cos(time), rack: time * time * time, kinematics: -time };
+        let device = DeviceAccount { spent, ..plain.device };
+        Snapshot { ground: [0.7, 0.2], terminal_velocity: 3.0 * time * time, device, ..plain }
     });
     let entries = ledger.entries();
     let (before, after) = (0.2_f64, 0.3 - 0.55);

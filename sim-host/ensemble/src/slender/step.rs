@@ -104,13 +104,8 @@ impl Stepping for ClosedForm {
     }
 
     #[inline(always)]
-    fn step<C: Clutch>(
-        &mut self,
-        blocks: &mut Blocks,
-        bounds: &Bounds,
-        (slenderness, coupling): (Number, Number),
-        pulses: &Pulses,
-    ) -> Number {
+    fn step<C: Clutch>(&mut self, blocks: &mut Blocks, bounds: &Bounds, pulses: &Pulses) -> Number {
+        let Bounds { slenderness, coupling, .. } = *bounds;
         let (nothing, one) = (number(0.0), number(1.0));
         let half_cycle = number(PI);
         let phase = pulses.frequency * pulses.time + pulses.phase - self.half_cycles * half_cycle;

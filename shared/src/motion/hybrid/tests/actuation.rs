@@ -166,11 +166,11 @@ fn the_force_of_a_spring_does_not_jump_with_its_plates() {
     }
     impl DeviceObserver<f64> for Forces {
         fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
-            let first = output.snapshot(interval.from).force;
+            let first = output.snapshot(interval.from).device.force;
             for (before, after) in self.last.into_iter().flatten().zip(first) {
                 self.jump = self.jump.max((after - before).abs());
             }
-            self.last = Some(output.snapshot(interval.to).force);
+            self.last = Some(output.snapshot(interval.to).device.force);
         }
 
         fn device_event(&mut self, event: Event, _time: f64, _state: &BlockState<f64>) {

@@ -34,7 +34,7 @@ fn the_support_takes_what_both_flywheels_pull() {
         fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
             for i in 0..=200 {
                 let at = output.snapshot(interval.from + (interval.to - interval.from) * f64::from(i) / 200.0);
-                let [first, second] = at.force;
+                let [first, second] = at.device.force;
                 self.0 = [self.0[0].max((first + second).abs()), self.0[1].max(first.abs()).max(second.abs())];
             }
         }
@@ -83,7 +83,7 @@ impl DeviceObserver<f64> for Jolts {
                 // What is locked slows down with the block.
                 let left = state.velocity / before.motion.velocity;
                 for i in 0..2 {
-                    before.spin[i] *= if before.engaged[i] { left } else { 1.0 };
+                    before.device.spin[i] *= if before.device.engaged[i] { left } else { 1.0 };
                 }
                 (before.motion.velocity, before.terminal_velocity) = (state.velocity, left * before.terminal_velocity);
                 (*side, before.motion.rotation) = (state.side, 0.0);
@@ -135,7 +135,7 @@ fn a_jolt_keeps_the_momentum() {
             };
             let jump = after.motion.velocity - before.motion.velocity;
             let gained = rate(0.0, height).map(|rate| rate * jump);
-            let spins = after.spin[0] + after.spin[1] - before.spin[0] - before.spin[1];
+            let spins = after.device.spin[0] + after.device.spin[1] - before.device.spin[0] - before.device.spin[1];
             let rack = pulley * (SIGMA * spins + RACK * (after.terminal_velocity - before.terminal_velocity));
             let device = if vertical { [0.0, -side * rack] } else { [-rack, 0.0] };
             let toe = [gained[0] - device[0], gained[1] - device[1]];

@@ -23,7 +23,7 @@ fn shaken(structure: &Structure, horizontal: AnySegment<f64>, vertical: Option<A
             output: &dyn crate::motion::device_snapshot::DeviceOutput<f64>,
             interval: &crate::motion::observer::MonotoneInterval<f64>,
         ) {
-            crate::motion::observer::Observer::interval(&mut self.0, &output, interval);
+            crate::motion::observer::Observer::interval(&mut self.0, output.motion(), interval);
         }
     }
     let (mut state, mut watch) = (machine.at_rest(), Watch(Peaks::default()));

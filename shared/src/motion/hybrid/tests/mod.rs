@@ -95,7 +95,7 @@ impl DeviceObserver<f64> for Watcher {
     ) {
         let (rotation, velocity) = (interval.last.rotation, interval.last.velocity);
         self.last = BlockState { rotation, velocity, ..BlockState::default() };
-        crate::motion::observer::Observer::interval(&mut self.peaks, &output, interval);
+        crate::motion::observer::Observer::interval(&mut self.peaks, output.motion(), interval);
     }
 
     fn device_event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {

@@ -171,7 +171,7 @@ fn an_overrunning_clutch_that_has_just_gripped_does_not_push() {
     let machine: HybridSystem<f64> = drivetrain.resolve(&structure, false).unwrap();
     // Outward, against the weight.
     let now = machine.now(&machine.released_at(0.0, 0.1, [0.0; 2]));
-    let (velocity, force) = (now.motion.velocity, now.force[0]);
+    let (velocity, force) = (now.motion.velocity, now.device.force[0]);
     // 1 + kℓ² times as much is shaken off with the flywheel at rest before.
     let lever = math::cos(10.0_f64.to_radians());
     let k = 0.5 / structure.block.inertia_ratio();

@@ -5,14 +5,13 @@
 //!
 //! F/(λmR) = κ k (terminals' acceleration)/R,  E/(λmR²) = ½ κ k (ℓθ̇)²,  k = σ/λ.
 
-use crate::drivetrain::power_loss::Spent;
+use crate::drivetrain::transmission::Account;
 use crate::equation::Equation;
 use crate::equation::any_equation::AnyEquation;
 use crate::equation::clutch_rule::{ClutchRule, Flywheel};
 use crate::equation::motion::Motion;
 use crate::ground::GroundSegment;
 use crate::math::scalar::Real;
-use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
 use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput, Snapshot};
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
@@ -65,69 +64,33 @@ struct WatchedArc<'a, S, P> {
     wheel: Flywheel,
 }
 
-impl<S: Real, P: GroundSegment<S>> DenseOutput<S> for WatchedArc<'_, S, P> {
-    #[inline]
-    fn length(&self) -> S {
-        self.output.length()
-    }
-
-    #[inline]
-    fn at(&self, time: S) -> Motion<S> {
-        self.output.at(time)
-    }
-
-    #[inline]
-    fn switching(&self, time: S) -> S {
-        self.output.switching(time)
-    }
-
-    #[inline]
-    fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        self.output.acceleration_zero(from, to, sign, from_zero)
-    }
-
-    #[inline]
-    fn switching_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        self.output.switching_zero(from, to, sign, from_zero)
-    }
-
-    #[inline]
-    fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
-        self.output.largest_acceleration(from, to, floor)
-    }
-}
-
 impl<S: Real, P: GroundSegment<S>> DeviceOutput<S> for WatchedArc<'_, S, P> {
+    #[inline]
+    fn motion(&self) -> &dyn DenseOutput<S> {
+        self.output
+    }
+
     #[inline]
     fn snapshot(&self, time: S) -> Snapshot<S> {
         let motion = self.output.at(time);
         let Motion { rotation, velocity, acceleration } = motion;
         // Without a θ̇² term the terminals' acceleration is ℓ times what it is given.
         let terminal_velocity = self.equation.terminal_acceleration(self.side, rotation, S::ZERO, velocity);
-        let mut snapshot = Snapshot {
-            motion,
-            ground: [self.piece.acceleration(self.start + time), S::ZERO],
-            terminal_velocity,
-            force: [S::ZERO; 2],
-            rack_force: S::ZERO,
-            engaged: [false; 2],
-            spin: [S::ZERO; 2],
-            stored: S::ZERO,
-            sprung: S::ZERO,
-            spent: Spent::default(),
-        };
+        let mut device = Account::default();
         let wheel = match self.wheel {
-            Flywheel::Idle => return snapshot,
-            Flywheel::First => 0,
-            Flywheel::Second => 1,
+            Flywheel::Idle => None,
+            Flywheel::First => Some(0),
+            Flywheel::Second => Some(1),
         };
-        let terminal = self.equation.terminal_acceleration(self.side, rotation, velocity, acceleration);
-        snapshot.force[wheel] = self.coupling * terminal;
-        snapshot.engaged[wheel] = true;
-        snapshot.spin[wheel] = terminal_velocity;
-        snapshot.stored = S::HALF * self.coupling * terminal_velocity * terminal_velocity;
-        snapshot.spent.kinematics = self.equation.paper_power(self.side, rotation, velocity);
-        snapshot
+        if let Some(wheel) = wheel {
+            let terminal = self.equation.terminal_acceleration(self.side, rotation, velocity, acceleration);
+            device.force[wheel] = self.coupling * terminal;
+            device.engaged[wheel] = true;
+            device.spin[wheel] = terminal_velocity;
+            device.stored = S::HALF * self.coupling * terminal_velocity * terminal_velocity;
+            device.spent.kinematics = self.equation.paper_power(self.side, rotation, velocity);
+        }
+        Snapshot { motion, ground: [self.piece.acceleration(self.start + time), S::ZERO], terminal_velocity, device }
     }
 }
 

@@ -1,5 +1,7 @@
 use super::*;
+use crate::drivetrain::power_loss::Spent;
 use crate::ground::{Harmonics, Linear};
+use crate::math::sign::Sign;
 use crate::method::taylor::Taylor;
 use crate::motion::ideal::IdealSystem;
 use crate::motion::state::Limits;
@@ -141,7 +143,7 @@ impl DeviceObserver<f64> for Looks {
         let step = 1e-5_f64.min(0.4 * (interval.to - interval.from));
         let energy = |t: f64| {
             let snapshot = output.snapshot(t);
-            0.5 * snapshot.motion.velocity * snapshot.motion.velocity + snapshot.stored
+            0.5 * snapshot.motion.velocity * snapshot.motion.velocity + snapshot.device.stored
         };
         let rate = (energy(time + step) - energy(time - step)) / (2.0 * step);
         self.0.push((*interval, output.snapshot(time), rate));
@@ -179,22 +181,22 @@ fn check(structure: &Structure, looks: &[(MonotoneInterval<f64>, Snapshot<f64>, 
         let (sin, cos) = if *geometry == Geometry::Full { crate::math::sin_cos(delta) } else { (delta, 1.0) };
         let moment = -p2 * (sin + snapshot.ground[0] * cos);
         let lever = device.mount.lever_at(&structure.block, *geometry, snapshot.motion.rotation).unwrap();
-        let force = snapshot.force[0] + snapshot.force[1];
+        let force = snapshot.device.force[0] + snapshot.device.force[1];
         assert!((moment - lever * force - snapshot.motion.acceleration).abs() < 1e-12 * p2, "{structure:?} {interval:?}");
-        let power = moment * snapshot.motion.velocity - snapshot.spent.kinematics;
+        let power = moment * snapshot.motion.velocity - snapshot.device.spent.kinematics;
         assert!((rate - power).abs() < 1e-7 * p2, "{structure:?} {interval:?}: {rate} {power}");
         let wheel = usize::from(device.kind == DeviceKind::ClutchedPair && interval.direction == Sign::Negative);
-        assert!(force == snapshot.force[wheel] && !snapshot.engaged[1 - wheel]);
-        assert_eq!(snapshot.engaged[wheel], interval.engaged && device.kind != DeviceKind::None);
-        if snapshot.engaged[wheel] {
+        assert!(force == snapshot.device.force[wheel] && !snapshot.device.engaged[1 - wheel]);
+        assert_eq!(snapshot.device.engaged[wheel], interval.engaged && device.kind != DeviceKind::None);
+        if snapshot.device.engaged[wheel] {
             worked += 1;
-            assert!((snapshot.spin[wheel] - lever * snapshot.motion.velocity).abs() < 1e-14);
+            assert!((snapshot.device.spin[wheel] - lever * snapshot.motion.velocity).abs() < 1e-14);
             // A working flywheel of the pair resists.
-            assert!(device.kind == DeviceKind::Inerter || force * snapshot.spin[wheel] >= 0.0);
+            assert!(device.kind == DeviceKind::Inerter || force * snapshot.device.spin[wheel] >= 0.0);
             let gives = *geometry == Geometry::Full && device.kinematics == KinematicsKind::Paper;
-            assert_eq!(snapshot.spent.kinematics != 0.0, gives);
+            assert_eq!(snapshot.device.spent.kinematics != 0.0, gives);
         } else {
-            assert!(snapshot.stored == 0.0 && snapshot.spent == Spent::default());
+            assert!(snapshot.device.stored == 0.0 && snapshot.device.spent == Spent::default());
         }
     }
     assert_eq!(worked > 0, device.kind != DeviceKind::None);
