@@ -1,6 +1,6 @@
 //! Cases of devices with a memory, and of any device over ground that moves vertically too.
 
-use super::ideal::{STIFF, most_events};
+use super::ideal::{STIFF, Watch, most_events};
 use super::{Case, CaseError, FixedMethod, Initially, RunEnd, Shape};
 use crate::method::fixed::FixedStep;
 use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput};
@@ -31,14 +31,7 @@ pub(super) fn run(case: &Case<'_>, observer: &mut dyn DeviceObserver<f32>) -> Re
     follow(case, &machine, &method, observer)
 }
 
-/// The caller's observer, the peaks, and a count of steps.
-struct Watch<'o> {
-    observer: &'o mut dyn DeviceObserver<f32>,
-    peaks: Peaks<f32>,
-    steps: u32,
-}
-
-impl DeviceObserver<f32> for Watch<'_> {
+impl DeviceObserver<f32> for Watch<'_, dyn DeviceObserver<f32> + '_> {
     fn device_interval(&mut self, output: &dyn DeviceOutput<f32>, interval: &MonotoneInterval<f32>) {
         self.steps += 1;
         self.peaks.interval(output.motion(), interval);

@@ -25,19 +25,15 @@ pub(super) fn run(case: &Case<'_>, observer: &mut dyn Observer<f32>) -> Result<R
     }
 }
 
-/// The caller's observer, the peaks, and a count of steps.
-struct Watch<'o> {
-    observer: &'o mut dyn Observer<f32>,
-    peaks: Peaks<f32>,
-    steps: u32,
+/// The caller's observer, the peaks, and a count of steps. It wants every swing on quiet ground too: digests and the count of steps are of
+/// the whole motion, and swings that are summed have no steps.
+pub(super) struct Watch<'o, O: ?Sized> {
+    pub observer: &'o mut O,
+    pub peaks: Peaks<f32>,
+    pub steps: u32,
 }
 
-impl Observer<f32> for Watch<'_> {
-    fn every_swing(&self) -> bool {
-        // On quiet ground too: digests and the count of steps are of the whole motion, and swings that are summed have no steps.
-        true
-    }
-
+impl Observer<f32> for Watch<'_, dyn Observer<f32> + '_> {
     fn interval(&mut self, output: &dyn DenseOutput<f32>, interval: &MonotoneInterval<f32>) {
         self.steps += u32::from(interval.from == 0.0);
         self.peaks.interval(output, interval);

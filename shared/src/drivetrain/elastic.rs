@@ -115,7 +115,7 @@ impl<S: Real> Transmission<S, 4, GUARDS> for ElasticPair<S> {
             let relaxes = (plates[i] - twist[i].scale(self.0.stiffness)).scale(law.relaxation[i]);
             relative[i].scale(law.follows[i]) + relaxes.offset(self.creep(law, i))
         });
-        let acceleration = acceleration::<S, V, B, 4, true>(at, self.0.rack_push, Some(force[0] + force[1]));
+        let acceleration = acceleration(at, self.0.rack_push, true, Some(force[0] + force[1]));
         (acceleration, [spin[0], spin[1], slides[0], slides[1]])
     }
 
@@ -125,7 +125,7 @@ impl<S: Real> Transmission<S, 4, GUARDS> for ElasticPair<S> {
         let relative = |i: usize| at.body.to_terminal(&at.configuration, at.velocity) - at.unknowns[i & 1];
         let twist = |i: usize| at.unknowns[(i & 1) + 2].offset(-law.rest_twist[i & 1]);
         match watch {
-            Guard::Command(sign) => command::<S, V, B, 4, true>(at, self.0.rack_push, sign),
+            Guard::Command(sign) => command(at, self.0.rack_push, true, sign),
             Guard::Play(half, i) => (-at.unknowns[(i & 1) + 2].square()).offset(half * half),
             Guard::Contact(sign, i) => twist(i).scale(sign),
             Guard::Below(bound, growth, i) => {

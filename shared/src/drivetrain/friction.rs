@@ -71,13 +71,13 @@ impl<S: Real> Transmission<S, 2, 3> for FrictionPair<S> {
             at.clock.scale(law.slip_growth[i] * gain).offset(law.slip[i] * gain - law.drag[i])
                 - at.unknowns[i].scale(law.decay[i])
         });
-        (acceleration::<S, V, B, 2, true>(at, self.0.rack_push, Some(plates)), rates)
+        (acceleration(at, self.0.rack_push, true, Some(plates)), rates)
     }
 
     #[inline(always)]
     fn guard<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 2>, acceleration: V, watch: Guard<S>) -> V {
         match watch {
-            Guard::Command(sign) => command::<S, V, B, 2, true>(at, self.0.rack_push, sign),
+            Guard::Command(sign) => command(at, self.0.rack_push, true, sign),
             Guard::Capacity(capacity, growth) => {
                 let force = locked_force(at, &self.0, acceleration);
                 at.clock.scale(growth).offset(capacity).square() - force.square()

@@ -3,7 +3,7 @@
 
 use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients};
 use super::scaled_parameters::ScaledParameters;
-use super::transmission::{EventContext, PointOf, Transmission, acceleration, command};
+use super::transmission::{EventContext, PointOf, Transmission, acceleration};
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -55,7 +55,7 @@ impl<S: Real, const FRICTION: bool> Transmission<S, 0, 0> for Single<S, FRICTION
 
     #[inline(always)]
     fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 0>) -> (V, [V; 0]) {
-        (acceleration::<S, V, B, 0, FRICTION>(at, self.0.rack_push, None), [])
+        (acceleration(at, self.0.rack_push, FRICTION, None), [])
     }
 
     #[inline(always)]
@@ -100,15 +100,7 @@ impl<S: Real, const FRICTION: bool> Transmission<S, 0, 1> for IdealPair<S, FRICT
 
     #[inline(always)]
     fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 0>) -> (V, [V; 0]) {
-        (acceleration::<S, V, B, 0, FRICTION>(at, self.0.rack_push, None), [])
-    }
-
-    #[inline(always)]
-    fn guard<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 0>, acceleration: V, watch: Guard<S>) -> V {
-        match watch {
-            Guard::Command(sign) => command::<S, V, B, 0, FRICTION>(at, self.0.rack_push, sign),
-            _ => acceleration,
-        }
+        (acceleration(at, self.0.rack_push, FRICTION, None), [])
     }
 
     #[inline(always)]

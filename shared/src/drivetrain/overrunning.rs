@@ -37,7 +37,7 @@ impl<S: Real> Transmission<S, 2, 1> for OverrunningPair<S> {
 
     #[inline(always)]
     fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 2>) -> (V, [V; 2]) {
-        (acceleration::<S, V, B, 2, true>(at, self.0.rack_push, None), coasting(at))
+        (acceleration(at, self.0.rack_push, true, None), coasting(at))
     }
 
     #[inline(always)]

@@ -2,7 +2,7 @@
 
 use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients};
 use super::scaled_parameters::ScaledParameters;
-use super::transmission::{EventContext, PointOf, Transmission, acceleration, command, jolt};
+use super::transmission::{EventContext, PointOf, Transmission, acceleration, jolt};
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -36,15 +36,7 @@ impl<S: Real> Transmission<S, 2, 1> for RigidPair<S> {
 
     #[inline(always)]
     fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 2>) -> (V, [V; 2]) {
-        (acceleration::<S, V, B, 2, true>(at, self.0.rack_push, None), coasting(at))
-    }
-
-    #[inline(always)]
-    fn guard<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 2>, acceleration: V, watch: Guard<S>) -> V {
-        match watch {
-            Guard::Command(sign) => command::<S, V, B, 2, true>(at, self.0.rack_push, sign),
-            _ => acceleration,
-        }
+        (acceleration(at, self.0.rack_push, true, None), coasting(at))
     }
 
     fn engage(&self, at: &mut EventContext<'_, S>, wheel: usize) {

@@ -77,11 +77,16 @@ pub trait Transmission<S: Real, const X: usize, const G: usize>: Copy {
     /// θ̈ and the rates of the device's unknowns.
     fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, X>) -> (V, [V; X]);
 
-    /// Value of the guard `watch`, where θ̈ is `acceleration`; positive while the mode lasts.
+    /// Value of the guard `watch`, where θ̈ is `acceleration`; positive while the mode lasts. The default knows the command alone.
     #[inline(always)]
     fn guard<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, X>, acceleration: V, watch: Guard<S>) -> V {
-        let _ = (at, watch);
-        acceleration
+        match watch {
+            Guard::Command(sign) if Self::COMMANDED => {
+                let push = self.parameters().map_or(S::ZERO, |parameters| parameters.rack_push);
+                command(at, push, Self::HOLDS, sign)
+            }
+            _ => acceleration,
+        }
     }
 
     /// The parameters, where there are any.
@@ -192,13 +197,14 @@ pub struct Account<S> {
 
 /// θ̈ of a block with `resistance` at the rack beside the law's own: the weight and ground, the rack's inertia and friction.
 #[inline(always)]
-pub fn acceleration<S: Real, V: Value<S>, B: Body<S>, const X: usize, const FRICTION: bool>(
+pub fn acceleration<S: Real, V: Value<S>, B: Body<S>, const X: usize>(
     at: &PointOf<'_, S, B, V, X>,
     push: S,
+    friction: bool,
     resistance: Option<V>,
 ) -> V {
-    let mut moment = driving_moment::<S, V, B, X, FRICTION>(at, push);
-    if FRICTION {
+    let mut moment = driving_moment(at, push, friction);
+    if friction {
         let own = at.body.to_terminal(&at.configuration, at.velocity).scale(at.law.viscous).offset(at.law.dry);
         let resistance = match resistance {
             Some(other) => own + other,
@@ -213,22 +219,20 @@ pub fn acceleration<S: Real, V: Value<S>, B: Body<S>, const X: usize, const FRIC
 
 /// D, with the inertia force of the ground's acceleration on a guided rack.
 #[inline(always)]
-pub fn driving_moment<S: Real, V: Value<S>, B: Body<S>, const X: usize, const RACK: bool>(
-    at: &PointOf<'_, S, B, V, X>,
-    push: S,
-) -> V {
+pub fn driving_moment<S: Real, V: Value<S>, B: Body<S>, const X: usize>(at: &PointOf<'_, S, B, V, X>, push: S, rack: bool) -> V {
     let driving_moment = at.body.driving_moment(&at.configuration, at.ground);
-    if RACK { driving_moment - at.body.to_terminal(&at.configuration, at.ground[0].scale(push)) } else { driving_moment }
+    if rack { driving_moment - at.body.to_terminal(&at.configuration, at.ground[0].scale(push)) } else { driving_moment }
 }
 
 /// sign · switching function of Eq. 10.
 #[inline(always)]
-pub fn command<S: Real, V: Value<S>, B: Body<S>, const X: usize, const RACK: bool>(
+pub fn command<S: Real, V: Value<S>, B: Body<S>, const X: usize>(
     at: &PointOf<'_, S, B, V, X>,
     push: S,
+    rack: bool,
     sign: S,
 ) -> V {
-    let driving_moment = driving_moment::<S, V, B, X, RACK>(at, push);
+    let driving_moment = driving_moment(at, push, rack);
     at.body.switching(&at.configuration, at.velocity, driving_moment).scale(sign)
 }
 

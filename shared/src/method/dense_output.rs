@@ -14,7 +14,7 @@ pub struct StepStart<'a, S> {
     /// The equation of motion in force.
     pub equation: &'a AnyEquation<S>,
     /// The ground motion.
-    pub piece: &'a dyn GroundSegment<S>,
+    pub segment: &'a dyn GroundSegment<S>,
     /// s = sgn θ.
     pub side: Sign,
     /// θ, rad.
@@ -37,7 +37,7 @@ impl<S: Real> StepStart<'_, S> {
     #[inline(always)]
     pub fn first_acceleration<E: Equation<S>>(&self, equation: &E) -> S {
         self.acceleration.unwrap_or_else(|| {
-            equation.acceleration(self.side.unit(), self.rotation, self.velocity, self.piece.acceleration(self.time))
+            equation.acceleration(self.side.unit(), self.rotation, self.velocity, self.segment.acceleration(self.time))
         })
     }
 }

@@ -107,14 +107,14 @@ impl<S: Real> WithEquation<S> for Step<'_, '_, S> {
     fn with<E: Switched<S>>(self, equation: &E) -> Motion<S> {
         let Step { method, start, first, time } = self;
         let side = start.side.unit();
-        let push = start.piece.acceleration(start.time + time);
+        let push = start.segment.acceleration(start.time + time);
         let (rotation, velocity) = match method {
             FixedStep::SemiImplicitEuler { .. } => {
                 let velocity = start.velocity + time * first;
                 (start.rotation + time * velocity, velocity)
             }
             FixedStep::RungeKutta4 { .. } | FixedStep::ExponentialMidpoint { .. } => {
-                let ground = [S::ZERO, start.piece.acceleration(start.time + S::HALF * time), push];
+                let ground = [S::ZERO, start.segment.acceleration(start.time + S::HALF * time), push];
                 runge_kutta_4(equation, side, (start.rotation, start.velocity), first, ground, time)
             }
         };
@@ -149,7 +149,7 @@ impl<S: Real> DenseOutput<S> for FixedOutput<'_, S> {
     #[inline]
     fn switching(&self, time: S) -> S {
         let motion = self.at(time);
-        let push = self.start.piece.acceleration(self.start.time + time);
+        let push = self.start.segment.acceleration(self.start.time + time);
         self.start.equation.switching(self.start.side.unit(), motion.rotation, motion.velocity, push)
     }
 }

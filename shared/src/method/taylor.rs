@@ -68,7 +68,7 @@ impl<S: Real, const N: usize> Integrator<S> for Taylor<S, N> {
         let none = [S::ZERO; N];
         let mut output = TaylorOutput { series: StepSeries::new(start.length), switching: none, curvature: S::ZERO };
         let mut ground = none;
-        start.piece.series(start.time, &mut ground);
+        start.segment.series(start.time, &mut ground);
         let tolerance = self.tolerance * start.scale.larger(start.rotation.abs());
         start.equation.known(Expansion { tape: &self.tape, output: &mut output, ground: &ground, start, tolerance });
         let series = &mut output.series;
@@ -181,11 +181,11 @@ mod tests {
     #[test]
     fn the_curvature_bound_covers_the_whole_series() {
         let equation = AnyEquation::Block(FullBlock { frequency_squared: 1.0, slenderness: 0.3 });
-        let piece = Harmonics::sine(2.0, 5.0);
+        let segment = Harmonics::sine(2.0, 5.0);
         for time in [0.1, 0.5, 1.0] {
             let start = StepStart {
                 equation: &equation,
-                piece: &piece,
+                segment: &segment,
                 side: Sign::Positive,
                 rotation: 0.1,
                 velocity: 0.2,

@@ -49,7 +49,8 @@ fn with_method<S: sprag_loops::Precision>(task: &Task<'_>, method: Method<S>) ->
     let coupling = S::of(loaded.device.mass_ratio / loaded.block.inertia_ratio());
     let mut watchers = task.watchers::<S>(&loaded)?;
     let still = SumSegment::QUIET;
-    let mut watched = Watched { engaged: system.engaged, clutch: system.clutch, coupling, piece: still, observer: &mut watchers };
+    let mut watched =
+        Watched { engaged: system.engaged, clutch: system.clutch, coupling, segment: still, observer: &mut watchers };
     course.follow(&system, &*S::ideal(method), &mut state, &mut watched, goes_on).map_err(Failure::Stopped)?;
     if task.interrupt.is_set() {
         return Err(Failure::Interrupted);

@@ -62,7 +62,7 @@ impl<S: Real> Segmented for Watchers<'_, S> {
 /// An ideal device as its watchers see it.
 impl<S: Real, O: DeviceObserver<S> + Segmented> Segmented for Watched<S, SumSegment<S>, O> {
     fn segment(&mut self, start: f64, segment: Option<&Segment>) {
-        self.piece = match segment {
+        self.segment = match segment {
             Some(segment) => segment.shape.to(),
             None => SumSegment::QUIET,
         };

@@ -41,10 +41,10 @@ pub struct ClosedForm<S> {
 }
 
 impl<S: Real> ClosedForm<S> {
-    /// Whether motions of `equation` under `piece` have a closed form; otherwise steps are those of [`FixedStep::RungeKutta4`].
+    /// Whether motions of `equation` under `segment` have a closed form; otherwise steps are those of [`FixedStep::RungeKutta4`].
     #[inline]
-    pub fn applies(equation: &AnyEquation<S>, piece: &dyn GroundSegment<S>) -> bool {
-        equation.slender().is_some() && piece.elementary(S::ZERO).is_some()
+    pub fn applies(equation: &AnyEquation<S>, segment: &dyn GroundSegment<S>) -> bool {
+        equation.slender().is_some() && segment.elementary(S::ZERO).is_some()
     }
 }
 
@@ -62,7 +62,7 @@ impl<S: Real> Integrator<S> for ClosedForm<S> {
 
     #[inline]
     fn integrate<'a>(&'a self, start: &'a StepStart<'a, S>) -> ClosedFormOutput<'a, S> {
-        match (start.equation.slender(), start.piece.elementary(start.time)) {
+        match (start.equation.slender(), start.segment.elementary(start.time)) {
             (Some(block), Some(ground)) => ClosedFormOutput::Closed(SlenderArc::new(block, ground, start)),
             _ => ClosedFormOutput::Stepped(FixedOutput::new(FixedStep::RungeKutta4 { step: self.step }, start)),
         }

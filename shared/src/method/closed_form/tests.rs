@@ -184,7 +184,7 @@ fn a_short_step_loses_no_digits() {
         let pulse = Harmonics::sine(amplitude, frequency);
         let start = StepStart {
             equation: &AnyEquation::Slender(block),
-            piece: &pulse,
+            segment: &pulse,
             side: Sign::Negative,
             rotation: 0.0,
             velocity: 0.0,
@@ -198,7 +198,7 @@ fn a_short_step_loses_no_digits() {
         let pulse = Harmonics::sine(amplitude as f32, frequency as f32);
         let start = StepStart {
             equation: &AnyEquation::Slender(single),
-            piece: &pulse,
+            segment: &pulse,
             side: Sign::Negative,
             rotation: 0.0,
             velocity: 0.0,

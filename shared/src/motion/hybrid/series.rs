@@ -147,8 +147,8 @@ impl<S: Real, const N: usize> ModeIntegrator<S> for Series<S, N> {
             SeriesModeOutput { series: StepSeries::new(start.length), unknowns: [none; UNKNOWNS], guards: [none; GUARDS] };
         let mut ground = [none; 2];
         start.shaking.horizontal.series(start.time, &mut ground[0]);
-        if let Some(piece) = start.shaking.vertical {
-            piece.series(start.time, &mut ground[1]);
+        if let Some(segment) = start.shaking.vertical {
+            segment.series(start.time, &mut ground[1]);
         }
         let scale = start.scale.larger(start.rotation.abs());
         let tolerance = self.tolerance * scale;

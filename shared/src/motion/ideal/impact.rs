@@ -16,7 +16,7 @@ impl<S: Real> IdealSystem<S> {
     pub(super) fn impact(
         &self,
         state: &mut BlockState<S>,
-        piece: &dyn GroundSegment<S>,
+        segment: &dyn GroundSegment<S>,
         time: S,
         duration: S,
         observer: &mut dyn Observer<S>,
@@ -29,7 +29,7 @@ impl<S: Real> IdealSystem<S> {
         state.direction = Sign::of(state.velocity, state.direction);
         state.velocity = self.restitution * state.velocity;
         state.side = state.direction;
-        let ground = piece.acceleration(time);
+        let ground = segment.acceleration(time);
         self.read_signs(state, ground);
         observer.event(Event::Impact, time, state);
         // A ground acceleration above the threshold ends impacts too weak for the clock to tell apart: the block uplifts to the other side.
@@ -44,7 +44,7 @@ impl<S: Real> IdealSystem<S> {
         if state.velocity.abs() <= self.rest_speed {
             let tail = self.accumulation(state.side, state.velocity.abs(), ground);
             let negligible = state.velocity.abs() <= self.rest_speed * S::EPSILON;
-            if let Some(ends) = tail.rest(time, duration, negligible, |at| piece.acceleration(at).abs() < self.uplift) {
+            if let Some(ends) = tail.rest(time, duration, negligible, |at| segment.acceleration(at).abs() < self.uplift) {
                 *state = state.rested(state.impacts + tail.impacts);
                 observer.event(Event::Rest, ends, state);
                 return ends;

@@ -91,7 +91,7 @@ impl<S: Real> IdealSystem<S> {
         state
     }
 
-    /// Follows the block over `piece` from its local time 0 to `duration` (s), giving `observer` every interval and
+    /// Follows the block over `segment` from its local time 0 to `duration` (s), giving `observer` every interval and
     /// event.
     ///
     /// # Errors
@@ -100,7 +100,7 @@ impl<S: Real> IdealSystem<S> {
         &self,
         method: &M,
         state: &mut BlockState<S>,
-        piece: &dyn GroundSegment<S>,
+        segment: &dyn GroundSegment<S>,
         duration: S,
         limits: &Limits<S>,
         observer: &mut dyn Observer<S>,
@@ -114,10 +114,10 @@ impl<S: Real> IdealSystem<S> {
         state.acceleration_is_zero = false;
         while time < duration && state.phase != Phase::Overturned {
             if state.phase == Phase::Rest {
-                match self.uplift_time(piece, time, duration) {
+                match self.uplift_time(segment, time, duration) {
                     Some((at, crossing)) => {
                         time = at;
-                        self.uplift(state, piece.acceleration(at), crossing);
+                        self.uplift(state, segment.acceleration(at), crossing);
                         observer.event(Event::Uplift, time, state);
                     }
                     None => return Ok(()),
@@ -133,7 +133,7 @@ impl<S: Real> IdealSystem<S> {
                 Some(step) => next_stop(&mut tick, step, time, duration),
                 None => duration,
             };
-            let end = self.follow(method, state, piece, (&mut time, &mut acceleration), stop, limits, observer);
+            let end = self.follow(method, state, segment, (&mut time, &mut acceleration), stop, limits, observer);
             if !matches!(end, End::Reached) {
                 acceleration = None;
             }
@@ -148,8 +148,8 @@ impl<S: Real> IdealSystem<S> {
                     undecided = Some(time);
                 }
                 End::Impact => {
-                    time = self.impact(state, piece, time, duration, observer);
-                    if piece.is_quiet()
+                    time = self.impact(state, segment, time, duration, observer);
+                    if segment.is_quiet()
                         && !observer.every_swing()
                         && self.released.switches_with_acceleration()
                         && self.engaged.switches_with_acceleration()
@@ -180,7 +180,7 @@ impl<S: Real> IdealSystem<S> {
         &self,
         method: &M,
         state: &mut BlockState<S>,
-        piece: &dyn GroundSegment<S>,
+        segment: &dyn GroundSegment<S>,
         (time, acceleration): (&mut S, &mut Option<S>),
         stop: S,
         limits: &Limits<S>,
@@ -190,7 +190,7 @@ impl<S: Real> IdealSystem<S> {
         let equation = if engaged { &self.engaged } else { &self.released };
         let start = StepStart {
             equation,
-            piece,
+            segment,
             side: state.side,
             rotation: state.rotation,
             velocity: state.velocity,
@@ -337,7 +337,7 @@ impl<S: Real> IdealSystem<S> {
                 state.acceleration_is_zero = at_acceleration_zero;
                 if separate_terminal_sign {
                     // The other equation's θ̈ may have another sign here.
-                    self.read_acceleration_sign(state, piece.acceleration(*time + until));
+                    self.read_acceleration_sign(state, segment.acceleration(*time + until));
                 }
                 *time = *time + until;
                 return End::Switched;

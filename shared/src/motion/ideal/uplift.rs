@@ -12,22 +12,22 @@ impl<S: Real> IdealSystem<S> {
     /// First instant in [`from`, `to`) at which the ground acceleration exceeds the uplift threshold, and whether it gets
     /// there by crossing the threshold (so that the bracket is zero) or by a jump.
     #[inline(never)]
-    pub(super) fn uplift_time(&self, piece: &dyn GroundSegment<S>, from: S, to: S) -> Option<(S, bool)> {
-        let start = piece.acceleration(from);
+    pub(super) fn uplift_time(&self, segment: &dyn GroundSegment<S>, from: S, to: S) -> Option<(S, bool)> {
+        let start = segment.acceleration(from);
         if self.lifts(start) {
             return Some((from, false));
         }
         // What the equation holds is the threshold, or within rounding of it.
         let threshold = self.uplift.larger(start.abs());
-        if start.abs() == threshold && rises(piece, from, start, to - from) > threshold * S::EPSILON {
+        if start.abs() == threshold && rises(segment, from, start, to - from) > threshold * S::EPSILON {
             // Cut at the very crossing: a search that starts on a zero might take a short excess for a graze.
             return Some((from, true));
         }
-        let end = piece.acceleration(to);
+        let end = segment.acceleration(to);
         let crossing = |sign: Sign| {
             first_zero_of(
-                |t| (sign.times(piece.acceleration(t)) - threshold, sign.times(piece.slope(t))),
-                piece.curvature_bound(),
+                |t| (sign.times(segment.acceleration(t)) - threshold, sign.times(segment.slope(t))),
+                segment.curvature_bound(),
                 (from, to, sign.times(end) - threshold),
                 Sign::Negative,
                 false,
@@ -60,12 +60,12 @@ impl<S: Real> IdealSystem<S> {
 
 /// Bound of the growth of a ground acceleration of `start` (in g) over an interval of `length` (s), by its slope and curvature.
 #[inline(never)]
-fn rises<S: Real>(piece: &dyn GroundSegment<S>, from: S, start: S, length: S) -> S {
-    let slope = Sign::of(start, Sign::Positive).times(piece.slope(from));
+fn rises<S: Real>(segment: &dyn GroundSegment<S>, from: S, start: S, length: S) -> S {
+    let slope = Sign::of(start, Sign::Positive).times(segment.slope(from));
     if slope <= S::ZERO {
         return S::ZERO;
     }
-    let curvature = piece.curvature_bound();
+    let curvature = segment.curvature_bound();
     // Up to a crest that may come before the end.
     let length = if slope < curvature * length { slope / curvature } else { length };
     slope * length

@@ -105,26 +105,26 @@ impl<S: Scalar, E: Switched<S>> TimeStepping<S, E> {
 }
 
 impl<S: Real, E: Switched<S>> TimeStepping<S, E> {
-    /// Follows `state` over `piece` from its local time 0 to `duration` (s) in Runge-Kutta steps of `h` (s, above 0; the
+    /// Follows `state` over `segment` from its local time 0 to `duration` (s) in Runge-Kutta steps of `h` (s, above 0; the
     /// last one may be shorter), until |θ| passes `overturned` (rad). At most 2²⁴ steps.
     pub fn follow<P: GroundSegment<S>>(
         &self,
         state: &mut TimeSteppingState<S>,
-        piece: &P,
+        segment: &P,
         duration: S,
         h: S,
         overturned: S,
     ) -> TimeSteppingPeaks<S> {
         let mut seen = TimeSteppingPeaks::<S>::default();
         let mut time = S::ZERO;
-        let mut push = piece.acceleration(time);
+        let mut push = segment.acceleration(time);
         for tick in 1..=1 << 24 {
             if time >= duration || seen.overturned {
                 break;
             }
             let end = (S::count(tick) * h).smaller(duration);
-            let push_at_end = piece.acceleration(end);
-            let ground = [push, piece.acceleration(S::HALF * (time + end)), push_at_end];
+            let push_at_end = segment.acceleration(end);
+            let ground = [push, segment.acceleration(S::HALF * (time + end)), push_at_end];
             let before = (state.side, *state != TimeSteppingState::at_rest());
             *state = self.runge_kutta_4(*state, ground, end - time);
             seen.impacts += u32::from(before.1 && before.0 != state.side);

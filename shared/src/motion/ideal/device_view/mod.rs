@@ -25,7 +25,7 @@ pub struct Watched<S, P, O> {
     /// k = σ/λ; 0 without an inerter.
     pub coupling: S,
     /// The ground motion in force, in the local time of the intervals that follow; the caller keeps it up to date.
-    pub piece: P,
+    pub segment: P,
     /// The observer.
     pub observer: O,
     /// When it engages.
@@ -39,7 +39,7 @@ impl<S: Real, P: GroundSegment<S>, O: DeviceObserver<S>> Observer<S> for Watched
             output,
             equation: &self.engaged,
             coupling: self.coupling,
-            piece: &self.piece,
+            segment: &self.segment,
             start: interval.start,
             side: interval.side.unit(),
             wheel: self.clutch.flywheel(interval.engaged && self.clutch.has_inerter(), interval.direction),
@@ -58,7 +58,7 @@ struct WatchedArc<'a, S, P> {
     output: &'a dyn DenseOutput<S>,
     equation: &'a AnyEquation<S>,
     coupling: S,
-    piece: &'a P,
+    segment: &'a P,
     start: S,
     side: S,
     wheel: Flywheel,
@@ -90,7 +90,7 @@ impl<S: Real, P: GroundSegment<S>> DeviceOutput<S> for WatchedArc<'_, S, P> {
             device.stored = S::HALF * self.coupling * terminal_velocity * terminal_velocity;
             device.spent.kinematics = self.equation.paper_power(self.side, rotation, velocity);
         }
-        Snapshot { motion, ground: [self.piece.acceleration(self.start + time), S::ZERO], terminal_velocity, device }
+        Snapshot { motion, ground: [self.segment.acceleration(self.start + time), S::ZERO], terminal_velocity, device }
     }
 }
 

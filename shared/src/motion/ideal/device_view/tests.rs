@@ -120,11 +120,11 @@ impl<O: Placed> Run<'_, O> {
         };
         let method = Taylor::<f64, 20>::adaptive(1e-17);
         let mut origin = 0.0;
-        for (piece, duration) in ground {
+        for (segment, duration) in ground {
             observer.place(origin);
             let mut watched =
-                Watched { engaged: system.engaged, clutch: system.clutch, coupling, piece: *piece, observer: &mut observer };
-            system.advance(&method, &mut state, piece, *duration, &limits, &mut watched).unwrap();
+                Watched { engaged: system.engaged, clutch: system.clutch, coupling, segment: *segment, observer: &mut observer };
+            system.advance(&method, &mut state, segment, *duration, &limits, &mut watched).unwrap();
             origin += duration;
         }
         (state, observer)
