@@ -1,7 +1,10 @@
-//! TDK InvenSense ICM-42688-P, read once a tick by one transaction, brought up by one transaction a tick.
+//! TDK InvenSense ICM-42688-P, read once a tick, brought up a register a tick.
 //!
 //! Register names and values are those of DS-000347 rev. 1.7. Configured as the part that the simulator models: ±500 °/s and ±8 g in 16
 //! bits, both at 8 kHz behind anti-alias filters at 536 Hz, user-interface filters wide open.
+//!
+//! A part that is configured already is only read back, so that a processor that was reset in the middle of a motion has readings again
+//! within some ticks. While it is read, its configuration is compared on and on.
 //!
 //! The driver never waits and never gives up: a part that is absent, comes late, or lost its supply and its configuration is configured
 //! anew from the top until it answers, and meanwhile gives no readings.
@@ -13,7 +16,7 @@ mod tests;
 
 use embedded_hal::spi::SpiDevice;
 
-use registers::{FIRST_DATA, IDENTITY, IDENTITY_OF_PART, READ, RESET, SETUP, STATUS_DATA_READY, STATUS_RESERVED};
+use registers::{BANK, CONFIGURATION, FIRST_DATA, IDENTITY, IDENTITY_OF_PART, READ, RESET, STATUS_DATA_READY, STATUS_RESERVED};
 
 /// Ticks left to the part after its reset, which takes 1 ms: enough at 10 kHz.
 const RESET_TICKS: u8 = 16;
@@ -21,6 +24,15 @@ const RESET_TICKS: u8 = 16;
 /// Ticks in a row without a new reading after which the part is configured anew. More than its start takes: some 30 ms for the
 /// gyroscope, at 10 kHz.
 const SILENT_TICKS: u16 = 1000;
+
+/// The same for a part that was found configured, which has no start left to make.
+const SILENT_TICKS_FOUND: u16 = 16;
+
+/// Registers that are read back in a tick to recognise a part that is configured already.
+const READ_BACK_A_TICK: usize = 4;
+
+/// Ticks between two registers that are compared while the part is read: all of them within 0.6 s at 2 kHz.
+const COMPARED_EVERY: u8 = 64;
 
 /// Bytes of a reading: the address, acceleration (6), rate (6), time of synchronisation (2), status.
 const LENGTH: usize = 16;
@@ -40,16 +52,27 @@ pub struct Reading {
 /// What the next tick does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Stage {
+    /// Asks who is there, and reads [`CONFIGURATION`] back from an entry on.
+    Recognise(usize),
     /// Selects bank 0 and resets.
     Reset,
     /// Lets the reset pass, for so many more ticks.
     Wait(u8),
     /// Asks who is there.
     Identify,
-    /// Writes the entry of [`SETUP`].
+    /// Writes an entry of [`CONFIGURATION`].
     Setup(usize),
     /// Reads; so many times in a row there was nothing new.
     Run(u16),
+}
+
+/// Which register is compared next, and when.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Comparison {
+    ticks: u8,
+    entry: usize,
+    /// It was another than it should be, once.
+    doubtful: bool,
 }
 
 /// The part on a bus.
@@ -57,23 +80,27 @@ enum Stage {
 pub struct Icm42688<D> {
     device: D,
     stage: Stage,
+    comparison: Comparison,
 }
 
 impl<D: SpiDevice> Icm42688<D> {
     /// On a bus of at most 24 MHz in mode 0 or 3.
     pub fn new(device: D) -> Icm42688<D> {
-        Icm42688 { device, stage: Stage::Reset }
+        Icm42688 { device, stage: Stage::Recognise(0), comparison: Comparison::default() }
     }
 
     /// To be called once a tick: a reading, if there is a new one.
     pub fn tick(&mut self) -> Option<Reading> {
         let (next, reading) = match self.stage {
+            Stage::Recognise(entry) => (self.recognise(entry), None),
             Stage::Reset => (self.reset(), None),
             Stage::Wait(0) => (Stage::Identify, None),
             Stage::Wait(ticks) => (Stage::Wait(ticks - 1), None),
-            Stage::Identify => (self.identify(), None),
+            Stage::Identify => (if self.is_there() { Stage::Setup(0) } else { Stage::Reset }, None),
             Stage::Setup(entry) => (self.set_up(entry), None),
             Stage::Run(silent) => match self.read() {
+                // What a part of another configuration says is not known.
+                _ if !self.compare() => (Stage::Reset, None),
                 Some(reading) => (Stage::Run(0), Some(reading)),
                 None if silent < SILENT_TICKS => (Stage::Run(silent + 1), None),
                 None => (Stage::Reset, None),
@@ -83,26 +110,66 @@ impl<D: SpiDevice> Icm42688<D> {
         reading
     }
 
+    /// Nothing is written but the bank, so that a part that gives readings goes on with them.
+    fn recognise(&mut self, entry: usize) -> Stage {
+        // A controller that was itself reset may have left any bank selected.
+        if entry == 0 && !(self.device.write(&[BANK, 0]).is_ok() && self.is_there()) {
+            return Stage::Reset;
+        }
+        let end = entry + READ_BACK_A_TICK;
+        match (entry..end).all(|entry| self.holds(entry)) {
+            true if end < CONFIGURATION.len() => Stage::Recognise(end),
+            true => Stage::Run(SILENT_TICKS - SILENT_TICKS_FOUND),
+            false => Stage::Reset,
+        }
+    }
+
     fn reset(&mut self) -> Stage {
-        // The first of the two leaves whatever bank a controller that was itself reset had selected.
-        let done = RESET.into_iter().all(|write| self.device.write(&write).is_ok());
+        let done = [[BANK, 0], RESET].into_iter().all(|write| self.device.write(&write).is_ok());
+        self.comparison = Comparison::default();
         if done { Stage::Wait(RESET_TICKS) } else { Stage::Reset }
     }
 
-    fn identify(&mut self) -> Stage {
-        let mut bytes = [IDENTITY | READ, 0];
-        match self.device.transfer_in_place(&mut bytes) {
-            Ok(()) if bytes[1] == IDENTITY_OF_PART => Stage::Setup(0),
-            _ => Stage::Reset,
-        }
+    fn is_there(&mut self) -> bool {
+        self.register(IDENTITY) == Some(IDENTITY_OF_PART)
     }
 
-    fn set_up(&mut self, entry: usize) -> Stage {
-        match SETUP.get(entry) {
-            None => Stage::Run(0),
-            Some(write) if self.device.write(write).is_ok() => Stage::Setup(entry + 1),
-            Some(_) => Stage::Reset,
+    fn set_up(&mut self, number: usize) -> Stage {
+        let Some(entry) = CONFIGURATION.get(number) else { return Stage::Run(0) };
+        let selected = number.checked_sub(1).and_then(|last| CONFIGURATION.get(last)).map_or(0, |last| last.bank);
+        let done = (entry.bank == selected || self.device.write(&[BANK, entry.bank]).is_ok())
+            && self.device.write(&[entry.address, entry.value]).is_ok();
+        if done { Stage::Setup(number + 1) } else { Stage::Reset }
+    }
+
+    /// Whether a register holds what it shall, with bank 0 selected before and after. There is nothing wrong with one that does not exist.
+    fn holds(&mut self, number: usize) -> bool {
+        let Some(entry) = CONFIGURATION.get(number).filter(|entry| entry.kept != 0) else { return true };
+        let elsewhere = entry.bank != 0;
+        let found =
+            (!elsewhere || self.device.write(&[BANK, entry.bank]).is_ok()).then(|| self.register(entry.address)).flatten();
+        let back = !elsewhere || self.device.write(&[BANK, 0]).is_ok();
+        back && found.is_some_and(|value| (value ^ entry.value) & entry.kept == 0)
+    }
+
+    /// Compares a register, now and then; `false` when it was wrong twice: a bit that is lost on the wires does not come again.
+    fn compare(&mut self) -> bool {
+        let Comparison { ticks, entry, doubtful } = self.comparison;
+        if ticks < COMPARED_EVERY && !doubtful {
+            self.comparison.ticks = ticks + 1;
+            return true;
         }
+        let holds = self.holds(entry);
+        let next = if entry + 1 < CONFIGURATION.len() { entry + 1 } else { 0 };
+        self.comparison = Comparison { ticks: 0, entry: if holds { next } else { entry }, doubtful: !holds };
+        holds || !doubtful
+    }
+
+    fn register(&mut self, address: u8) -> Option<u8> {
+        let mut bytes = [address | READ, 0];
+        self.device.transfer_in_place(&mut bytes).ok()?;
+        let [_, value] = bytes;
+        Some(value)
     }
 
     fn read(&mut self) -> Option<Reading> {

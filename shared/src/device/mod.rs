@@ -19,13 +19,15 @@ pub use mailbox::Mailbox;
 use crate::control::controller::{Circumstances, Controller, ControllerState, Decision};
 use crate::control::sensing::sample::Sample;
 use crate::control::supervisor::Phase;
+use crate::control::ticks::ticks;
 use crate::link::reset_cause::Cause;
 use crate::link::{Mishap, Pace, Reply, TickReport};
 use crate::settings::Settings;
 use retained::{MOST_RESTARTS, Retained};
 
-/// For how many ticks the first sample after a reset is waited for, before the controller starts from the beginning.
-const RESUME_PATIENCE: u32 = 100;
+/// For how long the first whole sample after a reset is waited for, before the controller starts from the beginning, s: twice what an
+/// ICM-42688-P takes that has to be configured anew.
+const RESUME_PATIENCE: f32 = 0.1;
 
 /// For how long a device must have worked well before its restarts are forgotten, s.
 const GOOD_TIME: f32 = 1.0;
@@ -197,8 +199,11 @@ impl Device {
         circumstances.requests.clear |= self.clear;
         self.clear = false;
         self.ticks = self.ticks.wrapping_add(1);
-        if self.resuming.is_some() && !self.go_on(self.attached.is_none() || told.is_some()) {
-            return;
+        if self.resuming.is_some() {
+            let whole = if self.attached.is_none() { self.controller.supervisor.whole(&self.sample) } else { told.is_some() };
+            if !self.go_on(whole) {
+                return;
+            }
         }
         self.decision = self.controller.tick(&mut self.state, &self.sample, circumstances);
         self.good = self.good.saturating_add(1);
@@ -207,12 +212,13 @@ impl Device {
         }
     }
 
-    /// Goes on where it was before a reset, once there is a `fresh` sample; `false` while there is none.
-    fn go_on(&mut self, fresh: bool) -> bool {
+    /// Goes on where it was before a reset, once there is a `whole` sample; `false` while there is none. Only then is a sensor that gives
+    /// nothing more stale.
+    fn go_on(&mut self, whole: bool) -> bool {
         let Some(kept) = &self.resuming else { return true };
-        if fresh {
+        if whole {
             self.controller.resume(&mut self.state, &kept.calibration, kept.spins, &self.sample);
-        } else if self.waited < RESUME_PATIENCE {
+        } else if self.waited < ticks(RESUME_PATIENCE, self.controller.instruments.period) {
             self.waited += 1;
             return false;
         }

@@ -1,4 +1,4 @@
-//! Registers, and what is written to them, each as address and value.
+//! Registers, and what is written to them.
 
 /// In an address: to be read.
 pub const READ: u8 = 0x80;
@@ -16,47 +16,61 @@ pub const STATUS_DATA_READY: u8 = 1 << 3;
 pub const STATUS_RESERVED: u8 = 1 << 7;
 
 /// REG_BANK_SEL, in every bank.
-const BANK: u8 = 0x76;
+pub const BANK: u8 = 0x76;
 
-/// Selects bank 0 and sets SOFT_RESET_CONFIG of DEVICE_CONFIG.
-pub const RESET: [[u8; 2]; 2] = [[BANK, 0], [0x11, 0x01]];
+/// DEVICE_CONFIG of bank 0, with SOFT_RESET_CONFIG set.
+pub const RESET: [u8; 2] = [0x11, 0x01];
 
 /// DELT, DELTSQR and BITSHIFT of the anti-alias filters for 536 Hz.
 const FILTER: (u8, u16, u8) = (12, 144, 8);
 
-/// What is written after a reset, a tick each.
-pub const SETUP: [[u8; 2]; 20] = [
+/// What one register shall hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// Its bank.
+    pub bank: u8,
+    /// Its address there.
+    pub address: u8,
+    /// What is written.
+    pub value: u8,
+    /// The bits that are documented to read as they were written; none where reserved ones are set on the advice of others.
+    pub kept: u8,
+}
+
+const fn entry(bank: u8, address: u8, value: u8, kept: u8) -> Entry {
+    Entry { bank, address, value, kept }
+}
+
+/// The configuration, in the order in which it is written after a reset, a tick each.
+pub const CONFIGURATION: [Entry; 17] = [
     // INTF_CONFIG0: big-endian, I²C off.
-    [0x4C, 0x33],
+    entry(0, 0x4C, 0x33, 0),
     // INTF_CONFIG1: clock from the PLL; the undocumented change of full scale at run time off.
-    [0x4D, 0x51],
+    entry(0, 0x4D, 0x51, 0),
     // INT_CONFIG: INT1 push-pull, active high, pulsed. The pin may stay open.
-    [0x14, 0x03],
+    entry(0, 0x14, 0x03, 0x3F),
     // INT_CONFIG1: INT_TPULSE_DURATION and INT_TDEASSERT_DISABLE, as is asked for from 4 kHz on; INT_ASYNC_RESET off.
-    [0x64, 0x60],
+    entry(0, 0x64, 0x60, 0x70),
     // INT_CONFIG0: data-ready is cleared by reading the status.
-    [0x63, 0x00],
+    entry(0, 0x63, 0x00, 0x3F),
     // INT_SOURCE0: data-ready.
-    [0x65, 0x08],
+    entry(0, 0x65, 0x08, 0x7F),
     // GYRO_CONFIG0: ±500 °/s, 8 kHz.
-    [0x4F, 2 << 5 | 3],
+    entry(0, 0x4F, 2 << 5 | 3, 0xEF),
     // ACCEL_CONFIG0: ±8 g, 8 kHz.
-    [0x50, 1 << 5 | 3],
+    entry(0, 0x50, 1 << 5 | 3, 0xEF),
     // GYRO_ACCEL_CONFIG0: user-interface filters at half the data rate.
-    [0x52, 0x00],
-    [BANK, 1],
+    entry(0, 0x52, 0x00, 0xFF),
     // GYRO_CONFIG_STATIC2: notch and anti-alias filter on.
-    [0x0B, 0xA0],
+    entry(1, 0x0B, 0xA0, 0x03),
     // GYRO_CONFIG_STATIC3 to 5: the anti-alias filter.
-    [0x0C, FILTER.0],
-    [0x0D, FILTER.1 as u8],
-    [0x0E, FILTER.2 << 4 | (FILTER.1 >> 8) as u8],
-    [BANK, 2],
+    entry(1, 0x0C, FILTER.0, 0x3F),
+    entry(1, 0x0D, FILTER.1 as u8, 0xFF),
+    entry(1, 0x0E, FILTER.2 << 4 | (FILTER.1 >> 8) as u8, 0xFF),
     // ACCEL_CONFIG_STATIC2 to 4: the anti-alias filter on, and which.
-    [0x03, FILTER.0 << 1],
-    [0x04, FILTER.1 as u8],
-    [0x05, FILTER.2 << 4 | (FILTER.1 >> 8) as u8],
-    [BANK, 0],
+    entry(2, 0x03, FILTER.0 << 1, 0x7F),
+    entry(2, 0x04, FILTER.1 as u8, 0xFF),
+    entry(2, 0x05, FILTER.2 << 4 | (FILTER.1 >> 8) as u8, 0xFF),
     // PWR_MGMT0: both sensors in low-noise mode. Last, for no register may be written for 200 µs afterwards.
-    [0x4E, 0x0F],
+    entry(0, 0x4E, 0x0F, 0x3F),
 ];

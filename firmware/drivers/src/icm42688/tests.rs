@@ -1,147 +1,322 @@
-use std::vec;
+//! The driver on a model of the part: three banks of registers, a reset that takes a millisecond, a gyroscope that starts, a status that
+//! reading clears.
+
+use std::cell::RefCell;
+use std::rc::Rc;
 use std::vec::Vec;
 
 use embedded_hal::spi::{ErrorKind, ErrorType, Operation};
-use embedded_hal_mock::eh1::spi::{Mock, Transaction};
 
+use super::registers::Entry;
 use super::*;
 
-fn write(bytes: &[u8]) -> Vec<Transaction<u8>> {
-    vec![Transaction::transaction_start(), Transaction::write_vec(bytes.to_vec()), Transaction::transaction_end()]
+/// Ticks that a reset takes, and that the gyroscope takes to start, at 2 kHz.
+const RESET_TAKES: u32 = 2;
+const START_TAKES: u32 = 60;
+
+const WORDS: [i16; 6] = [1, -2, 300, -400, 32_767, -32_767];
+const READING: Reading = Reading { acceleration: [1, -2, 300], rate: [-400, 32_767, -32_767] };
+
+#[derive(Debug)]
+struct Part {
+    banks: [[u8; 128]; 3],
+    bank: usize,
+    now: u32,
+    /// No register answers before.
+    ready: u32,
+    resets: u32,
+    /// Since when both sensors are on.
+    on: Option<u32>,
+    words: [i16; 6],
+    status: u8,
+    /// What the line is stuck at.
+    stuck: Option<u8>,
+    /// Transactions until the answer to one has a bit flipped.
+    flip: Option<u32>,
+    broken: bool,
 }
 
-fn transfer(sent: Vec<u8>, received: Vec<u8>) -> Vec<Transaction<u8>> {
-    vec![Transaction::transaction_start(), Transaction::transfer_in_place(sent, received), Transaction::transaction_end()]
+#[derive(Clone, Debug)]
+struct Line(Rc<RefCell<Part>>);
+
+impl Part {
+    fn new(identity: u8) -> Line {
+        let mut part = Part {
+            banks: [[0; 128]; 3],
+            bank: 0,
+            now: 0,
+            ready: 0,
+            resets: 0,
+            on: None,
+            words: WORDS,
+            status: 0,
+            stuck: None,
+            flip: None,
+            broken: false,
+        };
+        part.restore();
+        part.banks[0][0x75] = identity;
+        Line(Rc::new(RefCell::new(part)))
+    }
+
+    /// What registers hold after a reset, DS-000347, section 13.
+    fn restore(&mut self) {
+        let identity = self.banks[0][0x75];
+        self.banks = [[0; 128]; 3];
+        for (bank, address, value) in [
+            (0, 0x75, identity),
+            (0, 0x4C, 0x30),
+            (0, 0x4D, 0x91),
+            (0, 0x4F, 0x06),
+            (0, 0x50, 0x06),
+            (0, 0x52, 0x11),
+            (0, 0x64, 0x10),
+            (0, 0x65, 0x10),
+            (1, 0x0B, 0xA0),
+            (1, 0x0C, 0x0D),
+            (1, 0x0D, 0xAA),
+            (1, 0x0E, 0x80),
+            (2, 0x03, 0x18),
+            (2, 0x04, 0x40),
+            (2, 0x05, 0x62),
+        ] {
+            self.banks[bank][address] = value;
+        }
+        (self.bank, self.on, self.status) = (0, None, 0);
+    }
+
+    fn write(&mut self, address: u8, value: u8) {
+        match (self.bank, address) {
+            (_, 0x76) => self.bank = usize::from(value),
+            (0, 0x11) if value & 1 == 1 => {
+                self.restore();
+                (self.resets, self.ready) = (self.resets + 1, self.now + RESET_TAKES);
+            }
+            (bank, address) => {
+                self.banks[bank][usize::from(address)] = value;
+                if (bank, address) == (0, 0x4E) {
+                    self.on = (value & 0x0F == 0x0F).then_some(self.now);
+                }
+            }
+        }
+    }
+
+    /// From an address on.
+    fn read(&mut self, address: u8, into: &mut [u8]) {
+        for (address, into) in (address..).zip(into) {
+            *into = self.banks[self.bank][usize::from(address)];
+            if self.bank == 0 {
+                if (0x1F..0x2B).contains(&address) {
+                    let place = usize::from(address - 0x1F);
+                    *into = self.words[place / 2].to_be_bytes()[place % 2];
+                } else if address == 0x2D {
+                    *into = core::mem::take(&mut self.status);
+                }
+            }
+        }
+    }
+
+    fn tick(&mut self) {
+        self.now += 1;
+        if self.on.is_some_and(|since| self.now >= since + START_TAKES) {
+            self.status |= STATUS_DATA_READY;
+        }
+    }
 }
 
-fn reset() -> Vec<Transaction<u8>> {
-    RESET.iter().flat_map(|bytes| write(bytes)).collect()
-}
-
-fn identify(answer: u8) -> Vec<Transaction<u8>> {
-    transfer(vec![0xF5, 0], vec![0, answer])
-}
-
-fn set_up() -> Vec<Transaction<u8>> {
-    SETUP.iter().flat_map(|bytes| write(bytes)).collect()
-}
-
-fn reading(status: u8, words: [i16; 6]) -> Vec<Transaction<u8>> {
-    let mut sent = vec![0; LENGTH];
-    sent[0] = 0x9F;
-    let mut received = vec![0xAA];
-    received.extend(words.iter().flat_map(|word| word.to_be_bytes()));
-    received.extend([3, 4, status]);
-    transfer(sent, received)
-}
-
-/// Ticks from the start to the first one that reads.
-const START: usize = 1 + RESET_TICKS as usize + 1 + 1 + SETUP.len() + 1;
-
-/// Ticks so often, with exactly these transactions, and gives what came.
-fn ticks(count: usize, transactions: Vec<Vec<Transaction<u8>>>) -> Vec<Reading> {
-    let mut mock = Mock::new(&transactions.concat());
-    let mut part = Icm42688::new(mock.clone());
-    let readings = (0..count).filter_map(|_| part.tick()).collect();
-    mock.done();
-    readings
-}
-
-#[test]
-fn starts_and_reads_what_is_new() {
-    let words = [1, -2, 300, -400, 32_767, -32_767];
-    let readings = ticks(
-        START + 4,
-        vec![
-            reset(),
-            identify(0x47),
-            set_up(),
-            reading(0x08, words),
-            reading(0x00, words),
-            reading(0x18, [7; 6]),
-            reading(0x10, [8; 6]),
-        ],
-    );
-    assert_eq!(
-        readings,
-        [Reading { acceleration: [1, -2, 300], rate: [-400, 32_767, -32_767] }, Reading { acceleration: [7; 3], rate: [7; 3] }]
-    );
-}
-
-#[test]
-fn a_line_stuck_high_or_low_and_a_part_that_starts_give_nothing() {
-    let readings = ticks(
-        START + 4,
-        vec![
-            reset(),
-            identify(0x47),
-            set_up(),
-            reading(0xFF, [-1; 6]),
-            reading(0x00, [0; 6]),
-            reading(0x08, [1, 2, 3, 4, 5, i16::MIN]),
-            reading(0x08, [i16::MIN, 2, 3, 4, 5, 6]),
-        ],
-    );
-    assert_eq!(readings, []);
-}
-
-#[test]
-fn another_part_or_none_is_asked_again() {
-    let round = 1 + RESET_TICKS as usize + 1 + 1;
-    let readings = ticks(3 * round, vec![reset(), identify(0xFF), reset(), identify(0x00), reset(), identify(0x47)]);
-    assert_eq!(readings, []);
-}
-
-#[test]
-fn silence_starts_it_anew() {
-    let silent = (0..=SILENT_TICKS).flat_map(|_| reading(0, [0; 6])).collect();
-    let readings = ticks(
-        START + usize::from(SILENT_TICKS) + 1 + START + 1,
-        vec![reset(), identify(0x47), set_up(), silent, reset(), identify(0x47), set_up(), reading(0x08, [5; 6])],
-    );
-    assert_eq!(readings, [Reading { acceleration: [5; 3], rate: [5; 3] }]);
-}
-
-struct Broken;
-
-impl ErrorType for Broken {
+impl ErrorType for Line {
     type Error = ErrorKind;
 }
 
-impl SpiDevice for Broken {
-    fn transaction(&mut self, _: &mut [Operation<'_, u8>]) -> Result<(), ErrorKind> {
-        Err(ErrorKind::ModeFault)
+impl SpiDevice for Line {
+    fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), ErrorKind> {
+        let mut part = self.0.borrow_mut();
+        if part.broken {
+            return Err(ErrorKind::ModeFault);
+        }
+        let asleep = part.now < part.ready;
+        for operation in operations {
+            match operation {
+                Operation::Write([address, value]) if !asleep => part.write(*address, *value),
+                Operation::TransferInPlace(bytes) => {
+                    let [address, answer @ ..] = &mut **bytes else { panic!("an empty transfer") };
+                    assert!(*address & READ != 0);
+                    if !asleep {
+                        part.read(*address & !READ, answer);
+                    }
+                    if let Some(stuck) = part.stuck {
+                        answer.fill(stuck);
+                    }
+                    match part.flip {
+                        Some(0) => (answer[0], part.flip) = (answer[0] ^ 1, None),
+                        left => part.flip = left.map(|left| left - 1),
+                    }
+                }
+                Operation::Write(_) if asleep => {}
+                other => panic!("{other:?}"),
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Ticks driver and part.
+fn ticks(driver: &mut Icm42688<Line>, line: &Line, count: u32) -> Vec<Reading> {
+    (0..count)
+        .filter_map(|_| {
+            line.0.borrow_mut().tick();
+            driver.tick()
+        })
+        .collect()
+}
+
+/// Ticks until a reading comes.
+fn ticks_to_a_reading(driver: &mut Icm42688<Line>, line: &Line) -> u32 {
+    (1..5000).find(|_| ticks(driver, line, 1) == [READING]).expect("a reading")
+}
+
+/// A part that is read.
+fn running() -> (Icm42688<Line>, Line) {
+    let line = Part::new(0x47);
+    let mut driver = Icm42688::new(line.clone());
+    ticks_to_a_reading(&mut driver, &line);
+    (driver, line)
+}
+
+fn is_configured(line: &Line) -> bool {
+    CONFIGURATION.iter().all(|entry| line.0.borrow().banks[usize::from(entry.bank)][usize::from(entry.address)] == entry.value)
+}
+
+#[test]
+fn a_part_after_power_on_is_configured_and_read() {
+    let line = Part::new(0x47);
+    let mut driver = Icm42688::new(line.clone());
+    let took = ticks_to_a_reading(&mut driver, &line);
+    assert!(took > START_TAKES && took < 100, "{took}");
+    assert!(is_configured(&line) && line.0.borrow().resets == 1);
+    assert_eq!(ticks(&mut driver, &line, 10_000).len(), 10_000, "comparing costs no reading");
+    assert_eq!(line.0.borrow().resets, 1);
+    // Nothing new is no reading; other bits of the status do not matter.
+    line.0.borrow_mut().on = None;
+    assert_eq!(ticks(&mut driver, &line, 3), []);
+    line.0.borrow_mut().status = STATUS_DATA_READY | 0x10;
+    assert_eq!(ticks(&mut driver, &line, 3), [READING]);
+}
+
+/// The processor was reset, the part was not.
+#[test]
+fn a_part_that_is_configured_is_read_within_six_ticks() {
+    for bank in 0..3 {
+        let (_, line) = running();
+        line.0.borrow_mut().bank = bank;
+        let mut driver = Icm42688::new(line.clone());
+        let took = ticks_to_a_reading(&mut driver, &line);
+        assert!(took <= 6, "{took}");
+        assert_eq!(line.0.borrow().resets, 1, "it was not reset");
     }
 }
 
 #[test]
-fn a_broken_bus_gives_nothing_and_is_tried_again_from_any_stage() {
-    for stage in [Stage::Reset, Stage::Identify, Stage::Setup(0), Stage::Setup(19)] {
-        let mut part = Icm42688 { device: Broken, stage };
-        assert_eq!(part.tick(), None);
-        assert_eq!(part.stage, Stage::Reset);
+fn a_part_that_is_configured_otherwise_is_configured_anew() {
+    for Entry { bank, address, kept, .. } in CONFIGURATION.into_iter().filter(|entry| entry.kept != 0) {
+        for bit in (0..8).map(|bit| 1 << bit).filter(|bit| kept & bit != 0) {
+            let (_, line) = running();
+            line.0.borrow_mut().banks[usize::from(bank)][usize::from(address)] ^= bit;
+            let mut driver = Icm42688::new(line.clone());
+            assert_eq!(ticks(&mut driver, &line, 40), [], "register {address:#x} of bank {bank}, bit {bit:#x}");
+            ticks_to_a_reading(&mut driver, &line);
+            assert!(is_configured(&line) && line.0.borrow().resets == 2);
+        }
     }
-    let mut part = Icm42688 { device: Broken, stage: Stage::Run(SILENT_TICKS - 1) };
-    assert_eq!([part.tick(), part.tick()], [None; 2]);
-    assert_eq!(part.stage, Stage::Reset);
+}
+
+#[test]
+fn a_part_found_configured_that_gives_nothing_is_configured_anew_at_once() {
+    let (_, line) = running();
+    line.0.borrow_mut().on = None;
+    let mut driver = Icm42688::new(line.clone());
+    let took = ticks_to_a_reading(&mut driver, &line);
+    assert!(took < 130 && line.0.borrow().resets == 2, "{took}");
+}
+
+#[test]
+fn a_configuration_that_is_lost_while_it_is_read_is_noticed() {
+    for Entry { bank, address, kept, .. } in CONFIGURATION.into_iter().filter(|entry| entry.kept != 0) {
+        let (mut driver, line) = running();
+        line.0.borrow_mut().banks[usize::from(bank)][usize::from(address)] ^= kept & kept.wrapping_neg();
+        let all = CONFIGURATION.len() as u32 * (u32::from(COMPARED_EVERY) + 1) + 2;
+        ticks(&mut driver, &line, all);
+        assert_eq!(line.0.borrow().resets, 2, "register {address:#x} of bank {bank}");
+        ticks_to_a_reading(&mut driver, &line);
+        assert!(is_configured(&line));
+    }
+}
+
+#[test]
+fn a_bit_lost_on_the_wires_is_no_lost_configuration() {
+    for transaction in 0..4 * u32::from(COMPARED_EVERY) {
+        let (mut driver, line) = running();
+        line.0.borrow_mut().flip = Some(transaction);
+        ticks(&mut driver, &line, 400);
+        assert_eq!((line.0.borrow().resets, line.0.borrow().flip), (1, None));
+    }
+}
+
+#[test]
+fn a_line_stuck_high_or_low_gives_nothing_until_it_is_free() {
+    for stuck in [0x00, 0xFF] {
+        let (mut driver, line) = running();
+        line.0.borrow_mut().stuck = Some(stuck);
+        assert_eq!(ticks(&mut driver, &line, 3000), []);
+        line.0.borrow_mut().stuck = None;
+        ticks_to_a_reading(&mut driver, &line);
+        assert!(is_configured(&line));
+    }
+}
+
+#[test]
+fn the_value_of_no_reading_is_none() {
+    let (mut driver, line) = running();
+    for words in [[1, 2, 3, 4, 5, i16::MIN], [i16::MIN, 2, 3, 4, 5, 6]] {
+        line.0.borrow_mut().words = words;
+        assert_eq!(ticks(&mut driver, &line, 5), []);
+    }
+}
+
+#[test]
+fn another_part_is_never_configured() {
+    for identity in [0x00, 0x42, 0xFF] {
+        let line = Part::new(identity);
+        let mut driver = Icm42688::new(line.clone());
+        assert_eq!(ticks(&mut driver, &line, 3000), []);
+        assert!(!is_configured(&line));
+    }
+}
+
+#[test]
+fn a_broken_bus_gives_nothing_and_is_tried_again_whenever_it_breaks() {
+    for ticks_before in 0..200 {
+        let line = Part::new(0x47);
+        let mut driver = Icm42688::new(line.clone());
+        ticks(&mut driver, &line, ticks_before);
+        line.0.borrow_mut().broken = true;
+        assert_eq!(ticks(&mut driver, &line, 1100), []);
+        // It comes back as after power-on.
+        line.0.borrow_mut().broken = false;
+        line.0.borrow_mut().restore();
+        ticks_to_a_reading(&mut driver, &line);
+        assert!(is_configured(&line));
+    }
 }
 
 #[test]
 fn filters_are_those_of_the_data_sheet() {
     // DS-000347, section 5.2: at 536 Hz DELT 12, DELTSQR 144, BITSHIFT 8.
     let at = |bank: u8, address: u8| {
-        let mut selected = 0;
-        let mut found = None;
-        for [register, value] in SETUP {
-            if register == 0x76 {
-                selected = value;
-            } else if (selected, register) == (bank, address) {
-                found = Some(value);
-            }
-        }
-        found
+        CONFIGURATION.iter().find(|entry| (entry.bank, entry.address) == (bank, address)).map(|entry| entry.value)
     };
     assert_eq!([0x0C, 0x0D, 0x0E].map(|address| at(1, address)), [Some(12), Some(144), Some(0x80)]);
     assert_eq!([0x03, 0x04, 0x05].map(|address| at(2, address)), [Some(24), Some(144), Some(0x80)]);
-    assert_eq!(SETUP.last(), Some(&[0x4E, 0x0F]));
+    let last = CONFIGURATION.last().map(|entry| (entry.bank, entry.address, entry.value));
+    assert_eq!(last, Some((0, 0x4E, 0x0F)));
 }

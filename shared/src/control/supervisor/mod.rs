@@ -20,6 +20,7 @@ use crate::control::monitor::fault::{Fault, Recovery, Wheel};
 use crate::control::monitor::{Context, Findings, Monitor, MonitorState};
 use crate::control::sensing::calibration::{Averaging, Calibration, Plausible};
 use crate::control::sensing::required::Required;
+use crate::control::sensing::sample::Sample;
 use crate::control::sensing::sensor::Sensor;
 use crate::control::ticks::Streak;
 use crate::structure::error::ParameterError;
@@ -141,6 +142,14 @@ impl Supervisor {
     /// Clutches engaged in the safe state.
     pub fn safe(&self) -> [bool; 2] {
         self.safe
+    }
+
+    /// Every sensor that is required has given a reading since the `sample` was empty.
+    pub fn whole(&self, sample: &Sample) -> bool {
+        let [block, ground] =
+            [sample.block_accelerometer, sample.ground_accelerometer].map(|axes| axes.iter().all(|reading| reading.number != 0));
+        let read = [sample.gyroscope.number != 0, block, ground, sample.encoder.number != 0];
+        self.required.flags().into_iter().zip(read).all(|(required, read)| read || !required)
     }
 
     /// A state that skips everything before Rocking, for a run that begins with the motion; the estimators' beginning is the caller's.

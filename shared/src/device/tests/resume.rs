@@ -1,6 +1,8 @@
 //! A reset in the middle of an earthquake.
 
 use super::*;
+use crate::control::monitor::fault::Fault;
+use crate::control::sensing::sensor::Sensor;
 
 /// What happens to a device at a reset: its memory but for what it keeps is gone, and the encoder goes on from the count that was kept.
 fn reset(bench: &Bench) -> Bench {
@@ -36,6 +38,45 @@ fn it_goes_on_where_it_was() {
     // As near to the truth as one that was not interrupted, but that an impact may be taken a tick earlier or later, which is worth 15 % of some
     // 0.3 rad/s for that tick.
     assert!(worst[0] < 1e-6 && worst[1] < 0.05, "{worst:?}");
+}
+
+/// As on a board: after the reset its inertial sensors give nothing for some ticks, while the encoder counts from the first one on.
+#[test]
+fn sensors_that_start_anew_are_waited_for_in_the_safe_state() {
+    for silent in [0, 1, 3, 5, 6, 7, 10, 40, 120, 199] {
+        let mut again = reset(&Bench::rocking());
+        for tick in 0..4000 {
+            let now = again.rig.sample();
+            again.device.tick(
+                |own| {
+                    (own.encoder, own.engaged) = (now.encoder, now.engaged);
+                    if tick >= silent {
+                        *own = now;
+                    }
+                },
+                0.0,
+            );
+            let decision = *again.device.decision();
+            if tick < silent {
+                assert!(again.device.resumes() && decision.command == again.device.safe_command(), "{silent}: {decision:?}");
+            } else {
+                assert_eq!((decision.phase, decision.fault), (Phase::Rocking, None), "{silent} silent, tick {tick}");
+            }
+            if tick > silent + 20 {
+                assert!(again.errors()[0] < 5e-5, "{silent} silent, tick {tick}: {:?}", again.errors());
+            }
+            again.rig.advance(decision.command);
+        }
+    }
+    // One that never comes is a fault like any other, found from the beginning.
+    let mut again = reset(&Bench::rocking());
+    let mut phases = (0..4000).map(|_| {
+        let now = again.rig.sample();
+        again.device.tick(|own| (own.encoder, own.ground_accelerometer) = (now.encoder, now.ground_accelerometer), 0.0);
+        again.rig.advance(again.device.decision().command);
+        again.device.decision().fault
+    });
+    assert_eq!(phases.find_map(|fault| fault), Some(Fault::Stale(Sensor::Gyroscope)));
 }
 
 #[test]
@@ -84,7 +125,7 @@ fn attached_it_waits_for_a_sample_but_not_for_ever() {
     assert_eq!(again.device.retained().calibration, bench.device.retained().calibration);
     // Or starts from the beginning, where the sender is gone too.
     let mut again = reset(&bench);
-    (0..200).for_each(|_| again.device.tick(|_| panic!("its own sensors"), 0.0));
+    (0..=200).for_each(|_| again.device.tick(|_| panic!("its own sensors"), 0.0));
     assert!(!again.device.resumes() && again.device.decision().phase != Phase::Rocking);
 }
 
