@@ -108,6 +108,8 @@ fn run(controller: &Controller, mut decide: impl FnMut(&mut ControllerState, &Sa
     (digest, commands)
 }
 
+// Not inlined, as `parts`: the counts of both would be on the stack at once, which is more than it holds.
+#[inline(never)]
 fn whole(name: &str, controller: &Controller, counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> fmt::Result {
     let mut counts = Counts::<SIZES>::NONE;
     let mut decision = Decision::before([false; 2]);
@@ -124,6 +126,7 @@ fn whole(name: &str, controller: &Controller, counter: &mut impl FnMut() -> u32,
     writeln!(out, "digest controller-{name} {:016x} ({commands} commands)", digest.value())
 }
 
+#[inline(never)]
 fn parts(controller: &Controller, counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> fmt::Result {
     let mut counts = [Counts::<{ SIZES / 4 }>::NONE; 3];
     let mut decision = Decision::before([false; 2]);
