@@ -18,6 +18,7 @@ compile_error!("select a board: --features board-f405 or --features board-qemu")
 compile_error!("select one board only: --no-default-features --features board-qemu");
 
 use embedded_storage::nor_flash::NorFlash;
+use sprag_shared::control::monitor::coil::CoilReports;
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::link::reset_cause::Cause;
@@ -98,11 +99,12 @@ pub trait Sensors {
 
 /// The coils of the two clutches.
 pub trait Coils {
-    /// What the coils' feedback says: engaged.
-    fn engaged(&mut self) -> [bool; 2];
+    /// What the coils' feedback says: engaged, and what else their currents say.
+    fn read(&mut self) -> ([bool; 2], CoilReports);
 
-    /// Carries out a command, once a control period: pulls in with the full current, then holds with less.
-    fn drive(&mut self, command: [bool; 2]);
+    /// Carries out a command, once a control period: pulls in with the full current, then holds with less; where it is `tested`, tries
+    /// each switch alone first.
+    fn drive(&mut self, command: [bool; 2], tested: bool);
 }
 
 /// The watchdog: resets the chip unless fed in time.

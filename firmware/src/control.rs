@@ -88,17 +88,19 @@ fn tick(control: &mut Control, device: &mut Device, outbox: &mut Outbox, late: u
     let Control { sensors, coils, .. } = control;
     #[cfg(feature = "log")]
     let before = *device.decision();
+    let (engaged, reports) = coils.read();
+    device.note_coils(reports);
     device.tick(
         |sample| {
             sensors.read(sample);
-            sample.engaged = coils.engaged();
+            sample.engaged = engaged;
         },
         late as f32 / Selected::COUNTER_HZ as f32,
     );
     let decision = device.decision();
     // With samples from the link the clutches are somewhere else.
     let command = if device.attached().is_some() { device.safe_command() } else { decision.command };
-    coils.drive(command);
+    coils.drive(command, device.tests_coils());
     control.light.show(decision.phase, decision.fault.map(|fault| fault.code()), device.light_slot());
     #[cfg(feature = "log")]
     crate::log::decision(&before, decision);

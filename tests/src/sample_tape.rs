@@ -132,7 +132,11 @@ impl<'a> Player<'a> {
     pub fn tick_late(&mut self, sample: &Sample, lateness: f32) -> Decision {
         let engaged = self.clutches.pop_front().expect("never empty");
         let sample = Sample { engaged, ..*sample };
-        let decision = self.controller.tick(&mut self.state, &sample, Circumstances { lateness, requests: self.asked });
+        let decision = self.controller.tick(
+            &mut self.state,
+            &sample,
+            Circumstances { lateness, requests: self.asked, ..Circumstances::default() },
+        );
         self.clutches.push_back(decision.command);
         let estimate = &decision.estimate;
         let numbers =

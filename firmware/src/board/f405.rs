@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | [`clock`]: 168 MHz, and the counter | RCC, DWT |
 //! | [`sensors`]: two inertial sensors, the encoder | SPI1, SPI2, TIM4 |
-//! | [`coils`]: two coils and their currents | TIM8, PC8, PC9, ADC1 |
+//! | [`coils`]: two coils and their currents | TIM8 with its break input PA6, PC8, PC9, ADC1 |
 //! | [`mod@line`]: the link | USART1, streams 2 and 7 of DMA2 |
 //! | [`storage`]: the settings | sectors 1 and 2 of the flash |
 //! | [`supply`]: what happens when it sags | PWR, EXTI line 16, option bytes |
@@ -23,6 +23,7 @@ mod supply;
 
 use cortex_m::peripheral::DWT;
 use sprag_shared::device::coil::PeakHold;
+use sprag_shared::device::coil_test::CoilDesign;
 use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::settings::Settings;
 use sprag_shared::settings::wiring::Wiring;
@@ -68,12 +69,13 @@ impl Board for F405 {
         let a = device.GPIOA.split(&mut rcc);
         let b = device.GPIOB.split(&mut rcc);
         let c = device.GPIOC.split(&mut rcc);
-        let outputs = coils::Outputs { low: (c.pc6, c.pc7), high: (c.pc8, c.pc9) };
+        let outputs = coils::Outputs { low: (c.pc6, c.pc7), high: (c.pc8, c.pc9), trip: a.pa6 };
         let currents = coils::Currents::new(device.ADC1, &device.ADC_COMMON, (c.pc0, c.pc1), &mut rcc);
         let peak_hold = PeakHold::new(wiring.coil_pull_in_time, wiring.coil_hold_share, settings.period());
-        let coils = coils::begin(device.TIM8, outputs, currents, (peak_hold, wiring.coil_engaged_current), &mut rcc);
+        let design = CoilDesign { peak_hold, threshold: wiring.coil_engaged_current, full: wiring.coil_full_current };
+        let coils = coils::begin(device.TIM8, outputs, currents, design, &mut rcc);
         supply::watch(device.PWR, &device.EXTI, &mut rcc);
-        let block = sensors::block(device.SPI1, a.pa5, a.pa6, a.pa7, a.pa4, &mut rcc);
+        let block = sensors::block(device.SPI1, a.pa5, b.pb4, a.pa7, a.pa4, &mut rcc);
         let ground = sensors::ground(device.SPI2, b.pb13, b.pb14, b.pb15, b.pb12, &mut rcc);
         let encoder = sensors::encoder(device.TIM4, b.pb6, b.pb7, &mut rcc);
         let line = line::DmaLine::new(device.USART1, device.DMA2, (a.pa9, a.pa10), &mut rcc);

@@ -19,6 +19,7 @@ use super::{Board, Coils, Light, Parts, Sensors, Watchdog};
 use crate::last_words;
 use crate::memory::{self, Lasting};
 use cortex_m::peripheral::NVIC;
+use sprag_shared::control::monitor::coil::CoilReports;
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::link::reset_cause::Cause;
@@ -135,12 +136,12 @@ impl Sensors for Elsewhere {
 }
 
 impl Coils for Elsewhere {
-    fn engaged(&mut self) -> [bool; 2] {
+    fn read(&mut self) -> ([bool; 2], CoilReports) {
         let coils = COILS.load(Ordering::Relaxed);
-        [coils & 1 != 0, coils & 2 != 0]
+        ([coils & 1 != 0, coils & 2 != 0], CoilReports::default())
     }
 
-    fn drive(&mut self, command: [bool; 2]) {
+    fn drive(&mut self, command: [bool; 2], _tested: bool) {
         Qemu::force_coils(command);
     }
 }

@@ -12,6 +12,7 @@ use crate::control::law::minimum_dwell::{Gate, GateState};
 use crate::control::law::signs::Signs;
 use crate::control::law::turn_taking::TurnsState;
 use crate::control::law::{DRIFT_TIME, Law, Situation, Wish};
+use crate::control::monitor::coil::CoilReports;
 use crate::control::monitor::fault::Fault;
 use crate::control::sensing::calibration::Calibration;
 use crate::control::sensing::instruments::{Instruments, InstrumentsState};
@@ -88,6 +89,8 @@ pub struct Circumstances {
     pub lateness: f32,
     /// What an operator asks for.
     pub requests: Requests,
+    /// What the coils' currents say.
+    pub coils: CoilReports,
 }
 
 /// What a tick comes to.
@@ -241,6 +244,7 @@ impl<L: Law> Controller<L> {
             estimate: (estimate.rotation, estimate.velocity),
             lateness: circumstances.lateness,
             requests: circumstances.requests,
+            coils: circumstances.coils,
         };
         let verdict = self.supervisor.step(&mut state.supervisor, &input);
         if verdict.just_calibrated {

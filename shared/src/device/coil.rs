@@ -5,6 +5,9 @@ use crate::control::ticks::ticks;
 /// Current per count of the converter, A: 3.3 V over 4096 counts, by an amplifier of 50 V/V on a shunt of 50 mΩ.
 pub const AMPERES_PER_COUNT: f32 = 3.3 / 4096.0 / (50.0 * 0.05);
 
+/// Current at and beyond which the converter shows nothing more, A: two counts below its last, for noise.
+pub const FULL_SCALE: f32 = 4093.0 * AMPERES_PER_COUNT;
+
 /// Share of the threshold below which a coil that was engaged no longer is.
 const RELEASE_SHARE: f32 = 0.7;
 

@@ -6,6 +6,7 @@
 
 mod answers;
 pub mod coil;
+pub mod coil_test;
 pub mod counter;
 pub mod inertial;
 pub mod light;
@@ -17,6 +18,7 @@ mod tests;
 pub use mailbox::Mailbox;
 
 use crate::control::controller::{Circumstances, Controller, ControllerState, Decision};
+use crate::control::monitor::coil::CoilReports;
 use crate::control::sensing::sample::Sample;
 use crate::control::supervisor::Phase;
 use crate::control::ticks::ticks;
@@ -94,6 +96,7 @@ pub struct Device {
     stream: u16,
     until_report: u16,
     clear: bool,
+    coils: CoilReports,
     worst_cost: u32,
     worst_lateness: u32,
 }
@@ -124,6 +127,7 @@ impl Device {
             stream: 0,
             until_report: 0,
             clear: false,
+            coils: CoilReports::default(),
             worst_cost: 0,
             worst_lateness: 0,
         }
@@ -169,6 +173,16 @@ impl Device {
         self.controller.supervisor.safe()
     }
 
+    /// What the coils' currents said, before the tick that shall know it. Nobody asks while samples come from the link.
+    pub fn note_coils(&mut self, reports: CoilReports) {
+        self.coils = reports;
+    }
+
+    /// Each pulse shall try the switches of its coil, one by one.
+    pub fn tests_coils(&self) -> bool {
+        self.attached.is_none() && self.state.supervisor().tests_coils()
+    }
+
     /// One tick, `lateness` (s, 0 in time) after its time. `read` fills in what the board's own sensors say; it is not asked while samples
     /// come from the link.
     #[inline]
@@ -177,6 +191,7 @@ impl Device {
         let told = match self.attached {
             None => {
                 read(&mut self.sample);
+                circumstances.coils = self.coils;
                 None
             }
             Some(Pace::Timer) => self.mailbox.newest(),

@@ -104,7 +104,8 @@ pub struct TickSample {
 impl TickSample {
     /// What the controller is told beside the sample.
     pub fn circumstances(&self) -> Circumstances {
-        Circumstances { lateness: self.lateness, requests: crate::control::supervisor::Requests { clear: self.clear } }
+        let requests = crate::control::supervisor::Requests { clear: self.clear };
+        Circumstances { lateness: self.lateness, requests, ..Circumstances::default() }
     }
 }
 

@@ -196,6 +196,7 @@ parameters! {
     CoilPullInTime "board.coil_pull_in_time" span(1.0, 0.02).only(Use::Board);
     CoilHoldShare "board.coil_hold_share" real("", 0.05, 1.0, 0.35).only(Use::Board);
     CoilEngagedCurrent "board.coil_engaged_current" real("A", 0.0, 20.0, 0.2).only(Use::Board);
+    CoilFullCurrent "board.coil_full_current" real("A", 0.0, 20.0, 1.2).only(Use::Board);
     BlockGyroscopeAxis "board.block_gyroscope_axis" axis(2);
     BlockAlongAxis "board.block_along_axis" axis(0);
     BlockUpAxis "board.block_up_axis" axis(4);

@@ -43,6 +43,8 @@ pub struct Wiring {
     pub coil_hold_share: f32,
     /// Current from which a clutch counts as engaged, A; 0 to 20.
     pub coil_engaged_current: f32,
+    /// Supply over resistance, A; 0 to 20, 0 where it is not known.
+    pub coil_full_current: f32,
     /// Of the block's gyroscope: about it θ is positive.
     pub block_gyroscope: Axis,
     /// Of the block's accelerometer, horizontal and vertical at rest.
@@ -79,6 +81,7 @@ impl Wiring {
             coil_pull_in_time: settings.real(Item::CoilPullInTime),
             coil_hold_share: settings.real(Item::CoilHoldShare),
             coil_engaged_current: settings.real(Item::CoilEngagedCurrent),
+            coil_full_current: settings.real(Item::CoilFullCurrent),
             block_gyroscope: axis(Item::BlockGyroscopeAxis),
             block: [axis(Item::BlockAlongAxis), axis(Item::BlockUpAxis)],
             ground: [axis(Item::GroundAlongAxis), axis(Item::GroundUpAxis)],

@@ -3,14 +3,17 @@
 //! With the high side on, the current goes round through the upper diode while the low side is off, and decays slowly: 20 kHz hold it
 //! nearly constant. With both off it flows back into the supply through both diodes and dies in a few milliseconds.
 //!
-//! The feedback is the current. It proves that the coil is whole and driven, not that the clutch has closed.
+//! The feedback is the current. It proves that the coil is whole and driven, not that the clutch has closed. Comparators on both shunts that
+//! pull the timer's break input low switch the low sides off by hardware, whatever the program does, until the next self-test.
 
 mod currents;
 
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
-use sprag_shared::device::coil::{Feedback, PeakHold, PeakHoldState, compare};
-use stm32f4xx_hal::gpio::{Output, Pin, PinState};
+use sprag_shared::control::monitor::coil::CoilReports;
+use sprag_shared::device::coil::{FULL_SCALE, compare};
+use sprag_shared::device::coil_test::{Coil, CoilDesign, Switches as Wanted};
+use stm32f4xx_hal::gpio::{Alternate, Output, Pin, PinState, Pull};
 use stm32f4xx_hal::pac;
 use stm32f4xx_hal::rcc::Rcc;
 use stm32f4xx_hal::time::Hertz;
@@ -33,6 +36,8 @@ pub struct Outputs {
     pub low: (Pin<'C', 6>, Pin<'C', 7>),
     /// High sides.
     pub high: (Pin<'C', 8>, Pin<'C', 9>),
+    /// The timer's break input, low while a coil takes too much.
+    pub trip: Pin<'A', 6>,
 }
 
 /// The switches of a coil.
@@ -51,30 +56,31 @@ pub type BoardCoils = DrivenCoils<FirstSwitches, SecondSwitches>;
 
 /// Two coils, driven and watched.
 pub struct DrivenCoils<A, B> {
-    coils: (A, B),
-    states: [PeakHoldState; 2],
-    feedback: [Feedback; 2],
+    switches: (A, B),
+    coils: [Coil; 2],
     currents: Currents,
-    peak_hold: PeakHold,
-    threshold: f32,
+    design: CoilDesign,
+    tested: bool,
 }
 
 /// What drives a coil.
 pub trait Drive {
-    /// With a duty of 0 to 1, where 0 takes the current away as fast as can be.
-    fn drive(&mut self, duty: f32);
+    /// Both off takes the current away as fast as can be.
+    fn drive(&mut self, wanted: Wanted);
 }
 
 impl<L: SetDutyCycle, H: OutputPin> Drive for Switches<L, H> {
-    fn drive(&mut self, duty: f32) {
+    fn drive(&mut self, wanted: Wanted) {
         // The pins of a chip do not fail, and others would show in the feedback.
-        let _ = if duty > 0.0 { self.high.set_high() } else { self.high.set_low() };
-        let _ = self.low.set_duty_cycle(compare(duty, self.low.max_duty_cycle()));
+        let _ = if wanted.high { self.high.set_high() } else { self.high.set_low() };
+        let _ = self.low.set_duty_cycle(compare(wanted.low, self.low.max_duty_cycle()));
     }
 }
 
-/// Released, with how to drive them and from which current, A, on they count as engaged.
-pub fn begin(timer: pac::TIM8, outputs: Outputs, currents: Currents, how: (PeakHold, f32), rcc: &mut Rcc) -> BoardCoils {
+/// Released.
+pub fn begin(timer: pac::TIM8, outputs: Outputs, currents: Currents, design: CoilDesign, rcc: &mut Rcc) -> BoardCoils {
+    // Pulled up, so that a board without comparators is never stopped by them.
+    let _: Pin<'A', 6, Alternate<3>> = outputs.trip.into_alternate::<3>().internal_resistor(Pull::Up);
     let (_, (first, second, ..)) = timer.pwm_hz(MODULATION, rcc);
     let (mut first, mut second) = (first.with(outputs.low.0), second.with(outputs.low.1));
     first.set_duty(0);
@@ -82,35 +88,66 @@ pub fn begin(timer: pac::TIM8, outputs: Outputs, currents: Currents, how: (PeakH
     first.enable();
     second.enable();
     let high = outputs.high;
-    let coils = (
+    enable_break();
+    let switches = (
         Switches { low: first, high: high.0.into_push_pull_output_in_state(PinState::Low) },
         Switches { low: second, high: high.1.into_push_pull_output_in_state(PinState::Low) },
     );
-    let (peak_hold, threshold) = how;
-    DrivenCoils { coils, states: Default::default(), feedback: Default::default(), currents, peak_hold, threshold }
+    DrivenCoils { switches, coils: Default::default(), currents, design, tested: false }
+}
+
+fn timer() -> &'static pac::tim8::RegisterBlock {
+    // SAFETY: the block lies at this address for ever; this module alone writes it once the channels are running, and `force`
+    // interrupts it for good.
+    unsafe { &*pac::TIM8::ptr() }
+}
+
+/// Switches the outputs on, to be switched off for good by a low break input (RM0090, 17.3.12): to their idle level, which is low.
+fn enable_break() {
+    timer().sr().write(|w| w.bif().clear_bit());
+    timer()
+        .bdtr()
+        .write(|w| w.bke().set_bit().bkp().clear_bit().aoe().clear_bit().ossi().set_bit().ossr().set_bit().moe().set_bit());
+}
+
+/// The break input has switched the low sides off.
+fn tripped() -> bool {
+    timer().sr().read().bif().bit_is_set()
 }
 
 impl<A: Drive, B: Drive> Coils for DrivenCoils<A, B> {
-    fn engaged(&mut self) -> [bool; 2] {
-        let [first, second] = self.currents.read();
-        let [of_first, of_second] = &mut self.feedback;
-        [of_first.engaged(first, self.threshold), of_second.engaged(second, self.threshold)]
+    fn read(&mut self) -> ([bool; 2], CoilReports) {
+        // The comparators do not say which of them it was.
+        let [first, second] = if tripped() { [FULL_SCALE; 2] } else { self.currents.read() };
+        let [of_first, of_second] = &mut self.coils;
+        let ((first, says_first), (second, says_second)) =
+            (of_first.see(&self.design, first), of_second.see(&self.design, second));
+        ([first, second], [says_first, says_second])
     }
 
-    fn drive(&mut self, command: [bool; 2]) {
-        let [first, second] = if supply::low() { crate::control::safe_state() } else { command };
-        let [of_first, of_second] = &mut self.states;
-        self.coils.0.drive(self.peak_hold.step(of_first, first));
-        self.coils.1.drive(self.peak_hold.step(of_second, second));
+    fn drive(&mut self, command: [bool; 2], tested: bool) {
+        if tested && !self.tested {
+            enable_break();
+        }
+        self.tested = tested;
+        let low = supply::low();
+        let [first, second] = if low { crate::control::safe_state() } else { command };
+        let [of_first, of_second] = &mut self.coils;
+        self.switches.0.drive(of_first.drive(&self.design, first, tested));
+        self.switches.1.drive(of_second.drive(&self.design, second, tested));
+        if !low && supply::low() {
+            // It began to fall while this was written, and its interrupt has been overwritten.
+            force(crate::control::safe_state());
+        }
     }
 }
 
 /// Engages with the full voltage or releases, by nothing but registers. Where [`begin`] has not run, their clocks are off and nothing
 /// happens: the coils are released then, by resistors.
 pub fn force(engaged: [bool; 2]) {
-    // SAFETY: the blocks lie at these addresses for ever, and each register is written whole: whoever is interrupted by this finds
-    // his own write done or undone.
-    let (timer, port) = unsafe { (&*pac::TIM8::ptr(), &*pac::GPIOC::ptr()) };
+    // SAFETY: the block lies at this address for ever, and each register is written whole: whoever is interrupted by this finds his own
+    // write done or undone.
+    let (timer, port) = (timer(), unsafe { &*pac::GPIOC::ptr() });
     for (index, engaged) in engaged.into_iter().enumerate() {
         let reset = if engaged { 0 } else { 16 };
         // SAFETY: BSRR has no reserved bits.

@@ -10,7 +10,7 @@ use sprag_shared::control::sensing::sample::{Reading, Sample};
 use sprag_shared::device::counter::Extended;
 use sprag_shared::device::inertial::{accelerations, rates};
 use sprag_shared::settings::wiring::Wiring;
-use stm32f4xx_hal::gpio::{Output, Pin, PinState, Pull, Speed};
+use stm32f4xx_hal::gpio::{Alternate, Output, Pin, PinState, Pull, Speed};
 use stm32f4xx_hal::pac;
 use stm32f4xx_hal::qei::Qei;
 use stm32f4xx_hal::rcc::Rcc;
@@ -45,7 +45,7 @@ pub type GroundDevice = Device<pac::SPI2, 'B', 12>;
 pub fn block(
     spi: pac::SPI1,
     clock: Pin<'A', 5>,
-    input: Pin<'A', 6>,
+    input: Pin<'B', 4, Alternate<0>>,
     output: Pin<'A', 7>,
     select: Pin<'A', 4>,
     rcc: &mut Rcc,

@@ -54,6 +54,14 @@ pub enum Fault {
     BothClutches,
     /// It did not follow its test pulse.
     SelfTestFailed(Wheel),
+    /// Its coil takes more current than a whole one.
+    OverCurrent(Wheel),
+    /// Its coil's high-side switch conducts though it is off.
+    HighSideClosed(Wheel),
+    /// Its coil's low-side switch conducts though it is off.
+    LowSideClosed(Wheel),
+    /// Its coil's current is not what supply and resistance make it.
+    WrongCurrent(Wheel),
     /// Ticks come too late.
     Overrun,
     /// The estimate is NaN or infinite though the sensors are not.
@@ -109,7 +117,7 @@ macro_rules! codes {
             pub const ALL: [Fault; [$($code),*].len()] = [$(Fault::$fault $(($part::$which))?),*];
 
             /// A number for logs and telegrams, of two digits: the sensor (1 to 4) and what it did, 5x a clutch, 6x the controller itself,
-            /// 7x a warning. Numbers are never given anew.
+            /// 7x a warning, 8x a clutch's coil. Numbers are never given anew.
             pub fn code(self) -> u16 {
                 match self {
                     $(Fault::$fault $(($part::$which))? => $code,)*
@@ -155,10 +163,18 @@ codes! {
     55 BothClutches;
     56 SelfTestFailed(Wheel::First);
     57 SelfTestFailed(Wheel::Second);
+    58 OverCurrent(Wheel::First);
+    59 OverCurrent(Wheel::Second);
     61 Overrun;
     62 EstimateNotFinite;
     71 CalibrationAbandoned;
     72 SelfTestAbandoned;
+    81 HighSideClosed(Wheel::First);
+    82 HighSideClosed(Wheel::Second);
+    83 LowSideClosed(Wheel::First);
+    84 LowSideClosed(Wheel::Second);
+    85 WrongCurrent(Wheel::First);
+    86 WrongCurrent(Wheel::Second);
 }
 
 impl Fault {
@@ -174,6 +190,10 @@ impl Fault {
             | Fault::ClutchRefuses(_)
             | Fault::BothClutches
             | Fault::SelfTestFailed(_)
+            | Fault::OverCurrent(_)
+            | Fault::HighSideClosed(_)
+            | Fault::LowSideClosed(_)
+            | Fault::WrongCurrent(_)
             | Fault::Overrun
             | Fault::EstimateNotFinite
             | Fault::CalibrationAbandoned
@@ -186,7 +206,7 @@ impl Fault {
     /// | fault | recovery | because |
     /// | --- | --- | --- |
     /// | of a sensor | when good | good readings show it, and the new calibration tries bias and gravity afresh |
-    /// | of a clutch, failed self-test | on request | a part that may be broken shows nothing until it is used: somebody must look |
+    /// | of a clutch or its coil, failed self-test | on request | a part that may be broken shows nothing until it is used: somebody must look |
     /// | overrun, estimate not finite | on request | the program or its parameters are wrong, which time does not mend |
     /// | abandoned calibration or self-test | not needed | a warning only |
     pub fn recovery(self) -> Recovery {
@@ -195,6 +215,9 @@ impl Fault {
                 Recovery::WhenGood
             }
             Fault::ClutchEngagedUnbidden(_) | Fault::ClutchRefuses(_) | Fault::BothClutches | Fault::SelfTestFailed(_) => {
+                Recovery::OnRequest
+            }
+            Fault::OverCurrent(_) | Fault::HighSideClosed(_) | Fault::LowSideClosed(_) | Fault::WrongCurrent(_) => {
                 Recovery::OnRequest
             }
             Fault::Overrun | Fault::EstimateNotFinite => Recovery::OnRequest,
@@ -222,6 +245,12 @@ impl fmt::Display for Fault {
             Fault::BothClutches => write!(formatter, "both clutches engaged at once, which is not allowed"),
             Fault::SelfTestFailed(wheel) => {
                 write!(formatter, "{wheel} clutch: its feedback did not follow the self-test's pulse")
+            }
+            Fault::OverCurrent(wheel) => write!(formatter, "{wheel} clutch: its coil takes more current than a whole one"),
+            Fault::HighSideClosed(wheel) => write!(formatter, "{wheel} clutch: its coil's high-side switch conducts while off"),
+            Fault::LowSideClosed(wheel) => write!(formatter, "{wheel} clutch: its coil's low-side switch conducts while off"),
+            Fault::WrongCurrent(wheel) => {
+                write!(formatter, "{wheel} clutch: its coil's current is not what supply and resistance make it")
             }
             Fault::Overrun => write!(formatter, "controller: ticks come too late"),
             Fault::EstimateNotFinite => write!(formatter, "estimate: rotation or velocity is not a finite number"),
@@ -267,7 +296,7 @@ mod tests {
         for fault in Fault::ALL {
             let expected = match fault.code() {
                 ..50 => Recovery::WhenGood,
-                50..70 => Recovery::OnRequest,
+                50..70 | 80.. => Recovery::OnRequest,
                 _ => Recovery::NotNeeded,
             };
             assert_eq!(fault.recovery(), expected, "{fault}");

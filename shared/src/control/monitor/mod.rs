@@ -1,9 +1,10 @@
 //! Sensors that cannot be believed: which of them, and why.
 //!
-//! [`fault`]: the codes; [`actuator`]: clutches that do not follow. The room imports `structure`, `control::sensing` and `control::ticks`.
+//! [`fault`]: the codes; [`actuator`]: clutches that do not follow; [`coil`]: what their currents say. The room imports `structure`, `control::sensing` and `control::ticks`.
 
 pub mod actuator;
 mod agreement;
+pub mod coil;
 pub mod fault;
 mod parameters;
 mod rest;

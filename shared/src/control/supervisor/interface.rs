@@ -1,5 +1,6 @@
 //! What goes into a supervisor and comes out of it at every tick.
 
+use crate::control::monitor::coil::CoilReports;
 use crate::control::monitor::fault::Fault;
 use crate::control::sensing::calibration::Calibration;
 use crate::control::sensing::sample::Sample;
@@ -51,6 +52,8 @@ pub struct SupervisorInput<'a> {
     pub lateness: f32,
     /// What somebody asks for.
     pub requests: Requests,
+    /// What the coils' currents say.
+    pub coils: CoilReports,
 }
 
 /// What the supervisor says.

@@ -3,9 +3,10 @@
 use super::event_log::Kind;
 use super::{Phase, Supervisor, SupervisorInput, SupervisorState, log};
 use crate::control::monitor::Findings;
+use crate::control::monitor::coil::{CoilReport, trouble};
 use crate::control::monitor::fault::{Fault, Recovery};
 
-/// Sources of faults: four sensors, clutches, timing, estimate, the law.
+/// Sources of faults: four sensors, clutches and their coils, timing, estimate, the law.
 pub(super) const SOURCES: usize = 8;
 
 impl Supervisor {
@@ -18,12 +19,17 @@ impl Supervisor {
         findings: &Findings,
     ) -> (Option<Fault>, bool) {
         let deciding = matches!(state.phase, Phase::Armed | Phase::Rocking);
-        let clutch = self.actuator.step(&mut state.actuator, state.sent, input.sample.engaged).map(|fault| match fault {
+        // The feedback of a coil whose switches are being tried says nothing of its clutch.
+        let [first, second] = input.coils.map(|report| report == CoilReport::Testing);
+        let engaged = input.sample.engaged;
+        let engaged = [if first { state.sent[0] } else { engaged[0] }, if second { state.sent[1] } else { engaged[1] }];
+        let clutch = self.actuator.step(&mut state.actuator, state.sent, engaged).map(|fault| match fault {
             Fault::ClutchRefuses(wheel) | Fault::ClutchEngagedUnbidden(wheel) if state.phase == Phase::SelfTest => {
                 Fault::SelfTestFailed(wheel)
             }
             other => other,
         });
+        let clutch = trouble(&input.coils).or(clutch);
         // NaN is late, by any measure.
         let late = input.lateness.is_nan() || input.lateness > 0.0;
         let by_far = input.lateness.is_nan() || input.lateness > self.overrun_limit;

@@ -119,6 +119,11 @@ impl SupervisorState {
         (*self_test, *averaging) = (SelfTest::default(), Averaging::default());
     }
 
+    /// A board that measures its coils' currents shall try their switches one by one before it engages.
+    pub fn tests_coils(&self) -> bool {
+        self.phase == Phase::SelfTest
+    }
+
     /// What the last tick left.
     pub fn phase(&self) -> Phase {
         self.phase
@@ -275,7 +280,7 @@ impl Supervisor {
     #[inline(never)]
     fn test(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) {
         let still = state.motion.still(self.stillness);
-        if !self.self_test || state.self_test.step(state.sent, input.sample.engaged, still) {
+        if !self.self_test || state.self_test.step(state.sent, input.sample.engaged, input.coils, still) {
             state.tested = true;
             enter(state, input, Phase::Calibrate);
             return;

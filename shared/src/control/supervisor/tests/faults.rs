@@ -1,6 +1,7 @@
 //! Every class of fault, at rest, in mid-swing and at an impact: found in its time, and not before.
 
 use super::*;
+use crate::control::monitor::coil::{CoilReport, CoilTrouble};
 use crate::control::sensing::sample::Reading;
 
 type Spoil = fn(&mut Sample, &Sample);
@@ -196,6 +197,38 @@ fn a_self_test_that_fails() {
         let (_, fault) = Rig::new(&parameters()).found(1000, spoil).unwrap();
         assert_eq!(fault, Fault::SelfTestFailed(wheel));
     }
+}
+
+/// At the tick that reports it, whatever the feedback says and whatever the phase.
+#[test]
+fn what_a_coils_current_shows_is_a_fault_at_once() {
+    let cases = [
+        (CoilTrouble::OverCurrent, Fault::OverCurrent as fn(Wheel) -> Fault),
+        (CoilTrouble::HighSideClosed, Fault::HighSideClosed),
+        (CoilTrouble::LowSideClosed, Fault::LowSideClosed),
+        (CoilTrouble::WrongCurrent, Fault::WrongCurrent),
+    ];
+    for rig in [Rig::new(&noisy()), Rig::armed(&noisy()), Rig::rocking(&noisy()), Rig::impact(&noisy())] {
+        for (trouble, fault) in cases {
+            for wheel in Wheel::ALL {
+                let mut rig = rig.clone();
+                rig.run(100);
+                rig.coils[wheel as usize] = CoilReport::Trouble(trouble);
+                assert_eq!(rig.found(10, |_, _| {}), Some((1, fault(wheel))));
+            }
+        }
+    }
+}
+
+#[test]
+fn feedback_is_not_judged_while_switches_are_tried() {
+    let mut rig = Rig::new(&parameters());
+    rig.until(Phase::SelfTest, 100);
+    rig.coils[0] = CoilReport::Testing;
+    assert_eq!(rig.found(1000, |sample, _| sample.engaged[0] = false), None, "for as long as it takes");
+    assert_eq!(rig.state.phase(), Phase::SelfTest);
+    rig.coils[0] = CoilReport::Well;
+    rig.until(Phase::Armed, 8000);
 }
 
 #[test]

@@ -65,6 +65,7 @@ fn garbage_is_survived() {
                 estimate: if spoilt { (value(&mut random), value(&mut random)) } else { (0.0, 0.0) },
                 lateness: if spoilt { value(&mut random) } else { 0.0 },
                 requests: Requests { clear: bits & 16 == 0 },
+                coils: Default::default(),
             };
             let verdict = supervisor.step(&mut state, &input);
             assert!(verdict.command != [true; 2]);

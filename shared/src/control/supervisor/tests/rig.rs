@@ -1,6 +1,7 @@
 //! A block that rocks, its sensors and its clutches, roughly: what a supervisor sees, and what can go wrong with it.
 
 use super::super::*;
+use crate::control::monitor::coil::CoilReports;
 use crate::control::sensing::sample::{Count, Reading, Sample};
 use std::vec::Vec;
 
@@ -53,6 +54,7 @@ pub struct Rig {
     pub wish: [bool; 2],
     pub standing: bool,
     pub requests: Requests,
+    pub coils: CoilReports,
     pub lateness: f32,
     pub estimate_lost: bool,
     /// Ticks from command to feedback.
@@ -81,6 +83,7 @@ impl Rig {
             wish: [false; 2],
             standing: false,
             requests: Requests::default(),
+            coils: CoilReports::default(),
             lateness: 0.0,
             estimate_lost: false,
             delay: 20,
@@ -182,6 +185,7 @@ impl Rig {
             estimate: (self.rotation + lost, self.velocity),
             lateness: self.lateness,
             requests: self.requests,
+            coils: self.coils,
         };
         let verdict = self.supervisor.step(&mut self.state, &input);
         assert!(verdict.command != [true; 2] || self.supervisor.both_allowed || self.standing);
