@@ -9,6 +9,7 @@ mod figures;
 mod firmware;
 mod fuzz;
 mod graph;
+mod hardware;
 mod panic_check;
 mod process;
 mod program;
@@ -42,6 +43,7 @@ Tasks:
   accuracy  measure what accuracy costs in time, on the host, in the emulator and against SciPy, and write docs/accuracy.md with
             its tables and pictures; needs python3 with venv
   ticks     measure what a control tick of the firmware costs in the emulator, with and without logs, and write docs/ticks.csv
+  hardware  simulate the coil driver of docs/hardware in ngspice; fails when an assert of a circuit does
   figures [PROGRAM]
             print figures of the code: lines without tests, test executables, and of each program that is built (or of PROGRAM, an
             ELF file with symbols) the event loops and the bytes of code by room of the core
@@ -112,6 +114,7 @@ fn run(mut args: impl Iterator<Item = String>) -> Result<(), Stop> {
             tools::need_board_target(&root)?;
             ticks::run(&root)
         }
+        ["hardware"] => hardware::run(&root, &mut Steps::default()),
         ["figures"] => figures::run(&root, None),
         ["figures", program] => figures::run(&root, Some(program)),
         ["fuzz"] => fuzz::run(&root, None, seconds, Inputs::New),

@@ -83,6 +83,17 @@ pub fn output(command: &mut Command) -> Result<String, Stop> {
     String::from_utf8(output.stdout).map_err(|_| Stop::failed(format!("`{shown}` wrote something that is no text")))
 }
 
+/// Runs a command to its end, well or not, and gives what it wrote to its standard output.
+///
+/// # Errors
+/// If it cannot be started.
+pub fn captured(command: &mut Command) -> Result<String, Stop> {
+    let shown = shown(command);
+    let output = command.stdin(Stdio::null()).stderr(Stdio::null()).output();
+    let output = output.map_err(|error| Stop::usage(format!("{shown}: {error}")))?;
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
 /// Runs a `cargo build` and gives the paths of the executables that it names; where they lie depends on settings of the
 /// user.
 ///

@@ -3,7 +3,7 @@
 use crate::{
     firmware::{BOARD, Built, LINTED},
     fuzz::{self, Inputs},
-    panic_check,
+    hardware, panic_check,
     process::{cargo, cargo_in, host, run as done},
     size,
     steps::Steps,
@@ -54,6 +54,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
             &["clippy", "--package", "sprag-drivers", "--all-targets", "--target", &host, "--", "-D", "warnings"],
         ))
     })?;
+    hardware::run(root, &mut steps)?;
     steps.step("tests", || tests(root, &built))?;
     match fuzz_seconds {
         Some(seconds) => steps.step("fuzzing", || fuzz::run(root, None, seconds, Inputs::Same)),

@@ -33,6 +33,14 @@ pub fn need_emulator() -> Result<(), Stop> {
     need("qemu-system-arm", &["qemu-system-arm"])
 }
 
+/// Makes sure that the circuit simulator is installed.
+///
+/// # Errors
+/// If it is not and cannot be.
+pub fn need_circuit_simulator() -> Result<(), Stop> {
+    need("ngspice", &["ngspice"])
+}
+
 /// Makes sure that callgrind is installed.
 ///
 /// # Errors
