@@ -1,12 +1,13 @@
 //! Why the program stopped, kept over the reset that follows; and stopping itself: the coils first.
 
+use core::arch::global_asm;
 use core::panic::PanicInfo;
 
 use crate::board::{Board, Selected};
 use crate::control::safe_state;
 use crate::memory::Lasting;
+use crate::stack;
 use cortex_m::peripheral::SCB;
-use cortex_m_rt::{ExceptionFrame, exception};
 use sprag_shared::link::reset_cause::Cause;
 
 /// Bytes of a file's name that are kept.
@@ -21,7 +22,7 @@ pub struct LastWords {
     pub place: u32,
     /// How much of the name counts.
     pub length: u8,
-    /// End of the name of the file that panicked.
+    /// End of the name of the file that panicked; of a fault the registers CFSR, HFSR, BFAR and LR, eight digits each.
     pub file: [u8; NAME],
 }
 
@@ -51,6 +52,7 @@ pub fn take(chip: Cause) -> LastWords {
         3 => Cause::HardFault,
         4 => Cause::Watchdog,
         5 => Cause::BrownOut,
+        6 => Cause::ClockFailure,
         _ => return LastWords { cause: chip, place: 0, length: 0, file: [0; NAME] },
     };
     if !chip.keeps_memory() {
@@ -69,6 +71,7 @@ pub fn leave(cause: Cause, place: u32, file: &[u8]) -> ! {
         Cause::HardFault => 3,
         Cause::Watchdog => 4,
         Cause::BrownOut => 5,
+        Cause::ClockFailure => 6,
         Cause::PowerOn | Cause::Pin => 0,
     };
     let mut kept = [0; NAME];
@@ -94,7 +97,51 @@ fn panic(info: &PanicInfo<'_>) -> ! {
     leave(Cause::Panic, place, file.as_bytes())
 }
 
-#[exception]
-unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
-    leave(Cause::HardFault, frame.pc(), &[])
+/// Words of the stack on which faults are handled.
+const FAULT_STACK_WORDS: usize = 128;
+
+#[unsafe(link_section = ".uninit.FAULT_STACK")]
+static FAULT_STACK: Lasting<[u64; FAULT_STACK_WORDS / 2]> = Lasting::new();
+
+// A stack that has grown beyond the memory bears no handler, so the first thing is another one.
+global_asm!(
+    ".section .text.HardFault, \"ax\"",
+    ".global HardFault",
+    ".type HardFault, %function",
+    ".thumb_func",
+    "HardFault:",
+    "mrs r0, msp",
+    "ldr r1, ={stack}",
+    "add.w r1, r1, #{bytes}",
+    "mov sp, r1",
+    "b {handler}",
+    ".pool",
+    stack = sym FAULT_STACK,
+    bytes = const 4 * FAULT_STACK_WORDS,
+    handler = sym hard_fault,
+);
+
+/// What a fault stacks, if it can: r0 to r3, r12, LR, PC, xPSR.
+const FRAME_WORDS: usize = 8;
+
+/// The coils first, and nothing is read that may not be there: a fault in here would lock the processor up.
+extern "C" fn hard_fault(frame: *const u32) -> ! {
+    cortex_m::interrupt::disable();
+    Selected::force_coils(safe_state());
+    // SAFETY: the registers are always there, and read without effect; the frame lies within the stack's memory.
+    let (place, lr, registers) = unsafe {
+        let scb = &*SCB::PTR;
+        let (place, lr) =
+            if stack::holds(frame, FRAME_WORDS) { (frame.add(6).read_volatile(), frame.add(5).read_volatile()) } else { (0, 0) };
+        (place, lr, [scb.cfsr.read(), scb.hfsr.read(), scb.bfar.read()])
+    };
+    let [cfsr, hfsr, bfar] = registers;
+    let mut text = [0; NAME];
+    for (digits, word) in text.chunks_exact_mut(8).zip([cfsr, hfsr, bfar, lr]) {
+        for (place, digit) in digits.iter_mut().rev().enumerate() {
+            let value = (word >> (4 * place) & 0xF) as u8;
+            *digit = if value < 10 { b'0' + value } else { b'a' + value - 10 };
+        }
+    }
+    leave(Cause::HardFault, place, &text)
 }

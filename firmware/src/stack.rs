@@ -13,6 +13,13 @@ unsafe extern "C" {
     static _stack_start: u32;
 }
 
+/// Whether so many `words` from `place` on lie in the stack's memory.
+pub fn holds(place: *const u32, words: usize) -> bool {
+    let (end, start) = (&raw const _stack_end as usize, &raw const _stack_start as usize);
+    let place = place as usize;
+    place.is_multiple_of(4) && place >= end && place.checked_add(4 * words).is_some_and(|above| above <= start)
+}
+
 /// Paints what is not used yet.
 pub fn paint() {
     let mut place = (&raw const _stack_end).cast_mut();

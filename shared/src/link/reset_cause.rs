@@ -21,6 +21,8 @@ pub enum Cause {
     Panic,
     /// The processor met something that it cannot carry out.
     HardFault,
+    /// The processor's clock stopped.
+    ClockFailure,
 }
 
 impl Cause {

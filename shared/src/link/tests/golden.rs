@@ -4,6 +4,7 @@ use super::framed;
 use super::message_maker::{CAUSES, REPLIES, REQUESTS, Source, WISHES, reply, request};
 use crate::control::monitor::fault::Fault;
 use crate::control::supervisor::Phase;
+use crate::link::reset_cause::Cause;
 use crate::link::*;
 use crate::math::sign::Sign;
 use serde::Serialize;
@@ -82,6 +83,7 @@ fn choices_within_messages_are_what_they_were() {
     let numbers = |place: usize| format!("{place:02x}");
     assert_eq!(Phase::ALL.map(|phase| contents(&phase)), core::array::from_fn(numbers));
     assert_eq!(CAUSES.map(|cause| contents(&cause)), core::array::from_fn(numbers));
+    assert_eq!(contents(&Cause::ClockFailure), "07");
     assert_eq!(WISHES.map(|wish| contents(&wish)), core::array::from_fn(numbers));
     assert_eq!([Sign::Positive, Sign::Negative].map(|sign| contents(&sign)), ["00", "01"]);
     for fault in Fault::ALL {
