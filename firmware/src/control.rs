@@ -1,6 +1,6 @@
 //! The control task: one tick, in time or noticed to be late.
 
-use core::sync::atomic::{AtomicU8, Ordering};
+use core::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 
 use crate::board::{Board, Coils, Light, Selected, Sensors, Watchdog};
 use crate::link::Outbox;
@@ -17,6 +17,9 @@ const SILENCE_PERIODS: u32 = 2000;
 /// What the coils do when the program stops: bit 0 the first, bit 1 the second.
 static SAFE_STATE: AtomicU8 = AtomicU8::new(0);
 
+/// The next tick comes after a pause that was meant: it is not late.
+static PAUSED: AtomicBool = AtomicBool::new(false);
+
 /// What is added to the next tick in a rehearsal, counts.
 #[cfg(feature = "board-qemu")]
 pub static DAWDLE: core::sync::atomic::AtomicU32 = core::sync::atomic::AtomicU32::new(0);
@@ -32,12 +35,18 @@ pub fn safe_state() -> [bool; 2] {
     [bits & 1 != 0, bits & 2 != 0]
 }
 
+/// Makes the next tick not late, whenever it comes.
+pub fn forget_time() {
+    PAUSED.store(true, Ordering::Relaxed);
+}
+
 /// What the control task owns.
 pub struct Control {
     sensors: <Selected as Board>::Sensors,
     coils: <Selected as Board>::Coils,
     watchdog: <Selected as Board>::Watchdog,
     light: <Selected as Board>::Light,
+    keeper: memory::Keeper,
     last: Option<u32>,
     silence: u32,
 }
@@ -50,7 +59,7 @@ impl Control {
         watchdog: <Selected as Board>::Watchdog,
         light: <Selected as Board>::Light,
     ) -> Control {
-        Control { sensors, coils, watchdog, light, last: None, silence: 0 }
+        Control { sensors, coils, watchdog, light, keeper: memory::Keeper::new(), last: None, silence: 0 }
     }
 }
 
@@ -71,6 +80,10 @@ pub fn control_tick(control: &mut Control, device: &mut Device, outbox: &mut Out
         }
     } else if timer {
         let begun = Selected::now();
+        if PAUSED.load(Ordering::Relaxed) {
+            PAUSED.store(false, Ordering::Relaxed);
+            control.last = None;
+        }
         let period = device.period_counts(Selected::COUNTER_HZ);
         let late = control.last.map_or(0, |last| begun.wrapping_sub(last).saturating_sub(period));
         let late = if late > period / GRACE { late } else { 0 };
@@ -104,7 +117,7 @@ fn tick(control: &mut Control, device: &mut Device, outbox: &mut Outbox, late: u
     control.light.show(decision.phase, decision.fault.map(|fault| fault.code()), device.light_slot());
     #[cfg(feature = "log")]
     crate::log::decision(&before, decision);
-    memory::save(&device.retained());
+    control.keeper.save(&device.retained());
     #[cfg(feature = "deliberate-panic")]
     deliberate_panic(device);
     #[cfg(feature = "board-qemu")]

@@ -2,7 +2,7 @@
 
 use core::cell::UnsafeCell;
 use core::mem::MaybeUninit;
-use sprag_shared::device::retained::{RETAINED_WORDS, Retained};
+use sprag_shared::device::retained::{RETAINED_WORDS, Retained, latest};
 
 /// A place that start-up code leaves alone.
 #[repr(transparent)]
@@ -26,6 +26,12 @@ impl<T: Copy> Lasting<T> {
         unsafe { self.0.get().cast::<T>().read_volatile() }
     }
 
+    /// Where it is.
+    #[cfg(feature = "board-f405")]
+    pub const fn address(&self) -> *mut T {
+        self.0.get().cast()
+    }
+
     /// Replaces it.
     pub fn write(&self, value: T) {
         // SAFETY: the place is aligned and always there, and nobody else uses it meanwhile; see `Sync`.
@@ -34,21 +40,49 @@ impl<T: Copy> Lasting<T> {
 }
 
 #[unsafe(link_section = ".uninit.KEPT")]
-static KEPT: Lasting<[u32; RETAINED_WORDS]> = Lasting::new();
+static KEPT: [Lasting<[u32; RETAINED_WORDS]>; 2] = [const { Lasting::new() }; 2];
+
+fn copies() -> [[u32; RETAINED_WORDS]; 2] {
+    // SAFETY: words hold any bits.
+    KEPT.each_ref().map(|copy| unsafe { copy.read() })
+}
 
 /// What was kept over the reset, if it has survived.
 pub fn load() -> Option<Retained> {
-    // SAFETY: words hold any bits.
-    Retained::of(&unsafe { KEPT.read() })
+    let copies = copies();
+    Retained::of(copies.get(latest(&copies)?.0)?)
 }
 
-/// Keeps `kept` for after a reset.
-pub fn save(kept: &Retained) {
-    KEPT.write(kept.words());
+/// Keeps what shall be there after a reset.
+pub struct Keeper {
+    last: Option<Retained>,
+    turn: u8,
+}
+
+impl Keeper {
+    /// That leaves the latest of what was kept before for as long as it has written nothing whole.
+    pub fn new() -> Keeper {
+        // Which copy a turn is written to follows from its number.
+        Keeper { last: None, turn: latest(&copies()).map_or(0, |(_, turn)| turn) }
+    }
+
+    /// Keeps `kept`, unless it is kept already.
+    pub fn save(&mut self, kept: &Retained) {
+        if self.last.as_ref() == Some(kept) {
+            return;
+        }
+        self.turn = self.turn.wrapping_add(1);
+        if let Some(copy) = KEPT.get(usize::from(self.turn % 2)) {
+            copy.write(kept.words(self.turn));
+        }
+        self.last = Some(*kept);
+    }
 }
 
 /// Forgets what was kept.
 #[cfg(feature = "board-qemu")]
 pub fn forget() {
-    KEPT.write([0; RETAINED_WORDS]);
+    for copy in &KEPT {
+        copy.write([0; RETAINED_WORDS]);
+    }
 }

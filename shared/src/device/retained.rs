@@ -1,4 +1,5 @@
-//! What a device keeps over a reset, so that it goes on where it was in the middle of an earthquake.
+//! What a device keeps over a reset, so that it goes on where it was in the middle of an earthquake: two copies, written in turn, because
+//! a reset may come in the middle of a word.
 
 use crate::control::sensing::calibration::Calibration;
 use crate::link::Pace;
@@ -28,15 +29,15 @@ pub struct Retained {
 }
 
 impl Retained {
-    /// As words that show whether they have survived.
-    pub fn words(&self) -> [u32; RETAINED_WORDS] {
+    /// As words that show whether they have survived, and which `turn` of writing they are from.
+    pub fn words(&self, turn: u8) -> [u32; RETAINED_WORDS] {
         let Calibration { gyroscope, block, ground, encoder_zero } = self.calibration;
         let attached = match self.attached {
             None => 0,
             Some(Pace::Timer) => 1,
             Some(Pace::Sample) => 2,
         };
-        let flags = u32::from(self.restarts) | attached << 8 | u32::from(self.deciding) << 16;
+        let flags = u32::from(self.restarts) | attached << 8 | u32::from(self.deciding) << 16 | u32::from(turn) << 24;
         let [block_along, block_up] = block.map(f32::to_bits);
         let [ground_along, ground_up] = ground.map(f32::to_bits);
         let [first, second] = self.spins.map(f32::to_bits);
@@ -94,14 +95,33 @@ impl Retained {
             },
             spins: [first, second].map(f32::from_bits),
             counts: counts as i32,
-            deciding: flags >> 16 != 0,
+            deciding: flags >> 16 & 0xFF != 0,
             attached,
             restarts: flags as u8,
         })
     }
 }
 
-/// Of all words but the last. It is taken at every tick, and no CRC is as quick.
+/// The turn in which words were written.
+fn turn(words: &[u32; RETAINED_WORDS]) -> u8 {
+    let &[.., flags, _, _] = words;
+    (flags >> 24) as u8
+}
+
+/// Which of two copies, 0 or 1, has survived, the later one where both have; and the turn in which it was written.
+pub fn latest(copies: &[[u32; RETAINED_WORDS]; 2]) -> Option<(usize, u8)> {
+    let [first, second] = copies;
+    let good = copies.each_ref().map(|words| Retained::of(words).is_some());
+    match good {
+        // Turns wrap, and two copies are never more than one apart.
+        [true, true] if turn(first).wrapping_sub(turn(second)) < 128 => Some((0, turn(first))),
+        [true, false] => Some((0, turn(first))),
+        [_, true] => Some((1, turn(second))),
+        [false, false] => None,
+    }
+}
+
+/// Of all words but the last. It is taken at every tick of a motion, and no CRC is as quick.
 fn check(words: &[u32; RETAINED_WORDS]) -> u32 {
     words.iter().take(RETAINED_WORDS - 1).fold(FOLD_BASIS, |digest, word| fold(digest, *word))
 }
@@ -126,14 +146,34 @@ mod tests {
         for attached in [None, Some(Pace::Timer), Some(Pace::Sample)] {
             for deciding in [false, true] {
                 let kept = Retained { attached, deciding, ..retained() };
-                assert_eq!(Retained::of(&kept.words()), Some(kept));
+                assert_eq!(Retained::of(&kept.words(200)), Some(kept));
             }
+        }
+    }
+
+    /// Cut off after any word, one copy is there still, and it is the latest whole one.
+    #[test]
+    fn a_reset_in_the_middle_of_writing_leaves_a_copy() {
+        let mut copies = [[0; RETAINED_WORDS]; 2];
+        assert_eq!(latest(&copies), None);
+        let now = |counts| Retained { counts, ..retained() };
+        for counts in 0..1000_i32 {
+            let turn = counts as u8;
+            let words = now(counts).words(turn);
+            for cut in 0..RETAINED_WORDS {
+                let mut torn = copies;
+                torn[usize::from(turn % 2)][..cut].copy_from_slice(&words[..cut]);
+                let found = latest(&torn).and_then(|(which, _)| Retained::of(&torn[which]));
+                assert_eq!(found, counts.checked_sub(1).filter(|before| *before >= 0).map(now), "cut after {cut} words");
+            }
+            copies[usize::from(turn % 2)] = words;
+            assert_eq!(latest(&copies), Some((usize::from(turn % 2), turn)));
         }
     }
 
     #[test]
     fn a_changed_bit_is_noticed() {
-        let words = retained().words();
+        let words = retained().words(7);
         for bit in 0..RETAINED_WORDS * 32 {
             let mut changed = words;
             changed[bit / 32] ^= 1 << (bit % 32);

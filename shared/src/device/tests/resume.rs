@@ -6,7 +6,7 @@ use crate::control::sensing::sensor::Sensor;
 
 /// What happens to a device at a reset: its memory but for what it keeps is gone, and the encoder goes on from the count that was kept.
 fn reset(bench: &Bench) -> Bench {
-    let kept = Retained::of(&bench.device.retained().words()).unwrap();
+    let kept = Retained::of(&bench.device.retained().words(0)).unwrap();
     Bench { rig: bench.rig.clone(), ..Bench::with(bench.device.settings(), Some(&kept)) }
 }
 
