@@ -23,7 +23,12 @@ use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::settings::Settings;
-use stm32f4xx_hal::pac;
+
+/// The register library of the selected board's chip.
+#[cfg(feature = "board-f405")]
+pub use f405::chip;
+#[cfg(feature = "board-qemu")]
+pub use qemu::chip;
 
 /// The flash of the selected board.
 pub type Flash = <Selected as Board>::Flash;
@@ -39,6 +44,8 @@ pub trait Board: Sized {
     /// Rate of the processor's clock, by which its SysTick counts, 1/s.
     const CORE_HZ: u32;
 
+    /// Every peripheral of the chip, as its register library hands them out.
+    type Chip;
     /// Sensors.
     type Sensors: Sensors;
     /// Clutch coils.
@@ -52,14 +59,19 @@ pub trait Board: Sized {
     /// Status light.
     type Light: Light;
 
-    /// Why the chip was reset, and clears the chip's memory of it. To be called once, before [`Board::begin`].
-    fn cause(device: &mut pac::Peripherals) -> Cause;
+    /// Reads why the chip was reset, clears the chip's memory of it, and starts the clocks.
+    fn wake(core: cortex_m::Peripherals, chip: Self::Chip) -> (Self, Cause);
 
-    /// The flash that holds the settings. Erasing stalls the processor for up to a second, so this comes before the watchdog runs.
-    fn flash(device: &mut pac::Peripherals) -> Self::Flash;
+    /// The flash that holds the settings. To be called once.
+    fn flash(&mut self) -> Self::Flash;
 
-    /// Starts clocks, sensors, coils (released), link and counter. The watchdog is running when this returns.
-    fn begin(core: cortex_m::Peripherals, device: pac::Peripherals, settings: &Settings) -> Parts<Self>;
+    /// Starts sensors, coils (released) and link. The encoder goes on from `counts`, as they were last read before a reset, and counts
+    /// what the rack has moved since, if the board can; without them it starts at 0. The watchdog is running when this returns.
+    fn begin(self, settings: &Settings, counts: Option<i32>) -> Parts<Self>;
+
+    /// Does `work` for which the processor may stall for seconds, with the control task held off: the watchdog waits, the coils stay as
+    /// they are.
+    fn stall<T>(work: impl FnOnce() -> T) -> T;
 
     /// A counter that never stops and wraps at 2³².
     fn now() -> u32;
@@ -92,9 +104,6 @@ pub trait Sensors {
     /// does not answer keeps its number, and the supervisor notices. Takes a bounded time, a small part of a control period. Leaves
     /// `sample.engaged` alone.
     fn read(&mut self, sample: &mut Sample);
-
-    /// Makes the encoder go on from `counts`: a reset has set it to 0 while the rack was somewhere else.
-    fn set_count(&mut self, counts: i32);
 }
 
 /// The coils of the two clutches.

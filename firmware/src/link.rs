@@ -94,6 +94,11 @@ impl Link {
         }
     }
 
+    /// Writes the settings where a power cut has left one copy of them only.
+    pub fn mend(&mut self) {
+        self.store.mend();
+    }
+
     /// Whether the processor may sleep until the next interrupt: bytes that come raise none, and where they make the ticks each counts.
     pub fn may_sleep(&self) -> bool {
         self.pace != Some(Pace::Sample)

@@ -15,9 +15,9 @@ mod memory;
 mod stack;
 mod tick;
 
-#[rtic::app(device = stm32f4xx_hal::pac)]
+#[rtic::app(device = crate::board::chip)]
 mod app {
-    use crate::board::{Board as _, Flash, Selected, Sensors as _};
+    use crate::board::{Board as _, Flash, Selected};
     use crate::control::Control;
     use crate::link::{Link, Outbox};
     use crate::log::info;
@@ -27,7 +27,7 @@ mod app {
     use sprag_shared::device::retained::Retained;
     use sprag_shared::device::{Answer, Device};
     use sprag_shared::settings::Settings;
-    use sprag_shared::settings::store::Store;
+    use sprag_shared::settings::store::{Store, StoreError};
 
     #[shared]
     struct Shared {
@@ -43,19 +43,16 @@ mod app {
 
     #[init(local = [device: MaybeUninit<Device> = MaybeUninit::uninit(), store: MaybeUninit<Store<Flash>> = MaybeUninit::uninit()])]
     fn init(context: init::Context) -> (Shared, Local) {
+        let (mut board, cause) = Selected::wake(context.core, context.device);
         stack::paint();
-        let mut peripherals = context.device;
-        let chip = Selected::cause(&mut peripherals);
-        let words = last_words::take(chip);
-        let (store, settings) = Store::open(Selected::flash(&mut peripherals));
+        let words = last_words::take(cause);
+        let (store, settings) = Store::open(board.flash());
         let store = context.local.store.write(store);
         let kept = if words.cause.keeps_memory() { memory::load() } else { None };
         let (device, stored) = start(context.local.device, settings.as_ref(), kept.as_ref());
         crate::control::set_safe_state(device.safe_command());
-        let mut parts = Selected::begin(context.core, peripherals, device.settings());
-        if let Some(kept) = kept.filter(|_| device.resumes()) {
-            parts.sensors.set_count(kept.counts);
-        }
+        let counts = kept.filter(|_| device.resumes()).map(|kept| kept.counts);
+        let parts = board.begin(device.settings(), counts);
         tick::set_period(device.period_counts(Selected::CORE_HZ));
         info!("started: {}, resumes {}, settings stored {}", words.cause, device.resumes(), stored);
         let link = Link::new(parts.line, store, words, device, stored);
@@ -102,6 +99,7 @@ mod app {
 
     #[idle(local = [link], shared = [device, outbox])]
     fn idle(mut context: idle::Context<'_>) -> ! {
+        context.local.link.mend();
         loop {
             let report = if context.local.link.has_room() { context.shared.outbox.lock(Outbox::take) } else { None };
             let moved = context.local.link.pump(report, |request, store, around| {
@@ -109,7 +107,15 @@ mod app {
                 let answer = context.shared.device.lock(|device| device.answer(request, around));
                 let stored = (answer == Answer::Store).then(|| {
                     let draft = context.shared.device.lock(|device| *device.draft());
-                    store.store(&draft)
+                    match store.store(&draft) {
+                        // Nothing moves, and the controller begins anew with other settings: the time for what takes a second.
+                        Err(StoreError::Full) => context.shared.device.lock(|_| {
+                            let stored = Selected::stall(|| store.store_erasing(&draft));
+                            crate::control::forget_time();
+                            stored
+                        }),
+                        stored => stored,
+                    }
                 });
                 context.shared.device.lock(|device| {
                     let answer = stored.map_or(answer, |result| device.stored(result));

@@ -2,8 +2,9 @@
 //!
 //! | part | peripherals |
 //! | --- | --- |
-//! | [`clock`]: 168 MHz, and the counter | RCC, DWT |
-//! | [`sensors`]: two inertial sensors, the encoder | SPI1, SPI2, TIM4 |
+//! | [`clock`]: 168 MHz, and the counter of time | RCC, TIM5 |
+//! | [`encoder`]: its counter, which goes on over a reset | TIM4, TIM3, stream 2 of DMA1 |
+//! | [`sensors`]: two inertial sensors | SPI1, SPI2 |
 //! | [`coils`]: two coils and their currents | TIM8 with its break input PA6, PC8, PC9, ADC1 |
 //! | [`mod@line`]: the link | USART1, streams 2 and 7 of DMA2 |
 //! | [`storage`]: the settings | sectors 1 and 2 of the flash |
@@ -14,6 +15,7 @@
 
 mod clock;
 mod coils;
+mod encoder;
 mod light;
 mod line;
 mod reset;
@@ -21,7 +23,6 @@ mod sensors;
 mod storage;
 mod supply;
 
-use cortex_m::peripheral::DWT;
 use sprag_shared::device::coil::PeakHold;
 use sprag_shared::device::coil_test::CoilDesign;
 use sprag_shared::link::reset_cause::Cause;
@@ -30,23 +31,34 @@ use sprag_shared::settings::wiring::Wiring;
 use stm32f4xx_hal::gpio::GpioExt;
 use stm32f4xx_hal::pac;
 use stm32f4xx_hal::prelude::_fugit_ExtU32;
+use stm32f4xx_hal::rcc::Rcc;
 use stm32f4xx_hal::watchdog::IndependentWatchdog;
 
 use super::{Board, Parts, Watchdog};
 
-/// The board.
-pub struct F405;
+pub use stm32f4xx_hal::pac as chip;
+
+/// The board, with its clocks running.
+pub struct F405 {
+    chip: pac::Peripherals,
+    rcc: Rcc,
+    crystal: bool,
+}
 
 /// After so long without being fed the watchdog resets the chip, by steps of 4 ms of its own oscillator: 11 to 38 ms (47 to 17 kHz).
 const WATCHDOG_MILLISECONDS: u32 = 20;
 
+/// The same while the processor may stall: 2.7 to 7.5 s, for two sectors of at most 0.8 s each.
+const STALLED_MILLISECONDS: u32 = 4000;
+
 impl Board for F405 {
     const NAME: &'static str = "f405";
 
-    const COUNTER_HZ: u32 = clock::HZ;
+    const COUNTER_HZ: u32 = clock::COUNTER_HZ;
 
     const CORE_HZ: u32 = clock::HZ;
 
+    type Chip = pac::Peripherals;
     type Sensors = sensors::BoardSensors;
     type Coils = coils::BoardCoils;
     type Watchdog = BoardWatchdog;
@@ -54,34 +66,40 @@ impl Board for F405 {
     type Flash = storage::Storage;
     type Light = light::BoardLight;
 
-    fn cause(device: &mut pac::Peripherals) -> Cause {
-        reset::cause(&device.RCC)
+    fn wake(_core: cortex_m::Peripherals, chip: pac::Peripherals) -> (F405, Cause) {
+        let cause = reset::cause(&chip.RCC);
+        // SAFETY: the peripherals' own is not used from here on.
+        let (rcc, crystal) = clock::start(unsafe { pac::RCC::steal() }, &chip.TIM5);
+        (F405 { chip, rcc, crystal }, cause)
     }
 
-    fn flash(device: &mut pac::Peripherals) -> storage::Storage {
-        supply::set_brown_out(&device.RCC, &device.PWR, &device.FLASH);
+    fn flash(&mut self) -> storage::Storage {
+        supply::set_brown_out(&self.chip.PWR, &self.chip.FLASH, &mut self.rcc);
         storage::Storage::new()
     }
 
-    fn begin(core: cortex_m::Peripherals, device: pac::Peripherals, settings: &Settings) -> Parts<F405> {
+    fn begin(self, settings: &Settings, counts: Option<i32>) -> Parts<F405> {
         let wiring = Wiring::of(settings);
-        let (mut rcc, crystal) = clock::start(core, device.RCC, &device.DBGMCU);
-        let a = device.GPIOA.split(&mut rcc);
-        let b = device.GPIOB.split(&mut rcc);
-        let c = device.GPIOC.split(&mut rcc);
+        let F405 { chip, mut rcc, crystal } = self;
+        let a = chip.GPIOA.split(&mut rcc);
+        let c = chip.GPIOC.split(&mut rcc);
         let outputs = coils::Outputs { low: (c.pc6, c.pc7), high: (c.pc8, c.pc9), trip: a.pa6 };
-        let currents = coils::Currents::new(device.ADC1, &device.ADC_COMMON, (c.pc0, c.pc1), &mut rcc);
+        let currents = coils::Currents::new(chip.ADC1, &chip.ADC_COMMON, (c.pc0, c.pc1), &mut rcc);
         let peak_hold = PeakHold::new(wiring.coil_pull_in_time, wiring.coil_hold_share, settings.period());
         let design = CoilDesign { peak_hold, threshold: wiring.coil_engaged_current, full: wiring.coil_full_current };
-        let coils = coils::begin(device.TIM8, outputs, currents, design, &mut rcc);
-        supply::watch(device.PWR, &device.EXTI, &mut rcc);
-        let block = sensors::block(device.SPI1, a.pa5, b.pb4, a.pa7, a.pa4, &mut rcc);
-        let ground = sensors::ground(device.SPI2, b.pb13, b.pb14, b.pb15, b.pb12, &mut rcc);
-        let encoder = sensors::encoder(device.TIM4, b.pb6, b.pb7, &mut rcc);
-        let line = line::DmaLine::new(device.USART1, device.DMA2, (a.pa9, a.pa10), &mut rcc);
+        let coils = coils::begin(chip.TIM8, outputs, currents, design, &mut rcc);
+        supply::watch(chip.PWR, &chip.EXTI, &mut rcc);
+        encoder::pause(&chip.TIM4);
+        let b = chip.GPIOB.split(&mut rcc);
+        let last = counts.map(|counts| wiring.travel(counts));
+        let encoder = encoder::Encoder::new(chip.TIM4, (b.pb6, b.pb7), last);
+        encoder.copy(chip.TIM3, &chip.DMA1, &mut rcc);
+        let block = sensors::block(chip.SPI1, a.pa5, b.pb4, a.pa7, a.pa4, &mut rcc);
+        let ground = sensors::ground(chip.SPI2, b.pb13, b.pb14, b.pb15, b.pb12, &mut rcc);
+        let line = line::DmaLine::new(chip.USART1, chip.DMA2, (a.pa9, a.pa10), &mut rcc);
         let light = light::BoardLight::new(c.pc12, crystal);
-        let mut watchdog = IndependentWatchdog::new(device.IWDG);
-        watchdog.stop_on_debug(&device.DBGMCU, true);
+        let mut watchdog = IndependentWatchdog::new(chip.IWDG);
+        watchdog.stop_on_debug(&chip.DBGMCU, true);
         watchdog.start(WATCHDOG_MILLISECONDS.millis());
         Parts {
             sensors: sensors::BoardSensors::new(block, ground, encoder, wiring),
@@ -93,7 +111,19 @@ impl Board for F405 {
     }
 
     fn now() -> u32 {
-        DWT::cycle_count()
+        clock::now()
+    }
+
+    fn stall<T>(work: impl FnOnce() -> T) -> T {
+        // SAFETY: the control task, which has the watchdog, is held off.
+        let registers = unsafe { pac::IWDG::steal() };
+        let mut watchdog = IndependentWatchdog::new(unsafe { pac::IWDG::steal() });
+        watchdog.start(STALLED_MILLISECONDS.millis());
+        let done = work();
+        // The last change takes the watchdog some 0.2 ms, and until then it takes no other.
+        let _ = (0..clock::HZ / 1000).find(|_| registers.sr().read().bits() == 0);
+        watchdog.start(WATCHDOG_MILLISECONDS.millis());
+        done
     }
 
     fn force_coils(engaged: [bool; 2]) {

@@ -26,6 +26,8 @@ use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::settings::Settings;
 use stm32f4xx_hal::pac::{self, Interrupt, interrupt};
 
+pub use stm32f4xx_hal::pac as chip;
+
 pub use flash::{Flash, cut_power_after};
 pub use line::Line;
 
@@ -68,12 +70,13 @@ static TICKED: AtomicBool = AtomicBool::new(false);
 static COILS: AtomicU8 = AtomicU8::new(0);
 
 /// The board.
-pub struct Qemu;
+pub struct Qemu(pac::Peripherals);
 
 impl Board for Qemu {
     const NAME: &'static str = "qemu";
     const COUNTER_HZ: u32 = COUNTER_HZ;
     const CORE_HZ: u32 = 84_000_000;
+    type Chip = pac::Peripherals;
     type Sensors = Elsewhere;
     type Coils = Elsewhere;
     type Watchdog = Elsewhere;
@@ -81,33 +84,42 @@ impl Board for Qemu {
     type Flash = Flash;
     type Light = Elsewhere;
 
-    fn cause(_device: &mut pac::Peripherals) -> Cause {
+    fn wake(mut core: cortex_m::Peripherals, chip: pac::Peripherals) -> (Qemu, Cause) {
         // SAFETY: a word holds any bits.
         let alive = unsafe { MARK.read() } == ALIVE;
         MARK.write(ALIVE);
-        if alive { Cause::Pin } else { Cause::PowerOn }
+        chip.RCC.apb1enr().modify(|_, w| w.tim2en().enabled().tim4en().enabled());
+        // SAFETY: every value of these registers is a period.
+        unsafe {
+            chip.TIM2.arr().write(|w| w.bits(u32::MAX));
+            chip.TIM2.cr1().write(|w| w.cen().set_bit());
+            // The watchdog is above everything.
+            core.NVIC.set_priority(Interrupt::TIM4, 0);
+        }
+        (Qemu(chip), if alive { Cause::Pin } else { Cause::PowerOn })
     }
 
-    fn flash(_device: &mut pac::Peripherals) -> Flash {
+    fn flash(&mut self) -> Flash {
         Flash::new()
     }
 
-    fn begin(mut core: cortex_m::Peripherals, device: pac::Peripherals, _settings: &Settings) -> Parts<Qemu> {
-        device.RCC.apb1enr().modify(|_, w| w.tim2en().enabled().tim4en().enabled());
-        // SAFETY: every value of these registers is a period.
+    fn begin(self, _settings: &Settings, _counts: Option<i32>) -> Parts<Qemu> {
+        let Qemu(chip) = self;
+        // SAFETY: every value of these registers is a period, and nothing is shared with the handler but what may be.
         unsafe {
-            device.TIM2.arr().write(|w| w.bits(u32::MAX));
-            device.TIM2.cr1().write(|w| w.cen().set_bit());
-            device.TIM4.psc().write(|w| w.bits(PRESCALER - 1));
-            device.TIM4.cnt().write(|w| w.bits((note_time() / u64::from(PRESCALER)) as u32));
-            device.TIM4.arr().write(|w| w.bits(WATCHDOG));
-            // The watchdog is above everything.
-            core.NVIC.set_priority(Interrupt::TIM4, 0);
+            chip.TIM4.psc().write(|w| w.bits(PRESCALER - 1));
+            chip.TIM4.cnt().write(|w| w.bits((note_time() / u64::from(PRESCALER)) as u32));
+            chip.TIM4.arr().write(|w| w.bits(WATCHDOG));
             NVIC::unmask(Interrupt::TIM4);
         }
-        device.TIM4.dier().write(|w| w.uie().set_bit());
-        device.TIM4.cr1().write(|w| w.cen().set_bit());
-        Parts { sensors: Elsewhere, coils: Elsewhere, watchdog: Elsewhere, line: Line::new(device.USART1), light: Elsewhere }
+        chip.TIM4.dier().write(|w| w.uie().set_bit());
+        chip.TIM4.cr1().write(|w| w.cen().set_bit());
+        Parts { sensors: Elsewhere, coils: Elsewhere, watchdog: Elsewhere, line: Line::new(chip.USART1), light: Elsewhere }
+    }
+
+    /// Nothing stalls here.
+    fn stall<T>(work: impl FnOnce() -> T) -> T {
+        work()
     }
 
     #[inline(always)]
@@ -131,8 +143,6 @@ pub struct Elsewhere;
 
 impl Sensors for Elsewhere {
     fn read(&mut self, _sample: &mut Sample) {}
-
-    fn set_count(&mut self, _counts: i32) {}
 }
 
 impl Coils for Elsewhere {

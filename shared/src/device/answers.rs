@@ -19,7 +19,7 @@ impl Device {
         match self.answer(request, around) {
             Answer::Store => {
                 let settings = *self.draft();
-                self.stored(store.store(&settings))
+                self.stored(store.store_erasing(&settings))
             }
             answer => answer,
         }

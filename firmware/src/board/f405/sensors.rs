@@ -7,16 +7,15 @@ use embedded_hal::spi::{MODE_3, SpiDevice};
 use embedded_hal_bus::spi::ExclusiveDevice;
 use sprag_drivers::icm42688::Icm42688;
 use sprag_shared::control::sensing::sample::{Reading, Sample};
-use sprag_shared::device::counter::Extended;
 use sprag_shared::device::inertial::{accelerations, rates};
 use sprag_shared::settings::wiring::Wiring;
 use stm32f4xx_hal::gpio::{Alternate, Output, Pin, PinState, Pull, Speed};
 use stm32f4xx_hal::pac;
-use stm32f4xx_hal::qei::Qei;
 use stm32f4xx_hal::rcc::Rcc;
 use stm32f4xx_hal::spi::{self, Spi};
 use stm32f4xx_hal::time::Hertz;
 
+use super::encoder::Encoder;
 use crate::board::Sensors;
 
 /// Of the bus to the block's sensor, 1/s at most.
@@ -82,17 +81,6 @@ fn device<SPI: spi::Instance, const PORT: char, const SELECT: u8>(
     device
 }
 
-/// The encoder: A and B.
-pub fn encoder(timer: pac::TIM4, a: Pin<'B', 6>, b: Pin<'B', 7>, rcc: &mut Rcc) -> Qei<pac::TIM4> {
-    let pins = (a.into_alternate().internal_resistor(Pull::Up), b.into_alternate().internal_resistor(Pull::Up));
-    let encoder = Qei::new(timer, pins, rcc);
-    // SAFETY: the timer is this function's; its library sets up all but the filters of the inputs.
-    let registers = unsafe { &*pac::TIM4::ptr() };
-    // Eight samples at 84 MHz alike, 95 ns, to ignore the edges of the coils' drivers.
-    registers.ccmr1_input().modify(|_, w| w.ic1f().fck_int_n8().ic2f().set(3));
-    encoder
-}
-
 /// All of them.
 pub type BoardSensors = MountedSensors<BlockDevice, GroundDevice>;
 
@@ -100,16 +88,15 @@ pub type BoardSensors = MountedSensors<BlockDevice, GroundDevice>;
 pub struct MountedSensors<B, G> {
     block: Icm42688<B>,
     ground: Icm42688<G>,
-    encoder: Qei<pac::TIM4>,
-    travel: Extended,
+    encoder: Encoder,
     wiring: Wiring,
 }
 
 impl<B: SpiDevice, G: SpiDevice> MountedSensors<B, G> {
     /// At their buses.
-    pub fn new(block: B, ground: G, encoder: Qei<pac::TIM4>, wiring: Wiring) -> MountedSensors<B, G> {
+    pub fn new(block: B, ground: G, encoder: Encoder, wiring: Wiring) -> MountedSensors<B, G> {
         let (block, ground) = (Icm42688::new(block), Icm42688::new(ground));
-        MountedSensors { block, ground, encoder, travel: Extended::default(), wiring }
+        MountedSensors { block, ground, encoder, wiring }
     }
 }
 
@@ -129,12 +116,8 @@ impl<B: SpiDevice, G: SpiDevice> Sensors for MountedSensors<B, G> {
             note(along, axes[0].of(accelerations));
             note(up, axes[1].of(accelerations));
         }
-        sample.encoder.counts = wiring.travel(self.travel.read(stm32f4xx_hal::hal_02::Qei::count(&self.encoder)));
+        sample.encoder.counts = wiring.travel(self.encoder.read());
         sample.encoder.number = sample.encoder.number.wrapping_add(1);
-    }
-
-    fn set_count(&mut self, counts: i32) {
-        self.travel = Extended::from(self.wiring.travel(counts));
     }
 }
 

@@ -14,7 +14,11 @@ const FIRST: u8 = 1;
 const SECTORS: u32 = 2;
 
 /// The two sectors.
-pub struct Storage(LockedFlash);
+pub struct Storage {
+    flash: LockedFlash,
+    /// They have been changed since the caches were emptied.
+    changed: bool,
+}
 
 /// What went wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,7 +46,7 @@ impl Storage {
     pub fn new() -> Storage {
         // SAFETY: the application calls the board's `flash` once. Beside it only the start of the clocks uses the registers, for the
         // latency, which programming leaves alone.
-        Storage(LockedFlash::new(unsafe { pac::FLASH::steal() }))
+        Storage { flash: LockedFlash::new(unsafe { pac::FLASH::steal() }), changed: false }
     }
 
     fn within(from: u32, length: usize) -> Result<(), Error> {
@@ -72,8 +76,11 @@ impl ReadNorFlash for Storage {
 
     fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), Error> {
         Storage::within(offset, bytes.len())?;
+        if core::mem::take(&mut self.changed) {
+            Storage::forget_cached();
+        }
         let start = (START + offset) as usize;
-        let stored = FlashExt::read(&self.0).get(start..start + bytes.len()).ok_or(Error::OutOfBounds)?;
+        let stored = FlashExt::read(&self.flash).get(start..start + bytes.len()).ok_or(Error::OutOfBounds)?;
         for (to, from) in bytes.iter_mut().zip(stored) {
             *to = *from;
         }
@@ -94,10 +101,9 @@ impl NorFlash for Storage {
         if !(from.is_multiple_of(SECTOR) && to.is_multiple_of(SECTOR)) {
             return Err(Error::NotAligned);
         }
-        let mut flash = self.0.unlocked();
+        self.changed = true;
+        let mut flash = self.flash.unlocked();
         let done = (from / SECTOR..to / SECTOR).all(|sector| flash.erase(FIRST + sector as u8).is_ok());
-        drop(flash);
-        Storage::forget_cached();
         if done { Ok(()) } else { Err(Error::Refused) }
     }
 
@@ -106,8 +112,7 @@ impl NorFlash for Storage {
         if !(offset.is_multiple_of(4) && bytes.len().is_multiple_of(4)) {
             return Err(Error::NotAligned);
         }
-        let written = self.0.unlocked().program((START + offset) as usize, bytes.iter());
-        Storage::forget_cached();
-        written.map_err(|_| Error::Refused)
+        self.changed = true;
+        self.flash.unlocked().program((START + offset) as usize, bytes.iter()).map_err(|_| Error::Refused)
     }
 }

@@ -4,6 +4,7 @@ use cortex_m::peripheral::NVIC;
 use stm32f4xx_hal::pac::{self, interrupt};
 use stm32f4xx_hal::rcc::{Enable, Rcc};
 
+use super::clock::HZ;
 use super::coils;
 
 /// PLS of the voltage detector for 2.9 V.
@@ -19,14 +20,14 @@ const OPTION_KEYS: [u32; 2] = [0x0819_2A3B, 0x4C5D_6E7F];
 
 /// Sets the brown-out reset to level 3, below which 168 MHz are out of the flash's reach, unless it already is. That is once in the life
 /// of a chip, for the option bytes keep it; every other option stays as it is. Needs a supply above the detector's level.
-pub fn set_brown_out(rcc: &pac::RCC, power: &pac::PWR, flash: &pac::FLASH) {
+pub fn set_brown_out(power: &pac::PWR, flash: &pac::FLASH, rcc: &mut Rcc) {
     if flash.optcr().read().bor_lev().bits() == BROWN_OUT_LEVEL_3 {
         return;
     }
-    rcc.apb1enr().modify(|_, w| w.pwren().set_bit());
+    pac::PWR::enable(rcc);
     detect(power);
-    // The detector needs some time to settle; this is a millisecond at 16 MHz.
-    cortex_m::asm::delay(16_000);
+    // The detector needs some time to settle: a millisecond.
+    cortex_m::asm::delay(HZ / 1000);
     if power.csr().read().pvdo().bit_is_set() {
         return;
     }
