@@ -101,11 +101,11 @@ fn tick(control: &mut Control, device: &mut Device, outbox: &mut Outbox, late: u
     let Control { sensors, coils, .. } = control;
     #[cfg(feature = "log")]
     let before = *device.decision();
-    let (engaged, reports) = coils.read();
+    let (engaged, reports) = Coils::read(coils);
     device.note_coils(reports);
     device.tick(
         |sample| {
-            sensors.read(sample);
+            Sensors::read(sensors, sample);
             sample.engaged = engaged;
         },
         late as f32 / Selected::COUNTER_HZ as f32,

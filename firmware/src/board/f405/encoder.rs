@@ -116,6 +116,6 @@ impl Encoder {
 
     /// Counts, wrapping.
     pub fn read(&mut self) -> i32 {
-        self.travel.read(self.timer.cnt().read().cnt().bits() as u16)
+        self.travel.read(self.timer.cnt().read().cnt().bits())
     }
 }
