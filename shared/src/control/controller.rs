@@ -17,7 +17,7 @@ use crate::control::monitor::fault::Fault;
 use crate::control::sensing::calibration::Calibration;
 use crate::control::sensing::instruments::{Instruments, InstrumentsState};
 use crate::control::sensing::sample::Sample;
-use crate::control::supervisor::{Phase, Requests, Supervisor, SupervisorInput, SupervisorState};
+use crate::control::supervisor::{Biases, Phase, Requests, Supervisor, SupervisorInput, SupervisorState};
 use crate::equation::body::Body;
 use crate::math::fnv::Fnv;
 use crate::math::sign::Sign;
@@ -55,7 +55,6 @@ pub struct Controller<L = ClutchLaw> {
 pub struct ControllerState {
     instruments: InstrumentsState,
     estimator: EstimatorState,
-    calibration: Calibration,
     signs: Signs,
     /// The block stood at the last tick.
     stood: bool,
@@ -73,7 +72,7 @@ impl ControllerState {
 
     /// The biases that are subtracted.
     pub fn calibration(&self) -> &Calibration {
-        &self.calibration
+        self.supervisor.calibration()
     }
 
     /// Believed speeds of the flywheels as racks that moved with them, over R, 1/s.
@@ -135,8 +134,7 @@ impl<L: Law> Controller<L> {
     pub fn start(&self) -> ControllerState {
         ControllerState {
             instruments: InstrumentsState::default(),
-            estimator: EstimatorState::default(),
-            calibration: Calibration::default(),
+            estimator: EstimatorState::unknown(),
             signs: Signs::default(),
             stood: true,
             turns: TurnsState::default(),
@@ -149,9 +147,8 @@ impl<L: Law> Controller<L> {
     /// From the beginning, with the event log of before.
     // In place: a second state would be most of a microcontroller's stack.
     pub fn restart(&self, state: &mut ControllerState) {
-        let ControllerState { instruments, estimator, calibration, signs, stood, turns, gate, drift, supervisor } = state;
-        (*instruments, *estimator, *calibration) =
-            (InstrumentsState::default(), EstimatorState::default(), Calibration::default());
+        let ControllerState { instruments, estimator, signs, stood, turns, gate, drift, supervisor } = state;
+        (*instruments, *estimator) = (InstrumentsState::default(), EstimatorState::unknown());
         (*signs, *stood, *turns) = (Signs::default(), true, TurnsState::default());
         (*gate, *drift) = (GateState::default(), 0.0);
         supervisor.restart();
@@ -168,7 +165,6 @@ impl<L: Law> Controller<L> {
         // Newton's method from upright: the lever changes little over a swing.
         let rotation = (0..NEWTON_STEPS).fold(0.0, |near, _| self.model.rotation_of_travel(travel, near, side));
         self.restart(state);
-        state.calibration = *calibration;
         // The tick that follows takes the same sample, after moving the estimate on by a period.
         state.estimator = EstimatorState::met(rotation - velocity * self.instruments.period, velocity);
         state.turns.spins = spins;
@@ -186,7 +182,7 @@ impl<L: Law> Controller<L> {
     /// First part of a tick: the motion now.
     #[inline]
     pub fn look(&self, state: &mut ControllerState, sample: &Sample) -> Estimate {
-        let seen = self.instruments.read(&mut state.instruments, sample, &state.calibration);
+        let seen = self.instruments.read(&mut state.instruments, sample, state.supervisor.calibration());
         self.estimator.step(&mut state.estimator, &self.model, &self.instruments, &seen, count(sample.engaged))
     }
 
@@ -217,6 +213,8 @@ impl<L: Law> Controller<L> {
             ground_drift: state.drift,
         };
         let wish = match self.law.wish(&situation) {
+            // Where the block is nobody knows: a plain inerter needs no sensor.
+            _ if !estimate.located(model.parameters.slenderness) => Wish::Hold,
             Wish::Resist if estimate.standing && !self.engaged_at_rest => Wish::Release,
             wish => wish,
         };
@@ -246,11 +244,20 @@ impl<L: Law> Controller<L> {
             requests: circumstances.requests,
             coils: circumstances.coils,
         };
+        let Calibration { gyroscope, encoder_zero, .. } = *state.supervisor.calibration();
         let verdict = self.supervisor.step(&mut state.supervisor, &input);
-        if verdict.just_calibrated {
-            state.calibration = verdict.calibration;
-            state.instruments = InstrumentsState::default();
-            state.estimator = EstimatorState::default();
+        match verdict.biases {
+            Biases::Kept if verdict.phase == Phase::Fault => state.estimator.doubt(),
+            Biases::Kept => {}
+            Biases::Measured => {
+                state.instruments = InstrumentsState::default();
+                state.estimator = EstimatorState::default();
+            }
+            Biases::Followed => {
+                let new = state.supervisor.calibration();
+                let counts = new.encoder_zero.wrapping_sub(encoder_zero);
+                state.estimator.rebase(counts as f32 * self.instruments.travel_per_count, new.gyroscope - gyroscope);
+            }
         }
         Decision { command: verdict.command, estimate, wish, phase: verdict.phase, fault: verdict.fault }
     }

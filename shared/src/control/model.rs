@@ -73,12 +73,15 @@ pub struct Model {
     pub parameters: ModelParameters,
     /// Travel over R of each side's toe at θ = 0, by [`Body::travel`], for s = +1.
     standing_travel: f32,
+    /// Lever of the rack over R at θ = 0.
+    standing_arm: f32,
 }
 
 impl Model {
     /// Of a `body` in single precision, to the same bits wherever it is made.
     pub fn of(body: AnyBody<f32>, parameters: ModelParameters) -> Model {
-        Model { body, parameters, standing_travel: body.travel(1.0, &body.configuration(1.0, 0.0)) }
+        let standing = body.configuration(1.0, 0.0);
+        Model { body, parameters, standing_travel: body.travel(1.0, &standing), standing_arm: body.arm(&standing) }
     }
 
     /// Of a structure with its drivetrain. What it carries is folded into the block.
@@ -153,6 +156,12 @@ impl Model {
         let configuration = self.body.configuration(side.unit(), near);
         let reached = self.body.travel(side.unit(), &configuration) - side.times(self.standing_travel);
         near + (travel - reached) / self.body.arm(&configuration)
+    }
+
+    /// Travel of the rack over R in a small rotation from θ = 0, per rad.
+    #[inline]
+    pub fn standing_arm(&self) -> f32 {
+        self.standing_arm
     }
 
     /// cos δ and sin δ (1 and δ for the slender block).

@@ -116,7 +116,7 @@ parameters! {
     Smoothing "estimator.smoothing" real("", 0.0, 1.0, 1.0).only(COMPLEMENTARY);
     Blank "estimator.blank" whole("ticks", 0, TICKS, 5);
     Jump "estimator.jump" not_negative("rad/s", 0.033_469_82).only(MODEL_AIDED_OR_KALMAN);
-    StandingRotation "estimator.standing.rotation" not_negative("rad", 9.482_804e-6);
+    StandingRotation "estimator.standing.rotation" not_negative("rad", 1.269_828e-4);
     StandingVelocity "estimator.standing.velocity" not_negative("rad/s", 0.003_521_347_5);
     StandingTicks "estimator.standing.ticks" whole("ticks", 0, TICKS, 40);
     DeviationRotation "estimator.deviation.rotation" not_negative("rad", 4.957_009_3e-7);

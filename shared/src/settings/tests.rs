@@ -51,7 +51,7 @@ fn structure((geometry, kinematics): (Geometry, KinematicsKind), mount: Mount) -
 
 const DEVIATION: Deviation =
     Deviation { rotation: 4.957_009_3e-7, velocity: 0.000_586_891_1, push: 0.004_892_385_6, ground: 0.001_329_863 };
-const STANDING: Standing = Standing { rotation: 9.482_804e-6, velocity: 0.003_521_347_5, ticks: 40 };
+const STANDING: Standing = Standing { rotation: 1.269_828e-4, velocity: 0.003_521_347_5, ticks: 40 };
 /// What the host solves for 2 kHz with an ICM-42688-P.
 const MODEL_AIDED: ModelAided = ModelAided {
     gains: [[0.471_781_28, 7.034_311e-5], [323.346_56, 0.143_869_77]],

@@ -30,6 +30,8 @@ const JERK_TIME: f64 = 0.02;
 const TRACKING: f64 = 0.0015;
 /// Random walk of a gyroscope's bias, rad/s per √s: a degree an hour in a minute.
 const BIAS_WALK: f64 = 6e-7;
+/// Counts by which a rack may move at once under a block that stands.
+const STANDING_COUNTS: f64 = 50.0;
 /// For how long a block must be still to stand, s.
 const STILL: f64 = 0.02;
 
@@ -110,7 +112,7 @@ impl SensorDesign {
         let model_density = 2.0 * MODEL_TIME * square(MODEL_ERROR * weight);
         let jump = |deviation: f64| (0.1 * p * block.slenderness()).max(8.0 * deviation) as f32;
         let standing = |rotation: f64, velocity: f64| Standing {
-            rotation: (3.0 * encoder.resolution / size + 4.0 * rotation) as f32,
+            rotation: (STANDING_COUNTS * encoder.resolution / size + 4.0 * rotation) as f32,
             velocity: (1e-9 + 6.0 * velocity) as f32,
             ticks: (STILL / period).clamp(4.0, 60_000.0) as u16,
         };

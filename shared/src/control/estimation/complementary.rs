@@ -40,26 +40,32 @@ impl Complementary {
         seen: &Measured,
         engaged: u8,
     ) -> Estimate {
+        if !state.rocks {
+            if self.standing.holds(state, model, instruments, seen, None, 0.0) {
+                return Standing::estimate(seen, state.side);
+            }
+            state.acceleration = state.modelled_acceleration(model, seen, engaged);
+            return state.kinematic_estimate(model, seen, self.deviation);
+        }
         state.blank = state.blank.saturating_sub(1);
-        if let (Some(block), 0, true) = (seen.block, state.blank, state.rocks) {
+        if let (Some(block), 0) = (seen.block, state.blank) {
             let measured = measured_acceleration(model, state, block, seen.ground_force[0]);
             state.acceleration += self.smoothing * (measured - state.acceleration);
         }
-        let ahead = if state.rocks { state.acceleration } else { 0.0 };
-        state.advance(ahead, instruments.period);
+        state.advance(state.acceleration, instruments.period);
         if let Some(travel) = seen.travel {
             let error = state.encoder_error(model, instruments, travel);
             state.rotation += self.gains[0] * error;
             state.velocity += self.gains[1] * error;
         }
         state.bound();
-        let stood = !state.rocks;
-        if self.standing.step(state, model, seen) {
+        if self.standing.settles(state, model, seen) {
             return Standing::estimate(seen, state.side);
         }
-        let impact = state.hits();
-        if stood || impact {
-            if !stood {
+        let lost = state.lost;
+        let impact = if lost { state.look_for_impact(model, instruments, seen, self.deviation.velocity) } else { state.hits() };
+        if impact {
+            if !lost {
                 state.impact(model.parameters.restitution, self.blank);
             }
             state.acceleration = state.modelled_acceleration(model, seen, engaged);

@@ -24,6 +24,18 @@ pub struct Estimate {
     pub deviation: Deviation,
 }
 
+/// Standard deviation of θ, in α, beyond which nobody knows where the block is.
+const LOST: f32 = 0.2;
+
+impl Estimate {
+    /// It says where a block of this `slenderness` (rad) is, and which way: not so after power-on in motion, until an impact has shown where
+    /// θ = 0 is.
+    #[inline]
+    pub fn located(&self, slenderness: f32) -> bool {
+        self.deviation.rotation <= LOST * slenderness
+    }
+}
+
 /// Standard deviations of an estimate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Deviation {

@@ -51,8 +51,14 @@ impl Kalman {
         seen: &Measured,
         engaged: u8,
     ) -> Estimate {
-        let period = instruments.period;
-        let ahead = if state.rocks { state.acceleration } else { 0.0 };
+        if !state.rocks {
+            if self.standing.holds(state, model, instruments, seen, seen.rate, self.jump) {
+                return Standing::estimate(seen, state.side);
+            }
+            state.acceleration = state.modelled_acceleration(model, seen, engaged);
+            return state.kinematic_estimate(model, seen, self.deviation);
+        }
+        let (period, ahead) = (instruments.period, state.acceleration);
         let velocity = state.velocity + ahead * period;
         let rotation = state.rotation + (state.velocity + 0.5 * ahead * period) * period;
         let (rotation, velocity, ahead) = bounded(rotation, velocity, ahead);
@@ -60,10 +66,8 @@ impl Kalman {
         state.blank = state.blank.saturating_sub(1);
         let believed = state.blank == 0;
         let travel = seen.travel.map_or(0.0, |travel| state.encoder_error(model, instruments, travel));
-        let rate = seen
-            .rate
-            .filter(|_| believed)
-            .map_or(0.0, |rate| rate - state.bias - (velocity - ahead * instruments.gyroscope_delay));
+        let error = seen.rate.map(|rate| rate - state.bias - (velocity - ahead * instruments.gyroscope_delay));
+        let (rate, jumps) = error.filter(|_| believed).map_or((0.0, false), |error| state.believed(error, self.jump));
         let acceleration = seen
             .block
             .filter(|_| believed)
@@ -71,18 +75,19 @@ impl Kalman {
         let [of_rotation, of_velocity, of_acceleration, of_bias] = self.gains;
         let corrected = |gains: [f32; 3]| gains[0] * travel + gains[1] * rate + gains[2] * acceleration;
         state.rotation = rotation + corrected(of_rotation);
-        state.velocity = velocity + if rate.abs() > self.jump { rate } else { corrected(of_velocity) };
+        state.velocity = velocity + if jumps { rate } else { corrected(of_velocity) };
         state.acceleration = ahead + corrected(of_acceleration);
         state.bias += corrected(of_bias);
         state.bound();
-        let stood = !state.rocks;
-        if self.standing.step(state, model, seen) {
+        if self.standing.settles(state, model, seen) {
             return Standing::estimate(seen, state.side);
         }
-        if stood {
-            state.acceleration = model.acceleration(state.side, 0.0, state.velocity, seen.ground, engaged);
-        } else if state.hits() {
-            state.impact(if self.blank > 0 { model.parameters.restitution } else { 1.0 }, self.blank);
+        let lost = state.lost;
+        let impact = if lost { state.look_for_impact(model, instruments, seen, self.deviation.velocity) } else { state.hits() };
+        if impact {
+            if !lost {
+                state.impact(if self.blank > 0 { model.parameters.restitution } else { 1.0 }, self.blank);
+            }
             state.acceleration = state.modelled_acceleration(model, seen, engaged);
         }
         state.kinematic_estimate(model, seen, self.deviation)

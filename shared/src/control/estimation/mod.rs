@@ -1,7 +1,7 @@
 //! State estimators: rotation, velocity and acceleration of the block from the sensors' readings, by one of three methods.
 //!
 //! [`model_aided`], [`kalman`], [`complementary`]: the estimators, to an [`estimate`]; [`rest_detection`]: whether the block stands;
-//! [`prediction`]: the motion when the clutch will have moved.
+//! `reference`: where θ = 0 is, after counts were lost; [`prediction`]: the motion when the clutch will have moved.
 //!
 //! The room imports `math`, `equation`, `control::sensing` and `control::model`.
 
@@ -10,6 +10,7 @@ pub mod estimate;
 pub mod kalman;
 pub mod model_aided;
 pub mod prediction;
+mod reference;
 pub mod rest_detection;
 mod state;
 

@@ -36,7 +36,13 @@ impl ModelAided {
         seen: &Measured,
         engaged: u8,
     ) -> Estimate {
-        let ahead = if state.rocks { state.modelled_acceleration(model, seen, engaged) } else { 0.0 };
+        if !state.rocks {
+            if self.standing.holds(state, model, instruments, seen, seen.rate, self.jump) {
+                return Standing::estimate(seen, state.side);
+            }
+            return self.estimate(state, model, seen);
+        }
+        let ahead = state.modelled_acceleration(model, seen, engaged);
         state.advance(ahead, instruments.period);
         let velocity = state.velocity;
         if let Some(travel) = seen.travel {
@@ -45,21 +51,28 @@ impl ModelAided {
             state.velocity += self.gains[1][0] * error;
         }
         state.blank = state.blank.saturating_sub(1);
-        if let (Some(rate), 0) = (seen.rate, state.blank) {
-            let error = rate - (velocity - ahead * instruments.gyroscope_delay);
-            let share = if error.abs() > self.jump { 1.0 } else { self.gains[1][1] };
+        let error = seen.rate.map(|rate| rate - state.bias - (velocity - ahead * instruments.gyroscope_delay));
+        if let (Some(error), 0) = (error, state.blank) {
+            let (error, jumps) = state.believed(error, self.jump);
+            let share = if jumps { 1.0 } else { self.gains[1][1] };
             state.rotation += self.gains[0][1] * error;
             state.velocity += share * error;
         }
         state.bound();
-        let stood = !state.rocks;
-        if self.standing.step(state, model, seen) {
+        if self.standing.settles(state, model, seen) {
             return Standing::estimate(seen, state.side);
         }
-        if !stood && state.hits() {
+        if state.lost {
+            state.look_for_impact(model, instruments, seen, self.deviation.velocity);
+        } else if state.hits() {
             // With a gyroscope that is believed again at once the jump is already in its reading.
             state.impact(if self.blank > 0 { model.parameters.restitution } else { 1.0 }, self.blank);
         }
+        self.estimate(state, model, seen)
+    }
+
+    #[inline]
+    fn estimate(&self, state: &EstimatorState, model: &Model, seen: &Measured) -> Estimate {
         state.estimate(seen, model.push(state.side, state.rotation, state.velocity, seen.ground), self.deviation)
     }
 }

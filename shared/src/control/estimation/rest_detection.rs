@@ -1,47 +1,105 @@
-//! Whether the block stands on both toes, where sensors say nothing but noise.
+//! Whether the block stands on both toes.
+//!
+//! A block that stands is at θ = 0, whatever the encoder says: its count there is followed within a fraction of a second, so that a rack
+//! that creeps with temperature moves no block.
 
 use super::estimate::Estimate;
 use super::state::EstimatorState;
 use crate::control::model::Model;
-use crate::control::sensing::instruments::Measured;
+use crate::control::sensing::instruments::{Instruments, Measured};
 use crate::math::sign::Sign;
 
 /// When a block stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Standing {
-    /// |θ| below which it may stand, rad.
+    /// |θ| by the encoder beyond which a block that stood moves, rad; one that rocked stands again within [`SETTLED`] of it.
     pub rotation: f32,
-    /// |θ̇| below which it may stand, rad/s.
+    /// |θ̇| below which a block that rocked may stand, rad/s.
     pub velocity: f32,
-    /// Ticks for which both must hold.
+    /// Ticks for which a block that rocked must look as if it stood.
     pub ticks: u16,
 }
 
+/// Share of [`Standing::rotation`]; the rest is hysteresis.
+pub const SETTLED: f32 = 0.25;
+
+/// Time in which the encoder's zero follows a block that stands, s: longer than an uplift takes to be noticed, and quick for any creep.
+const FOLLOWING: f32 = 0.2;
+
+/// By how much longer than [`Standing::ticks`] a block must be still where nobody knows its rotation: within 1 % of its point of no return
+/// it may hesitate for half a second, and nowhere else.
+const PATIENCE: u32 = 25;
+
 impl Standing {
-    /// Looks at the motion as an estimator has it at this tick; `true` while the block stands, and then at θ = 0. A standing block is let go
-    /// when the ground pushes harder than its weight holds, or when it moves, to the side that the state then has.
+    /// Looks at the readings of this tick, of a block that stood at the last one; `true` while it does. It is let go when the ground
+    /// pushes harder than its weight holds, or when it moves by the encoder or, twice in a row by more than a `jump`, by a gyroscope that is
+    /// believed (`rate`; both rad/s), to the side that the state then has.
     #[inline]
-    pub(super) fn step(&self, state: &mut EstimatorState, model: &Model, seen: &Measured) -> bool {
-        let (rotation, velocity) = (state.rotation, state.velocity);
-        let holds = model.parameters.uplift * (1.0 + seen.ground[1]);
-        let pushed = seen.ground[0].abs() > holds;
-        let moves = rotation.abs() > self.rotation || velocity.abs() > self.velocity;
-        if !state.rocks {
-            if pushed || moves {
-                let otherwise = Sign::of(-seen.ground[0], state.side);
-                state.side = if moves { Sign::of(velocity + rotation, otherwise) } else { otherwise };
-                (state.rocks, state.still) = (true, 0);
-            }
-        } else {
-            state.still = if pushed || moves { 0 } else { state.still.saturating_add(1) };
-            if state.still > self.ticks {
-                (state.rocks, state.still) = (false, 0);
-            }
+    pub(super) fn holds(
+        &self,
+        state: &mut EstimatorState,
+        model: &Model,
+        instruments: &Instruments,
+        seen: &Measured,
+        rate: Option<f32>,
+        jump: f32,
+    ) -> bool {
+        if state.lost {
+            self.begin(state, seen);
         }
-        if !state.rocks {
-            (state.rotation, state.velocity, state.acceleration) = (0.0, 0.0, 0.0);
+        let away = seen.travel.map_or(0.0, |travel| travel - state.offset);
+        let turns = rate.is_some_and(|rate| (rate - state.bias).abs() > jump);
+        let turned = turns && state.doubted;
+        state.doubted = if rate.is_some() { turns } else { state.doubted };
+        let rate = rate.map_or(0.0, |rate| rate - state.bias);
+        let pushed = self.pushed(model, seen);
+        let moved = away.abs() > self.rotation * model.standing_arm();
+        if !(pushed || moved || turned) {
+            state.offset += away * (instruments.period / FOLLOWING);
+            return true;
         }
-        !state.rocks
+        let otherwise = Sign::of(-seen.ground[0], state.side);
+        state.side = if moved || turned { Sign::of(if moved { away } else { rate }, otherwise) } else { otherwise };
+        (state.rocks, state.still, state.doubted) = (true, 0, false);
+        if moved {
+            state.rotation = model.rotation_of_travel(away, 0.0, state.side);
+        }
+        if moved || turned {
+            state.velocity = rate;
+        }
+        state.bound();
+        false
+    }
+
+    /// After power-on the first count is as good a zero as any; that of a block which then stays as it is, is the one of θ = 0.
+    #[inline(never)]
+    fn begin(&self, state: &mut EstimatorState, seen: &Measured) {
+        match seen.travel {
+            Some(travel) if state.still == 0 => (state.offset, state.still) = (travel, 1),
+            Some(_) if u32::from(state.still) > PATIENCE * u32::from(self.ticks) => state.stand(None),
+            Some(_) => state.still = state.still.saturating_add(1),
+            None => {}
+        }
+    }
+
+    /// Looks at the motion of a block that rocked at the last tick, as an estimator has it at this one; `true` once it stands.
+    #[inline]
+    pub(super) fn settles(&self, state: &mut EstimatorState, model: &Model, seen: &Measured) -> bool {
+        let still = state.velocity.abs() <= self.velocity
+            && (state.lost || state.rotation.abs() <= SETTLED * self.rotation + state.reference.reach())
+            && !self.pushed(model, seen);
+        state.still = if still { state.still.saturating_add(1) } else { 0 };
+        let needed = if state.lost { PATIENCE * u32::from(self.ticks) } else { self.ticks.into() };
+        if u32::from(state.still) <= needed {
+            return false;
+        }
+        state.stand(seen.travel);
+        true
+    }
+
+    #[inline]
+    fn pushed(&self, model: &Model, seen: &Measured) -> bool {
+        seen.ground[0].abs() > model.parameters.uplift * (1.0 + seen.ground[1])
     }
 
     /// What is known of a standing block.

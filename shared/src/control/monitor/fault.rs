@@ -70,6 +70,8 @@ pub enum Fault {
     CalibrationAbandoned,
     /// Only a warning: the clutches were not tested, for lack of stillness.
     SelfTestAbandoned,
+    /// Only a warning: the clutches are commanded more often than a motion asks for.
+    CommandsTooMany,
 }
 
 /// A fault travels as its code.
@@ -169,6 +171,7 @@ codes! {
     62 EstimateNotFinite;
     71 CalibrationAbandoned;
     72 SelfTestAbandoned;
+    73 CommandsTooMany;
     81 HighSideClosed(Wheel::First);
     82 HighSideClosed(Wheel::Second);
     83 LowSideClosed(Wheel::First);
@@ -197,7 +200,8 @@ impl Fault {
             | Fault::Overrun
             | Fault::EstimateNotFinite
             | Fault::CalibrationAbandoned
-            | Fault::SelfTestAbandoned => None,
+            | Fault::SelfTestAbandoned
+            | Fault::CommandsTooMany => None,
         }
     }
 
@@ -208,7 +212,7 @@ impl Fault {
     /// | of a sensor | when good | good readings show it, and the new calibration tries bias and gravity afresh |
     /// | of a clutch or its coil, failed self-test | on request | a part that may be broken shows nothing until it is used: somebody must look |
     /// | overrun, estimate not finite | on request | the program or its parameters are wrong, which time does not mend |
-    /// | abandoned calibration or self-test | not needed | a warning only |
+    /// | abandoned calibration or self-test, too many commands | not needed | a warning only |
     pub fn recovery(self) -> Recovery {
         match self {
             Fault::Stale(_) | Fault::Stuck(_) | Fault::Saturated(_) | Fault::NotFinite(_) | Fault::Contradiction(_) => {
@@ -221,7 +225,7 @@ impl Fault {
                 Recovery::OnRequest
             }
             Fault::Overrun | Fault::EstimateNotFinite => Recovery::OnRequest,
-            Fault::CalibrationAbandoned | Fault::SelfTestAbandoned => Recovery::NotNeeded,
+            Fault::CalibrationAbandoned | Fault::SelfTestAbandoned | Fault::CommandsTooMany => Recovery::NotNeeded,
         }
     }
 }
@@ -258,6 +262,7 @@ impl fmt::Display for Fault {
                 write!(formatter, "calibration abandoned for lack of stillness: armed with the last biases")
             }
             Fault::SelfTestAbandoned => write!(formatter, "self-test abandoned for lack of stillness: the clutches are untested"),
+            Fault::CommandsTooMany => write!(formatter, "controller: it commands the clutches more often than a motion asks for"),
         }
     }
 }

@@ -16,6 +16,21 @@ pub struct Calibration {
     pub encoder_zero: i32,
 }
 
+impl Calibration {
+    /// Goes a `share` of the way to what has been `found` now. `part` is what the encoder's zero is ahead of its whole number, in counts.
+    pub fn follow(&mut self, found: &Calibration, share: f32, part: &mut f32) {
+        let toward = |own: &mut f32, found: f32| *own += share * (found - *own);
+        toward(&mut self.gyroscope, found.gyroscope);
+        for (own, found) in self.block.iter_mut().zip(found.block).chain(self.ground.iter_mut().zip(found.ground)) {
+            toward(own, found);
+        }
+        toward(part, found.encoder_zero.wrapping_sub(self.encoder_zero) as f32);
+        let whole = *part as i32;
+        self.encoder_zero = self.encoder_zero.wrapping_add(whole);
+        *part -= whole as f32;
+    }
+}
+
 /// The farther of an accelerometer's two readings from (0, g), its bias subtracted, m/s².
 pub(in crate::control) fn off_gravity(reading: [f32; 2], bias: [f32; 2], gravity: f32) -> f32 {
     let [along, up] = [reading[0] - bias[0], reading[1] - bias[1] - gravity].map(f32::abs);
@@ -207,6 +222,23 @@ mod tests {
         let (found, bad) = finished(&[turning; 3], [false; 4]);
         assert_eq!((found, bad), (LAST, [false; 4]));
         assert_eq!(finished(&[], [true; 4]), (LAST, [false; 4]));
+    }
+
+    #[test]
+    fn a_drift_is_followed_with_a_lag() {
+        let (mut own, mut part) = (Calibration { encoder_zero: i32::MAX - 10, ..Calibration::default() }, 0.0);
+        // 20 counts and 0.6 mrad/s in 3600 steps, of which 120 are the lag.
+        for step in 0..=3600_i32 {
+            let found = Calibration {
+                gyroscope: step as f32 / 6e6,
+                encoder_zero: (i32::MAX - 10).wrapping_add(step / 180),
+                ..Calibration::default()
+            };
+            own.follow(&found, 1.0 / 120.0, &mut part);
+        }
+        assert!((own.gyroscope - 3481.0 / 6e6).abs() < 1e-7, "{own:?}");
+        assert_eq!(own.encoder_zero, (i32::MAX - 10).wrapping_add(18));
+        assert!(part.abs() < 1.0);
     }
 
     #[test]

@@ -99,6 +99,7 @@ impl Instruments {
             ground_force: force,
             ground,
             ground_rate: state.ground[0].rate.clamp(-FASTEST_GROWTH, FASTEST_GROWTH),
+            engaged: sample.engaged,
         }
     }
 
@@ -154,6 +155,8 @@ pub struct Measured {
     pub ground: [f32; 2],
     /// Growth of the horizontal one, 1/s.
     pub ground_rate: f32,
+    /// What each clutch reports of itself: engaged.
+    pub engaged: [bool; 2],
 }
 
 #[cfg(test)]

@@ -2,7 +2,6 @@
 
 use crate::control::monitor::coil::CoilReports;
 use crate::control::monitor::fault::Fault;
-use crate::control::sensing::calibration::Calibration;
 use crate::control::sensing::sample::Sample;
 use serde::{Deserialize, Serialize};
 
@@ -56,6 +55,17 @@ pub struct SupervisorInput<'a> {
     pub coils: CoilReports,
 }
 
+/// What a tick makes of the biases.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Biases {
+    /// They are as before.
+    Kept,
+    /// They have been measured, and the controller armed: estimators must start anew, from rest.
+    Measured,
+    /// They have followed a drift.
+    Followed,
+}
+
 /// What the supervisor says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict {
@@ -65,8 +75,6 @@ pub struct Verdict {
     pub fault: Option<Fault>,
     /// To be sent to the clutches.
     pub command: [bool; 2],
-    /// What the estimators subtract.
-    pub calibration: Calibration,
-    /// The controller has just been armed: estimators must start anew, from rest.
-    pub just_calibrated: bool,
+    /// What has become of the biases that the estimators subtract.
+    pub biases: Biases,
 }

@@ -5,14 +5,16 @@
 //!
 //! The room imports `structure`, `control::sensing`, `control::monitor` and `control::ticks`.
 
+mod command_rate;
 pub mod event_log;
+mod following;
 mod interface;
 mod judge;
 mod motion;
 mod parameters;
 mod self_test;
 
-pub use interface::{Phase, Requests, SupervisorInput, Verdict};
+pub use interface::{Biases, Phase, Requests, SupervisorInput, Verdict};
 pub use parameters::{Parameters, SafeState};
 
 use crate::control::monitor::actuator::{ActuatorMonitor, ActuatorState};
@@ -24,7 +26,9 @@ use crate::control::sensing::sample::Sample;
 use crate::control::sensing::sensor::Sensor;
 use crate::control::ticks::Streak;
 use crate::structure::error::ParameterError;
+use command_rate::CommandRate;
 use event_log::{Entry, EventLog, Kind};
+use following::Following;
 use judge::SOURCES;
 use motion::{Motion, MotionLimits};
 use self_test::SelfTest;
@@ -51,6 +55,12 @@ pub struct Supervisor {
     plausible: Plausible,
     overrun_ticks: u32,
     overrun_limit: f32,
+    /// Ticks of a second.
+    second: u32,
+    /// Samples that are averaged for a step towards a drift, …
+    averaged: u32,
+    /// … and its share of the way.
+    followed: f32,
 }
 
 /// Where a supervisor stands; the default is before its first tick.
@@ -84,6 +94,8 @@ pub struct SupervisorState {
     motion: Motion,
     self_test: SelfTest,
     averaging: Averaging,
+    following: Following,
+    command_rate: CommandRate,
 }
 
 impl SupervisorState {
@@ -110,6 +122,8 @@ impl SupervisorState {
             motion,
             self_test,
             averaging,
+            following,
+            command_rate,
         } = self;
         (*phase, *cause, *latched, *active, *any_active) = (Phase::Boot, None, false, [None; SOURCES], false);
         (*sent, *calibration, *calibrated, *tested) = ([false; 2], Calibration::default(), false, false);
@@ -117,6 +131,7 @@ impl SupervisorState {
         *monitor = MonitorState::default();
         (*actuator, *motion) = (ActuatorState::default(), Motion::default());
         (*self_test, *averaging) = (SelfTest::default(), Averaging::default());
+        (*following, *command_rate) = (Following::default(), CommandRate::default());
     }
 
     /// A board that measures its coils' currents shall try their switches one by one before it engages.
@@ -127,6 +142,11 @@ impl SupervisorState {
     /// What the last tick left.
     pub fn phase(&self) -> Phase {
         self.phase
+    }
+
+    /// What the estimators subtract.
+    pub fn calibration(&self) -> &Calibration {
+        &self.calibration
     }
 }
 
@@ -167,6 +187,7 @@ impl Supervisor {
     /// Makes a state that has just begun skip everything before Rocking.
     pub fn resume(&self, state: &mut SupervisorState, calibration: &Calibration) {
         (state.phase, state.calibration, state.calibrated, state.tested) = (Phase::Rocking, *calibration, true, true);
+        state.following.unsure = true;
         state.monitor = MonitorState::expecting(self.required.flags());
     }
 
@@ -181,7 +202,7 @@ impl Supervisor {
         let (alarm, latches) = if state.phase == Phase::Boot { (None, false) } else { self.judge(state, input, &findings) };
         let clear = input.requests.clear && !state.clear_before;
         state.clear_before = input.requests.clear;
-        let mut just_calibrated = false;
+        let mut biases = Biases::Kept;
         match (alarm, state.phase) {
             (Some(_), Phase::Fault) => {
                 state.latched |= latches;
@@ -194,9 +215,10 @@ impl Supervisor {
             }
             (None, Phase::Boot) => self.boot(state, input, &findings),
             (None, Phase::SelfTest) => self.test(state, input),
-            (None, Phase::Calibrate) => just_calibrated = self.calibrate(state, input, &findings),
+            (None, Phase::Calibrate) => biases = self.calibrate(state, input, &findings),
             (None, Phase::Armed) if state.motion.quiet == 0 => enter(state, input, Phase::Rocking),
             (None, Phase::Rocking) if state.motion.quiet >= self.quiet => enter(state, input, Phase::Armed),
+            (None, Phase::Armed) if self.follow(state, input, &findings) => biases = Biases::Followed,
             (None, Phase::Armed | Phase::Rocking) => {}
             (None, Phase::Fault) => {
                 let missing = self.required.flags().into_iter().zip(findings.good()).any(|(required, good)| required && !good);
@@ -211,15 +233,12 @@ impl Supervisor {
                     log(state, input, if now { Kind::Engaged(wheel) } else { Kind::Released(wheel) });
                 }
             }
+            if state.command_rate.changed(state.tick, self.second) {
+                log(state, input, Kind::Warning(Fault::CommandsTooMany.code()));
+            }
             state.sent = command;
         }
-        Verdict {
-            phase: state.phase,
-            fault: if state.phase == Phase::Fault { state.cause } else { None },
-            command,
-            calibration: state.calibration,
-            just_calibrated,
-        }
+        Verdict { phase: state.phase, fault: if state.phase == Phase::Fault { state.cause } else { None }, command, biases }
     }
 
     /// What is to be sent. Never both to a block that moves, where that is not allowed: what was sent before then stays.
@@ -295,9 +314,8 @@ impl Supervisor {
         }
     }
 
-    /// Whether the controller has just been armed.
     #[inline(never)]
-    fn calibrate(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>, findings: &Findings) -> bool {
+    fn calibrate(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>, findings: &Findings) -> Biases {
         state.waiting = state.waiting.saturating_add(1);
         if !state.motion.still(1) {
             state.averaging = Averaging::default();
@@ -315,18 +333,21 @@ impl Supervisor {
             }
             if let Some(fault) = refused {
                 self.fail(state, input, fault);
-                return false;
+                return Biases::Kept;
             }
             (state.calibration, state.calibrated) = (found, true);
             state.monitor.recalibrated();
+            state.following = Following::default();
             log(state, input, Kind::Calibrated);
-        } else if state.waiting >= self.patience {
-            log(state, input, Kind::Warning(Fault::CalibrationAbandoned.code()));
-        } else {
-            return false;
+            enter(state, input, Phase::Armed);
+            return Biases::Measured;
         }
-        enter(state, input, Phase::Armed);
-        true
+        if state.waiting >= self.patience {
+            log(state, input, Kind::Warning(Fault::CalibrationAbandoned.code()));
+            state.following.unsure = true;
+            enter(state, input, Phase::Armed);
+        }
+        Biases::Kept
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a supervisor is told about its controller, in SI units.
 
 use super::Supervisor;
+use super::following::{EVERY, FOLLOWING_TIME};
 use super::motion::MotionLimits;
 use crate::control::monitor::actuator::ActuatorMonitor;
 use crate::control::monitor::fault::Wheel;
@@ -143,6 +144,7 @@ impl Parameters {
     pub(super) fn resolve(&self) -> Supervisor {
         let period = self.period;
         let of = |seconds| ticks(seconds, period);
+        let share = self.calibration_time / FOLLOWING_TIME;
         Supervisor {
             monitor: self.monitor.resolve(period, self.plausible.gyroscope),
             actuator: ActuatorMonitor {
@@ -169,6 +171,9 @@ impl Parameters {
             plausible: self.plausible,
             overrun_ticks: self.overrun_ticks,
             overrun_limit: self.overrun_limit,
+            second: of(1.0),
+            averaged: of(self.calibration_time / EVERY as f32).max(1),
+            followed: if share < 1.0 { share } else { 1.0 },
         }
     }
 }

@@ -17,6 +17,7 @@ mod flash;
 mod resume;
 mod rig;
 mod wraps;
+mod zero;
 
 /// A device with its block and its flash.
 struct Bench {

@@ -21,7 +21,7 @@ fn from_boot_to_rocking_and_back() {
     assert!((2000..2010).contains(&ticks), "{ticks}");
     let verdict = rig.step();
     assert_eq!(verdict.command, [true, false]);
-    let found = verdict.calibration;
+    let found = *rig.state.calibration();
     for bias in [found.gyroscope, found.block[0], found.block[1], found.ground[0], found.ground[1]] {
         assert!((bias - BIAS).abs() < 3e-3, "{found:?}");
     }
@@ -40,8 +40,11 @@ fn from_boot_to_rocking_and_back() {
 #[test]
 fn estimators_are_told_once() {
     let mut rig = Rig::new(&parameters());
-    let told: Vec<bool> =
-        (0..5000).map(|_| rig.step()).filter(|verdict| verdict.just_calibrated).map(|v| v.phase == Phase::Armed).collect();
+    let told: Vec<bool> = (0..5000)
+        .map(|_| rig.step())
+        .filter(|verdict| verdict.biases == Biases::Measured)
+        .map(|v| v.phase == Phase::Armed)
+        .collect();
     assert_eq!(told, [true]);
 }
 
@@ -152,7 +155,7 @@ fn a_run_may_begin_with_the_motion() {
     rig.state = rig.supervisor.started(calibration);
     (rig.rotation, rig.velocity, rig.wish) = (0.15, 0.0, [true, false]);
     let verdict = rig.step();
-    assert_eq!((verdict.phase, verdict.command, verdict.calibration), (Phase::Rocking, [true, false], calibration));
+    assert_eq!((verdict.phase, verdict.command, *rig.state.calibration()), (Phase::Rocking, [true, false], calibration));
     rig.quietly(20_000);
     assert_eq!(rig.complaints(), []);
     // A sensor that never says anything is found as if it had.

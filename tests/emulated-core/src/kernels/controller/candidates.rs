@@ -39,7 +39,7 @@ const MODEL_AIDED: Estimator = Estimator::ModelAided(ModelAided {
     gains: [[0.471_781_28, 7.034_311e-5], [323.346_56, 0.143_869_77]],
     blank: 5,
     jump: 0.033_469_82,
-    standing: standing(9.482_804e-6, 0.003_521_347_5),
+    standing: standing(1.269_828e-4, 0.003_521_347_5),
     deviation: deviation([4.957_009_3e-7, 0.000_586_891_1, 0.004_892_385_6]),
 });
 const KALMAN: Estimator = Estimator::Kalman(Kalman {
@@ -51,14 +51,14 @@ const KALMAN: Estimator = Estimator::Kalman(Kalman {
     ],
     blank: 5,
     jump: 0.033_469_82,
-    standing: standing(8.682_487e-6, 0.000_476_336_6),
+    standing: standing(1.261_825e-4, 0.000_476_336_6),
     deviation: deviation([2.956_217_3e-7, 7.938_927e-5, 0.015_291_602]),
 });
 const COMPLEMENTARY: Estimator = Estimator::Complementary(Complementary {
     gains: [0.547_534_8, 423.077_24],
     smoothing: 0.283_468_7,
     blank: 5,
-    standing: standing(9.636_069e-6, 0.003_935_762_6),
+    standing: standing(1.271_361e-4, 0.003_935_762_6),
     deviation: deviation([5.340_172e-7, 0.000_655_960_3, 0.006_240_946]),
 });
 
