@@ -291,7 +291,7 @@ pub fn decides(decision: &Decision) -> bool {
 pub fn is_way(from: Phase, to: Phase, resumed: bool) -> bool {
     use Phase::{Armed, Boot, Calibrate, Fault, Rocking, SelfTest};
     match (from, to) {
-        (Boot, Rocking) => resumed,
+        (Boot, Rocking) | (Rocking, Calibrate) | (Calibrate, Rocking) => resumed,
         (Boot, SelfTest) | (SelfTest, Calibrate) | (Calibrate, Armed) | (Armed, Rocking) | (Rocking, Armed) => true,
         (_, Fault) | (Fault, SelfTest | Calibrate) => true,
         (from, to) => from == to,

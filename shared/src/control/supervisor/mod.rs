@@ -82,6 +82,8 @@ pub struct SupervisorState {
     calibration: Calibration,
     /// The gyroscope's bias was measured.
     calibrated: bool,
+    /// It has gone on after a reset, so that the encoder's zero and the biases are those of before: to be measured again at rest.
+    resumed: bool,
     /// The self-test was passed, or is not wanted.
     tested: bool,
     /// Ticks spent in Boot, or in SelfTest and Calibrate waiting for stillness.
@@ -112,6 +114,7 @@ impl SupervisorState {
             sent,
             calibration,
             calibrated,
+            resumed,
             tested,
             waiting,
             clear_before,
@@ -126,7 +129,8 @@ impl SupervisorState {
             command_rate,
         } = self;
         (*phase, *cause, *latched, *active, *any_active) = (Phase::Boot, None, false, [None; SOURCES], false);
-        (*sent, *calibration, *calibrated, *tested) = ([false; 2], Calibration::default(), false, false);
+        (*sent, *calibration, *calibrated) = ([false; 2], Calibration::default(), false);
+        (*resumed, *tested) = (false, false);
         (*waiting, *clear_before, *late, *good) = (0, false, Streak::default(), Streak::default());
         *monitor = MonitorState::default();
         (*actuator, *motion) = (ActuatorState::default(), Motion::default());
@@ -181,13 +185,16 @@ impl Supervisor {
     pub fn started(&self, calibration: Calibration) -> SupervisorState {
         let mut state = SupervisorState::default();
         self.resume(&mut state, &calibration);
+        state.resumed = false;
         state
     }
 
-    /// Makes a state that has just begun skip everything before Rocking.
+    /// Makes a state that has just begun, after a reset in motion, skip everything before Rocking. Once nothing moves it is calibrated anew:
+    /// what the encoder has missed is gone then.
     pub fn resume(&self, state: &mut SupervisorState, calibration: &Calibration) {
         (state.phase, state.calibration, state.calibrated, state.tested) = (Phase::Rocking, *calibration, true, true);
         state.following.unsure = true;
+        state.resumed = true;
         state.monitor = MonitorState::expecting(self.required.flags());
     }
 
@@ -217,7 +224,9 @@ impl Supervisor {
             (None, Phase::SelfTest) => self.test(state, input),
             (None, Phase::Calibrate) => biases = self.calibrate(state, input, &findings),
             (None, Phase::Armed) if state.motion.quiet == 0 => enter(state, input, Phase::Rocking),
-            (None, Phase::Rocking) if state.motion.quiet >= self.quiet => enter(state, input, Phase::Armed),
+            (None, Phase::Rocking) if state.motion.quiet >= self.quiet => {
+                enter(state, input, if state.resumed { Phase::Calibrate } else { Phase::Armed });
+            }
             (None, Phase::Armed) if self.follow(state, input, &findings) => biases = Biases::Followed,
             (None, Phase::Armed | Phase::Rocking) => {}
             (None, Phase::Fault) => {
@@ -316,6 +325,11 @@ impl Supervisor {
 
     #[inline(never)]
     fn calibrate(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>, findings: &Findings) -> Biases {
+        if state.resumed && state.motion.quiet == 0 {
+            // The next shock must not find it waiting: what it has is good enough, as before.
+            enter(state, input, Phase::Rocking);
+            return Biases::Kept;
+        }
         state.waiting = state.waiting.saturating_add(1);
         if !state.motion.still(1) {
             state.averaging = Averaging::default();
@@ -335,7 +349,7 @@ impl Supervisor {
                 self.fail(state, input, fault);
                 return Biases::Kept;
             }
-            (state.calibration, state.calibrated) = (found, true);
+            (state.calibration, state.calibrated, state.resumed) = (found, true, false);
             state.monitor.recalibrated();
             state.following = Following::default();
             log(state, input, Kind::Calibrated);

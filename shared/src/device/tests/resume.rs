@@ -79,6 +79,45 @@ fn sensors_that_start_anew_are_waited_for_in_the_safe_state() {
     assert_eq!(phases.find_map(|fault| fault), Some(Fault::Stale(Sensor::Gyroscope)));
 }
 
+/// Counts that were lost over a reset are gone for good once nothing moves, and a shock meanwhile does not find the device waiting.
+#[test]
+fn what_the_encoder_missed_is_made_good_at_rest() {
+    const LOST: i32 = 700;
+    let mut again = reset(&Bench::rocking());
+    let tick = |bench: &mut Bench| {
+        let mut sample = bench.rig.sample();
+        sample.encoder.counts = sample.encoder.counts.wrapping_sub(LOST);
+        bench.device.tick(|own| *own = sample, 0.0);
+        bench.rig.advance(bench.device.decision().command);
+        *bench.device.decision()
+    };
+    let until = |bench: &mut Bench, phase, most: usize| {
+        assert!((0..most).any(|_| tick(bench).phase == phase), "{phase:?} never came: {:?}", bench.device.decision());
+    };
+    (0..2000).for_each(|_| assert_eq!(tick(&mut again).phase, Phase::Rocking));
+    again.rig.shakes = false;
+    until(&mut again, Phase::Calibrate, 40_000);
+    (0..500).for_each(|_| assert_eq!(tick(&mut again).phase, Phase::Calibrate));
+    again.rig.shakes = true;
+    until(&mut again, Phase::Rocking, 200);
+    again.rig.shakes = false;
+    until(&mut again, Phase::Calibrate, 40_000);
+    until(&mut again, Phase::Armed, 3000);
+    let zero = again.device.retained().calibration.encoder_zero;
+    let mut stood = 0;
+    for _ in 0..4000 {
+        let decision = tick(&mut again);
+        assert_eq!((decision.phase, decision.fault), (Phase::Armed, None));
+        stood += u32::from(decision.estimate.standing);
+    }
+    assert!(again.errors()[0] < 1e-5 && stood > 3900, "{:?}, {stood} ticks standing, zero {zero}", again.errors());
+    // It is not calibrated again and again.
+    again.rig.shakes = true;
+    until(&mut again, Phase::Rocking, 1000);
+    again.rig.shakes = false;
+    until(&mut again, Phase::Armed, 40_000);
+}
+
 #[test]
 fn while_it_goes_on_nothing_is_changed() {
     let mut again = reset(&Bench::rocking());
