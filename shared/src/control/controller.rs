@@ -37,8 +37,8 @@ pub struct Controller<L = ClutchLaw> {
     pub estimator: Estimator,
     /// The law.
     pub law: L,
-    /// From a tick to the moment at which its command has moved the clutch, s.
-    pub horizon: f32,
+    /// From a tick to the moment at which its command has engaged a clutch, and released one, s.
+    pub horizons: Horizons,
     /// Width of the hysteresis of signs in standard deviations of the estimate.
     pub bands: f32,
     /// Both clutches are engaged while the block stands, so that a flywheel resists from the first instant of uplift to either side, without
@@ -48,6 +48,22 @@ pub struct Controller<L = ClutchLaw> {
     pub gate: Gate,
     /// Who watches.
     pub supervisor: Supervisor,
+}
+
+/// From a tick to the moment at which its command has moved a clutch, s; 0 to 10.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Horizons {
+    /// That shall be engaged.
+    pub engagement: f32,
+    /// That shall be released.
+    pub release: f32,
+}
+
+impl Horizons {
+    /// Where both take `time` (s).
+    pub const fn of(time: f32) -> Horizons {
+        Horizons { engagement: time, release: time }
+    }
 }
 
 /// Its state.
@@ -194,7 +210,9 @@ impl<L: Law> Controller<L> {
         let rack = model.body.to_terminal(&configuration, estimate.velocity);
         state.turns.spin_at(model, rack, engaged, self.instruments.period);
         let ahead = if self.law.predicts() {
-            predict_from(model, &configuration, estimate, count(engaged), self.horizon)
+            // An engaged clutch can only be released, and an open one only be engaged: each question has its own delay.
+            let horizon = if engaged == [false; 2] { self.horizons.engagement } else { self.horizons.release };
+            predict_from(model, &configuration, estimate, count(engaged), horizon)
         } else {
             *estimate
         };

@@ -34,7 +34,7 @@ impl Controller {
             instruments: Part::read(settings),
             estimator: Part::read(settings),
             law: Part::read(settings),
-            horizon: Item::Horizon.read(settings),
+            horizons: Part::read(settings),
             bands: Item::Bands.read(settings),
             engaged_at_rest: Item::EngagedAtRest.read(settings),
             gate: Part::read(settings),
@@ -67,7 +67,7 @@ impl Settings {
     pub fn of(controller: &Controller, supervision: &Parameters) -> Result<Settings, SettingError> {
         let mut draft = Draft::new();
         // Taken apart whole: a field that is forgotten does not compile.
-        let Controller { model, instruments, estimator, law, horizon, bands, engaged_at_rest, gate, supervisor: _ } = controller;
+        let Controller { model, instruments, estimator, law, horizons, bands, engaged_at_rest, gate, supervisor: _ } = controller;
         // The period is that of the instruments, which come later.
         supervision.put(&mut draft);
         model.put(&mut draft);
@@ -75,7 +75,8 @@ impl Settings {
         estimator.put(&mut draft);
         law.put(&mut draft);
         gate.put(&mut draft);
-        [Item::Horizon, Item::Bands].put(&[*horizon, *bands], &mut draft);
+        horizons.put(&mut draft);
+        Item::Bands.put(bands, &mut draft);
         Item::EngagedAtRest.put(engaged_at_rest, &mut draft);
         let settings = Settings::from_words(&draft.words)?;
         if Controller::of(&settings)? == *controller && Parameters::read(&settings) == *supervision {

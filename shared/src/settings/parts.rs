@@ -2,6 +2,7 @@
 
 use super::limits::DEFAULTS;
 use super::{COUNT, Item, Settings};
+use crate::control::controller::Horizons;
 use crate::control::estimation::Estimator;
 use crate::control::estimation::complementary::Complementary;
 use crate::control::estimation::estimate::Deviation;
@@ -221,6 +222,7 @@ parts! {
         base: Own,
     }
     Gate { dwell: Item::Dwell }
+    Horizons { engagement: Item::Horizon, release: Item::ReleaseHorizon }
 
     Parameters {
         period: Item::Period,
@@ -365,17 +367,20 @@ impl Part for Model {
 
 const FROM_READINGS: [Item; 2] = [Item::Period, Item::TravelPerCount];
 const DELAYS: [Item; 3] = [Item::GyroscopeDelay, Item::EncoderDelay, Item::GroundDelay];
+const BLOCK_POSITION: [Item; 2] = [Item::BlockAlong, Item::BlockUp];
 const TRACKING: [Item; 2] = [Item::TrackingValue, Item::TrackingGrowth];
 
 impl Part for Instruments {
     fn read(settings: &Settings) -> Instruments {
         let [period, travel_per_count] = FROM_READINGS.read(settings);
-        Instruments::of_gains(period, travel_per_count, DELAYS.read(settings), TRACKING.read(settings))
+        let made = Instruments::of_gains(period, travel_per_count, DELAYS.read(settings), TRACKING.read(settings));
+        Instruments { block_position: BLOCK_POSITION.read(settings), ..made }
     }
 
     fn put(&self, draft: &mut Draft) {
         FROM_READINGS.put(&[self.period, self.travel_per_count], draft);
         DELAYS.put(&[self.gyroscope_delay, self.encoder_delay, self.ground_delay], draft);
         TRACKING.put(&self.gains, draft);
+        BLOCK_POSITION.put(&self.block_position, draft);
     }
 }

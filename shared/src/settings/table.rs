@@ -100,6 +100,9 @@ parameters! {
     TrackingValue "instruments.tracking_value" real("", 0.0, 1.0, 0.486_582_9);
     TrackingGrowth "instruments.tracking_growth" real("", 0.0, 1.0, 0.080_354_504);
 
+    BlockAlong "instruments.block_along" real("m", -100.0, 100.0, 0.0);
+    BlockUp "instruments.block_up" real("m", -100.0, 100.0, 0.0);
+
     Estimator "estimator" choice(&["model-aided", "kalman", "complementary"], 0);
     RotationByEncoder "estimator.rotation_by_encoder" gain("", 0.471_781_28);
     RotationByGyroscope "estimator.rotation_by_gyroscope" gain("s", 7.034_311e-5).only(MODEL_AIDED_OR_KALMAN);
@@ -138,6 +141,7 @@ parameters! {
     LawMargin "law.margin" real("", -10.0, 10.0, 0.014).only(LOOK_AHEAD);
 
     Horizon "controller.horizon" span(10.0, 0.005_25);
+    ReleaseHorizon "controller.release_horizon" span(10.0, 0.005_25);
     Bands "controller.bands" real("", 0.0, 1e3, 1.0);
     EngagedAtRest "controller.engaged_at_rest" switch(true);
     Dwell "controller.gate.dwell" whole("ticks", 0, TICKS, 0);

@@ -3,7 +3,7 @@
 use super::kind::{Description, Kind, Use};
 use super::parts::Part;
 use super::*;
-use crate::control::controller::{Circumstances, Controller};
+use crate::control::controller::{Circumstances, Controller, Horizons};
 use crate::control::estimation::Estimator;
 use crate::control::estimation::complementary::Complementary;
 use crate::control::estimation::estimate::Deviation;
@@ -157,7 +157,7 @@ fn controller(structure: &Structure, estimator: Estimator, law: ClutchLaw, p: &P
         instruments: Instruments::new(p.period.into(), 5e-6 / 2.0, [delay, 0.0, delay], 0.0015).unwrap(),
         estimator,
         law,
-        horizon: (10.5 / (1.0 / f64::from(p.period)).round()) as f32,
+        horizons: Horizons::of((10.5 / (1.0 / f64::from(p.period)).round()) as f32),
         bands: 1.0,
         engaged_at_rest: true,
         gate: Gate::default(),
@@ -212,7 +212,8 @@ fn each(mut check: impl FnMut(&Settings, Controller)) {
                 for (index, body) in BODIES.into_iter().enumerate() {
                     let mut made = controller(&structure(body, mount), estimator, law, &supervision);
                     if index == 2 {
-                        (made.horizon, made.bands, made.engaged_at_rest, made.gate) = (0.01, 2.0, false, Gate { dwell: 9 });
+                        (made.bands, made.engaged_at_rest, made.gate) = (2.0, false, Gate { dwell: 9 });
+                        made.horizons = Horizons { engagement: 0.01, release: 0.004 };
                     }
                     check(&Settings::of(&made, &supervision).unwrap(), made);
                 }

@@ -1,6 +1,6 @@
 //! From a scene to a closed loop: the controller with its belief about the structure, the sensors, the plant.
 
-use sprag_shared::control::controller::Controller;
+use sprag_shared::control::controller::{Controller, Horizons};
 use sprag_shared::control::law::any_law::ClutchLaw;
 use sprag_shared::control::law::look_ahead::LookAhead;
 use sprag_shared::control::law::minimum_dwell::Gate;
@@ -132,6 +132,13 @@ impl<'a> LoopTask<'a> {
         self.controller.latency_s + actuation.engagement_delay.max(actuation.release_delay)
     }
 
+    /// To the middle of the ticks at which its commands are given, each with the delay of what is commanded.
+    fn horizons(&self, period: f64) -> Horizons {
+        let actuation = self.drivetrain().actuation;
+        let after = |delay: f64| (self.controller.latency_s + delay + 0.5 * period) as f32;
+        Horizons { engagement: after(actuation.engagement_delay), release: after(actuation.release_delay) }
+    }
+
     /// The controller by `law`.
     ///
     /// # Errors
@@ -152,7 +159,7 @@ impl<'a> LoopTask<'a> {
             instruments: design.instruments,
             estimator: design.estimator,
             law,
-            horizon: (self.actuation() + 0.5 * period) as f32,
+            horizons: self.horizons(period),
             bands: table.hysteresis as f32,
             engaged_at_rest: table.engaged_at_rest,
             gate: Gate { dwell: (table.dwell_s / period).round() as u16 },

@@ -49,7 +49,7 @@ impl Complementary {
         }
         state.blank = state.blank.saturating_sub(1);
         if let (Some(block), 0) = (seen.block, state.blank) {
-            let measured = measured_acceleration(model, state, block, seen.ground_force[0]);
+            let measured = measured_acceleration(model, instruments, state, block, seen.ground_force[0]);
             state.acceleration += self.smoothing * (measured - state.acceleration);
         }
         state.advance(state.acceleration, instruments.period);

@@ -5,7 +5,7 @@
 //!
 //! R (cos δ θ̈ + sin δ θ̇²) = f₁ cos θ + f₂ sin θ − f_g,
 //!
-//! with f in the block's axes (horizontal acceleration of the centre of mass relative to the ground). Gains are those of the steady
+//! with f in the block's axes at the centre of mass, or corrected for where it is measured. Gains are those of the steady
 //! state, solved on the host. The filter knows of impacts only that θ = 0 is one: the velocity takes η there, the acceleration that of
 //! the other toe.
 
@@ -31,13 +31,24 @@ pub struct Kalman {
     pub deviation: Deviation,
 }
 
-/// θ̈ from the specific forces of block and ground, rad/s².
+/// θ̈ from the specific forces of block and ground, rad/s². An accelerometer at (x, y) from the centre of mass, in the block's axes, feels
+/// (y θ̈ − x θ̇², −x θ̈ − y θ̇²) more than there, so that
+///
+/// (R cos δ + y cos θ − x sin θ) θ̈ = f₁ cos θ + f₂ sin θ − f_g − (R sin δ − x cos θ − y sin θ) θ̇².
 #[inline]
-pub(super) fn measured_acceleration(model: &Model, state: &EstimatorState, block: [f32; 2], ground: f32) -> f32 {
+pub(super) fn measured_acceleration(
+    model: &Model,
+    instruments: &Instruments,
+    state: &EstimatorState,
+    block: [f32; 2],
+    ground: f32,
+) -> f32 {
     let (sine, cosine) = sine32::sin_cos(state.rotation);
-    let relative = (block[0] * cosine + block[1] * sine - ground) / model.parameters.size;
+    let ([x, y], size) = (instruments.block_position, model.parameters.size);
     let (across, along) = model.direction_cosines(state.side, state.rotation);
-    (relative - along * state.velocity * state.velocity) / across
+    let turning = along - (x * cosine + y * sine) / size;
+    let relative = (block[0] * cosine + block[1] * sine - ground) / size;
+    (relative - turning * state.velocity * state.velocity) / (across + (y * cosine - x * sine) / size)
 }
 
 impl Kalman {
@@ -71,7 +82,7 @@ impl Kalman {
         let acceleration = seen
             .block
             .filter(|_| believed)
-            .map_or(0.0, |block| measured_acceleration(model, state, block, seen.ground_force[0]) - ahead);
+            .map_or(0.0, |block| measured_acceleration(model, instruments, state, block, seen.ground_force[0]) - ahead);
         let [of_rotation, of_velocity, of_acceleration, of_bias] = self.gains;
         let corrected = |gains: [f32; 3]| gains[0] * travel + gains[1] * rate + gains[2] * acceleration;
         state.rotation = rotation + corrected(of_rotation);

@@ -26,6 +26,8 @@ pub struct Instruments {
     pub(crate) gains: [f32; 2],
     /// 1 over `period`.
     pub(crate) period_inverse: f32,
+    /// Where the block's accelerometer is, from its centre of mass, in its axes (along, up), m. [`Instruments::new`] has it there.
+    pub block_position: [f32; 2],
 }
 
 /// Largest growth of the ground's acceleration that is extrapolated, g/s: a record of 1 g with 20 Hz in it. What grows faster is a
@@ -67,6 +69,7 @@ impl Instruments {
             ground_delay,
             gains,
             period_inverse: 1.0 / period,
+            block_position: [0.0; 2],
         }
     }
 

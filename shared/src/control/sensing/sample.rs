@@ -26,7 +26,8 @@ pub struct Count {
 pub struct Sample {
     /// θ̇ of the block, rad/s.
     pub gyroscope: Reading,
-    /// Specific force at the block's centre of mass, in its own axes, m/s²: (0, g) at rest.
+    /// Specific force of the block where its accelerometer is ([`Instruments::block_position`](super::instruments::Instruments)), in its own
+    /// axes, m/s²: (0, g) at rest.
     pub block_accelerometer: [Reading; 2],
     /// Specific force of the ground, m/s²: (ü_g, g + v̈_g).
     pub ground_accelerometer: [Reading; 2],

@@ -131,12 +131,28 @@ fn sample(truth: &Truth, number: u32, noise: f64, dice: &mut u32) -> Sample {
     }
 }
 
-fn run(estimator: &Estimator, truths: &[Truth], noise: f64, mut look: impl FnMut(&Truth, &Estimate)) {
+fn run(estimator: &Estimator, truths: &[Truth], noise: f64, look: impl FnMut(&Truth, &Estimate)) {
+    run_mounted(estimator, truths, noise, [[0.0; 2]; 2], look);
+}
+
+/// With the block's accelerometer at one place, (x, y) from the centre of mass, and believed to be at another.
+fn run_mounted(
+    estimator: &Estimator,
+    truths: &[Truth],
+    noise: f64,
+    [place, believed]: [[f32; 2]; 2],
+    mut look: impl FnMut(&Truth, &Estimate),
+) {
     let model = example_model();
-    let instruments = Instruments::new(PERIOD, COUNT, [0.0; 3], 0.0015).unwrap();
+    let centred = Instruments::new(PERIOD, COUNT, [0.0; 3], 0.0015).unwrap();
+    let instruments = Instruments { block_position: believed, ..centred };
     let (mut state, mut reading, mut dice) = (EstimatorState::default(), InstrumentsState::default(), 1);
     for (number, truth) in truths.iter().enumerate() {
-        let sample = sample(truth, number as u32 + 1, noise, &mut dice);
+        let mut sample = sample(truth, number as u32 + 1, noise, &mut dice);
+        let shock = if truth.since_impact < 0.001 { truth.jump / 0.001 } else { 0.0 };
+        let (turning, squared) = ((truth.acceleration + shock) as f32, (truth.velocity * truth.velocity) as f32);
+        sample.block_accelerometer[0].value += place[1] * turning - place[0] * squared;
+        sample.block_accelerometer[1].value -= place[0] * turning + place[1] * squared;
         let seen = instruments.read(&mut reading, &sample, &Calibration::default());
         look(truth, &estimator.step(&mut state, &model, &instruments, &seen, 0));
     }
@@ -166,6 +182,28 @@ fn the_motion_is_found_through_noise_and_impacts() {
             assert!(velocity < 0.02, "{name}, noise {noise}: θ̇ within {velocity}");
             assert!(wrong < 0.02 * weight, "{name}, noise {noise}: wrong sign on {} of the way", wrong / weight);
         }
+    }
+}
+
+/// A metre above the centre of mass and half a metre beside it, where a metre is half of R.
+#[test]
+fn an_accelerometer_may_be_anywhere_that_is_known() {
+    let truths = motion(0.25, 7.0, 8.0);
+    let place = [0.5, 1.0];
+    for (name, estimator) in estimators().into_iter().filter(|(name, _)| *name != "model-aided") {
+        let wrong = |believed: [f32; 2]| {
+            let (mut wrong, mut weight) = (0.0, 0.0);
+            run_mounted(&estimator, &truths, 1.0, [place, believed], |truth, estimate| {
+                let off = (f64::from(estimate.push) - truth.acceleration).abs();
+                if !estimate.standing && truth.since_impact > 0.02 && truth.since_impact.is_finite() {
+                    wrong += off;
+                    weight += truth.acceleration.abs();
+                }
+            });
+            wrong / weight
+        };
+        assert!(wrong(place) < 0.05, "{name}: {}", wrong(place));
+        assert!(wrong([0.0; 2]) > 0.2, "{name}: {}", wrong([0.0; 2]));
     }
 }
 

@@ -1,6 +1,7 @@
 //! Examples that the tests beside the controller's parts share.
 
 mod estimators;
+mod horizons;
 
 use super::model::Model;
 use crate::control::estimation::estimate::Estimate;

@@ -2,7 +2,7 @@
 
 use super::rig::{CLUTCH_TICKS, PERIOD, TRAVEL_PER_COUNT};
 use core::fmt;
-use sprag_shared::control::controller::Controller;
+use sprag_shared::control::controller::{Controller, Horizons};
 use sprag_shared::control::estimation::Estimator;
 use sprag_shared::control::estimation::complementary::Complementary;
 use sprag_shared::control::estimation::estimate::Deviation;
@@ -164,7 +164,7 @@ impl Candidate {
             instruments: Instruments::new(period, f64::from(TRAVEL_PER_COUNT), DELAYS, TRACKING)?,
             estimator: self.estimator,
             law: self.law,
-            horizon: ((f64::from(CLUTCH_TICKS) + 0.5) * period) as f32,
+            horizons: Horizons::of(((f64::from(CLUTCH_TICKS) + 0.5) * period) as f32),
             bands: 1.0,
             engaged_at_rest: true,
             gate: Gate { dwell: 0 },
