@@ -20,7 +20,7 @@ compile_error!("select one board only: --no-default-features --features board-qe
 use embedded_storage::nor_flash::NorFlash;
 use sprag_shared::control::monitor::coil::CoilReports;
 use sprag_shared::control::sensing::sample::Sample;
-use sprag_shared::control::supervisor::Phase;
+use sprag_shared::device::light::Shown;
 use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::settings::Settings;
 
@@ -43,6 +43,9 @@ pub trait Board: Sized {
 
     /// Rate of the processor's clock, by which its SysTick counts, 1/s.
     const CORE_HZ: u32;
+
+    /// Shortest period of the controller that leaves time for the link beside its ticks, s. Settings with a shorter one are refused.
+    const LEAST_PERIOD: f32;
 
     /// Every peripheral of the chip, as its register library hands them out.
     type Chip;
@@ -135,5 +138,5 @@ pub trait Line {
 /// The status light.
 pub trait Light {
     /// Shows a state in a slot of the light's time ([`sprag_shared::device::light`]). To be called once a control period.
-    fn show(&mut self, phase: Phase, fault: Option<u16>, slot: u32);
+    fn show(&mut self, shown: Shown, slot: u32);
 }

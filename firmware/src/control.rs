@@ -114,7 +114,7 @@ fn tick(control: &mut Control, device: &mut Device, outbox: &mut Outbox, late: u
     // With samples from the link the clutches are somewhere else.
     let command = if device.attached().is_some() { device.safe_command() } else { decision.command };
     coils.drive(command, device.tests_coils());
-    control.light.show(decision.phase, decision.fault.map(|fault| fault.code()), device.light_slot());
+    control.light.show(device.shown(), device.light_slot());
     #[cfg(feature = "log")]
     crate::log::decision(&before, decision);
     control.keeper.save(&device.retained());

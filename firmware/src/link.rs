@@ -60,20 +60,16 @@ pub struct Link {
 
 impl Link {
     /// With what is to be said about the start.
-    pub fn new(
-        line: <Selected as Board>::Line,
-        store: &'static mut Store<Flash>,
-        words: LastWords,
-        device: &Device,
-        stored: bool,
-    ) -> Link {
+    pub fn new(line: <Selected as Board>::Line, store: &'static mut Store<Flash>, words: LastWords, device: &Device) -> Link {
         let LastWords { cause, place, length, file } = words;
+        let stored = device.barred().is_none();
         let started = Started { cause, resumed: device.resumes(), stored, restarts: device.restarts(), length, place, file };
         let around = Surroundings {
             version: VERSION,
             build: BUILD,
             board: BOARD,
             counter_hz: Selected::COUNTER_HZ,
+            least_period: Selected::LEAST_PERIOD,
             rehearsal: cfg!(feature = "board-qemu"),
             cause,
             bad_frames: 0,
@@ -152,12 +148,18 @@ impl Link {
         moved
     }
 
+    /// The device's host has said nothing for too long: asks the device to go on without it.
+    pub fn desert(&mut self, mut ask: impl FnMut(&Request, &mut Store<Flash>, &Surroundings) -> (Answer, Option<Pace>)) {
+        warn!("the host is gone: detached");
+        (_, self.pace) = ask(&Request::Detach, self.store, &self.around);
+    }
+
     fn act(&mut self, tag: u8, answer: Answer) {
         match answer {
             Answer::Reply(reply) | Answer::Restarted(reply) => self.next = Some((tag, reply)),
             Answer::Sample if self.pace == Some(Pace::Sample) => tick::pend(),
             // Has been done before this is told.
-            Answer::Sample | Answer::Store => {}
+            Answer::Sample | Answer::Change(_) => {}
             Answer::Rehearse(mishap) => rehearse(mishap),
         }
     }

@@ -23,9 +23,10 @@ mod app {
     use crate::log::info;
     use crate::{last_words, memory, stack, tick};
     use core::mem::MaybeUninit;
-    use sprag_shared::control::controller::Controller;
+    use sprag_shared::device::beginning::Beginning;
     use sprag_shared::device::retained::Retained;
-    use sprag_shared::device::{Answer, Device};
+    use sprag_shared::device::{Answer, Device, Surroundings};
+    use sprag_shared::link::Request;
     use sprag_shared::settings::Settings;
     use sprag_shared::settings::store::{Store, StoreError};
 
@@ -49,44 +50,36 @@ mod app {
         let (store, settings) = Store::open(board.flash());
         let store = context.local.store.write(store);
         let kept = if words.cause.keeps_memory() { memory::load() } else { None };
-        let (device, stored) = start(context.local.device, settings.as_ref(), kept.as_ref());
+        // Only a rehearsal goes on with the host it had.
+        let kept = kept.map(|kept| if cfg!(feature = "board-qemu") { kept } else { kept.alone() });
+        let device = start(context.local.device, settings.as_ref(), kept.as_ref());
+        memory::Keeper::new().save(&device.retained());
         crate::control::set_safe_state(device.safe_command());
         let counts = kept.filter(|_| device.resumes()).map(|kept| kept.counts);
         let parts = board.begin(device.settings(), counts);
         tick::set_period(device.period_counts(Selected::CORE_HZ));
-        info!("started: {}, resumes {}, settings stored {}", words.cause, device.resumes(), stored);
-        let link = Link::new(parts.line, store, words, device, stored);
+        info!("started: {}, resumes {}, commissioned {}", words.cause, device.resumes(), device.barred().is_none());
+        let link = Link::new(parts.line, store, words, device);
         let control = Control::new(parts.sensors, parts.coils, parts.watchdog, parts.light);
         (Shared { device, outbox: Outbox::new() }, Local { control, link })
     }
 
-    /// The device with the settings found in flash, or with the defaults; whether they were found.
+    /// The device with the settings found in flash, or with the defaults.
     #[inline(never)]
     fn start(
         place: &'static mut MaybeUninit<Device>,
         settings: Option<&Settings>,
         kept: Option<&Retained>,
-    ) -> (&'static mut Device, bool) {
-        let stored = settings.and_then(|settings| Some((*settings, Controller::of(settings).ok()?)));
-        let found = stored.is_some();
-        let (settings, controller) = stored.unwrap_or_else(|| {
-            let settings = Settings::default();
-            // The tests make a controller of the defaults.
-            let Ok(controller) = Controller::of(&settings) else { last_words::stop() };
-            (settings, controller)
-        });
-        (put(place, &controller, &settings, kept), found)
+    ) -> &'static mut Device {
+        // The tests make a controller of the defaults.
+        let Some(beginning) = Beginning::of(settings, kept, Selected::LEAST_PERIOD) else { last_words::stop() };
+        put(place, &beginning, kept)
     }
 
     /// Makes the device in its place. By itself, so that the compiler sees that nobody else looks there, and makes no copy on the stack.
     #[inline(never)]
-    fn put<'a>(
-        place: &'a mut MaybeUninit<Device>,
-        controller: &Controller,
-        settings: &Settings,
-        kept: Option<&Retained>,
-    ) -> &'a mut Device {
-        place.write(Device::new(controller, settings, kept))
+    fn put<'a>(place: &'a mut MaybeUninit<Device>, beginning: &Beginning, kept: Option<&Retained>) -> &'a mut Device {
+        place.write(Device::new(beginning, kept))
     }
 
     #[task(binds = SysTick, priority = 3, local = [control], shared = [device, outbox])]
@@ -102,30 +95,42 @@ mod app {
         context.local.link.mend();
         loop {
             let report = if context.local.link.has_room() { context.shared.outbox.lock(Outbox::take) } else { None };
-            let moved = context.local.link.pump(report, |request, store, around| {
-                // Programming the flash takes longer than a control period, so the device is not held meanwhile.
-                let answer = context.shared.device.lock(|device| device.answer(request, around));
-                let stored = (answer == Answer::Store).then(|| {
-                    let draft = context.shared.device.lock(|device| *device.draft());
-                    match store.store(&draft) {
+            let deserted = context.shared.device.lock(|device| device.deserted());
+            let mut ask = |request: &Request, store: &mut Store<Flash>, around: &Surroundings| {
+                let device = &mut context.shared.device;
+                let answer = device.lock(|device| device.answer(request, around));
+                let change = if let Answer::Change(change) = answer {
+                    // Checking and storing take longer than a control period, so the device is not held meanwhile.
+                    let wanted = device.lock(|device| *device.wanted(change));
+                    let prepared = change.prepare(&wanted, around.least_period, |settings| match store.store(settings) {
                         // Nothing moves, and the controller begins anew with other settings: the time for what takes a second.
-                        Err(StoreError::Full) => context.shared.device.lock(|_| {
-                            let stored = Selected::stall(|| store.store_erasing(&draft));
+                        Err(StoreError::Full) => device.lock(|device| {
+                            if !device.rests() {
+                                return Err(StoreError::Full);
+                            }
+                            let stored = Selected::stall(|| store.store_erasing(settings));
                             crate::control::forget_time();
                             stored
                         }),
                         stored => stored,
-                    }
-                });
-                context.shared.device.lock(|device| {
-                    let answer = stored.map_or(answer, |result| device.stored(result));
+                    });
+                    Some((change, prepared))
+                } else {
+                    None
+                };
+                device.lock(|device| {
+                    let answer = change.map_or(answer, |(change, prepared)| device.install(change, &prepared));
                     if matches!(answer, Answer::Restarted(_)) {
                         crate::control::set_safe_state(device.safe_command());
                         tick::set_period(device.period_counts(Selected::CORE_HZ));
                     }
                     (answer, device.attached())
                 })
-            });
+            };
+            if deserted {
+                context.local.link.desert(&mut ask);
+            }
+            let moved = context.local.link.pump(report, &mut ask);
             if !moved && context.local.link.may_sleep() {
                 cortex_m::asm::wfi();
             }

@@ -16,7 +16,7 @@ use sprag_sim_host::closed_loop::plant::Extremes;
 use sprag_sim_host::closed_loop::run::{Ending, Tick};
 use sprag_sim_host::command::loop_scene::LoopScene;
 use sprag_sim_host::command::record_arguments::SceneRecordArguments;
-use sprag_sim_host::device::driver::{DeviceDriver, DeviceTick};
+use sprag_sim_host::device::driver::{DeviceDriver, DeviceTick, Farewell};
 use sprag_sim_host::device::emulator::{Emulator, Way};
 use sprag_sim_host::device::faulty::{Direction, Fate, FaultyLine};
 use sprag_sim_host::device::parameters;
@@ -129,20 +129,20 @@ impl<'a> Trial<'a> {
         let ending = task.run_with(&mut driver, disturbance, &mut extremes, &mut seen).unwrap();
         rest(&mut driver, &task, self.rest, self.clear);
         let starts = driver.starts().to_vec();
-        let (mut session, ticks) = driver.finish().unwrap();
+        let Farewell { ticks, state, identity, started } = driver.finish().unwrap();
         let course = Course {
             seen,
             starts,
             ending,
-            state: session.state().unwrap(),
-            identity: session.identify().unwrap(),
+            state,
+            identity,
             ticks,
             stored: self.stored,
             settings,
             prelude,
             period: clock.period,
             peak: extremes.peaks.rotation / self.scene.scene.block.slenderness(),
-            late: session.take_started(),
+            late: started,
         };
         course.check();
         course

@@ -21,7 +21,7 @@ use crate::memory::{self, Lasting};
 use cortex_m::peripheral::NVIC;
 use sprag_shared::control::monitor::coil::CoilReports;
 use sprag_shared::control::sensing::sample::Sample;
-use sprag_shared::control::supervisor::Phase;
+use sprag_shared::device::light::Shown;
 use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::settings::Settings;
 use stm32f4xx_hal::pac::{self, Interrupt, interrupt};
@@ -76,6 +76,7 @@ impl Board for Qemu {
     const NAME: &'static str = "qemu";
     const COUNTER_HZ: u32 = COUNTER_HZ;
     const CORE_HZ: u32 = 84_000_000;
+    const LEAST_PERIOD: f32 = 10e-6;
     type Chip = pac::Peripherals;
     type Sensors = Elsewhere;
     type Coils = Elsewhere;
@@ -164,7 +165,7 @@ impl Watchdog for Elsewhere {
 }
 
 impl Light for Elsewhere {
-    fn show(&mut self, _phase: Phase, _fault: Option<u16>, _slot: u32) {}
+    fn show(&mut self, _shown: Shown, _slot: u32) {}
 }
 
 /// The watchdog has not been fed.

@@ -17,6 +17,7 @@ use crate::control::monitor::fault::Fault;
 use crate::control::sensing::calibration::Calibration;
 use crate::control::sensing::instruments::{Instruments, InstrumentsState};
 use crate::control::sensing::sample::Sample;
+use crate::control::supervisor::event_log::Entry;
 use crate::control::supervisor::{Biases, Phase, Requests, Supervisor, SupervisorInput, SupervisorState};
 use crate::equation::body::Body;
 use crate::math::fnv::Fnv;
@@ -84,6 +85,11 @@ impl ControllerState {
     /// Of the supervisor, with the log of what happened.
     pub fn supervisor(&self) -> &SupervisorState {
         &self.supervisor
+    }
+
+    /// Adds to the log what happened outside of the controller.
+    pub fn note(&mut self, entry: Entry) {
+        self.supervisor.log.push(entry);
     }
 
     /// The biases that are subtracted.

@@ -2,24 +2,23 @@
 
 use embedded_storage::nor_flash::NorFlash;
 
-use super::{Answer, Device, Mailbox, Surroundings};
-use crate::control::controller::{Controller, Decision};
+use super::{Answer, Change, Device, Mailbox, Surroundings};
+use crate::control::controller::Decision;
 use crate::control::sensing::sample::Sample;
 use crate::control::supervisor::Phase;
 use crate::link::{
     Done, Identity, LOG_BLOCK, LogBlock, LogEntry, Pace, Refusal, Reply, Request, State, TickSample, WORD_BLOCK, Words,
 };
-use crate::settings::store::{Store, StoreError};
-use crate::settings::wiring::Wiring;
-use crate::settings::{COUNT, SettingError, Settings};
+use crate::settings::store::Store;
+use crate::settings::{COUNT, LAYOUT, SettingError};
 
 impl Device {
-    /// Answers a request, and stores what it asks to store: for those that have no task that must go on meanwhile.
+    /// Answers a request, and changes settings where it asks to: for those that have no task that must go on meanwhile.
     pub fn answer_storing<F: NorFlash>(&mut self, request: &Request, store: &mut Store<F>, around: &Surroundings) -> Answer {
         match self.answer(request, around) {
-            Answer::Store => {
-                let settings = *self.draft();
-                self.stored(store.store_erasing(&settings))
+            Answer::Change(change) => {
+                let prepared = change.prepare(self.wanted(change), around.least_period, |settings| store.store_erasing(settings));
+                self.install(change, &prepared)
             }
             answer => answer,
         }
@@ -32,7 +31,10 @@ impl Device {
             Request::State => Reply::State(self.report_state(around)),
             Request::Read { first } => self.read(first),
             Request::Write(words) => self.write(&words),
-            Request::Apply { check, store: keep } => return self.apply(check, keep),
+            Request::Apply { check, store } => match self.busy() {
+                Some(busy) => busy,
+                None => return Answer::Change(Change::Draft { check, store }),
+            },
             Request::Discard => {
                 self.draft = self.settings;
                 Reply::Done(Done::AsAsked)
@@ -53,8 +55,9 @@ impl Device {
                 (self.stream, self.until_report) = (every, every);
                 Reply::Done(Done::AsAsked)
             }
-            Request::Attach { pace } => return self.attach(Some(pace)),
-            Request::Detach => return self.attach(None),
+            Request::Attach { pace } => return self.attach(pace),
+            Request::Detach if self.attached.is_some() => return Answer::Change(Change::Detach),
+            Request::Detach => Reply::Done(Done::AsAsked),
             Request::Sample(sample) => return self.take(sample),
             Request::Rehearse(mishap) if around.rehearsal => return Answer::Rehearse(mishap),
             Request::Rehearse(_) => Reply::Refused(Refusal::NotHere),
@@ -62,8 +65,13 @@ impl Device {
         Answer::Reply(reply)
     }
 
+    /// Whether nothing moves that the clutches are to act upon.
+    pub fn rests(&self) -> bool {
+        self.busy().is_none()
+    }
+
     /// In motion nothing may change but the clutches.
-    fn busy(&self) -> Option<Reply> {
+    pub(super) fn busy(&self) -> Option<Reply> {
         let rests = match self.decision.phase {
             Phase::Boot | Phase::SelfTest | Phase::Calibrate | Phase::Armed => true,
             Phase::Rocking => false,
@@ -81,19 +89,24 @@ impl Device {
         Answer::Sample
     }
 
-    fn attach(&mut self, pace: Option<Pace>) -> Answer {
+    fn attach(&mut self, pace: Pace) -> Answer {
         if let Some(busy) = self.busy() {
             return Answer::Reply(busy);
         }
-        self.attached = pace;
-        self.mailbox = Mailbox::new();
-        (self.sample, self.number, self.heard) = (Sample::default(), 0, false);
+        self.hear(Some(pace));
         self.restart();
         Answer::Restarted(Reply::Done(Done::AsAsked))
     }
 
+    /// Samples come from the link, or from its own sensors.
+    pub(super) fn hear(&mut self, from: Option<Pace>) {
+        self.attached = from;
+        self.mailbox = Mailbox::new();
+        (self.sample, self.number, self.heard, self.silent) = (Sample::default(), 0, false, 0);
+    }
+
     /// From the beginning, with the event log of before.
-    fn restart(&mut self) {
+    pub(super) fn restart(&mut self) {
         self.controller.restart(&mut self.state);
         self.decision = Decision::before(self.safe_command());
     }
@@ -123,71 +136,6 @@ impl Device {
         Reply::Done(Done::AsAsked)
     }
 
-    /// What the settings shall be.
-    pub fn draft(&self) -> &Settings {
-        &self.draft
-    }
-
-    /// Goes on after [`Answer::Store`], with what became of storing the draft.
-    pub fn stored(&mut self, result: Result<(), StoreError>) -> Answer {
-        let refused = |refusal| Answer::Reply(Reply::Refused(refusal));
-        match result {
-            Err(StoreError::Full) => refused(Refusal::FlashFull),
-            Err(StoreError::Flash) => {
-                // The flash may hold the draft now, or what it held before.
-                self.lasting = false;
-                refused(Refusal::FlashFailed)
-            }
-            Ok(()) => {
-                self.lasting = true;
-                match self.busy() {
-                    // It began to rock meanwhile: the next start will find them.
-                    Some(busy) if self.settings != self.draft => {
-                        self.lasting = false;
-                        Answer::Reply(busy)
-                    }
-                    _ => self.install(Done::Stored),
-                }
-            }
-        }
-    }
-
-    fn apply(&mut self, check: u32, keep: bool) -> Answer {
-        let refused = |refusal| Answer::Reply(Reply::Refused(refusal));
-        if let Some(busy) = self.busy() {
-            return Answer::Reply(busy);
-        }
-        let own = self.draft.check();
-        if check != own {
-            return refused(Refusal::Check(own));
-        }
-        if let Err(error) = Wiring::check(&self.draft).and_then(|()| Controller::of(&self.draft).map(|_| ())) {
-            return refused(refusal(error));
-        }
-        if keep {
-            return Answer::Store;
-        }
-        if self.settings != self.draft {
-            self.lasting = false;
-        }
-        self.install(Done::AsAsked)
-    }
-
-    /// Makes the draft the settings.
-    fn install(&mut self, done: Done) -> Answer {
-        let done = Reply::Done(done);
-        if self.settings == self.draft {
-            // Asked twice, or nothing new: the controller goes on.
-            return Answer::Reply(done);
-        }
-        match Controller::of(&self.draft) {
-            Ok(controller) => (self.settings, self.controller) = (self.draft, controller),
-            Err(error) => return Answer::Reply(Reply::Refused(refusal(error))),
-        }
-        self.restart();
-        Answer::Restarted(done)
-    }
-
     fn identity(&self, around: &Surroundings) -> Identity {
         Identity {
             version: around.version,
@@ -195,7 +143,8 @@ impl Device {
             board: around.board,
             counter_hz: around.counter_hz,
             settings: COUNT as u16,
-            check: self.settings.check(),
+            layout: LAYOUT,
+            check: self.check,
             rehearsal: around.rehearsal,
         }
     }
@@ -213,6 +162,7 @@ impl Device {
             lost_reports: around.lost_reports,
             stack: around.stack,
             cause: around.cause,
+            attached: self.attached,
         }
     }
 
@@ -230,7 +180,7 @@ impl Device {
     }
 }
 
-fn refusal(error: SettingError) -> Refusal {
+pub(super) fn refusal(error: SettingError) -> Refusal {
     match error {
         SettingError::NoSuch { index } => Refusal::NoSuchSetting(index),
         SettingError::OutOfRange { index, .. } => Refusal::OutOfRange(index),

@@ -6,6 +6,7 @@
 //! | Calibrate | two short flashes a second |
 //! | Armed | steady |
 //! | Rocking | five flashes a second |
+//! | attached to a host, whatever its phase | three short flashes a second |
 //! | Fault | so many blinks as the tens digit of the code, a pause, as the ones digit, a long pause; a digit 0 is one long blink |
 
 use crate::control::supervisor::Phase;
@@ -29,26 +30,38 @@ const LONG_PAUSE: u32 = 50;
 /// For how long, s, the light flickers after a start without the crystal.
 const FLICKER: u32 = 3;
 
+/// What there is to show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shown {
+    /// Of the controller.
+    pub phase: Phase,
+    /// Code of its fault, if there is one.
+    pub fault: Option<u16>,
+    /// A host says what the sensors read: the structure is not protected.
+    pub attached: bool,
+}
+
 /// Ticks of a slot where a tick lasts `period` s; at least 1.
 pub fn slot_ticks(period: f32) -> u32 {
     ((1.0 / (SLOTS_PER_SECOND as f32 * period) + 0.5) as u32).max(1)
 }
 
-/// Whether the light is lit in a phase, with the code of its fault if there is one, in a slot.
-pub fn lit(phase: Phase, fault_code: Option<u16>, slot: u32) -> bool {
+/// Whether the light is lit in a slot.
+pub fn lit(shown: Shown, slot: u32) -> bool {
     let in_second = slot % SLOTS_PER_SECOND;
-    match phase {
+    match shown.phase {
+        _ if shown.attached => in_second < 6 * FLASH && in_second % (2 * FLASH) < FLASH,
         Phase::Boot | Phase::SelfTest => in_second < FLASH,
         Phase::Calibrate => in_second < FLASH || (2 * FLASH..3 * FLASH).contains(&in_second),
         Phase::Armed => true,
         Phase::Rocking => slot % (2 * FLASH) < FLASH,
-        Phase::Fault => code_lit(fault_code.unwrap_or(0), slot),
+        Phase::Fault => code_lit(shown.fault.unwrap_or(0), slot),
     }
 }
 
 /// As [`lit`], for a controller that runs without its crystal: flickers for the first seconds, ten times a second.
-pub fn lit_without_crystal(phase: Phase, fault_code: Option<u16>, slot: u32) -> bool {
-    if slot < FLICKER * SLOTS_PER_SECOND { slot.is_multiple_of(2) } else { lit(phase, fault_code, slot) }
+pub fn lit_without_crystal(shown: Shown, slot: u32) -> bool {
+    if slot < FLICKER * SLOTS_PER_SECOND { slot.is_multiple_of(2) } else { lit(shown, slot) }
 }
 
 /// Slots of a digit, with the dark after its last blink.
@@ -73,8 +86,20 @@ mod tests {
     use std::string::String;
 
     /// A letter a slot.
-    fn shown(phase: Phase, code: Option<u16>, slots: usize) -> String {
-        (0..slots as u32).map(|slot| if lit(phase, code, slot) { '#' } else { '.' }).collect()
+    fn pattern(shown: Shown, slots: usize) -> String {
+        (0..slots as u32).map(|slot| if lit(shown, slot) { '#' } else { '.' }).collect()
+    }
+
+    fn shown(phase: Phase, fault: Option<u16>, slots: usize) -> String {
+        pattern(Shown { phase, fault, attached: false }, slots)
+    }
+
+    #[test]
+    fn attached_is_three_flashes_a_second_in_every_phase() {
+        for phase in Phase::ALL {
+            let shown = Shown { phase, fault: Some(11), attached: true };
+            assert_eq!(pattern(shown, 40), "##..##..##..........".repeat(2), "{phase:?}");
+        }
     }
 
     #[test]
@@ -107,15 +132,16 @@ mod tests {
 
     #[test]
     fn without_the_crystal_it_flickers_first() {
-        let flicker: String = (0..64).map(|slot| if lit_without_crystal(Phase::Armed, None, slot) { '#' } else { '.' }).collect();
+        let armed = Shown { phase: Phase::Armed, fault: None, attached: false };
+        let flicker: String = (0..64).map(|slot| if lit_without_crystal(armed, slot) { '#' } else { '.' }).collect();
         assert_eq!(flicker, ["#.".repeat(30), "####".into()].concat());
     }
 
     #[test]
     fn any_time_and_any_code_is_shown() {
         for slot in [0, 1 << 24, u32::MAX] {
-            for code in [None, Some(99), Some(u16::MAX)] {
-                lit(Phase::Fault, code, slot);
+            for fault in [None, Some(99), Some(u16::MAX)] {
+                lit(Shown { phase: Phase::Fault, fault, attached: false }, slot);
             }
         }
     }

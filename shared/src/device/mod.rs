@@ -5,6 +5,8 @@
 //! The room imports `math`, `structure`, `control`, `settings` and `link`.
 
 mod answers;
+pub mod beginning;
+mod change;
 pub mod coil;
 pub mod coil_test;
 pub mod counter;
@@ -15,16 +17,21 @@ pub mod retained;
 #[cfg(test)]
 mod tests;
 
+pub use change::{Change, Prepared};
 pub use mailbox::Mailbox;
 
 use crate::control::controller::{Circumstances, Controller, ControllerState, Decision};
 use crate::control::monitor::coil::CoilReports;
+use crate::control::monitor::fault::Fault;
 use crate::control::sensing::sample::Sample;
 use crate::control::supervisor::Phase;
+use crate::control::supervisor::event_log::{Entry, Kind};
 use crate::control::ticks::ticks;
 use crate::link::reset_cause::Cause;
 use crate::link::{Mishap, Pace, Reply, TickReport};
 use crate::settings::Settings;
+use beginning::Beginning;
+use light::Shown;
 use retained::{MOST_RESTARTS, Retained};
 
 /// For how long the first whole sample after a reset is waited for, before the controller starts from the beginning, s: twice what an
@@ -34,8 +41,11 @@ const RESUME_PATIENCE: f32 = 0.1;
 /// For how long a device must have worked well before its restarts are forgotten, s.
 const GOOD_TIME: f32 = 1.0;
 
+/// After so long without a sample an attached device takes its host to be gone, s.
+pub const HOST_SILENCE: f32 = 5.0;
+
 /// What a device is told about what surrounds it, for [`State`](crate::link::State) and [`Identity`](crate::link::Identity).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Surroundings {
     /// Version of the firmware.
     pub version: [u8; 3],
@@ -45,6 +55,8 @@ pub struct Surroundings {
     pub board: [u8; 12],
     /// Rate of the counter, 1/s.
     pub counter_hz: u32,
+    /// Shortest period of the controller that the board has time for, s.
+    pub least_period: f32,
     /// The image is for rehearsals.
     pub rehearsal: bool,
     /// Why it started.
@@ -64,8 +76,9 @@ pub enum Answer {
     Reply(Reply),
     /// A sample has come: where samples say when a tick is, now is one.
     Sample,
-    /// The draft is to be stored, while the control task goes on, and then [`Device::stored`] called.
-    Store,
+    /// Other settings: to be [prepared](Change::prepare) from those of [`Device::wanted`] while the control task goes on, and then given to
+    /// [`Device::install`].
+    Change(Change),
     /// To be made to happen.
     Rehearse(Mishap),
     /// The period may be another now: to be answered, and the timer set.
@@ -76,9 +89,17 @@ pub enum Answer {
 #[derive(Clone, Debug)]
 pub struct Device {
     settings: Settings,
+    /// Of their words: to compute it takes longer than the control task may be held up.
+    check: u32,
     draft: Settings,
+    /// What a reset would find, unless that is in doubt.
+    kept: Settings,
+    /// Storing failed: flash may hold what is kept here or what was to be stored.
+    doubtful: bool,
     /// The settings in force are those that a reset would find.
     lasting: bool,
+    /// Why it may not run without a host.
+    barred: Option<Fault>,
     controller: Controller,
     state: ControllerState,
     resuming: Option<Retained>,
@@ -93,6 +114,8 @@ pub struct Device {
     good: u32,
     restarts: u8,
     attached: Option<Pace>,
+    /// Ticks without a sample since it was attached.
+    silent: u32,
     stream: u16,
     until_report: u16,
     clear: bool,
@@ -102,16 +125,22 @@ pub struct Device {
 }
 
 impl Device {
-    /// With the `controller` of `settings`, going on with what has been `kept` over a reset, if anything.
+    /// As `beginning` says, going on with what has been `kept` over a reset, if anything.
     // Not inlined, and not a `Result`: the value is large, and must be made where it stays.
     #[inline(never)]
-    pub fn new(controller: &Controller, settings: &Settings, kept: Option<&Retained>) -> Device {
+    pub fn new(beginning: &Beginning, kept: Option<&Retained>) -> Device {
+        let Beginning { settings, controller, barred } = beginning;
         let restarts = kept.map_or(0, |kept| kept.restarts.saturating_add(1));
+        let may = |kept: &&Retained| kept.deciding && restarts <= MOST_RESTARTS && (barred.is_none() || kept.attached.is_some());
         Device {
             settings: *settings,
+            check: settings.check(),
             draft: *settings,
+            kept: *settings,
+            doubtful: false,
             lasting: true,
-            resuming: kept.filter(|kept| kept.deciding && restarts <= MOST_RESTARTS).copied(),
+            barred: *barred,
+            resuming: kept.filter(may).copied(),
             waited: 0,
             decision: Decision::before(controller.supervisor.safe()),
             controller: *controller,
@@ -124,6 +153,7 @@ impl Device {
             good: 0,
             restarts,
             attached: kept.and_then(|kept| kept.attached),
+            silent: 0,
             stream: 0,
             until_report: 0,
             clear: false,
@@ -138,9 +168,20 @@ impl Device {
         &self.settings
     }
 
+    /// Why it may not run without a host, if it may not.
+    pub fn barred(&self) -> Option<Fault> {
+        self.barred
+    }
+
     /// Who says when a tick is, if samples come from the link.
     pub fn attached(&self) -> Option<Pace> {
         self.attached
+    }
+
+    /// Whether the host to which it is attached has been silent for [`HOST_SILENCE`]: it is to be detached, as by
+    /// [`Request::Detach`](crate::link::Request::Detach).
+    pub fn deserted(&self) -> bool {
+        self.attached.is_some() && self.silent as f32 * self.controller.instruments.period > HOST_SILENCE
     }
 
     /// Whether it goes on where it was before a reset.
@@ -161,6 +202,12 @@ impl Device {
     /// Slots of the light since the start, counted in whole ticks; they begin anew when the count of ticks does.
     pub fn light_slot(&self) -> u32 {
         self.ticks / light::slot_ticks(self.controller.instruments.period)
+    }
+
+    /// What the light is to show.
+    pub fn shown(&self) -> Shown {
+        let Decision { phase, fault, .. } = self.decision;
+        Shown { phase, fault: fault.map(Fault::code), attached: self.attached.is_some() }
     }
 
     /// What the last tick came to.
@@ -187,6 +234,11 @@ impl Device {
     /// come from the link.
     #[inline]
     pub fn tick(&mut self, read: impl FnOnce(&mut Sample), lateness: f32) {
+        if let (None, Some(fault)) = (self.attached, self.barred) {
+            read(&mut self.sample);
+            self.stand_aside(fault);
+            return;
+        }
         let mut circumstances = Circumstances { lateness, ..Circumstances::default() };
         let told = match self.attached {
             None => {
@@ -197,8 +249,9 @@ impl Device {
             Some(Pace::Timer) => self.mailbox.newest(),
             Some(Pace::Sample) => self.mailbox.oldest(),
         };
+        self.silent = self.silent.saturating_add(1);
         if let Some(told) = &told {
-            (self.sample, self.number, self.heard) = (told.sample, told.number, true);
+            (self.sample, self.number, self.heard, self.silent) = (told.sample, told.number, true, 0);
             circumstances = told.circumstances();
             if lateness > circumstances.lateness {
                 circumstances.lateness = lateness;
@@ -225,6 +278,17 @@ impl Device {
         if self.restarts > 0 && self.good as f32 * self.controller.instruments.period > GOOD_TIME {
             self.restarts = 0;
         }
+    }
+
+    /// A tick of a device that may not run by itself.
+    #[inline(never)]
+    fn stand_aside(&mut self, fault: Fault) {
+        self.clear = false;
+        self.ticks = self.ticks.wrapping_add(1);
+        if self.decision.fault != Some(fault) {
+            self.state.note(Entry { tick: self.ticks, kind: Kind::Fault(fault.code()), rotation: 0.0, velocity: 0.0 });
+        }
+        self.decision = Decision { phase: Phase::Fault, fault: Some(fault), ..Decision::before(self.safe_command()) };
     }
 
     /// Goes on where it was before a reset, once there is a `whole` sample; `false` while there is none. Only then is a sensor that gives

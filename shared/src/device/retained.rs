@@ -29,6 +29,12 @@ pub struct Retained {
 }
 
 impl Retained {
+    /// What a board that has sensors of its own goes on with: a host that said where the block was may be gone, and the block was another.
+    pub fn alone(self) -> Retained {
+        let deciding = self.deciding && self.attached.is_none();
+        Retained { deciding, attached: None, ..self }
+    }
+
     /// As words that show whether they have survived, and which `turn` of writing they are from.
     pub fn words(&self, turn: u8) -> [u32; RETAINED_WORDS] {
         let Calibration { gyroscope, block, ground, encoder_zero } = self.calibration;

@@ -60,7 +60,8 @@ pub enum Request {
         /// Who says when a tick is.
         pace: Pace,
     },
-    /// Use the device's own sensors again, from a new start of the controller on.
+    /// Use the device's own sensors again, from a new start of the controller on, with the settings that are in flash. Never refused; nothing
+    /// changes in a device that is not attached.
     Detach,
     /// What the sensors say.
     Sample(TickSample),
@@ -192,6 +193,8 @@ pub struct Identity {
     pub counter_hz: u32,
     /// Number of settings.
     pub settings: u16,
+    /// Which setting each word is: the `LAYOUT` of the settings of its build.
+    pub layout: u32,
     /// CRC-32 of the settings' words.
     pub check: u32,
     /// The image is for rehearsals.
@@ -223,6 +226,8 @@ pub struct State {
     pub stack: u32,
     /// Why it started.
     pub cause: Cause,
+    /// A host says what its sensors read: it protects nothing.
+    pub attached: Option<Pace>,
 }
 
 /// Entries of the event log.
@@ -261,7 +266,7 @@ pub enum Done {
 }
 
 /// Why something has not been done.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Refusal {
     /// Only at rest: not in this state.
     Busy(Phase),
@@ -279,6 +284,13 @@ pub enum Refusal {
     FlashFailed,
     /// Not by this image, or not in this mode.
     NotHere,
+    /// The board cannot tick so often.
+    TooFast {
+        /// What `instruments.period` was to be, s.
+        period: f32,
+        /// The least that it may be on this board, s.
+        least: f32,
+    },
 }
 
 impl From<&Entry> for LogEntry {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::{Args, Subcommand};
-use sprag_shared::control::monitor::fault::Fault;
+use sprag_shared::control::monitor::fault::{Fault, Recovery};
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::link::{Identity, Request, State};
 use sprag_shared::settings::{Item, Settings};
@@ -31,7 +31,7 @@ use crate::output::{OutputError, Results, claim_file, is_standard_output};
     sprag device log --port /dev/ttyUSB0 --csv events.csv\n  \
     sprag device watch --port /dev/ttyUSB0\n\n\
     With --qemu a new device is started for each command, so nothing is left of what was told to the one before; and since it has no \
-    sensors of its own it stays in Boot and then goes into Fault.")]
+    settings of its own it is in Fault: not commissioned.")]
 pub struct DeviceArguments {
     #[command(subcommand)]
     command: DeviceCommand,
@@ -55,9 +55,12 @@ enum DeviceCommand {
     /// Make it leave Fault, once what was wrong has been seen to; it must be at rest.
     #[command(after_help = "Example:\n  sprag device clear --port /dev/ttyUSB0")]
     Clear(InfoArguments),
+    /// Make it use its own sensors again, with the settings in its flash, after a loop that ended without letting go of it.
+    #[command(after_help = "Example:\n  sprag device detach --port /dev/ttyUSB0")]
+    Detach(InfoArguments),
     /// Plot rotation, velocity and commands as they come; CSV lines where the output is not a terminal. Ends with Ctrl-C.
     ///
-    /// The emulated device has no sensors of its own: with --qemu there is a device in Boot and then in Fault to be seen.
+    /// The emulated device has no settings of its own: with --qemu there is a device in Fault to be seen.
     #[command(
         after_help = "Examples:\n  sprag device watch --port /dev/ttyUSB0\n  sprag device watch --port /dev/ttyUSB0 --seconds 60 > motion.csv"
     )]
@@ -154,6 +157,7 @@ pub fn run(arguments: &DeviceArguments, out: &mut impl Write, err: &mut impl Wri
         DeviceCommand::SelfTest(info) => with_device(&info.line, out, |session, out| self_test(session, out, interrupt)),
         DeviceCommand::Log(given) => log_to(given, out),
         DeviceCommand::Clear(info) => with_device(&info.line, out, clear),
+        DeviceCommand::Detach(info) => with_device(&info.line, out, detach),
         DeviceCommand::Watch(given) => with_device(&given.line, out, |session, out| watch(session, given, out, interrupt)),
     };
     match outcome {
@@ -195,6 +199,14 @@ fn show(session: &mut Talk, out: &mut impl Write) -> Result<(), Failure> {
         if identity.rehearsal { ", a test build that takes orders to fail on purpose" } else { "" }
     )?;
     writeln!(out, "state         {}, {} ticks after its start", phase_text(state.phase, state.fault), state.ticks)?;
+    writeln!(
+        out,
+        "sensors       {}",
+        match state.attached {
+            None => "its own",
+            Some(_) => "those of a host: it does not protect the structure (sprag device detach)",
+        }
+    )?;
     writeln!(out, "start         {:?}", state.cause)?;
     writeln!(out, "parameters    {}, check {:08x}", identity.settings, identity.check)?;
     writeln!(out, "calibration   gyroscope {:+.6} rad/s", calibration.gyroscope)?;
@@ -363,6 +375,13 @@ fn log(session: &mut Talk, given: &LogArguments, out: &mut impl Write) -> Result
     Ok(())
 }
 
+fn detach<W: Write>(session: &mut Talk, out: &mut W) -> Result<(), Failure> {
+    let attached = session.state()?.attached.is_some();
+    session.order(&Request::Detach)?;
+    writeln!(out, "{}", if attached { "detached; it starts anew with its own sensors" } else { "it was not attached" })?;
+    Ok(())
+}
+
 fn clear<W: Write>(session: &mut Talk, out: &mut W) -> Result<(), Failure> {
     let before = session.state()?;
     if before.phase != Phase::Fault {
@@ -375,6 +394,9 @@ fn clear<W: Write>(session: &mut Talk, out: &mut W) -> Result<(), Failure> {
     let after = session.state()?;
     writeln!(out, "{} -> {}", phase_text(before.phase, before.fault), phase_text(after.phase, after.fault))?;
     match after.fault {
+        Some(fault) if fault.recovery() == Recovery::ByStoring => {
+            Err(Failure::Input(format!("it stays in Fault: {fault}: sprag device parameters --scene SCENE.toml --store")))
+        }
         Some(fault) => {
             Err(Failure::Input(format!("it stays in Fault: {fault}; it leaves only at rest, and while nothing is wrong")))
         }

@@ -21,7 +21,7 @@ use crate::closed_loop::plant::Extremes;
 use crate::closed_loop::report::{LoopReport, loop_trace, write_history};
 use crate::closed_loop::run::Tick;
 use crate::closed_loop::{LoopFailure, LoopTask};
-use crate::device::driver::{DeviceDriver, DeviceTick};
+use crate::device::driver::{DeviceDriver, DeviceTick, Farewell};
 use crate::device::line::DeviceError;
 use crate::device::report::{DeviceSummary, costs, write_device_ticks};
 use crate::device::session::Session;
@@ -39,7 +39,9 @@ use crate::simulation::ErrorReport;
     sprag hil scenes/controller.toml --qemu --log info --set controller.law=sign-table\n  \
     sprag hil scenes/controller.toml --port /dev/ttyUSB0\n\n\
     --qemu builds the firmware and starts the emulator itself. The device gets its settings from the scene. Writes what `sprag loop` \
-    writes, the host's own loop as the thick line (the dashed one is the ideal pair), and device.csv with every tick of the device.")]
+    writes, the host's own loop as the thick line (the dashed one is the ideal pair), and device.csv with every tick of the device. However \
+    it ends, the device is detached: a board goes on with its own sensors and the settings in its flash. Exit code 1 where a decision is \
+    not the host's to the last bit.")]
 pub struct HilArguments {
     /// Scene file with a clutched pair and a controller table.
     #[arg(value_name = "SCENE.toml")]
@@ -59,6 +61,9 @@ pub struct HilArguments {
     /// Pictures.
     #[command(flatten)]
     pub pictures: PictureArguments,
+    /// End with exit code 0 even if the device decided otherwise than the host at some tick.
+    #[arg(long)]
+    pub allow_different: bool,
     /// Where the device is.
     #[command(flatten)]
     pub line: LineArguments,
@@ -92,18 +97,30 @@ struct Summary<'a> {
     runs: &'a [DeviceSummary],
 }
 
+/// Exit code where the device and the host decided differently.
+const DIFFERENT: i32 = 1;
+
 /// Runs the command; a table goes to `out`, errors go to `err`.
 pub fn run(arguments: &HilArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
     let result = run_or_fail(arguments, out, err, interrupt);
-    ended(result.map(|()| true), interrupt, err)
+    match result {
+        Ok(0) => 0,
+        Ok(_) if arguments.allow_different => 0,
+        Ok(differing) => {
+            let _ = writeln!(err, "sprag: at {differing} ticks the device decided otherwise than the host, or reported nothing");
+            DIFFERENT
+        }
+        Err(failure) => ended(Err(failure), interrupt, err),
+    }
 }
 
+/// Gives the ticks at which a device decided otherwise than the host.
 fn run_or_fail(
     arguments: &HilArguments,
     out: &mut impl Write,
     err: &mut impl Write,
     interrupt: &Interrupt,
-) -> Result<(), Failure> {
+) -> Result<usize, Failure> {
     let any_accuracy = arguments.accuracy.time_budget.is_some();
     let mut folder = arguments.folder.folder(&arguments.scene, "hil").of_any_accuracy(any_accuracy);
     let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
@@ -143,7 +160,7 @@ fn run_or_fail(
         let _ = write!(out, "{summary}");
     }
     let _ = writeln!(out, "results in {}", folder.display());
-    Ok(())
+    Ok(summaries.iter().map(|summary| summary.ticks_differing).sum())
 }
 
 /// One device of the scene.
@@ -197,8 +214,7 @@ fn one(arguments: &HilArguments, desk: &LoopScene, index: usize, host: Host, int
     let settings = task.settings().map_err(|error| failed(error.into()))?;
     let own = task.driver(task.controller.clutch_law()).map_err(|error| failed(error.into()))?;
     let device = connect(&arguments.line)?;
-    let mut session = Session::new(device.line);
-    let identity = session.identify()?;
+    let session = Session::new(device.line);
     let mut driver = DeviceDriver::attach(session, &settings, own)?;
     let (mut seen, mut extremes) = (Vec::new(), Extremes::default());
     let running = Progress::uncounted("running the loop over the device");
@@ -207,11 +223,10 @@ fn one(arguments: &HilArguments, desk: &LoopScene, index: usize, host: Host, int
     let seconds = begun.elapsed().as_secs_f64();
     running.finish();
     // A device that has gone explains whatever became of the loop.
-    let (mut session, ticks) = driver.finish()?;
+    let Farewell { ticks, state, identity, .. } = driver.finish()?;
     let ending = ending.map_err(failed)?;
     let mut report = LoopReport::new(&task, ending, &extremes.peaks, ideal, seen);
     report.summary.error = error;
-    let state = session.state()?;
     let ticks_per_second = ticks.len() as f64 / seconds;
     let cost = costs(&ticks);
     let summary = DeviceSummary {
@@ -227,7 +242,6 @@ fn one(arguments: &HilArguments, desk: &LoopScene, index: usize, host: Host, int
         stack_bytes: state.stack,
         firmware: super::device_line::firmware(&identity),
     };
-    drop(session);
     let log = device.log.map(|log| log.read()).transpose()?;
     Ok(Run { report, summary, ticks, host: looped.ticks, log })
 }

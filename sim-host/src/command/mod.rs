@@ -1,4 +1,4 @@
-//! The subcommands of `sprag`. Each has its arguments and a `run` that returns the exit code: 0 well, 2 bad input or
+//! The subcommands of `sprag`. Each has its arguments and a `run` that returns the exit code: 0 well, 1 (`hil`) a device that decides otherwise, 2 bad input or
 //! output, 130 and 143 interrupted.
 
 #[cfg(feature = "effects")]

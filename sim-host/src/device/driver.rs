@@ -12,7 +12,7 @@ use sprag_shared::control::law::Wish;
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::event_log::Entry;
 use sprag_shared::link::reset_cause::Cause;
-use sprag_shared::link::{MAX_FRAME, Mishap, Pace, Request, Started, TickReport, TickSample, encode};
+use sprag_shared::link::{Identity, MAX_FRAME, Mishap, Pace, Request, Started, State, TickReport, TickSample, encode};
 use sprag_shared::settings::Settings;
 
 use super::line::{DeviceError, Line};
@@ -26,6 +26,9 @@ const PATIENCE: Duration = Duration::from_millis(100);
 
 /// How often a sample is sent before its tick is given up.
 const ATTEMPTS: u32 = 3;
+
+/// So many exchanges in a row without a report, and the device does not tick.
+const UNREPORTED: u32 = 100;
 
 /// A device that says nothing for so long is gone.
 const GIVE_UP: Duration = Duration::from_secs(20);
@@ -46,8 +49,21 @@ pub struct DeviceTick {
     pub differs: bool,
 }
 
-/// A device that drives a closed loop.
-pub struct DeviceDriver<L> {
+/// What a device says at the end of a loop.
+#[derive(Clone, Debug)]
+pub struct Farewell {
+    /// Every tick, from the first one of the stillness before the motion.
+    pub ticks: Vec<DeviceTick>,
+    /// How it was after the last one.
+    pub state: State,
+    /// Who it is.
+    pub identity: Identity,
+    /// That it has started anew since the last tick.
+    pub started: Option<Started>,
+}
+
+/// A device that drives a closed loop. Whatever becomes of the loop, the device is detached when this is dropped.
+pub struct DeviceDriver<L: Line> {
     session: Session<L>,
     own: Box<dyn Driver>,
     period: f64,
@@ -61,6 +77,9 @@ pub struct DeviceDriver<L> {
     safe: [bool; 2],
     ticks: Vec<DeviceTick>,
     error: Option<DeviceError>,
+    /// Exchanges since the last report.
+    unreported: u32,
+    detached: bool,
     /// For how long a device that has been reset is away, s.
     boot_time: f64,
     /// Ticks for which the coils still hold what the device told them before it lost its way.
@@ -78,10 +97,16 @@ impl<L: Line> DeviceDriver<L> {
     /// # Errors
     /// Those of talking to it.
     pub fn attach(mut session: Session<L>, settings: &Settings, own: Box<dyn Driver>) -> Result<DeviceDriver<L>, DeviceError> {
+        // Another loop may have ended without a word.
+        session.order(&Request::Detach)?;
         parameters::write(&mut session, settings, false)?;
         let counter_hz = session.identify()?.counter_hz.into();
         let pace = session.line().pace();
-        session.order(&Request::Attach { pace })?;
+        if let Err(error) = session.order(&Request::Attach { pace }) {
+            // It may have heard, and its answer been lost.
+            detach(&mut session);
+            return Err(error);
+        }
         while session.take_tick().is_some() {}
         session.take_started();
         let safe = settings.safe_command();
@@ -98,6 +123,8 @@ impl<L: Line> DeviceDriver<L> {
             safe,
             ticks: Vec::new(),
             error: None,
+            unreported: 0,
+            detached: false,
             boot_time: 0.0,
             stalled: 0,
             away: 0,
@@ -131,15 +158,19 @@ impl<L: Line> DeviceDriver<L> {
         &self.starts
     }
 
-    /// The session, once the loop is over.
+    /// What the device says once the loop is over; and detaches it.
     ///
     /// # Errors
-    /// What ended the conversation before.
-    pub fn finish(self) -> Result<(Session<L>, Vec<DeviceTick>), DeviceError> {
-        match self.error {
-            Some(error) => Err(error),
-            None => Ok((self.session, self.ticks)),
+    /// What ended the conversation before, or as [`Session::ask`].
+    pub fn finish(mut self) -> Result<Farewell, DeviceError> {
+        if let Some(error) = self.error.take() {
+            return Err(error);
         }
+        let (state, identity) = (self.session.state()?, self.session.identify()?);
+        self.session.order(&Request::Detach)?;
+        self.detached = true;
+        let started = self.session.take_started();
+        Ok(Farewell { ticks: std::mem::take(&mut self.ticks), state, identity, started })
     }
 
     /// The report of the tick that is paced by the device's timer: one period, one report.
@@ -229,6 +260,20 @@ impl<L: Line> DeviceDriver<L> {
     }
 }
 
+/// Lets go of a device that need not answer any more.
+fn detach<L: Line>(session: &mut Session<L>) {
+    let _ = session.send(&Request::Detach);
+    let _ = session.receive(PATIENCE);
+}
+
+impl<L: Line> Drop for DeviceDriver<L> {
+    fn drop(&mut self) {
+        if !self.detached {
+            detach(&mut self.session);
+        }
+    }
+}
+
 /// Whether two decisions are the same to the last bit, as they are sent.
 fn same(one: &Decision, other: &Decision) -> bool {
     let (mut one_frame, mut other_frame) = ([0; MAX_FRAME], [0; MAX_FRAME]);
@@ -257,6 +302,10 @@ impl<L: Line> DeviceDriver<L> {
         }
         match self.exchange(sample, circumstances) {
             Ok(report) => {
+                self.unreported = if report.is_some() || !self.late.is_empty() { 0 } else { self.unreported + 1 };
+                if self.unreported >= UNREPORTED {
+                    self.error = Some(DeviceError::Unreported(self.unreported));
+                }
                 if self.away > 0 && self.stalled == 0 {
                     self.last.command = self.safe;
                 }

@@ -33,6 +33,9 @@ pub enum DeviceError {
     /// It says nothing.
     #[error("the device does not answer{0}")]
     Silent(String),
+    /// It answers, but reports no tick.
+    #[error("the device answers but has reported no tick in {0} exchanges")]
+    Unreported(u32),
     /// It is gone.
     #[error("the device has gone{0}")]
     Gone(String),
@@ -53,17 +56,28 @@ pub enum DeviceError {
         /// This program's.
         own: usize,
     },
+    /// Its firmware has as many, but others.
+    #[error(
+        "the device's settings mean something else than this program's (layout {device:08x}, own {own:08x}): use firmware and sprag of one build"
+    )]
+    Layout {
+        /// The device's.
+        device: u32,
+        /// This program's.
+        own: u32,
+    },
     /// A setting that a device cannot have.
     #[error("{0}")]
     Setting(String),
 }
 
 /// A refusal in words.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RefusalText(pub Refusal);
 
 impl std::fmt::Display for RefusalText {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        use sprag_shared::settings::Item;
         use sprag_shared::settings::kind::Description;
         let name =
             |index: u16| Description::at(index).map_or_else(|| format!("setting {index}"), |parameter| parameter.name.to_owned());
@@ -78,6 +92,9 @@ impl std::fmt::Display for RefusalText {
             Refusal::Check(_) => write!(out, "the settings were changed by somebody else, or on the way"),
             Refusal::FlashFull => write!(out, "its flash takes no more until it has been restarted"),
             Refusal::FlashFailed => write!(out, "its flash does not take them"),
+            Refusal::TooFast { period, least } => {
+                write!(out, "{} is {period} s, and must be at least {least} s on this board", name(Item::Period.index()))
+            }
             Refusal::NotHere => write!(out, "not this firmware, or not in this mode"),
         }
     }

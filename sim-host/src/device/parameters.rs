@@ -1,20 +1,28 @@
 //! The settings of a device.
 
-use sprag_shared::link::{Reply, Request, WORD_BLOCK, Words};
-use sprag_shared::settings::{COUNT, Settings};
+use sprag_shared::link::{Identity, Reply, Request, WORD_BLOCK, Words};
+use sprag_shared::settings::{COUNT, LAYOUT, Settings};
 
 use super::line::{DeviceError, Line};
 use super::session::Session;
 
-/// Reads all of them.
-///
-/// # Errors
-/// [`DeviceError::Settings`] of a device with others, or as [`Session::ask`].
-pub fn read<L: Line>(session: &mut Session<L>) -> Result<Settings, DeviceError> {
-    let identity = session.identify()?;
+/// Words mean the same at both ends only if both have the same settings in the same order.
+fn same_settings(identity: &Identity) -> Result<(), DeviceError> {
     if usize::from(identity.settings) != COUNT {
         return Err(DeviceError::Settings { device: identity.settings, own: COUNT });
     }
+    if identity.layout != LAYOUT {
+        return Err(DeviceError::Layout { device: identity.layout, own: LAYOUT });
+    }
+    Ok(())
+}
+
+/// Reads all of them.
+///
+/// # Errors
+/// [`DeviceError::Settings`] or [`DeviceError::Layout`] of a device with others, or as [`Session::ask`].
+pub fn read<L: Line>(session: &mut Session<L>) -> Result<Settings, DeviceError> {
+    same_settings(&session.identify()?)?;
     let mut words = [0; COUNT];
     let mut first = 0;
     while first < COUNT {
@@ -36,10 +44,7 @@ pub fn read<L: Line>(session: &mut Session<L>) -> Result<Settings, DeviceError> 
 /// # Errors
 /// As [`read`], and [`DeviceError::Refused`] while the block rocks.
 pub fn write<L: Line>(session: &mut Session<L>, settings: &Settings, store: bool) -> Result<(), DeviceError> {
-    let identity = session.identify()?;
-    if usize::from(identity.settings) != COUNT {
-        return Err(DeviceError::Settings { device: identity.settings, own: COUNT });
-    }
+    same_settings(&session.identify()?)?;
     for (number, block) in settings.words().chunks(WORD_BLOCK).enumerate() {
         let mut words = [0; WORD_BLOCK];
         words[..block.len()].copy_from_slice(block);

@@ -2,6 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use sprag_shared::device::beginning::Beginning;
 use sprag_shared::device::{Answer, Device, Surroundings};
 use sprag_shared::link::{Deframer, MAX_FRAME, Reply, Request, encode};
 use sprag_shared::settings::Settings;
@@ -29,8 +30,8 @@ fn obey(device: &mut Device, store: &mut Store<Flash>, tag: u8, request: &Reques
 
 fuzz_target!(|input: &[u8]| {
     let settings = Settings::default();
-    let controller = Controller::of(&settings).expect("the defaults are a controller");
-    let mut device = Device::new(&controller, &settings, None);
+    let beginning = Beginning::of(Some(&settings), None, 0.0).expect("the defaults are a controller");
+    let mut device = Device::new(&beginning, None);
     let mut store = Store::open(Flash::default()).0;
     let mut deframer = Deframer::new();
     // As bytes on the line, and then with the checksum that no fuzzer would ever guess.

@@ -2,8 +2,8 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use sprag_shared::control::controller::Controller;
 use sprag_shared::control::sensing::sample::{Count, Reading, Sample};
+use sprag_shared::device::beginning::Beginning;
 use sprag_shared::device::{Answer, Device, Surroundings};
 use sprag_shared::link::{Deframer, FrameError, MAX_FRAME, Mishap, Pace, Reply, Request, TickSample, WORD_BLOCK, Words, encode};
 use sprag_shared::settings::store::Store;
@@ -156,7 +156,7 @@ impl Victim {
         let mut store = Store::open(Flash::default()).0;
         store.store(&settings).unwrap();
         let flash = store.clone().release();
-        let device = Device::new(&Controller::of(&settings).unwrap(), &settings, None);
+        let device = Device::new(&Beginning::of(Some(&settings), None, 0.0).unwrap(), None);
         let mut victim = Victim { device, store, flash, deframer: Deframer::new(), attach };
         victim.settle();
         victim

@@ -3,5 +3,6 @@
 mod bad_frames;
 mod closed_loop;
 mod controller_hard_cases;
+mod let_go;
 mod own_law;
 mod sensor_failures;

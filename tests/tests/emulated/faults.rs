@@ -108,7 +108,7 @@ fn a_silent_link_puts_the_clutches_into_the_safe_state() {
     let image = controller_firmware();
     let scene = pulse(&[]);
     let from = mid_swing(&on_the_host(&scene).0);
-    for (silence, rest) in [(0.002, 0.0), (0.005, 6.0), (0.1, 6.0), (10.0, 14.0)] {
+    for (silence, rest) in [(0.002, 0.0), (0.005, 6.0), (0.1, 6.0), (4.0, 8.0)] {
         let mut timed = Timed::new(());
         let time = timed.time.clone();
         let mut left = (silence / 0.0005_f64).round() as u32;

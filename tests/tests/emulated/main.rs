@@ -1,6 +1,7 @@
 //! Core and firmware in the emulator.
 
 mod accuracy;
+mod alone;
 mod decisions;
 mod emulator;
 mod faults;

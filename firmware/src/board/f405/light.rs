@@ -1,7 +1,6 @@
 //! The status light at PC12, lit by a low level.
 
-use sprag_shared::control::supervisor::Phase;
-use sprag_shared::device::light::{lit, lit_without_crystal};
+use sprag_shared::device::light::{Shown, lit, lit_without_crystal};
 use stm32f4xx_hal::gpio::{Output, Pin, PinState};
 
 use crate::board::Light;
@@ -20,8 +19,8 @@ impl BoardLight {
 }
 
 impl Light for BoardLight {
-    fn show(&mut self, phase: Phase, fault: Option<u16>, slot: u32) {
+    fn show(&mut self, shown: Shown, slot: u32) {
         let pattern = if self.crystal { lit } else { lit_without_crystal };
-        self.pin.set_state(PinState::from(!pattern(phase, fault, slot)));
+        self.pin.set_state(PinState::from(!pattern(shown, slot)));
     }
 }

@@ -66,6 +66,10 @@ pub enum Fault {
     Overrun,
     /// The estimate is NaN or infinite though the sensors are not.
     EstimateNotFinite,
+    /// Nobody has stored settings of its own in the device: it would be guessing which structure it is on.
+    NotCommissioned,
+    /// Reset after reset, without a second of good work between them: it has given up the settings in flash.
+    GivenUp,
     /// Only a warning: armed with the last biases, for lack of stillness.
     CalibrationAbandoned,
     /// Only a warning: the clutches were not tested, for lack of stillness.
@@ -106,6 +110,8 @@ pub enum Recovery {
     WhenGood,
     /// On request, at rest only, through a new self-test.
     OnRequest,
+    /// Once settings have been stored in the device, through a new start.
+    ByStoring,
     /// It never was more than a warning.
     NotNeeded,
 }
@@ -169,6 +175,8 @@ codes! {
     59 OverCurrent(Wheel::Second);
     61 Overrun;
     62 EstimateNotFinite;
+    63 NotCommissioned;
+    64 GivenUp;
     71 CalibrationAbandoned;
     72 SelfTestAbandoned;
     73 CommandsTooMany;
@@ -199,6 +207,8 @@ impl Fault {
             | Fault::WrongCurrent(_)
             | Fault::Overrun
             | Fault::EstimateNotFinite
+            | Fault::NotCommissioned
+            | Fault::GivenUp
             | Fault::CalibrationAbandoned
             | Fault::SelfTestAbandoned
             | Fault::CommandsTooMany => None,
@@ -212,6 +222,7 @@ impl Fault {
     /// | of a sensor | when good | good readings show it, and the new calibration tries bias and gravity afresh |
     /// | of a clutch or its coil, failed self-test | on request | a part that may be broken shows nothing until it is used: somebody must look |
     /// | overrun, estimate not finite | on request | the program or its parameters are wrong, which time does not mend |
+    /// | not commissioned, settings given up | by storing | only somebody who knows the structure can say what the settings must be |
     /// | abandoned calibration or self-test, too many commands | not needed | a warning only |
     pub fn recovery(self) -> Recovery {
         match self {
@@ -225,6 +236,7 @@ impl Fault {
                 Recovery::OnRequest
             }
             Fault::Overrun | Fault::EstimateNotFinite => Recovery::OnRequest,
+            Fault::NotCommissioned | Fault::GivenUp => Recovery::ByStoring,
             Fault::CalibrationAbandoned | Fault::SelfTestAbandoned | Fault::CommandsTooMany => Recovery::NotNeeded,
         }
     }
@@ -258,6 +270,10 @@ impl fmt::Display for Fault {
             }
             Fault::Overrun => write!(formatter, "controller: ticks come too late"),
             Fault::EstimateNotFinite => write!(formatter, "estimate: rotation or velocity is not a finite number"),
+            Fault::NotCommissioned => write!(formatter, "not commissioned: no settings of its own are stored in it"),
+            Fault::GivenUp => {
+                write!(formatter, "stored settings given up: reset after reset with them, until they are stored anew")
+            }
             Fault::CalibrationAbandoned => {
                 write!(formatter, "calibration abandoned for lack of stillness: armed with the last biases")
             }
@@ -301,6 +317,7 @@ mod tests {
         for fault in Fault::ALL {
             let expected = match fault.code() {
                 ..50 => Recovery::WhenGood,
+                63 | 64 => Recovery::ByStoring,
                 50..70 | 80.. => Recovery::OnRequest,
                 _ => Recovery::NotNeeded,
             };

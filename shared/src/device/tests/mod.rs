@@ -1,9 +1,9 @@
 //! What a device does when it is asked, and what it goes on with after a reset.
 
 use super::{Answer, Device, Surroundings};
-use crate::control::controller::Controller;
 use crate::control::supervisor::Phase;
 use crate::control::supervisor::event_log::Kind;
+use crate::device::beginning::Beginning;
 use crate::device::retained::{MOST_RESTARTS, Retained};
 use crate::link::*;
 use crate::settings::kind::Description;
@@ -13,6 +13,7 @@ use flash::Flash;
 use rig::Rig;
 use std::vec::Vec;
 
+mod alone;
 mod flash;
 mod resume;
 mod rig;
@@ -32,9 +33,12 @@ impl Bench {
     }
 
     fn with(settings: &Settings, kept: Option<&Retained>) -> Bench {
-        let controller = Controller::of(settings).unwrap();
+        Bench::of(&Beginning::of(Some(settings), kept, 0.0).unwrap(), kept)
+    }
+
+    fn of(beginning: &Beginning, kept: Option<&Retained>) -> Bench {
         let (store, _) = Store::open(Flash::default());
-        Bench { device: Device::new(&controller, settings, kept), store, rig: Rig::new(controller.model) }
+        Bench { device: Device::new(beginning, kept), store, rig: Rig::new(beginning.controller.model) }
     }
 
     fn answer(&mut self, request: Request) -> Answer {
@@ -66,6 +70,13 @@ impl Bench {
     fn ticks(&mut self, count: usize) {
         for _ in 0..count {
             self.tick();
+        }
+    }
+
+    /// Of a device that hears nothing.
+    fn ticks_without(&mut self, count: usize) {
+        for _ in 0..count {
+            self.device.tick(|_| panic!("its own sensors"), 0.0);
         }
     }
 
@@ -220,11 +231,12 @@ fn in_motion_nothing_changes() {
         Request::SelfTest,
         Request::Attach { pace: Pace::Timer },
         Request::Attach { pace: Pace::Sample },
-        Request::Detach,
     ] {
         assert_eq!(bench.ask(request), busy, "{request:?}");
     }
     assert_eq!(bench.ask(Request::Sample(told(1))), Reply::Refused(Refusal::NotHere));
+    // Nobody is attached, so there is nothing to do.
+    assert_eq!(bench.answer(Request::Detach), Answer::Reply(DONE));
     let mut untouched = Bench { device: before, store: Store::open(Flash::default()).0, rig: bench.rig.clone() };
     for _ in 0..100 {
         assert_eq!(bench.tick(), untouched.tick());

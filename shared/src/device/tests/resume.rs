@@ -122,10 +122,11 @@ fn what_the_encoder_missed_is_made_good_at_rest() {
 fn while_it_goes_on_nothing_is_changed() {
     let mut again = reset(&Bench::rocking());
     let busy = |reply| matches!(reply, Reply::Refused(Refusal::Busy(_)));
-    assert!(busy(again.ask(Request::Detach)));
+    assert!(busy(again.ask(Request::Attach { pace: Pace::Timer })));
     assert!(busy(again.ask(Request::Apply { check: Settings::default().check(), store: true })));
+    assert_eq!(again.answer(Request::Detach), Answer::Reply(DONE));
     again.tick();
-    assert!(busy(again.ask(Request::Detach)));
+    assert_eq!(again.device.decision().phase, Phase::Rocking);
 }
 
 #[test]

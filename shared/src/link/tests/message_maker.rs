@@ -178,6 +178,7 @@ pub fn reply(variant: usize, source: &mut Source<'_>) -> Reply {
             board: source.bytes(),
             counter_hz: source.word(),
             settings: source.word() as u16,
+            layout: source.word(),
             check: source.word(),
             rehearsal: source.truth(),
         }),
@@ -193,6 +194,7 @@ pub fn reply(variant: usize, source: &mut Source<'_>) -> Reply {
             lost_reports: source.word(),
             stack: source.word(),
             cause: source.one_of(&CAUSES),
+            attached: source.one_of(&[None, Some(Pace::Timer), Some(Pace::Sample)]),
         }),
         4 => Reply::Words(source.block()),
         5 => Reply::Log(LogBlock {
@@ -214,6 +216,7 @@ pub fn reply(variant: usize, source: &mut Source<'_>) -> Reply {
                 Refusal::FlashFull,
                 Refusal::FlashFailed,
                 Refusal::NotHere,
+                Refusal::TooFast { period: f32::from_bits(check), least: f32::from_bits(check) },
             ]))
         }
     }
