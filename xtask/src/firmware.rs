@@ -66,7 +66,7 @@ pub const BOARD: Image = Image {
     profile: "release",
     features: &["board-f405"],
     budget: Some("firmware/size.budget"),
-    variable: None,
+    variable: Some("SPRAG_BOARD_ELF"),
     log: None,
 };
 
@@ -75,7 +75,8 @@ const IN_EMULATOR: Image =
     Image { name: "emulator", features: &["board-qemu"], budget: None, variable: Some("SPRAG_FIRMWARE_ELF"), ..BOARD };
 
 /// The firmware for the emulator, with its log.
-const LOGGING: Image = Image { name: "logging", features: &["board-qemu", "log"], budget: None, log: Some("info"), ..BOARD };
+const LOGGING: Image =
+    Image { name: "logging", features: &["board-qemu", "log"], budget: None, variable: None, log: Some("info"), ..BOARD };
 
 /// The firmware for the board with a panic in its control tick, which must not go unseen.
 pub const PANICKING: Image =

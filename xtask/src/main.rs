@@ -1,6 +1,7 @@
 //! Sprag's own tasks, run as `cargo xtask <task>`.
 
 mod accuracy;
+mod board_image;
 mod budget;
 #[cfg(test)]
 mod documentation_links;
@@ -44,6 +45,8 @@ Tasks:
             its tables and pictures; needs python3 with venv
   ticks     measure what a control tick of the firmware costs in the emulator, with and without logs, and write docs/ticks.csv
   hardware  simulate the coil driver of docs/hardware in ngspice; fails when an assert of a circuit does
+  board-image ticks
+            count what a control tick of the unmodified board image costs, at rest and in motion, between models of the board's parts
   figures [PROGRAM]
             print figures of the code: lines without tests, test executables, and of each program that is built (or of PROGRAM, an
             ELF file with symbols) the event loops and the bytes of code by room of the core
@@ -115,6 +118,10 @@ fn run(mut args: impl Iterator<Item = String>) -> Result<(), Stop> {
             ticks::run(&root)
         }
         ["hardware"] => hardware::run(&root, &mut Steps::default()),
+        ["board-image", "ticks"] => {
+            tools::need_board_target(&root)?;
+            board_image::ticks(&root)
+        }
         ["figures"] => figures::run(&root, None),
         ["figures", program] => figures::run(&root, Some(program)),
         ["fuzz"] => fuzz::run(&root, None, seconds, Inputs::New),

@@ -1,6 +1,7 @@
 //! Every check of the project, in the order in which they are cheapest to fail.
 
 use crate::{
+    board_image,
     firmware::{BOARD, Built, LINTED},
     fuzz::{self, Inputs},
     hardware, panic_check,
@@ -21,6 +22,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     steps.step("tools", || {
         tools::need_board_target(root)?;
         tools::need_emulator()?;
+        tools::need_unicorn()?;
         tools::need_cxx()
     })?;
     steps.step("format", || {
@@ -55,6 +57,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
         ))
     })?;
     hardware::run(root, &mut steps)?;
+    steps.step("tests, board image", || board_image::tests(root, &built))?;
     steps.step("tests", || tests(root, &built))?;
     match fuzz_seconds {
         Some(seconds) => steps.step("fuzzing", || fuzz::run(root, None, seconds, Inputs::Same)),

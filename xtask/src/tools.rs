@@ -41,6 +41,20 @@ pub fn need_circuit_simulator() -> Result<(), Stop> {
     need("ngspice", &["ngspice"])
 }
 
+/// Makes sure that the library is installed which executes the board's image: Debian's package, 20 MB, where building it from source
+/// takes 40 s of processor time, CMake and libclang. `UNICORN_LIB_DIR` names a folder with another one.
+///
+/// # Errors
+/// If it is not and cannot be.
+pub fn need_unicorn() -> Result<(), Stop> {
+    if std::env::var_os("UNICORN_LIB_DIR").is_some() {
+        return Ok(());
+    }
+    // A linker that is asked for it, as a build is.
+    let found = || answers("cc", &["-shared", "-o", "/dev/null", "-lunicorn"]);
+    need_by("libunicorn-dev", "libunicorn", found)
+}
+
 /// Makes sure that callgrind is installed.
 ///
 /// # Errors
@@ -74,7 +88,11 @@ pub fn python(root: &Path, requirements: &str) -> Result<PathBuf, Stop> {
 
 /// Looks for one of the programs, installs the package if none answers, and looks again.
 fn need(package: &str, programs: &[&str]) -> Result<(), Stop> {
-    let found = || programs.iter().any(|program| answers(program, &["--version"]));
+    need_by(package, &programs.join(" or "), || programs.iter().any(|program| answers(program, &["--version"])))
+}
+
+/// Looks for something, installs the package if it is not found, and looks again.
+fn need_by(package: &str, what: &str, found: impl Fn() -> bool) -> Result<(), Stop> {
     if found() {
         return Ok(());
     }
@@ -89,7 +107,7 @@ fn need(package: &str, programs: &[&str]) -> Result<(), Stop> {
             return Ok(());
         }
     }
-    Err(Stop::usage(format!("{} is missing: sudo apt-get install {package}", programs.join(" or "))))
+    Err(Stop::usage(format!("{what} is missing: sudo apt-get install {package}")))
 }
 
 fn apt_get(args: &[&str]) -> Result<(), Stop> {

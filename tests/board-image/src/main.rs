@@ -1,0 +1,53 @@
+//! Runs the image of the board on the host: `sprag-board-image ticks IMAGE.elf` says what a control tick costs.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use sprag_board_image::bench::TickCost;
+use sprag_board_image::image::Image;
+use sprag_board_image::rig::{Rig, swing};
+use sprag_shared::control::supervisor::Phase;
+use sprag_shared::settings::Settings;
+
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let result = match words.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["ticks", image] => ticks(Path::new(image)),
+        _ => Err("usage: sprag-board-image ticks IMAGE.elf".to_owned()),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(reason) => {
+            eprintln!("error: {reason}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Prints what a control tick costs at rest and in motion.
+fn ticks(path: &Path) -> Result<(), String> {
+    let image = Image::load(path).map_err(|error| error.to_string())?;
+    let mut rig = Rig::new(&image, Some(&Settings::default()));
+    rig.boot();
+    let state = rig.wait(4000, |state| state.phase == Phase::Armed);
+    if state.phase != Phase::Armed {
+        return Err(format!("the board does not arm: {:?} {:?}", state.phase, state.fault));
+    }
+    println!("phase,median_instructions,worst_instructions,median_cycles,worst_cycles");
+    for phase in ["armed", "rocking"] {
+        if phase == "rocking" {
+            rig.structure = Box::new(swing(rig.bench.now()));
+            rig.ticks(200);
+        }
+        rig.costs.clear();
+        rig.ticks(1000);
+        let of = |quantity: fn(&TickCost) -> u64| {
+            let mut numbers: Vec<u64> = rig.costs.iter().map(quantity).collect();
+            numbers.sort_unstable();
+            (numbers[numbers.len() / 2], numbers[numbers.len() - 1])
+        };
+        let (instructions, cycles) = (of(|cost| cost.instructions), of(|cost| cost.cycles));
+        println!("{phase},{},{},{},{}", instructions.0, instructions.1, cycles.0, cycles.1);
+    }
+    Ok(())
+}

@@ -1,0 +1,110 @@
+//! PWR, its voltage detector and EXTI (RM0090 sections 5 and 12), and the supply of 3.3 V.
+
+use super::registers::Registers;
+
+/// Of PWR.
+const CR: u32 = 0x00;
+const CSR: u32 = 0x04;
+const DETECTOR_ON: u32 = 1 << 4;
+const BACKUP_WRITABLE: u32 = 1 << 8;
+const LOW: u32 = 1 << 2;
+const REGULATOR_READY: u32 = 1 << 14;
+
+/// Of EXTI.
+const IMR: u32 = 0x00;
+const RTSR: u32 = 0x08;
+const FTSR: u32 = 0x0C;
+const SWIER: u32 = 0x10;
+const PR: u32 = 0x14;
+/// Line of the detector.
+const LINE: u32 = 16;
+
+/// Of the detector by its level, V, falling (DS8626, table 24, typical); rising it is 0.1 V higher.
+const LEVELS: [f64; 8] = [2.04, 2.19, 2.35, 2.51, 2.66, 2.82, 2.93, 3.03];
+
+/// The supply and who watches it.
+#[derive(Clone, Debug)]
+pub struct Supply {
+    power: Registers,
+    lines: Registers,
+    volts: f64,
+    low: bool,
+}
+
+impl Default for Supply {
+    fn default() -> Supply {
+        let power = Registers::of(&[(CR, 0xC000)]);
+        Supply { power, lines: Registers::default(), volts: 3.3, low: false }
+    }
+}
+
+impl Supply {
+    /// Registers as after a reset.
+    pub fn reset(&mut self) {
+        *self = Supply { volts: self.volts, ..Supply::default() };
+    }
+
+    /// V.
+    pub fn volts(&self) -> f64 {
+        self.volts
+    }
+
+    /// The supply becomes `volts`.
+    pub fn set_volts(&mut self, volts: f64) {
+        self.volts = volts;
+        self.look();
+    }
+
+    /// Whether the backup domain may be written.
+    pub fn backup_writable(&self) -> bool {
+        self.power.has(CR, BACKUP_WRITABLE)
+    }
+
+    fn look(&mut self) {
+        let level = LEVELS[(self.power.get(CR) >> 5 & 7) as usize];
+        let level = if self.low { level + 0.1 } else { level };
+        let low = self.power.has(CR, DETECTOR_ON) && self.volts < level;
+        let edge = match (self.low, low) {
+            (false, true) => RTSR,
+            (true, false) => FTSR,
+            _ => return,
+        };
+        self.low = low;
+        if self.lines.has(edge, 1 << LINE) {
+            self.lines.set(PR, self.lines.get(PR) | 1 << LINE);
+        }
+    }
+
+    /// Whether the detector's line asks for its interrupt.
+    pub fn interrupts(&self) -> bool {
+        self.lines.get(PR) & self.lines.get(IMR) & 1 << LINE != 0
+    }
+
+    /// A load from PWR.
+    pub fn read_power(&self, offset: u32) -> u32 {
+        match offset {
+            CSR => self.power.get(CSR) | REGULATOR_READY | if self.low { LOW } else { 0 },
+            _ => self.power.get(offset),
+        }
+    }
+
+    /// A store to PWR.
+    pub fn write_power(&mut self, offset: u32, value: u32) {
+        self.power.set(offset, value);
+        self.look();
+    }
+
+    /// A load from EXTI.
+    pub fn read_lines(&self, offset: u32) -> u32 {
+        self.lines.get(offset)
+    }
+
+    /// A store to EXTI.
+    pub fn write_lines(&mut self, offset: u32, value: u32) {
+        match offset {
+            PR => self.lines.set(PR, self.lines.get(PR) & !value),
+            SWIER => self.lines.set(PR, self.lines.get(PR) | value),
+            _ => self.lines.set(offset, value),
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! The unmodified image of the board between models of the board's parts.
+//!
+//! Needs the image that `SPRAG_BOARD_ELF` names; `cargo xtask test` builds it. `-- --nocapture` shows the numbers.
+
+mod coils;
+mod registers;
+mod resets;
+mod start;
+mod supply;

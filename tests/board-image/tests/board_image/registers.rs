@@ -1,0 +1,78 @@
+//! The registers after the start, beside the sections of the manuals that say what they mean.
+
+use sprag_board_image::rig::{Rig, image};
+use sprag_shared::settings::Settings;
+
+/// Name, address, value, section: of RM0090 rev. 21 where nothing else is said.
+const TABLE: &[(&str, u32, u32, &str)] = &[
+    ("RCC_CR", 0x4002_3800, 0x030B_0083, "7.3.1"),
+    ("RCC_PLLCFGR", 0x4002_3804, 0x2740_2A04, "7.3.2"),
+    ("RCC_CFGR", 0x4002_3808, 0x0000_940A, "7.3.3"),
+    ("RCC_AHB1ENR", 0x4002_3830, 0x0070_0007, "7.3.10"),
+    ("RCC_APB1ENR", 0x4002_3840, 0x1000_400E, "7.3.13"),
+    ("RCC_APB2ENR", 0x4002_3844, 0x0000_1112, "7.3.14"),
+    ("FLASH_ACR", 0x4002_3C00, 0x0000_0705, "3.9.1"),
+    ("FLASH_CR", 0x4002_3C10, 0x8000_0000, "3.9.7"),
+    ("FLASH_OPTCR", 0x4002_3C14, 0x0FFF_AAE1, "3.9.9"),
+    ("GPIOA_MODER", 0x4002_0000, 0xA828_A900, "8.4.1"),
+    ("GPIOA_PUPDR", 0x4002_000C, 0x6410_1000, "8.4.4"),
+    ("GPIOA_AFRL", 0x4002_0020, 0x5350_0000, "8.4.9"),
+    ("GPIOA_AFRH", 0x4002_0024, 0x0000_0770, "8.4.10"),
+    ("GPIOB_MODER", 0x4002_0400, 0xA900_A280, "8.4.1"),
+    ("GPIOB_PUPDR", 0x4002_040C, 0x2000_5200, "8.4.4"),
+    ("GPIOB_AFRL", 0x4002_0420, 0x2205_0000, "8.4.9"),
+    ("GPIOB_AFRH", 0x4002_0424, 0x5550_0000, "8.4.10"),
+    ("GPIOC_MODER", 0x4002_0800, 0x0105_A00F, "8.4.1"),
+    ("GPIOC_AFRL", 0x4002_0820, 0x3300_0000, "8.4.9"),
+    ("TIM8_CR1", 0x4001_0400, 0x0000_0081, "17.4.1"),
+    ("TIM8_CCMR1", 0x4001_0418, 0x0000_6868, "17.4.7"),
+    ("TIM8_CCER", 0x4001_0420, 0x0000_0011, "17.4.9"),
+    ("TIM8_PSC", 0x4001_0428, 0x0000_0000, "17.4.11"),
+    ("TIM8_ARR", 0x4001_042C, 0x0000_20CF, "17.4.12"),
+    ("TIM8_BDTR", 0x4001_0444, 0x0000_9C00, "17.4.18"),
+    ("TIM4_CR1", 0x4000_0800, 0x0000_0001, "18.4.1"),
+    ("TIM4_SMCR", 0x4000_0808, 0x0000_0003, "18.4.3"),
+    ("TIM4_CCMR1", 0x4000_0818, 0x0000_3131, "18.4.7"),
+    ("TIM4_ARR", 0x4000_082C, 0x0000_FFFF, "18.4.12"),
+    ("ADC1_CR1", 0x4001_2004, 0x0000_0500, "13.13.2"),
+    ("ADC1_CR2", 0x4001_2008, 0x4000_0003, "13.13.3"),
+    ("ADC1_SMPR1", 0x4001_200C, 0x0000_003F, "13.13.4"),
+    ("ADC1_SQR3", 0x4001_2034, 0x0000_000A, "13.13.11"),
+    ("ADC1_JSQR", 0x4001_2038, 0x0015_A800, "13.13.12"),
+    ("ADC_CCR", 0x4001_2304, 0x0001_0000, "13.13.16"),
+    ("SPI1_CR1", 0x4001_3000, 0x0000_0357, "28.5.1"),
+    ("SPI2_CR1", 0x4000_3800, 0x0000_0357, "28.5.1"),
+    ("USART1_BRR", 0x4001_1008, 0x0000_005B, "30.6.3"),
+    ("USART1_CR1", 0x4001_100C, 0x0000_200C, "30.6.4"),
+    ("USART1_CR3", 0x4001_1014, 0x0000_00C0, "30.6.6"),
+    ("DMA2_S2CR", 0x4002_6440, 0x0800_0501, "10.5.5"),
+    ("DMA2_S2PAR", 0x4002_6448, 0x4001_1004, "10.5.7"),
+    ("IWDG_PR", 0x4000_3004, 0x0000_0005, "21.4.2"),
+    ("IWDG_RLR", 0x4000_3008, 0x0000_0004, "21.4.3"),
+    ("PWR_CR", 0x4000_7000, 0x0000_C0F0, "5.4.1"),
+    ("EXTI_IMR", 0x4001_3C00, 0x0001_0000, "12.3.1"),
+    ("EXTI_RTSR", 0x4001_3C08, 0x0001_0000, "12.3.3"),
+    ("DBGMCU_CR", 0xE004_2004, 0x0000_0000, "38.16.3"),
+    ("DBGMCU_APB1_FZ", 0xE004_2008, 0x0000_1000, "38.16.4"),
+    ("DWT_CTRL", 0xE000_1000, 0x4000_0000, "ARMv7-M C1.8.7"),
+    ("SYST_CSR", 0xE000_E010, 0x0000_0007, "PM0214 4.5.1"),
+    ("SYST_RVR", 0xE000_E014, 0x0001_481F, "PM0214 4.5.2"),
+    ("NVIC_ISER0", 0xE000_E100, 0x0000_0002, "PM0214 4.3.2"),
+    ("NVIC_IPR0", 0xE000_E400, 0x0000_0000, "PM0214 4.3.7"),
+    ("SHPR3", 0xE000_ED20, 0xD000_0000, "PM0214 4.4.8"),
+];
+
+#[test]
+fn the_registers_are_those_of_the_table() {
+    let mut rig = Rig::new(&image(), Some(&Settings::default()));
+    rig.boot();
+    let mut wrong = Vec::new();
+    for &(name, address, value, section) in TABLE {
+        let found = rig.bench.chip_mut().load(address);
+        println!("{name:14} {address:#010x} {found:#010x} {section}");
+        if found != value {
+            wrong.push(format!("{name} is {found:#010x}, not {value:#010x} ({section})"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
