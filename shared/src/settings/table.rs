@@ -1,7 +1,8 @@
 //! The parameters, one line each: name, unit, range, default. Their order is that of the words.
 //!
 //! The defaults are those of a pier of R = 2 m and α = 10° with σ = 0.5 and flywheels that spin down, driven at 2 kHz by the model-aided
-//! estimator with the gains of an ICM-42688-P and an encoder of 5 µm, its clutches 5 ms late.
+//! estimator with the gains of an ICM-42688-P and an encoder of 5 µm, its clutches 5 ms late; what has
+//! been commanded stands for as long.
 
 use core::f32::consts::FRAC_PI_2;
 
@@ -144,7 +145,7 @@ parameters! {
     ReleaseHorizon "controller.release_horizon" span(10.0, 0.005_25);
     Bands "controller.bands" real("", 0.0, 1e3, 1.0);
     EngagedAtRest "controller.engaged_at_rest" switch(true);
-    Dwell "controller.gate.dwell" whole("ticks", 0, TICKS, 0);
+    Dwell "controller.gate.dwell" whole("ticks", 0, TICKS, 10);
 
     RequiredGyroscope "supervisor.required.gyroscope" switch(true);
     RequiredBlockAccelerometer "supervisor.required.block_accelerometer" switch(false);

@@ -160,7 +160,7 @@ fn controller(structure: &Structure, estimator: Estimator, law: ClutchLaw, p: &P
         horizons: Horizons::of((10.5 / (1.0 / f64::from(p.period)).round()) as f32),
         bands: 1.0,
         engaged_at_rest: true,
-        gate: Gate::default(),
+        gate: Gate { dwell: 10 },
         supervisor: Supervisor::new(p).unwrap(),
     }
 }

@@ -207,6 +207,31 @@ fn an_accelerometer_may_be_anywhere_that_is_known() {
     }
 }
 
+/// A word of the gyroscope that was spoilt on the way, once in 20 ms: it sets no velocity, and moves no block that stands.
+#[test]
+fn a_single_bad_word_is_no_velocity() {
+    let (model, truths) = (example_model(), motion(0.25, 7.0, 8.0));
+    let instruments = Instruments::new(PERIOD, COUNT, [0.0; 3], 0.0015).unwrap();
+    for (name, estimator) in estimators() {
+        let (mut state, mut reading, mut dice) = (EstimatorState::default(), InstrumentsState::default(), 1);
+        for (number, truth) in truths.iter().enumerate() {
+            let mut sample = sample(truth, number as u32 + 1, 1.0, &mut dice);
+            if number % 40 == 7 {
+                sample.gyroscope.value = if number % 80 == 7 { 8.0 } else { -8.0 };
+            }
+            let seen = instruments.read(&mut reading, &sample, &Calibration::default());
+            let estimate = estimator.step(&mut state, &model, &instruments, &seen, 0);
+            if truth.since_impact > 0.01 {
+                let off = (f64::from(estimate.velocity) - truth.velocity).abs();
+                assert!(off < 0.02, "{name}: θ̇ off by {off} at {number}");
+            }
+            if truth.rotation == 0.0 && truth.since_impact == f64::INFINITY && truth.ground == 0.0 {
+                assert!(estimate.standing, "{name} moves at rest at {number}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_standing_block_stands_and_a_moving_one_does_not() {
     let truths = motion(0.25, 7.0, 4.0);
