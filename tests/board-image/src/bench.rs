@@ -49,6 +49,8 @@ pub enum Stop {
     Time,
     /// A handler of SysTick has returned.
     Tick,
+    /// The processor sleeps until the next interrupt, where that was asked for.
+    Asleep,
     /// The chip was reset; the program begins anew.
     Reset(Cause),
 }
@@ -61,6 +63,8 @@ pub struct Bench {
     asleep: bool,
     /// The processor is in lockup: nothing but a reset helps.
     pub lockup: bool,
+    /// Come back when the processor falls asleep.
+    pub until_asleep: bool,
     /// Of the last handler of SysTick that returned.
     pub last_tick: Option<TickCost>,
     /// Resets so far, and when.
@@ -94,7 +98,16 @@ impl Bench {
         let sleeps: Vec<u32> = halves.filter(|(_, half)| *half == WFI).map(|(address, _)| address).collect();
         engine.stop_at(&sleeps);
         let (running, asleep) = (Vec::new(), false);
-        let mut bench = Bench { engine, running, program: 0, asleep, lockup: false, last_tick: None, resets: Vec::new() };
+        let mut bench = Bench {
+            engine,
+            running,
+            program: 0,
+            asleep,
+            lockup: false,
+            until_asleep: false,
+            last_tick: None,
+            resets: Vec::new(),
+        };
         bench.start();
         bench
     }
@@ -112,6 +125,11 @@ impl Bench {
     /// Now.
     pub fn now(&self) -> u64 {
         self.chip().now
+    }
+
+    /// Wakes the processor, as an event may at any time.
+    pub fn wake(&mut self) {
+        self.asleep = self.lockup;
     }
 
     /// A reset.
@@ -162,6 +180,9 @@ impl Bench {
             }
             if self.now() >= until {
                 return Stop::Time;
+            }
+            if self.asleep && self.until_asleep {
+                return Stop::Asleep;
             }
             if self.asleep {
                 let chip = self.chip_mut();

@@ -1,5 +1,7 @@
-//! Runs the image of the board on the host: `sprag-board-image ticks IMAGE.elf` says what a control tick costs.
+//! Runs the image of the board on the host: `sprag-board-image ticks IMAGE.elf` says what a control tick costs, `sprag-board-image serve
+//! IMAGE.elf` is the board at the other end of its standard streams, for `sprag hil --board-image`.
 
+use std::io::{Read, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -13,7 +15,8 @@ fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let result = match words.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["ticks", image] => ticks(Path::new(image)),
-        _ => Err("usage: sprag-board-image ticks IMAGE.elf".to_owned()),
+        ["serve", image] => serve(Path::new(image)),
+        _ => Err("usage: sprag-board-image ticks|serve IMAGE.elf".to_owned()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -50,4 +53,33 @@ fn ticks(path: &Path) -> Result<(), String> {
         println!("{phase},{},{},{},{}", instructions.0, instructions.1, cycles.0, cycles.1);
     }
     Ok(())
+}
+
+/// How many times faster than its registers say the line is: a chunk is there at once.
+const HASTE: u64 = 100_000;
+
+/// Exchanges a chunk for a chunk at the end of every control period: two bytes that say how long it is, least significant first, and the
+/// bytes of the link.
+fn serve(path: &Path) -> Result<(), String> {
+    let image = Image::load(path).map_err(|error| error.to_string())?;
+    let mut rig = Rig::new(&image, None);
+    rig.bench.chip_mut().line.haste = HASTE;
+    let (mut input, mut output) = (std::io::stdin().lock(), std::io::stdout().lock());
+    loop {
+        rig.period();
+        let bytes = rig.bench.chip_mut().line.take(u64::MAX);
+        let mut chunk = (bytes.len() as u16).to_le_bytes().to_vec();
+        chunk.extend(bytes);
+        let mut count = [0; 2];
+        let exchanged = output.write_all(&chunk).and_then(|()| output.flush()).and_then(|()| input.read_exact(&mut count));
+        let mut bytes = vec![0; usize::from(u16::from_le_bytes(count))];
+        // The host has gone.
+        if exchanged.and_then(|()| input.read_exact(&mut bytes)).is_err() {
+            return Ok(());
+        }
+        let (now, chip) = (rig.bench.now(), rig.bench.chip_mut());
+        let clock = chip.rcc.peripheral_hz()[1];
+        chip.line.send(&bytes, clock, now);
+        rig.settle();
+    }
 }

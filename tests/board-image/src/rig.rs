@@ -148,6 +148,21 @@ impl Rig {
         stop
     }
 
+    /// Runs over the next control tick until the program has nothing left to do.
+    pub fn period(&mut self) {
+        self.bench.until_asleep = false;
+        while self.bench.run(self.bench.now() + SECOND) != Stop::Tick {}
+        self.settle();
+    }
+
+    /// Runs until the program has nothing left to do, at most to the next control tick.
+    pub fn settle(&mut self) {
+        self.bench.until_asleep = true;
+        self.bench.wake();
+        self.bench.run(self.bench.now() + milliseconds(1));
+        self.bench.until_asleep = false;
+    }
+
     /// So many ticks.
     ///
     /// # Panics
@@ -176,6 +191,8 @@ impl Rig {
     /// Sends a request, and gives the tag that its answer will have.
     pub fn send(&mut self, request: &Request) -> u8 {
         self.tag = self.tag % 250 + 1;
+        // Answers to a request of long ago with this tag, which nobody has taken.
+        self.replies.retain(|(tag, _)| *tag != self.tag);
         let mut frame = [0; MAX_FRAME];
         let length = encode(self.tag, request, &mut frame).expect("requests fit");
         let now = self.bench.now();

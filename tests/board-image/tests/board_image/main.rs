@@ -3,7 +3,10 @@
 //! Needs the image that `SPRAG_BOARD_ELF` names; `cargo xtask test` builds it. `-- --nocapture` shows the numbers.
 
 mod coils;
+mod link;
 mod registers;
 mod resets;
+mod sensors;
 mod start;
+mod storage;
 mod supply;
