@@ -2,7 +2,10 @@
 
 mod coil;
 #[cfg(test)]
+mod failures;
+#[cfg(test)]
 mod fits_firmware;
+mod schematic;
 
 use crate::{steps::Steps, stop::Stop, tools};
 use std::path::Path;
@@ -16,5 +19,6 @@ const COIL: &str = "docs/hardware/coil";
 /// At the first check that fails, or if a tool is missing.
 pub fn run(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
     tools::need_circuit_simulator()?;
-    steps.step("coil driver", || coil::check(&root.join(COIL)))
+    steps.step("coil driver", || coil::check(&root.join(COIL)))?;
+    steps.step("schematic", || schematic::check(root))
 }

@@ -44,9 +44,10 @@ Tasks:
   accuracy  measure what accuracy costs in time, on the host, in the emulator and against SciPy, and write docs/accuracy.md with
             its tables and pictures; needs python3 with venv
   ticks     measure what a control tick of the firmware costs in the emulator, with and without logs, and write docs/ticks.csv
-  hardware  simulate the coil driver of docs/hardware in ngspice; fails when an assert of a circuit does
   board-image ticks
             count what a control tick of the unmodified board image costs, at rest and in motion, between models of the board's parts
+  hardware  simulate the coil driver of docs/hardware in ngspice and check the schematic's electrical rules by SKiDL (where Python has
+            it); fails when an assert or a rule does
   figures [PROGRAM]
             print figures of the code: lines without tests, test executables, and of each program that is built (or of PROGRAM, an
             ELF file with symbols) the event loops and the bytes of code by room of the core

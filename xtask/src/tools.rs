@@ -78,11 +78,21 @@ pub fn need_cxx() -> Result<(), Stop> {
 /// # Errors
 /// If there is no Python, or the packages cannot be had.
 pub fn python(root: &Path, requirements: &str) -> Result<PathBuf, Stop> {
-    let folder = root.join("target/python");
+    python_of(root, "target/python", requirements, &[])
+}
+
+/// The same in an environment at `place`, with more options of the installer.
+///
+/// # Errors
+/// Likewise.
+pub fn python_of(root: &Path, place: &str, requirements: &str, options: &[&str]) -> Result<PathBuf, Stop> {
+    let folder = root.join(place);
     let python = folder.join("bin/python");
     // Again over one that is there: a few seconds, and one that was left half made is whole.
     run(Command::new("python3").args(["-m", "venv"]).arg(&folder))?;
-    run(Command::new(&python).args(["-m", "pip", "install", "--quiet", "--requirement"]).arg(root.join(requirements)))?;
+    let mut install = Command::new(&python);
+    install.args(["-m", "pip", "install", "--quiet"]).args(options).arg("--requirement").arg(root.join(requirements));
+    run(&mut install)?;
     Ok(python)
 }
 

@@ -31,3 +31,70 @@ fn the_simulated_driver_is_driven_as_the_firmware_drives_it() {
     assert_eq!(after(&driver, &["Bamp", "max("]), after(&coil, &["4096.0 / ("]));
     assert_eq!(after(&driver, &["Rsh node top "]), after(&coil, &["4096.0 / (", " * "]));
 }
+
+/// Where the firmware names pins, and the nets of the pins that follow there.
+const NAMED: [(&str, &[&str]); 10] = [
+    ("sensors::block(", &["BLOCK_SCK", "BLOCK_MISO", "BLOCK_MOSI", "BLOCK_CS"]),
+    ("sensors::ground(", &["GROUND_SCK", "GROUND_MISO", "GROUND_MOSI", "GROUND_CS"]),
+    ("encoder::Encoder::new(", &["ENCODER_A", "ENCODER_B"]),
+    ("low: (", &["LOW1", "LOW2"]),
+    ("high: (", &["HIGH1", "HIGH2"]),
+    ("trip: ", &["BREAK"]),
+    ("coils::Currents::new(", &["CURRENT1", "CURRENT2"]),
+    ("line::DmaLine::new(", &["LINK_TX", "LINK_RX"]),
+    ("light::BoardLight::new(", &["LIGHT"]),
+    // Not the application's: the probe, the oscillator, and the jumper.
+    ("", &["SWDIO", "SWCLK", "CRYSTAL_IN", "CRYSTAL_OUT", "COMMISSION"]),
+];
+
+/// Pins such as `a.pa5` in a text, as PA5.
+fn pins(text: &str) -> impl Iterator<Item = String> {
+    text.split(|c: char| !c.is_ascii_alphanumeric() && c != '.').filter_map(|word| {
+        let (port, pin) = word.split_once(".p")?;
+        (port.len() == 1 && pin.starts_with(port) && pin[1..].parse::<u8>().is_ok()).then(|| format!("P{}", pin.to_uppercase()))
+    })
+}
+
+/// Pin and net of each line of the table of pins.
+fn table() -> Vec<(String, String)> {
+    let text = read("docs/hardware/schematic/pins.csv");
+    let lines = text.lines().skip(1).map(|line| {
+        let plain: String = line.split('"').step_by(2).collect::<Vec<_>>().join("x");
+        let cells: Vec<&str> = plain.split(',').collect();
+        (cells[0].to_owned(), cells[3].to_owned())
+    });
+    lines.collect()
+}
+
+#[test]
+fn the_firmware_the_schematic_and_the_page_have_the_same_pins() {
+    let table = table();
+    let board = read("firmware/src/board/f405.rs");
+    let mut seen = 0;
+    for (mark, nets) in NAMED.iter().filter(|(mark, _)| !mark.is_empty()) {
+        let rest = board.split_once(mark).unwrap_or_else(|| panic!("no {mark}")).1;
+        let line = rest.split(';').next().unwrap_or_default();
+        for (net, pin) in nets.iter().zip(pins(line)) {
+            assert!(table.contains(&(pin.clone(), (*net).to_owned())), "{net} is at {pin} in the firmware");
+            seen += 1;
+        }
+    }
+    // The jumper is in the table before the firmware has it or after.
+    assert_eq!(seen, 20);
+    assert_eq!(table.len(), NAMED.iter().map(|(_, nets)| nets.len()).sum::<usize>());
+    let mut all: Vec<String> = pins(&board).filter(|pin| pin != "PC13").collect();
+    all.sort();
+    all.dedup();
+    assert_eq!(all.len(), seen, "{all:?}");
+    let netlist = read("docs/hardware/schematic/netlist.csv");
+    let page = read("docs/board.md");
+    for (pin, net) in &table {
+        let drawn = netlist.lines().any(|line| line.starts_with("U1,") && line.ends_with(&format!(",{pin},{net}")));
+        assert!(drawn, "{pin} is not {net} in the netlist");
+        let listed = page
+            .lines()
+            .filter(|line| line.starts_with("| P"))
+            .any(|line| line.split('|').nth(1).unwrap_or_default().split(',').any(|listed| listed.trim() == pin));
+        assert!(listed, "{pin} is not in docs/board.md");
+    }
+}
