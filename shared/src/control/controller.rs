@@ -15,14 +15,18 @@ use crate::control::law::{DRIFT_TIME, Law, Situation, Wish};
 use crate::control::monitor::coil::CoilReports;
 use crate::control::monitor::fault::Fault;
 use crate::control::sensing::calibration::Calibration;
-use crate::control::sensing::instruments::{Instruments, InstrumentsState};
-use crate::control::sensing::sample::Sample;
+use crate::control::sensing::instruments::{Instruments, InstrumentsState, Measured};
+use crate::control::sensing::sample::{Reading, Sample};
 use crate::control::supervisor::event_log::Entry;
 use crate::control::supervisor::{Biases, Phase, Requests, Supervisor, SupervisorInput, SupervisorState};
 use crate::equation::body::Body;
 use crate::math::fnv::Fnv;
 use crate::math::sign::Sign;
+use crate::structure::block::GRAVITY;
 use serde::{Deserialize, Serialize};
+
+/// g, m/s².
+const STANDARD_GRAVITY: f32 = GRAVITY as f32;
 
 /// Steps after which a rotation from the rack's travel is exact in single precision.
 const NEWTON_STEPS: u32 = 4;
@@ -125,7 +129,7 @@ pub struct Decision {
     pub wish: Wish,
     /// State of the controller.
     pub phase: Phase,
-    /// Why it is in [`Phase::Fault`].
+    /// Why it is in [`Phase::Fault`], or which sensor another one stands in for.
     pub fault: Option<Fault>,
 }
 
@@ -204,8 +208,33 @@ impl<L: Law> Controller<L> {
     /// First part of a tick: the motion now.
     #[inline]
     pub fn look(&self, state: &mut ControllerState, sample: &Sample) -> Estimate {
-        let seen = self.instruments.read(&mut state.instruments, sample, state.supervisor.calibration());
+        let trusted = state.supervisor.trusted();
+        let seen = if trusted == [true; 4] {
+            self.instruments.read(&mut state.instruments, sample, state.supervisor.calibration())
+        } else {
+            self.read_without(state, sample, trusted)
+        };
         self.estimator.step(&mut state.estimator, &self.model, &self.instruments, &seen, count(sample.engaged))
+    }
+
+    /// The readings without those of sensors that are not `trusted`, in the order of [`Sensor::ALL`](super::sensing::sensor::Sensor::ALL).
+    #[inline(never)]
+    fn read_without(&self, state: &mut ControllerState, sample: &Sample, trusted: [bool; 4]) -> Measured {
+        let [gyroscope, _, ground, encoder] = trusted;
+        let (zero, mut sample) = (state.supervisor.calibration(), *sample);
+        if !ground {
+            let [along, up] = sample.block_accelerometer;
+            let force = [along.value - zero.block[0], up.value - zero.block[1]];
+            let found = state.estimator.ground_by_block(&self.model, force, count(sample.engaged));
+            let number = if found.is_some() { along.number } else { state.instruments.ground_number() };
+            let [horizontal, vertical] = [STANDARD_GRAVITY * found.unwrap_or(0.0), STANDARD_GRAVITY];
+            let reading = |value: f32, bias: f32| Reading { value: value + bias, number };
+            sample.ground_accelerometer = [reading(horizontal, zero.ground[0]), reading(vertical, zero.ground[1])];
+        }
+        let mut seen = self.instruments.read(&mut state.instruments, &sample, zero);
+        seen.rate = seen.rate.filter(|_| gyroscope);
+        seen.travel = seen.travel.filter(|_| encoder);
+        seen
     }
 
     /// Second part: what the law wants of the motion ahead, and as commands.

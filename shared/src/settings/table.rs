@@ -151,7 +151,7 @@ parameters! {
     RequiredBlockAccelerometer "supervisor.required.block_accelerometer" switch(false);
     RequiredGroundAccelerometer "supervisor.required.ground_accelerometer" switch(true);
     RequiredEncoder "supervisor.required.encoder" switch(true);
-    SafeState "supervisor.safe_state" choice(&["released", "engaged-first", "engaged-second"], 0);
+    SafeState "supervisor.safe_state" choice(&["released", "engaged-first", "engaged-second"], 1);
     BothAllowed "supervisor.both_allowed" switch(false);
     SelfTestClutches "supervisor.self_test_clutches" switch(true);
     BootTime "supervisor.boot_time" duration(10.0, 1.0);

@@ -3,7 +3,9 @@
 use std::fmt;
 
 use sprag_shared::control::controller::Circumstances;
+use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::sensing::sample::Sample;
+use sprag_shared::control::supervisor::Phase;
 
 use super::bench::{Conditions, StudyError, Variant, each, with_loop};
 use super::motion::Motion;
@@ -181,7 +183,7 @@ struct Seen {
     both: bool,
     /// An estimate or its push was not a number while the controller decided.
     not_a_number: bool,
-    /// A clutch was commanded, after the detection, though the safe state is released.
+    /// A clutch was commanded though an engaged clutch is the fault.
     unsafe_after: bool,
 }
 
@@ -193,8 +195,9 @@ impl TickObserver for Seen {
         }
         self.both |= decision.command == [true; 2] && !decision.estimate.standing;
         let finite = decision.estimate.rotation.is_finite() && decision.estimate.velocity.is_finite();
-        self.not_a_number |= !finite && decision.fault.is_none();
-        self.unsafe_after |= decision.fault.is_some() && decision.command != [false; 2];
+        self.not_a_number |= !finite && decision.phase != Phase::Fault;
+        let of_engaged = decision.phase == Phase::Fault && decision.fault.is_some_and(Fault::is_of_an_engaged_clutch);
+        self.unsafe_after |= of_engaged && decision.command != [false; 2];
     }
 }
 
@@ -203,7 +206,7 @@ impl TickObserver for Seen {
 pub struct FaultResult {
     /// s after its beginning, and its name.
     pub detected: Option<(f64, String)>,
-    /// Both clutches at once in motion, a number that is none, or a clutch engaged after the detection.
+    /// Both clutches at once in motion, a number that is none, or a clutch engaged though an engaged one is the fault.
     pub harm: [bool; 3],
     /// Outcome.
     pub outcome: Outcome,
@@ -215,8 +218,8 @@ const MOTION: Motion = Motion::Pulse { shape: "sine", frequency: 4.0, amplitude:
 const START: &str = "ground.0.start_s=1.0";
 
 /// Instants of the loop without a fault, s.
-fn instants(variant: &Variant, conditions: &Conditions<'_>) -> Result<[f64; 4], StudyError> {
-    with_loop(&MOTION, variant, conditions, |task| {
+pub(super) fn instants(motion: &Motion, variant: &Variant, conditions: &Conditions<'_>) -> Result<[f64; 4], StudyError> {
+    with_loop(motion, variant, conditions, |task| {
         let mut ticks: Vec<Tick> = Vec::new();
         task.run(&mut Extremes::default(), &mut ticks)?;
         let uplift = ticks.iter().find(|tick| tick.plant.motion.velocity != 0.0).map_or(0.0, |tick| tick.plant.time);
@@ -253,7 +256,7 @@ pub fn results(progress: &Progress, conditions: &Conditions<'_>) -> Result<Vec<V
         "faults",
         &["controller.sensors.suite=\"icm-42688-p\"", "controller.latency_s=0.001", "controller.prelude_s=6.0", START],
     );
-    let starts = instants(&variant, conditions)?;
+    let starts = instants(&MOTION, &variant, conditions)?;
     let motions = vec![MOTION; ALL.len() * INSTANTS.len()];
     let numbers: Vec<Variant> = (0..motions.len()).map(|number| Variant { seed: number as u64, ..variant.clone() }).collect();
     let flat = each(&motions[..1], &numbers, progress, |_, number| {
@@ -272,7 +275,7 @@ pub fn faults(progress: &Progress, conditions: &Conditions<'_>) -> Result<Report
     let results = results(progress, conditions)?;
     let mut report = Report::new("faults", "Faults in the closed loop");
     report.paragraph(
-        "Motion: one one-cycle sine pulse (ω/p 4, a peak of 3 uplift thresholds).\n\nR = 2 m, α = 10°, σ = 0.5, ICM-42688-P, 2 kHz, model-aided, safe state: released. Time from the beginning of the fault \
+        "Motion: one one-cycle sine pulse (ω/p 4, a peak of 3 uplift thresholds).\n\nR = 2 m, α = 10°, σ = 0.5, ICM-42688-P, 2 kHz, model-aided, safe state: the first clutch engaged. Time from the beginning of the fault \
          to the fault code, ms, and the code's words where it begins in mid-swing. A dash: not detected in the run.",
     );
     let mut table = Table::new(&[
@@ -284,7 +287,7 @@ pub fn faults(progress: &Progress, conditions: &Conditions<'_>) -> Result<Report
         "in words",
         "both engaged in motion",
         "not a number",
-        "engaged after",
+        "engaged where that is the fault",
     ]);
     for (failing, row) in ALL.iter().zip(&results) {
         let time =
@@ -298,5 +301,6 @@ pub fn faults(progress: &Progress, conditions: &Conditions<'_>) -> Result<Report
         table.row(cells);
     }
     report.table("faults", table);
+    super::losses::section(&mut report, progress, conditions)?;
     Ok(report)
 }

@@ -6,6 +6,7 @@ pub mod faults;
 pub mod ideal_limit;
 pub mod law_settings;
 pub mod laws;
+pub mod losses;
 pub mod motion;
 pub mod practice;
 pub mod report;

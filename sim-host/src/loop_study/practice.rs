@@ -37,15 +37,20 @@ impl Comparison {
     /// Of loops with the ideal pair.
     pub fn of(loops: &[super::bench::LoopResult], ideals: &[(crate::outcome::Outcome, f64)]) -> Comparison {
         let mut comparison = Comparison { motions: loops.len(), ..Comparison::default() };
-        for (closed, (outcome, peak)) in loops.iter().zip(ideals) {
-            match (closed.outcome.overturned(), outcome.overturned()) {
-                (true, false) => comparison.overturned += 1,
-                (false, true) => comparison.saved += 1,
-                (false, false) if *peak >= ROCKS => comparison.changes.push(closed.peak / peak - 1.0),
-                _ => {}
-            }
+        for (closed, ideal) in loops.iter().zip(ideals) {
+            comparison.note((closed.outcome, closed.peak), *ideal);
         }
         comparison
+    }
+
+    /// Adds an outcome and peak, beside what they are compared with.
+    pub fn note(&mut self, (outcome, peak): (crate::outcome::Outcome, f64), (ideal, least): (crate::outcome::Outcome, f64)) {
+        match (outcome.overturned(), ideal.overturned()) {
+            (true, false) => self.overturned += 1,
+            (false, true) => self.saved += 1,
+            (false, false) if least >= ROCKS => self.changes.push(peak / least - 1.0),
+            _ => {}
+        }
     }
 
     /// |change| at a quantile; NaN without changes.

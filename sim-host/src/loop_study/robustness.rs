@@ -137,7 +137,8 @@ pub fn robustness(records: &[Motion], progress: &Progress, conditions: &Conditio
         ["passive", "always-engaged"].iter().map(|law| Variant::new(law, &[&format!("controller.law=\"{law}\"")])).collect();
     report.section("For comparison: what is left without decisions");
     report.paragraph(
-        "A fault leaves the safe state: both clutches open (passive), or one flywheel engaged for good. Against the ideal pair:",
+        "A fault leaves the safe state: both clutches open (passive), or one flywheel engaged for good, which needs no sensor and is the \
+         default. Both are opened only where an engaged clutch is the fault. Against the ideal pair:",
     );
     let mut table = Table::new(&[&["motions", "safe state"], &COLUMNS[..]].concat());
     for kind in &kinds {

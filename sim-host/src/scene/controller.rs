@@ -86,9 +86,9 @@ impl LawName {
 #[serde(rename_all = "kebab-case")]
 pub enum SafeStateName {
     /// Both are open: the block alone.
-    #[default]
     Released,
     /// The first stays engaged: a plain inerter.
+    #[default]
     Engaged,
 }
 

@@ -1,7 +1,8 @@
 //! State estimators: rotation, velocity and acceleration of the block from the sensors' readings, by one of three methods.
 //!
 //! [`model_aided`], [`kalman`], [`complementary`]: the estimators, to an [`estimate`]; [`rest_detection`]: whether the block stands;
-//! `reference`: where θ = 0 is, after counts were lost; [`prediction`]: the motion when the clutch will have moved.
+//! `reference`: where θ = 0 is, after counts were lost; [`prediction`]: the motion when the clutch will have moved; `substitute`: the
+//! ground's acceleration without its accelerometer.
 //!
 //! The room imports `math`, `equation`, `control::sensing` and `control::model`.
 
@@ -13,6 +14,7 @@ pub mod prediction;
 mod reference;
 pub mod rest_detection;
 mod state;
+mod substitute;
 
 pub use state::EstimatorState;
 

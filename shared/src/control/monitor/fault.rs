@@ -18,6 +18,11 @@ impl Wheel {
     /// Each, in the order of arrays over clutches.
     pub const ALL: [Wheel; 2] = [Wheel::First, Wheel::Second];
 
+    /// The other one.
+    pub fn other(self) -> Wheel {
+        if self == Wheel::First { Wheel::Second } else { Wheel::First }
+    }
+
     /// The commands that engage this one alone.
     pub fn alone(self) -> [bool; 2] {
         [self == Wheel::First, self == Wheel::Second]
@@ -212,6 +217,26 @@ impl Fault {
             | Fault::CalibrationAbandoned
             | Fault::SelfTestAbandoned
             | Fault::CommandsTooMany => None,
+        }
+    }
+
+    /// An engaged clutch is what is wrong, so that none may be left engaged.
+    pub fn is_of_an_engaged_clutch(self) -> bool {
+        matches!(
+            self,
+            Fault::ClutchEngagedUnbidden(_)
+                | Fault::BothClutches
+                | Fault::OverCurrent(_)
+                | Fault::HighSideClosed(_)
+                | Fault::LowSideClosed(_)
+        )
+    }
+
+    /// The clutch that cannot be engaged.
+    pub fn missing_clutch(self) -> Option<Wheel> {
+        match self {
+            Fault::ClutchRefuses(wheel) | Fault::SelfTestFailed(wheel) | Fault::WrongCurrent(wheel) => Some(wheel),
+            _ => None,
         }
     }
 

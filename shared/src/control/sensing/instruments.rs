@@ -143,6 +143,13 @@ pub struct InstrumentsState {
     ground: [Track; 2],
 }
 
+impl InstrumentsState {
+    /// Number of the ground accelerometer's last reading.
+    pub fn ground_number(&self) -> u32 {
+        self.numbers[3]
+    }
+}
+
 /// One tick's readings, without their biases; `None` is no new reading.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Measured {

@@ -27,6 +27,12 @@ impl Required {
         [self.gyroscope, self.block_accelerometer, self.ground_accelerometer, self.encoder]
     }
 
+    /// The model-aided estimator's, and so another sensor can take the place of one that is lost: its equation of motion goes on with
+    /// encoder or gyroscope alone, and finds the ground's acceleration from the block's.
+    pub fn has_substitutes(&self) -> bool {
+        self.flags() == [true, false, true, true]
+    }
+
     /// Whether `sensor` is required.
     pub fn contains(&self, sensor: Sensor) -> bool {
         match sensor {

@@ -71,7 +71,7 @@ pub enum Biases {
 pub struct Verdict {
     /// Where the controller stands.
     pub phase: Phase,
-    /// While it stands in Fault, the first cause.
+    /// While it stands in Fault, the first cause; else that of the sensor that another one stands in for.
     pub fault: Option<Fault>,
     /// To be sent to the clutches.
     pub command: [bool; 2],

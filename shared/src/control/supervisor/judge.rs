@@ -23,20 +23,23 @@ impl Supervisor {
         let [first, second] = input.coils.map(|report| report == CoilReport::Testing);
         let engaged = input.sample.engaged;
         let engaged = [if first { state.sent[0] } else { engaged[0] }, if second { state.sent[1] } else { engaged[1] }];
-        let clutch = self.actuator.step(&mut state.actuator, state.sent, engaged).map(|fault| match fault {
+        let moved = self.actuator.step(&mut state.actuator, state.sent, engaged);
+        let clutch = moved.map(|fault| match fault {
             Fault::ClutchRefuses(wheel) | Fault::ClutchEngagedUnbidden(wheel) if state.phase == Phase::SelfTest => {
                 Fault::SelfTestFailed(wheel)
             }
             other => other,
         });
-        let clutch = trouble(&input.coils).or(clutch);
+        let coil = trouble(&input.coils);
+        state.ladder.release |= moved.or(coil).is_some_and(Fault::is_of_an_engaged_clutch);
+        let clutch = coil.or(clutch);
         // NaN is late, by any measure.
         let late = input.lateness.is_nan() || input.lateness > 0.0;
         let by_far = input.lateness.is_nan() || input.lateness > self.overrun_limit;
         state.late.note(late);
         let overrun = by_far || state.late.length() >= self.overrun_ticks;
         let (rotation, velocity) = input.estimate;
-        let sick = || findings.faults.into_iter().flatten().any(|fault| self.acted_upon(fault));
+        let sick = || findings.faults.into_iter().flatten().any(|fault| self.acted_upon(state, fault));
         // An estimate from a bad sensor is that sensor's fault.
         let lost = deciding && !(rotation.is_finite() && velocity.is_finite()) && !sick();
         let both = deciding && self.too_many(input);
@@ -73,7 +76,7 @@ impl Supervisor {
         let (mut first, mut latches) = (None, false);
         for (source, (before, now)) in before.into_iter().zip(now).enumerate() {
             // The law's wish is the last one: it is not followed, so it does no harm.
-            let acted_upon = now.filter(|fault| source + 1 < SOURCES && self.acted_upon(*fault));
+            let acted_upon = now.filter(|fault| source + 1 < SOURCES && self.acted_upon(state, *fault));
             if let Some(fault) = now.filter(|_| before != now) {
                 let code = fault.code();
                 log(state, input, if acted_upon.is_some() { Kind::Fault(code) } else { Kind::Warning(code) });
@@ -84,8 +87,8 @@ impl Supervisor {
         (first, latches)
     }
 
-    /// A fault of a sensor that is not required is only a warning.
-    pub(super) fn acted_upon(&self, fault: Fault) -> bool {
-        fault.sensor().is_none_or(|sensor| self.required.contains(sensor))
+    /// A fault of a sensor that is not required, or that another stands in for, is only a warning.
+    pub(super) fn acted_upon(&self, state: &SupervisorState, fault: Fault) -> bool {
+        fault.sensor().is_none_or(|sensor| self.required.contains(sensor) && !Supervisor::is_spared(state, fault))
     }
 }

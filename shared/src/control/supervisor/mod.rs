@@ -10,6 +10,7 @@ pub mod event_log;
 mod following;
 mod interface;
 mod judge;
+mod ladder;
 mod motion;
 mod parameters;
 mod self_test;
@@ -30,6 +31,7 @@ use command_rate::CommandRate;
 use event_log::{Entry, EventLog, Kind};
 use following::Following;
 use judge::SOURCES;
+use ladder::Ladder;
 use motion::{Motion, MotionLimits};
 use self_test::SelfTest;
 
@@ -98,6 +100,7 @@ pub struct SupervisorState {
     averaging: Averaging,
     following: Following,
     command_rate: CommandRate,
+    ladder: Ladder,
 }
 
 impl SupervisorState {
@@ -127,6 +130,7 @@ impl SupervisorState {
             averaging,
             following,
             command_rate,
+            ladder,
         } = self;
         (*phase, *cause, *latched, *active, *any_active) = (Phase::Boot, None, false, [None; SOURCES], false);
         (*sent, *calibration, *calibrated) = ([false; 2], Calibration::default(), false);
@@ -136,6 +140,7 @@ impl SupervisorState {
         (*actuator, *motion) = (ActuatorState::default(), Motion::default());
         (*self_test, *averaging) = (SelfTest::default(), Averaging::default());
         (*following, *command_rate) = (Following::default(), CommandRate::default());
+        *ladder = Ladder::default();
     }
 
     /// A board that measures its coils' currents shall try their switches one by one before it engages.
@@ -206,6 +211,7 @@ impl Supervisor {
         let findings = self.monitor.step(&mut state.monitor, input.sample, &context);
         let good = if findings.clean() { [true; 4] } else { findings.good() };
         state.motion.step(&self.motion, input.sample, good, &state.calibration);
+        self.stand_in(state, &findings);
         let (alarm, latches) = if state.phase == Phase::Boot { (None, false) } else { self.judge(state, input, &findings) };
         let clear = input.requests.clear && !state.clear_before;
         state.clear_before = input.requests.clear;
@@ -227,7 +233,10 @@ impl Supervisor {
             (None, Phase::Rocking) if state.motion.quiet >= self.quiet => {
                 enter(state, input, if state.resumed { Phase::Calibrate } else { Phase::Armed });
             }
-            (None, Phase::Armed) if self.follow(state, input, &findings) => biases = Biases::Followed,
+            (None, Phase::Armed) if self.calibrate_again(state, input) => {}
+            (None, Phase::Armed) if state.ladder.lost.is_none() && self.follow(state, input, &findings) => {
+                biases = Biases::Followed;
+            }
             (None, Phase::Armed | Phase::Rocking) => {}
             (None, Phase::Fault) => {
                 let missing = self.required.flags().into_iter().zip(findings.good()).any(|(required, good)| required && !good);
@@ -247,7 +256,8 @@ impl Supervisor {
             }
             state.sent = command;
         }
-        Verdict { phase: state.phase, fault: if state.phase == Phase::Fault { state.cause } else { None }, command, biases }
+        let fault = if state.phase == Phase::Fault { state.cause } else { state.ladder.lost };
+        Verdict { phase: state.phase, fault, command, biases }
     }
 
     /// What is to be sent. Never both to a block that moves, where that is not allowed: what was sent before then stays.
@@ -256,7 +266,7 @@ impl Supervisor {
             Phase::Armed | Phase::Rocking if self.too_many(input) => state.sent,
             Phase::Armed | Phase::Rocking => input.wish,
             Phase::SelfTest if self.self_test => state.self_test.command(),
-            _ => self.safe,
+            _ => self.safe_now(state),
         }
     }
 
@@ -279,8 +289,10 @@ impl Supervisor {
             state.actuator = ActuatorState::default();
             state.late = Streak::default();
             state.tested = false;
+            state.ladder = Ladder::default();
             enter(state, input, Phase::SelfTest);
         } else if may && !state.latched && state.good.lasted(self.recovery) && state.motion.block_still >= self.quiet {
+            state.ladder = Ladder::default();
             enter(state, input, if state.tested { Phase::Calibrate } else { Phase::SelfTest });
         }
     }
@@ -341,7 +353,7 @@ impl Supervisor {
             let mut refused = None;
             for (sensor, _) in Sensor::ALL.into_iter().zip(wrong).filter(|(_, wrong)| *wrong) {
                 let fault = Fault::Contradiction(sensor);
-                let acted_upon = self.acted_upon(fault);
+                let acted_upon = self.acted_upon(state, fault);
                 log(state, input, if acted_upon { Kind::Fault(fault.code()) } else { Kind::Warning(fault.code()) });
                 refused = refused.or(Some(fault).filter(|_| acted_upon));
             }

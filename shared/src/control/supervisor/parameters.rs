@@ -11,7 +11,7 @@ use crate::control::sensing::required::Required;
 use crate::control::ticks::ticks;
 use crate::structure::error::{ParameterError, require};
 
-/// What the clutches do while the controller does not decide: before it is armed, and on a fault.
+/// What the clutches do while the controller does not decide: before it is armed, and on a fault, unless an engaged clutch is the fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SafeState {
     /// Both open: a block without an inerter.
@@ -39,7 +39,7 @@ pub struct Parameters {
     pub monitor: MonitorParameters,
     /// Default: all.
     pub required: Required,
-    /// Default: released, which puts no force on the block that nobody watches.
+    /// Default: the first engaged. See `docs/robustness.md`.
     pub safe_state: SafeState,
     /// Whether both clutches may be engaged at once while the block moves. Default: no.
     pub both_allowed: bool,
@@ -84,7 +84,7 @@ impl Default for Parameters {
             period: 0.0005,
             monitor: MonitorParameters::default(),
             required: Required::ALL,
-            safe_state: SafeState::Released,
+            safe_state: SafeState::Engaged(Wheel::First),
             both_allowed: false,
             self_test_clutches: true,
             boot_time: 1.0,

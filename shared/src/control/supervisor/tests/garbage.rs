@@ -71,7 +71,7 @@ fn garbage_is_survived() {
             assert!(verdict.command != [true; 2]);
             let Calibration { gyroscope, block, ground, .. } = *state.calibration();
             assert!([gyroscope, block[0], block[1], ground[0], ground[1]].iter().all(|bias| bias.abs() <= 1.0));
-            assert_eq!(verdict.fault.is_some(), verdict.phase == Phase::Fault);
+            assert!(verdict.fault.is_some() || verdict.phase != Phase::Fault);
             if !phases.contains(&verdict.phase) {
                 phases.push(verdict.phase);
             }

@@ -101,7 +101,7 @@ fn the_rest_waits_for_a_request_at_rest() {
 
 #[test]
 fn a_later_fault_of_a_clutch_takes_a_request_too() {
-    let mut rig = Rig::armed(&parameters());
+    let mut rig = Rig::armed(&Parameters { safe_state: SafeState::Released, ..parameters() });
     fail_sensor(&mut rig);
     for _ in 0..100 {
         rig.spoilt(|sample, _| sample.engaged = [true, false]);
@@ -117,7 +117,7 @@ fn a_later_fault_of_a_clutch_takes_a_request_too() {
 
 #[test]
 fn a_fault_behind_another_counts_too() {
-    let mut rig = Rig::armed(&parameters());
+    let mut rig = Rig::armed(&Parameters { safe_state: SafeState::Released, ..parameters() });
     for tick in 0..500 {
         rig.spoilt(|sample, _| {
             sample.gyroscope.value = f32::NAN;
