@@ -18,7 +18,7 @@ compile_error!("select a board: --features board-f405 or --features board-qemu")
 compile_error!("select one board only: --no-default-features --features board-qemu");
 
 use embedded_storage::nor_flash::NorFlash;
-use sprag_shared::control::monitor::coil::CoilReports;
+use sprag_shared::control::monitor::coil::CoilReading;
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::device::light::Shown;
 use sprag_shared::link::reset_cause::Cause;
@@ -111,8 +111,8 @@ pub trait Sensors {
 
 /// The coils of the two clutches.
 pub trait Coils {
-    /// What the coils' feedback says: engaged, and what else their currents say.
-    fn read(&mut self) -> ([bool; 2], CoilReports);
+    /// What the coils' currents say.
+    fn read(&mut self) -> [CoilReading; 2];
 
     /// Carries out a command, once a control period: pulls in with the full current, then holds with less; where it is `tested`, tries
     /// each switch alone first.

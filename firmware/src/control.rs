@@ -101,12 +101,12 @@ fn tick(control: &mut Control, device: &mut Device, outbox: &mut Outbox, late: u
     let Control { sensors, coils, .. } = control;
     #[cfg(feature = "log")]
     let before = *device.decision();
-    let (engaged, reports) = Coils::read(coils);
-    device.note_coils(reports);
+    let seen = Coils::read(coils);
+    device.note_coils(seen);
     device.tick(
         |sample| {
             Sensors::read(sensors, sample);
-            sample.engaged = engaged;
+            sample.engaged = seen.map(|coil| coil.engaged);
         },
         late as f32 / Selected::COUNTER_HZ as f32,
     );

@@ -19,7 +19,7 @@ use super::{Board, Coils, Light, Parts, Sensors, Watchdog};
 use crate::last_words;
 use crate::memory::{self, Lasting};
 use cortex_m::peripheral::NVIC;
-use sprag_shared::control::monitor::coil::CoilReports;
+use sprag_shared::control::monitor::coil::CoilReading;
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::device::light::Shown;
 use sprag_shared::link::reset_cause::Cause;
@@ -147,9 +147,9 @@ impl Sensors for Elsewhere {
 }
 
 impl Coils for Elsewhere {
-    fn read(&mut self) -> ([bool; 2], CoilReports) {
+    fn read(&mut self) -> [CoilReading; 2] {
         let coils = COILS.load(Ordering::Relaxed);
-        ([coils & 1 != 0, coils & 2 != 0], CoilReports::default())
+        [1, 2].map(|bit| CoilReading { engaged: coils & bit != 0, ..CoilReading::default() })
     }
 
     fn drive(&mut self, command: [bool; 2], _tested: bool) {

@@ -3,6 +3,7 @@
 //! Readings, estimate, prediction, law, turn, dwell and supervisor in a row, in single precision, without a panic, a heap or a loop whose
 //! length depends on data. The host simulates this code and the firmware runs it.
 
+use super::clutch_position::{ClutchLag, ClutchPositions};
 use super::model::Model;
 use crate::control::estimation::estimate::Estimate;
 use crate::control::estimation::prediction::predict_from;
@@ -51,6 +52,8 @@ pub struct Controller<L = ClutchLaw> {
     pub engaged_at_rest: bool,
     /// Minimum dwell.
     pub gate: Gate,
+    /// From the clutches' feedback to the clutches.
+    pub lag: ClutchLag,
     /// Who watches.
     pub supervisor: Supervisor,
 }
@@ -81,6 +84,7 @@ pub struct ControllerState {
     stood: bool,
     turns: TurnsState,
     gate: GateState,
+    clutches: ClutchPositions,
     drift: f32,
     supervisor: SupervisorState,
 }
@@ -114,8 +118,10 @@ pub struct Circumstances {
     pub lateness: f32,
     /// What an operator asks for.
     pub requests: Requests,
-    /// What the coils' currents say.
+    /// What the coils' currents say, …
     pub coils: CoilReports,
+    /// … and how long each clutch has just taken to close, s.
+    pub closed: [Option<f32>; 2],
 }
 
 /// What a tick comes to.
@@ -165,6 +171,7 @@ impl<L: Law> Controller<L> {
             stood: true,
             turns: TurnsState::default(),
             gate: GateState::default(),
+            clutches: ClutchPositions::default(),
             drift: 0.0,
             supervisor: SupervisorState::default(),
         }
@@ -173,10 +180,10 @@ impl<L: Law> Controller<L> {
     /// From the beginning, with the event log of before.
     // In place: a second state would be most of a microcontroller's stack.
     pub fn restart(&self, state: &mut ControllerState) {
-        let ControllerState { instruments, estimator, signs, stood, turns, gate, drift, supervisor } = state;
+        let ControllerState { instruments, estimator, signs, stood, turns, gate, clutches, drift, supervisor } = state;
         (*instruments, *estimator) = (InstrumentsState::default(), EstimatorState::unknown());
         (*signs, *stood, *turns) = (Signs::default(), true, TurnsState::default());
-        (*gate, *drift) = (GateState::default(), 0.0);
+        (*gate, *clutches, *drift) = (GateState::default(), ClutchPositions::default(), 0.0);
         supervisor.restart();
     }
 
@@ -194,6 +201,7 @@ impl<L: Law> Controller<L> {
         // The tick that follows takes the same sample, after moving the estimate on by a period.
         state.estimator = EstimatorState::met(rotation - velocity * self.instruments.period, velocity);
         state.turns.spins = spins;
+        state.clutches = ClutchPositions::met(sample.engaged);
         self.supervisor.resume(&mut state.supervisor, calibration);
     }
 
@@ -201,7 +209,7 @@ impl<L: Law> Controller<L> {
     #[inline]
     pub fn tick(&self, state: &mut ControllerState, sample: &Sample, circumstances: Circumstances) -> Decision {
         let estimate = self.look(state, sample);
-        let (wish, wanted) = self.choose(state, &estimate, sample.engaged);
+        let (wish, wanted) = self.choose(state, &estimate, state.clutches.engaged());
         self.oversee(state, sample, circumstances, Choice { estimate, wish, wanted })
     }
 
@@ -214,7 +222,9 @@ impl<L: Law> Controller<L> {
         } else {
             self.read_without(state, sample, trusted)
         };
-        self.estimator.step(&mut state.estimator, &self.model, &self.instruments, &seen, count(sample.engaged))
+        self.lag.step(&mut state.clutches, sample.engaged);
+        let engaged = count(state.clutches.engaged());
+        self.estimator.step(&mut state.estimator, &self.model, &self.instruments, &seen, engaged)
     }
 
     /// The readings without those of sensors that are not `trusted`, in the order of [`Sensor::ALL`](super::sensing::sensor::Sensor::ALL).
@@ -225,7 +235,7 @@ impl<L: Law> Controller<L> {
         if !ground {
             let [along, up] = sample.block_accelerometer;
             let force = [along.value - zero.block[0], up.value - zero.block[1]];
-            let found = state.estimator.ground_by_block(&self.model, force, count(sample.engaged));
+            let found = state.estimator.ground_by_block(&self.model, force, count(state.clutches.engaged()));
             let number = if found.is_some() { along.number } else { state.instruments.ground_number() };
             let [horizontal, vertical] = [STANDARD_GRAVITY * found.unwrap_or(0.0), STANDARD_GRAVITY];
             let reading = |value: f32, bias: f32| Reading { value: value + bias, number };
@@ -246,7 +256,8 @@ impl<L: Law> Controller<L> {
         state.turns.spin_at(model, rack, engaged, self.instruments.period);
         let ahead = if self.law.predicts() {
             // An engaged clutch can only be released, and an open one only be engaged: each question has its own delay.
-            let horizon = if engaged == [false; 2] { self.horizons.engagement } else { self.horizons.release };
+            let engaging = self.horizons.engagement + state.clutches.late(&self.lag);
+            let horizon = if engaged == [false; 2] { engaging } else { self.horizons.release };
             predict_from(model, &configuration, estimate, count(engaged), horizon)
         } else {
             *estimate
@@ -288,6 +299,10 @@ impl<L: Law> Controller<L> {
         choice: Choice,
     ) -> Decision {
         let Choice { estimate, wish, wanted } = choice;
+        let slower = match circumstances.closed {
+            [None, None] => None,
+            closed => self.lag.follow(&mut state.clutches, closed),
+        };
         let input = SupervisorInput {
             sample,
             wish: wanted,
@@ -296,6 +311,7 @@ impl<L: Law> Controller<L> {
             lateness: circumstances.lateness,
             requests: circumstances.requests,
             coils: circumstances.coils,
+            slower,
         };
         let Calibration { gyroscope, encoder_zero, .. } = *state.supervisor.calibration();
         let verdict = self.supervisor.step(&mut state.supervisor, &input);

@@ -8,6 +8,7 @@
 //!
 //! The room imports `math`, `equation` and `structure`; nothing of the motion wing.
 
+pub mod clutch_position;
 pub mod controller;
 pub mod estimation;
 pub mod law;

@@ -6,7 +6,8 @@
 //! shorted one show in the last two. Over-current is watched at every tick, and cuts the coil off by itself until the next test.
 
 use super::coil::{FULL_SCALE, Feedback, PeakHold, PeakHoldState};
-use crate::control::monitor::coil::{CURRENT_TOLERANCE, CoilReport, CoilTrouble};
+use super::pull_in::Dip;
+use crate::control::monitor::coil::{CURRENT_TOLERANCE, CoilReading, CoilReport, CoilTrouble};
 
 /// Share of the full current, or of the threshold where that is not known, above which a current flows.
 const FLOWS: f32 = 0.1;
@@ -51,11 +52,12 @@ enum Stage {
 }
 
 /// A coil; the default is released.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Coil {
     stage: Stage,
     peak_hold: PeakHoldState,
     feedback: Feedback,
+    dip: Dip,
     /// The present pulse is a test.
     tested: bool,
     /// Over-current has cut it off.
@@ -90,8 +92,8 @@ impl CoilDesign {
 }
 
 impl Coil {
-    /// Whether its clutch is engaged by the `current`, A, that flows at the end of a tick, and what else that current says.
-    pub fn see(&mut self, design: &CoilDesign, current: f32) -> (bool, CoilReport) {
+    /// What the `current`, A, says that flows at the end of a tick.
+    pub fn see(&mut self, design: &CoilDesign, current: f32) -> CoilReading {
         let engaged = self.feedback.engaged(current, design.threshold);
         let trouble = self.trouble(design, current);
         self.cut |= trouble == Some(CoilTrouble::OverCurrent);
@@ -101,7 +103,14 @@ impl Coil {
             (None, Stage::Engaged(ticks)) if self.tested && ticks < design.settled() => CoilReport::Testing,
             (None, Stage::Engaged(_) | Stage::Released) => CoilReport::Well,
         };
-        (engaged, report)
+        let closed = match self.stage {
+            Stage::Engaged(ticks) if ticks <= design.peak_hold.pull_in_ticks => self.dip.step(ticks, current, design.full),
+            _ => {
+                self.dip = Dip::default();
+                None
+            }
+        };
+        CoilReading { engaged, report, closed }
     }
 
     fn trouble(&self, design: &CoilDesign, current: f32) -> Option<CoilTrouble> {
@@ -184,6 +193,11 @@ mod tests {
 
         /// One tick: what is seen of the last one, and then driven.
         fn tick(&mut self, command: bool, tested: bool) -> (bool, CoilReport) {
+            let CoilReading { engaged, report, .. } = self.read(command, tested);
+            (engaged, report)
+        }
+
+        fn read(&mut self, command: bool, tested: bool) -> CoilReading {
             let counts = (self.current / converted(1)).clamp(0.0, 4095.0) as u16;
             let seen = self.coil.see(&DESIGN, converted(counts));
             let Switches { high, low } = self.coil.drive(&DESIGN, command, tested);
@@ -279,6 +293,6 @@ mod tests {
         assert!(design.is_right(0.01, 1.0) && design.flows(0.11) && !design.flows(0.09));
         assert_eq!(DESIGN.most(), 1.2);
         let mut coil = Coil::default();
-        assert_eq!(coil.see(&design, FULL_SCALE).1, CoilReport::Trouble(CoilTrouble::OverCurrent));
+        assert_eq!(coil.see(&design, FULL_SCALE).report, CoilReport::Trouble(CoilTrouble::OverCurrent));
     }
 }

@@ -13,6 +13,7 @@ pub mod counter;
 pub mod inertial;
 pub mod light;
 mod mailbox;
+pub mod pull_in;
 pub mod retained;
 #[cfg(test)]
 mod tests;
@@ -21,7 +22,7 @@ pub use change::{Change, Prepared};
 pub use mailbox::Mailbox;
 
 use crate::control::controller::{Circumstances, Controller, ControllerState, Decision};
-use crate::control::monitor::coil::CoilReports;
+use crate::control::monitor::coil::CoilReading;
 use crate::control::monitor::fault::Fault;
 use crate::control::sensing::sample::Sample;
 use crate::control::supervisor::Phase;
@@ -119,7 +120,7 @@ pub struct Device {
     stream: u16,
     until_report: u16,
     clear: bool,
-    coils: CoilReports,
+    coils: [CoilReading; 2],
     worst_cost: u32,
     worst_lateness: u32,
 }
@@ -157,7 +158,7 @@ impl Device {
             stream: 0,
             until_report: 0,
             clear: false,
-            coils: CoilReports::default(),
+            coils: Default::default(),
             worst_cost: 0,
             worst_lateness: 0,
         }
@@ -221,8 +222,8 @@ impl Device {
     }
 
     /// What the coils' currents said, before the tick that shall know it. Nobody asks while samples come from the link.
-    pub fn note_coils(&mut self, reports: CoilReports) {
-        self.coils = reports;
+    pub fn note_coils(&mut self, coils: [CoilReading; 2]) {
+        self.coils = coils;
     }
 
     /// Each pulse shall try the switches of its coil, one by one.
@@ -243,7 +244,9 @@ impl Device {
         let told = match self.attached {
             None => {
                 read(&mut self.sample);
-                circumstances.coils = self.coils;
+                circumstances.coils = self.coils.map(|coil| coil.report);
+                let period = self.controller.instruments.period;
+                circumstances.closed = self.coils.map(|coil| coil.closed.map(|ticks| ticks as f32 * period));
                 None
             }
             Some(Pace::Timer) => self.mailbox.newest(),

@@ -38,6 +38,7 @@ impl Controller {
             bands: Item::Bands.read(settings),
             engaged_at_rest: Item::EngagedAtRest.read(settings),
             gate: Part::read(settings),
+            lag: Part::read(settings),
             supervisor: supervisor(settings)?,
         })
     }
@@ -67,7 +68,8 @@ impl Settings {
     pub fn of(controller: &Controller, supervision: &Parameters) -> Result<Settings, SettingError> {
         let mut draft = Draft::new();
         // Taken apart whole: a field that is forgotten does not compile.
-        let Controller { model, instruments, estimator, law, horizons, bands, engaged_at_rest, gate, supervisor: _ } = controller;
+        let Controller { model, instruments, estimator, law, horizons, bands, engaged_at_rest, gate, lag, supervisor: _ } =
+            controller;
         // The period is that of the instruments, which come later.
         supervision.put(&mut draft);
         model.put(&mut draft);
@@ -77,6 +79,7 @@ impl Settings {
         gate.put(&mut draft);
         horizons.put(&mut draft);
         Item::Bands.put(bands, &mut draft);
+        lag.put(&mut draft);
         Item::EngagedAtRest.put(engaged_at_rest, &mut draft);
         let settings = Settings::from_words(&draft.words)?;
         if Controller::of(&settings)? == *controller && Parameters::read(&settings) == *supervision {

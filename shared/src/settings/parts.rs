@@ -2,6 +2,7 @@
 
 use super::limits::DEFAULTS;
 use super::{COUNT, Item, Settings};
+use crate::control::clutch_position::ClutchLag;
 use crate::control::controller::Horizons;
 use crate::control::estimation::Estimator;
 use crate::control::estimation::complementary::Complementary;
@@ -222,6 +223,7 @@ parts! {
         base: Own,
     }
     Gate { dwell: Item::Dwell }
+    ClutchLag { closing: Item::ClosingLag, opening: Item::OpeningLag, closing_time: Item::ClosingTime }
     Horizons { engagement: Item::Horizon, release: Item::ReleaseHorizon }
 
     Parameters {

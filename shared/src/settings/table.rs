@@ -146,6 +146,9 @@ parameters! {
     Bands "controller.bands" real("", 0.0, 1e3, 1.0);
     EngagedAtRest "controller.engaged_at_rest" switch(true);
     Dwell "controller.gate.dwell" whole("ticks", 0, TICKS, 10);
+    ClosingLag "controller.lag.closing" whole("ticks", 0, TICKS, 0);
+    OpeningLag "controller.lag.opening" whole("ticks", 0, TICKS, 0);
+    ClosingTime "controller.lag.closing_time" span(1.0, 0.0);
 
     RequiredGyroscope "supervisor.required.gyroscope" switch(true);
     RequiredBlockAccelerometer "supervisor.required.block_accelerometer" switch(false);

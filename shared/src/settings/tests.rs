@@ -3,6 +3,7 @@
 use super::kind::{Description, Kind, Use};
 use super::parts::Part;
 use super::*;
+use crate::control::clutch_position::ClutchLag;
 use crate::control::controller::{Circumstances, Controller, Horizons};
 use crate::control::estimation::Estimator;
 use crate::control::estimation::complementary::Complementary;
@@ -161,6 +162,7 @@ fn controller(structure: &Structure, estimator: Estimator, law: ClutchLaw, p: &P
         bands: 1.0,
         engaged_at_rest: true,
         gate: Gate { dwell: 10 },
+        lag: ClutchLag::default(),
         supervisor: Supervisor::new(p).unwrap(),
     }
 }
@@ -214,6 +216,7 @@ fn each(mut check: impl FnMut(&Settings, Controller)) {
                     if index == 2 {
                         (made.bands, made.engaged_at_rest, made.gate) = (2.0, false, Gate { dwell: 9 });
                         made.horizons = Horizons { engagement: 0.01, release: 0.004 };
+                        made.lag = ClutchLag { closing: 7, opening: 3, closing_time: 0.02 };
                     }
                     check(&Settings::of(&made, &supervision).unwrap(), made);
                 }

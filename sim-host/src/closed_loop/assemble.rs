@@ -1,5 +1,6 @@
 //! From a scene to a closed loop: the controller with its belief about the structure, the sensors, the plant.
 
+use sprag_shared::control::clutch_position::ClutchLag;
 use sprag_shared::control::controller::{Controller, Horizons};
 use sprag_shared::control::law::any_law::ClutchLaw;
 use sprag_shared::control::law::look_ahead::LookAhead;
@@ -19,6 +20,7 @@ use sprag_shared::structure::restitution::Restitution;
 use super::design::SensorDesign;
 use super::disturbance::Disturbance;
 use super::driver::{Driver, Shared};
+use super::feedback::Feedback;
 use super::plant::{Plant, Surroundings, Watcher};
 use super::run::{Clock, ClosedLoop, Ending, LoopError, TickObserver};
 use super::supervision::supervision;
@@ -26,7 +28,7 @@ use crate::accuracy::Closeness;
 use crate::interrupt::Interrupt;
 use crate::scene::Scene;
 use crate::scene::accuracy::MethodName;
-use crate::scene::controller::{ControllerTable, LawName};
+use crate::scene::controller::{ControllerTable, FeedbackName, LawName};
 use crate::scene::motions::GroundMotions;
 use crate::sensor::Suite;
 use crate::simulation::run::{Failure, Task};
@@ -139,6 +141,28 @@ impl<'a> LoopTask<'a> {
         Horizons { engagement: after(actuation.engagement_delay), release: after(actuation.release_delay) }
     }
 
+    fn feedback(&self) -> Feedback {
+        let (table, actuation) = (self.controller, self.drivetrain().actuation);
+        match table.feedback {
+            FeedbackName::Position => Feedback::Position,
+            FeedbackName::Current => Feedback::by_current(
+                [actuation.engagement_delay, actuation.release_delay].map(|delay| table.latency_s + delay),
+                [table.closing_lag_s, table.opening_lag_s],
+                1.0 / table.rate_hz,
+            ),
+        }
+    }
+
+    /// What the controller believes of the same.
+    fn lag(&self) -> ClutchLag {
+        let table = self.controller;
+        let ticks = |lag: f64| match table.feedback {
+            FeedbackName::Position => 0,
+            FeedbackName::Current => (lag * table.belief.lag_factor * table.rate_hz).round() as u16,
+        };
+        ClutchLag { closing: ticks(table.closing_lag_s), opening: ticks(table.opening_lag_s), closing_time: 0.0 }
+    }
+
     /// The controller by `law`.
     ///
     /// # Errors
@@ -163,6 +187,7 @@ impl<'a> LoopTask<'a> {
             bands: table.hysteresis as f32,
             engaged_at_rest: table.engaged_at_rest,
             gate: Gate { dwell: (table.dwell_s / period).round() as u16 },
+            lag: self.lag(),
             supervisor: Supervisor::new(&supervision)?,
         };
         Ok((controller, supervision))
@@ -233,8 +258,15 @@ impl<'a> LoopTask<'a> {
             exponential: self.scene.file.accuracy.method == MethodName::ExponentialMidpoint || self.closeness.is_some(),
         };
         let slenderness = loaded.block.slenderness();
-        let closed =
-            ClosedLoop { clock, suite: self.suite, seed: self.seed, disturbance, slenderness, interrupt: self.interrupt };
+        let closed = ClosedLoop {
+            clock,
+            suite: self.suite,
+            seed: self.seed,
+            feedback: self.feedback(),
+            disturbance,
+            slenderness,
+            interrupt: self.interrupt,
+        };
         let machine = self.drivetrain().resolve(&self.scene.structure(self.index), self.ground.vertical.is_some())?;
         Ok(closed.run(&mut Plant::new(machine, surroundings), driver, watcher, observer)?)
     }

@@ -10,6 +10,7 @@ use sprag_shared::motion::state::{BlockState, Phase, Stopped};
 use super::decisions::{DecisionReport, Decisions, Moment};
 use super::disturbance::Disturbance;
 use super::driver::Driver;
+use super::feedback::{Currents, Feedback};
 use super::plant::{Plant, Watcher, Whereabouts};
 use crate::interrupt::Interrupt;
 use crate::sensor::{Sensors, Suite, Truth};
@@ -101,6 +102,8 @@ pub struct ClosedLoop<'a> {
     pub suite: &'a Suite,
     /// Of their noise and scatter.
     pub seed: u64,
+    /// What tells the controller which clutches are engaged.
+    pub feedback: Feedback,
     /// What goes wrong on purpose.
     pub disturbance: &'a mut dyn Disturbance,
     /// α of the block with what it carries, rad: beyond it a block that overturns has begun to fall.
@@ -126,6 +129,7 @@ impl ClosedLoop<'_> {
         let mut sensors = Sensors::new(self.suite, self.seed, &still);
         let mut command = self.prelude(&mut sensors, driver);
         plant.preset(command);
+        let mut currents = Currents::settled(command);
         let fine = clock.period / f64::from(clock.substeps);
         let mut decisions = Decisions::default();
         let mut faults = Vec::new();
@@ -148,7 +152,7 @@ impl ClosedLoop<'_> {
                 return Err(LoopError::Interrupted);
             }
             let mut sample = sensors.sample();
-            sample.engaged = whereabouts.engaged;
+            sample.engaged = if self.feedback == Feedback::Position { whereabouts.engaged } else { currents.engaged };
             let mut circumstances = Circumstances::default();
             self.disturbance.disturb(time, &mut sample, &mut circumstances);
             let decision = driver.tick(&sample, circumstances);
@@ -169,6 +173,7 @@ impl ClosedLoop<'_> {
             observer.tick(&Tick { plant: whereabouts, sample, decision, ideal });
             command = self.disturbance.clutches(time, decision.command, command);
             plant.order(command, watcher);
+            currents.step(self.feedback, command);
             for part in 1..=clock.substeps {
                 let until = if part == clock.substeps { (tick + 1) as f64 * clock.period } else { time + f64::from(part) * fine };
                 plant.advance(until.min(clock.end), watcher).map_err(LoopError::Stopped)?;

@@ -92,6 +92,17 @@ pub enum SafeStateName {
     Engaged,
 }
 
+/// What tells the controller which clutches are engaged.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FeedbackName {
+    /// A switch at each armature.
+    #[default]
+    Position,
+    /// The current through each coil, which goes before the armature.
+    Current,
+}
+
 /// What the controller believes of the structure, as factors on the truth.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -104,11 +115,19 @@ pub struct BeliefTable {
     pub mass_ratio_factor: f64,
     /// On η.
     pub restitution_factor: f64,
+    /// On the clutches' lags behind their currents.
+    pub lag_factor: f64,
 }
 
 impl Default for BeliefTable {
     fn default() -> Self {
-        BeliefTable { slenderness_factor: 1.0, size_factor: 1.0, mass_ratio_factor: 1.0, restitution_factor: 1.0 }
+        BeliefTable {
+            slenderness_factor: 1.0,
+            size_factor: 1.0,
+            mass_ratio_factor: 1.0,
+            restitution_factor: 1.0,
+            lag_factor: 1.0,
+        }
     }
 }
 
@@ -135,6 +154,12 @@ pub struct ControllerTable {
     pub engaged_at_rest: bool,
     /// What the clutches do after a fault.
     pub safe_state: SafeStateName,
+    /// What tells which clutches are engaged.
+    pub feedback: FeedbackName,
+    /// From a current that engages to a clutch that has closed, s.
+    pub closing_lag_s: f64,
+    /// From a current that has died to a clutch that has opened, s.
+    pub opening_lag_s: f64,
     /// Pieces of a tick at whose ends the sensors see the plant.
     pub substeps: u32,
     /// Duration of the shock that sensors see at an impact, s.
@@ -159,6 +184,9 @@ impl Default for ControllerTable {
             dwell_s: 0.0,
             engaged_at_rest: true,
             safe_state: SafeStateName::default(),
+            feedback: FeedbackName::default(),
+            closing_lag_s: 0.0,
+            opening_lag_s: 0.0,
             substeps: 4,
             shock_s: 0.001,
             prelude_s: 2.0,
@@ -189,6 +217,8 @@ impl ControllerTable {
         within("latency_s", self.latency_s, 0.0, 0.1, "from 0 to 0.1 s")?;
         within("hysteresis", self.hysteresis, 0.0, 10.0, "from 0 to 10")?;
         within("dwell_s", self.dwell_s, 0.0, 1.0, "from 0 to 1 s")?;
+        within("closing_lag_s", self.closing_lag_s, 0.0, 1.0, "from 0 to 1 s")?;
+        within("opening_lag_s", self.opening_lag_s, 0.0, 1.0, "from 0 to 1 s")?;
         within("substeps", f64::from(self.substeps), 1.0, 64.0, "from 1 to 64")?;
         within("shock_s", self.shock_s, 0.0, 0.1, "from 0 to 0.1 s")?;
         within("prelude_s", self.prelude_s, 0.0, 60.0, "from 0 to 60 s")?;

@@ -10,7 +10,7 @@ mod currents;
 
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
-use sprag_shared::control::monitor::coil::CoilReports;
+use sprag_shared::control::monitor::coil::CoilReading;
 use sprag_shared::device::coil::{FULL_SCALE, compare};
 use sprag_shared::device::coil_test::{Coil, CoilDesign, Switches as Wanted};
 use stm32f4xx_hal::gpio::{Alternate, Output, Pin, PinState, Pull};
@@ -116,13 +116,11 @@ fn tripped() -> bool {
 }
 
 impl<A: Drive, B: Drive> Coils for DrivenCoils<A, B> {
-    fn read(&mut self) -> ([bool; 2], CoilReports) {
+    fn read(&mut self) -> [CoilReading; 2] {
         // The comparators do not say which of them it was.
         let [first, second] = if tripped() { [FULL_SCALE; 2] } else { self.currents.read() };
         let [of_first, of_second] = &mut self.coils;
-        let ((first, says_first), (second, says_second)) =
-            (of_first.see(&self.design, first), of_second.see(&self.design, second));
-        ([first, second], [says_first, says_second])
+        [of_first.see(&self.design, first), of_second.see(&self.design, second)]
     }
 
     fn drive(&mut self, command: [bool; 2], tested: bool) {

@@ -30,6 +30,17 @@ pub enum CoilTrouble {
 /// By which share of what it shall be a coil's current may be off in a test: supply ±10 %, copper from −20 °C to 70 °C, shunt, diodes.
 pub const CURRENT_TOLERANCE: f32 = 0.3;
 
+/// What a board reads of a coil at a tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CoilReading {
+    /// Its clutch is engaged, as far as the current tells.
+    pub engaged: bool,
+    /// What else it tells.
+    pub report: CoilReport,
+    /// The clutch has just been found to have closed so many ticks after the beginning of its pulse.
+    pub closed: Option<u32>,
+}
+
 /// What two coils report.
 pub type CoilReports = [CoilReport; 2];
 

@@ -81,6 +81,8 @@ pub enum Fault {
     SelfTestAbandoned,
     /// Only a warning: the clutches are commanded more often than a motion asks for.
     CommandsTooMany,
+    /// Only a warning: it closes by a third sooner or later than it should.
+    ClosingTimeChanged(Wheel),
 }
 
 /// A fault travels as its code.
@@ -185,6 +187,8 @@ codes! {
     71 CalibrationAbandoned;
     72 SelfTestAbandoned;
     73 CommandsTooMany;
+    74 ClosingTimeChanged(Wheel::First);
+    75 ClosingTimeChanged(Wheel::Second);
     81 HighSideClosed(Wheel::First);
     82 HighSideClosed(Wheel::Second);
     83 LowSideClosed(Wheel::First);
@@ -215,6 +219,7 @@ impl Fault {
             | Fault::NotCommissioned
             | Fault::GivenUp
             | Fault::CalibrationAbandoned
+            | Fault::ClosingTimeChanged(_)
             | Fault::SelfTestAbandoned
             | Fault::CommandsTooMany => None,
         }
@@ -248,7 +253,7 @@ impl Fault {
     /// | of a clutch or its coil, failed self-test | on request | a part that may be broken shows nothing until it is used: somebody must look |
     /// | overrun, estimate not finite | on request | the program or its parameters are wrong, which time does not mend |
     /// | not commissioned, settings given up | by storing | only somebody who knows the structure can say what the settings must be |
-    /// | abandoned calibration or self-test, too many commands | not needed | a warning only |
+    /// | abandoned calibration or self-test, too many commands, changed closing time | not needed | a warning only |
     pub fn recovery(self) -> Recovery {
         match self {
             Fault::Stale(_) | Fault::Stuck(_) | Fault::Saturated(_) | Fault::NotFinite(_) | Fault::Contradiction(_) => {
@@ -262,7 +267,9 @@ impl Fault {
             }
             Fault::Overrun | Fault::EstimateNotFinite => Recovery::OnRequest,
             Fault::NotCommissioned | Fault::GivenUp => Recovery::ByStoring,
-            Fault::CalibrationAbandoned | Fault::SelfTestAbandoned | Fault::CommandsTooMany => Recovery::NotNeeded,
+            Fault::CalibrationAbandoned | Fault::SelfTestAbandoned | Fault::CommandsTooMany | Fault::ClosingTimeChanged(_) => {
+                Recovery::NotNeeded
+            }
         }
     }
 }
@@ -301,6 +308,9 @@ impl fmt::Display for Fault {
             }
             Fault::CalibrationAbandoned => {
                 write!(formatter, "calibration abandoned for lack of stillness: armed with the last biases")
+            }
+            Fault::ClosingTimeChanged(wheel) => {
+                write!(formatter, "{wheel} clutch: it closes by a third sooner or later than it should: wear, cold, a low supply")
             }
             Fault::SelfTestAbandoned => write!(formatter, "self-test abandoned for lack of stillness: the clutches are untested"),
             Fault::CommandsTooMany => write!(formatter, "controller: it commands the clutches more often than a motion asks for"),

@@ -1,7 +1,7 @@
 //! What goes into a supervisor and comes out of it at every tick.
 
 use crate::control::monitor::coil::CoilReports;
-use crate::control::monitor::fault::Fault;
+use crate::control::monitor::fault::{Fault, Wheel};
 use crate::control::sensing::sample::Sample;
 use serde::{Deserialize, Serialize};
 
@@ -53,6 +53,8 @@ pub struct SupervisorInput<'a> {
     pub requests: Requests,
     /// What the coils' currents say.
     pub coils: CoilReports,
+    /// The time in which this clutch closes has just been found to have changed too far.
+    pub slower: Option<Wheel>,
 }
 
 /// What a tick makes of the biases.

@@ -244,6 +244,9 @@ impl Supervisor {
                 self.leave(state, input, clear, true);
             }
         }
+        if let Some(wheel) = input.slower {
+            log(state, input, Kind::Warning(Fault::ClosingTimeChanged(wheel).code()));
+        }
         let command = self.command(state, input);
         if command != state.sent {
             for (wheel, (before, now)) in Wheel::ALL.into_iter().zip(state.sent.into_iter().zip(command)) {

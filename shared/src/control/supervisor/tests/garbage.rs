@@ -66,6 +66,7 @@ fn garbage_is_survived() {
                 lateness: if spoilt { value(&mut random) } else { 0.0 },
                 requests: Requests { clear: bits & 16 == 0 },
                 coils: Default::default(),
+                slower: None,
             };
             let verdict = supervisor.step(&mut state, &input);
             assert!(verdict.command != [true; 2]);

@@ -186,6 +186,7 @@ impl Rig {
             lateness: self.lateness,
             requests: self.requests,
             coils: self.coils,
+            slower: None,
         };
         let verdict = self.supervisor.step(&mut self.state, &input);
         assert!(verdict.command != [true; 2] || self.supervisor.both_allowed || self.standing);

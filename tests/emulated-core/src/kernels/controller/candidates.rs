@@ -2,6 +2,7 @@
 
 use super::rig::{CLUTCH_TICKS, PERIOD, TRAVEL_PER_COUNT};
 use core::fmt;
+use sprag_shared::control::clutch_position::ClutchLag;
 use sprag_shared::control::controller::{Controller, Horizons};
 use sprag_shared::control::estimation::Estimator;
 use sprag_shared::control::estimation::complementary::Complementary;
@@ -168,6 +169,7 @@ impl Candidate {
             bands: 1.0,
             engaged_at_rest: true,
             gate: Gate { dwell: 0 },
+            lag: ClutchLag::default(),
             supervisor: Supervisor::new(&Parameters { required: self.estimator.required(), ..supervision() })?,
         })
     }
