@@ -3,10 +3,12 @@
 //! Every range has been checked word by word, so only what takes two words is left to check here, and no error has a text.
 
 use super::parts::{Draft, Part, Place};
-use super::{Item, SettingError, Settings};
+use super::{Item, SettingError, Settings, stability};
 use crate::control::controller::Controller;
+use crate::control::estimation::Estimator;
 use crate::control::model::Model;
 use crate::control::monitor::FEWEST_WINDOW_TICKS;
+use crate::control::sensing::instruments::Instruments;
 use crate::control::supervisor::{Parameters, Supervisor};
 use crate::control::ticks::ticks;
 use crate::equation::body::Body;
@@ -29,10 +31,12 @@ impl Controller {
         if model.body.arm(&model.body.configuration(1.0, 0.0)) <= 0.0 {
             return Err(SettingError::contradiction(Item::LeverAcross, Item::LeverAlong));
         }
+        let (instruments, estimator) = (Part::read(settings), Part::read(settings));
+        check_estimator(&estimator, &instruments, square, settings)?;
         Ok(Controller {
             model,
-            instruments: Part::read(settings),
-            estimator: Part::read(settings),
+            instruments,
+            estimator,
             law: Part::read(settings),
             horizons: Part::read(settings),
             bands: Item::Bands.read(settings),
@@ -42,6 +46,32 @@ impl Controller {
             supervisor: supervisor(settings)?,
         })
     }
+}
+
+/// What it needs must be required, and its gains must make it forget its errors.
+fn check_estimator(
+    estimator: &Estimator,
+    instruments: &Instruments,
+    square: f32,
+    settings: &Settings,
+) -> Result<(), SettingError> {
+    let required =
+        [Item::RequiredGyroscope, Item::RequiredBlockAccelerometer, Item::RequiredGroundAccelerometer, Item::RequiredEncoder];
+    for (item, needed) in required.into_iter().zip(estimator.required().flags()) {
+        if needed && !settings.switch(item) {
+            return Err(SettingError::contradiction(item, Item::Estimator));
+        }
+    }
+    if let Estimator::Complementary(estimator) = estimator
+        && estimator.smoothing == 0.0
+    {
+        // No reading of the accelerometers would ever count.
+        return Err(SettingError::contradiction(Item::Smoothing, Item::Estimator));
+    }
+    if !stability::forgets(estimator, instruments, square) {
+        return Err(SettingError::contradiction(Item::RotationByEncoder, Item::Estimator));
+    }
+    Ok(())
 }
 
 fn supervisor(settings: &Settings) -> Result<Supervisor, SettingError> {

@@ -16,6 +16,7 @@ pub mod describe;
 pub mod kind;
 mod limits;
 mod parts;
+mod stability;
 pub mod store;
 pub mod table;
 #[cfg(test)]

@@ -141,8 +141,8 @@ parameters! {
     LawFadingHalf "law.fading_half" real("", 0.0, 1.0, 0.846_481_7).only(LOOK_AHEAD);
     LawMargin "law.margin" real("", -10.0, 10.0, 0.014).only(LOOK_AHEAD);
 
-    Horizon "controller.horizon" span(10.0, 0.005_25);
-    ReleaseHorizon "controller.release_horizon" span(10.0, 0.005_25);
+    Horizon "controller.horizon" span(1.0, 0.005_25);
+    ReleaseHorizon "controller.release_horizon" span(1.0, 0.005_25);
     Bands "controller.bands" real("", 0.0, 1e3, 1.0);
     EngagedAtRest "controller.engaged_at_rest" switch(true);
     Dwell "controller.gate.dwell" whole("ticks", 0, TICKS, 10);
