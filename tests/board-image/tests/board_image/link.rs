@@ -18,7 +18,8 @@ fn requests_at_line_rate_delay_no_tick() {
     }
     rig.ticks(2000);
     let state = rig.state();
-    assert_eq!((state.phase, state.worst_lateness, state.bad_frames), (Phase::Armed, 0, 0));
+    // Answers are longer than requests, so some of these are lost; no tick is late for that.
+    assert_eq!((state.phase, state.worst_lateness), (Phase::Armed, 0));
 }
 
 /// A7: a period that the board cannot keep is refused, and the link answers as before.
@@ -34,10 +35,7 @@ fn a_period_that_the_board_cannot_keep_is_refused() {
     let written = rig.ask(&Request::Write(Words { first, count: 1, words }));
     let applied = rig.ask(&Request::Apply { check: settings.check(), store: true });
     println!("write: {written:?}; apply: {applied:?}");
-    assert!(
-        matches!(applied, Reply::Refused(Refusal::OutOfRange(_) | Refusal::Contradiction(..) | Refusal::Check(_))),
-        "{applied:?}"
-    );
+    assert!(matches!(applied, Reply::Refused(Refusal::TooFast { .. })), "{applied:?}");
     let Reply::Identity(identity) = rig.ask(&Request::Identify) else { panic!("no identity") };
     assert_eq!(identity.check, Settings::default().check());
 }
