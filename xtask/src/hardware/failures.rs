@@ -30,22 +30,22 @@ fn each_test_that_the_table_of_failures_names_is_there() {
     for folder in ["shared", "tests", "firmware", "sim-host", "xtask"] {
         functions(&root.join(folder), &mut tests);
     }
-    let page = fs::read_to_string(root.join("docs/fmea.md")).unwrap();
-    let rows: Vec<&str> = page
-        .lines()
-        .filter(|line| line.starts_with("| ") && !line.starts_with("| ---") && !line.starts_with("| failure"))
-        .collect();
-    let mut named = 0;
-    for row in &rows {
-        let cells: Vec<&str> = row.trim_matches('|').split('|').collect();
-        assert_eq!(cells.len(), 6, "{row}");
-        let names: Vec<&str> = cells[5].split('`').skip(1).step_by(2).collect();
-        for name in &names {
-            assert!(tests.contains(*name), "no test {name}");
+    for (page, head, columns) in [("docs/fmea.md", "| failure", 6), ("docs/board-review.md", "| no.", 5)] {
+        let text = fs::read_to_string(root.join(page)).unwrap();
+        let is_row = |line: &&str| line.starts_with("| ") && !line.starts_with("| ---") && !line.starts_with(head);
+        let rows: Vec<&str> = text.lines().filter(is_row).collect();
+        let mut named = 0;
+        for row in &rows {
+            let cells: Vec<&str> = row.trim_matches('|').split('|').collect();
+            assert_eq!(cells.len(), columns, "{row}");
+            let names: Vec<&str> = cells[columns - 1].split('`').skip(1).step_by(2).collect();
+            for name in &names {
+                assert!(tests.contains(*name), "no test {name}");
+            }
+            named += names.len();
+            // What no test shows is said to be open.
+            assert!(!names.is_empty() || cells[columns - 1].contains("none"), "{row}");
         }
-        named += names.len();
-        // What no test shows is said to be open.
-        assert!(!names.is_empty() || cells[5].contains("none"), "{row}");
+        assert!(rows.len() > 30 && named > 30, "{page}: {} rows, {named} tests", rows.len());
     }
-    assert!(rows.len() > 30 && named > 30, "{} rows, {named} tests", rows.len());
 }

@@ -40,7 +40,7 @@ struct Part {
 struct Line(Rc<RefCell<Part>>);
 
 impl Part {
-    fn new(identity: u8) -> Line {
+    fn on_a_line(identity: u8) -> Line {
         let mut part = Part {
             banks: [[0; 128]; 3],
             bank: 0,
@@ -177,7 +177,7 @@ fn ticks_to_a_reading(driver: &mut Icm42688<Line>, line: &Line) -> u32 {
 
 /// A part that is read.
 fn running() -> (Icm42688<Line>, Line) {
-    let line = Part::new(0x47);
+    let line = Part::on_a_line(0x47);
     let mut driver = Icm42688::new(line.clone());
     ticks_to_a_reading(&mut driver, &line);
     (driver, line)
@@ -189,7 +189,7 @@ fn is_configured(line: &Line) -> bool {
 
 #[test]
 fn a_part_after_power_on_is_configured_and_read() {
-    let line = Part::new(0x47);
+    let line = Part::on_a_line(0x47);
     let mut driver = Icm42688::new(line.clone());
     let took = ticks_to_a_reading(&mut driver, &line);
     assert!(took > START_TAKES && took < 100, "{took}");
@@ -286,7 +286,7 @@ fn the_value_of_no_reading_is_none() {
 #[test]
 fn another_part_is_never_configured() {
     for identity in [0x00, 0x42, 0xFF] {
-        let line = Part::new(identity);
+        let line = Part::on_a_line(identity);
         let mut driver = Icm42688::new(line.clone());
         assert_eq!(ticks(&mut driver, &line, 3000), []);
         assert!(!is_configured(&line));
@@ -296,7 +296,7 @@ fn another_part_is_never_configured() {
 #[test]
 fn a_broken_bus_gives_nothing_and_is_tried_again_whenever_it_breaks() {
     for ticks_before in 0..200 {
-        let line = Part::new(0x47);
+        let line = Part::on_a_line(0x47);
         let mut driver = Icm42688::new(line.clone());
         ticks(&mut driver, &line, ticks_before);
         line.0.borrow_mut().broken = true;
