@@ -14,12 +14,10 @@ fn armed() -> Rig {
     rig
 }
 
-/// The code of the fault that the board is in after 40 ms.
+/// The code of the fault that the board reports after 40 ms, whether or not something else stands in for what has failed.
 fn fault(rig: &mut Rig) -> u16 {
     rig.ticks(80);
-    let state = rig.state();
-    assert_eq!(state.phase, Phase::Fault);
-    state.fault.map_or(0, |fault| fault.code())
+    rig.state().fault.map_or(0, |fault| fault.code())
 }
 
 #[test]
@@ -40,7 +38,7 @@ fn a_sensor_that_loses_its_supply_is_configured_anew_and_trusted_again() {
         let now = rig.bench.now();
         rig.bench.chip_mut().buses[bus].sensor.brown_out(now);
         assert_eq!(fault(&mut rig), code, "bus {bus}");
-        let state = rig.wait(16_000, |state| state.phase == Phase::Armed);
+        let state = rig.wait(16_000, |state| state.phase == Phase::Armed && state.fault.is_none());
         assert_eq!((state.phase, state.fault), (Phase::Armed, None), "bus {bus}");
     }
 }

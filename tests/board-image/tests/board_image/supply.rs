@@ -6,10 +6,13 @@ use sprag_board_image::rig::{Rig, image};
 use sprag_board_image::time::in_milliseconds;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::link::reset_cause;
-use sprag_shared::settings::Settings;
+use sprag_shared::settings::{Item, Settings};
 
+/// A board whose safe state is to release both clutches.
 fn armed() -> Rig {
-    let mut rig = Rig::new(&image(), Some(&Settings::default()));
+    let mut settings = Settings::default();
+    settings.set(Item::SafeState.index(), 0).expect("in range");
+    let mut rig = Rig::new(&image(), Some(&settings));
     rig.boot();
     let state = rig.wait(4000, |state| state.phase == Phase::Armed);
     assert_eq!(state.phase, Phase::Armed, "{:?}", state.fault);
