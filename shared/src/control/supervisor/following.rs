@@ -8,7 +8,7 @@ use crate::control::sensing::calibration::Averaging;
 /// Time in which a calibration follows a drift, s: a sensor warms up in minutes, a block moves within seconds.
 pub(super) const FOLLOWING_TIME: f32 = 120.0;
 
-/// Ticks of which one is averaged, a power of two: rest has many.
+/// Ticks of which one is averaged: rest has many.
 pub(super) const EVERY: u32 = 8;
 
 /// How far the biases have been followed.
@@ -18,13 +18,20 @@ pub(super) struct Following {
     pub part: f32,
     /// Counts may have been lost, or nothing been measured at all: the first rest counts in full.
     pub unsure: bool,
+    /// Ticks since one was averaged. Counted here, and not by the number of the tick, which tells how long ago the device was started.
+    waited: u32,
 }
 
 impl Supervisor {
     /// One tick of an armed controller while nothing moves. The first sign of motion leaves this phase, and with it what has been averaged
     /// since the last step. Whether the calibration has changed.
     pub(super) fn follow(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>, findings: &Findings) -> bool {
-        state.tick.is_multiple_of(EVERY) && self.follow_on(state, input, findings)
+        state.following.waited += 1;
+        if state.following.waited < EVERY {
+            return false;
+        }
+        state.following.waited = 0;
+        self.follow_on(state, input, findings)
     }
 
     #[inline(never)]
