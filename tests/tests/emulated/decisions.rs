@@ -11,7 +11,7 @@ use sprag_tests::emulation::{emulate, firmware, kernels};
 
 /// Instructions that reading the sensors and estimating may take with the leanest estimator, and a whole control tick (prediction, law, turns,
 /// dwell and supervisor included) with the richest.
-const LIMITS: [u32; 2] = [700, 2500];
+const LIMITS: [u32; 2] = [700, 2600];
 
 const ESTIMATORS: [&str; 3] = ["model-aided", "kalman", "complementary"];
 

@@ -80,8 +80,8 @@ fn a_power_cut_leaves_the_old_settings_or_the_new() {
         cuts += 1;
     };
     assert_eq!(done, Done::Stored);
-    // Every byte of both copies has been the first one that was not written.
-    assert_eq!(cuts, 2 * SLOT_BYTES);
+    // Every byte of both copies has been the first one that was not written, and so has each erased sector where there was no room.
+    assert!((2 * SLOT_BYTES..=2 * SLOT_BYTES + 2).contains(&cuts), "{cuts}");
     // Where there is no room the flash is erased first, and the power fails there too, which leaves the old ones.
     assert!(survivors[0] >= SLOT_BYTES - 1 && survivors[1] > SLOT_BYTES / 2, "{survivors:?}");
     row(
