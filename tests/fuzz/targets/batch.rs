@@ -3,8 +3,8 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use sprag_shared::method::taylor::Taylor;
-use sprag_sim_host::batch::case::{Case, CaseResult, TERMS, TIGHT};
+use sprag_shared::method::taylor::{TERMS, Taylor};
+use sprag_sim_host::batch::case::{Case, CaseResult, TIGHT};
 use sprag_sim_host::batch::table::{RESULT_COLUMNS, read_cases, write_result};
 
 /// Cases of one table that are run.
