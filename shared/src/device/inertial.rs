@@ -34,6 +34,22 @@ pub fn accelerations(counts: [i16; 3]) -> [f32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::settings::Settings;
+    use crate::settings::table::Item;
+
+    /// A part at its end is known as such, and one that is not is believed.
+    #[test]
+    fn a_sensor_is_saturated_by_default_just_below_its_full_scale() {
+        let settings = Settings::default();
+        for (item, most) in [
+            (Item::GyroscopeFullScale, GYROSCOPE_FULL_SCALE),
+            (Item::BlockFullScale, ACCELEROMETER_FULL_SCALE),
+            (Item::GroundFullScale, ACCELEROMETER_FULL_SCALE),
+        ] {
+            let limit = settings.real(item);
+            assert!(limit <= most && limit > 0.99 * most, "{item:?}: {limit}, the part {most}");
+        }
+    }
 
     #[test]
     fn full_scale_is_that_of_the_data_sheet() {

@@ -180,12 +180,12 @@ parameters! {
     BlockStaleTime "monitor.block_accelerometer.stale_time" duration(10.0, 0.003);
     BlockStuckTime "monitor.block_accelerometer.stuck_time" span(10.0, 0.0);
     BlockStuckTimeMoving "monitor.block_accelerometer.stuck_time_moving" span(10.0, 0.004);
-    BlockFullScale "monitor.block_accelerometer.full_scale" positive("m/s²", 156.0);
+    BlockFullScale "monitor.block_accelerometer.full_scale" positive("m/s²", 78.0);
     BlockSaturationTime "monitor.block_accelerometer.saturation_time" span(10.0, 0.004);
     GroundStaleTime "monitor.ground_accelerometer.stale_time" duration(10.0, 0.003);
     GroundStuckTime "monitor.ground_accelerometer.stuck_time" span(10.0, 0.0);
     GroundStuckTimeMoving "monitor.ground_accelerometer.stuck_time_moving" span(10.0, 0.0);
-    GroundFullScale "monitor.ground_accelerometer.full_scale" positive("m/s²", 39.0);
+    GroundFullScale "monitor.ground_accelerometer.full_scale" positive("m/s²", 78.0);
     GroundSaturationTime "monitor.ground_accelerometer.saturation_time" span(10.0, 0.004);
     EncoderStaleTime "monitor.encoder.stale_time" duration(10.0, 0.003);
     CountsPerRadian "monitor.encoder.counts_per_radian" real("counts/rad", -1e9, 1e9, 398_477.88);

@@ -45,10 +45,10 @@ pub struct MonitorParameters {
     /// [`MonitorParameters::with_noise`]). Full scale 8.7 rad/s (500°/s); saturated after 2 ms, since a velocity has no spikes,
     /// so that one bad reading passes and two do not.
     pub gyroscope: SensorLimits,
-    /// Default: as the gyroscope, but full scale 156 m/s² (16 g) and saturated after 4 ms: impacts last 1 ms to 2 ms, and with 1 ms to the
+    /// Default: as the gyroscope, but full scale 78 m/s² (just below 8 g) and saturated after 4 ms: impacts last 1 ms to 2 ms, and with 1 ms to the
     /// first reading it is known after 5 ms.
     pub block_accelerometer: SensorLimits,
-    /// Default: as the block's, but full scale 39 m/s² (4 g) and never stuck: the ground may well be still while the block rocks.
+    /// Default: as the block's, but never stuck: the ground may well be still while the block rocks.
     pub ground_accelerometer: SensorLimits,
     /// Default: stale after 3 ms; no comparison, no end of travel, until they are known.
     pub encoder: EncoderLimits,
@@ -102,11 +102,11 @@ impl Default for MonitorParameters {
             full_scale: 8.7,
             saturation_time: 0.002,
         };
-        let block_accelerometer = SensorLimits { full_scale: 156.0, saturation_time: 0.004, ..gyroscope };
+        let block_accelerometer = SensorLimits { full_scale: 78.0, saturation_time: 0.004, ..gyroscope };
         MonitorParameters {
             gyroscope,
             block_accelerometer,
-            ground_accelerometer: SensorLimits { full_scale: 39.0, stuck_time_moving: 0.0, ..block_accelerometer },
+            ground_accelerometer: SensorLimits { stuck_time_moving: 0.0, ..block_accelerometer },
             encoder: EncoderLimits { stale_time: 0.003, counts_per_radian: 0.0, travel: 0 },
             contradiction_time: 0.004,
             slow_contradiction_time: 0.064,

@@ -163,8 +163,8 @@ impl Rig {
         self.true_sample = Sample {
             // A gyroscope feels a jolt a little.
             gyroscope: read(self.velocity + BIAS + 1e-3 * spike, 0.004, 8.7),
-            block_accelerometer: [read(along + BIAS + spike, 0.03, 156.0), read(GRAVITY + BIAS + spike, 0.03, 156.0)],
-            ground_accelerometer: [read(ground + BIAS + 0.1 * spike, 0.03, 39.0), read(GRAVITY + BIAS, 0.03, 39.0)],
+            block_accelerometer: [read(along + BIAS + spike, 0.03, 78.0), read(GRAVITY + BIAS + spike, 0.03, 78.0)],
+            ground_accelerometer: [read(ground + BIAS + 0.1 * spike, 0.03, 78.0), read(GRAVITY + BIAS, 0.03, 78.0)],
             encoder: Count { counts: self.first_count.wrapping_add((self.rotation * COUNTS).round() as i32), number },
             engaged: [false; 2],
         };
