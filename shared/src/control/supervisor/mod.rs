@@ -263,12 +263,12 @@ impl Supervisor {
         Verdict { phase: state.phase, fault, command, biases }
     }
 
-    /// What is to be sent. Never both to a block that moves, where that is not allowed: what was sent before then stays.
+    /// What is to be sent: in a self-test the safe state until nothing moves. Never both to a block that moves, where that is not allowed: what was sent before then stays.
     fn command(&self, state: &SupervisorState, input: &SupervisorInput<'_>) -> [bool; 2] {
         match state.phase {
             Phase::Armed | Phase::Rocking if self.too_many(input) => state.sent,
             Phase::Armed | Phase::Rocking => input.wish,
-            Phase::SelfTest if self.self_test => state.self_test.command(),
+            Phase::SelfTest if self.self_test && state.motion.still(self.stillness) => state.self_test.command(),
             _ => self.safe_now(state),
         }
     }

@@ -54,11 +54,13 @@ fn what_a_sensor_shows_by_itself() {
             for (fault, spoil, [from, to]) in ALONE {
                 let mut rig = rig.clone();
                 let (tick, found) = rig.found(20, spoil).unwrap_or_else(|| panic!("{fault} at {place}"));
-                // A gyroscope at full scale, or stuck in a jolt, is contradicted by the encoder before its time is up, and an accelerometer
+                // A gyroscope at full scale, or stuck or silent in a jolt, is contradicted by the encoder before its time is up, and an accelerometer
                 // that sticks at the top of a spike is saturated too: found no later, under another name.
                 let otherwise = match fault {
                     Fault::Saturated(Sensor::Gyroscope) => matches!(found, Fault::Contradiction(_) | Fault::Stuck(_)),
-                    Fault::Stuck(Sensor::Gyroscope) => place == "impact" && found == Fault::Contradiction(Sensor::Encoder),
+                    Fault::Stale(Sensor::Gyroscope) | Fault::Stuck(Sensor::Gyroscope) => {
+                        place == "impact" && found == Fault::Contradiction(Sensor::Encoder)
+                    }
                     Fault::Stuck(Sensor::BlockAccelerometer) => {
                         place == "impact" && found == Fault::Saturated(Sensor::BlockAccelerometer)
                     }
@@ -188,13 +190,14 @@ fn clutches_that_do_not_obey() {
 
 #[test]
 fn a_self_test_that_fails() {
-    let cases: [(Spoil, Wheel); 3] = [
-        (|sample, _| sample.engaged[0] = false, Wheel::First),
-        (|sample, _| sample.engaged[1] = false, Wheel::Second),
-        (|sample, _| sample.engaged[1] = true, Wheel::Second),
+    let cases: [(Spoil, Wheel, SafeState); 4] = [
+        (|sample, _| sample.engaged[0] = false, Wheel::First, SafeState::Engaged(Wheel::First)),
+        (|sample, _| sample.engaged[1] = false, Wheel::Second, SafeState::Engaged(Wheel::First)),
+        (|sample, _| sample.engaged[0] = true, Wheel::First, SafeState::Engaged(Wheel::First)),
+        (|sample, _| sample.engaged[1] = true, Wheel::Second, SafeState::Released),
     ];
-    for (spoil, wheel) in cases {
-        let (_, fault) = Rig::new(&parameters()).found(1000, spoil).unwrap();
+    for (spoil, wheel, safe_state) in cases {
+        let (_, fault) = Rig::new(&Parameters { safe_state, ..parameters() }).found(1000, spoil).unwrap();
         assert_eq!(fault, Fault::SelfTestFailed(wheel));
     }
 }

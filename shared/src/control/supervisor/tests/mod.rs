@@ -131,15 +131,26 @@ fn an_earthquake_does_not_find_it_waiting() {
 #[test]
 fn a_motion_stops_a_pulse() {
     let mut rig = Rig::new(&parameters());
-    while !rig.kinds().contains(&Kind::Engaged(Wheel::First)) {
+    while !rig.kinds().contains(&Kind::Engaged(Wheel::Second)) {
         rig.step();
     }
     rig.shaking = 1.0;
-    assert_eq!(rig.run(3).command, [false; 2]);
+    assert_eq!(rig.run(3).command, rig.supervisor.safe());
     assert_eq!(rig.step().phase, Phase::SelfTest);
     rig.shaking = 0.0;
     rig.until(Phase::Armed, 5000);
     assert_eq!(rig.complaints(), []);
+}
+
+#[test]
+fn a_self_test_that_begins_in_motion_holds_the_safe_state() {
+    let mut rig = Rig::new(&parameters());
+    rig.shaking = 1.0;
+    rig.until(Phase::SelfTest, 10);
+    while rig.step().phase == Phase::SelfTest {
+        assert_eq!(rig.state.sent, rig.supervisor.safe());
+    }
+    assert_eq!(rig.complaints(), [Kind::Warning(Fault::SelfTestAbandoned.code())]);
 }
 
 #[test]
