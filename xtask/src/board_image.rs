@@ -22,12 +22,12 @@ pub fn tests(root: &Path, built: &Built) -> Result<(), Stop> {
     done(cargo_in(root, WORKSPACE, &["test"]).envs(built.variables()))
 }
 
-/// Prints what a control tick costs.
+/// Prints what a control tick costs (`ticks`), or what of the program it goes to (`profile`).
 ///
 /// # Errors
 /// If a build or the run fails.
-pub fn ticks(root: &Path) -> Result<(), Stop> {
+pub fn measure(root: &Path, what: &str) -> Result<(), Stop> {
     tools::need_unicorn()?;
     let elf = BOARD.build(root)?;
-    done(cargo_in(root, WORKSPACE, &["run", "--quiet", "--", "ticks"]).arg(elf))
+    done(cargo_in(root, WORKSPACE, &["run", "--quiet", "--", what]).arg(elf))
 }

@@ -46,6 +46,8 @@ Tasks:
   ticks     measure what a control tick of the firmware costs in the emulator, with and without logs, and write docs/ticks.csv
   board-image ticks
             count what a control tick of the unmodified board image costs, at rest and in motion, between models of the board's parts
+  board-image profile
+            the same, by the source files that the instructions are from
   hardware  simulate the coil driver of docs/hardware in ngspice and check the schematic's electrical rules by SKiDL (where Python has
             it); fails when an assert or a rule does
   figures [PROGRAM]
@@ -119,9 +121,9 @@ fn run(mut args: impl Iterator<Item = String>) -> Result<(), Stop> {
             ticks::run(&root)
         }
         ["hardware"] => hardware::run(&root, &mut Steps::default()),
-        ["board-image", "ticks"] => {
+        ["board-image", what @ ("ticks" | "profile")] => {
             tools::need_board_target(&root)?;
-            board_image::ticks(&root)
+            board_image::measure(&root, what)
         }
         ["figures"] => figures::run(&root, None),
         ["figures", program] => figures::run(&root, Some(program)),

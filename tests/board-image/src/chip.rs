@@ -103,6 +103,8 @@ pub struct Chip {
     pub faults: Vec<Option<u32>>,
     /// A handler has returned.
     pub returned: bool,
+    /// How often a block of instructions ran in a handler, by its address and length, where that is asked for.
+    pub profile: Option<HashMap<(u32, u32), u64>>,
     /// Instructions of a block, by its address.
     lengths: HashMap<(u32, u32), u32>,
     active: i32,
@@ -146,6 +148,7 @@ impl Chip {
             trail: VecDeque::new(),
             faults: Vec::new(),
             returned: false,
+            profile: None,
             lengths: HashMap::new(),
             active: IDLE,
             powered: true,
@@ -477,20 +480,26 @@ impl Chip {
         0
     }
 
-    /// Instructions between `address` and `address + size`: those that begin with 0b11101 to 0b11111 have two half words.
+    /// Instructions between `address` and `address + size`.
     fn length(&mut self, address: u32, size: u32) -> u64 {
+        if let Some(count) = self.lengths.get(&(address, size)) {
+            return (*count).into();
+        }
+        let count = self.instructions_of(address, size).count() as u32;
+        self.lengths.insert((address, size), count);
+        count.into()
+    }
+
+    /// Addresses of the instructions of a block: those that begin with 0b11101 to 0b11111 have two half words.
+    pub fn instructions_of(&self, address: u32, size: u32) -> impl Iterator<Item = u32> {
         let memory = if self.ram.contains(address) { &self.ram } else { &self.flash.memory };
-        let count = || {
-            let (mut place, mut count) = (address, 0);
-            while place < address + size && memory.contains(place) {
-                let mut half = [0; 2];
-                memory.read(place, &mut half);
-                place += if half[1] >> 3 >= 0b11101 { 4 } else { 2 };
-                count += 1;
-            }
-            count
+        let within = move |place: &u32| place.wrapping_sub(address) < size && memory.contains(*place);
+        let next = move |place: &u32| {
+            let mut half = [0; 2];
+            memory.read(*place, &mut half);
+            Some(place + if half[1] >> 3 >= 0b11101 { 4 } else { 2 }).filter(within)
         };
-        (*self.lengths.entry((address, size)).or_insert_with(count)).into()
+        std::iter::successors(Some(address).filter(within), next)
     }
 }
 
@@ -549,6 +558,9 @@ impl Guest for Chip {
         self.trail.push_back(address);
         let instructions = self.length(address, size);
         self.instructions += instructions;
+        if let Some(profile) = self.profile.as_mut().filter(|_| self.active != IDLE) {
+            *profile.entry((address, size)).or_default() += 1;
+        }
         self.pass_cycles(HALF_CYCLES_PER_INSTRUCTION * instructions);
         if self.reset.is_some() || self.now >= self.until {
             return true;

@@ -1,5 +1,8 @@
-//! Runs the image of the board on the host: `sprag-board-image ticks IMAGE.elf` says what a control tick costs, `sprag-board-image serve
-//! IMAGE.elf` is the board at the other end of its standard streams, for `sprag hil --board-image`.
+//! Runs the image of the board on the host: `sprag-board-image ticks IMAGE.elf` says what a control tick costs, `sprag-board-image profile
+//! IMAGE.elf` which part of the program it goes to, `sprag-board-image serve IMAGE.elf` is the board at the other end of its standard streams,
+//! for `sprag hil --board-image`.
+
+mod profile;
 
 use std::io::{Read, Write};
 use std::path::Path;
@@ -15,8 +18,10 @@ fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let result = match words.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["ticks", image] => ticks(Path::new(image)),
+        ["profile", image] => profile::print(Path::new(image), profile::file),
+        ["profile", image, "lines"] => profile::print(Path::new(image), profile::line),
         ["serve", image] => serve(Path::new(image)),
-        _ => Err("usage: sprag-board-image ticks|serve IMAGE.elf".to_owned()),
+        _ => Err("usage: sprag-board-image ticks|serve IMAGE.elf, or profile IMAGE.elf [lines]".to_owned()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -27,23 +32,38 @@ fn main() -> ExitCode {
     }
 }
 
-/// Prints what a control tick costs at rest and in motion.
-fn ticks(path: &Path) -> Result<(), String> {
+/// Ticks of a phase that are measured.
+const MEASURED: usize = 1000;
+
+/// A board that is armed.
+fn armed(path: &Path) -> Result<Rig, String> {
     let image = Image::load(path).map_err(|error| error.to_string())?;
     let mut rig = Rig::new(&image, Some(&Settings::default()));
     rig.boot();
     let state = rig.wait(4000, |state| state.phase == Phase::Armed);
-    if state.phase != Phase::Armed {
-        return Err(format!("the board does not arm: {:?} {:?}", state.phase, state.fault));
+    if state.phase == Phase::Armed {
+        Ok(rig)
+    } else {
+        Err(format!("the board does not arm: {:?} {:?}", state.phase, state.fault))
     }
+}
+
+/// Has its block rock.
+fn rock(rig: &mut Rig) {
+    rig.structure = Box::new(swing(rig.bench.now()));
+    rig.ticks(200);
+}
+
+/// Prints what a control tick costs at rest and in motion.
+fn ticks(path: &Path) -> Result<(), String> {
+    let mut rig = armed(path)?;
     println!("phase,median_instructions,worst_instructions,median_cycles,worst_cycles");
     for phase in ["armed", "rocking"] {
         if phase == "rocking" {
-            rig.structure = Box::new(swing(rig.bench.now()));
-            rig.ticks(200);
+            rock(&mut rig);
         }
         rig.costs.clear();
-        rig.ticks(1000);
+        rig.ticks(MEASURED);
         let of = |quantity: fn(&TickCost) -> u64| {
             let mut numbers: Vec<u64> = rig.costs.iter().map(quantity).collect();
             numbers.sort_unstable();
