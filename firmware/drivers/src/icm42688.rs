@@ -34,8 +34,8 @@ const READ_BACK_A_TICK: usize = 4;
 /// Ticks between two registers that are compared while the part is read: all of them within 0.6 s at 2 kHz.
 const COMPARED_EVERY: u8 = 64;
 
-/// Bytes of a reading: the address, acceleration (6), rate (6), time of synchronisation (2), status.
-const LENGTH: usize = 16;
+/// Words of a reading: the address, acceleration (6 bytes), rate (6), time of synchronisation (2), status.
+const LENGTH: usize = 8;
 
 /// A value that a reading has while there is none.
 const INVALID: i16 = i16::MIN;
@@ -83,8 +83,8 @@ pub struct Icm42688<D> {
     comparison: Comparison,
 }
 
-impl<D: SpiDevice> Icm42688<D> {
-    /// On a bus of at most 24 MHz in mode 0 or 3.
+impl<D: SpiDevice<u16>> Icm42688<D> {
+    /// On a bus of at most 24 MHz in mode 0 or 3, that sends words of 16 bits with the most significant bit first: an address and a value.
     pub fn new(device: D) -> Icm42688<D> {
         Icm42688 { device, stage: Stage::Recognise(0), comparison: Comparison::default() }
     }
@@ -113,7 +113,7 @@ impl<D: SpiDevice> Icm42688<D> {
     /// Nothing is written but the bank, so that a part that gives readings goes on with them.
     fn recognise(&mut self, entry: usize) -> Stage {
         // A controller that was itself reset may have left any bank selected.
-        if entry == 0 && !(self.device.write(&[BANK, 0]).is_ok() && self.is_there()) {
+        if entry == 0 && !(self.put(BANK, 0) && self.is_there()) {
             return Stage::Reset;
         }
         let end = entry + READ_BACK_A_TICK;
@@ -125,7 +125,7 @@ impl<D: SpiDevice> Icm42688<D> {
     }
 
     fn reset(&mut self) -> Stage {
-        let done = [[BANK, 0], RESET].into_iter().all(|write| self.device.write(&write).is_ok());
+        let done = [(BANK, 0), RESET].into_iter().all(|(address, value)| self.put(address, value));
         self.comparison = Comparison::default();
         if done { Stage::Wait(RESET_TICKS) } else { Stage::Reset }
     }
@@ -137,8 +137,7 @@ impl<D: SpiDevice> Icm42688<D> {
     fn set_up(&mut self, number: usize) -> Stage {
         let Some(entry) = CONFIGURATION.get(number) else { return Stage::Run(0) };
         let selected = number.checked_sub(1).and_then(|last| CONFIGURATION.get(last)).map_or(0, |last| last.bank);
-        let done = (entry.bank == selected || self.device.write(&[BANK, entry.bank]).is_ok())
-            && self.device.write(&[entry.address, entry.value]).is_ok();
+        let done = (entry.bank == selected || self.put(BANK, entry.bank)) && self.put(entry.address, entry.value);
         if done { Stage::Setup(number + 1) } else { Stage::Reset }
     }
 
@@ -146,9 +145,8 @@ impl<D: SpiDevice> Icm42688<D> {
     fn holds(&mut self, number: usize) -> bool {
         let Some(entry) = CONFIGURATION.get(number).filter(|entry| entry.kept != 0) else { return true };
         let elsewhere = entry.bank != 0;
-        let found =
-            (!elsewhere || self.device.write(&[BANK, entry.bank]).is_ok()).then(|| self.register(entry.address)).flatten();
-        let back = !elsewhere || self.device.write(&[BANK, 0]).is_ok();
+        let found = (!elsewhere || self.put(BANK, entry.bank)).then(|| self.register(entry.address)).flatten();
+        let back = !elsewhere || self.put(BANK, 0);
         back && found.is_some_and(|value| (value ^ entry.value) & entry.kept == 0)
     }
 
@@ -165,22 +163,28 @@ impl<D: SpiDevice> Icm42688<D> {
         holds || !doubtful
     }
 
+    /// Writes a register.
+    fn put(&mut self, address: u8, value: u8) -> bool {
+        self.device.write(&[u16::from_be_bytes([address, value])]).is_ok()
+    }
+
     fn register(&mut self, address: u8) -> Option<u8> {
-        let mut bytes = [address | READ, 0];
-        self.device.transfer_in_place(&mut bytes).ok()?;
-        let [_, value] = bytes;
+        let mut words = [u16::from_be_bytes([address | READ, 0])];
+        self.device.transfer_in_place(&mut words).ok()?;
+        let [[_, value]] = words.map(u16::to_be_bytes);
         Some(value)
     }
 
     fn read(&mut self) -> Option<Reading> {
-        let mut bytes = [0; LENGTH];
-        bytes[0] = FIRST_DATA | READ;
-        self.device.transfer_in_place(&mut bytes).ok()?;
-        let [_, a, b, c, d, e, f, g, h, i, j, k, l, _, _, status] = bytes;
-        let reading = Reading {
-            acceleration: [[a, b], [c, d], [e, f]].map(i16::from_be_bytes),
-            rate: [[g, h], [i, j], [k, l]].map(i16::from_be_bytes),
-        };
+        let mut words = [0; LENGTH];
+        words[0] = u16::from_be_bytes([FIRST_DATA | READ, 0]);
+        self.device.transfer_in_place(&mut words).ok()?;
+        let [a, b, c, d, e, f, g, last] = words;
+        // Each value lies across two words.
+        let value = |first: u16, second: u16| (first << 8 | second >> 8) as i16;
+        let reading =
+            Reading { acceleration: [value(a, b), value(b, c), value(c, d)], rate: [value(d, e), value(e, f), value(f, g)] };
+        let [_, status] = last.to_be_bytes();
         // A line that is stuck high reads as reserved bits, too.
         let new = status & STATUS_DATA_READY != 0 && status & STATUS_RESERVED == 0;
         let valid = !reading.acceleration.contains(&INVALID) && !reading.rate.contains(&INVALID);

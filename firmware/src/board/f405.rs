@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | [`clock`]: 168 MHz, and the counter of time | RCC, TIM5 |
 //! | [`encoder`]: its counter, which goes on over a reset | TIM4, TIM3, stream 2 of DMA1 |
-//! | [`sensors`]: two inertial sensors | SPI1, SPI2 |
+//! | [`sensors`]: two inertial sensors, each on a [`mod@bus`] | SPI1, SPI2 |
 //! | [`coils`]: two coils and their currents | TIM8 with its break input PA6, PC8, PC9, ADC1 |
 //! | [`mod@line`]: the link | USART1, streams 2 and 7 of DMA2 |
 //! | [`storage`]: the settings | sectors 1 and 2 of the flash |
@@ -13,6 +13,7 @@
 //!
 //! Interrupts: the supply's comes before everything but faults, then SysTick, the control task. Nothing else interrupts.
 
+mod bus;
 mod clock;
 mod coils;
 mod encoder;

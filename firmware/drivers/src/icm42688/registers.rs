@@ -19,7 +19,7 @@ pub const STATUS_RESERVED: u8 = 1 << 7;
 pub const BANK: u8 = 0x76;
 
 /// DEVICE_CONFIG of bank 0, with SOFT_RESET_CONFIG set.
-pub const RESET: [u8; 2] = [0x11, 0x01];
+pub const RESET: (u8, u8) = (0x11, 0x01);
 
 /// DELT, DELTSQR and BITSHIFT of the anti-alias filters for 536 Hz.
 const FILTER: (u8, u16, u8) = (12, 144, 8);

@@ -128,8 +128,8 @@ impl ErrorType for Line {
     type Error = ErrorKind;
 }
 
-impl SpiDevice for Line {
-    fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), ErrorKind> {
+impl SpiDevice<u16> for Line {
+    fn transaction(&mut self, operations: &mut [Operation<'_, u16>]) -> Result<(), ErrorKind> {
         let mut part = self.0.borrow_mut();
         if part.broken {
             return Err(ErrorKind::ModeFault);
@@ -137,9 +137,13 @@ impl SpiDevice for Line {
         let asleep = part.now < part.ready;
         for operation in operations {
             match operation {
-                Operation::Write([address, value]) if !asleep => part.write(*address, *value),
-                Operation::TransferInPlace(bytes) => {
-                    let [address, answer @ ..] = &mut **bytes else { panic!("an empty transfer") };
+                Operation::Write([word]) if !asleep => {
+                    let [address, value] = word.to_be_bytes();
+                    part.write(address, value);
+                }
+                Operation::TransferInPlace(words) => {
+                    let mut bytes: Vec<u8> = words.iter().flat_map(|word| word.to_be_bytes()).collect();
+                    let [address, answer @ ..] = &mut bytes[..] else { panic!("an empty transfer") };
                     assert!(*address & READ != 0);
                     if !asleep {
                         part.read(*address & !READ, answer);
@@ -150,6 +154,9 @@ impl SpiDevice for Line {
                     match part.flip {
                         Some(0) => (answer[0], part.flip) = (answer[0] ^ 1, None),
                         left => part.flip = left.map(|left| left - 1),
+                    }
+                    for (word, bytes) in words.iter_mut().zip(bytes.chunks_exact(2)) {
+                        *word = u16::from_be_bytes([bytes[0], bytes[1]]);
                     }
                 }
                 Operation::Write(_) if asleep => {}

@@ -1,20 +1,17 @@
 //! The sensor on the block, the sensor on the ground, and the encoder at the rack.
 
-use core::convert::Infallible;
-
-use embedded_hal::delay::DelayNs;
 use embedded_hal::spi::{MODE_3, SpiDevice};
-use embedded_hal_bus::spi::ExclusiveDevice;
 use sprag_drivers::icm42688::Icm42688;
 use sprag_shared::control::sensing::sample::{Reading, Sample};
 use sprag_shared::device::inertial::{accelerations, rates};
 use sprag_shared::settings::wiring::Wiring;
-use stm32f4xx_hal::gpio::{Alternate, Output, Pin, PinState, Pull, Speed};
+use stm32f4xx_hal::gpio::{Alternate, Pin, Pull, Speed};
 use stm32f4xx_hal::pac;
 use stm32f4xx_hal::rcc::Rcc;
-use stm32f4xx_hal::spi::{self, Spi};
+use stm32f4xx_hal::spi::Spi;
 use stm32f4xx_hal::time::Hertz;
 
+use super::bus::Bus;
 use super::encoder::Encoder;
 use crate::board::Sensors;
 
@@ -23,22 +20,10 @@ const BLOCK_BUS: Hertz = Hertz::from_raw(10_500_000);
 /// Of the bus to the ground's sensor, 1/s at most: its cable is the longer one.
 const GROUND_BUS: Hertz = Hertz::from_raw(5_250_000);
 
-/// Delays within a transaction. The sensors need none, but without this one the bus would panic at them.
-pub struct Delay;
-
-impl DelayNs for Delay {
-    fn delay_ns(&mut self, nanoseconds: u32) {
-        // Somewhat longer than asked for.
-        cortex_m::asm::delay(nanoseconds / 5);
-    }
-}
-
-/// A bus with one device and its select line.
-pub type Device<SPI, const PORT: char, const SELECT: u8> = ExclusiveDevice<Spi<SPI>, Pin<PORT, SELECT, Output>, Delay>;
 /// The sensor on the block.
-pub type BlockDevice = Device<pac::SPI1, 'A', 4>;
+pub type BlockDevice = Bus<pac::SPI1, 'A', 4>;
 /// The sensor on the ground.
-pub type GroundDevice = Device<pac::SPI2, 'B', 12>;
+pub type GroundDevice = Bus<pac::SPI2, 'B', 12>;
 
 /// The bus to the sensor on the block: clock, input, output, select.
 pub fn block(
@@ -53,7 +38,7 @@ pub fn block(
     let input = input.into_alternate().internal_resistor(Pull::Down);
     let pins =
         (Some(clock.into_alternate().speed(Speed::Medium)), Some(input), Some(output.into_alternate().speed(Speed::Medium)));
-    device(Spi::new(spi, pins, MODE_3, BLOCK_BUS, rcc), select)
+    Bus::new(Spi::new(spi, pins, MODE_3, BLOCK_BUS, rcc), select)
 }
 
 /// The bus to the sensor on the ground: clock, input, output, select.
@@ -68,17 +53,7 @@ pub fn ground(
     let input = input.into_alternate().internal_resistor(Pull::Down);
     let pins =
         (Some(clock.into_alternate().speed(Speed::Medium)), Some(input), Some(output.into_alternate().speed(Speed::Medium)));
-    device(Spi::new(spi, pins, MODE_3, GROUND_BUS, rcc), select)
-}
-
-fn device<SPI: spi::Instance, const PORT: char, const SELECT: u8>(
-    bus: Spi<SPI>,
-    select: Pin<PORT, SELECT>,
-) -> Device<SPI, PORT, SELECT> {
-    let select = select.into_push_pull_output_in_state(PinState::High);
-    let result: Result<_, Infallible> = ExclusiveDevice::new(bus, select, Delay);
-    let Ok(device) = result;
-    device
+    Bus::new(Spi::new(spi, pins, MODE_3, GROUND_BUS, rcc), select)
 }
 
 /// All of them.
@@ -92,7 +67,7 @@ pub struct MountedSensors<B, G> {
     wiring: Wiring,
 }
 
-impl<B: SpiDevice, G: SpiDevice> MountedSensors<B, G> {
+impl<B: SpiDevice<u16>, G: SpiDevice<u16>> MountedSensors<B, G> {
     /// At their buses.
     pub fn new(block: B, ground: G, encoder: Encoder, wiring: Wiring) -> MountedSensors<B, G> {
         let (block, ground) = (Icm42688::new(block), Icm42688::new(ground));
@@ -100,7 +75,7 @@ impl<B: SpiDevice, G: SpiDevice> MountedSensors<B, G> {
     }
 }
 
-impl<B: SpiDevice, G: SpiDevice> Sensors for MountedSensors<B, G> {
+impl<B: SpiDevice<u16>, G: SpiDevice<u16>> Sensors for MountedSensors<B, G> {
     fn read(&mut self, sample: &mut Sample) {
         let wiring = &self.wiring;
         if let Some(reading) = self.block.tick() {

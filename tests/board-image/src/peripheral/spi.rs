@@ -10,6 +10,8 @@ const SR: u32 = 0x08;
 const DR: u32 = 0x0C;
 
 const ENABLE: u32 = 1 << 6;
+/// Frames of 16 bits, not of 8.
+const LONG: u32 = 1 << 11;
 const NOT_EMPTY: u32 = 1;
 const EMPTY: u32 = 1 << 1;
 const OVERRUN: u32 = 1 << 6;
@@ -29,7 +31,7 @@ pub enum Wire {
 #[derive(Clone, Debug)]
 pub struct Spi {
     registers: Registers,
-    received: Option<u8>,
+    received: Option<u16>,
     overrun: bool,
     /// The sensor.
     pub sensor: Icm42688,
@@ -73,16 +75,23 @@ impl Spi {
         if !self.registers.has(CR1, ENABLE) {
             return 0;
         }
-        let byte = self.sensor.exchange(value as u8, now);
-        let arrived = match self.wire {
+        let bytes = if self.registers.has(CR1, LONG) { 2 } else { 1 };
+        let arrived =
+            (0..bytes).rev().fold(0, |arrived, place| arrived << 8 | u16::from(self.byte((value >> (8 * place)) as u8, now)));
+        self.overrun |= self.received.replace(arrived).is_some();
+        let divider = 2 << (self.registers.get(CR1) >> 3 & 7);
+        8 * bytes * divider * SECOND / clock
+    }
+
+    /// Sends a byte to the sensor; the one that arrives meanwhile.
+    fn byte(&mut self, byte: u8, now: u64) -> u8 {
+        let byte = self.sensor.exchange(byte, now);
+        match self.wire {
             Wire::Whole => byte,
             Wire::Stuck(level) => u8::from(level) * 0xFF,
             Wire::Noisy(probability) => {
                 (0..8).fold(byte, |byte, bit| if self.random.share() < probability { byte ^ 1 << bit } else { byte })
             }
-        };
-        self.overrun |= self.received.replace(arrived).is_some();
-        let divider = 2 << (self.registers.get(CR1) >> 3 & 7);
-        8 * divider * SECOND / clock
+        }
     }
 }
