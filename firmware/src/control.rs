@@ -14,6 +14,9 @@ const GRACE: u32 = 8;
 /// Periods without a sample from the link after which a device that is paced by samples ticks without them: the link is dead.
 const SILENCE_PERIODS: u32 = 2000;
 
+/// Ticks of which the light is shown at one: less than one of its slots at any period.
+const LIT_EVERY: u8 = 4;
+
 /// What the coils do when the program stops: bit 0 the first, bit 1 the second.
 static SAFE_STATE: AtomicU8 = AtomicU8::new(0);
 
@@ -49,6 +52,8 @@ pub struct Control {
     keeper: memory::Keeper,
     last: Option<u32>,
     silence: u32,
+    /// Counts ticks, for what need not be done at each.
+    turn: u8,
 }
 
 impl Control {
@@ -59,7 +64,7 @@ impl Control {
         watchdog: <Selected as Board>::Watchdog,
         light: <Selected as Board>::Light,
     ) -> Control {
-        Control { sensors, coils, watchdog, light, keeper: memory::Keeper::new(), last: None, silence: 0 }
+        Control { sensors, coils, watchdog, light, keeper: memory::Keeper::new(), last: None, silence: 0, turn: 0 }
     }
 }
 
@@ -114,7 +119,10 @@ fn tick(control: &mut Control, device: &mut Device, outbox: &mut Outbox, late: u
     // With samples from the link the clutches are somewhere else.
     let command = if device.attached().is_some() { device.safe_command() } else { decision.command };
     coils.drive(command, device.tests_coils());
-    control.light.show(device.shown(), device.light_slot());
+    control.turn = control.turn.wrapping_add(1);
+    if control.turn.is_multiple_of(LIT_EVERY) {
+        control.light.show(device.shown(), device.light_slot());
+    }
     #[cfg(feature = "log")]
     crate::log::decision(&before, decision);
     control.keeper.save(&device.retained());

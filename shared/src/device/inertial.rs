@@ -1,5 +1,6 @@
 //! From the numbers that an inertial sensor gives to SI units.
 
+use crate::settings::wiring::Axis;
 use crate::structure::block::GRAVITY;
 
 /// Standard gravity, m/s².
@@ -21,14 +22,39 @@ pub const ACCELEROMETER_FULL_SCALE: f32 = i16::MAX as f32 * ACCELERATION_PER_COU
 const RATE_PER_COUNT: f32 = core::f32::consts::PI / 180.0 / GYROSCOPE_COUNTS_PER_DEGREE;
 const ACCELERATION_PER_COUNT: f32 = STANDARD_GRAVITY / ACCELEROMETER_COUNTS_PER_GRAVITY;
 
-/// Rates, rad/s, of the gyroscope's counts.
-pub fn rates(counts: [i16; 3]) -> [f32; 3] {
-    counts.map(|count| count as f32 * RATE_PER_COUNT)
+/// The component of a sensor's counts along an axis, in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Component {
+    index: u8,
+    /// Of a count, with the axis's direction.
+    scale: f32,
 }
 
-/// Specific forces, m/s², of the accelerometer's counts.
-pub fn accelerations(counts: [i16; 3]) -> [f32; 3] {
-    counts.map(|count| count as f32 * ACCELERATION_PER_COUNT)
+impl Component {
+    /// Of a gyroscope's counts, rad/s.
+    pub fn of_rate(axis: Axis) -> Component {
+        Component::new(axis, RATE_PER_COUNT)
+    }
+
+    /// Of an accelerometer's counts, m/s².
+    pub fn of_acceleration(axis: Axis) -> Component {
+        Component::new(axis, ACCELERATION_PER_COUNT)
+    }
+
+    fn new(axis: Axis, scale: f32) -> Component {
+        Component { index: axis.index(), scale: if axis.reversed() { -scale } else { scale } }
+    }
+
+    /// Its value, of the counts along x, y and z.
+    #[inline]
+    pub fn of(&self, [x, y, z]: [i16; 3]) -> f32 {
+        let count = match self.index {
+            0 => x,
+            1 => y,
+            _ => z,
+        };
+        count as f32 * self.scale
+    }
 }
 
 #[cfg(test)]
@@ -36,6 +62,7 @@ mod tests {
     use super::*;
     use crate::settings::Settings;
     use crate::settings::table::Item;
+    use crate::settings::wiring::Wiring;
 
     /// A part at its end is known as such, and one that is not is believed.
     #[test]
@@ -51,17 +78,32 @@ mod tests {
         }
     }
 
+    /// Along x, y and z, and against them.
+    fn components(of: fn(Axis) -> Component) -> [Component; 6] {
+        let mut settings = Settings::default();
+        core::array::from_fn(|word| {
+            settings.set(Item::GroundAlongAxis.index(), word as u32).unwrap();
+            of(Wiring::of(&settings).ground[0])
+        })
+    }
+
     #[test]
     fn full_scale_is_that_of_the_data_sheet() {
-        let [rate, none, most] = rates([6550, 0, i16::MIN]);
+        let [rate, none, most] = [6550, 0, i16::MIN].map(|count| components(Component::of_rate)[0].of([count, 1, 1]));
         assert!((rate - 100f32.to_radians()).abs() < 1e-6, "{rate}");
         assert_eq!(none, 0.0);
         assert!((most + 500f32.to_radians()).abs() < 0.005, "{most}");
-        let [gravity, none, most] = accelerations([4096, 0, i16::MIN]);
+        let [gravity, none, most] = [4096, 0, i16::MIN].map(|count| components(Component::of_acceleration)[0].of([count, 1, 1]));
         assert_eq!(gravity, STANDARD_GRAVITY);
         assert_eq!(none, 0.0);
         assert_eq!(most, -8.0 * STANDARD_GRAVITY);
         assert!((GYROSCOPE_FULL_SCALE - 500f32.to_radians()).abs() < 0.005);
         assert!((ACCELEROMETER_FULL_SCALE - 8.0 * STANDARD_GRAVITY).abs() < 0.003);
+    }
+
+    #[test]
+    fn a_component_is_that_along_its_axis() {
+        let values = components(Component::of_acceleration).map(|component| component.of([4096, 8192, 12_288]));
+        assert_eq!(values, [1.0, -1.0, 2.0, -2.0, 3.0, -3.0].map(|gravities| gravities * STANDARD_GRAVITY));
     }
 }

@@ -22,16 +22,6 @@ impl Axis {
     pub fn reversed(self) -> bool {
         self.word & 1 == 1
     }
-
-    /// The component of a reading (x, y, z) along it.
-    pub fn of(self, [x, y, z]: [f32; 3]) -> f32 {
-        let component = match self.index() {
-            0 => x,
-            1 => y,
-            _ => z,
-        };
-        if self.reversed() { -component } else { component }
-    }
 }
 
 /// How sensors and coils of one device are mounted: what the controller cannot find out by itself.
@@ -98,18 +88,6 @@ impl Wiring {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn an_axis_takes_its_component() {
-        let mut settings = Settings::default();
-        for (word, expected) in (0..6).zip([1.0, -1.0, 2.0, -2.0, 3.0, -3.0]) {
-            settings.set(Item::GroundAlongAxis.index(), word).unwrap();
-            settings.set(Item::GroundUpAxis.index(), (word + 2) % 6).unwrap();
-            let [along, up] = Wiring::of(&settings).ground;
-            assert_eq!(along.of([1.0, 2.0, 3.0]), expected);
-            assert_ne!(along.index(), up.index());
-        }
-    }
 
     #[test]
     fn axes_must_be_across_each_other() {

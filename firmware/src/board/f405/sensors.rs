@@ -3,8 +3,8 @@
 use embedded_hal::spi::{MODE_3, SpiDevice};
 use sprag_drivers::icm42688::Icm42688;
 use sprag_shared::control::sensing::sample::{Reading, Sample};
-use sprag_shared::device::inertial::{accelerations, rates};
-use sprag_shared::settings::wiring::Wiring;
+use sprag_shared::device::inertial::Component;
+use sprag_shared::settings::wiring::{Axis, Wiring};
 use stm32f4xx_hal::gpio::{Alternate, Pin, Pull, Speed};
 use stm32f4xx_hal::pac;
 use stm32f4xx_hal::rcc::Rcc;
@@ -65,37 +65,42 @@ pub struct MountedSensors<B, G> {
     ground: Icm42688<G>,
     encoder: Encoder,
     wiring: Wiring,
+    rate: Component,
+    /// Along and up.
+    of_block: [Component; 2],
+    of_ground: [Component; 2],
 }
 
 impl<B: SpiDevice<u16>, G: SpiDevice<u16>> MountedSensors<B, G> {
     /// At their buses.
     pub fn new(block: B, ground: G, encoder: Encoder, wiring: Wiring) -> MountedSensors<B, G> {
         let (block, ground) = (Icm42688::new(block), Icm42688::new(ground));
-        MountedSensors { block, ground, encoder, wiring }
+        let accelerations = |axes: [Axis; 2]| axes.map(Component::of_acceleration);
+        let (of_block, of_ground) = (accelerations(wiring.block), accelerations(wiring.ground));
+        let rate = Component::of_rate(wiring.block_gyroscope);
+        MountedSensors { block, ground, encoder, wiring, rate, of_block, of_ground }
     }
 }
 
 impl<B: SpiDevice<u16>, G: SpiDevice<u16>> Sensors for MountedSensors<B, G> {
     fn read(&mut self, sample: &mut Sample) {
-        let wiring = &self.wiring;
         if let Some(reading) = self.block.tick() {
-            let (rates, accelerations) = (rates(reading.rate), accelerations(reading.acceleration));
-            note(&mut sample.gyroscope, wiring.block_gyroscope.of(rates));
-            let ([along, up], axes) = (&mut sample.block_accelerometer, wiring.block);
-            note(along, axes[0].of(accelerations));
-            note(up, axes[1].of(accelerations));
+            note(&mut sample.gyroscope, self.rate.of(reading.rate));
+            note_both(&mut sample.block_accelerometer, &self.of_block, reading.acceleration);
         }
         if let Some(reading) = self.ground.tick() {
-            let accelerations = accelerations(reading.acceleration);
-            let ([along, up], axes) = (&mut sample.ground_accelerometer, wiring.ground);
-            note(along, axes[0].of(accelerations));
-            note(up, axes[1].of(accelerations));
+            note_both(&mut sample.ground_accelerometer, &self.of_ground, reading.acceleration);
         }
-        sample.encoder.counts = wiring.travel(self.encoder.read());
+        sample.encoder.counts = self.wiring.travel(self.encoder.read());
         sample.encoder.number = sample.encoder.number.wrapping_add(1);
     }
 }
 
 fn note(reading: &mut Reading, value: f32) {
     *reading = Reading { value, number: reading.number.wrapping_add(1) };
+}
+
+fn note_both([along, up]: &mut [Reading; 2], [of_along, of_up]: &[Component; 2], counts: [i16; 3]) {
+    note(along, of_along.of(counts));
+    note(up, of_up.of(counts));
 }
