@@ -121,6 +121,9 @@ impl AgreementLimits {
         let counted = window.counts as f32;
         let ahead = expected.abs() > counted.abs();
         let off = (expected - counted).abs();
+        if off <= self.counts {
+            return None;
+        }
         // Where nothing at all is counted it is no matter of the lever.
         let share = if window.travel == 0 { 0.0 } else { self.share * if ahead { expected.abs() } else { counted.abs() } };
         // A reading that is late by a delay lacks what moved meanwhile. This is what lets an impact and a single bad reading pass.

@@ -64,33 +64,34 @@ pub struct Context<'a> {
 }
 
 /// What was found, in the order of [`Sensor::ALL`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Findings {
+    /// Every sensor may be believed: what follows says the same.
+    clean: bool,
     /// What is wrong now, the plainest first.
     pub faults: [Option<Fault>; 4],
     /// Sensors that have given a complete reading.
     pub seen: [bool; 4],
+    /// How far the ground's accelerometer, its bias subtracted, is from (0, g), m/s², where it may be believed.
+    pub shaking: f32,
 }
 
 impl Findings {
     /// Sensors that may be believed.
     #[inline]
     pub fn good(&self) -> [bool; 4] {
+        if self.clean {
+            return [true; 4];
+        }
         let [a, b, c, d] = self.faults.map(|fault| fault.is_none());
         [self.seen[0] && a, self.seen[1] && b, self.seen[2] && c, self.seen[3] && d]
-    }
-
-    /// Every sensor may be believed.
-    #[inline]
-    pub fn clean(&self) -> bool {
-        self.nothing() && self.seen == [true; 4]
     }
 
     /// Nothing is wrong with any sensor.
     #[inline]
     pub fn nothing(&self) -> bool {
         let [a, b, c, d] = &self.faults;
-        a.is_none() && b.is_none() && c.is_none() && d.is_none()
+        self.clean || (a.is_none() && b.is_none() && c.is_none() && d.is_none())
     }
 }
 
@@ -131,8 +132,9 @@ impl Monitor {
             state.encoder.arrival(sample.encoder.number, &encoder_limits),
         ];
         if well == [true; 4] && self.within_travel(sample, context) {
-            // The usual tick, for which the compiler writes a version of its own.
-            return self.together(state, sample, context, rate, Findings { faults: [None; 4], seen: [true; 4] });
+            let (agreed, shaking) = self.compare(state, sample, context, rate, [true; 4]);
+            let found = Findings { clean: true, faults: [None; 4], seen: [true; 4], shaking };
+            return if agreed { found } else { self.contradicted(state, found) };
         }
         self.doubted(state, sample, context, rate)
     }
@@ -158,14 +160,22 @@ impl Monitor {
         if seen[3] && faults[3].is_none() && !self.within_travel(sample, context) {
             faults[3] = Some(Fault::Saturated(Sensor::Encoder));
         }
-        self.together(state, sample, context, rate, Findings { faults, seen })
+        let found = Findings { clean: false, faults, seen, shaking: 0.0 };
+        let (agreed, shaking) = self.compare(state, sample, context, rate, found.good());
+        let found = Findings { shaking, ..found };
+        if agreed { found } else { self.contradicted(state, found) }
     }
 
-    /// Adds to what each sensor shows by itself what they show together.
-    #[inline]
-    fn together(&self, state: &mut MonitorState, sample: &Sample, context: &Context<'_>, rate: f32, found: Findings) -> Findings {
-        let Findings { mut faults, seen } = found;
-        let good = found.good();
+    /// Looks at the `good` sensors together: whether none contradicts another, and how far the ground's accelerometer is from (0, g).
+    #[inline(always)]
+    fn compare(
+        &self,
+        state: &mut MonitorState,
+        sample: &Sample,
+        context: &Context<'_>,
+        rate: f32,
+        good: [bool; 4],
+    ) -> (bool, f32) {
         let off = |readings: [Reading; 2], bias| off_gravity(readings.map(|reading| reading.value), bias, self.gravity);
         let block = good[1].then(|| off(sample.block_accelerometer, context.calibration.block));
         let ground = good[2].then(|| off(sample.ground_accelerometer, context.calibration.ground));
@@ -178,9 +188,14 @@ impl Monitor {
             // What is missing must not look like a difference later.
             state.agreement = Agreement::default();
         }
-        if !state.rest.block(self.rest_ticks) && !state.rest.ground(self.rest_ticks) && state.agreement.found().is_none() {
-            return Findings { faults, seen };
-        }
+        let alone = state.rest.block(self.rest_ticks) || state.rest.ground(self.rest_ticks);
+        (!alone && state.agreement.found().is_none(), ground.unwrap_or(0.0))
+    }
+
+    /// Adds to what each sensor shows by itself what they show together.
+    #[inline(never)]
+    fn contradicted(&self, state: &MonitorState, found: Findings) -> Findings {
+        let mut faults = found.faults;
         if state.rest.block(self.rest_ticks) {
             faults[1] = Some(Fault::Contradiction(Sensor::BlockAccelerometer));
         }
@@ -197,7 +212,7 @@ impl Monitor {
             Some(_) => faults[3] = Some(Fault::Contradiction(Sensor::Encoder)),
             None => {}
         }
-        Findings { faults, seen }
+        Findings { clean: false, faults, ..found }
     }
 
     /// A count has no full scale, and one that repeats is judged with the gyroscope's help only.

@@ -164,11 +164,13 @@ impl MonitorParameters {
     /// The monitor of a controller with a tick every `period` s, above 0; a gyroscope that has not been calibrated may be off by
     /// `gyroscope_bias` rad/s.
     pub(in crate::control) fn resolve(&self, period: f32, gyroscope_bias: f32) -> Monitor {
+        // While nothing is known of its bias, it may be anything that a calibration would accept.
+        let rate_tolerances = [self.rate_tolerance + gyroscope_bias, self.rate_tolerance];
         let slots = [self.contradiction_time, self.slow_contradiction_time].map(|time| ticks(time / SLOTS as f32, period).max(1));
         Monitor {
             gyroscope: self.gyroscope.resolve(period),
             accelerometers: [self.block_accelerometer.resolve(period), self.ground_accelerometer.resolve(period)],
-            encoder_stale: ticks(self.encoder.stale_time, period),
+            encoder_stale: ticks(self.encoder.stale_time, period).max(1),
             travel: if self.encoder.travel == 0 { u32::MAX } else { self.encoder.travel.unsigned_abs() },
             agreement: AgreementLimits {
                 period,
@@ -181,8 +183,7 @@ impl MonitorParameters {
             quiet_ticks: slots[0].saturating_mul(SLOTS),
             rest_ticks: ticks(self.rest_contradiction_time, period),
             rest_tolerance: self.rest_tolerance,
-            // While nothing is known of its bias, it may be anything that a calibration would accept.
-            rate_tolerances: [self.rate_tolerance + gyroscope_bias, self.rate_tolerance],
+            rate_tolerances,
             moving_rate: self.moving_rate,
             gravity: self.gravity,
         }
@@ -227,7 +228,7 @@ impl SensorLimits {
 
     fn resolve(&self, period: f32) -> WatchLimits {
         WatchLimits {
-            stale: ticks(self.stale_time, period),
+            stale: ticks(self.stale_time, period).max(1),
             stuck: ticks_or_never(self.stuck_time, period),
             stuck_moving: ticks_or_never(self.stuck_time_moving, period),
             full_scale: self.full_scale,

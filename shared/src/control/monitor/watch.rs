@@ -6,7 +6,7 @@ use crate::control::ticks::Streak;
 /// Readings that must repeat before they count as stuck, so that a slow sensor is not judged by two.
 const FEWEST_REPEATS: u8 = 3;
 
-/// When a reading is at fault: times in ticks.
+/// When a reading is at fault: times in ticks, `stale` at least 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct WatchLimits {
     pub stale: u32,
@@ -21,6 +21,25 @@ pub(super) struct WatchLimits {
 pub(super) struct Watch {
     number: u32,
     bits: u32,
+    last: Last,
+    /// What came before; of a usual reading nothing did that matters.
+    history: History,
+}
+
+/// What the last reading was.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Last {
+    /// New, another than the one before, and within its range, while the block did not move …
+    UsualAtRest,
+    /// … and while it did.
+    UsualInMotion,
+    /// Anything else.
+    #[default]
+    Doubted,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct History {
     /// A reading has been taken.
     seen: bool,
     /// The sensor is there, so that a reading is due.
@@ -38,86 +57,93 @@ pub(super) struct Watch {
 impl Watch {
     /// Of a sensor that is there, though nothing has been read yet.
     pub fn expecting() -> Watch {
-        Watch { due: true, ..Watch::default() }
+        Watch { history: History { due: true, ..History::default() }, ..Watch::default() }
+    }
+
+    fn usual(&self) -> bool {
+        self.last != Last::Doubted
     }
 
     /// A reading has been taken.
     pub fn seen(&self) -> bool {
-        self.seen
+        self.usual() || self.history.seen
     }
 
-    /// One tick; `moving` says that the block does, by another sensor's account or this one's. `true` where nothing at all can be held
-    /// against the reading: it is new, differs from the last and is within its range.
+    /// One tick; `moving` says that the block does, by another sensor's account or this one's. `true` where there has been a reading and
+    /// nothing can be held against it.
     #[inline]
     pub fn step(&mut self, reading: Reading, limits: &WatchLimits, moving: bool) -> bool {
         let bits = reading.value.to_bits();
-        let news = reading.number != self.number && (bits != self.bits || !self.seen);
         // What is within its range is finite, too.
-        if news && reading.value.abs() < limits.full_scale {
-            let mut unchanged_moving = Streak::default();
-            unchanged_moving.note(moving);
-            *self = Watch {
-                number: reading.number,
-                bits,
-                seen: true,
-                due: true,
-                repeats: 0,
-                repeats_moving: 0,
-                age: 0,
-                saturated: Streak::default(),
-                unchanged: Streak::ONE,
-                unchanged_moving,
-            };
-            return limits.stale > 0;
+        if reading.number != self.number && bits != self.bits && reading.value.abs() < limits.full_scale {
+            let last = if moving { Last::UsualInMotion } else { Last::UsualAtRest };
+            (self.number, self.bits, self.last) = (reading.number, bits, last);
+            return true;
         }
-        self.doubt(reading, limits, moving);
-        false
+        self.doubt(reading, limits, moving)
     }
 
     /// One tick of a reading of which only the arrival is watched.
     #[inline]
     pub fn arrival(&mut self, number: u32, limits: &WatchLimits) -> bool {
-        let fresh = number != self.number;
-        if fresh {
-            (self.number, self.age, self.seen, self.due) = (number, 0, true, true);
-        } else {
-            self.age = self.age.saturating_add(1);
+        if number != self.number {
+            (self.number, self.last) = (number, Last::UsualAtRest);
+            return true;
         }
-        fresh && limits.stale > 0
+        let history = self.recall();
+        history.age = history.age.saturating_add(1);
+        self.seen() && !self.stale(limits)
+    }
+
+    /// What came before, from a usual reading on.
+    fn recall(&mut self) -> &mut History {
+        if self.usual() {
+            let mut unchanged_moving = Streak::default();
+            unchanged_moving.note(self.last == Last::UsualInMotion);
+            self.history = History { seen: true, due: true, unchanged: Streak::ONE, unchanged_moving, ..History::default() };
+            self.last = Last::Doubted;
+        }
+        &mut self.history
     }
 
     #[inline(never)]
-    fn doubt(&mut self, reading: Reading, limits: &WatchLimits, moving: bool) {
+    fn doubt(&mut self, reading: Reading, limits: &WatchLimits, moving: bool) -> bool {
         // A number of 0 says that none has been taken. After that any other number is news, so that a wrap is nothing special.
-        let fresh = reading.number != self.number;
-        self.age = self.age.saturating_add(1);
+        let (fresh, same) = (reading.number != self.number, reading.value.to_bits() == self.bits);
+        let history = self.recall();
+        history.age = history.age.saturating_add(1);
         if fresh {
-            let changed = !self.seen || reading.value.to_bits() != self.bits;
+            let changed = !history.seen || !same;
             if changed {
-                self.unchanged = Streak::default();
-                self.unchanged_moving = Streak::default();
+                history.unchanged = Streak::default();
+                history.unchanged_moving = Streak::default();
             }
-            self.repeats = if changed { 0 } else { self.repeats.saturating_add(1) };
-            self.repeats_moving = if changed || !moving { 0 } else { self.repeats_moving.saturating_add(1) };
-            (self.number, self.bits, self.age) = (reading.number, reading.value.to_bits(), 0);
-            (self.seen, self.due) = (true, true);
+            history.repeats = if changed { 0 } else { history.repeats.saturating_add(1) };
+            history.repeats_moving = if changed || !moving { 0 } else { history.repeats_moving.saturating_add(1) };
+            (history.age, history.seen, history.due) = (0, true, true);
         }
-        self.unchanged.note(self.seen);
-        self.unchanged_moving.note(self.seen && moving);
-        self.saturated.note(self.seen && reading.value.abs() >= limits.full_scale);
+        history.unchanged.note(history.seen);
+        history.unchanged_moving.note(history.seen && moving);
+        history.saturated.note(history.seen && reading.value.abs() >= limits.full_scale);
+        if fresh {
+            (self.number, self.bits) = (reading.number, reading.value.to_bits());
+        }
+        let wrong = self.stale(limits) || self.saturated(limits) || self.stuck(limits) || !reading.value.is_finite();
+        self.seen() && !wrong
     }
 
     pub fn stale(&self, limits: &WatchLimits) -> bool {
-        self.due && self.age >= limits.stale
+        !self.usual() && self.history.due && self.history.age >= limits.stale
     }
 
     pub fn saturated(&self, limits: &WatchLimits) -> bool {
-        self.saturated.lasted(limits.saturation)
+        !self.usual() && self.history.saturated.lasted(limits.saturation)
     }
 
     pub fn stuck(&self, limits: &WatchLimits) -> bool {
-        let always = self.repeats >= FEWEST_REPEATS && self.unchanged.lasted(limits.stuck);
-        always || (self.repeats_moving >= FEWEST_REPEATS && self.unchanged_moving.lasted(limits.stuck_moving))
+        let History { repeats, repeats_moving, unchanged, unchanged_moving, .. } = &self.history;
+        let always = *repeats >= FEWEST_REPEATS && unchanged.lasted(limits.stuck);
+        !self.usual() && (always || (*repeats_moving >= FEWEST_REPEATS && unchanged_moving.lasted(limits.stuck_moving)))
     }
 }
 
@@ -166,13 +192,14 @@ mod tests {
     #[test]
     fn an_age_that_has_grown_for_years_stays_and_ends_with_the_next_reading() {
         let reading = |number| Reading { value: 0.5 * number as f32, number };
-        let mut watch = Watch { number: 7, seen: true, due: true, age: u32::MAX - 3, ..Watch::default() };
+        let history = History { seen: true, due: true, age: u32::MAX - 3, ..History::default() };
+        let mut watch = Watch { number: 7, history, ..Watch::default() };
         for _ in 0..10 {
             watch.step(reading(7), &LIMITS, false);
             assert!(watch.stale(&LIMITS));
         }
         assert!(watch.step(reading(8), &LIMITS, false) && !watch.stale(&LIMITS));
-        let mut arrival = Watch { age: u32::MAX - 3, ..watch };
+        let mut arrival = Watch { number: 8, history, ..Watch::default() };
         for _ in 0..10 {
             assert!(!arrival.arrival(8, &LIMITS) && arrival.stale(&LIMITS));
         }

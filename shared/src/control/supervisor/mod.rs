@@ -209,8 +209,7 @@ impl Supervisor {
         let at_rest = state.motion.block_still >= self.quiet;
         let context = Context { calibration: &state.calibration, calibrated: state.calibrated, at_rest };
         let findings = self.monitor.step(&mut state.monitor, input.sample, &context);
-        let good = if findings.clean() { [true; 4] } else { findings.good() };
-        state.motion.step(&self.motion, input.sample, good, &state.calibration);
+        state.motion.step(&self.motion, input.sample, findings.good(), findings.shaking, &state.calibration);
         self.stand_in(state, &findings);
         let (alarm, latches) = if state.phase == Phase::Boot { (None, false) } else { self.judge(state, input, &findings) };
         let clear = input.requests.clear && !state.clear_before;

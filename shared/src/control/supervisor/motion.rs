@@ -46,8 +46,9 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    /// One tick of sensors of which `good` (in the order of `Sensor::ALL`) may be believed.
-    pub fn step(&mut self, limits: &MotionLimits, sample: &Sample, good: [bool; 4], calibration: &Calibration) {
+    /// One tick of sensors of which `good` (in the order of `Sensor::ALL`) may be believed; `shaking` is how far the ground's accelerometer is
+    /// from rest, m/s².
+    pub fn step(&mut self, limits: &MotionLimits, sample: &Sample, good: [bool; 4], shaking: f32, calibration: &Calibration) {
         let [gyroscope, _, ground, encoder] = good;
         let rate = sample.gyroscope.value;
         let turned = gyroscope && (rate - self.rate).abs() > limits.rate;
@@ -71,7 +72,7 @@ impl Motion {
         self.block_still = if block_still { self.block_still.saturating_add(1) } else { 0 };
         self.ground_still = if shaken { 0 } else { self.ground_still.saturating_add(1) };
         let rocks = travelled || (gyroscope && (rate - calibration.gyroscope).abs() > limits.rate);
-        let shakes = ground && off_gravity(force, calibration.ground, limits.gravity) > limits.shaking;
+        let shakes = ground && shaking > limits.shaking;
         self.quiet = if rocks || shakes { 0 } else { self.quiet.saturating_add(1) };
     }
 
@@ -98,9 +99,14 @@ mod tests {
         }
     }
 
+    fn step(motion: &mut Motion, sample: &Sample, good: [bool; 4]) {
+        let force = sample.ground_accelerometer.map(|reading| reading.value);
+        motion.step(&LIMITS, sample, good, off_gravity(force, [0.0; 2], LIMITS.gravity), &Calibration::default());
+    }
+
     fn run(motion: &mut Motion, sample: Sample, good: [bool; 4]) {
         for _ in 0..10 {
-            motion.step(&LIMITS, &sample, good, &Calibration::default());
+            step(motion, &sample, good);
         }
     }
 
@@ -138,7 +144,7 @@ mod tests {
         let mut motion = Motion::default();
         for tick in 0..240_000 {
             let counts = tick / 2400 + tick % 2;
-            motion.step(&LIMITS, &sample(0.0, 0.0, counts), [true; 4], &Calibration::default());
+            step(&mut motion, &sample(0.0, 0.0, counts), [true; 4]);
             assert!(tick < 10 || motion.quiet >= 10, "{tick}");
         }
     }
@@ -160,7 +166,7 @@ mod tests {
             let mut longest = (0, 0);
             for _ in 0..20_000 {
                 let now = sample(0.1 + LIMITS.rate * noise(), 0.2 + LIMITS.shaking * noise(), 0);
-                motion.step(&LIMITS, &now, [true; 4], &Calibration::default());
+                step(&mut motion, &now, [true; 4]);
                 longest = (longest.0.max(motion.block_still), longest.1.max(motion.ground_still));
             }
             assert!(longest.0 > 15_000 && longest.1 > 15_000, "{first}: {longest:?}");
