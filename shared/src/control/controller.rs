@@ -251,16 +251,18 @@ impl<L: Law> Controller<L> {
     #[inline]
     pub fn choose(&self, state: &mut ControllerState, estimate: &Estimate, engaged: [bool; 2]) -> (Wish, [bool; 2]) {
         let model = &self.model;
-        let configuration = model.configuration(estimate.side, estimate.rotation);
-        let rack = model.body.to_terminal(&configuration, estimate.velocity);
+        // Of a block that stands nothing needs to be worked out: its rack does not move, and it stands where the command takes effect.
+        let moving = (!estimate.standing).then(|| model.configuration(estimate.side, estimate.rotation));
+        let rack = moving.as_ref().map_or(0.0, |at| model.body.to_terminal(at, estimate.velocity));
         state.turns.spin_at(model, rack, engaged, self.instruments.period);
-        let ahead = if self.law.predicts() {
-            // An engaged clutch can only be released, and an open one only be engaged: each question has its own delay.
-            let engaging = self.horizons.engagement + state.clutches.late(&self.lag);
-            let horizon = if engaged == [false; 2] { engaging } else { self.horizons.release };
-            predict_from(model, &configuration, estimate, count(engaged), horizon)
-        } else {
-            *estimate
+        let ahead = match &moving {
+            Some(configuration) if self.law.predicts() => {
+                // An engaged clutch can only be released, and an open one only be engaged: each question has its own delay.
+                let engaging = self.horizons.engagement + state.clutches.late(&self.lag);
+                let horizon = if engaged == [false; 2] { engaging } else { self.horizons.release };
+                predict_from(model, configuration, estimate, count(engaged), horizon)
+            }
+            _ => *estimate,
         };
         // The motion begins to the side that the estimator has found; noise of the time before says nothing of it.
         let before = if estimate.standing || state.stood { Signs::at_uplift(estimate.side) } else { state.signs };

@@ -30,9 +30,9 @@ pub struct Complementary {
 }
 
 impl Complementary {
-    /// One tick, with `engaged` flywheels on the rack.
+    /// One tick of a block that rocked at the last one, with `engaged` flywheels on the rack.
     #[inline]
-    pub fn step(
+    pub(super) fn step(
         &self,
         state: &mut EstimatorState,
         model: &Model,
@@ -40,13 +40,6 @@ impl Complementary {
         seen: &Measured,
         engaged: u8,
     ) -> Estimate {
-        if !state.rocks {
-            if self.standing.holds(state, model, instruments, seen, None, 0.0) {
-                return Standing::estimate(seen, state.side);
-            }
-            state.acceleration = state.modelled_acceleration(model, seen, engaged);
-            return state.kinematic_estimate(model, seen, self.deviation);
-        }
         state.blank = state.blank.saturating_sub(1);
         if let (Some(block), 0) = (seen.block, state.blank) {
             let measured = measured_acceleration(model, instruments, state, block, seen.ground_force[0]);

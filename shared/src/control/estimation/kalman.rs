@@ -52,9 +52,9 @@ pub(super) fn measured_acceleration(
 }
 
 impl Kalman {
-    /// One tick, with `engaged` flywheels on the rack.
+    /// One tick of a block that rocked at the last one, with `engaged` flywheels on the rack.
     #[inline]
-    pub fn step(
+    pub(super) fn step(
         &self,
         state: &mut EstimatorState,
         model: &Model,
@@ -62,13 +62,6 @@ impl Kalman {
         seen: &Measured,
         engaged: u8,
     ) -> Estimate {
-        if !state.rocks {
-            if self.standing.holds(state, model, instruments, seen, seen.rate, self.jump) {
-                return Standing::estimate(seen, state.side);
-            }
-            state.acceleration = state.modelled_acceleration(model, seen, engaged);
-            return state.kinematic_estimate(model, seen, self.deviation);
-        }
         let (period, ahead) = (instruments.period, state.acceleration);
         let velocity = state.velocity + ahead * period;
         let rotation = state.rotation + (state.velocity + 0.5 * ahead * period) * period;

@@ -25,6 +25,7 @@ use complementary::Complementary;
 use estimate::Estimate;
 use kalman::Kalman;
 use model_aided::ModelAided;
+use rest_detection::Standing;
 
 /// One of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,10 +59,40 @@ impl Estimator {
         seen: &Measured,
         engaged: u8,
     ) -> Estimate {
+        if !state.rocks {
+            return self.stand(state, model, instruments, seen, engaged);
+        }
         match self {
             Estimator::ModelAided(estimator) => estimator.step(state, model, instruments, seen, engaged),
             Estimator::Kalman(estimator) => estimator.step(state, model, instruments, seen, engaged),
             Estimator::Complementary(estimator) => estimator.step(state, model, instruments, seen, engaged),
+        }
+    }
+
+    /// One tick of a block that stood at the last one.
+    #[inline]
+    fn stand(
+        &self,
+        state: &mut EstimatorState,
+        model: &Model,
+        instruments: &Instruments,
+        seen: &Measured,
+        engaged: u8,
+    ) -> Estimate {
+        let (standing, rate, jump) = match self {
+            Estimator::ModelAided(estimator) => (&estimator.standing, seen.rate, estimator.jump),
+            Estimator::Kalman(estimator) => (&estimator.standing, seen.rate, estimator.jump),
+            Estimator::Complementary(estimator) => (&estimator.standing, None, 0.0),
+        };
+        if standing.holds(state, model, instruments, seen, rate, jump) {
+            return Standing::estimate(seen, state.side);
+        }
+        match self {
+            Estimator::ModelAided(estimator) => estimator.estimate(state, model, seen),
+            Estimator::Kalman(Kalman { deviation, .. }) | Estimator::Complementary(Complementary { deviation, .. }) => {
+                state.acceleration = state.modelled_acceleration(model, seen, engaged);
+                state.kinematic_estimate(model, seen, *deviation)
+            }
         }
     }
 }

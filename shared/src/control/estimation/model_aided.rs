@@ -26,9 +26,9 @@ pub struct ModelAided {
 }
 
 impl ModelAided {
-    /// One tick, with `engaged` flywheels on the rack.
+    /// One tick of a block that rocked at the last one, with `engaged` flywheels on the rack.
     #[inline]
-    pub fn step(
+    pub(super) fn step(
         &self,
         state: &mut EstimatorState,
         model: &Model,
@@ -36,12 +36,6 @@ impl ModelAided {
         seen: &Measured,
         engaged: u8,
     ) -> Estimate {
-        if !state.rocks {
-            if self.standing.holds(state, model, instruments, seen, seen.rate, self.jump) {
-                return Standing::estimate(seen, state.side);
-            }
-            return self.estimate(state, model, seen);
-        }
         let ahead = state.modelled_acceleration(model, seen, engaged);
         state.advance(ahead, instruments.period);
         let velocity = state.velocity;
@@ -72,7 +66,7 @@ impl ModelAided {
     }
 
     #[inline]
-    fn estimate(&self, state: &EstimatorState, model: &Model, seen: &Measured) -> Estimate {
+    pub(super) fn estimate(&self, state: &EstimatorState, model: &Model, seen: &Measured) -> Estimate {
         state.estimate(seen, model.push(state.side, state.rotation, state.velocity, seen.ground), self.deviation)
     }
 }

@@ -34,6 +34,12 @@ pub struct Instruments {
 /// jump, which does not go on.
 const FASTEST_GROWTH: f32 = 120.0;
 
+/// Largest growth that is tracked, g/s: far beyond any sensor.
+const MOST_GROWTH: f32 = 1e6;
+
+/// Where the sizes of several readings sum up to less, all of them are [`usable`], with biases (at most a few m/s²) and without.
+const PLAIN: f32 = 5e5;
+
 /// Largest acceleration of the ground that is tracked, g: beyond any accelerometer's range.
 const MOST_GROUND: f32 = 1e3;
 
@@ -76,24 +82,44 @@ impl Instruments {
     /// The readings of one tick; what has not been read anew since the last tick is marked so.
     #[inline]
     pub fn read(&self, state: &mut InstrumentsState, sample: &Sample, zero: &Calibration) -> Measured {
-        let numbers = [
-            sample.gyroscope.number,
-            sample.encoder.number,
-            sample.block_accelerometer[0].number,
-            sample.ground_accelerometer[0].number,
-        ];
-        let mut fresh = [true; 4];
-        for ((fresh, &number), last) in fresh.iter_mut().zip(&numbers).zip(&mut state.numbers) {
-            *fresh = number != *last;
-            *last = number;
+        let ([along, up], [horizontal, vertical]) = (sample.block_accelerometer, sample.ground_accelerometer);
+        let numbers = [sample.gyroscope.number, sample.encoder.number, along.number, horizontal.number];
+        let last = core::mem::replace(&mut state.numbers, numbers);
+        let [a, b, c, d] = numbers;
+        let all = a != last[0] && b != last[1] && c != last[2] && d != last[3];
+        let sizes = [sample.gyroscope, along, up, horizontal, vertical].map(|reading| reading.value.abs());
+        if all && sizes.iter().fold(0.0, |sum, size| sum + size) < PLAIN {
+            return self.measure(state, sample, zero, [true; 4], |_| true);
         }
+        self.measure_some(state, sample, zero, last)
+    }
+
+    #[inline(never)]
+    fn measure_some(&self, state: &mut InstrumentsState, sample: &Sample, zero: &Calibration, last: [u32; 4]) -> Measured {
+        let now = state.numbers;
+        let fresh = [now[0] != last[0], now[1] != last[1], now[2] != last[2], now[3] != last[3]];
+        self.measure(state, sample, zero, fresh, usable)
+    }
+
+    /// Of `fresh` readings, those that are `usable`.
+    #[inline(always)]
+    fn measure(
+        &self,
+        state: &mut InstrumentsState,
+        sample: &Sample,
+        zero: &Calibration,
+        fresh: [bool; 4],
+        usable: impl Fn(f32) -> bool,
+    ) -> Measured {
         let block = [0, 1].map(|axis: usize| sample.block_accelerometer[axis & 1].value - zero.block[axis & 1]);
         let force = [0, 1].map(|axis: usize| sample.ground_accelerometer[axis & 1].value - zero.ground[axis & 1]);
         let accelerations = [force[0] / STANDARD_GRAVITY, force[1] / STANDARD_GRAVITY - 1.0];
-        let mut ground = [0.0; 2];
-        for ((track, &reading), ground) in state.ground.iter_mut().zip(&accelerations).zip(&mut ground) {
-            self.track(track, reading, fresh[3] && usable(reading));
-            *ground = track.value + track.rate.clamp(-FASTEST_GROWTH, FASTEST_GROWTH) * self.ground_delay;
+        let (mut ground, mut growth) = ([0.0; 2], [0.0; 2]);
+        for axis in 0..2 {
+            let track = &mut state.ground[axis];
+            self.track(track, accelerations[axis], fresh[3] && usable(accelerations[axis]));
+            growth[axis] = within(track.rate, FASTEST_GROWTH);
+            ground[axis] = track.value + growth[axis] * self.ground_delay;
         }
         Measured {
             rate: (fresh[0] && usable(sample.gyroscope.value)).then_some(sample.gyroscope.value - zero.gyroscope),
@@ -101,7 +127,7 @@ impl Instruments {
             block: (fresh[2] && usable(block[0]) && usable(block[1]) && usable(force[0])).then_some(block),
             ground_force: force,
             ground,
-            ground_rate: state.ground[0].rate.clamp(-FASTEST_GROWTH, FASTEST_GROWTH),
+            ground_rate: growth[0],
             engaged: sample.engaged,
         }
     }
@@ -113,12 +139,30 @@ impl Instruments {
             let value = if fresh { reading } else { 0.0 };
             *track = Track { value, rate: 0.0, started: fresh };
         } else if !fresh {
-            track.value = ahead.clamp(-MOST_GROUND, MOST_GROUND);
+            track.value = within(ahead, MOST_GROUND);
         } else {
             let surprise = reading - ahead;
-            track.value = (ahead + self.gains[0] * surprise).clamp(-MOST_GROUND, MOST_GROUND);
-            track.rate = (track.rate + self.gains[1] * surprise * self.period_inverse).clamp(-1e6, 1e6);
+            track.value = within(ahead + self.gains[0] * surprise, MOST_GROUND);
+            track.rate = within(track.rate + self.gains[1] * surprise * self.period_inverse, MOST_GROWTH);
         }
+    }
+}
+
+/// As `x.clamp(-most, most)`, with one comparison for what is within.
+#[inline]
+fn within(x: f32, most: f32) -> f32 {
+    if x.abs() <= most { x } else { beyond(x, most) }
+}
+
+#[cold]
+#[inline(never)]
+fn beyond(x: f32, most: f32) -> f32 {
+    if x > most {
+        most
+    } else if x < -most {
+        -most
+    } else {
+        x
     }
 }
 
