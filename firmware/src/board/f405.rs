@@ -90,7 +90,7 @@ impl Board for F405 {
         let outputs = coils::Outputs { low: (c.pc6, c.pc7), high: (c.pc8, c.pc9), trip: a.pa6 };
         let currents = coils::Currents::new(chip.ADC1, &chip.ADC_COMMON, (c.pc0, c.pc1), &mut rcc);
         let peak_hold = PeakHold::new(wiring.coil_pull_in_time, wiring.coil_hold_share, settings.period());
-        let design = CoilDesign { peak_hold, threshold: wiring.coil_engaged_current, full: wiring.coil_full_current };
+        let design = CoilDesign::new(peak_hold, wiring.coil_engaged_current, wiring.coil_full_current);
         let coils = coils::begin(chip.TIM8, outputs, currents, design, &mut rcc);
         supply::watch(chip.PWR, &chip.EXTI, &mut rcc);
         encoder::pause(&chip.TIM4);

@@ -25,13 +25,6 @@ pub struct PeakHold {
     pub hold_share: f32,
 }
 
-/// Where a coil stands; the default is released.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PeakHoldState {
-    /// Ticks of the present command to engage.
-    engaged_ticks: u32,
-}
-
 impl PeakHold {
     /// Pulling in for `pull_in_time`, s, at ticks of `period`, s, then holding with `hold_share` of the voltage. What is not a number or
     /// out of range becomes the nearest that is in it; a share that is not a number becomes 1, which holds in any case.
@@ -40,18 +33,10 @@ impl PeakHold {
         PeakHold { pull_in_ticks: ticks(pull_in_time, period), hold_share: share }
     }
 
-    /// Duty, 0 to 1, for this tick.
-    pub fn step(&self, state: &mut PeakHoldState, command: bool) -> f32 {
-        if !command {
-            state.engaged_ticks = 0;
-            return 0.0;
-        }
-        if state.engaged_ticks < self.pull_in_ticks {
-            state.engaged_ticks += 1;
-            1.0
-        } else {
-            self.hold_share
-        }
+    /// Duty, 0 to 1, in the `tick`th tick of a pulse, from 1 on.
+    #[inline]
+    pub fn duty(&self, tick: u32) -> f32 {
+        if tick <= self.pull_in_ticks { 1.0 } else { self.hold_share }
     }
 }
 
@@ -81,34 +66,11 @@ impl Feedback {
 mod tests {
     use super::*;
 
-    const COIL: PeakHold = PeakHold { pull_in_ticks: 3, hold_share: 0.4 };
-
-    fn run<const N: usize>(state: &mut PeakHoldState, command: bool) -> [f32; N] {
-        core::array::from_fn(|_| COIL.step(state, command))
-    }
-
     #[test]
-    fn pulls_in_then_holds_then_lets_go() {
-        let mut state = PeakHoldState::default();
-        assert_eq!(run(&mut state, false), [0.0, 0.0]);
-        assert_eq!(run(&mut state, true), [1.0, 1.0, 1.0, 0.4, 0.4]);
-        assert_eq!(run(&mut state, false), [0.0]);
-        assert_eq!(run(&mut state, true), [1.0, 1.0, 1.0, 0.4]);
-    }
-
-    #[test]
-    fn a_short_command_ends_the_pull_in() {
-        let mut state = PeakHoldState::default();
-        assert_eq!(run(&mut state, true), [1.0]);
-        assert_eq!(run(&mut state, false), [0.0]);
-        assert_eq!(run(&mut state, true), [1.0, 1.0, 1.0, 0.4]);
-    }
-
-    #[test]
-    fn holds_for_ever() {
-        let coil = PeakHold { pull_in_ticks: u32::MAX, hold_share: 0.4 };
-        let mut state = PeakHoldState { engaged_ticks: u32::MAX };
-        assert_eq!(coil.step(&mut state, true), 0.4);
+    fn pulls_in_then_holds() {
+        let coil = PeakHold { pull_in_ticks: 3, hold_share: 0.4 };
+        assert_eq!([1, 2, 3, 4, 5, u32::MAX].map(|tick| coil.duty(tick)), [1.0, 1.0, 1.0, 0.4, 0.4, 0.4]);
+        assert_eq!(PeakHold { pull_in_ticks: u32::MAX, ..coil }.duty(u32::MAX), 1.0);
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! supply over the resistance, U/R; then the hold, whose current is its share of that. A switch that has failed open, a broken coil and a
 //! shorted one show in the last two. Over-current is watched at every tick, and cuts the coil off by itself until the next test.
 
-use super::coil::{FULL_SCALE, Feedback, PeakHold, PeakHoldState};
+use super::coil::{FULL_SCALE, Feedback, PeakHold};
 use super::pull_in::Dip;
 use crate::control::monitor::coil::{CURRENT_TOLERANCE, CoilReading, CoilReport, CoilTrouble};
 
@@ -30,6 +30,12 @@ pub struct CoilDesign {
     pub threshold: f32,
     /// Supply over resistance, A; 0 where it is not known, and then only what exceeds the converter is too much.
     pub full: f32,
+    /// From which current on it is too much, A.
+    most: f32,
+    /// Above which current the low side of a coil that holds does not let go, A.
+    closed: f32,
+    /// Ticks after which it holds by the holding current.
+    settled: u32,
 }
 
 /// What its switches shall do until the next tick.
@@ -55,7 +61,6 @@ enum Stage {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Coil {
     stage: Stage,
-    peak_hold: PeakHoldState,
     feedback: Feedback,
     dip: Dip,
     /// The present pulse is a test.
@@ -65,23 +70,21 @@ pub struct Coil {
 }
 
 impl CoilDesign {
+    /// Of a coil that engages its clutch from `threshold`, A, on, and whose full current is `full`, A.
+    pub const fn new(peak_hold: PeakHold, threshold: f32, full: f32) -> CoilDesign {
+        let most = if full > 0.0 && OVER * full < FULL_SCALE { OVER * full } else { FULL_SCALE };
+        let closed = if full > 0.0 && peak_hold.hold_share < CLOSED - FLOWS { CLOSED * full } else { f32::INFINITY };
+        let settled = peak_hold.pull_in_ticks.saturating_mul(1 + SETTLING).saturating_add(1);
+        CoilDesign { peak_hold, threshold, full, most, closed, settled }
+    }
+
     /// Ticks for which each switch is tried alone: half of the pull-in.
     fn alone(&self) -> u32 {
         (self.peak_hold.pull_in_ticks / 2).max(1)
     }
 
-    /// Ticks after which it holds by the holding current.
-    fn settled(&self) -> u32 {
-        self.peak_hold.pull_in_ticks.saturating_mul(1 + SETTLING).saturating_add(1)
-    }
-
     fn flows(&self, current: f32) -> bool {
         current > if self.full > 0.0 { FLOWS * self.full } else { 0.5 * self.threshold }
-    }
-
-    /// From which current on it is too much, A.
-    fn most(&self) -> f32 {
-        if self.full > 0.0 && OVER * self.full < FULL_SCALE { OVER * self.full } else { FULL_SCALE }
     }
 
     /// `current` is a `share` of the full one, if that is known.
@@ -93,28 +96,40 @@ impl CoilDesign {
 
 impl Coil {
     /// What the `current`, A, says that flows at the end of a tick.
+    #[inline]
     pub fn see(&mut self, design: &CoilDesign, current: f32) -> CoilReading {
         let engaged = self.feedback.engaged(current, design.threshold);
+        let well = match self.stage {
+            Stage::Released => true,
+            Stage::Engaged(ticks) => ticks > design.settled && current <= design.closed,
+            Stage::HighAlone(_) | Stage::LowAlone(_) => false,
+        };
+        if well && current < design.most && !self.cut {
+            return CoilReading { engaged, report: CoilReport::Well, closed: None };
+        }
+        self.look_closer(design, current, engaged)
+    }
+
+    /// The same of one that is tried or pulls in, or that may be in trouble.
+    #[inline(never)]
+    fn look_closer(&mut self, design: &CoilDesign, current: f32, engaged: bool) -> CoilReading {
         let trouble = self.trouble(design, current);
         self.cut |= trouble == Some(CoilTrouble::OverCurrent);
         let report = match (trouble, self.stage) {
             (Some(trouble), _) => CoilReport::Trouble(trouble),
             (None, Stage::HighAlone(_) | Stage::LowAlone(_)) => CoilReport::Testing,
-            (None, Stage::Engaged(ticks)) if self.tested && ticks < design.settled() => CoilReport::Testing,
+            (None, Stage::Engaged(ticks)) if self.tested && ticks < design.settled => CoilReport::Testing,
             (None, Stage::Engaged(_) | Stage::Released) => CoilReport::Well,
         };
         let closed = match self.stage {
             Stage::Engaged(ticks) if ticks <= design.peak_hold.pull_in_ticks => self.dip.step(ticks, current, design.full),
-            _ => {
-                self.dip = Dip::default();
-                None
-            }
+            _ => None,
         };
         CoilReading { engaged, report, closed }
     }
 
     fn trouble(&self, design: &CoilDesign, current: f32) -> Option<CoilTrouble> {
-        if self.cut || current >= design.most() {
+        if self.cut || current >= design.most {
             return Some(CoilTrouble::OverCurrent);
         }
         let PeakHold { pull_in_ticks, hold_share } = design.peak_hold;
@@ -124,10 +139,9 @@ impl Coil {
             Stage::Engaged(ticks) if self.tested && ticks == pull_in_ticks && !design.is_right(current, 1.0) => {
                 Some(CoilTrouble::WrongCurrent)
             }
-            Stage::Engaged(ticks) if ticks >= design.settled() => {
-                // The low side does not let go.
-                let closed = design.full > 0.0 && hold_share < CLOSED - FLOWS && current > CLOSED * design.full;
-                let wrong = self.tested && ticks == design.settled() && !design.is_right(current, hold_share);
+            Stage::Engaged(ticks) if ticks >= design.settled => {
+                let closed = current > design.closed;
+                let wrong = self.tested && ticks == design.settled && !design.is_right(current, hold_share);
                 if closed { Some(CoilTrouble::LowSideClosed) } else { wrong.then_some(CoilTrouble::WrongCurrent) }
             }
             _ => None,
@@ -135,33 +149,45 @@ impl Coil {
     }
 
     /// What its switches shall do for a `command` to engage; its pulses try the switches first while it is `tested`.
+    #[inline]
     pub fn drive(&mut self, design: &CoilDesign, command: bool, tested: bool) -> Switches {
         if !command || self.cut {
             // A new test begins with a coil that is off.
             self.cut &= !tested || command;
-            self.peak_hold = PeakHoldState::default();
             self.stage = Stage::Released;
             return Switches::default();
         }
+        if let Stage::Engaged(ticks) = self.stage {
+            let ticks = ticks.saturating_add(1);
+            self.stage = Stage::Engaged(ticks);
+            return Switches { high: true, low: design.peak_hold.duty(ticks) };
+        }
+        self.begin(design, tested)
+    }
+
+    /// A pulse, up to its pull-in.
+    #[inline(never)]
+    fn begin(&mut self, design: &CoilDesign, tested: bool) -> Switches {
         let alone = design.alone();
         self.stage = match self.stage {
             Stage::Released if tested => Stage::HighAlone(1),
             Stage::HighAlone(ticks) if ticks < alone => Stage::HighAlone(ticks + 1),
             Stage::HighAlone(_) => Stage::LowAlone(1),
             Stage::LowAlone(ticks) if ticks < alone => Stage::LowAlone(ticks + 1),
-            Stage::Released | Stage::LowAlone(_) => Stage::Engaged(1),
-            Stage::Engaged(ticks) => Stage::Engaged(ticks.saturating_add(1)),
+            Stage::Released | Stage::LowAlone(_) | Stage::Engaged(_) => Stage::Engaged(1),
         };
         match self.stage {
-            Stage::HighAlone(1) => self.tested = true,
-            Stage::Engaged(1) => self.tested &= tested,
-            _ => {}
-        }
-        match self.stage {
             Stage::Released => Switches::default(),
-            Stage::HighAlone(_) => Switches { high: true, low: 0.0 },
+            Stage::HighAlone(ticks) => {
+                self.tested |= ticks == 1;
+                Switches { high: true, low: 0.0 }
+            }
             Stage::LowAlone(_) => Switches { high: false, low: 1.0 },
-            Stage::Engaged(_) => Switches { high: true, low: design.peak_hold.step(&mut self.peak_hold, true) },
+            Stage::Engaged(tick) => {
+                self.tested &= tested;
+                self.dip = Dip::default();
+                Switches { high: true, low: design.peak_hold.duty(tick) }
+            }
         }
     }
 }
@@ -172,8 +198,8 @@ mod tests {
     use crate::device::coil::current as converted;
 
     /// 24 V over 30 Ω, L/R of 5 ms, 2 kHz, pull-in of 20 ms.
-    const DESIGN: CoilDesign =
-        CoilDesign { peak_hold: PeakHold { pull_in_ticks: 40, hold_share: 0.35 }, threshold: 0.2, full: 0.8 };
+    const PEAK_HOLD: PeakHold = PeakHold { pull_in_ticks: 40, hold_share: 0.35 };
+    const DESIGN: CoilDesign = CoilDesign::new(PEAK_HOLD, 0.2, 0.8);
 
     /// A coil on a bench, and what is broken about it.
     #[derive(Clone, Copy)]
@@ -231,7 +257,7 @@ mod tests {
             }
         }
         let testing = reports.iter().filter(|report| **report == CoilReport::Testing).count();
-        assert_eq!(testing as u32, 2 * DESIGN.alone() + DESIGN.settled() - 1, "{reports:?}");
+        assert_eq!(testing as u32, 2 * DESIGN.alone() + DESIGN.settled - 1, "{reports:?}");
         assert_eq!(reports.last(), Some(&CoilReport::Well));
         assert!((bench.current / 0.28 - 1.0).abs() < 0.01);
         // In operation it pulls in at once.
@@ -288,10 +314,10 @@ mod tests {
 
     #[test]
     fn without_a_known_current_the_switches_and_the_full_scale_are_watched() {
-        let design = CoilDesign { full: 0.0, ..DESIGN };
-        assert_eq!(design.most(), FULL_SCALE);
+        let design = CoilDesign::new(PEAK_HOLD, 0.2, 0.0);
+        assert_eq!(design.most, FULL_SCALE);
         assert!(design.is_right(0.01, 1.0) && design.flows(0.11) && !design.flows(0.09));
-        assert_eq!(DESIGN.most(), 1.2);
+        assert_eq!(DESIGN.most, 1.2);
         let mut coil = Coil::default();
         assert_eq!(coil.see(&design, FULL_SCALE).report, CoilReport::Trouble(CoilTrouble::OverCurrent));
     }

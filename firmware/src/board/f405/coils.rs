@@ -44,6 +44,9 @@ pub struct Outputs {
 pub struct Switches<L, H> {
     low: L,
     high: H,
+    /// The share of the time in which the low side was last to conduct, and the timer's counts for it.
+    share: f32,
+    counts: u16,
 }
 
 /// The switches of the first coil.
@@ -73,7 +76,10 @@ impl<L: SetDutyCycle, H: OutputPin> Drive for Switches<L, H> {
     fn drive(&mut self, wanted: Wanted) {
         // The pins of a chip do not fail, and others would show in the feedback.
         let _ = if wanted.high { self.high.set_high() } else { self.high.set_low() };
-        let _ = self.low.set_duty_cycle(compare(wanted.low, self.low.max_duty_cycle()));
+        if wanted.low != self.share {
+            (self.share, self.counts) = (wanted.low, compare(wanted.low, self.low.max_duty_cycle()));
+        }
+        let _ = self.low.set_duty_cycle(self.counts);
     }
 }
 
@@ -90,8 +96,8 @@ pub fn begin(timer: pac::TIM8, outputs: Outputs, currents: Currents, design: Coi
     let high = outputs.high;
     enable_break();
     let switches = (
-        Switches { low: first, high: high.0.into_push_pull_output_in_state(PinState::Low) },
-        Switches { low: second, high: high.1.into_push_pull_output_in_state(PinState::Low) },
+        Switches { low: first, high: high.0.into_push_pull_output_in_state(PinState::Low), share: 0.0, counts: 0 },
+        Switches { low: second, high: high.1.into_push_pull_output_in_state(PinState::Low), share: 0.0, counts: 0 },
     );
     DrivenCoils { switches, coils: Default::default(), currents, design, tested: false }
 }
