@@ -76,6 +76,7 @@ impl Horizons {
 
 /// Its state.
 #[derive(Clone, Debug)]
+#[repr(C)]
 pub struct ControllerState {
     instruments: InstrumentsState,
     estimator: EstimatorState,

@@ -87,42 +87,44 @@ pub enum Answer {
 }
 
 /// A controller with its settings and state.
+// What each tick touches comes first, where an instruction reaches it.
 #[derive(Clone, Debug)]
+#[repr(C)]
 pub struct Device {
-    settings: Settings,
+    sample: Sample,
+    decision: Decision,
+    coils: [CoilReading; 2],
+    ticks: u32,
+    good: u32,
+    number: u32,
+    /// Ticks without a sample since it was attached.
+    silent: u32,
+    worst_cost: u32,
+    worst_lateness: u32,
+    waited: u32,
+    stream: u16,
+    until_report: u16,
+    restarts: u8,
+    attached: Option<Pace>,
+    /// A sample has come from the link since it was attached.
+    heard: bool,
+    clear: bool,
+    /// The settings in force are those that a reset would find.
+    lasting: bool,
+    /// Storing failed: flash may hold what is kept here or what was to be stored.
+    doubtful: bool,
+    /// Why it may not run without a host.
+    barred: Option<Fault>,
+    resuming: Option<Retained>,
+    controller: Controller,
+    state: ControllerState,
+    mailbox: Mailbox,
     /// Of their words: to compute it takes longer than the control task may be held up.
     check: u32,
+    settings: Settings,
     draft: Settings,
     /// What a reset would find, unless that is in doubt.
     kept: Settings,
-    /// Storing failed: flash may hold what is kept here or what was to be stored.
-    doubtful: bool,
-    /// The settings in force are those that a reset would find.
-    lasting: bool,
-    /// Why it may not run without a host.
-    barred: Option<Fault>,
-    controller: Controller,
-    state: ControllerState,
-    resuming: Option<Retained>,
-    waited: u32,
-    decision: Decision,
-    sample: Sample,
-    number: u32,
-    /// A sample has come from the link since it was attached.
-    heard: bool,
-    mailbox: Mailbox,
-    ticks: u32,
-    good: u32,
-    restarts: u8,
-    attached: Option<Pace>,
-    /// Ticks without a sample since it was attached.
-    silent: u32,
-    stream: u16,
-    until_report: u16,
-    clear: bool,
-    coils: [CoilReading; 2],
-    worst_cost: u32,
-    worst_lateness: u32,
 }
 
 impl Device {

@@ -67,9 +67,8 @@ pub struct Supervisor {
 
 /// Where a supervisor stands; the default is before its first tick.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[repr(C)]
 pub struct SupervisorState {
-    /// What happened.
-    pub log: EventLog<LOG_ENTRIES>,
     phase: Phase,
     /// Wrapping.
     tick: u32,
@@ -101,6 +100,8 @@ pub struct SupervisorState {
     following: Following,
     command_rate: CommandRate,
     ladder: Ladder,
+    /// What happened.
+    pub log: EventLog<LOG_ENTRIES>,
 }
 
 impl SupervisorState {
