@@ -77,17 +77,21 @@ struct Window {
 impl Window {
     #[inline]
     fn step(&mut self, limits: &AgreementLimits, rate_tolerance: f32, length: u32, news: Slot) {
-        let closed = if length > 1 {
-            self.open = self.open.and(news);
-            self.ticks = self.ticks.saturating_add(1);
-            if self.ticks < length {
-                return;
-            }
+        if length <= 1 {
+            return self.close(limits, rate_tolerance, length, news);
+        }
+        self.open = self.open.and(news);
+        self.ticks += 1;
+        if self.ticks >= length {
             self.ticks = 0;
-            core::mem::take(&mut self.open)
-        } else {
-            news
-        };
+            let closed = core::mem::take(&mut self.open);
+            self.close(limits, rate_tolerance, length, closed);
+        }
+    }
+
+    /// Moves on by a slot.
+    #[inline(never)]
+    fn close(&mut self, limits: &AgreementLimits, rate_tolerance: f32, length: u32, closed: Slot) {
         self.newest = (self.newest + 1) & LAST;
         let slot = &mut self.slots[self.newest & LAST];
         self.counts = self.counts.wrapping_add(closed.counts).wrapping_sub(slot.counts);
@@ -162,9 +166,9 @@ impl Agreement {
         self.counts = Some(counts);
         let news =
             Slot { angle: rate * limits.period, peak: rate.abs(), counts: change, travel: change.unsigned_abs().min(FARTHEST) };
-        for (window, length) in self.windows.iter_mut().zip(limits.slots) {
-            window.step(limits, rate_tolerance, length, news);
-        }
+        let ([fast, slow], [fast_length, slow_length]) = (&mut self.windows, limits.slots);
+        fast.step(limits, rate_tolerance, fast_length, news);
+        slow.step(limits, rate_tolerance, slow_length, news);
     }
 
     /// What was found when a window last moved on.
