@@ -5,6 +5,7 @@ use core::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 use crate::board::{Board, Coils, Light, Selected, Sensors, Watchdog};
 use crate::link::Outbox;
 use crate::memory;
+use sprag_shared::control::supervisor::Phase;
 use sprag_shared::device::Device;
 use sprag_shared::link::Pace;
 
@@ -14,8 +15,9 @@ const GRACE: u32 = 8;
 /// Periods without a sample from the link after which a device that is paced by samples ticks without them: the link is dead.
 const SILENCE_PERIODS: u32 = 2000;
 
-/// Ticks of which the light is shown at one: less than one of its slots at any period.
-const LIT_EVERY: u8 = 4;
+/// Ticks of which one shows the light and writes down what shall survive a reset: less than a slot of the light at any period, and too little
+/// for the block to move on by more than the encoder's counter knows. A new phase is written down at once.
+const EVERY: u8 = 4;
 
 /// What the coils do when the program stops: bit 0 the first, bit 1 the second.
 static SAFE_STATE: AtomicU8 = AtomicU8::new(0);
@@ -54,6 +56,8 @@ pub struct Control {
     silence: u32,
     /// Counts ticks, for what need not be done at each.
     turn: u8,
+    /// As written down last.
+    phase: Phase,
 }
 
 impl Control {
@@ -64,7 +68,7 @@ impl Control {
         watchdog: <Selected as Board>::Watchdog,
         light: <Selected as Board>::Light,
     ) -> Control {
-        Control { sensors, coils, watchdog, light, keeper: memory::Keeper::new(), last: None, silence: 0, turn: 0 }
+        Control { sensors, coils, watchdog, light, keeper: memory::Keeper::new(), last: None, silence: 0, turn: 0, phase: Phase::Boot }
     }
 }
 
@@ -120,12 +124,16 @@ fn tick(control: &mut Control, device: &mut Device, outbox: &mut Outbox, late: u
     let command = if device.attached().is_some() { device.safe_command() } else { decision.command };
     coils.drive(command, device.tests_coils());
     control.turn = control.turn.wrapping_add(1);
-    if control.turn.is_multiple_of(LIT_EVERY) {
+    let in_turn = control.turn.is_multiple_of(EVERY);
+    if in_turn {
         control.light.show(device.shown(), device.light_slot());
+    }
+    if in_turn || decision.phase != control.phase {
+        control.phase = decision.phase;
+        control.keeper.save(&device.retained());
     }
     #[cfg(feature = "log")]
     crate::log::decision(&before, decision);
-    control.keeper.save(&device.retained());
     #[cfg(feature = "deliberate-panic")]
     deliberate_panic(device);
     #[cfg(feature = "board-qemu")]

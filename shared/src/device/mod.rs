@@ -247,8 +247,10 @@ impl Device {
             None => {
                 read(&mut self.sample);
                 circumstances.coils = self.coils.map(|coil| coil.report);
-                let period = self.controller.instruments.period;
-                circumstances.closed = self.coils.map(|coil| coil.closed.map(|ticks| ticks as f32 * period));
+                if self.coils.iter().any(|coil| coil.closed.is_some()) {
+                    let period = self.controller.instruments.period;
+                    circumstances.closed = self.coils.map(|coil| coil.closed.map(|ticks| ticks as f32 * period));
+                }
                 None
             }
             Some(Pace::Timer) => self.mailbox.newest(),
