@@ -90,24 +90,49 @@ impl<D: SpiDevice<u16>> Icm42688<D> {
     }
 
     /// To be called once a tick: a reading, if there is a new one.
+    #[inline]
     pub fn tick(&mut self) -> Option<Reading> {
-        let (next, reading) = match self.stage {
-            Stage::Recognise(entry) => (self.recognise(entry), None),
-            Stage::Reset => (self.reset(), None),
-            Stage::Wait(0) => (Stage::Identify, None),
-            Stage::Wait(ticks) => (Stage::Wait(ticks - 1), None),
-            Stage::Identify => (if self.is_there() { Stage::Setup(0) } else { Stage::Reset }, None),
-            Stage::Setup(entry) => (self.set_up(entry), None),
-            Stage::Run(silent) => match self.read() {
-                // What a part of another configuration says is not known.
-                _ if !self.compare() => (Stage::Reset, None),
-                Some(reading) => (Stage::Run(0), Some(reading)),
-                None if silent < SILENT_TICKS => (Stage::Run(silent + 1), None),
-                None => (Stage::Reset, None),
-            },
-        };
-        self.stage = next;
+        if let Stage::Run(silent) = self.stage {
+            return self.run(silent);
+        }
+        self.stage = self.bring_up();
+        None
+    }
+
+    #[inline]
+    fn run(&mut self, silent: u16) -> Option<Reading> {
+        let reading = self.read();
+        if !self.compare() {
+            // What a part of another configuration says is not known.
+            self.stage = Stage::Reset;
+            return None;
+        }
+        match reading {
+            Some(_) if silent == 0 => {}
+            Some(_) => self.stage = Stage::Run(0),
+            None if silent < SILENT_TICKS => self.stage = Stage::Run(silent + 1),
+            None => self.stage = Stage::Reset,
+        }
         reading
+    }
+
+    #[inline(never)]
+    fn bring_up(&mut self) -> Stage {
+        match self.stage {
+            Stage::Recognise(entry) => self.recognise(entry),
+            Stage::Reset => self.reset(),
+            Stage::Wait(0) => Stage::Identify,
+            Stage::Wait(ticks) => Stage::Wait(ticks - 1),
+            Stage::Identify => {
+                if self.is_there() {
+                    Stage::Setup(0)
+                } else {
+                    Stage::Reset
+                }
+            }
+            Stage::Setup(entry) => self.set_up(entry),
+            Stage::Run(silent) => Stage::Run(silent),
+        }
     }
 
     /// Nothing is written but the bank, so that a part that gives readings goes on with them.
@@ -151,12 +176,19 @@ impl<D: SpiDevice<u16>> Icm42688<D> {
     }
 
     /// Compares a register, now and then; `false` when it was wrong twice: a bit that is lost on the wires does not come again.
+    #[inline]
     fn compare(&mut self) -> bool {
-        let Comparison { ticks, entry, doubtful } = self.comparison;
+        let Comparison { ticks, doubtful, .. } = self.comparison;
         if ticks < COMPARED_EVERY && !doubtful {
             self.comparison.ticks = ticks + 1;
             return true;
         }
+        self.compare_next()
+    }
+
+    #[inline(never)]
+    fn compare_next(&mut self) -> bool {
+        let Comparison { entry, doubtful, .. } = self.comparison;
         let holds = self.holds(entry);
         let next = if entry + 1 < CONFIGURATION.len() { entry + 1 } else { 0 };
         self.comparison = Comparison { ticks: 0, entry: if holds { next } else { entry }, doubtful: !holds };
@@ -164,10 +196,12 @@ impl<D: SpiDevice<u16>> Icm42688<D> {
     }
 
     /// Writes a register.
+    #[inline(never)]
     fn put(&mut self, address: u8, value: u8) -> bool {
         self.device.write(&[u16::from_be_bytes([address, value])]).is_ok()
     }
 
+    #[inline(never)]
     fn register(&mut self, address: u8) -> Option<u8> {
         let mut words = [u16::from_be_bytes([address | READ, 0])];
         self.device.transfer_in_place(&mut words).ok()?;
@@ -175,6 +209,7 @@ impl<D: SpiDevice<u16>> Icm42688<D> {
         Some(value)
     }
 
+    #[inline]
     fn read(&mut self) -> Option<Reading> {
         let mut words = [0; LENGTH];
         words[0] = u16::from_be_bytes([FIRST_DATA | READ, 0]);

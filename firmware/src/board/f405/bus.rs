@@ -35,7 +35,7 @@ impl<SPI: Instance, const PORT: char, const SELECT: u8> ErrorType for Bus<SPI, P
 }
 
 impl<SPI: Instance, const PORT: char, const SELECT: u8> SpiDevice<u16> for Bus<SPI, PORT, SELECT> {
-    #[inline]
+    #[inline(always)]
     fn transaction(&mut self, operations: &mut [Operation<'_, u16>]) -> Result<(), ErrorKind> {
         // SAFETY: the block lies at this address for ever, and this has the bus to itself.
         let registers = unsafe { &*SPI::ptr() };
