@@ -242,7 +242,7 @@ impl<L: Law> Controller<L> {
             let reading = |value: f32, bias: f32| Reading { value: value + bias, number };
             sample.ground_accelerometer = [reading(horizontal, zero.ground[0]), reading(vertical, zero.ground[1])];
         }
-        let mut seen = self.instruments.read(&mut state.instruments, &sample, zero);
+        let mut seen = self.instruments.read_apart(&mut state.instruments, &sample, zero);
         seen.rate = seen.rate.filter(|_| gyroscope);
         seen.travel = seen.travel.filter(|_| encoder);
         seen

@@ -34,10 +34,10 @@ impl Supervisor {
         state.ladder.release |= moved.or(coil).is_some_and(Fault::is_of_an_engaged_clutch);
         let clutch = coil.or(clutch);
         // NaN is late, by any measure.
-        let late = input.lateness.is_nan() || input.lateness > 0.0;
-        let by_far = input.lateness.is_nan() || input.lateness > self.overrun_limit;
+        let later_than = |time: f32| input.lateness.is_nan() || input.lateness > time;
+        let late = later_than(0.0);
         state.late.note(late);
-        let overrun = by_far || state.late.length() >= self.overrun_ticks;
+        let overrun = late && (later_than(self.overrun_limit) || state.late.length() >= self.overrun_ticks);
         let (rotation, velocity) = input.estimate;
         let sick = || findings.faults.into_iter().flatten().any(|fault| self.acted_upon(state, fault));
         // An estimate from a bad sensor is that sensor's fault.
