@@ -36,7 +36,11 @@ impl Clutch {
             *self = Clutch { commanded: command, ..Clutch::default() };
         }
         self.steady.note(true);
-        self.disagrees.note(command != engaged);
+        if command == engaged {
+            self.disagrees = Streak::default();
+            return false;
+        }
+        self.disagrees.note(true);
         self.disagrees.lasted(monitor.feedback_ticks) && self.steady.lasted(monitor.actuator_ticks)
     }
 }

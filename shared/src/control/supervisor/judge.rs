@@ -40,8 +40,8 @@ impl Supervisor {
         let overrun = late && (later_than(self.overrun_limit) || state.late.length() >= self.overrun_ticks);
         let (rotation, velocity) = input.estimate;
         let sick = || findings.faults.into_iter().flatten().any(|fault| self.acted_upon(state, fault));
-        // An estimate from a bad sensor is that sensor's fault.
-        let lost = deciding && !(rotation.is_finite() && velocity.is_finite()) && !sick();
+        // An estimate from a bad sensor is that sensor's fault. What an estimator has bounded does not add up to infinity.
+        let lost = deciding && !(rotation.abs() + velocity.abs()).is_finite() && !sick();
         let both = deciding && self.too_many(input);
         if findings.nothing() && clutch.is_none() && !overrun && !lost && !both && !state.any_active {
             return (None, false);
