@@ -68,7 +68,17 @@ impl Control {
         watchdog: <Selected as Board>::Watchdog,
         light: <Selected as Board>::Light,
     ) -> Control {
-        Control { sensors, coils, watchdog, light, keeper: memory::Keeper::new(), last: None, silence: 0, turn: 0, phase: Phase::Boot }
+        Control {
+            sensors,
+            coils,
+            watchdog,
+            light,
+            keeper: memory::Keeper::new(),
+            last: None,
+            silence: 0,
+            turn: 0,
+            phase: Phase::Boot,
+        }
     }
 }
 

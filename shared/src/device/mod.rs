@@ -281,9 +281,11 @@ impl Device {
             }
         }
         self.decision = self.controller.tick(&mut self.state, &self.sample, circumstances);
-        self.good = self.good.saturating_add(1);
-        if self.restarts > 0 && self.good as f32 * self.controller.instruments.period > GOOD_TIME {
-            self.restarts = 0;
+        if self.restarts > 0 {
+            self.good = self.good.saturating_add(1);
+            if self.good as f32 * self.controller.instruments.period > GOOD_TIME {
+                self.restarts = 0;
+            }
         }
     }
 

@@ -46,11 +46,15 @@ fn the_light_keeps_its_time_for_as_long_as_ticks_are_counted() {
 }
 
 #[test]
-fn good_work_is_counted_to_its_end_and_restarts_are_forgotten() {
+fn restarts_are_forgotten_after_a_second_of_good_work_which_is_counted_no_further() {
     let mut bench = Bench::armed();
-    (bench.device.good, bench.device.restarts) = (u32::MAX - 5, 3);
-    bench.ticks(10);
-    assert_eq!((bench.device.good, bench.device.restarts()), (u32::MAX, 0));
+    (bench.device.good, bench.device.restarts) = (0, 3);
+    bench.ticks(1990);
+    assert_eq!(bench.device.restarts(), 3);
+    bench.ticks(20);
+    let counted = bench.device.good;
+    bench.ticks(100);
+    assert_eq!((bench.device.restarts(), bench.device.good), (0, counted));
 }
 
 #[test]
