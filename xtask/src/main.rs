@@ -47,7 +47,7 @@ Tasks:
   board-image ticks
             count what a control tick of the unmodified board image costs, at rest and in motion, between models of the board's parts
   board-image profile
-            the same, by the source files that the instructions are from
+            the same, by the folders of the sources that the instructions are from
   hardware  simulate the coil driver of docs/hardware in ngspice and check the schematic's electrical rules by SKiDL (where Python has
             it); fails when an assert or a rule does
   figures [PROGRAM]

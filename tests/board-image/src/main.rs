@@ -18,10 +18,11 @@ fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let result = match words.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["ticks", image] => ticks(Path::new(image)),
-        ["profile", image] => profile::print(Path::new(image), profile::file),
+        ["profile", image] => profile::print(Path::new(image), profile::folder),
+        ["profile", image, "files"] => profile::print(Path::new(image), profile::file),
         ["profile", image, "lines"] => profile::print(Path::new(image), profile::line),
         ["serve", image] => serve(Path::new(image)),
-        _ => Err("usage: sprag-board-image ticks|serve IMAGE.elf, or profile IMAGE.elf [lines]".to_owned()),
+        _ => Err("usage: sprag-board-image ticks|serve IMAGE.elf, or profile IMAGE.elf [files|lines]".to_owned()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -46,12 +46,17 @@ pub fn print(path: &Path, part: fn(&str, u32) -> String) -> Result<(), String> {
     Ok(())
 }
 
-/// The file of a place.
+/// The folder of a place, …
+pub fn folder(file: &str, _line: u32) -> String {
+    file.rsplit_once('/').map_or(file, |(folder, _)| folder).to_owned()
+}
+
+/// … its file, …
 pub fn file(file: &str, _line: u32) -> String {
     file.to_owned()
 }
 
-/// Its line.
+/// … and its line.
 pub fn line(file: &str, line: u32) -> String {
     format!("{file}:{line}")
 }
