@@ -59,7 +59,7 @@ impl Board for F405 {
 
     const CORE_HZ: u32 = clock::HZ;
 
-    /// A tick takes some 110 µs, of which the sensors' wires 36, and up to 180 by the look-ahead law.
+    /// A tick takes some 60 µs, of which the sensors' wires 36, at most 80, and up to 150 by the look-ahead law.
     const LEAST_PERIOD: f32 = 250e-6;
 
     type Chip = pac::Peripherals;
