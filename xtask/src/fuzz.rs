@@ -65,7 +65,9 @@ pub fn run(root: &Path, only: Option<&str>, seconds: u32, inputs: Inputs) -> Res
 /// If one does not.
 pub fn check(root: &Path) -> Result<(), Stop> {
     tools::need_cxx()?;
-    done(&mut cargo_in(root, WORKSPACE, &["check", "--all-targets"]))
+    // In the root's folder, which has the libraries of others checked already.
+    let folder = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
+    done(cargo_in(root, WORKSPACE, &["check", "--all-targets"]).env("CARGO_TARGET_DIR", root.join(folder)))
 }
 
 /// Builds all targets and gives their names, in order, and programs.
