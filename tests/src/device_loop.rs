@@ -91,6 +91,8 @@ pub struct Trial<'a> {
     pub scene: &'a LoopScene,
     /// How bytes get there.
     pub way: Way,
+    /// The program with models of the board's parts, where the image is the board's own.
+    pub bench: Option<&'a Path>,
     /// What goes wrong in the device, by the time of the loop, s.
     pub mishaps: &'a [(f64, Mishap)],
     /// For how long a device that starts anew is away, s.
@@ -106,7 +108,17 @@ pub struct Trial<'a> {
 impl<'a> Trial<'a> {
     /// Where nothing goes wrong.
     pub fn new(image: &'a Path, scene: &'a LoopScene) -> Trial<'a> {
-        Trial { image, scene, way: Way::Streams, mishaps: &[], boot_time: 0.0, rest: 0.0, clear: false, stored: true }
+        Trial {
+            image,
+            scene,
+            way: Way::Streams,
+            bench: None,
+            mishaps: &[],
+            boot_time: 0.0,
+            rest: 0.0,
+            clear: false,
+            stored: true,
+        }
     }
 
     /// Runs it.
@@ -117,7 +129,11 @@ impl<'a> Trial<'a> {
         let prelude = (clock.prelude / clock.period).round() as usize;
         let settings = task.settings().unwrap();
         let own = task.driver(task.controller.clutch_law()).unwrap();
-        let line = FaultyLine::new(Emulator::start(self.image, self.way, None).unwrap(), fate);
+        let emulator = match self.bench {
+            Some(bench) => Emulator::between_models(bench, self.image),
+            None => Emulator::start(self.image, self.way, None),
+        };
+        let line = FaultyLine::new(emulator.unwrap(), fate);
         let mut session = Session::new(line);
         if self.stored {
             parameters::write(&mut session, &settings, true).unwrap();

@@ -20,12 +20,24 @@ pub fn controller_firmware() -> PathBuf {
     image("SPRAG_FIRMWARE_ELF")
 }
 
-fn image(variable: &str) -> PathBuf {
+/// The image of the board.
+///
+/// # Panics
+/// If it is absent.
+pub fn board_firmware() -> PathBuf {
+    named("SPRAG_BOARD_ELF")
+}
+
+fn named(variable: &str) -> PathBuf {
     let elf = std::env::var_os(variable);
-    let elf = elf.unwrap_or_else(|| panic!("{variable} names no image; `cargo xtask test` builds one and names it"));
+    elf.unwrap_or_else(|| panic!("{variable} names no image; `cargo xtask test` builds one and names it")).into()
+}
+
+fn image(variable: &str) -> PathBuf {
+    let elf = named(variable);
     let emulator = Command::new("qemu-system-arm").arg("--version").stdout(Stdio::null()).status();
     assert!(emulator.is_ok(), "qemu-system-arm is not installed");
-    elf.into()
+    elf
 }
 
 /// Runs the firmware in the emulator, in `folder` with a case file or none, and gives its lines.

@@ -15,7 +15,7 @@ use crate::part::Part;
 
 /// Where the device is.
 #[derive(Args, Clone, Debug)]
-#[command(group = ArgGroup::new("device").args(["port", "qemu"]).required(true))]
+#[command(group = ArgGroup::new("device").args(["port", "qemu", "board_image"]).required(true))]
 pub struct LineArguments {
     /// On a serial port.
     #[arg(long, value_name = "DEV", value_parser = |port: &str| Part::SERIAL.allow(port.to_owned()))]
@@ -23,8 +23,11 @@ pub struct LineArguments {
     /// In the emulator: builds the firmware and runs it in QEMU.
     #[arg(long)]
     pub qemu: bool,
-    /// Do not build: run this image in the emulator.
-    #[arg(long, value_name = "ELF", requires = "qemu")]
+    /// The board's own image, unmodified, between models of the board's parts: builds both. Needs libunicorn-dev.
+    #[arg(long)]
+    pub board_image: bool,
+    /// Do not build: run this image in the emulator, or between the models.
+    #[arg(long, value_name = "ELF", conflicts_with = "port")]
     pub firmware: Option<PathBuf>,
     /// How bytes get into the emulator; by usart a loop takes some 20 times as long as by streams.
     #[arg(long, value_enum, default_value_t, requires = "qemu")]
@@ -54,6 +57,14 @@ pub struct Connected {
 pub fn connect(arguments: &LineArguments) -> Result<Connected, DeviceError> {
     if let Some(port) = &arguments.port {
         return Ok(Connected { line: serial::open(port)?, log: None });
+    }
+    if arguments.board_image {
+        if let Some(image) = &arguments.firmware {
+            image::check(image)?;
+        }
+        let bench = image::build_bench()?;
+        let image = arguments.firmware.clone().map_or_else(image::build_board, Ok)?;
+        return Ok(Connected { line: Box::new(Emulator::between_models(&bench, &image)?), log: None });
     }
     let image = match &arguments.firmware {
         Some(image) => {

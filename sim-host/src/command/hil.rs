@@ -37,8 +37,10 @@ use crate::simulation::ErrorReport;
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag hil scenes/controller.toml --qemu\n  \
     sprag hil scenes/controller.toml --qemu --log info --set controller.law=sign-table\n  \
+    sprag hil scenes/controller.toml --board-image\n  \
     sprag hil scenes/controller.toml --port /dev/ttyUSB0\n\n\
-    --qemu builds the firmware and starts the emulator itself. The device gets its settings from the scene. Writes what `sprag loop` \
+    --qemu builds the firmware and starts the emulator itself; --board-image builds the firmware as it goes to the board and runs it between \
+    models of the board's parts, in some minutes. The device gets its settings from the scene. Writes what `sprag loop` \
     writes, the host's own loop as the thick line (the dashed one is the ideal pair), and device.csv with every tick of the device. However \
     it ends, the device is detached: a board goes on with its own sensors and the settings in its flash. Exit code 1 where a decision is \
     not the host's to the last bit.")]

@@ -63,6 +63,20 @@ impl Emulator {
             Way::Usart => command.args(["-serial", "stdio", "-icount", "shift=0"]),
         };
         command.args(["-semihosting-config", &semihosting, "-kernel"]).arg(image);
+        Emulator::spawn(command, way, failed)
+    }
+
+    /// Starts the board's own `image` in `bench`, the program that has models of the board's parts.
+    ///
+    /// # Errors
+    /// [`DeviceError::Emulator`].
+    pub fn between_models(bench: &Path, image: &Path) -> Result<Emulator, DeviceError> {
+        let mut command = Command::new(bench);
+        command.arg("serve").arg(image);
+        Emulator::spawn(command, Way::Streams, |error| DeviceError::Emulator(format!("{}: {error}", bench.display())))
+    }
+
+    fn spawn(mut command: Command, way: Way, failed: impl Fn(std::io::Error) -> DeviceError) -> Result<Emulator, DeviceError> {
         let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().map_err(failed)?;
         let (Some(input), Some(mut stdout), Some(mut stderr)) = (child.stdin.take(), child.stdout.take(), child.stderr.take())
         else {

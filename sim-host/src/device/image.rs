@@ -51,6 +51,32 @@ pub fn build(log: Option<&str>) -> Result<PathBuf, DeviceError> {
     build_in(&folder(), &["--release", "--no-default-features", "--features", features], log)
 }
 
+/// Builds the firmware for the board and gives the path of its ELF file.
+///
+/// # Errors
+/// As [`build`].
+pub fn build_board() -> Result<PathBuf, DeviceError> {
+    build_in(&folder(), &["--release"], None)
+}
+
+/// Whether the linker finds Unicorn, as the build of the bench asks it to.
+fn has_unicorn() -> bool {
+    let mut linker = Command::new("cc");
+    linker.args(["-shared", "-o", "/dev/null", "-lunicorn"]).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    std::env::var_os("UNICORN_LIB_DIR").is_some() || linker.status().is_ok_and(|status| status.success())
+}
+
+/// Builds the program that runs the board's image between models of the board's parts, and gives its path.
+///
+/// # Errors
+/// As [`build`]; [`DeviceError::Emulator`] where Unicorn is not installed.
+pub fn build_bench() -> Result<PathBuf, DeviceError> {
+    if !has_unicorn() {
+        return Err(DeviceError::Emulator("Unicorn is not installed; on Debian: sudo apt-get install libunicorn-dev".to_owned()));
+    }
+    build_in(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/board-image"), &["--bins"], None)
+}
+
 /// Builds a program for the emulator in the workspace at `folder`, by `cargo build` with `arguments`; else as [`build`].
 ///
 /// # Errors
@@ -71,7 +97,8 @@ pub fn build_in(folder: &Path, arguments: &[&str], log: Option<&str>) -> Result<
         }
     }
     if let Some(target) = std::env::var_os("CARGO_TARGET_DIR") {
-        cargo.env("CARGO_TARGET_DIR", PathBuf::from(target).join("firmware"));
+        let name = if folder.ends_with("board-image") { "tests/board-image" } else { "firmware" };
+        cargo.env("CARGO_TARGET_DIR", PathBuf::from(target).join(name));
     }
     if let Some(level) = log {
         cargo.env("DEFMT_LOG", level);

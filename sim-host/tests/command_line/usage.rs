@@ -27,7 +27,7 @@ fn a_wrong_command_line_costs_one_line_and_points_to_the_help() {
         (&["loop", &figure, "--rate", "1"], &["'--rate'", "see sprag loop --help"]),
         (&["device", "log", "--qemu", "--port", "x"], &["'--qemu'", "'--port <DEV>'", "see sprag device log --help"]),
         (&["hil", &figure, "--qemu", "--way", "air"], &["'air'", "streams, usart"]),
-        (&["hil", &figure], &["--port <DEV>", "--qemu"]),
+        (&["hil", &figure], &["--port <DEV>", "--qemu", "--board-image"]),
         (&["device", "info"], &["--port <DEV>", "--qemu"]),
         (&["map", &figure, "--threads", "0"], &["'0'", "from 1 to 1024"]),
         (&["cloud", "study.toml", "--threads", "-1"], &["'-1'", "from 1 to 1024"]),
@@ -77,6 +77,21 @@ fn a_file_that_is_no_port_or_no_firmware_is_named() {
     let out = folder.path().join("out");
     let arguments = ["hil", &controller, "--out", out.to_str().unwrap(), "--qemu", "--firmware", "nosuch.elf"];
     one_line(&sprag(&arguments), &["nosuch.elf", "there is no such file"]);
+}
+
+/// A linker that finds no library stands for a machine without Unicorn.
+#[cfg(unix)]
+#[test]
+fn a_machine_without_unicorn_is_told_what_to_install() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let linker = folder.path().join("cc");
+    std::fs::write(&linker, "#!/bin/sh\nexit 1\n").unwrap();
+    std::fs::set_permissions(&linker, std::fs::Permissions::from_mode(0o755)).unwrap();
+    let mut line = Command::new(env!("CARGO_BIN_EXE_sprag"));
+    let paths = std::env::join_paths([folder.path(), Path::new("/usr/bin"), Path::new("/bin")]).unwrap();
+    line.args(["device", "info", "--board-image"]).env("PATH", paths).env_remove("UNICORN_LIB_DIR");
+    one_line(&line.output().unwrap(), &["Unicorn is not installed", "libunicorn-dev"]);
 }
 
 /// The commands, those of `device` too.

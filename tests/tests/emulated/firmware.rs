@@ -5,18 +5,23 @@
 
 use sprag_shared::control::supervisor::Phase;
 use sprag_sim_host::device::emulator::Way;
+use sprag_sim_host::device::image::build_bench;
 use sprag_sim_host::device::report::costs;
 use sprag_tests::device_loop::{Course, Trial, faithful, on_the_host, pulse, scene};
-use sprag_tests::emulation::controller_firmware;
+use sprag_tests::emulation::{board_firmware, controller_firmware};
 
 use sprag_sim_host::command::loop_scene::LoopScene;
 
-/// Runs `scene` on the device and on the host.
+/// Runs `scene` on the device in the emulator and on the host.
 fn one_code(name: &str, scene: &LoopScene, way: Way) {
-    let image = controller_firmware();
-    let (host, peak) = on_the_host(scene);
+    compare(name, &Trial { way, ..Trial::new(&controller_firmware(), scene) });
+}
+
+/// Runs a trial on its device and on the host.
+fn compare(name: &str, trial: &Trial<'_>) {
+    let (host, peak) = on_the_host(trial.scene);
     let begun = std::time::Instant::now();
-    let course = Trial { way, ..Trial::new(&image, scene) }.run(faithful(), &mut ());
+    let course = trial.run(faithful(), &mut ());
     let seconds = begun.elapsed().as_secs_f64();
     // The decisions that the device sent, beside those of the same code on the host, which was told the same.
     assert_eq!(course.differing(), 0, "{name}");
@@ -72,4 +77,12 @@ fn a_pulse_is_the_same_by_the_serial_line() {
         &pulse(&["run.free_time_s=0.1", "controller.rate_hz=500", "controller.prelude_s=1.6"]),
         Way::Usart,
     );
+}
+
+/// The board's own image, unmodified, as `sprag hil --board-image` runs it.
+#[test]
+#[ignore = "needs Unicorn and the board's image: run by cargo xtask test"]
+fn a_pulse_is_the_same_on_the_boards_image() {
+    let (image, bench, scene) = (board_firmware(), build_bench().unwrap(), pulse(&["run.free_time_s=0.5"]));
+    compare("sine pulse on the board's image", &Trial { bench: Some(&bench), ..Trial::new(&image, &scene) });
 }
