@@ -7,8 +7,10 @@ fn main() {
     println!("cargo:rerun-if-changed=../.git/HEAD");
     let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
-    let memory = package.join("../memory.x");
-    fs::copy(&memory, out.join("memory.x")).expect("memory.x stands at the root of the project");
+    // The F405's is at the root, for the emulated images there are of its chip, too.
+    let board = if env::var_os("CARGO_FEATURE_BOARD_G474").is_some() { "src/board/g474/memory.x" } else { "../memory.x" };
+    let memory = package.join(board);
+    fs::copy(&memory, out.join("memory.x")).expect("the memory map of the board is there");
     println!("cargo:rerun-if-changed={}", memory.display());
     println!("cargo:rustc-link-search={}", out.display());
     println!("cargo:rustc-link-arg-bins=-Tlink.x");

@@ -1,20 +1,33 @@
 //! What a board must offer: the one seam between the application and the hardware.
 //!
-//! To port the firmware, write one module with a type that is a [`Board`] and select it below.
+//! To port the firmware, write one module with a type that is a [`Board`] and select it below; what boards have in common is in `parts`.
+//! `docs/porting.md` has the steps.
+
+#[cfg(any(feature = "board-f405", feature = "board-g474"))]
+pub mod parts;
 
 #[cfg(feature = "board-f405")]
 pub mod f405;
 #[cfg(feature = "board-f405")]
 pub use f405::F405 as Selected;
 
+#[cfg(feature = "board-g474")]
+pub mod g474;
+#[cfg(feature = "board-g474")]
+pub use g474::G474 as Selected;
+
 #[cfg(feature = "board-qemu")]
 pub mod qemu;
 #[cfg(feature = "board-qemu")]
 pub use qemu::Qemu as Selected;
 
-#[cfg(not(any(feature = "board-f405", feature = "board-qemu")))]
-compile_error!("select a board: --features board-f405 or --features board-qemu");
-#[cfg(all(feature = "board-f405", feature = "board-qemu"))]
+#[cfg(not(any(feature = "board-f405", feature = "board-g474", feature = "board-qemu")))]
+compile_error!("select a board: --features board-f405, --features board-g474 or --features board-qemu");
+#[cfg(any(
+    all(feature = "board-f405", feature = "board-g474"),
+    all(feature = "board-f405", feature = "board-qemu"),
+    all(feature = "board-g474", feature = "board-qemu")
+))]
 compile_error!("select one board only: --no-default-features --features board-qemu");
 
 use embedded_storage::nor_flash::NorFlash;
@@ -27,6 +40,8 @@ use sprag_shared::settings::Settings;
 /// The register library of the selected board's chip.
 #[cfg(feature = "board-f405")]
 pub use f405::chip;
+#[cfg(feature = "board-g474")]
+pub use g474::chip;
 #[cfg(feature = "board-qemu")]
 pub use qemu::chip;
 
@@ -46,6 +61,9 @@ pub trait Board: Sized {
 
     /// Shortest period of the controller that leaves time for the link beside its ticks, s. Settings with a shorter one are refused.
     const LEAST_PERIOD: f32;
+
+    /// Whether erasing the flash stops the processor, for seconds.
+    const ERASING_STALLS: bool;
 
     /// Every peripheral of the chip, as its register library hands them out.
     type Chip;
@@ -73,8 +91,10 @@ pub trait Board: Sized {
     fn begin(self, settings: &Settings, counts: Option<i32>) -> Parts<Self>;
 
     /// Does `work` for which the processor may stall for seconds, with the control task held off: the watchdog waits, the coils stay as
-    /// they are.
-    fn stall<T>(work: impl FnOnce() -> T) -> T;
+    /// they are. Only where [erasing stalls](Board::ERASING_STALLS).
+    fn stall<T>(work: impl FnOnce() -> T) -> T {
+        work()
+    }
 
     /// A counter that never stops and wraps at 2³².
     fn now() -> u32;

@@ -103,6 +103,7 @@ mod app {
                     // Checking and storing take longer than a control period, so the device is not held meanwhile.
                     let wanted = device.lock(|device| *device.wanted(change));
                     let prepared = change.prepare(&wanted, around.least_period, |settings| match store.store(settings) {
+                        Err(StoreError::Full) if !Selected::ERASING_STALLS => store.store_erasing(settings),
                         // Nothing moves, and the controller begins anew with other settings: the time for what takes a second.
                         Err(StoreError::Full) => device.lock(|device| {
                             if !device.rests() {

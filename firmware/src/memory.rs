@@ -27,7 +27,7 @@ impl<T: Copy> Lasting<T> {
     }
 
     /// Where it is.
-    #[cfg(feature = "board-f405")]
+    #[cfg(any(feature = "board-f405", feature = "board-g474"))]
     pub const fn address(&self) -> *mut T {
         self.0.get().cast()
     }

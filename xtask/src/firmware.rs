@@ -70,6 +70,15 @@ pub const BOARD: Image = Image {
     log: None,
 };
 
+/// The firmware as it goes to the board with an STM32G474.
+pub const BOARD_G474: Image = Image {
+    name: "g474",
+    features: &["board-g474"],
+    budget: Some("firmware/size-g474.budget"),
+    variable: Some("SPRAG_G474_ELF"),
+    ..BOARD
+};
+
 /// The firmware for the emulator.
 const IN_EMULATOR: Image =
     Image { name: "emulator", features: &["board-qemu"], budget: None, variable: Some("SPRAG_FIRMWARE_ELF"), ..BOARD };
@@ -83,10 +92,10 @@ pub const PANICKING: Image =
     Image { name: "panicking", features: &["board-f405", "deliberate-panic"], budget: None, variable: None, ..BOARD };
 
 /// Every image that is checked or tested.
-pub const IMAGES: &[Image] = &[CORE, BOARD, IN_EMULATOR, LOGGING];
+pub const IMAGES: &[Image] = &[CORE, BOARD, BOARD_G474, IN_EMULATOR, LOGGING];
 
 /// Those of them whose lints cover the code of all.
-pub const LINTED: &[Image] = &[CORE, BOARD, LOGGING];
+pub const LINTED: &[Image] = &[CORE, BOARD, BOARD_G474, LOGGING];
 
 impl Image {
     /// A command of cargo on this image, for the board.

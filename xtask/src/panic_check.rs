@@ -1,7 +1,7 @@
 //! No panic in the firmware's control tick, and proof that the check would see one.
 
 use crate::{
-    firmware::{BOARD, Built, PANICKING},
+    firmware::{BOARD, BOARD_G474, Built, PANICKING},
     reach,
     stop::Stop,
 };
@@ -18,12 +18,14 @@ const ALLOWED_INDIRECT: &[&str] = &["sprag_firmware::control::tick"];
 /// The function that the feature `deliberate-panic` adds below a root.
 const DELIBERATE: &str = "deliberate_panic";
 
-/// Checks the firmware for the board, then one with a panic added.
+/// Checks the firmware for each board, then one with a panic added.
 ///
 /// # Errors
-/// If a panic can be reached in the first, or none through the added function in the second.
+/// If a panic can be reached in one of the first, or none through the added function in the second.
 pub fn run(root: &Path, built: &Built) -> Result<(), Stop> {
-    reach::check(built.elf(&BOARD)?, ROOTS, ALLOWED_INDIRECT)?;
+    for board in [&BOARD, &BOARD_G474] {
+        reach::check(built.elf(board)?, ROOTS, ALLOWED_INDIRECT)?;
+    }
     let found = reach::examine(&PANICKING.build(root)?, ROOTS, ALLOWED_INDIRECT)?;
     let seen = found.panics.iter().find(|way| way.iter().any(|name| name.rsplit("::").next() == Some(DELIBERATE)));
     match seen {

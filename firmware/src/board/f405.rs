@@ -9,7 +9,7 @@
 //! | [`mod@line`]: the link | USART1, streams 2 and 7 of DMA2 |
 //! | [`storage`]: the settings | sectors 1 and 2 of the flash |
 //! | [`supply`]: what happens when it sags | PWR, EXTI line 16, option bytes |
-//! | [`light`] | PC12 |
+//! | the light | PC12 |
 //!
 //! Interrupts: the supply's comes before everything but faults, then SysTick, the control task. Nothing else interrupts.
 
@@ -17,24 +17,24 @@ mod bus;
 mod clock;
 mod coils;
 mod encoder;
-mod light;
 mod line;
 mod reset;
 mod sensors;
 mod storage;
 mod supply;
 
-use sprag_shared::device::coil::PeakHold;
-use sprag_shared::device::coil_test::CoilDesign;
 use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::settings::Settings;
 use sprag_shared::settings::wiring::Wiring;
-use stm32f4xx_hal::gpio::GpioExt;
+use stm32f4xx_hal::gpio::{GpioExt, Output, Pin, PinState};
 use stm32f4xx_hal::pac;
 use stm32f4xx_hal::prelude::_fugit_ExtU32;
 use stm32f4xx_hal::rcc::Rcc;
 use stm32f4xx_hal::watchdog::IndependentWatchdog;
 
+use super::parts::driver;
+use super::parts::inertial::MountedSensors;
+use super::parts::light::PinLight;
 use super::{Board, Parts, Watchdog};
 
 pub use stm32f4xx_hal::pac as chip;
@@ -62,13 +62,15 @@ impl Board for F405 {
     /// A tick takes some 60 µs, of which the sensors' wires 36, at most 80, and up to 150 by the look-ahead law.
     const LEAST_PERIOD: f32 = 250e-6;
 
+    const ERASING_STALLS: bool = true;
+
     type Chip = pac::Peripherals;
     type Sensors = sensors::BoardSensors;
     type Coils = coils::BoardCoils;
     type Watchdog = BoardWatchdog;
     type Line = line::DmaLine;
     type Flash = storage::Storage;
-    type Light = light::BoardLight;
+    type Light = PinLight<Pin<'C', 12, Output>>;
 
     fn wake(_core: cortex_m::Peripherals, chip: pac::Peripherals) -> (F405, Cause) {
         let cause = reset::cause(&chip.RCC);
@@ -89,9 +91,7 @@ impl Board for F405 {
         let c = chip.GPIOC.split(&mut rcc);
         let outputs = coils::Outputs { low: (c.pc6, c.pc7), high: (c.pc8, c.pc9), trip: a.pa6 };
         let currents = coils::Currents::new(chip.ADC1, &chip.ADC_COMMON, (c.pc0, c.pc1), &mut rcc);
-        let peak_hold = PeakHold::new(wiring.coil_pull_in_time, wiring.coil_hold_share, settings.period());
-        let design = CoilDesign::new(peak_hold, wiring.coil_engaged_current, wiring.coil_full_current);
-        let coils = coils::begin(chip.TIM8, outputs, currents, design, &mut rcc);
+        let coils = coils::begin(chip.TIM8, outputs, currents, driver::design(settings, &wiring), &mut rcc);
         supply::watch(chip.PWR, &chip.EXTI, &mut rcc);
         encoder::pause(&chip.TIM4);
         let b = chip.GPIOB.split(&mut rcc);
@@ -100,13 +100,14 @@ impl Board for F405 {
         encoder.copy(chip.TIM3, &chip.DMA1, &mut rcc);
         let block = sensors::block(chip.SPI1, a.pa5, b.pb4, a.pa7, a.pa4, &mut rcc);
         let ground = sensors::ground(chip.SPI2, b.pb13, b.pb14, b.pb15, b.pb12, &mut rcc);
-        let line = line::DmaLine::new(chip.USART1, chip.DMA2, (a.pa9, a.pa10), &mut rcc);
-        let light = light::BoardLight::new(c.pc12, crystal);
+        let line = line::DmaLine::at(chip.USART1, chip.DMA2, (a.pa9, a.pa10), &mut rcc);
+        let lamp = c.pc12;
+        let light = PinLight::new(lamp.into_push_pull_output_in_state(PinState::High), crystal);
         let mut watchdog = IndependentWatchdog::new(chip.IWDG);
         watchdog.stop_on_debug(&chip.DBGMCU, true);
         watchdog.start(WATCHDOG_MILLISECONDS.millis());
         Parts {
-            sensors: sensors::BoardSensors::new(block, ground, encoder, wiring),
+            sensors: MountedSensors::new(block, ground, encoder, wiring),
             coils,
             watchdog: BoardWatchdog(watchdog),
             line,

@@ -41,8 +41,8 @@ const NAMED: [(&str, &[&str]); 10] = [
     ("high: (", &["HIGH1", "HIGH2"]),
     ("trip: ", &["BREAK"]),
     ("coils::Currents::new(", &["CURRENT1", "CURRENT2"]),
-    ("line::DmaLine::new(", &["LINK_TX", "LINK_RX"]),
-    ("light::BoardLight::new(", &["LIGHT"]),
+    ("line::DmaLine::at(", &["LINK_TX", "LINK_RX"]),
+    ("let lamp = ", &["LIGHT"]),
     // Not the application's: the probe, the oscillator, and the jumper.
     ("", &["SWDIO", "SWCLK", "CRYSTAL_IN", "CRYSTAL_OUT", "COMMISSION"]),
 ];

@@ -1,18 +1,10 @@
-//! The two coils: each between a high-side switch, on while the clutch is to be engaged, and a low-side switch that is modulated.
-//!
-//! With the high side on, the current goes round through the upper diode while the low side is off, and decays slowly: 20 kHz hold it
-//! nearly constant. With both off it flows back into the supply through both diodes and dies in a few milliseconds.
-//!
-//! The feedback is the current. It proves that the coil is whole and driven, not that the clutch has closed. Comparators on both shunts that
-//! pull the timer's break input low switch the low sides off by hardware, whatever the program does, until the next self-test.
+//! The stage of the coils: TIM8 modulates the low sides, PC8 and PC9 are the high sides, comparators are at the break input.
 
 mod currents;
 
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
-use sprag_shared::control::monitor::coil::CoilReading;
-use sprag_shared::device::coil::{FULL_SCALE, compare};
-use sprag_shared::device::coil_test::{Coil, CoilDesign, Switches as Wanted};
+use sprag_shared::device::coil_test::{CoilDesign, Switches as Wanted};
 use stm32f4xx_hal::gpio::{Alternate, Output, Pin, PinState, Pull};
 use stm32f4xx_hal::pac;
 use stm32f4xx_hal::rcc::Rcc;
@@ -22,7 +14,7 @@ use stm32f4xx_hal::timer::{PwmChannel, PwmExt};
 pub use currents::Currents;
 
 use super::supply;
-use crate::board::Coils;
+use crate::board::parts::driver::{DrivenCoils, Duty, Stage};
 
 /// Of the modulation, 1/s: above hearing, and far above what a coil's current follows.
 const MODULATION: Hertz = Hertz::from_raw(20_000);
@@ -41,47 +33,29 @@ pub struct Outputs {
 }
 
 /// The switches of a coil.
-pub struct Switches<L, H> {
+struct Switches<L, H> {
     low: L,
     high: H,
-    /// The share of the time in which the low side was last to conduct, and the timer's counts for it.
-    share: f32,
-    counts: u16,
+    duty: Duty,
 }
 
-/// The switches of the first coil.
-pub type FirstSwitches = Switches<PwmChannel<pac::TIM8, 0>, Pin<'C', 8, Output>>;
-/// The switches of the second coil.
-pub type SecondSwitches = Switches<PwmChannel<pac::TIM8, 1>, Pin<'C', 9, Output>>;
-
-/// The coils of this board.
-pub type BoardCoils = DrivenCoils<FirstSwitches, SecondSwitches>;
-
-/// Two coils, driven and watched.
-pub struct DrivenCoils<A, B> {
-    switches: (A, B),
-    coils: [Coil; 2],
-    currents: Currents,
-    design: CoilDesign,
-    tested: bool,
-}
-
-/// What drives a coil.
-pub trait Drive {
-    /// Both off takes the current away as fast as can be.
-    fn drive(&mut self, wanted: Wanted);
-}
-
-impl<L: SetDutyCycle, H: OutputPin> Drive for Switches<L, H> {
+impl<L: SetDutyCycle, H: OutputPin> Switches<L, H> {
     fn drive(&mut self, wanted: Wanted) {
         // The pins of a chip do not fail, and others would show in the feedback.
         let _ = if wanted.high { self.high.set_high() } else { self.high.set_low() };
-        if wanted.low != self.share {
-            (self.share, self.counts) = (wanted.low, compare(wanted.low, self.low.max_duty_cycle()));
-        }
-        let _ = self.low.set_duty_cycle(self.counts);
+        let _ = self.low.set_duty_cycle(self.duty.of(wanted.low, self.low.max_duty_cycle()));
     }
 }
+
+/// The stage of this board.
+pub struct BoardStage {
+    first: Switches<PwmChannel<pac::TIM8, 0>, Pin<'C', 8, Output>>,
+    second: Switches<PwmChannel<pac::TIM8, 1>, Pin<'C', 9, Output>>,
+    currents: Currents,
+}
+
+/// The coils of this board.
+pub type BoardCoils = DrivenCoils<BoardStage>;
 
 /// Released.
 pub fn begin(timer: pac::TIM8, outputs: Outputs, currents: Currents, design: CoilDesign, rcc: &mut Rcc) -> BoardCoils {
@@ -95,11 +69,12 @@ pub fn begin(timer: pac::TIM8, outputs: Outputs, currents: Currents, design: Coi
     second.enable();
     let high = outputs.high;
     enable_break();
-    let switches = (
-        Switches { low: first, high: high.0.into_push_pull_output_in_state(PinState::Low), share: 0.0, counts: 0 },
-        Switches { low: second, high: high.1.into_push_pull_output_in_state(PinState::Low), share: 0.0, counts: 0 },
-    );
-    DrivenCoils { switches, coils: Default::default(), currents, design, tested: false }
+    let stage = BoardStage {
+        first: Switches { low: first, high: high.0.into_push_pull_output_in_state(PinState::Low), duty: Duty::default() },
+        second: Switches { low: second, high: high.1.into_push_pull_output_in_state(PinState::Low), duty: Duty::default() },
+        currents,
+    };
+    DrivenCoils::new(stage, design)
 }
 
 fn timer() -> &'static pac::tim8::RegisterBlock {
@@ -116,33 +91,29 @@ fn enable_break() {
         .write(|w| w.bke().set_bit().bkp().clear_bit().aoe().clear_bit().ossi().set_bit().ossr().set_bit().moe().set_bit());
 }
 
-/// The break input has switched the low sides off.
-fn tripped() -> bool {
-    timer().sr().read().bif().bit_is_set()
-}
-
-impl<A: Drive, B: Drive> Coils for DrivenCoils<A, B> {
-    fn read(&mut self) -> [CoilReading; 2] {
-        // The comparators do not say which of them it was.
-        let [first, second] = if tripped() { [FULL_SCALE; 2] } else { self.currents.read() };
-        let [of_first, of_second] = &mut self.coils;
-        [of_first.see(&self.design, first), of_second.see(&self.design, second)]
+impl Stage for BoardStage {
+    fn switch(&mut self, coil: usize, wanted: Wanted) {
+        if coil == 0 { self.first.drive(wanted) } else { self.second.drive(wanted) }
     }
 
-    fn drive(&mut self, command: [bool; 2], tested: bool) {
-        if tested && !self.tested {
-            enable_break();
-        }
-        self.tested = tested;
-        let low = supply::low();
-        let [first, second] = if low { crate::control::safe_state() } else { command };
-        let [of_first, of_second] = &mut self.coils;
-        self.switches.0.drive(of_first.drive(&self.design, first, tested));
-        self.switches.1.drive(of_second.drive(&self.design, second, tested));
-        if !low && supply::low() {
-            // It began to fall while this was written, and its interrupt has been overwritten.
-            force(crate::control::safe_state());
-        }
+    fn currents(&self) -> [f32; 2] {
+        self.currents.read()
+    }
+
+    fn arm(&mut self) {
+        enable_break();
+    }
+
+    fn tripped(&self) -> bool {
+        timer().sr().read().bif().bit_is_set()
+    }
+
+    fn supply_is_low(&self) -> bool {
+        supply::low()
+    }
+
+    fn force(engaged: [bool; 2]) {
+        force(engaged);
     }
 }
 

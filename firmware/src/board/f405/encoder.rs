@@ -1,17 +1,14 @@
 //! The encoder's counter, TIM4, which goes on over a reset.
 //!
-//! A reset of the chip sets it to 0. So its count is copied into memory that a reset leaves alone, 20,000 times a second and without the
-//! processor: a stream of DMA1, paced by TIM3. The first instructions of the next start put it back and let it count. What the rack moves
-//! in between, some 70 µs, is all that is lost.
-
-use core::arch::global_asm;
+//! Its count is [kept](crate::board::parts::kept_count) by a stream of DMA1, paced by TIM3.
 
 use sprag_shared::device::counter::Extended;
 use stm32f4xx_hal::gpio::{Pin, Pull};
 use stm32f4xx_hal::pac;
 use stm32f4xx_hal::rcc::{Enable, Rcc};
 
-use crate::memory::Lasting;
+use crate::board::parts::inertial::Counter;
+use crate::board::parts::kept_count::{COUNT, count_on};
 
 /// Copies of the count in a second.
 const COPIES: u32 = 20_000;
@@ -21,9 +18,6 @@ const CLOCK: u32 = super::clock::HZ / 2;
 const STREAM: usize = 2;
 /// … on this channel.
 const CHANNEL: u8 = 5;
-
-#[unsafe(link_section = ".uninit.ENCODER")]
-static COUNT: Lasting<u32> = Lasting::new();
 
 /// What makes TIM4 count right after a reset, when every register holds its reset value: address and value.
 static FIRST_STEPS: [[u32; 2]; 10] = [
@@ -49,30 +43,7 @@ static FIRST_STEPS: [[u32; 2]; 10] = [
     [0, 0],
 ];
 
-// Called by the start-up code before it fills the memory, so that Rust has nothing to say yet.
-global_asm!(
-    ".section .text.__pre_init, \"ax\"",
-    ".global __pre_init",
-    ".type __pre_init, %function",
-    ".thumb_func",
-    "__pre_init:",
-    "ldr r0, ={steps}",
-    "2: ldm r0!, {{r1, r2}}",
-    "cbz r1, 3f",
-    "str r2, [r1]",
-    "b 2b",
-    // TIM4_CNT, then CEN of TIM4_CR1.
-    "3: ldr r0, ={count}",
-    "ldr r0, [r0]",
-    "ldr r1, =0x40000800",
-    "str r0, [r1, #0x24]",
-    "movs r0, #1",
-    "str r0, [r1]",
-    "bx lr",
-    ".pool",
-    steps = sym FIRST_STEPS,
-    count = sym COUNT,
-);
+count_on!(FIRST_STEPS, 0x4000_0800);
 
 /// The counter.
 pub struct Encoder {
@@ -113,9 +84,10 @@ impl Encoder {
         pacer.dier().write(|w| w.ude().set_bit());
         pacer.cr1().write(|w| w.cen().set_bit());
     }
+}
 
-    /// Counts, wrapping.
-    pub fn read(&mut self) -> i32 {
+impl Counter for Encoder {
+    fn read(&mut self) -> i32 {
         self.travel.read(self.timer.cnt().read().cnt().bits())
     }
 }

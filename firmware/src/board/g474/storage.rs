@@ -1,0 +1,218 @@
+//! The first 64 KiB of bank 2 of the flash, for the settings: see `memory.x`.
+//!
+//! The flash programs double words, each once, with check bits. A word of the settings takes a double word of its own, beside its
+//! complement, so that a sector of 16 KiB is 16 pages of 2 KiB. Bank 1, from which the processor runs, is free meanwhile.
+
+use core::sync::atomic::{AtomicBool, Ordering};
+
+use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
+use stm32g4::stm32g474 as pac;
+
+/// First address of the flash, and of its bank 2.
+const FLASH: u32 = 0x0800_0000;
+const BANK_2: u32 = 0x0804_0000;
+/// Bytes of a page.
+const PAGE: u32 = 2048;
+/// Bytes of a sector, as the store sees it, …
+const SECTOR: u32 = 0x4000;
+/// … and in the flash.
+const SECTOR_IN_FLASH: u32 = 2 * SECTOR;
+/// How many there are.
+const SECTORS: u32 = 2;
+
+const KEYS: [u32; 2] = [0x4567_0123, 0xCDEF_89AB];
+
+/// A double word of the settings' had more wrong bits than its check bits can mend.
+static BROKEN: AtomicBool = AtomicBool::new(false);
+
+fn flash() -> &'static pac::flash::RegisterBlock {
+    // SAFETY: the block lies at this address for ever. Beside the storage only the start writes its registers, before there is one.
+    unsafe { &*pac::FLASH::ptr() }
+}
+
+/// The address of a double word that was found broken, if one was.
+pub fn broken_word() -> Option<u32> {
+    let found = flash().eccr().read();
+    let bank = if found.bk_ecc().bit_is_set() { BANK_2 } else { FLASH };
+    found.eccd().bit_is_set().then(|| bank + found.addr_ecc().bits())
+}
+
+/// Whether an address is the storage's.
+pub fn holds(address: u32) -> bool {
+    (BANK_2..BANK_2 + SECTORS * SECTOR_IN_FLASH).contains(&address)
+}
+
+/// The word that is being read is broken.
+pub fn note_broken() {
+    BROKEN.store(true, Ordering::Relaxed);
+    flash().eccr().modify(|_, w| w.eccd().set_bit());
+}
+
+/// The two sectors.
+pub struct Storage {
+    /// They have been changed since the cache was emptied.
+    changed: bool,
+}
+
+/// What went wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Error {
+    /// Beyond the two sectors.
+    OutOfBounds,
+    /// Not at whole words, or not of whole sectors.
+    NotAligned,
+    /// The flash did not take it: it is not blank, or is not in two banks (option DBANK).
+    Refused,
+    /// What is there is not what was programmed.
+    Broken,
+}
+
+impl NorFlashError for Error {
+    fn kind(&self) -> NorFlashErrorKind {
+        match self {
+            Error::OutOfBounds => NorFlashErrorKind::OutOfBounds,
+            Error::NotAligned => NorFlashErrorKind::NotAligned,
+            Error::Refused | Error::Broken => NorFlashErrorKind::Other,
+        }
+    }
+}
+
+impl Storage {
+    /// Of a chip whose flash nothing else programs.
+    pub fn new() -> Storage {
+        Storage { changed: false }
+    }
+
+    fn within(from: u32, length: usize) -> Result<(), Error> {
+        let inside =
+            u32::try_from(length).ok().and_then(|length| from.checked_add(length)).is_some_and(|end| end <= SECTORS * SECTOR);
+        if inside { Ok(()) } else { Err(Error::OutOfBounds) }
+    }
+
+    fn aligned(offset: u32, length: usize) -> Result<(), Error> {
+        if offset.is_multiple_of(4) && length.is_multiple_of(4) { Ok(()) } else { Err(Error::NotAligned) }
+    }
+
+    /// What the cache holds of the sectors is old: it is emptied, which the chip allows only while it is off.
+    fn forget_cached() {
+        let acr = flash().acr();
+        acr.modify(|_, w| w.dcen().clear_bit());
+        acr.modify(|_, w| w.dcrst().set_bit());
+        acr.modify(|_, w| w.dcrst().clear_bit());
+        acr.modify(|_, w| w.dcen().set_bit());
+    }
+
+    /// The word at an offset.
+    fn word(offset: u32) -> Result<u32, Error> {
+        let place = (BANK_2 + 2 * offset) as *const u32;
+        BROKEN.store(false, Ordering::Relaxed);
+        // SAFETY: within the flash, aligned, and any bits are words.
+        let (word, other) = unsafe { (place.read_volatile(), place.add(1).read_volatile()) };
+        // The NMI comes with the word, or soon after it.
+        let broken = broken_word().is_some() || BROKEN.load(Ordering::Relaxed);
+        let blank = word == u32::MAX && other == u32::MAX;
+        if !broken && (blank || other == !word) { Ok(word) } else { Err(Error::Broken) }
+    }
+
+    /// Does `work` with the registers unlocked, unless the flash is one bank.
+    fn unlocked(&mut self, work: impl FnOnce(&'static pac::flash::RegisterBlock) -> Result<(), Error>) -> Result<(), Error> {
+        let flash = flash();
+        if flash.optr().read().dbank().bit_is_clear() {
+            return Err(Error::Refused);
+        }
+        self.changed = true;
+        for key in KEYS {
+            // SAFETY: the keys are what the register takes.
+            flash.keyr().write(|w| unsafe { w.bits(key) });
+        }
+        let done = work(flash);
+        flash.cr().modify(|_, w| w.lock().set_bit());
+        done
+    }
+
+    /// Clears the flags of errors by writing 1.
+    fn clear(flash: &pac::flash::RegisterBlock) {
+        // SAFETY: writing back what was read clears the flags that were set.
+        flash.sr().modify(|r, w| unsafe { w.bits(r.bits()) });
+    }
+
+    /// Waits for the end of what the flash does; its errors.
+    fn finish(flash: &pac::flash::RegisterBlock) -> Result<(), Error> {
+        while flash.sr().read().bsy().bit_is_set() {}
+        let state = flash.sr().read();
+        let refused = state.progerr().bit_is_set()
+            || state.wrperr().bit_is_set()
+            || state.pgaerr().bit_is_set()
+            || state.sizerr().bit_is_set()
+            || state.pgserr().bit_is_set();
+        if refused { Err(Error::Refused) } else { Ok(()) }
+    }
+}
+
+impl ErrorType for Storage {
+    type Error = Error;
+}
+
+impl ReadNorFlash for Storage {
+    const READ_SIZE: usize = 4;
+
+    fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), Error> {
+        Storage::within(offset, bytes.len())?;
+        Storage::aligned(offset, bytes.len())?;
+        if core::mem::take(&mut self.changed) {
+            Storage::forget_cached();
+        }
+        for (place, to) in (offset..).step_by(4).zip(bytes.chunks_exact_mut(4)) {
+            to.copy_from_slice(&Storage::word(place)?.to_le_bytes());
+        }
+        Ok(())
+    }
+
+    fn capacity(&self) -> usize {
+        (SECTORS * SECTOR) as usize
+    }
+}
+
+impl NorFlash for Storage {
+    const WRITE_SIZE: usize = 4;
+    const ERASE_SIZE: usize = SECTOR as usize;
+
+    fn erase(&mut self, from: u32, to: u32) -> Result<(), Error> {
+        Storage::within(from, to.checked_sub(from).ok_or(Error::OutOfBounds)? as usize)?;
+        if !(from.is_multiple_of(SECTOR) && to.is_multiple_of(SECTOR)) {
+            return Err(Error::NotAligned);
+        }
+        self.unlocked(|flash| {
+            let done = (2 * from / PAGE..2 * to / PAGE).try_for_each(|page| {
+                Storage::clear(flash);
+                // SAFETY: the page exists.
+                flash.cr().modify(|_, w| unsafe { w.per().set_bit().bker().set_bit().pnb().bits(page as u8) });
+                flash.cr().modify(|_, w| w.strt().set_bit());
+                Storage::finish(flash)
+            });
+            flash.cr().modify(|_, w| w.per().clear_bit().bker().clear_bit());
+            done
+        })
+    }
+
+    fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), Error> {
+        Storage::within(offset, bytes.len())?;
+        Storage::aligned(offset, bytes.len())?;
+        self.unlocked(|flash| {
+            Storage::clear(flash);
+            flash.cr().modify(|_, w| w.pg().set_bit());
+            let done = (offset..).step_by(4).zip(bytes.chunks_exact(4)).try_for_each(|(offset, bytes)| {
+                let word = bytes.iter().rev().fold(0, |word, byte| word << 8 | u32::from(*byte));
+                let place = (BANK_2 + 2 * offset) as *mut u32;
+                // SAFETY: within bank 2, where nothing is but settings, and aligned to 8 bytes; the flash takes both halves together.
+                unsafe {
+                    place.write_volatile(word);
+                    place.add(1).write_volatile(!word);
+                }
+                Storage::finish(flash)
+            });
+            flash.cr().modify(|_, w| w.pg().clear_bit());
+            done
+        })
+    }
+}

@@ -1,0 +1,17 @@
+//! What boards have in common, without a type of any chip: each part is generic over the few things that a chip does in its own way.
+//!
+//! | part | the chip's own |
+//! | --- | --- |
+//! | [`bus`]: of an inertial sensor | [`bus::Frames`], a pin of `embedded-hal` |
+//! | [`inertial`]: two inertial sensors and an encoder, mounted in some way | buses of `embedded-hal`, [`inertial::Counter`] |
+//! | [`driver`]: two coils between two switches each | [`driver::Stage`] |
+//! | [`ring`]: the link, moved without the processor | [`ring::Streams`] |
+//! | [`kept_count`]: an encoder's counter that goes on over a reset | registers, as a table |
+//! | [`light`] | a pin of `embedded-hal` |
+
+pub mod bus;
+pub mod driver;
+pub mod inertial;
+pub mod kept_count;
+pub mod light;
+pub mod ring;
