@@ -3,9 +3,11 @@
 //! Exceptions are carried out here, as the processor does it (ARMv7-M, B1.5): registers go to the stack, the handler runs, and its return
 //! brings them back.
 
-use crate::chip::{Chip, FLASH_END, REGISTERS};
+use crate::chip::{Chip, REGISTERS};
 use crate::engine::{Context, Engine, Register};
 use crate::image::Image;
+use crate::model::Model;
+use crate::peripheral::flash::g4::BANK_2;
 use crate::peripheral::flash::{self, sector_of, sector_range};
 use crate::peripheral::processor::{HARD_FAULT, IDLE, SYSTICK};
 use crate::peripheral::rcc::Cause;
@@ -74,19 +76,28 @@ pub struct Bench {
 impl Bench {
     /// A new chip with `image`, just powered.
     pub fn new(image: &Image) -> Bench {
-        let mut engine = Engine::new(Chip::new());
+        let mut engine = Engine::new(Chip::new(image.model));
         let chip = engine.guest_mut();
         for (address, bytes) in &image.segments {
             chip.flash.memory.write(*address, bytes);
         }
-        let (start, length) = sector_range(sector_of(image.end() - 1));
-        let program_end = start + length;
         // What runs must be mapped; what is programmed and erased must not be, so that the models see it.
-        let (vectors, program) = (sector_range(0), sector_range(4));
-        engine.map(|chip| &chip.flash.memory, vectors.0, vectors.1, false);
-        engine.map_registers(vectors.0 + vectors.1..program.0);
-        engine.map(|chip| &chip.flash.memory, program.0, program_end - program.0, false);
-        engine.map_registers(program_end..FLASH_END);
+        let flash_end = flash::START + image.model.flash_length();
+        let seen = match image.model {
+            Model::F405 => {
+                let (start, length) = sector_range(sector_of(image.end() - 1));
+                let (vectors, program) = (sector_range(0), sector_range(4));
+                engine.map(|chip| &chip.flash.memory, vectors.0, vectors.1, false);
+                engine.map_registers(vectors.0 + vectors.1..program.0);
+                engine.map(|chip| &chip.flash.memory, program.0, start + length - program.0, false);
+                start + length
+            }
+            Model::G474 => {
+                engine.map(|chip| &chip.flash.memory, flash::START, BANK_2 - flash::START, false);
+                BANK_2
+            }
+        };
+        engine.map_registers(seen..flash_end);
         engine.map(|chip| &chip.ram, crate::chip::RAM, 128 << 10, true);
         engine.map(|chip| &chip.core_coupled, 0x1000_0000, 64 << 10, true);
         for range in REGISTERS {

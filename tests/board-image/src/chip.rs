@@ -1,27 +1,31 @@
 //! The chip around the processor, and the board around the chip: every address leads to a model, and time passes for all of them.
 
+mod g4;
+
 use std::collections::{BTreeMap, HashMap, VecDeque};
 
 use crate::engine::{Guest, Memory, Processor, Register};
+use crate::model::Model;
 use crate::peripheral::backup::Backup;
 use crate::peripheral::coil::Coil;
+use crate::peripheral::comparators::Comparators;
 use crate::peripheral::converter::Converter;
 use crate::peripheral::copier::Copier;
 use crate::peripheral::counter::Counter;
 use crate::peripheral::crc::CrcUnit;
 use crate::peripheral::encoder::Encoder;
-use crate::peripheral::flash::{self, Flash, Work};
+use crate::peripheral::flash::{Flash, Work};
 use crate::peripheral::line::Line;
 use crate::peripheral::modulation::Modulation;
 use crate::peripheral::port::Port;
 use crate::peripheral::processor::{FIRST_INTERRUPT, IDLE, NMI, Private};
-use crate::peripheral::rcc::{self, Cause, Rcc};
+use crate::peripheral::rcc::{Cause, Rcc};
 use crate::peripheral::registers::Registers;
 use crate::peripheral::spi::Spi;
 use crate::peripheral::supply::Supply;
 use crate::peripheral::watchdog::Watchdog;
 use crate::random::Random;
-use crate::time::SECOND;
+use crate::time::{SECOND, microseconds};
 
 /// Half cycles that an instruction takes, as an estimate: most take one cycle, loads and taken branches two or three, divisions and
 /// square roots fourteen.
@@ -29,6 +33,9 @@ const HALF_CYCLES_PER_INSTRUCTION: u64 = 3;
 
 /// Blocks that the trail goes back.
 const TRAIL: usize = 32;
+
+/// Of the comparators on the board with an F4, A (docs/board.md).
+const BREAK: f64 = 1.24;
 
 /// Number of the voltage detector's interrupt.
 const DETECTOR: u32 = FIRST_INTERRUPT + 1;
@@ -40,6 +47,7 @@ const RAM_LENGTH: usize = 128 << 10;
 /// Everything but the processor.
 #[derive(Debug)]
 pub struct Chip {
+    model: Model,
     /// Now.
     pub now: u64,
     /// Cycles of the core's clock so far, by the half.
@@ -74,6 +82,8 @@ pub struct Chip {
     pub coils: [Coil; 2],
     /// ADC1.
     pub converter: Converter,
+    /// Of a G4.
+    comparators: Comparators,
     /// Of all three converters.
     converters: Registers,
     /// TIM2, TIM3, TIM5.
@@ -109,12 +119,16 @@ pub struct Chip {
     lengths: HashMap<(u32, u32), u32>,
     active: i32,
     powered: bool,
+    /// Until when the coils' currents are known, and whether they asked for a break then.
+    coils_at: u64,
+    broken: bool,
 }
 
 impl Chip {
     /// A new board without supply.
-    pub fn new() -> Chip {
+    pub fn new(model: Model) -> Chip {
         let mut chip = Chip {
+            model,
             now: 0,
             half_cycles: 0,
             instructions: 0,
@@ -124,19 +138,20 @@ impl Chip {
             ram: Memory::new(RAM, RAM_LENGTH, 0),
             returns: Memory::new(0xFFFF_F000, 0x1000, 0xBF),
             core_coupled: Memory::new(0x1000_0000, 64 << 10, 0),
-            flash: Flash::new(),
-            rcc: Rcc::reset(None, Cause::Power),
-            ports: (0..9).map(Port::new).collect(),
-            buses: [Spi::new(1), Spi::new(2)],
+            flash: Flash::new(model),
+            rcc: Rcc::reset(model, None, Cause::Power),
+            ports: (0..9).map(|index| Port::new(model, index)).collect(),
+            buses: [Spi::new(model, 1), Spi::new(model, 2)],
             encoder: Encoder::default(),
             modulation: Modulation::default(),
             coils: Default::default(),
             converter: Converter::default(),
+            comparators: Comparators::default(),
             converters: Registers::default(),
             counters: Default::default(),
             copier: Copier::default(),
-            line: Line::default(),
-            supply: Supply::default(),
+            line: Line::new(model),
+            supply: Supply::new(model),
             watchdog: Watchdog::default(),
             private: Private::default(),
             backup: Backup::default(),
@@ -152,6 +167,8 @@ impl Chip {
             lengths: HashMap::new(),
             active: IDLE,
             powered: true,
+            coils_at: 0,
+            broken: false,
         };
         chip.resets(Cause::Power);
         chip
@@ -171,13 +188,14 @@ impl Chip {
                 bus.sensor.brown_out(self.now);
             }
         }
-        self.rcc = Rcc::reset(Some(&self.rcc), cause);
+        self.rcc = Rcc::reset(self.model, Some(&self.rcc), cause);
         self.flash.reset();
-        self.ports.iter_mut().zip(0..).for_each(|(port, index)| port.reset(index));
+        self.ports.iter_mut().zip(0..).for_each(|(port, index)| port.reset(self.model, index));
         self.buses.iter_mut().for_each(Spi::reset);
         self.encoder.reset();
         self.modulation.reset();
-        self.converter.reset();
+        self.converter.reset(self.model);
+        self.comparators.reset();
         self.converters = Registers::default();
         self.counters.iter_mut().for_each(Counter::reset);
         self.copier.reset();
@@ -189,6 +207,10 @@ impl Chip {
         self.crc = CrcUnit::default();
         if cause == Cause::Power {
             self.debug = Registers::default();
+            if self.model == Model::G474 {
+                // VBAT is the supply.
+                self.backup = Backup::default();
+            }
         }
         (self.reset, self.stuck, self.powered) = (None, None, true);
         self.clock_changed();
@@ -209,7 +231,7 @@ impl Chip {
     /// When the next thing happens by itself.
     pub fn next_event(&self) -> u64 {
         let systick = self.private.wraps.map(|at| self.now + at.saturating_sub(self.half_cycles) * self.half_cycle);
-        [systick, self.watchdog.bites].into_iter().flatten().min().unwrap_or(u64::MAX)
+        [systick, self.watchdog.bites, self.flash.ends()].into_iter().flatten().min().unwrap_or(u64::MAX)
     }
 
     /// Lets so many half cycles pass.
@@ -232,6 +254,9 @@ impl Chip {
         if self.watchdog.bites.is_some_and(|at| self.now >= at) {
             self.reset = Some(Cause::Watchdog);
             self.watchdog.bites = None;
+        }
+        if self.flash.advance(self.now) {
+            self.reset = Some(Cause::Power);
         }
         self.event = self.next_event();
     }
@@ -289,23 +314,67 @@ impl Chip {
     /// The rack goes to `position`, counts of the encoder.
     pub fn move_rack(&mut self, position: i64) {
         self.encoder.move_to(position);
-        self.copier.changed(0x4000_0824, self.encoder.count(), self.counters[1].asks(), &self.ram);
+        let (count, asked) = (self.encoder.count(), self.counters[1].asks());
+        match self.model {
+            Model::F405 => self.copier.changed(0x4000_0824, count, asked, &self.ram),
+            Model::G474 => self.copier.changed_g4(0x4000_0824, count, asked, self.line.multiplexer.get(0), &self.ram),
+        }
     }
 
     /// Whether the high side of a coil is commanded on, and for which share of the time its low side.
     pub fn drive(&self, coil: usize) -> (bool, f64) {
         let port = &self.ports[2];
         let high = port.output(8 + coil as u32).unwrap_or(false);
-        let modulated = port.function(6 + coil as u32) == Some(3);
+        let function = if self.model == Model::G474 { 4 } else { 3 };
+        let modulated = port.function(6 + coil as u32) == Some(function);
         (high, if modulated { self.modulation.duty(coil as u32) } else { 0.0 })
+    }
+
+    /// Whether a coil's current asks the timer for a break: by the comparators on an F4's board, at pin PA6, or by those of a G4.
+    fn asks_for_break(&self) -> bool {
+        let mut currents = self.coils.iter().map(|coil| coil.current).enumerate();
+        match self.model {
+            Model::F405 => {
+                let wired = self.ports[0].function(6) == Some(3) && self.modulation.breaks_at(false);
+                wired && currents.any(|(_, current)| current > BREAK)
+            }
+            Model::G474 => currents.any(|(coil, current)| {
+                let level = self.comparators.level(coil).filter(|(number, _)| self.modulation.has_comparator(*number));
+                self.modulation.breaks_at(true) && level.is_some_and(|(_, level)| current > level)
+            }),
+        }
     }
 
     /// Brings the coils' currents up to now.
     pub fn advance_coils(&mut self) {
         self.modulation.advance(self.now);
+        let before = self.coils.clone();
+        let from = std::mem::replace(&mut self.coils_at, self.now);
+        self.let_flow(self.now);
+        let mut asks = self.asks_for_break();
+        if asks && !self.broken {
+            // Closer, when.
+            self.coils = before;
+            asks = false;
+            for at in (from..self.now).step_by(microseconds(1) as usize).skip(1) {
+                self.let_flow(at);
+                if self.asks_for_break() {
+                    self.modulation.set_break(true);
+                    self.let_flow(self.now);
+                    break;
+                }
+            }
+            self.let_flow(self.now);
+            asks |= self.asks_for_break();
+        }
+        self.broken = asks;
+        self.modulation.set_break(asks);
+    }
+
+    fn let_flow(&mut self, until: u64) {
         for index in 0..2 {
             let (high, duty) = self.drive(index);
-            self.coils[index].advance(high, duty, self.now);
+            self.coils[index].advance(high, duty, until);
         }
     }
 
@@ -319,6 +388,11 @@ impl Chip {
 
     fn work(&mut self, work: Option<Work>) {
         let Some(work) = work else { return };
+        if self.model == Model::G474 {
+            self.flash.start(work, self.now);
+            self.event = self.next_event();
+            return;
+        }
         let cut = self.flash.begin(work);
         let time = self.flash.duration(work);
         let before = self.now;
@@ -341,6 +415,9 @@ impl Chip {
                 self.private.read(address, self.half_cycles)
             };
         }
+        if self.model == Model::G474 {
+            return self.load_g4(address);
+        }
         match address {
             // Number of the chip, and its flash in KiB.
             0x1FFF_7A10..0x1FFF_7A1C => return 0x0042_0000 | address & 15,
@@ -359,7 +436,10 @@ impl Chip {
             0x4000_3000 => self.watchdog.read(offset),
             0x4000_3800 => self.buses[1].read(offset),
             0x4000_7000 => self.supply.read_power(offset),
-            0x4001_0400 => self.modulation.read(offset),
+            0x4001_0400 => {
+                self.advance_coils();
+                self.modulation.read(offset)
+            }
             0x4001_1000 => self.line.read(offset),
             0x4001_2000 if offset >= 0x300 => self.converters.get(offset),
             0x4001_2000 => {
@@ -393,6 +473,9 @@ impl Chip {
                 }
             }
             return;
+        }
+        if self.model == Model::G474 {
+            return self.store_g4(address, value);
         }
         if !self.rcc.clocks(base) {
             return;
@@ -463,13 +546,13 @@ impl Chip {
             0x4000_3800 => self.buses[1].reset(),
             0x4001_0400 => self.modulation.reset(),
             0x4001_1000 => self.line.reset(),
-            0x4001_2000 => self.converter.reset(),
+            0x4001_2000 => self.converter.reset(self.model),
             0x4001_3000 => self.buses[0].reset(),
             0x4002_6000 => self.copier.reset(),
             0x4002_6400 => self.line.reset_streams(),
             0x4002_0000..=0x4002_2000 => {
                 let index = base >> 10 & 15;
-                self.ports[index as usize].reset(index);
+                self.ports[index as usize].reset(self.model, index);
             }
             _ => {}
         }
@@ -503,12 +586,6 @@ impl Chip {
     }
 }
 
-impl Default for Chip {
-    fn default() -> Chip {
-        Chip::new()
-    }
-}
-
 /// The address and bit behind an address at which single bits of registers can be reached.
 fn bit_band(address: u32) -> Option<(u32, u32)> {
     (0x4200_0000..0x4400_0000).contains(&address).then(|| {
@@ -524,7 +601,10 @@ impl Guest for Chip {
         }
         if self.flash.memory.contains(address) {
             let mut bytes = [0; 4];
-            self.flash.memory.read(address, &mut bytes[..size as usize]);
+            match self.model {
+                Model::F405 => self.flash.memory.read(address, &mut bytes[..size as usize]),
+                Model::G474 => self.load_checked(address, &mut bytes[..size as usize]),
+            }
             return u32::from_le_bytes(bytes);
         }
         let word = self.load(address & !3) >> (8 * (address & 3));
@@ -580,16 +660,12 @@ impl Guest for Chip {
 }
 
 /// Where the registers of the chip are, for the engine.
-pub const REGISTERS: [std::ops::Range<u32>; 5] = [
+pub const REGISTERS: [std::ops::Range<u32>; 7] = [
     0x1FFF_0000..0x1FFF_8000,
     0x1FFF_C000..0x1FFF_D000,
     0x4000_0000..0x4008_0000,
     0x4200_0000..0x4400_0000,
+    0x4800_0000..0x4800_2000,
+    0x5000_0000..0x5000_2000,
     0xE000_0000..0xE010_0000,
 ];
-
-/// Last address of the flash and one.
-pub const FLASH_END: u32 = flash::START + flash::LENGTH;
-
-/// RCC's base and flags, for those who look at the cause.
-pub const RCC_CSR: u32 = 0x4002_3800 + rcc::CSR;

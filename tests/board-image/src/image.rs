@@ -1,5 +1,6 @@
 //! The part of an ELF file that goes into the flash.
 
+use crate::model::Model;
 use std::path::{Path, PathBuf};
 
 /// A program for the board.
@@ -7,6 +8,8 @@ use std::path::{Path, PathBuf};
 pub struct Image {
     /// Address and bytes of what is loaded.
     pub segments: Vec<(u32, Vec<u8>)>,
+    /// The chip that it is for.
+    pub model: Model,
 }
 
 /// Why a file is no program for the board.
@@ -44,6 +47,11 @@ impl Image {
         Image::of(&bytes).ok_or_else(|| ImageError::NoElf(path.to_owned()))
     }
 
+    /// The same for another chip than the first.
+    pub fn on(self, model: Model) -> Image {
+        Image { model, ..self }
+    }
+
     fn of(bytes: &[u8]) -> Option<Image> {
         let word = |place: usize| Some(u32::from_le_bytes(bytes.get(place..place + 4)?.try_into().ok()?));
         let half = |place: usize| Some(u16::from_le_bytes(bytes.get(place..place + 2)?.try_into().ok()?));
@@ -58,7 +66,7 @@ impl Image {
                 segments.push((address, bytes.get(start..start + length)?.to_vec()));
             }
         }
-        Some(Image { segments })
+        Some(Image { segments, model: Model::default() })
     }
 
     /// The last address of the program, and one.

@@ -9,23 +9,33 @@ use sprag_shared::settings::{Item, Settings};
 
 use crate::bench::{Bench, Stop, TickCost};
 use crate::image::Image;
-use crate::peripheral::flash::{Flash, sector_range};
+use crate::model::Model;
+use crate::peripheral::flash::Flash;
 use crate::peripheral::icm42688::Measured;
 use crate::peripheral::rcc::Cause;
 use crate::random::Random;
 use crate::time::{SECOND, milliseconds, seconds};
 
-/// The image that is tested: `SPRAG_BOARD_ELF`, as `cargo xtask test` sets it.
+/// The image for a chip that is tested: the one that [`Model::variable`] names, as `cargo xtask test` sets it.
+///
+/// # Panics
+/// Without it.
+pub fn image_for(model: Model) -> Image {
+    let variable = model.variable();
+    let path = std::env::var_os(variable).unwrap_or_else(|| panic!("{variable} names no image; `cargo xtask test` builds one"));
+    Image::load(&PathBuf::from(path)).unwrap_or_else(|error| panic!("{error}")).on(model)
+}
+
+/// The image for the F405.
 ///
 /// # Panics
 /// Without it.
 pub fn image() -> Image {
-    let path = std::env::var_os("SPRAG_BOARD_ELF").expect("SPRAG_BOARD_ELF names no image; `cargo xtask test` builds one");
-    Image::load(&PathBuf::from(path)).unwrap_or_else(|error| panic!("{error}"))
+    image_for(Model::F405)
 }
 
-/// Sectors 1 and 2, as the program's store sees them, written to by the host.
-struct Sectors<'a>(&'a Flash);
+/// The two copies of the settings, as the program's store sees them, written to by the host.
+struct Sectors<'a>(&'a mut Flash);
 
 impl ErrorType for Sectors<'_> {
     type Error = NorFlashErrorKind;
@@ -35,7 +45,7 @@ impl ReadNorFlash for Sectors<'_> {
     const READ_SIZE: usize = 1;
 
     fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), NorFlashErrorKind> {
-        self.0.memory.read(sector_range(1).0 + offset, bytes);
+        self.0.settings(offset, bytes);
         Ok(())
     }
 
@@ -49,12 +59,12 @@ impl NorFlash for Sectors<'_> {
     const ERASE_SIZE: usize = 0x4000;
 
     fn erase(&mut self, from: u32, to: u32) -> Result<(), NorFlashErrorKind> {
-        self.0.memory.write(sector_range(1).0 + from, &vec![0xFF; (to - from) as usize]);
+        self.0.set_settings(from, &vec![0xFF; (to - from) as usize]);
         Ok(())
     }
 
     fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), NorFlashErrorKind> {
-        self.0.memory.write(sector_range(1).0 + offset, bytes);
+        self.0.set_settings(offset, bytes);
         Ok(())
     }
 }
@@ -94,9 +104,9 @@ pub struct Rig {
 impl Rig {
     /// A new board with `image`, at rest, just powered. In flash are `stored` settings, if there are any.
     pub fn new(image: &Image, stored: Option<&Settings>) -> Rig {
-        let bench = Bench::new(image);
+        let mut bench = Bench::new(image);
         if let Some(settings) = stored {
-            keep(&bench.chip().flash, settings, 1);
+            keep(&mut bench.chip_mut().flash, settings, 1);
         }
         Rig {
             bench,
@@ -275,9 +285,9 @@ impl Rig {
 }
 
 /// Stores settings `count` times, as the program would.
-pub fn keep(flash: &Flash, settings: &Settings, count: u32) {
+pub fn keep(flash: &mut Flash, settings: &Settings, count: u32) {
     for _ in 0..count {
-        let (mut store, _) = Store::open(Sectors(flash));
+        let (mut store, _) = Store::open(Sectors(&mut *flash));
         store.store_erasing(settings).expect("a flash that works");
     }
 }

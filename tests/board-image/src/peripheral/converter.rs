@@ -1,6 +1,7 @@
 //! ADC1, which converts the two coils' currents for ever (RM0090 section 13).
 
 use super::registers::Registers;
+use crate::model::Model;
 
 const SR: u32 = 0x00;
 const CR1: u32 = 0x04;
@@ -19,7 +20,7 @@ const AUTOMATIC_INJECTED: u32 = 1 << 10;
 const FIRST_CHANNEL: u32 = 10;
 
 /// Counts of an ampere: 50 mΩ, 50 V/V, 3.3 V over 4096.
-const COUNTS_PER_AMPERE: f64 = 4096.0 / 3.3 * 2.5;
+pub const COUNTS_PER_AMPERE: f64 = 4096.0 / 3.3 * 2.5;
 
 /// The converter.
 #[derive(Clone, Debug, Default)]
@@ -29,10 +30,71 @@ pub struct Converter {
     pub stuck: Option<u32>,
 }
 
+/// Offsets and bits of a G4's (RM0440, 21.7).
+mod g4 {
+    pub const ISR: u32 = 0x00;
+    pub const CR: u32 = 0x08;
+    pub const CFGR: u32 = 0x0C;
+    pub const JSQR: u32 = 0x4C;
+    pub const JDR1: u32 = 0x80;
+    pub const JDR4: u32 = 0x8C;
+    pub const ENABLED: u32 = 1;
+    pub const STARTED: u32 = 1 << 2;
+    pub const REGULATOR: u32 = 1 << 28;
+    pub const DEEP_POWER_DOWN: u32 = 1 << 29;
+    pub const CALIBRATES: u32 = 1 << 31;
+    pub const CONTINUOUS: u32 = 1 << 13;
+    pub const AUTOMATIC_INJECTED: u32 = 1 << 25;
+    /// Of the two coils: PA1 and PC1.
+    pub const CHANNELS: [u32; 2] = [2, 7];
+}
+
 impl Converter {
+    fn ready_g4(&self) -> bool {
+        self.registers.has(g4::CR, g4::ENABLED | g4::REGULATOR) && self.registers.get(g4::CR) & g4::DEEP_POWER_DOWN == 0
+    }
+
+    fn runs_g4(&self) -> bool {
+        let both = self.registers.has(g4::CFGR, g4::CONTINUOUS | g4::AUTOMATIC_INJECTED);
+        self.ready_g4() && both && self.registers.has(g4::CR, g4::STARTED)
+    }
+
+    /// A load from a G4's, with the coils' currents, A.
+    pub fn read_g4(&self, offset: u32, currents: [f64; 2]) -> u32 {
+        match offset {
+            g4::ISR => u32::from(self.ready_g4()),
+            g4::JDR1..=g4::JDR4 if self.runs_g4() => {
+                let (sequence, place) = (self.registers.get(g4::JSQR), (offset - g4::JDR1) / 4);
+                let channel = sequence >> (9 + 6 * place) & 31;
+                let coil = g4::CHANNELS.iter().position(|of| *of == channel && place <= sequence & 3);
+                coil.map_or(0, |coil| self.counts(currents[coil]))
+            }
+            g4::JDR1..=g4::JDR4 => 0,
+            _ => self.registers.get(offset),
+        }
+    }
+
+    /// A store to a G4's: bits of its control register are set by 1 and cleared by what they start.
+    pub fn write_g4(&mut self, offset: u32, value: u32) {
+        let stays = self.registers.get(g4::CR) & (g4::ENABLED | g4::STARTED);
+        match offset {
+            g4::ISR => {}
+            // The regulator first, then what needs it.
+            g4::CR if value & g4::REGULATOR == 0 => self.registers.set(g4::CR, value & g4::DEEP_POWER_DOWN),
+            g4::CR => {
+                let started = if stays & g4::ENABLED == 0 { value & !g4::STARTED } else { value };
+                self.registers.set(g4::CR, started & !g4::CALIBRATES | stays);
+            }
+            _ => self.registers.set(offset, value),
+        }
+    }
+
     /// Registers as after a reset.
-    pub fn reset(&mut self) {
-        self.registers = Registers::default();
+    pub fn reset(&mut self, model: Model) {
+        self.registers = match model {
+            Model::F405 => Registers::default(),
+            Model::G474 => Registers::of(&[(g4::CR, g4::DEEP_POWER_DOWN), (g4::CFGR, 1 << 31)]),
+        };
     }
 
     /// Whether it converts on and on by itself.

@@ -4,15 +4,16 @@
 //! short by a reset or by the supply is left half done: of a sector being erased some cells are erased and some are not, of a word being
 //! programmed some bits are.
 
+pub mod g4;
+
 use super::registers::Registers;
 use crate::engine::Memory;
+use crate::model::Model;
 use crate::random::Random;
 use crate::time::{microseconds, milliseconds};
 
 /// First address.
 pub const START: u32 = 0x0800_0000;
-/// Bytes.
-pub const LENGTH: u32 = 1 << 20;
 
 const KEYR: u32 = 0x04;
 const OPTKEYR: u32 = 0x08;
@@ -54,6 +55,10 @@ pub enum Work {
     Erase(u32),
     /// So many bytes from an address on.
     Program(u32, u32, u32),
+    /// The page of a G4 at an address.
+    ErasePage(u32),
+    /// A double word of a G4 at an address.
+    ProgramDouble(u32, u64),
     /// The option bytes.
     Options(u32),
 }
@@ -61,6 +66,8 @@ pub enum Work {
 /// Flash and controller.
 #[derive(Debug)]
 pub struct Flash {
+    model: Model,
+    banks: g4::Banks,
     /// What it holds.
     pub memory: Memory,
     registers: Registers,
@@ -78,10 +85,12 @@ pub struct Flash {
 
 impl Flash {
     /// A new chip.
-    pub fn new() -> Flash {
-        let memory = Memory::new(START, LENGTH as usize, 0xFF);
+    pub fn new(model: Model) -> Flash {
+        let memory = Memory::new(START, model.flash_length() as usize, 0xFF);
         let (options, pace, random) = (NEW_OPTIONS, Pace::Typical, Random::new(405));
         let mut flash = Flash {
+            model,
+            banks: g4::Banks::default(),
             memory,
             registers: Registers::default(),
             options,
@@ -98,17 +107,26 @@ impl Flash {
 
     /// Registers as after a reset.
     pub fn reset(&mut self) {
-        self.registers = Registers::of(&[(CR, LOCK), (OPTCR, self.options | OPTION_LOCK)]);
         (self.unlocked, self.options_unlocked) = (0, 0);
+        match self.model {
+            Model::F405 => self.registers = Registers::of(&[(CR, LOCK), (OPTCR, self.options | OPTION_LOCK)]),
+            Model::G474 => self.reset_g4(),
+        }
     }
 
     /// Level of the brown-out reset, V, if it is on.
     pub fn brown_out(&self) -> Option<f64> {
+        if self.model == Model::G474 {
+            return self.brown_out_g4();
+        }
         [Some(2.83), Some(2.53), Some(2.23), None][(self.options >> 2 & 3) as usize]
     }
 
     /// A load from the controller.
     pub fn read(&self, offset: u32) -> u32 {
+        if self.model == Model::G474 {
+            return self.read_g4(offset);
+        }
         match offset {
             KEYR | OPTKEYR => 0,
             _ => self.registers.get(offset),
@@ -117,6 +135,9 @@ impl Flash {
 
     /// A store to the controller, and what work it starts.
     pub fn write(&mut self, offset: u32, value: u32) -> Option<Work> {
+        if self.model == Model::G474 {
+            return self.write_g4(offset, value);
+        }
         match offset {
             KEYR => {
                 self.unlocked = if KEYS.get(self.unlocked) == Some(&value) { self.unlocked + 1 } else { usize::MAX };
@@ -159,6 +180,9 @@ impl Flash {
 
     /// A store to the flash itself, and what work it starts.
     pub fn store(&mut self, address: u32, size: u32, value: u32) -> Option<Work> {
+        if self.model == Model::G474 {
+            return self.store_g4(address, size, value);
+        }
         let width = 1 << (self.registers.get(CR) >> 8 & 3);
         let error = if self.registers.has(CR, LOCK) || !self.registers.has(CR, PROGRAM) {
             SEQUENCE_ERROR
@@ -175,10 +199,14 @@ impl Flash {
 
     /// How long a work takes.
     pub fn duration(&self, work: Work) -> u64 {
+        if self.model == Model::G474 {
+            return self.duration_g4(work);
+        }
         let slow = self.pace == Pace::Slowest;
         match work {
             Work::Program(..) => microseconds(if slow { 100 } else { 16 }),
             Work::Options(_) => milliseconds(if slow { 20 } else { 10 }),
+            Work::ProgramDouble(..) | Work::ErasePage(_) => 0,
             Work::Erase(sector) => {
                 // By the parallelism: of 16 KiB, of 64 KiB, of 128 KiB; typical times, of which the longest are twice.
                 let parallelism = (self.registers.get(CR) >> 8 & 3) as usize;
@@ -220,15 +248,47 @@ impl Flash {
                     self.memory.write(address, &[old[0] | reached]);
                 }
             }
+            Work::ProgramDouble(address, double) => self.finish_double(address, double, cut),
+            Work::ErasePage(page) => self.finish_page(page, cut),
             Work::Options(_) if cut => {}
+            Work::Options(value) if self.model == Model::G474 => self.finish_options(value),
             Work::Options(value) => self.options = value & 0x0FFF_FFEC,
         }
     }
-}
 
-impl Default for Flash {
-    fn default() -> Flash {
-        Flash::new()
+    /// A copy of the settings, 0 or 1, is half erased.
+    pub fn half_erase_copy(&mut self, copy: u32) {
+        match self.model {
+            Model::F405 => self.finish(Work::Erase(1 + copy), true),
+            Model::G474 => {
+                let pages: Vec<u32> = Flash::pages_of_copy(copy).collect();
+                pages[..7].iter().for_each(|page| self.finish(Work::ErasePage(*page), false));
+                self.finish(Work::ErasePage(pages[7]), true);
+            }
+        }
+    }
+
+    /// The words of the settings at an offset, as the program's store sees them.
+    pub fn settings(&self, offset: u32, bytes: &mut [u8]) {
+        for (offset, word) in (offset..).step_by(4).zip(bytes.chunks_mut(4)) {
+            let place = match self.model {
+                Model::F405 => sector_range(1).0 + offset,
+                Model::G474 => Flash::place_of_setting(offset),
+            };
+            self.memory.read(place, word);
+        }
+    }
+
+    /// The host programs words of the settings, or blank ones.
+    pub fn set_settings(&mut self, offset: u32, bytes: &[u8]) {
+        if self.model == Model::F405 {
+            return self.memory.write(sector_range(1).0 + offset, bytes);
+        }
+        for (offset, bytes) in (offset..).step_by(4).zip(bytes.chunks_exact(4)) {
+            let word = bytes.iter().rev().fold(0, |word, byte| word << 8 | u64::from(*byte));
+            let blank = word == u64::from(u32::MAX);
+            self.put(Flash::place_of_setting(offset), if blank { u64::MAX } else { !word << 32 | word });
+        }
     }
 }
 

@@ -4,25 +4,65 @@ use std::collections::VecDeque;
 
 use super::registers::Registers;
 use crate::engine::Memory;
+use crate::model::Model;
 use crate::time::SECOND;
 
-const STATUS: u32 = 0x00;
-const BRR: u32 = 0x08;
-const CR1: u32 = 0x0C;
-/// Offsets of stream 2's registers in DMA2, which receives.
-const RECEIVER: u32 = 0x10 + 0x18 * 2;
-/// Offsets of stream 7's, which sends.
-const SENDER: u32 = 0x10 + 0x18 * 7;
-const NDTR: u32 = 0x04;
-const M0AR: u32 = 0x0C;
+/// Where what is.
+#[derive(Clone, Copy, Debug)]
+struct Layout {
+    status: u32,
+    rate: u32,
+    control: u32,
+    /// Bits of the control register that have it receive.
+    receives: u32,
+    /// Offsets of the registers of the stream that receives and of the one that sends.
+    receiver: u32,
+    sender: u32,
+    length: u32,
+    memory: u32,
+    circular: u32,
+    /// Offset in the multiplexer, the same divided by four, and what is asked for there.
+    requests: [(u32, u32); 2],
+}
+
+/// Streams 2 and 7 of DMA2.
+const F405: Layout = Layout {
+    status: 0x00,
+    rate: 0x08,
+    control: 0x0C,
+    receives: 1 << 13 | 1 << 2,
+    receiver: 0x10 + 0x18 * 2,
+    sender: 0x10 + 0x18 * 7,
+    length: 0x04,
+    memory: 0x0C,
+    circular: 1 << 8,
+    requests: [(0, 0); 2],
+};
+
+/// Channels 2 and 3 of DMA1, by the multiplexer's requests 24 and 25 (RM0440, 12.6, 13.3.2 and 37.8).
+const G474: Layout = Layout {
+    status: 0x1C,
+    rate: 0x0C,
+    control: 0x00,
+    receives: 1 << 2 | 1,
+    receiver: 0x08 + 0x14,
+    sender: 0x08 + 2 * 0x14,
+    length: 0x04,
+    memory: 0x0C,
+    circular: 1 << 5,
+    requests: [(4, 24), (8, 25)],
+};
+
 const ENABLED: u32 = 1;
-const CIRCULAR: u32 = 1 << 8;
 /// Bits of a byte with its start and its stop.
 const BITS: u64 = 10;
 
 /// The line.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Line {
+    layout: Layout,
+    /// The multiplexer of a G4.
+    pub multiplexer: Registers,
     usart: Registers,
     dma: Registers,
     incoming: VecDeque<(u64, u8)>,
@@ -35,20 +75,42 @@ pub struct Line {
 }
 
 impl Line {
+    /// Of a chip.
+    pub fn new(model: Model) -> Line {
+        Line {
+            layout: if model == Model::G474 { G474 } else { F405 },
+            multiplexer: Registers::default(),
+            usart: Registers::default(),
+            dma: Registers::default(),
+            incoming: VecDeque::new(),
+            outgoing: VecDeque::new(),
+            ring: (0, 0),
+            sent_at: 0,
+            haste: 0,
+        }
+    }
+
+    /// Whether the multiplexer leads its requests to the stream that receives, or to that which sends.
+    fn asked(&self, stream: usize) -> bool {
+        let (offset, request) = self.layout.requests[stream];
+        self.multiplexer.get(offset) == request
+    }
+
     /// Registers of the USART as after a reset.
     pub fn reset(&mut self) {
-        self.usart = Registers::of(&[(STATUS, 0xC0)]);
+        self.usart = Registers::default();
     }
 
     /// Registers of the streams as after a reset.
     pub fn reset_streams(&mut self) {
         self.dma = Registers::default();
+        self.multiplexer = Registers::default();
         self.ring = (0, 0);
         self.sent_at = 0;
     }
 
     fn byte_time(&self, clock: u64) -> u64 {
-        BITS * u64::from(self.usart.get(BRR)).max(1) * SECOND / clock / self.haste.max(1)
+        BITS * u64::from(self.usart.get(self.layout.rate)).max(1) * SECOND / clock / self.haste.max(1)
     }
 
     /// The host sends; bytes go one after the other.
@@ -69,26 +131,28 @@ impl Line {
 
     /// Moves what has come over the wire into the memory.
     fn receive(&mut self, memory: &Memory, now: u64) {
+        let Layout { receiver, control, receives, memory: first, circular, .. } = self.layout;
         while let Some(&(at, byte)) = self.incoming.front() {
             if at > now {
                 break;
             }
             self.incoming.pop_front();
-            if !self.dma.has(RECEIVER, ENABLED) || !self.usart.has(CR1, 1 << 13 | 1 << 2) {
+            let on = self.dma.has(receiver, ENABLED) && self.usart.has(control, receives);
+            if !on || !self.asked(0) {
                 continue;
             }
             let (length, place) = self.ring;
-            memory.write(self.dma.get(RECEIVER + M0AR) + place, &[byte]);
+            memory.write(self.dma.get(receiver + first) + place, &[byte]);
             self.ring.1 = (place + 1) % length.max(1);
-            if self.ring.1 == 0 && !self.dma.has(RECEIVER, CIRCULAR) {
-                self.dma.set(RECEIVER, self.dma.get(RECEIVER) & !ENABLED);
+            if self.ring.1 == 0 && !self.dma.has(receiver, circular) {
+                self.dma.set(receiver, self.dma.get(receiver) & !ENABLED);
             }
         }
     }
 
     /// A load from the USART.
     pub fn read(&self, offset: u32) -> u32 {
-        if offset == STATUS { 0xC0 } else { self.usart.get(offset) }
+        if offset == self.layout.status { 0xC0 } else { self.usart.get(offset) }
     }
 
     /// A store to the USART.
@@ -96,29 +160,38 @@ impl Line {
         self.usart.set(offset, value);
     }
 
-    /// A load from DMA2.
+    /// A load from the streams' controller.
     pub fn read_stream(&mut self, offset: u32, memory: &Memory, now: u64) -> u32 {
-        const LEFT: u32 = RECEIVER + NDTR;
+        let Layout { receiver, sender, length, .. } = self.layout;
+        let sends = now < self.sent_at;
         match offset {
-            LEFT if self.dma.has(RECEIVER, ENABLED) => {
+            _ if offset == receiver + length && self.dma.has(receiver, ENABLED) => {
                 self.receive(memory, now);
                 self.ring.0 - self.ring.1
             }
-            SENDER if now < self.sent_at => self.dma.get(SENDER),
-            SENDER => self.dma.get(SENDER) & !ENABLED,
+            // A channel of a G4 stays on at its end.
+            _ if offset == sender && !sends && self.layout.sender == F405.sender => self.dma.get(sender) & !ENABLED,
+            _ if offset == sender + length && !sends && self.dma.has(sender, ENABLED) => 0,
             _ => self.dma.get(offset),
         }
     }
 
-    /// A store to DMA2.
+    /// A store to the streams' controller.
     pub fn write_stream(&mut self, offset: u32, value: u32, memory: &Memory, clock: u64, now: u64) {
-        self.dma.set(offset, value);
-        if offset == RECEIVER && value & ENABLED != 0 {
-            self.ring = (self.dma.get(RECEIVER + NDTR), 0);
+        let Layout { receiver, sender, length, memory: first, .. } = self.layout;
+        let begins = value & !self.dma.get(offset) & ENABLED != 0;
+        // Address and length are taken while a stream is off only.
+        let on = |stream: u32| self.dma.has(stream, ENABLED) && offset > stream && offset <= stream + 0x0C;
+        if self.layout.sender == G474.sender && (on(receiver) || on(sender)) {
+            return;
         }
-        if offset == SENDER && value & ENABLED != 0 {
-            let mut bytes = vec![0; self.dma.get(SENDER + NDTR) as usize];
-            memory.read(self.dma.get(SENDER + M0AR), &mut bytes);
+        self.dma.set(offset, value);
+        if offset == receiver && value & ENABLED != 0 {
+            self.ring = (self.dma.get(receiver + length), 0);
+        }
+        if offset == sender && value & ENABLED != 0 && (begins || self.layout.sender == F405.sender) && self.asked(1) {
+            let mut bytes = vec![0; self.dma.get(sender + length) as usize];
+            memory.read(self.dma.get(sender + first), &mut bytes);
             let time = self.byte_time(clock);
             let mut at = now;
             for byte in bytes {

@@ -1,7 +1,9 @@
-//! The parts of the STM32F405, by RM0090 rev. 21, and those of the board that are connected to them.
+//! The parts of the STM32F405, by RM0090 rev. 21, those of the STM32G474 where they differ, by RM0440 rev. 8, and those of the board that are
+//! connected to them.
 
 pub mod backup;
 pub mod coil;
+pub mod comparators;
 pub mod converter;
 pub mod copier;
 pub mod counter;

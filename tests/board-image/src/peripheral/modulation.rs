@@ -13,6 +13,8 @@ const ARR: u32 = 0x2C;
 pub const CCR1: u32 = 0x34;
 /// Offset of BDTR.
 pub const BDTR: u32 = 0x44;
+/// Offset of AF1, which an F4 has not (RM0440, 28.6.25).
+const AF1: u32 = 0x60;
 
 const ENABLE: u32 = 1;
 const BREAK_ENABLE: u32 = 1 << 12;
@@ -34,7 +36,7 @@ pub struct Modulation {
 impl Modulation {
     /// Registers as after a reset.
     pub fn reset(&mut self) {
-        *self = Modulation { registers: Registers::of(&[(ARR, 0xFFFF)]), ..Modulation::default() };
+        *self = Modulation { registers: Registers::of(&[(ARR, 0xFFFF), (AF1, 1)]), ..Modulation::default() };
     }
 
     fn period(&self, clock: u64) -> u64 {
@@ -76,6 +78,16 @@ impl Modulation {
         }
     }
 
+    /// Whether a level of the break input, or of a comparator in its place, is what it is switched off by.
+    pub fn breaks_at(&self, level: bool) -> bool {
+        self.registers.has(BDTR, 1 << 13) == level
+    }
+
+    /// Whether a comparator of a G4, from 1 on, is at the break.
+    pub fn has_comparator(&self, number: u32) -> bool {
+        self.registers.has(AF1, 1 << number)
+    }
+
     /// A load.
     pub fn read(&self, offset: u32) -> u32 {
         self.registers.get(offset)
@@ -93,6 +105,9 @@ impl Modulation {
                 return;
             }
             _ => self.registers.set(offset, value),
+        }
+        if self.break_active {
+            self.set_break(true);
         }
         if offset == CR1 && value & ENABLE != 0 {
             self.begun = now;

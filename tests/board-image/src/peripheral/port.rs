@@ -1,6 +1,7 @@
 //! A port of GPIO (RM0090 section 8).
 
 use super::registers::Registers;
+use crate::model::Model;
 
 const MODER: u32 = 0x00;
 const PUPDR: u32 = 0x0C;
@@ -20,15 +21,19 @@ pub struct Port {
 
 impl Port {
     /// Port `index` from A on, after a reset.
-    pub fn new(index: u32) -> Port {
+    pub fn new(model: Model, index: u32) -> Port {
         let mut port = Port { registers: Registers::default(), outside: [None; 16] };
-        port.reset(index);
+        port.reset(model, index);
         port
     }
 
     /// Registers as after a reset.
-    pub fn reset(&mut self, index: u32) {
+    pub fn reset(&mut self, model: Model, index: u32) {
+        // The pins of a G4 are analog at first (RM0440, 9.4.1).
         self.registers = match index {
+            0 if model == Model::G474 => Registers::of(&[(MODER, 0xABFF_FFFF), (0x08, 0x0C00_0000), (PUPDR, 0x6400_0000)]),
+            1 if model == Model::G474 => Registers::of(&[(MODER, 0xFFFF_FEBF), (PUPDR, 0x100)]),
+            _ if model == Model::G474 => Registers::of(&[(MODER, u32::MAX)]),
             0 => Registers::of(&[(MODER, 0xA800_0000), (0x08, 0x0C00_0000), (PUPDR, 0x6400_0000)]),
             1 => Registers::of(&[(MODER, 0x280), (0x08, 0xC0), (PUPDR, 0x100)]),
             _ => Registers::default(),

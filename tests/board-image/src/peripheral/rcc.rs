@@ -1,6 +1,9 @@
 //! RCC: clocks, resets and why there was one (RM0090 section 7).
 
+mod g4;
+
 use super::registers::Registers;
+use crate::model::Model;
 use crate::time::{microseconds, milliseconds};
 
 /// Offsets.
@@ -45,6 +48,8 @@ pub enum Cause {
     Watchdog,
     /// SYSRESETREQ.
     Software,
+    /// Option bytes were to come into force, on a G4.
+    OptionReload,
 }
 
 impl Cause {
@@ -53,7 +58,7 @@ impl Cause {
         let own = match self {
             Cause::Power => 1 << 27 | 1 << 25,
             Cause::BrownOut => 1 << 25,
-            Cause::Pin => 0,
+            Cause::Pin | Cause::OptionReload => 0,
             Cause::Watchdog => 1 << 29,
             Cause::Software => 1 << 28,
         };
@@ -64,6 +69,7 @@ impl Cause {
 /// The block.
 #[derive(Clone, Debug)]
 pub struct Rcc {
+    model: Model,
     registers: Registers,
     /// The crystal is there and whole.
     pub crystal: bool,
@@ -75,7 +81,11 @@ pub struct Rcc {
 
 impl Rcc {
     /// After a reset for that cause; flags of before stay until the program clears them.
-    pub fn reset(before: Option<&Rcc>, cause: Cause) -> Rcc {
+    pub fn reset(model: Model, before: Option<&Rcc>, cause: Cause) -> Rcc {
+        let crystal = before.is_none_or(|rcc| rcc.crystal);
+        if model == Model::G474 {
+            return Rcc { model, registers: g4::registers(before, cause), crystal, crystal_at: None, pll_at: None };
+        }
         let flags = match before {
             Some(rcc) if cause != Cause::Power => rcc.registers.get(CSR) & 0xFE00_0000,
             _ => 0,
@@ -87,7 +97,7 @@ impl Rcc {
             (CSR, flags | cause.flags()),
             (0x84, 0x2000_3000),
         ]);
-        Rcc { registers, crystal: before.is_none_or(|rcc| rcc.crystal), crystal_at: None, pll_at: None }
+        Rcc { model, registers, crystal, crystal_at: None, pll_at: None }
     }
 
     fn crystal_runs(&self, now: u64) -> bool {
@@ -96,6 +106,9 @@ impl Rcc {
 
     /// Rate of the core's clock, 1/s.
     pub fn core_hz(&self) -> u64 {
+        if self.model == Model::G474 {
+            return self.core_hz_g4();
+        }
         let configuration = self.registers.get(CFGR);
         let hz = match configuration >> 2 & 3 {
             0 => HSI,
@@ -116,9 +129,17 @@ impl Rcc {
         source / m.max(1) * n / p
     }
 
+    /// Where the dividers of APB1 and APB2 are in RCC_CFGR.
+    fn dividers(&self) -> [u32; 2] {
+        match self.model {
+            Model::F405 => [10, 13],
+            Model::G474 => [8, 11],
+        }
+    }
+
     /// Rates of the peripherals' clocks at APB1 and APB2, 1/s.
     pub fn peripheral_hz(&self) -> [u64; 2] {
-        [10, 13].map(|shift| match self.registers.get(CFGR) >> shift & 7 {
+        self.dividers().map(|shift| match self.registers.get(CFGR) >> shift & 7 {
             divider @ 4.. => self.core_hz() >> (divider - 3),
             _ => self.core_hz(),
         })
@@ -126,13 +147,16 @@ impl Rcc {
 
     /// Rates of the timers' clocks, 1/s: double where the bus is divided.
     pub fn timer_hz(&self) -> [u64; 2] {
-        let divided = [10, 13].map(|shift| self.registers.get(CFGR) >> shift & 7 >= 4);
+        let divided = self.dividers().map(|shift| self.registers.get(CFGR) >> shift & 7 >= 4);
         let [first, second] = self.peripheral_hz();
         [if divided[0] { 2 * first } else { first }, if divided[1] { 2 * second } else { second }]
     }
 
     /// Whether the clock of the peripheral at `base` is on.
     pub fn clocks(&self, base: u32) -> bool {
+        if self.model == Model::G474 {
+            return self.clocks_g4(base);
+        }
         let (offset, bit) = match base {
             0x4000_0000..=0x4000_0C00 => (0x40, base >> 10 & 31),
             0x4000_3800 => (0x40, 14),
@@ -167,6 +191,9 @@ impl Rcc {
 
     /// A store. Gives the base of a peripheral that is reset by it, if one is.
     pub fn write(&mut self, offset: u32, value: u32, now: u64) -> Option<u32> {
+        if self.model == Model::G474 {
+            return self.write_g4(offset, value, now);
+        }
         match offset {
             CR => {
                 let starts = |on: u32, at: Option<u64>, time: u64| (value & on != 0).then(|| at.unwrap_or(now + time));
@@ -201,6 +228,9 @@ impl Rcc {
 
     /// The crystal stops. Whether the clock security system has seen it, which then has changed to the internal oscillator.
     pub fn crystal_stops(&mut self) -> bool {
+        if self.model == Model::G474 {
+            return self.crystal_stops_g4();
+        }
         self.crystal = false;
         let seen = self.registers.has(CR, CSS_ON | HSE_ON);
         if seen {

@@ -2,16 +2,20 @@
 
 use super::icm42688::Icm42688;
 use super::registers::Registers;
+use crate::model::Model;
 use crate::random::Random;
 use crate::time::SECOND;
 
 const CR1: u32 = 0x00;
+const CR2: u32 = 0x04;
 const SR: u32 = 0x08;
 const DR: u32 = 0x0C;
 
 const ENABLE: u32 = 1 << 6;
-/// Frames of 16 bits, not of 8.
+/// Frames of 16 bits, not of 8, in CR1 of an F4 …
 const LONG: u32 = 1 << 11;
+/// … and in CR2 of a G4 (RM0440, 39.9.2).
+const SIXTEEN: u32 = 0xF << 8;
 const NOT_EMPTY: u32 = 1;
 const EMPTY: u32 = 1 << 1;
 const OVERRUN: u32 = 1 << 6;
@@ -30,6 +34,7 @@ pub enum Wire {
 /// A bus with a sensor.
 #[derive(Clone, Debug)]
 pub struct Spi {
+    model: Model,
     registers: Registers,
     received: Option<u16>,
     overrun: bool,
@@ -42,15 +47,26 @@ pub struct Spi {
 
 impl Spi {
     /// With a sensor that has just got its supply; `seed` is that of the wire's noise.
-    pub fn new(seed: u64) -> Spi {
-        let registers = Registers::of(&[(0x10, 7)]);
+    pub fn new(model: Model, seed: u64) -> Spi {
+        let registers = Spi::registers(model);
         let (sensor, random) = (Icm42688::new(), Random::new(seed));
-        Spi { registers, received: None, overrun: false, sensor, wire: Wire::Whole, random }
+        Spi { model, registers, received: None, overrun: false, sensor, wire: Wire::Whole, random }
+    }
+
+    fn registers(model: Model) -> Registers {
+        Registers::of(&[(CR2, if model == Model::G474 { 7 << 8 } else { 0 }), (0x10, 7)])
+    }
+
+    fn long(&self) -> bool {
+        match self.model {
+            Model::F405 => self.registers.has(CR1, LONG),
+            Model::G474 => self.registers.has(CR2, SIXTEEN),
+        }
     }
 
     /// Registers as after a reset. The sensor has none.
     pub fn reset(&mut self) {
-        self.registers = Registers::of(&[(0x10, 7)]);
+        self.registers = Spi::registers(self.model);
         (self.received, self.overrun) = (None, false);
     }
 
@@ -75,7 +91,7 @@ impl Spi {
         if !self.registers.has(CR1, ENABLE) {
             return 0;
         }
-        let bytes = if self.registers.has(CR1, LONG) { 2 } else { 1 };
+        let bytes = if self.long() { 2 } else { 1 };
         let arrived =
             (0..bytes).rev().fold(0, |arrived, place| arrived << 8 | u16::from(self.byte((value >> (8 * place)) as u8, now)));
         self.overrun |= self.received.replace(arrived).is_some();

@@ -1,6 +1,7 @@
 //! PWR, its voltage detector and EXTI (RM0090 sections 5 and 12), and the supply of 3.3 V.
 
 use super::registers::Registers;
+use crate::model::Model;
 
 /// Of PWR.
 const CR: u32 = 0x00;
@@ -8,6 +9,12 @@ const CSR: u32 = 0x04;
 const DETECTOR_ON: u32 = 1 << 4;
 const BACKUP_WRITABLE: u32 = 1 << 8;
 const LOW: u32 = 1 << 2;
+/// Of PWR of a G4 (RM0440, 6.4).
+const CR2: u32 = 0x04;
+const CR3: u32 = 0x08;
+const SR2: u32 = 0x14;
+const CR5: u32 = 0x80;
+const LOW_G4: u32 = 1 << 11;
 const REGULATOR_READY: u32 = 1 << 14;
 
 /// Of EXTI.
@@ -22,26 +29,40 @@ const LINE: u32 = 16;
 /// Of the detector by its level, V, falling (DS8626, table 24, typical); rising it is 0.1 V higher.
 const LEVELS: [f64; 8] = [2.04, 2.19, 2.35, 2.51, 2.66, 2.82, 2.93, 3.03];
 
+/// Likewise of a G4 (DS12288, table 21).
+const LEVELS_G4: [f64; 8] = [2.05, 2.20, 2.36, 2.52, 2.64, 2.79, 2.90, f64::INFINITY];
+
 /// The supply and who watches it.
 #[derive(Clone, Debug)]
 pub struct Supply {
+    model: Model,
     power: Registers,
     lines: Registers,
     volts: f64,
     low: bool,
 }
 
-impl Default for Supply {
-    fn default() -> Supply {
-        let power = Registers::of(&[(CR, 0xC000)]);
-        Supply { power, lines: Registers::default(), volts: 3.3, low: false }
-    }
-}
-
 impl Supply {
+    /// Of 3.3 V.
+    pub fn new(model: Model) -> Supply {
+        let (power, lines) = match model {
+            Model::F405 => (Registers::of(&[(CR, 0xC000)]), Registers::default()),
+            Model::G474 => (Registers::of(&[(CR, 0x200), (CR3, 0x8000), (CR5, 0x100)]), Registers::of(&[(IMR, 0x1F84_0000)])),
+        };
+        Supply { model, power, lines, volts: 3.3, low: false }
+    }
+
     /// Registers as after a reset.
     pub fn reset(&mut self) {
-        *self = Supply { volts: self.volts, ..Supply::default() };
+        *self = Supply { volts: self.volts, ..Supply::new(self.model) };
+    }
+
+    /// Whether the detector is on, and at which level it looks, V.
+    fn detector(&self) -> (bool, f64) {
+        match self.model {
+            Model::F405 => (self.power.has(CR, DETECTOR_ON), LEVELS[(self.power.get(CR) >> 5 & 7) as usize]),
+            Model::G474 => (self.power.has(CR2, 1), LEVELS_G4[(self.power.get(CR2) >> 1 & 7) as usize]),
+        }
     }
 
     /// V.
@@ -61,9 +82,9 @@ impl Supply {
     }
 
     fn look(&mut self) {
-        let level = LEVELS[(self.power.get(CR) >> 5 & 7) as usize];
+        let (on, level) = self.detector();
         let level = if self.low { level + 0.1 } else { level };
-        let low = self.power.has(CR, DETECTOR_ON) && self.volts < level;
+        let low = on && self.volts < level;
         let edge = match (self.low, low) {
             (false, true) => RTSR,
             (true, false) => FTSR,
@@ -83,7 +104,14 @@ impl Supply {
     /// A load from PWR.
     pub fn read_power(&self, offset: u32) -> u32 {
         match offset {
-            CSR => self.power.get(CSR) | REGULATOR_READY | if self.low { LOW } else { 0 },
+            SR2 if self.model == Model::G474 => {
+                if self.low {
+                    LOW_G4
+                } else {
+                    0
+                }
+            }
+            CSR if self.model == Model::F405 => self.power.get(CSR) | REGULATOR_READY | if self.low { LOW } else { 0 },
             _ => self.power.get(offset),
         }
     }

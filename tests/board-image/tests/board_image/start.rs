@@ -1,8 +1,9 @@
 //! From the supply's coming to Armed.
 
+use sprag_board_image::model::Model;
 use sprag_board_image::peripheral::flash::Pace;
 use sprag_board_image::peripheral::rcc::Cause;
-use sprag_board_image::rig::{Rig, image, keep};
+use sprag_board_image::rig::{Rig, image, image_for, keep};
 use sprag_board_image::time::in_milliseconds;
 use sprag_shared::control::supervisor::{Parameters, Phase};
 use sprag_shared::link::{Reply, Request};
@@ -10,10 +11,14 @@ use sprag_shared::settings::Settings;
 
 #[test]
 fn a_commissioned_board_arms_itself_and_says_who_it_is() {
-    let mut rig = Rig::new(&image(), Some(&Settings::default()));
+    Model::ALL.into_iter().for_each(arms_itself);
+}
+
+fn arms_itself(model: Model) {
+    let mut rig = Rig::new(&image_for(model), Some(&Settings::default()));
     rig.boot();
     let Reply::Identity(identity) = rig.ask(&Request::Identify) else { panic!("no identity") };
-    assert_eq!((&identity.board[..4], identity.check), (&b"f405"[..], Settings::default().check()));
+    assert_eq!((&identity.board[..4], identity.check), (model.name().as_bytes(), Settings::default().check()));
     let state = rig.wait(4000, |state| state.phase == Phase::Armed);
     println!(
         "armed after {:.0} ms, worst tick {} cycles, stack {} bytes",
@@ -50,7 +55,7 @@ fn a_restart_is_short_whatever_the_flash_holds() {
     for stores in [0, 1, 8, 16, 33, 34] {
         let mut rig = Rig::new(&image(), None);
         rig.boot();
-        keep(&rig.bench.chip().flash, &Settings::default(), stores);
+        keep(&mut rig.bench.chip_mut().flash, &Settings::default(), stores);
         rig.bench.chip_mut().flash.pace = Pace::Slowest;
         let works = rig.bench.chip().flash.works.len();
         rig.reset(Cause::Watchdog);

@@ -67,7 +67,7 @@ fn a_cut_at_any_operation_leaves_the_old_settings_or_the_new() {
 fn a_sector_that_is_half_erased_leaves_the_other_copy() {
     for sector in [1, 2] {
         let mut rig = Rig::new(&image(), None);
-        keep(&rig.bench.chip().flash, &others(), 2);
+        keep(&mut rig.bench.chip_mut().flash, &others(), 2);
         rig.bench.chip_mut().flash.finish(Work::Erase(sector), true);
         let time = in_milliseconds(rig.boot());
         let Reply::Identity(identity) = rig.ask(&Request::Identify) else { panic!("no identity") };
