@@ -1,7 +1,8 @@
 //! Coils and switches that fail, as the self-test and the operation see them.
 
+use sprag_board_image::model::Model;
 use sprag_board_image::peripheral::coil::{Coil, Switch};
-use sprag_board_image::rig::{Rig, image};
+use sprag_board_image::rig::{Rig, image, image_for};
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::link::State;
 use sprag_shared::settings::Settings;
@@ -60,4 +61,26 @@ fn a_low_side_that_stays_closed_is_found() {
 fn switches_that_never_close_are_found() {
     is_found("high side open", |coil| coil.high = Switch::Open);
     is_found("low side open", |coil| coil.low = Switch::Open);
+}
+
+/// B1: a coil that is shorted in operation is switched off by a comparator at the timer's break, long before the next tick.
+#[test]
+fn the_break_ends_an_over_current_within_microseconds() {
+    for model in Model::ALL {
+        let mut rig = Rig::new(&image_for(model), Some(&Settings::default()));
+        rig.boot();
+        let state = rig.wait(4000, |state| state.phase == Phase::Armed);
+        assert_eq!((state.phase, state.fault), (Phase::Armed, None), "{model:?}");
+        rig.ticks(100);
+        let held = [0, 1].map(|coil| rig.bench.chip().drive(coil).1 > 0.0);
+        let coil = held.iter().position(|held| *held).expect("one is engaged at rest");
+        let ill = &mut rig.bench.chip_mut().coils[coil];
+        (ill.resistance, ill.inductance, ill.peak) = (0.5, 0.0015, 0.0);
+        rig.ticks(20);
+        let (peak, drive) = (rig.bench.chip().coils[coil].peak, rig.bench.chip().drive(coil));
+        let fault = rig.state().fault.map(|fault| fault.code());
+        println!("{model:?}: {peak:.2} A, then {drive:?}, fault {fault:?}");
+        assert!(peak < 1.3, "{model:?}: {peak} A");
+        assert_eq!((drive.1, fault), (0.0, Some(58 + coil as u16)), "{model:?}");
+    }
 }

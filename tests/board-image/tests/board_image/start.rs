@@ -69,12 +69,17 @@ fn a_restart_is_short_whatever_the_flash_holds() {
 /// The first start of a chip programs its option bytes; every later one finds them as they shall be.
 #[test]
 fn the_brown_out_reset_is_switched_on_once_in_a_chips_life() {
-    let mut rig = Rig::new(&image(), Some(&Settings::default()));
-    rig.boot();
-    assert_eq!(rig.bench.chip().flash.brown_out(), Some(2.83));
-    let works = rig.bench.chip().flash.works.clone();
-    assert_eq!(works.len(), 1, "{works:?}");
-    rig.reset(Cause::Power);
-    rig.boot();
-    assert_eq!(rig.bench.chip().flash.works, works);
+    for (model, level) in [(Model::F405, 2.83), (Model::G474, 2.8)] {
+        let mut rig = Rig::new(&image_for(model), Some(&Settings::default()));
+        rig.boot();
+        assert_eq!(rig.bench.chip().flash.brown_out(), Some(level), "{model:?}");
+        let works = rig.bench.chip().flash.works.clone();
+        assert_eq!(works.len(), 1, "{model:?}: {works:?}");
+        // A G4 takes them over by a reset.
+        let reloads = rig.bench.resets.iter().filter(|(_, cause)| *cause == Cause::OptionReload).count();
+        assert_eq!(reloads, usize::from(model == Model::G474), "{model:?}");
+        rig.reset(Cause::Power);
+        rig.boot();
+        assert_eq!(rig.bench.chip().flash.works, works, "{model:?}");
+    }
 }
