@@ -84,7 +84,8 @@ fn decoded(double: u64, check: u8) -> Option<(u64, bool)> {
 }
 
 impl Flash {
-    fn double(&self, address: u32) -> u64 {
+    /// The double word at an address, as its cells are.
+    pub fn double(&self, address: u32) -> u64 {
         let mut bytes = [0; 8];
         self.memory.read(address & !7, &mut bytes);
         u64::from_le_bytes(bytes)
@@ -98,6 +99,11 @@ impl Flash {
     pub(super) fn put(&mut self, address: u32, double: u64) {
         self.memory.write(address, &double.to_le_bytes());
         *self.check_at(address) = check_bits(double);
+    }
+
+    /// Bits of a double word turn, as cells do that lose their charge.
+    pub fn turn(&mut self, address: u32, bits: u64) {
+        self.memory.write(address, &(self.double(address) ^ bits).to_le_bytes());
     }
 
     /// Where a word of the settings is: beside its complement.
