@@ -8,7 +8,7 @@ pub enum Model {
     /// STM32F405RG: RM0090 rev. 21, DS8626.
     #[default]
     F405,
-    /// STM32G474RE: RM0440 rev. 8, DS12288.
+    /// STM32G474RE: RM0440, DS12288.
     G474,
 }
 
@@ -40,9 +40,8 @@ impl Model {
         }
     }
 
-    /// The longest that the flash takes for a word, for the smallest part that can be erased, and for the options, or what is typical of it.
+    /// How long a G4's flash takes for a double word, for a page, and for the options: at most, or typically (DS12288).
     pub(crate) fn g4_flash_times(slow: bool) -> [u64; 3] {
-        // DS12288, table 50.
         if slow {
             [microseconds(125), microseconds(24_500), milliseconds(25)]
         } else {

@@ -1,4 +1,4 @@
-//! Where the registers of a G4 are (RM0440, 2.2).
+//! Where the registers of a G4 are (RM0440, memory map).
 
 use super::Chip;
 use crate::peripheral::flash::g4::BANK_2;

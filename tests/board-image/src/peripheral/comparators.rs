@@ -1,4 +1,4 @@
-//! COMP1 and COMP3 of a G4 with DAC3 at their other inputs (RM0440 sections 24 and 22), which look at the coils' currents.
+//! COMP1 and COMP3 of a G4 with DAC3 at their other inputs (RM0440, COMP and DAC), which look at the coils' currents.
 
 use super::converter::COUNTS_PER_AMPERE;
 use super::registers::Registers;

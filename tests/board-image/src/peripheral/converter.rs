@@ -30,7 +30,7 @@ pub struct Converter {
     pub stuck: Option<u32>,
 }
 
-/// Offsets and bits of a G4's (RM0440, 21.7).
+/// Offsets and bits of a G4's (RM0440, ADC).
 mod g4 {
     pub const ISR: u32 = 0x00;
     pub const CR: u32 = 0x08;

@@ -29,7 +29,7 @@ impl Copier {
         }
     }
 
-    /// The same of channel 1 of a G4's DMA1 (RM0440, 12.6), whose multiplexer leads request 65 to it: TIM3's update.
+    /// The same of channel 1 of a G4's DMA1 (RM0440, DMA), whose multiplexer leads request 65 to it: TIM3's update.
     pub fn changed_g4(&self, address: u32, value: u32, asked: bool, request: u32, memory: &Memory) {
         // CIRC, MSIZE and PSIZE of 16 bits, EN.
         if asked && request == 65 && self.0.has(0x08, 1 << 10 | 1 << 8 | 1 << 5 | 1) && self.0.get(0x10) == address {

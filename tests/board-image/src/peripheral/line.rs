@@ -39,7 +39,7 @@ const F405: Layout = Layout {
     requests: [(0, 0); 2],
 };
 
-/// Channels 2 and 3 of DMA1, by the multiplexer's requests 24 and 25 (RM0440, 12.6, 13.3.2 and 37.8).
+/// Channels 2 and 3 of DMA1, by the multiplexer's requests 24 and 25 (RM0440, DMA, DMAMUX, USART).
 const G474: Layout = Layout {
     status: 0x1C,
     rate: 0x0C,

@@ -1,4 +1,4 @@
-//! The parts of the STM32F405, by RM0090 rev. 21, those of the STM32G474 where they differ, by RM0440 rev. 8, and those of the board that are
+//! The parts of the STM32F405, by RM0090 rev. 21, those of the STM32G474 where they differ, by RM0440, and those of the board that are
 //! connected to them.
 
 pub mod backup;

@@ -13,7 +13,7 @@ const ARR: u32 = 0x2C;
 pub const CCR1: u32 = 0x34;
 /// Offset of BDTR.
 pub const BDTR: u32 = 0x44;
-/// Offset of AF1, which an F4 has not (RM0440, 28.6.25).
+/// Offset of AF1, which an F4 has not (RM0440, TIM8_AF1).
 const AF1: u32 = 0x60;
 
 const ENABLE: u32 = 1;

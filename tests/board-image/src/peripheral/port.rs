@@ -29,7 +29,7 @@ impl Port {
 
     /// Registers as after a reset.
     pub fn reset(&mut self, model: Model, index: u32) {
-        // The pins of a G4 are analog at first (RM0440, 9.4.1).
+        // The pins of a G4 are analog at first (RM0440, GPIOx_MODER).
         self.registers = match index {
             0 if model == Model::G474 => Registers::of(&[(MODER, 0xABFF_FFFF), (0x08, 0x0C00_0000), (PUPDR, 0x6400_0000)]),
             1 if model == Model::G474 => Registers::of(&[(MODER, 0xFFFF_FEBF), (PUPDR, 0x100)]),

@@ -14,7 +14,7 @@ const DR: u32 = 0x0C;
 const ENABLE: u32 = 1 << 6;
 /// Frames of 16 bits, not of 8, in CR1 of an F4 …
 const LONG: u32 = 1 << 11;
-/// … and in CR2 of a G4 (RM0440, 39.9.2).
+/// … and in CR2 of a G4 (RM0440, SPI_CR2).
 const SIXTEEN: u32 = 0xF << 8;
 const NOT_EMPTY: u32 = 1;
 const EMPTY: u32 = 1 << 1;

@@ -9,7 +9,7 @@ const CSR: u32 = 0x04;
 const DETECTOR_ON: u32 = 1 << 4;
 const BACKUP_WRITABLE: u32 = 1 << 8;
 const LOW: u32 = 1 << 2;
-/// Of PWR of a G4 (RM0440, 6.4).
+/// Of PWR of a G4 (RM0440, PWR).
 const CR2: u32 = 0x04;
 const CR3: u32 = 0x08;
 const SR2: u32 = 0x14;
@@ -29,7 +29,7 @@ const LINE: u32 = 16;
 /// Of the detector by its level, V, falling (DS8626, table 24, typical); rising it is 0.1 V higher.
 const LEVELS: [f64; 8] = [2.04, 2.19, 2.35, 2.51, 2.66, 2.82, 2.93, 3.03];
 
-/// Likewise of a G4 (DS12288, table 21).
+/// Likewise of a G4 (DS12288, typical).
 const LEVELS_G4: [f64; 8] = [2.05, 2.20, 2.36, 2.52, 2.64, 2.79, 2.90, f64::INFINITY];
 
 /// The supply and who watches it.

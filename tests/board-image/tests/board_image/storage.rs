@@ -45,7 +45,7 @@ fn begun(image: &Image) -> Rig {
 
 #[test]
 fn a_cut_at_any_operation_leaves_the_old_settings_or_the_new() {
-    // A G4's are too slow for all of them: the first and the last, and some in between.
+    // Of a G4 every fifth and the last two, for the time that it takes.
     cut_at_every(Model::F405, 1);
     cut_at_every(Model::G474, 5);
 }

@@ -1,4 +1,4 @@
-//! The flash of the G4 and its controller (RM0440 section 3): two banks of 128 pages of 2 KiB, of double words with eight check bits each.
+//! The flash of the G4 and its controller (RM0440, FLASH): two banks of 128 pages of 2 KiB, of double words with eight check bits each.
 //!
 //! The processor runs from bank 1, so that work in bank 2 holds up nothing but loads from bank 2.
 
@@ -120,7 +120,7 @@ impl Flash {
         self.registers = Registers::of(&[(0, 0x0004_0600), (CR, LOCK | OPTION_LOCK), (OPTR, self.options)]);
     }
 
-    /// Level of the brown-out reset, V, falling (DS12288, table 21), if it is above the lowest.
+    /// Level of the brown-out reset, V, falling (DS12288, typical), if it is above the lowest.
     pub(super) fn brown_out_g4(&self) -> Option<f64> {
         [None, Some(2.0), Some(2.2), Some(2.5), Some(2.8)][(self.options >> 8 & 7).min(4) as usize]
     }

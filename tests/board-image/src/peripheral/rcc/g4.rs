@@ -1,4 +1,4 @@
-//! RCC of the G4 (RM0440 section 7).
+//! RCC of the G4 (RM0440, RCC).
 
 use super::super::registers::Registers;
 use super::{CR, CSS_ON, Cause, HSE, HSE_ON, HSE_READY, HSI, PLL_ON, PLL_READY, Rcc};
@@ -21,7 +21,7 @@ const CSS_FLAG: u32 = 1 << 8;
 const FLAGS: u32 = 0xFE00_0000;
 const REMOVE_FLAGS: u32 = 1 << 23;
 
-/// The PLL's lock: 40 µs at most (DS12288, table 47).
+/// The PLL's lock: 40 µs at most (DS12288).
 const LOCK: u64 = microseconds(40);
 
 /// Flags in RCC_CSR: the supply's coming and its sag are the same one.
