@@ -51,6 +51,8 @@ pub enum Stop {
     Time,
     /// A handler of SysTick has returned.
     Tick,
+    /// The next instruction is the one to stop before.
+    Place,
     /// The processor sleeps until the next interrupt, where that was asked for.
     Asleep,
     /// The chip was reset; the program begins anew.
@@ -63,6 +65,8 @@ pub struct Bench {
     running: Vec<Running>,
     program: u32,
     asleep: bool,
+    sleeps: Vec<u32>,
+    stops_before: Option<u32>,
     /// The processor is in lockup: nothing but a reset helps.
     pub lockup: bool,
     /// Come back when the processor falls asleep.
@@ -114,6 +118,8 @@ impl Bench {
             running,
             program: 0,
             asleep,
+            sleeps,
+            stops_before: None,
             lockup: false,
             until_asleep: false,
             last_tick: None,
@@ -141,6 +147,23 @@ impl Bench {
     /// Wakes the processor, as an event may at any time.
     pub fn wake(&mut self) {
         self.asleep = self.lockup;
+    }
+
+    /// Has the stack end `bytes` above the end of its memory from now on, as if it had grown so deep.
+    pub fn deepen_stack(&mut self, bytes: u32) {
+        self.engine.processor().set(Register::Stack, crate::chip::RAM + bytes);
+    }
+
+    /// Has the program go on at `address`, as if it had gone astray.
+    pub fn stray(&mut self, address: u32) {
+        (self.program, self.asleep) = (address, false);
+    }
+
+    /// Comes back with [`Stop::Place`] before the instruction at `address`, where there is one.
+    pub fn stop_before(&mut self, address: Option<u32>) {
+        let addresses: Vec<u32> = self.sleeps.iter().copied().chain(address).collect();
+        self.engine.stop_at(&addresses);
+        self.stops_before = address;
     }
 
     /// A reset.
@@ -203,6 +226,7 @@ impl Bench {
                 self.asleep = self.lockup || !self.chip().private.waits();
                 continue;
             }
+            self.chip_mut().goes_on = true;
             self.engine.run(self.program);
             self.program = self.engine.processor().get(Register::Program) & !1;
             if std::mem::take(&mut self.chip_mut().returned) {
@@ -210,6 +234,9 @@ impl Bench {
                     return Stop::Tick;
                 }
                 continue;
+            }
+            if self.stops_before == Some(self.program) {
+                return Stop::Place;
             }
             if self.is_sleep(self.program) {
                 self.program += 2;
@@ -239,13 +266,18 @@ impl Bench {
             [Register::R0, Register::R1, Register::R2, Register::R3, Register::R12, Register::Link, Register::Status]
                 .map(|register| processor.get(register));
         let words = [r0, r1, r2, r3, r12, link, self.program, status & !0x1FF];
-        let chip = self.engine.guest();
-        // Where the stack has no memory, what would go there is lost, and the handler runs all the same.
-        if chip.ram.contains(frame) && chip.ram.contains(stack - 1) {
+        let chip = self.engine.guest_mut();
+        // Where the stack has no memory, what would go there is lost, and the fault's handler runs: before that of any other exception.
+        let exception = if chip.ram.contains(frame) && chip.ram.contains(stack - 1) {
             for (place, word) in (frame..).step_by(4).zip(words) {
                 chip.ram.write(place, &word.to_le_bytes());
             }
-        }
+            exception
+        } else {
+            chip.private.stacking_fault();
+            HARD_FAULT
+        };
+        let processor = self.engine.processor();
         processor.set(Register::Stack, frame);
         processor.set(Register::Link, if floating { RETURN & !0x10 } else { RETURN });
         processor.set(Register::Control, processor.get(Register::Control) & !FLOATING_POINT);

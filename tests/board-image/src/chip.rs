@@ -60,6 +60,8 @@ pub struct Chip {
     event: u64,
     /// When the bench wants the processor back.
     pub until: u64,
+    /// The processor goes on, from where it stopped.
+    pub goes_on: bool,
     /// 128 KiB.
     pub ram: Memory,
     /// The page that returns from exceptions lead to.
@@ -135,6 +137,7 @@ impl Chip {
             half_cycle: 21,
             event: 0,
             until: 0,
+            goes_on: false,
             ram: Memory::new(RAM, RAM_LENGTH, 0),
             returns: Memory::new(0xFFFF_F000, 0x1000, 0xBF),
             core_coupled: Memory::new(0x1000_0000, 64 << 10, 0),
@@ -558,6 +561,14 @@ impl Chip {
         }
     }
 
+    /// Whether the processor shall stop before the next block.
+    fn stops(&self, processor: &Processor) -> bool {
+        if self.reset.is_some() || self.now >= self.until {
+            return true;
+        }
+        self.private.waits() && self.private.next(self.active).is_some() && self.private.next(self.threshold(processor)).is_some()
+    }
+
     fn nobody(&mut self, address: u32) -> u32 {
         *self.unknown.entry(address).or_default() += 1;
         0
@@ -632,6 +643,10 @@ impl Guest for Chip {
     }
 
     fn block(&mut self, processor: &Processor, address: u32, size: u32) -> bool {
+        // The first block since the processor went on is carried out in any case: whoever asks for steps gets on.
+        if !std::mem::take(&mut self.goes_on) && self.stops(processor) {
+            return true;
+        }
         if self.trail.len() == TRAIL {
             self.trail.pop_front();
         }
@@ -642,10 +657,7 @@ impl Guest for Chip {
             *profile.entry((address, size)).or_default() += 1;
         }
         self.pass_cycles(HALF_CYCLES_PER_INSTRUCTION * instructions);
-        if self.reset.is_some() || self.now >= self.until {
-            return true;
-        }
-        self.private.waits() && self.private.next(self.active).is_some() && self.private.next(self.threshold(processor)).is_some()
+        false
     }
 
     fn returned(&mut self) {

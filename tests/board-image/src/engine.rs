@@ -20,6 +20,8 @@ const CORTEX_M4: c_int = 9;
 const USE_EXITS: c_int = 1 << 30 | 1 << 26 | 4;
 /// `UC_CTL_WRITE(UC_CTL_UC_EXITS, 2)`.
 const SET_EXITS: c_int = 1 << 30 | 2 << 26 | 6;
+/// `UC_CTL_WRITE(UC_CTL_TB_REMOVE_CACHE, 2)`.
+const FORGET_BLOCKS: c_int = 1 << 30 | 2 << 26 | 9;
 const READ_AND_EXECUTE: u32 = 1 | 4;
 const ALL: u32 = 7;
 const HOOK_INTERRUPT: c_int = 1;
@@ -174,7 +176,7 @@ pub trait Guest {
     fn read(&mut self, address: u32, size: u32) -> u32;
     /// A store to a register.
     fn write(&mut self, address: u32, size: u32, value: u32);
-    /// A block of instructions begins; whether the processor shall stop after it.
+    /// A block of instructions begins; whether the processor shall stop before it.
     fn block(&mut self, processor: &Processor, address: u32, size: u32) -> bool;
     /// A handler has returned.
     fn returned(&mut self);
@@ -222,6 +224,7 @@ pub struct Engine<G: Guest> {
     // In boxes, for Unicorn has their addresses.
     #[allow(clippy::vec_box)]
     regions: Vec<Box<Region<G>>>,
+    exits: Vec<u64>,
 }
 
 /// Where registers begin, for the callbacks.
@@ -239,7 +242,7 @@ impl<G: Guest> Engine<G> {
         // SAFETY: the control takes one integer.
         well(unsafe { uc_ctl(handle, SET_MODEL, CORTEX_M4) }, "be a Cortex-M4");
         let guest = Box::into_raw(Box::new(guest));
-        let engine = Engine { processor: Processor(handle), guest, regions: Vec::new() };
+        let engine = Engine { processor: Processor(handle), guest, regions: Vec::new(), exits: Vec::new() };
         engine.hook(HOOK_BLOCK, on_block::<G> as *mut c_void, 1, 0);
         engine.hook(HOOK_INVALID_MEMORY, on_invalid_memory::<G> as *mut c_void, 1, 0);
         engine.hook(HOOK_INVALID_INSTRUCTION, on_invalid_instruction::<G> as *mut c_void, 1, 0);
@@ -258,11 +261,23 @@ impl<G: Guest> Engine<G> {
     /// Not by a hook on instructions: where there is one, Unicorn does not bring the program counter up to date when it is stopped.
     pub fn stop_at(&mut self, addresses: &[u32]) {
         let addresses: Vec<u64> = addresses.iter().map(|address| u64::from(*address)).collect();
+        let changed: Vec<u64> = self
+            .exits
+            .iter()
+            .chain(&addresses)
+            .filter(|address| self.exits.contains(address) != addresses.contains(address))
+            .copied()
+            .collect();
         // SAFETY: the controls take an integer, and a pointer with a length.
         unsafe {
             well(uc_ctl(self.processor.0, USE_EXITS, 1), "stop at addresses");
             well(uc_ctl(self.processor.0, SET_EXITS, addresses.as_ptr(), addresses.len()), "stop at these addresses");
+            // Blocks that were translated before know nothing of it.
+            for address in changed {
+                well(uc_ctl(self.processor.0, FORGET_BLOCKS, address, address + 2), "forget a block");
+            }
         }
+        self.exits = addresses;
     }
 
     /// Maps `length` bytes of a memory from `start` on, which the guest keeps as long as the engine lives.

@@ -96,6 +96,20 @@ impl Private {
         self.pending.insert(HARD_FAULT);
     }
 
+    /// A HardFault waits, for the stack has no memory where an exception puts registers.
+    pub fn stacking_fault(&mut self) {
+        const STACKING: u32 = 1 << 12;
+        const FORCED: u32 = 1 << 30;
+        self.set(CFSR, self.get(CFSR) | STACKING);
+        self.set(HFSR, self.get(HFSR) | FORCED);
+        self.pending.insert(HARD_FAULT);
+    }
+
+    /// Whether there has been a fault since the flags were cleared.
+    pub fn faulted(&self) -> bool {
+        self.get(HFSR) != 0
+    }
+
     /// Something waits, whether it may come or not.
     pub fn waits(&self) -> bool {
         !self.pending.is_empty()

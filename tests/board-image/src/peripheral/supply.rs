@@ -40,6 +40,8 @@ pub struct Supply {
     lines: Registers,
     volts: f64,
     low: bool,
+    /// How often the program has asked whether it is low, since the reset.
+    pub looks: u32,
 }
 
 impl Supply {
@@ -49,7 +51,7 @@ impl Supply {
             Model::F405 => (Registers::of(&[(CR, 0xC000)]), Registers::default()),
             Model::G474 => (Registers::of(&[(CR, 0x200), (CR3, 0x8000), (CR5, 0x100)]), Registers::of(&[(IMR, 0x1F84_0000)])),
         };
-        Supply { model, power, lines, volts: 3.3, low: false }
+        Supply { model, power, lines, volts: 3.3, low: false, looks: 0 }
     }
 
     /// Registers as after a reset.
@@ -102,7 +104,9 @@ impl Supply {
     }
 
     /// A load from PWR.
-    pub fn read_power(&self, offset: u32) -> u32 {
+    pub fn read_power(&mut self, offset: u32) -> u32 {
+        let state = if self.model == Model::G474 { SR2 } else { CSR };
+        self.looks += u32::from(offset == state);
         match offset {
             SR2 if self.model == Model::G474 => {
                 if self.low {

@@ -3,6 +3,7 @@
 //! Needs the image that `SPRAG_BOARD_ELF` names; `cargo xtask test` builds it. `-- --nocapture` shows the numbers.
 
 mod coils;
+mod faults;
 mod link;
 mod registers;
 mod resets;

@@ -1,10 +1,12 @@
 //! The supply of 3.3 V sags, and the crystal stops.
 
+use std::collections::BTreeSet;
+
 use sprag_board_image::bench::Stop;
 use sprag_board_image::model::Model;
 use sprag_board_image::peripheral::rcc::Cause;
 use sprag_board_image::rig::{Rig, image_for};
-use sprag_board_image::time::in_milliseconds;
+use sprag_board_image::time::{in_milliseconds, milliseconds};
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::link::reset_cause;
 use sprag_shared::settings::{Item, Settings};
@@ -47,6 +49,67 @@ fn the_voltage_detector_releases_the_coils_at_once() {
     }
 }
 
+/// C1: the interrupt between any two instructions of the coils' driver, from where it looks at the supply on: what the tick still writes is
+/// not what it had in mind before.
+#[test]
+fn a_supply_that_falls_at_any_instruction_of_the_coils_driver_releases_them() {
+    for model in Model::ALL {
+        let mut rig = armed(model);
+        let places = between_looks(&mut rig);
+        let mut times = 0;
+        for place in &places {
+            rig.bench.stop_before(Some(*place));
+            let begun = rig.bench.now();
+            while rig.bench.run(rig.bench.now() + milliseconds(1)) != Stop::Place {
+                assert!(rig.bench.now() < begun + milliseconds(4), "{model:?}: never at {place:#x}");
+            }
+            rig.bench.stop_before(None);
+            rig.bench.chip_mut().set_volts(2.87);
+            while rig.bench.run(rig.bench.now() + milliseconds(1)) != Stop::Tick {}
+            assert_eq!(drives(&rig), RELEASED, "{model:?}, {place:#x}");
+            rig.bench.chip_mut().set_volts(3.3);
+            rig.ticks(4);
+            assert_ne!(drives(&rig), RELEASED, "{model:?}, {place:#x}: the supply is back");
+            times += 1;
+        }
+        println!("{model:?}: {times} instructions");
+        assert!(times > 20, "{model:?}: {times} instructions between the first look and the last");
+    }
+}
+
+/// Addresses of the instructions that a tick carries out from its first look at the supply to its last.
+fn between_looks(rig: &mut Rig) -> BTreeSet<u32> {
+    rig.settle();
+    let looks = rig.bench.chip().supply.looks;
+    let mut blocks = BTreeSet::new();
+    while rig.bench.chip().supply.looks < looks + 2 {
+        let now = rig.bench.now();
+        let first = rig.bench.chip().supply.looks == looks;
+        let profile = rig.bench.chip_mut().profile.replace(Default::default()).unwrap_or_default();
+        if first {
+            blocks.clear();
+        }
+        blocks.extend(profile.into_keys());
+        assert_eq!(rig.bench.run(now + 1), Stop::Time);
+    }
+    blocks.extend(rig.bench.chip_mut().profile.take().unwrap_or_default().into_keys());
+    let chip = rig.bench.chip();
+    let mut places = BTreeSet::new();
+    for (address, size) in blocks {
+        // Up to four instructions under the condition of an IT: Unicorn cannot go on in the middle of them.
+        let mut conditional = 0;
+        for place in chip.instructions_of(address, size) {
+            if conditional == 0 {
+                places.insert(place);
+            }
+            let half = chip.flash.memory.word(place & !3) >> (8 * (place & 2)) & 0xFFFF;
+            let begins = half >> 8 == 0xBF && half & 0xF != 0;
+            conditional = if begins { 4 - half.trailing_zeros() } else { u32::saturating_sub(conditional, 1) };
+        }
+    }
+    places
+}
+
 #[test]
 fn below_the_brown_out_level_the_chip_waits_and_then_starts() {
     for model in Model::ALL {
@@ -83,5 +146,7 @@ fn a_crystal_that_stops_ends_in_the_safe_state_and_a_new_start() {
         assert_eq!(rig.tick(), Stop::Reset(Cause::Software));
         rig.boot();
         assert_eq!(rig.bench.chip().rcc.core_hz(), 168_000_000);
+        rig.ticks(20);
+        assert_eq!(rig.starts.last().map(|start| start.cause), Some(reset_cause::Cause::ClockFailure));
     }
 }
