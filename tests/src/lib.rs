@@ -3,6 +3,8 @@
 //!
 //! Numbers that the tests compare with come from closed forms and from the reference cells, never from an earlier run.
 
+pub mod board_loop;
+pub mod board_mirror;
 pub mod device_loop;
 pub mod dice;
 pub mod emulation;

@@ -86,6 +86,8 @@ pub struct Chip {
     pub converter: Converter,
     /// Of a G4.
     comparators: Comparators,
+    /// What was last read of each coil.
+    pub converted: [u32; 2],
     /// Of all three converters.
     converters: Registers,
     /// TIM2, TIM3, TIM5.
@@ -150,6 +152,7 @@ impl Chip {
             coils: Default::default(),
             converter: Converter::default(),
             comparators: Comparators::default(),
+            converted: [0; 2],
             converters: Registers::default(),
             counters: Default::default(),
             copier: Copier::default(),
@@ -447,7 +450,11 @@ impl Chip {
             0x4001_2000 if offset >= 0x300 => self.converters.get(offset),
             0x4001_2000 => {
                 self.advance_coils();
-                self.converter.read(offset, [self.coils[0].current, self.coils[1].current])
+                let value = self.converter.read(offset, [self.coils[0].current, self.coils[1].current]);
+                if let Some(coil) = self.converter.coil(offset) {
+                    self.converted[coil] = value;
+                }
+                value
             }
             0x4001_3000 => self.buses[0].read(offset),
             0x4001_3C00 => self.supply.read_lines(offset),

@@ -8,6 +8,7 @@ pub mod bench;
 pub mod chip;
 pub mod engine;
 pub mod image;
+pub mod lockstep;
 pub mod model;
 pub mod peripheral;
 pub mod random;

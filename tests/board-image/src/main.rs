@@ -10,6 +10,7 @@ use std::process::ExitCode;
 
 use sprag_board_image::bench::TickCost;
 use sprag_board_image::image::Image;
+use sprag_board_image::lockstep;
 use sprag_board_image::rig::{Rig, swing};
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::settings::Settings;
@@ -22,7 +23,10 @@ fn main() -> ExitCode {
         ["profile", image, "files"] => profile::print(Path::new(image), profile::file),
         ["profile", image, "lines"] => profile::print(Path::new(image), profile::line),
         ["serve", image] => serve(Path::new(image)),
-        _ => Err("usage: sprag-board-image ticks|serve IMAGE.elf, or profile IMAGE.elf [files|lines]".to_owned()),
+        ["lockstep", image] => Image::load(Path::new(image))
+            .map_err(|error| error.to_string())
+            .and_then(|image| lockstep::serve(&image, std::io::stdin().lock(), std::io::stdout().lock())),
+        _ => Err("usage: sprag-board-image ticks|serve|lockstep IMAGE.elf, or profile IMAGE.elf [files|lines]".to_owned()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -76,15 +80,12 @@ fn ticks(path: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// How many times faster than its registers say the line is: a chunk is there at once.
-const HASTE: u64 = 100_000;
-
 /// Exchanges a chunk for a chunk at the end of every control period: two bytes that say how long it is, least significant first, and the
 /// bytes of the link.
 fn serve(path: &Path) -> Result<(), String> {
     let image = Image::load(path).map_err(|error| error.to_string())?;
     let mut rig = Rig::new(&image, None);
-    rig.bench.chip_mut().line.haste = HASTE;
+    rig.bench.chip_mut().line.haste = lockstep::HASTE;
     let (mut input, mut output) = (std::io::stdin().lock(), std::io::stdout().lock());
     loop {
         rig.period();

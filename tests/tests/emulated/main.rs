@@ -6,6 +6,7 @@ mod decisions;
 mod emulator;
 mod faults;
 mod firmware;
+mod lockstep;
 mod restarts;
 mod stability;
 mod storage;

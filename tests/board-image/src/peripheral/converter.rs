@@ -109,6 +109,9 @@ impl Converter {
 
     /// The coil whose current is in the injected data register at `offset`, from 0 on.
     pub fn coil(&self, offset: u32) -> Option<usize> {
+        if !(FIRST_INJECTED..=LAST_INJECTED).contains(&offset) {
+            return None;
+        }
         let sequence = self.registers.get(JSQR);
         let length = sequence >> 20 & 3;
         // The sequence of n + 1 is the last n + 1 of four.

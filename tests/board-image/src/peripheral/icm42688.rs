@@ -196,7 +196,8 @@ impl Icm42688 {
                 let newest = self.newest(now);
                 let new = newest > self.seen;
                 self.seen = newest;
-                if new && self.runs(now) {
+                // What has been latched before a sensor ran is marked as invalid.
+                if new && self.runs(now) && words.clone().all(|word| word != i16::MIN) {
                     self.delivered = Some(self.latched);
                 }
                 let reset = if std::mem::take(&mut self.reset_done) { RESET_DONE } else { 0 };
