@@ -1,10 +1,14 @@
 //! The chip around the processor, and the board around the chip: every address leads to a model, and time passes for all of them.
 
+mod coils;
+mod f4;
 mod g4;
+mod power;
+mod program;
 
 use std::collections::{BTreeMap, HashMap, VecDeque};
 
-use crate::engine::{Guest, Memory, Processor, Register};
+use crate::engine::{Memory, Processor, Register};
 use crate::model::Model;
 use crate::peripheral::backup::Backup;
 use crate::peripheral::coil::Coil;
@@ -18,27 +22,13 @@ use crate::peripheral::flash::{Flash, Work};
 use crate::peripheral::line::Line;
 use crate::peripheral::modulation::Modulation;
 use crate::peripheral::port::Port;
-use crate::peripheral::processor::{FIRST_INTERRUPT, IDLE, NMI, Private};
+use crate::peripheral::processor::{IDLE, Private};
 use crate::peripheral::rcc::{Cause, Rcc};
 use crate::peripheral::registers::Registers;
 use crate::peripheral::spi::Spi;
 use crate::peripheral::supply::Supply;
 use crate::peripheral::watchdog::Watchdog;
-use crate::random::Random;
-use crate::time::{SECOND, microseconds};
-
-/// Half cycles that an instruction takes, as an estimate: most take one cycle, loads and taken branches two or three, divisions and
-/// square roots fourteen.
-const HALF_CYCLES_PER_INSTRUCTION: u64 = 3;
-
-/// Blocks that the trail goes back.
-const TRAIL: usize = 32;
-
-/// Of the comparators on the board with an F4, A (docs/board.md).
-const BREAK: f64 = 1.24;
-
-/// Number of the voltage detector's interrupt.
-const DETECTOR: u32 = FIRST_INTERRUPT + 1;
+use crate::time::SECOND;
 
 /// First address of the memory.
 pub const RAM: u32 = 0x2000_0000;
@@ -180,50 +170,6 @@ impl Chip {
         chip
     }
 
-    /// Everything as after a reset for that cause. What is outside of the chip stays as it is.
-    pub fn resets(&mut self, cause: Cause) {
-        if cause == Cause::Power {
-            let mut random = Random::new(self.now ^ 0x5EED);
-            for memory in [&self.ram, &self.core_coupled] {
-                let start = if memory.contains(RAM) { RAM } else { 0x1000_0000 };
-                for place in 0..(if start == RAM { RAM_LENGTH } else { 64 << 10 }) as u32 / 8 {
-                    memory.write(start + 8 * place, &random.number().to_le_bytes());
-                }
-            }
-            for bus in &mut self.buses {
-                bus.sensor.brown_out(self.now);
-            }
-        }
-        self.rcc = Rcc::reset(self.model, Some(&self.rcc), cause);
-        self.flash.reset();
-        self.ports.iter_mut().zip(0..).for_each(|(port, index)| port.reset(self.model, index));
-        self.buses.iter_mut().for_each(Spi::reset);
-        self.encoder.reset();
-        self.modulation.reset();
-        self.converter.reset(self.model);
-        self.comparators.reset();
-        self.converters = Registers::default();
-        self.counters.iter_mut().for_each(Counter::reset);
-        self.copier.reset();
-        self.line.reset();
-        self.line.reset_streams();
-        self.supply.reset();
-        self.watchdog.reset();
-        self.private = Private::default();
-        self.crc = CrcUnit::default();
-        if cause == Cause::Power {
-            self.debug = Registers::default();
-            if self.model == Model::G474 {
-                // VBAT is the supply.
-                self.backup = Backup::default();
-            }
-        }
-        (self.reset, self.stuck, self.powered) = (None, None, true);
-        self.clock_changed();
-        self.select_sensors();
-        self.advance_coils();
-    }
-
     fn clock_changed(&mut self) {
         self.half_cycle = SECOND / self.rcc.core_hz() / 2;
         self.event = self.now;
@@ -287,36 +233,6 @@ impl Chip {
         self.active = priority;
     }
 
-    /// The supply of 3.3 V becomes `volts`.
-    pub fn set_volts(&mut self, volts: f64) {
-        self.supply.set_volts(volts);
-        self.pend_detector();
-        if self.flash.brown_out().is_some_and(|level| volts < level) || volts < 1.7 {
-            let cause = if volts < 1.7 { Cause::Power } else { Cause::BrownOut };
-            self.resets(cause);
-            (self.reset, self.powered) = (Some(cause), false);
-        }
-    }
-
-    /// Whether the supply lets the chip run.
-    pub fn powered(&self) -> bool {
-        self.powered || self.supply.volts() > self.flash.brown_out().map_or(1.75, |level| level + 0.1)
-    }
-
-    fn pend_detector(&mut self) {
-        if self.supply.interrupts() {
-            self.private.pend(DETECTOR);
-        }
-    }
-
-    /// The crystal stops.
-    pub fn crystal_stops(&mut self) {
-        if self.rcc.crystal_stops() {
-            self.private.pend(NMI);
-            self.clock_changed();
-        }
-    }
-
     /// The rack goes to `position`, counts of the encoder.
     pub fn move_rack(&mut self, position: i64) {
         self.encoder.move_to(position);
@@ -324,63 +240,6 @@ impl Chip {
         match self.model {
             Model::F405 => self.copier.changed(0x4000_0824, count, asked, &self.ram),
             Model::G474 => self.copier.changed_g4(0x4000_0824, count, asked, self.line.multiplexer.get(0), &self.ram),
-        }
-    }
-
-    /// Whether the high side of a coil is commanded on, and for which share of the time its low side.
-    pub fn drive(&self, coil: usize) -> (bool, f64) {
-        let port = &self.ports[2];
-        let high = port.output(8 + coil as u32).unwrap_or(false);
-        let function = if self.model == Model::G474 { 4 } else { 3 };
-        let modulated = port.function(6 + coil as u32) == Some(function);
-        (high, if modulated { self.modulation.duty(coil as u32) } else { 0.0 })
-    }
-
-    /// Whether a coil's current asks the timer for a break: by the comparators on an F4's board, at pin PA6, or by those of a G4.
-    fn asks_for_break(&self) -> bool {
-        let mut currents = self.coils.iter().map(|coil| coil.current).enumerate();
-        match self.model {
-            Model::F405 => {
-                let wired = self.ports[0].function(6) == Some(3) && self.modulation.breaks_at(false);
-                wired && currents.any(|(_, current)| current > BREAK)
-            }
-            Model::G474 => currents.any(|(coil, current)| {
-                let level = self.comparators.level(coil).filter(|(number, _)| self.modulation.has_comparator(*number));
-                self.modulation.breaks_at(true) && level.is_some_and(|(_, level)| current > level)
-            }),
-        }
-    }
-
-    /// Brings the coils' currents up to now.
-    pub fn advance_coils(&mut self) {
-        self.modulation.advance(self.now);
-        let before = self.coils.clone();
-        let from = std::mem::replace(&mut self.coils_at, self.now);
-        self.let_flow(self.now);
-        let mut asks = self.asks_for_break();
-        if asks && !self.broken {
-            // Closer, when.
-            self.coils = before;
-            asks = false;
-            for at in (from..self.now).step_by(microseconds(1) as usize).skip(1) {
-                self.let_flow(at);
-                if self.asks_for_break() {
-                    self.modulation.set_break(true);
-                    self.let_flow(self.now);
-                    break;
-                }
-            }
-            self.let_flow(self.now);
-            asks |= self.asks_for_break();
-        }
-        self.broken = asks;
-        self.modulation.set_break(asks);
-    }
-
-    fn let_flow(&mut self, until: u64) {
-        for index in 0..2 {
-            let (high, duty) = self.drive(index);
-            self.coils[index].advance(high, duty, until);
         }
     }
 
@@ -421,51 +280,9 @@ impl Chip {
                 self.private.read(address, self.half_cycles)
             };
         }
-        if self.model == Model::G474 {
-            return self.load_g4(address);
-        }
-        match address {
-            // Number of the chip, and its flash in KiB.
-            0x1FFF_7A10..0x1FFF_7A1C => return 0x0042_0000 | address & 15,
-            0x1FFF_7A20 => return 1024 << 16,
-            _ => {}
-        }
-        if !self.rcc.clocks(base) {
-            return 0;
-        }
-        let [slow, _] = self.rcc.timer_hz();
-        match base {
-            0x4000_0000 | 0x4000_0400 => self.counters[(base >> 10 & 1) as usize].read(offset, slow, self.now),
-            0x4000_0C00 => self.counters[2].read(offset, slow, self.now),
-            0x4000_0800 => self.encoder.read(offset),
-            0x4000_2800 => self.backup.read(offset),
-            0x4000_3000 => self.watchdog.read(offset),
-            0x4000_3800 => self.buses[1].read(offset),
-            0x4000_7000 => self.supply.read_power(offset),
-            0x4001_0400 => {
-                self.advance_coils();
-                self.modulation.read(offset)
-            }
-            0x4001_1000 => self.line.read(offset),
-            0x4001_2000 if offset >= 0x300 => self.converters.get(offset),
-            0x4001_2000 => {
-                self.advance_coils();
-                let value = self.converter.read(offset, [self.coils[0].current, self.coils[1].current]);
-                if let Some(coil) = self.converter.coil(offset) {
-                    self.converted[coil] = value;
-                }
-                value
-            }
-            0x4001_3000 => self.buses[0].read(offset),
-            0x4001_3C00 => self.supply.read_lines(offset),
-            0x4002_0000..=0x4002_2000 => self.ports[(base >> 10 & 15) as usize].read(offset),
-            0x4002_3000 => self.crc.read(offset),
-            0x4002_3800 => self.rcc.read(offset, self.now),
-            0x4002_3C00 => self.flash.read(offset),
-            0x4002_4000..0x4002_5000 => self.backup.load(address & 0xFFC),
-            0x4002_6000 => self.copier.read(offset),
-            0x4002_6400 => self.line.read_stream(offset, &self.ram, self.now),
-            _ => self.nobody(address),
+        match self.model {
+            Model::F405 => self.load_f4(address),
+            Model::G474 => self.load_g4(address),
         }
     }
 
@@ -484,197 +301,15 @@ impl Chip {
             }
             return;
         }
-        if self.model == Model::G474 {
-            return self.store_g4(address, value);
+        match self.model {
+            Model::F405 => self.store_f4(address, value),
+            Model::G474 => self.store_g4(address, value),
         }
-        if !self.rcc.clocks(base) {
-            return;
-        }
-        let [slow, fast] = self.rcc.peripheral_hz();
-        match base {
-            0x4000_0000 | 0x4000_0400 => self.counters[(base >> 10 & 1) as usize].write(offset, value, self.now),
-            0x4000_0C00 => self.counters[2].write(offset, value, self.now),
-            0x4000_0800 => self.encoder.write(offset, value),
-            0x4000_2800 => self.backup.write(offset, value, self.supply.backup_writable()),
-            0x4000_3000 => {
-                self.watchdog.write(offset, value, self.now);
-                self.event = self.next_event();
-            }
-            0x4000_3800 => {
-                let busy = self.buses[1].write(offset, value, slow, self.now);
-                self.pass(busy);
-            }
-            0x4000_7000 => {
-                self.supply.write_power(offset, value);
-                self.pend_detector();
-            }
-            0x4001_0400 => {
-                self.advance_coils();
-                let clock = self.rcc.timer_hz()[1];
-                self.modulation.write(offset, value, clock, self.now);
-            }
-            0x4001_1000 => self.line.write(offset, value),
-            0x4001_2000 if offset >= 0x300 => self.converters.set(offset, value),
-            0x4001_2000 => self.converter.write(offset, value),
-            0x4001_3000 => {
-                let busy = self.buses[0].write(offset, value, fast, self.now);
-                self.pass(busy);
-            }
-            0x4001_3C00 => {
-                self.supply.write_lines(offset, value);
-                self.pend_detector();
-            }
-            0x4002_0000..=0x4002_2000 => {
-                self.advance_coils();
-                self.ports[(base >> 10 & 15) as usize].write(offset, value);
-                self.select_sensors();
-            }
-            0x4002_3000 => self.crc.write(offset, value),
-            0x4002_3800 => {
-                if let Some(base) = self.rcc.write(offset, value, self.now) {
-                    self.reset_peripheral(base);
-                }
-                self.clock_changed();
-            }
-            0x4002_3C00 => {
-                let work = self.flash.write(offset, value);
-                self.work(work);
-            }
-            0x4002_4000..0x4002_5000 => self.backup.store(address & 0xFFC, value, self.supply.backup_writable()),
-            0x4002_6000 => self.copier.write(offset, value),
-            0x4002_6400 => self.line.write_stream(offset, value, &self.ram, fast, self.now),
-            _ => _ = self.nobody(address),
-        }
-    }
-
-    fn reset_peripheral(&mut self, base: u32) {
-        match base {
-            0x4000_0000 => self.counters[0].reset(),
-            0x4000_0400 => self.counters[1].reset(),
-            0x4000_0C00 => self.counters[2].reset(),
-            0x4000_0800 => self.encoder.reset(),
-            0x4000_3800 => self.buses[1].reset(),
-            0x4001_0400 => self.modulation.reset(),
-            0x4001_1000 => self.line.reset(),
-            0x4001_2000 => self.converter.reset(self.model),
-            0x4001_3000 => self.buses[0].reset(),
-            0x4002_6000 => self.copier.reset(),
-            0x4002_6400 => self.line.reset_streams(),
-            0x4002_0000..=0x4002_2000 => {
-                let index = base >> 10 & 15;
-                self.ports[index as usize].reset(self.model, index);
-            }
-            _ => {}
-        }
-    }
-
-    /// Whether the processor shall stop before the next block.
-    fn stops(&self, processor: &Processor) -> bool {
-        if self.reset.is_some() || self.now >= self.until {
-            return true;
-        }
-        self.private.waits() && self.private.next(self.active).is_some() && self.private.next(self.threshold(processor)).is_some()
     }
 
     fn nobody(&mut self, address: u32) -> u32 {
         *self.unknown.entry(address).or_default() += 1;
         0
-    }
-
-    /// Instructions between `address` and `address + size`.
-    fn length(&mut self, address: u32, size: u32) -> u64 {
-        if let Some(count) = self.lengths.get(&(address, size)) {
-            return (*count).into();
-        }
-        let count = self.instructions_of(address, size).count() as u32;
-        self.lengths.insert((address, size), count);
-        count.into()
-    }
-
-    /// Addresses of the instructions of a block: those that begin with 0b11101 to 0b11111 have two half words.
-    pub fn instructions_of(&self, address: u32, size: u32) -> impl Iterator<Item = u32> {
-        let memory = if self.ram.contains(address) { &self.ram } else { &self.flash.memory };
-        let within = move |place: &u32| place.wrapping_sub(address) < size && memory.contains(*place);
-        let next = move |place: &u32| {
-            let mut half = [0; 2];
-            memory.read(*place, &mut half);
-            Some(place + if half[1] >> 3 >= 0b11101 { 4 } else { 2 }).filter(within)
-        };
-        std::iter::successors(Some(address).filter(within), next)
-    }
-}
-
-/// The address and bit behind an address at which single bits of registers can be reached.
-fn bit_band(address: u32) -> Option<(u32, u32)> {
-    (0x4200_0000..0x4400_0000).contains(&address).then(|| {
-        let offset = address - 0x4200_0000;
-        (0x4000_0000 + (offset >> 7 << 2), offset >> 2 & 31)
-    })
-}
-
-impl Guest for Chip {
-    fn read(&mut self, address: u32, size: u32) -> u32 {
-        if let Some((word, bit)) = bit_band(address) {
-            return self.load(word) >> bit & 1;
-        }
-        if self.flash.memory.contains(address) {
-            let mut bytes = [0; 4];
-            match self.model {
-                Model::F405 => self.flash.memory.read(address, &mut bytes[..size as usize]),
-                Model::G474 => self.load_checked(address, &mut bytes[..size as usize]),
-            }
-            return u32::from_le_bytes(bytes);
-        }
-        let word = self.load(address & !3) >> (8 * (address & 3));
-        if size == 4 { word } else { word & ((1 << (8 * size)) - 1) }
-    }
-
-    fn write(&mut self, address: u32, size: u32, value: u32) {
-        if let Some((word, bit)) = bit_band(address) {
-            let old = self.load(word);
-            return self.store(word, old & !(1 << bit) | (value & 1) << bit);
-        }
-        if self.flash.memory.contains(address) {
-            let work = self.flash.store(address, size, value);
-            return self.work(work);
-        }
-        // Data registers and the watchdog's keys take what is written as it is; of others the rest of the word stays.
-        let whole = size == 4 || matches!(address & !3, 0x4001_300C | 0x4000_380C);
-        if whole {
-            return self.store(address & !3, value);
-        }
-        let shift = 8 * (address & 3);
-        let mask = ((1 << (8 * size)) - 1) << shift;
-        let old = self.load(address & !3);
-        self.store(address & !3, old & !mask | value << shift & mask);
-    }
-
-    fn block(&mut self, processor: &Processor, address: u32, size: u32) -> bool {
-        // The first block since the processor went on is carried out in any case: whoever asks for steps gets on.
-        if !std::mem::take(&mut self.goes_on) && self.stops(processor) {
-            return true;
-        }
-        if self.trail.len() == TRAIL {
-            self.trail.pop_front();
-        }
-        self.trail.push_back(address);
-        let instructions = self.length(address, size);
-        self.instructions += instructions;
-        if let Some(profile) = self.profile.as_mut().filter(|_| self.active != IDLE) {
-            *profile.entry((address, size)).or_default() += 1;
-        }
-        self.pass_cycles(HALF_CYCLES_PER_INSTRUCTION * instructions);
-        false
-    }
-
-    fn returned(&mut self) {
-        self.returned = true;
-    }
-
-    fn stuck(&mut self, address: Option<u32>) {
-        self.stuck = Some(address);
-        self.faults.push(address);
-        self.private.fault(address);
     }
 }
 
