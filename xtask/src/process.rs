@@ -3,9 +3,10 @@
 use crate::stop::Stop;
 use std::{
     ffi::OsString,
-    io::{BufRead as _, BufReader},
+    io::{self, BufRead as _, BufReader, Read as _, Write as _},
     path::{Path, PathBuf},
-    process::{Command, Stdio},
+    process::{Child, Command, ExitStatus, Stdio},
+    thread::{self, JoinHandle},
 };
 
 /// A command of the cargo that runs this task, in the folder of a workspace.
@@ -42,6 +43,59 @@ pub fn host(root: &Path) -> Result<String, Stop> {
 pub fn run(command: &mut Command) -> Result<(), Stop> {
     let shown = shown(command);
     let status = command.stdin(Stdio::null()).status().map_err(|error| Stop::usage(format!("{shown}: {error}")))?;
+    ended(&shown, status)
+}
+
+/// A command that runs beside others, and shows what it wrote when it is waited for; it is ended where nobody waits for it.
+#[derive(Debug)]
+pub struct Beside {
+    shown: String,
+    child: Child,
+    written: Option<JoinHandle<io::Result<Vec<u8>>>>,
+}
+
+impl Beside {
+    /// Starts `command`.
+    ///
+    /// # Errors
+    /// If it cannot be started.
+    pub fn start(command: &mut Command) -> Result<Self, Stop> {
+        let shown = shown(command);
+        let cannot = |error| Stop::usage(format!("{shown}: {error}"));
+        let (mut reader, writer) = io::pipe().map_err(cannot)?;
+        command.stdin(Stdio::null()).stdout(writer.try_clone().map_err(cannot)?).stderr(writer);
+        let child = command.spawn().map_err(cannot)?;
+        // The pipe ends only when nobody holds its other end.
+        command.stdout(Stdio::null()).stderr(Stdio::null());
+        let written = thread::spawn(move || {
+            let mut bytes = Vec::new();
+            reader.read_to_end(&mut bytes).map(|_| bytes)
+        });
+        Ok(Self { shown, child, written: Some(written) })
+    }
+
+    /// Waits for its end.
+    ///
+    /// # Errors
+    /// If it does not end well.
+    pub fn wait(mut self) -> Result<(), Stop> {
+        let cannot = |error| Stop::usage(format!("{}: {error}", self.shown));
+        let written = self.written.take().and_then(|thread| thread.join().ok()).unwrap_or_else(|| Ok(Vec::new()));
+        written.and_then(|bytes| io::stderr().write_all(&bytes)).map_err(cannot)?;
+        ended(&self.shown, self.child.wait().map_err(cannot)?)
+    }
+}
+
+impl Drop for Beside {
+    fn drop(&mut self) {
+        // Either may fail because it has ended already.
+        _ = self.child.kill();
+        _ = self.child.wait();
+    }
+}
+
+/// Whether a command ended well.
+fn ended(shown: &str, status: ExitStatus) -> Result<(), Stop> {
     if status.success() { Ok(()) } else { Err(Stop::failed(format!("`{shown}` failed ({status})"))) }
 }
 
@@ -62,8 +116,7 @@ pub fn filtered(command: &mut Command, wanted: impl Fn(&str) -> bool) -> Result<
             }
         }
     }
-    let status = child.wait().map_err(cannot)?;
-    if status.success() { Ok(()) } else { Err(Stop::failed(format!("`{shown}` failed ({status})"))) }
+    ended(&shown, child.wait().map_err(cannot)?)
 }
 
 /// Runs a command to its end and gives what it wrote to its standard output.

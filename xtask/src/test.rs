@@ -5,7 +5,7 @@ use crate::{
     firmware::{BOARD, Built, LINTED},
     fuzz::{self, Inputs},
     hardware, panic_check,
-    process::{cargo, cargo_in, host, run as done},
+    process::{Beside, cargo, cargo_in, host, run as done},
     size,
     steps::Steps,
     stop::Stop,
@@ -44,6 +44,8 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
         done(cargo(root, &["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))?;
         done(BOARD.cargo(root, "doc").arg("--no-deps").env("RUSTDOCFLAGS", "-D warnings"))
     })?;
+    // No step until they are needed keeps both processors busy.
+    let built_tests = Beside::start(&mut cargo(root, &["test", "--workspace", "--no-run"]))?;
     let built = images(root, &mut steps, false)?;
     steps.step("tests, drivers", || {
         // The workspace's own target is the board's.
@@ -58,6 +60,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     })?;
     hardware::run(root, &mut steps)?;
     steps.step("tests, board image", || board_image::tests(root, &built))?;
+    steps.step("rest of the tests' build", || built_tests.wait())?;
     steps.step("tests", || tests(root, &built))?;
     match fuzz_seconds {
         Some(seconds) => steps.step("fuzzing", || fuzz::run(root, None, seconds, Inputs::Same)),
