@@ -1,28 +1,32 @@
 //! Which faults there are at a tick, which of them are news, and which must be acted upon.
 
+use core::cmp::Ordering;
+
 use super::event_log::Kind;
 use super::{Phase, Supervisor, SupervisorInput, SupervisorState, log};
-use crate::control::monitor::Findings;
 use crate::control::monitor::coil::{CoilReport, trouble};
 use crate::control::monitor::fault::{Fault, Recovery};
 
 /// Sources of faults: four sensors, clutches and their coils, timing, estimate, the law.
 pub(super) const SOURCES: usize = 8;
 
+/// What the clutches report, and the first trouble of their coils: the feedback of a coil whose switches are being tried says nothing of
+/// its clutch.
+#[inline(never)]
+fn of_coils(sent: [bool; 2], input: &SupervisorInput<'_>) -> ([bool; 2], Option<Fault>) {
+    let [first, second] = input.coils.map(|report| report == CoilReport::Testing);
+    let engaged = input.sample.engaged;
+    let engaged = [if first { sent[0] } else { engaged[0] }, if second { sent[1] } else { engaged[1] }];
+    (engaged, trouble(&input.coils))
+}
+
 impl Supervisor {
     /// Asks every source, logs what is new, and returns the first fault that must be acted upon, and whether any of them takes a request.
     #[inline]
-    pub(super) fn judge(
-        &self,
-        state: &mut SupervisorState,
-        input: &SupervisorInput<'_>,
-        findings: &Findings,
-    ) -> (Option<Fault>, bool) {
+    pub(super) fn judge(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) -> (Option<Fault>, bool) {
         let deciding = matches!(state.phase, Phase::Armed | Phase::Rocking);
-        // The feedback of a coil whose switches are being tried says nothing of its clutch.
-        let [first, second] = input.coils.map(|report| report == CoilReport::Testing);
-        let engaged = input.sample.engaged;
-        let engaged = [if first { state.sent[0] } else { engaged[0] }, if second { state.sent[1] } else { engaged[1] }];
+        let (engaged, coil) =
+            if input.coils == [CoilReport::Well; 2] { (input.sample.engaged, None) } else { of_coils(state.sent, input) };
         let moved = self.actuator.step(&mut state.actuator, state.sent, engaged);
         let clutch = moved.map(|fault| match fault {
             Fault::ClutchRefuses(wheel) | Fault::ClutchEngagedUnbidden(wheel) if state.phase == Phase::SelfTest => {
@@ -30,30 +34,32 @@ impl Supervisor {
             }
             other => other,
         });
-        let coil = trouble(&input.coils);
-        state.ladder.release |= moved.or(coil).is_some_and(Fault::is_of_an_engaged_clutch);
+        if let Some(fault) = moved.or(coil) {
+            state.ladder.release |= fault.is_of_an_engaged_clutch();
+        }
         let clutch = coil.or(clutch);
         // NaN is late, by any measure.
-        let later_than = |time: f32| input.lateness.is_nan() || input.lateness > time;
+        let later_than = |time: f32| !matches!(input.lateness.partial_cmp(&time), Some(Ordering::Less | Ordering::Equal));
         let late = later_than(0.0);
         state.late.note(late);
         let overrun = late && (later_than(self.overrun_limit) || state.late.length() >= self.overrun_ticks);
         let (rotation, velocity) = input.estimate;
-        let sick = || findings.faults.into_iter().flatten().any(|fault| self.acted_upon(state, fault));
+        let sick = || state.findings().faults().into_iter().flatten().any(|fault| self.acted_upon(state, fault));
         // An estimate from a bad sensor is that sensor's fault. What an estimator has bounded does not add up to infinity.
         let lost = deciding && !(rotation.abs() + velocity.abs()).is_finite() && !sick();
         let both = deciding && self.too_many(input);
-        if findings.nothing() && clutch.is_none() && !overrun && !lost && !both && !state.any_active {
+        if state.findings().nothing() && clutch.is_none() && !overrun && !lost && !both && !state.any_active {
             return (None, false);
         }
+        let [gyroscope, block, ground, encoder] = state.findings().faults();
         self.weigh(
             state,
             input,
             [
-                findings.faults[0],
-                findings.faults[1],
-                findings.faults[2],
-                findings.faults[3],
+                gyroscope,
+                block,
+                ground,
+                encoder,
                 clutch,
                 overrun.then_some(Fault::Overrun),
                 lost.then_some(Fault::EstimateNotFinite),

@@ -48,7 +48,23 @@ pub(super) struct Motion {
 impl Motion {
     /// One tick of sensors of which `good` (in the order of `Sensor::ALL`) may be believed; `shaking` is how far the ground's accelerometer is
     /// from rest, m/s².
+    #[inline]
     pub fn step(&mut self, limits: &MotionLimits, sample: &Sample, good: [bool; 4], shaking: f32, calibration: &Calibration) {
+        if good == [true; 4] {
+            self.step_of(limits, sample, [true; 4], shaking, calibration);
+        } else {
+            self.step_without(limits, sample, good, shaking, calibration);
+        }
+    }
+
+    #[inline(never)]
+    fn step_without(&mut self, limits: &MotionLimits, sample: &Sample, good: [bool; 4], shaking: f32, calibration: &Calibration) {
+        self.step_of(limits, sample, good, shaking, calibration);
+    }
+
+    // Twice: most of the time every sensor is good, and nothing needs to be asked.
+    #[inline(always)]
+    fn step_of(&mut self, limits: &MotionLimits, sample: &Sample, good: [bool; 4], shaking: f32, calibration: &Calibration) {
         let [gyroscope, _, ground, encoder] = good;
         let rate = sample.gyroscope.value;
         let turned = gyroscope && (rate - self.rate).abs() > limits.rate;
