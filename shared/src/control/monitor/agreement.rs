@@ -47,13 +47,15 @@ const FARTHEST: u32 = u32::MAX / (2 * SLOTS);
 
 impl Slot {
     #[inline]
-    fn and(self, other: Slot) -> Slot {
-        let travel = self.travel + other.travel;
-        Slot {
-            angle: self.angle + other.angle,
-            peak: if other.peak > self.peak { other.peak } else { self.peak },
-            counts: self.counts.wrapping_add(other.counts),
-            travel: if travel > FARTHEST { FARTHEST } else { travel },
+    fn add(&mut self, news: Slot) {
+        self.angle += news.angle;
+        if news.peak > self.peak {
+            self.peak = news.peak;
+        }
+        if news.travel > 0 {
+            self.counts = self.counts.wrapping_add(news.counts);
+            let travel = self.travel + news.travel;
+            self.travel = if travel > FARTHEST { FARTHEST } else { travel };
         }
     }
 }
@@ -75,22 +77,25 @@ struct Window {
 }
 
 impl Window {
+    /// One tick of a window with slots of several.
     #[inline]
-    fn step(&mut self, limits: &AgreementLimits, rate_tolerance: f32, length: u32, news: Slot) {
-        if length <= 1 {
-            return self.close(limits, rate_tolerance, length, news);
-        }
-        self.open = self.open.and(news);
+    fn gather(&mut self, limits: &AgreementLimits, rate_tolerance: f32, length: u32, news: Slot) {
+        self.open.add(news);
         self.ticks += 1;
         if self.ticks >= length {
-            self.ticks = 0;
-            let closed = core::mem::take(&mut self.open);
-            self.close(limits, rate_tolerance, length, closed);
+            self.close_open(limits, rate_tolerance, length);
         }
     }
 
-    /// Moves on by a slot.
     #[inline(never)]
+    fn close_open(&mut self, limits: &AgreementLimits, rate_tolerance: f32, length: u32) {
+        self.ticks = 0;
+        let closed = core::mem::take(&mut self.open);
+        self.close(limits, rate_tolerance, length, closed);
+    }
+
+    /// Moves on by a slot.
+    #[inline(always)]
     fn close(&mut self, limits: &AgreementLimits, rate_tolerance: f32, length: u32, closed: Slot) {
         self.newest = (self.newest + 1) & LAST;
         let slot = &mut self.slots[self.newest & LAST];
@@ -167,8 +172,13 @@ impl Agreement {
         let news =
             Slot { angle: rate * limits.period, peak: rate.abs(), counts: change, travel: change.unsigned_abs().min(FARTHEST) };
         let ([fast, slow], [fast_length, slow_length]) = (&mut self.windows, limits.slots);
-        fast.step(limits, rate_tolerance, fast_length, news);
-        slow.step(limits, rate_tolerance, slow_length, news);
+        // Nothing needs to be gathered where a slot is a tick.
+        if fast_length <= 1 {
+            fast.close(limits, rate_tolerance, fast_length, news);
+        } else {
+            fast.gather(limits, rate_tolerance, fast_length, news);
+        }
+        slow.gather(limits, rate_tolerance, slow_length, news);
     }
 
     /// What was found when a window last moved on.
