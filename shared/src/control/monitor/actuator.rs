@@ -18,8 +18,8 @@ pub struct ActuatorMonitor {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ActuatorState {
     clutches: [Clutch; 2],
-    /// The command and what follows it have been the same for so long that nothing changes as long as they are.
-    calm: bool,
+    /// The command that has been sent and followed for so long that nothing changes as long as it is.
+    calm: Option<[bool; 2]>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -47,22 +47,21 @@ impl Clutch {
     }
 }
 
+impl ActuatorState {
+    /// A tick with this would change nothing and find nothing.
+    #[inline]
+    pub fn is_calm(&self, sent: [bool; 2], engaged: [bool; 2]) -> bool {
+        engaged == sent && self.calm == Some(sent)
+    }
+}
+
 impl ActuatorMonitor {
     /// One tick: `engaged` is the feedback, `sent` the command of the last tick, which is the newest that the clutches can know.
-    #[inline]
     pub fn step(&self, state: &mut ActuatorState, sent: [bool; 2], engaged: [bool; 2]) -> Option<Fault> {
-        let [first, second] = &state.clutches;
-        if state.calm && engaged == sent && sent == [first.commanded, second.commanded] {
-            return None;
-        }
-        self.compare(state, sent, engaged)
-    }
-
-    #[inline(never)]
-    fn compare(&self, state: &mut ActuatorState, sent: [bool; 2], engaged: [bool; 2]) -> Option<Fault> {
         let [first, second] = &mut state.clutches;
         let late = [first.step(self, sent[0], engaged[0]), second.step(self, sent[1], engaged[1])];
-        state.calm = engaged == sent && first.steady.lasted(self.actuator_ticks) && second.steady.lasted(self.actuator_ticks);
+        let calm = engaged == sent && first.steady.lasted(self.actuator_ticks) && second.steady.lasted(self.actuator_ticks);
+        state.calm = calm.then_some(sent);
         if late == [false; 2] {
             return None;
         }

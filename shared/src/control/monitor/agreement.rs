@@ -166,6 +166,7 @@ pub(super) struct Agreement {
 
 impl Agreement {
     /// One tick of `rate` (rad/s, finite, less its bias), known to `rate_tolerance`, and `counts`.
+    #[inline(always)]
     pub fn step(&mut self, limits: &AgreementLimits, rate_tolerance: f32, rate: f32, counts: i32) {
         let change = counts.wrapping_sub(self.counts.unwrap_or(counts));
         self.counts = Some(counts);

@@ -10,34 +10,13 @@ use crate::control::monitor::fault::{Fault, Recovery};
 /// Sources of faults: four sensors, clutches and their coils, timing, estimate, the law.
 pub(super) const SOURCES: usize = 8;
 
-/// What the clutches report, and the first trouble of their coils: the feedback of a coil whose switches are being tried says nothing of
-/// its clutch.
-#[inline(never)]
-fn of_coils(sent: [bool; 2], input: &SupervisorInput<'_>) -> ([bool; 2], Option<Fault>) {
-    let [first, second] = input.coils.map(|report| report == CoilReport::Testing);
-    let engaged = input.sample.engaged;
-    let engaged = [if first { sent[0] } else { engaged[0] }, if second { sent[1] } else { engaged[1] }];
-    (engaged, trouble(&input.coils))
-}
-
 impl Supervisor {
     /// Asks every source, logs what is new, and returns the first fault that must be acted upon, and whether any of them takes a request.
     #[inline]
     pub(super) fn judge(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) -> (Option<Fault>, bool) {
         let deciding = matches!(state.phase, Phase::Armed | Phase::Rocking);
-        let (engaged, coil) =
-            if input.coils == [CoilReport::Well; 2] { (input.sample.engaged, None) } else { of_coils(state.sent, input) };
-        let moved = self.actuator.step(&mut state.actuator, state.sent, engaged);
-        let clutch = moved.map(|fault| match fault {
-            Fault::ClutchRefuses(wheel) | Fault::ClutchEngagedUnbidden(wheel) if state.phase == Phase::SelfTest => {
-                Fault::SelfTestFailed(wheel)
-            }
-            other => other,
-        });
-        if let Some(fault) = moved.or(coil) {
-            state.ladder.release |= fault.is_of_an_engaged_clutch();
-        }
-        let clutch = coil.or(clutch);
+        let calm = input.coils == [CoilReport::Well; 2] && state.actuator.is_calm(state.sent, input.sample.engaged);
+        let clutch = if calm { None } else { self.of_clutches(state, input) };
         // NaN is late, by any measure.
         let later_than = |time: f32| !matches!(input.lateness.partial_cmp(&time), Some(Ordering::Less | Ordering::Equal));
         let late = later_than(0.0);
@@ -66,6 +45,25 @@ impl Supervisor {
                 both.then_some(Fault::BothClutches),
             ],
         )
+    }
+
+    /// The fault of the clutches or their coils.
+    #[inline(never)]
+    fn of_clutches(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) -> Option<Fault> {
+        // The feedback of a coil whose switches are being tried says nothing of its clutch.
+        let [first, second] = input.coils.map(|report| report == CoilReport::Testing);
+        let engaged = input.sample.engaged;
+        let engaged = [if first { state.sent[0] } else { engaged[0] }, if second { state.sent[1] } else { engaged[1] }];
+        let moved = self.actuator.step(&mut state.actuator, state.sent, engaged);
+        let clutch = moved.map(|fault| match fault {
+            Fault::ClutchRefuses(wheel) | Fault::ClutchEngagedUnbidden(wheel) if state.phase == Phase::SelfTest => {
+                Fault::SelfTestFailed(wheel)
+            }
+            other => other,
+        });
+        let coil = trouble(&input.coils);
+        state.ladder.release |= moved.or(coil).is_some_and(Fault::is_of_an_engaged_clutch);
+        coil.or(clutch)
     }
 
     /// What the sources say now, beside what they said before.
