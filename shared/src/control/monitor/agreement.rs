@@ -120,17 +120,14 @@ const _: () = assert!(SLOTS.is_power_of_two());
 impl AgreementLimits {
     #[inline]
     fn judge(&self, window: &Window, rate_tolerance: f32, duration: f32) -> Option<Disagreement> {
-        if self.counts_per_radian == 0.0 {
-            return None;
-        }
         let first = (window.newest & LAST) + 1;
         let in_a_row = window.angles.get(first..first + SLOTS as usize).unwrap_or_default();
-        let angle = in_a_row.iter().fold(0.0, |sum, angle| sum + angle);
+        let angle = in_a_row.iter().copied().reduce(|sum, angle| sum + angle).unwrap_or(0.0);
         let expected = self.counts_per_radian * angle;
         let counted = window.counts as f32;
         let ahead = expected.abs() > counted.abs();
         let off = (expected - counted).abs();
-        if off <= self.counts {
+        if off <= self.counts || self.counts_per_radian == 0.0 {
             return None;
         }
         // Where nothing at all is counted it is no matter of the lever.
