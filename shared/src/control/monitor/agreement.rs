@@ -104,7 +104,7 @@ impl Window {
         *slot = closed;
         self.angles[self.newest & LAST] = closed.angle;
         self.angles[(self.newest & LAST) + SLOTS as usize] = closed.angle;
-        self.found = limits.judge(self, rate_tolerance, limits.period * SLOTS as f32 * length as f32);
+        self.found = limits.judge(self, rate_tolerance, length);
     }
 
     /// From the oldest to the newest.
@@ -118,18 +118,32 @@ const LAST: usize = SLOTS as usize - 1;
 const _: () = assert!(SLOTS.is_power_of_two());
 
 impl AgreementLimits {
-    #[inline]
-    fn judge(&self, window: &Window, rate_tolerance: f32, duration: f32) -> Option<Disagreement> {
+    /// What a window with slots of `length` ticks shows.
+    #[inline(always)]
+    fn judge(&self, window: &Window, rate_tolerance: f32, length: u32) -> Option<Disagreement> {
         let first = (window.newest & LAST) + 1;
         let in_a_row = window.angles.get(first..first + SLOTS as usize).unwrap_or_default();
         let angle = in_a_row.iter().copied().reduce(|sum, angle| sum + angle).unwrap_or(0.0);
         let expected = self.counts_per_radian * angle;
         let counted = window.counts as f32;
-        let ahead = expected.abs() > counted.abs();
-        let off = (expected - counted).abs();
-        if off <= self.counts || self.counts_per_radian == 0.0 {
+        if (expected - counted).abs() <= self.counts || self.counts_per_radian == 0.0 {
             return None;
         }
+        self.judge_apart(window, rate_tolerance, length, expected, counted)
+    }
+
+    /// The same where the two differ by more than [`AgreementLimits::counts`].
+    #[inline(never)]
+    fn judge_apart(
+        &self,
+        window: &Window,
+        rate_tolerance: f32,
+        length: u32,
+        expected: f32,
+        counted: f32,
+    ) -> Option<Disagreement> {
+        let duration = self.period * SLOTS as f32 * length as f32;
+        let (ahead, off) = (expected.abs() > counted.abs(), (expected - counted).abs());
         // Where nothing at all is counted it is no matter of the lever.
         let share = if window.travel == 0 { 0.0 } else { self.share * if ahead { expected.abs() } else { counted.abs() } };
         // A reading that is late by a delay lacks what moved meanwhile. This is what lets an impact and a single bad reading pass.
