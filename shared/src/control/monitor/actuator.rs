@@ -125,6 +125,27 @@ mod tests {
         }
     }
 
+    /// Any commands and feedback, to one that leaves out calm ticks and one that does not.
+    #[test]
+    fn a_calm_tick_may_be_left_out() {
+        let (mut short, mut long) = (ActuatorState::default(), ActuatorState::default());
+        let (mut sent, mut engaged, mut random, mut calm) = ([false; 2], [false; 2], 1_u32, 0);
+        for tick in 0..100_000 {
+            random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            match random >> 22 {
+                wheel @ 0..=1 => sent[wheel as usize] ^= true,
+                wheel @ 2..=3 => engaged[wheel as usize - 2] ^= true,
+                4..=50 => engaged = sent,
+                _ => {}
+            }
+            let expected = MONITOR.step(&mut long, sent, engaged);
+            let is_calm = short.is_calm(sent, engaged);
+            calm += u32::from(is_calm);
+            assert_eq!(if is_calm { None } else { MONITOR.step(&mut short, sent, engaged) }, expected, "{tick}");
+        }
+        assert!(calm > 20_000, "{calm}");
+    }
+
     #[test]
     fn both_engaged_only_where_allowed() {
         // A change of hands, during which they overlap.
