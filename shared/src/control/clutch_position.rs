@@ -57,6 +57,10 @@ impl ClutchLag {
     #[inline]
     pub fn step(&self, state: &mut ClutchPositions, feedback: [bool; 2]) {
         let ClutchPositions { engaged, otherwise, moved: _ } = state;
+        if *engaged == feedback {
+            *otherwise = [0; 2];
+            return;
+        }
         for ((engaged, otherwise), feedback) in engaged.iter_mut().zip(otherwise).zip(feedback) {
             let lag = if feedback { self.closing } else { self.opening };
             if *engaged == feedback {

@@ -251,45 +251,57 @@ impl<L: Law> Controller<L> {
     /// Second part: what the law wants of the motion ahead, and as commands.
     #[inline]
     pub fn choose(&self, state: &mut ControllerState, estimate: &Estimate, engaged: [bool; 2]) -> (Wish, [bool; 2]) {
-        let model = &self.model;
-        // Of a block that stands nothing needs to be worked out: its rack does not move, and it stands where the command takes effect.
-        let moving = (!estimate.standing).then(|| model.configuration(estimate.side, estimate.rotation));
-        let rack = moving.as_ref().map_or(0.0, |at| model.body.to_terminal(at, estimate.velocity));
-        state.turns.spin_at(model, rack, engaged, self.instruments.period);
-        let ahead = match &moving {
-            Some(configuration) if self.law.predicts() => {
+        let (model, period) = (&self.model, self.instruments.period);
+        let elapsed = model.parameters.frequency * period;
+        state.drift = (state.drift + elapsed * estimate.ground[0]) * (1.0 - elapsed / DRIFT_TIME);
+        let stood = core::mem::replace(&mut state.stood, estimate.standing);
+        // The motion begins to the side that the estimator has found; noise of the time before says nothing of it.
+        let before = if estimate.standing || stood { Signs::at_uplift(estimate.side) } else { state.signs };
+        let (wish, wanted) = if estimate.standing {
+            // Nothing needs to be worked out: the rack does not move, and the block stands where the command takes effect.
+            state.turns.spin_at(model, 0.0, engaged, period);
+            state.signs = before;
+            let wish = match self.wish(state, estimate, &Estimate { standing: true, ..*estimate }, engaged) {
+                Wish::Resist if !self.engaged_at_rest => Wish::Release,
+                wish => wish,
+            };
+            let wanted = match wish {
+                Wish::Resist => state.turns.wait(model),
+                _ => state.turns.take(model, wish, state.signs.velocity, estimate),
+            };
+            (wish, wanted)
+        } else {
+            let configuration = model.configuration(estimate.side, estimate.rotation);
+            state.turns.spin_at(model, model.body.to_terminal(&configuration, estimate.velocity), engaged, period);
+            let ahead = if self.law.predicts() {
                 // An engaged clutch can only be released, and an open one only be engaged: each question has its own delay.
                 let engaging = self.horizons.engagement + state.clutches.late(&self.lag);
                 let horizon = if engaged == [false; 2] { engaging } else { self.horizons.release };
-                predict_from(model, configuration, estimate, count(engaged), horizon)
-            }
-            _ => *estimate,
+                predict_from(model, &configuration, estimate, count(engaged), horizon)
+            } else {
+                *estimate
+            };
+            state.signs = before.after(&ahead, self.bands);
+            let wish = self.wish(state, estimate, &ahead, engaged);
+            (wish, state.turns.take(model, wish, state.signs.velocity, &ahead))
         };
-        // The motion begins to the side that the estimator has found; noise of the time before says nothing of it.
-        let before = if estimate.standing || state.stood { Signs::at_uplift(estimate.side) } else { state.signs };
-        state.signs = if estimate.standing { before } else { before.after(&ahead, self.bands) };
-        state.stood = estimate.standing;
-        let elapsed = self.model.parameters.frequency * self.instruments.period;
-        state.drift = (state.drift + elapsed * estimate.ground[0]) * (1.0 - elapsed / DRIFT_TIME);
-        let situation = Situation {
-            model,
-            estimate: ahead,
+        (wish, self.gate.step(&mut state.gate, wanted))
+    }
+
+    /// What the law wants of the motion `ahead`. Where the block is now nobody may know: a plain inerter needs no sensor.
+    #[inline(always)]
+    fn wish(&self, state: &ControllerState, now: &Estimate, ahead: &Estimate, engaged: [bool; 2]) -> Wish {
+        if !now.located(self.model.parameters.slenderness) {
+            return Wish::Hold;
+        }
+        self.law.wish(&Situation {
+            model: &self.model,
+            estimate: *ahead,
             signs: state.signs,
             engaged,
             spins: state.turns.spins,
             ground_drift: state.drift,
-        };
-        let wish = match self.law.wish(&situation) {
-            // Where the block is nobody knows: a plain inerter needs no sensor.
-            _ if !estimate.located(model.parameters.slenderness) => Wish::Hold,
-            Wish::Resist if estimate.standing && !self.engaged_at_rest => Wish::Release,
-            wish => wish,
-        };
-        let wanted = match wish {
-            Wish::Resist if estimate.standing => state.turns.wait(model),
-            _ => state.turns.take(model, wish, state.signs.velocity, &ahead),
-        };
-        (wish, self.gate.step(&mut state.gate, wanted))
+        })
     }
 
     /// Last part: whether it may be had.

@@ -24,9 +24,6 @@ pub fn ticks_or_never(seconds: f32, period: f32) -> u32 {
 pub struct Streak(u32);
 
 impl Streak {
-    /// It holds, and did not before.
-    pub const ONE: Streak = Streak(1);
-
     /// To be called once a tick.
     #[inline]
     pub fn note(&mut self, holds: bool) {

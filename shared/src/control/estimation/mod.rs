@@ -70,7 +70,7 @@ impl Estimator {
     }
 
     /// One tick of a block that stood at the last one.
-    #[inline]
+    #[inline(always)]
     fn stand(
         &self,
         state: &mut EstimatorState,

@@ -34,7 +34,8 @@ impl Standing {
     /// Looks at the readings of this tick, of a block that stood at the last one; `true` while it does. It is let go when the ground
     /// pushes harder than its weight holds, or when it moves by the encoder or, twice in a row by more than a `jump`, by a gyroscope that is
     /// believed (`rate`; both rad/s), to the side that the state then has.
-    #[inline]
+    // Into the tick, as its caller is: the readings need not go through memory then.
+    #[inline(always)]
     pub(super) fn holds(
         &self,
         state: &mut EstimatorState,

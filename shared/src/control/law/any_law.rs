@@ -23,7 +23,8 @@ pub enum ClutchLaw {
 }
 
 impl Law for ClutchLaw {
-    #[inline]
+    // Into the tick: what is asked need not go through memory then.
+    #[inline(always)]
     fn wish(&self, at: &Situation<'_>) -> Wish {
         match self {
             ClutchLaw::Passive => Passive.wish(at),

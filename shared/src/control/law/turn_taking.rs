@@ -28,6 +28,10 @@ impl TurnsState {
     /// [`TurnsState::spin`] where the speed of the `rack` is known already.
     #[inline]
     pub fn spin_at(&mut self, model: &Model, rack: f32, engaged: [bool; 2], period: f32) {
+        if engaged == [true; 2] {
+            self.spins = [rack; 2];
+            return;
+        }
         for (spin, engaged) in self.spins.iter_mut().zip(engaged) {
             *spin = if engaged { rack } else { model.coasted(*spin, period) };
         }

@@ -18,6 +18,8 @@ pub struct ActuatorMonitor {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ActuatorState {
     clutches: [Clutch; 2],
+    /// The command that has been sent and followed for so long that nothing changes as long as it is.
+    calm: Option<[bool; 2]>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -45,11 +47,21 @@ impl Clutch {
     }
 }
 
+impl ActuatorState {
+    /// A tick with this would change nothing and find nothing.
+    #[inline]
+    pub fn is_calm(&self, sent: [bool; 2], engaged: [bool; 2]) -> bool {
+        engaged == sent && self.calm == Some(sent)
+    }
+}
+
 impl ActuatorMonitor {
     /// One tick: `engaged` is the feedback, `sent` the command of the last tick, which is the newest that the clutches can know.
     pub fn step(&self, state: &mut ActuatorState, sent: [bool; 2], engaged: [bool; 2]) -> Option<Fault> {
         let [first, second] = &mut state.clutches;
         let late = [first.step(self, sent[0], engaged[0]), second.step(self, sent[1], engaged[1])];
+        let calm = engaged == sent && first.steady.lasted(self.actuator_ticks) && second.steady.lasted(self.actuator_ticks);
+        state.calm = calm.then_some(sent);
         if late == [false; 2] {
             return None;
         }
@@ -111,6 +123,27 @@ mod tests {
                 assert_eq!(MONITOR.step(&mut state, [tick < 15, false], [(18..29).contains(&tick), false]), None, "{tick}");
             }
         }
+    }
+
+    /// Any commands and feedback, to one that leaves out calm ticks and one that does not.
+    #[test]
+    fn a_calm_tick_may_be_left_out() {
+        let (mut short, mut long) = (ActuatorState::default(), ActuatorState::default());
+        let (mut sent, mut engaged, mut random, mut calm) = ([false; 2], [false; 2], 1_u32, 0);
+        for tick in 0..100_000 {
+            random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            match random >> 22 {
+                wheel @ 0..=1 => sent[wheel as usize] ^= true,
+                wheel @ 2..=3 => engaged[wheel as usize - 2] ^= true,
+                4..=50 => engaged = sent,
+                _ => {}
+            }
+            let expected = MONITOR.step(&mut long, sent, engaged);
+            let is_calm = short.is_calm(sent, engaged);
+            calm += u32::from(is_calm);
+            assert_eq!(if is_calm { None } else { MONITOR.step(&mut short, sent, engaged) }, expected, "{tick}");
+        }
+        assert!(calm > 20_000, "{calm}");
     }
 
     #[test]

@@ -47,13 +47,15 @@ const FARTHEST: u32 = u32::MAX / (2 * SLOTS);
 
 impl Slot {
     #[inline]
-    fn and(self, other: Slot) -> Slot {
-        let travel = self.travel + other.travel;
-        Slot {
-            angle: self.angle + other.angle,
-            peak: if other.peak > self.peak { other.peak } else { self.peak },
-            counts: self.counts.wrapping_add(other.counts),
-            travel: if travel > FARTHEST { FARTHEST } else { travel },
+    fn add(&mut self, news: Slot) {
+        self.angle += news.angle;
+        if news.peak > self.peak {
+            self.peak = news.peak;
+        }
+        if news.travel > 0 {
+            self.counts = self.counts.wrapping_add(news.counts);
+            let travel = self.travel + news.travel;
+            self.travel = if travel > FARTHEST { FARTHEST } else { travel };
         }
     }
 }
@@ -75,22 +77,25 @@ struct Window {
 }
 
 impl Window {
+    /// One tick of a window with slots of several.
     #[inline]
-    fn step(&mut self, limits: &AgreementLimits, rate_tolerance: f32, length: u32, news: Slot) {
-        if length <= 1 {
-            return self.close(limits, rate_tolerance, length, news);
-        }
-        self.open = self.open.and(news);
+    fn gather(&mut self, limits: &AgreementLimits, rate_tolerance: f32, length: u32, news: Slot) {
+        self.open.add(news);
         self.ticks += 1;
         if self.ticks >= length {
-            self.ticks = 0;
-            let closed = core::mem::take(&mut self.open);
-            self.close(limits, rate_tolerance, length, closed);
+            self.close_open(limits, rate_tolerance, length);
         }
     }
 
-    /// Moves on by a slot.
     #[inline(never)]
+    fn close_open(&mut self, limits: &AgreementLimits, rate_tolerance: f32, length: u32) {
+        self.ticks = 0;
+        let closed = core::mem::take(&mut self.open);
+        self.close(limits, rate_tolerance, length, closed);
+    }
+
+    /// Moves on by a slot.
+    #[inline(always)]
     fn close(&mut self, limits: &AgreementLimits, rate_tolerance: f32, length: u32, closed: Slot) {
         self.newest = (self.newest + 1) & LAST;
         let slot = &mut self.slots[self.newest & LAST];
@@ -99,7 +104,7 @@ impl Window {
         *slot = closed;
         self.angles[self.newest & LAST] = closed.angle;
         self.angles[(self.newest & LAST) + SLOTS as usize] = closed.angle;
-        self.found = limits.judge(self, rate_tolerance, limits.period * SLOTS as f32 * length as f32);
+        self.found = limits.judge(self, rate_tolerance, length);
     }
 
     /// From the oldest to the newest.
@@ -113,21 +118,32 @@ const LAST: usize = SLOTS as usize - 1;
 const _: () = assert!(SLOTS.is_power_of_two());
 
 impl AgreementLimits {
-    #[inline]
-    fn judge(&self, window: &Window, rate_tolerance: f32, duration: f32) -> Option<Disagreement> {
-        if self.counts_per_radian == 0.0 {
-            return None;
-        }
+    /// What a window with slots of `length` ticks shows.
+    #[inline(always)]
+    fn judge(&self, window: &Window, rate_tolerance: f32, length: u32) -> Option<Disagreement> {
         let first = (window.newest & LAST) + 1;
         let in_a_row = window.angles.get(first..first + SLOTS as usize).unwrap_or_default();
-        let angle = in_a_row.iter().fold(0.0, |sum, angle| sum + angle);
+        let angle = in_a_row.iter().copied().reduce(|sum, angle| sum + angle).unwrap_or(0.0);
         let expected = self.counts_per_radian * angle;
         let counted = window.counts as f32;
-        let ahead = expected.abs() > counted.abs();
-        let off = (expected - counted).abs();
-        if off <= self.counts {
+        if (expected - counted).abs() <= self.counts || self.counts_per_radian == 0.0 {
             return None;
         }
+        self.judge_apart(window, rate_tolerance, length, expected, counted)
+    }
+
+    /// The same where the two differ by more than [`AgreementLimits::counts`].
+    #[inline(never)]
+    fn judge_apart(
+        &self,
+        window: &Window,
+        rate_tolerance: f32,
+        length: u32,
+        expected: f32,
+        counted: f32,
+    ) -> Option<Disagreement> {
+        let duration = self.period * SLOTS as f32 * length as f32;
+        let (ahead, off) = (expected.abs() > counted.abs(), (expected - counted).abs());
         // Where nothing at all is counted it is no matter of the lever.
         let share = if window.travel == 0 { 0.0 } else { self.share * if ahead { expected.abs() } else { counted.abs() } };
         // A reading that is late by a delay lacks what moved meanwhile. This is what lets an impact and a single bad reading pass.
@@ -161,14 +177,20 @@ pub(super) struct Agreement {
 
 impl Agreement {
     /// One tick of `rate` (rad/s, finite, less its bias), known to `rate_tolerance`, and `counts`.
+    #[inline(always)]
     pub fn step(&mut self, limits: &AgreementLimits, rate_tolerance: f32, rate: f32, counts: i32) {
         let change = counts.wrapping_sub(self.counts.unwrap_or(counts));
         self.counts = Some(counts);
         let news =
             Slot { angle: rate * limits.period, peak: rate.abs(), counts: change, travel: change.unsigned_abs().min(FARTHEST) };
         let ([fast, slow], [fast_length, slow_length]) = (&mut self.windows, limits.slots);
-        fast.step(limits, rate_tolerance, fast_length, news);
-        slow.step(limits, rate_tolerance, slow_length, news);
+        // Nothing needs to be gathered where a slot is a tick.
+        if fast_length <= 1 {
+            fast.close(limits, rate_tolerance, fast_length, news);
+        } else {
+            fast.gather(limits, rate_tolerance, fast_length, news);
+        }
+        slow.gather(limits, rate_tolerance, slow_length, news);
     }
 
     /// What was found when a window last moved on.

@@ -50,6 +50,7 @@ pub struct MonitorState {
     encoder: Watch,
     agreement: Agreement,
     rest: Rest,
+    findings: Findings,
 }
 
 /// What the rest of the controller knows.
@@ -66,17 +67,30 @@ pub struct Context<'a> {
 /// What was found, in the order of [`Sensor::ALL`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Findings {
-    /// Every sensor may be believed: what follows says the same.
+    /// Every sensor may be believed, and nothing is wrong, whatever `faults` and `seen` say.
     clean: bool,
-    /// What is wrong now, the plainest first.
-    pub faults: [Option<Fault>; 4],
-    /// Sensors that have given a complete reading.
-    pub seen: [bool; 4],
+    faults: [Option<Fault>; 4],
+    seen: [bool; 4],
     /// How far the ground's accelerometer, its bias subtracted, is from (0, g), m/s², where it may be believed.
     pub shaking: f32,
 }
 
 impl Findings {
+    /// Of sensors of which each may be believed.
+    const CLEAN: Findings = Findings { clean: true, faults: [None; 4], seen: [true; 4], shaking: 0.0 };
+
+    /// What is wrong now, the plainest first.
+    #[inline]
+    pub fn faults(&self) -> [Option<Fault>; 4] {
+        if self.clean { [None; 4] } else { self.faults }
+    }
+
+    /// Sensors that have given a complete reading.
+    #[inline]
+    pub fn seen(&self) -> [bool; 4] {
+        if self.clean { [true; 4] } else { self.seen }
+    }
+
     /// Sensors that may be believed.
     #[inline]
     pub fn good(&self) -> [bool; 4] {
@@ -103,6 +117,12 @@ impl MonitorState {
         MonitorState { gyroscope, accelerometers: [[block; 2], [ground; 2]], encoder, ..MonitorState::default() }
     }
 
+    /// What the last tick found.
+    #[inline]
+    pub fn findings(&self) -> &Findings {
+        &self.findings
+    }
+
     /// To be called when the biases change: what was seen with the old ones must not be held against the new.
     pub fn recalibrated(&mut self) {
         self.agreement = Agreement::default();
@@ -112,31 +132,38 @@ impl MonitorState {
 
 impl Monitor {
     /// One tick.
-    // Has one caller, and much to hand over.
+    // Has one caller, and much to hand over: what it finds stays where it is, for those who need it.
     #[inline]
-    pub fn step(&self, state: &mut MonitorState, sample: &Sample, context: &Context<'_>) -> Findings {
+    pub fn step<'a>(&self, state: &'a mut MonitorState, sample: &Sample, context: &Context<'_>) -> &'a Findings {
         let rate = sample.gyroscope.value - context.calibration.gyroscope;
         // NaN does not exceed anything.
         let moving = rate.abs() > self.moving_rate || state.agreement.travel() >= MOVING_COUNTS;
-        let [block_limits, ground_limits] = &self.accelerometers;
-        let [block, ground] = &mut state.accelerometers;
-        let both = |[along, up]: &mut [Watch; 2], [first, second]: [Reading; 2], limits| {
-            let well = along.step(first, limits, moving);
-            up.step(second, limits, moving) && well
-        };
-        let encoder_limits = self.encoder_limits();
-        let well = [
-            state.gyroscope.step(sample.gyroscope, &self.gyroscope, moving),
-            both(block, sample.block_accelerometer, block_limits),
-            both(ground, sample.ground_accelerometer, ground_limits),
-            state.encoder.arrival(sample.encoder.number, &encoder_limits),
-        ];
-        if well == [true; 4] && self.within_travel(sample, context) {
-            let (agreed, shaking) = self.compare(state, sample, context, rate, [true; 4]);
-            let found = Findings { clean: true, faults: [None; 4], seen: [true; 4], shaking };
-            return if agreed { found } else { self.contradicted(state, found) };
+        let ([block_limits, ground_limits], [block, ground]) = (&self.accelerometers, &mut state.accelerometers);
+        let (block, ground) =
+            (block.iter_mut().zip(sample.block_accelerometer), ground.iter_mut().zip(sample.ground_accelerometer));
+        let mut well = state.gyroscope.step(sample.gyroscope, &self.gyroscope, moving);
+        for (watch, reading) in block {
+            if !watch.step(reading, block_limits, moving) {
+                well = false;
+            }
         }
-        self.doubted(state, sample, context, rate)
+        for (watch, reading) in ground {
+            if !watch.step(reading, ground_limits, moving) {
+                well = false;
+            }
+        }
+        if !state.encoder.arrival(sample.encoder.number, &self.encoder_limits()) {
+            well = false;
+        }
+        if !(well && self.within_travel(sample, context)) {
+            self.doubted(state, sample, context, rate);
+        } else if self.compare(state, sample, context, rate, [true; 4]) {
+            state.findings.clean = true;
+        } else {
+            state.findings = Findings { shaking: state.findings.shaking, ..Findings::CLEAN };
+            self.contradicted(state);
+        }
+        &state.findings
     }
 
     fn within_travel(&self, sample: &Sample, context: &Context<'_>) -> bool {
@@ -145,7 +172,7 @@ impl Monitor {
 
     /// The same where something may be wrong with a sensor.
     #[inline(never)]
-    fn doubted(&self, state: &mut MonitorState, sample: &Sample, context: &Context<'_>, rate: f32) -> Findings {
+    fn doubted(&self, state: &mut MonitorState, sample: &Sample, context: &Context<'_>, rate: f32) {
         let MonitorState { gyroscope, accelerometers: [block, ground], encoder, .. } = state;
         let [block_limits, ground_limits] = &self.accelerometers;
         let number = [Reading { value: 0.0, number: sample.encoder.number }];
@@ -160,22 +187,16 @@ impl Monitor {
         if seen[3] && faults[3].is_none() && !self.within_travel(sample, context) {
             faults[3] = Some(Fault::Saturated(Sensor::Encoder));
         }
-        let found = Findings { clean: false, faults, seen, shaking: 0.0 };
-        let (agreed, shaking) = self.compare(state, sample, context, rate, found.good());
-        let found = Findings { shaking, ..found };
-        if agreed { found } else { self.contradicted(state, found) }
+        state.findings = Findings { clean: false, faults, seen, shaking: 0.0 };
+        let good = state.findings.good();
+        if !self.compare(state, sample, context, rate, good) {
+            self.contradicted(state);
+        }
     }
 
-    /// Looks at the `good` sensors together: whether none contradicts another, and how far the ground's accelerometer is from (0, g).
+    /// Looks at the `good` sensors together: whether none contradicts another. Takes down how far the ground's accelerometer is from (0, g).
     #[inline(always)]
-    fn compare(
-        &self,
-        state: &mut MonitorState,
-        sample: &Sample,
-        context: &Context<'_>,
-        rate: f32,
-        good: [bool; 4],
-    ) -> (bool, f32) {
+    fn compare(&self, state: &mut MonitorState, sample: &Sample, context: &Context<'_>, rate: f32, good: [bool; 4]) -> bool {
         let off = |readings: [Reading; 2], bias| off_gravity(readings.map(|reading| reading.value), bias, self.gravity);
         let block = good[1].then(|| off(sample.block_accelerometer, context.calibration.block));
         let ground = good[2].then(|| off(sample.ground_accelerometer, context.calibration.ground));
@@ -189,13 +210,15 @@ impl Monitor {
             state.agreement = Agreement::default();
         }
         let alone = state.rest.block(self.rest_ticks) || state.rest.ground(self.rest_ticks);
-        (!alone && state.agreement.found().is_none(), ground.unwrap_or(0.0))
+        state.findings.shaking = ground.unwrap_or(0.0);
+        !alone && state.agreement.found().is_none()
     }
 
     /// Adds to what each sensor shows by itself what they show together.
     #[inline(never)]
-    fn contradicted(&self, state: &MonitorState, found: Findings) -> Findings {
-        let mut faults = found.faults;
+    fn contradicted(&self, state: &mut MonitorState) {
+        state.findings.clean = false;
+        let faults = &mut state.findings.faults;
         if state.rest.block(self.rest_ticks) {
             faults[1] = Some(Fault::Contradiction(Sensor::BlockAccelerometer));
         }
@@ -212,7 +235,6 @@ impl Monitor {
             Some(_) => faults[3] = Some(Fault::Contradiction(Sensor::Encoder)),
             None => {}
         }
-        Findings { clean: false, faults, ..found }
     }
 
     /// A count has no full scale, and one that repeats is judged with the gyroscope's help only.

@@ -6,7 +6,10 @@ use crate::control::ticks::Streak;
 /// Readings that must repeat before they count as stuck, so that a slow sensor is not judged by two.
 const FEWEST_REPEATS: u8 = 3;
 
-/// When a reading is at fault: times in ticks, `stale` at least 1.
+/// Of a number's bits, those of its size.
+const SIZE: u32 = u32::MAX >> 1;
+
+/// When a reading is at fault: times in ticks, `stale` at least 1; `full_scale` above 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct WatchLimits {
     pub stale: u32,
@@ -19,8 +22,8 @@ pub(super) struct WatchLimits {
 /// What is known of a reading.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Watch {
-    number: u32,
     bits: u32,
+    number: u32,
     last: Last,
     /// What came before; of a usual reading nothing did that matters.
     history: History,
@@ -33,6 +36,10 @@ enum Last {
     UsualAtRest,
     /// … and while it did.
     UsualInMotion,
+    /// New and the same as a usual one just before it, as happens by chance: while the block did not move at either …
+    RepeatedAtRest,
+    /// … and while it did at both.
+    RepeatedInMotion,
     /// Anything else.
     #[default]
     Doubted,
@@ -60,25 +67,44 @@ impl Watch {
         Watch { history: History { due: true, ..History::default() }, ..Watch::default() }
     }
 
-    fn usual(&self) -> bool {
+    /// Nothing that came before matters, nor can anything be held against the last reading.
+    fn trusted(&self) -> bool {
         self.last != Last::Doubted
     }
 
     /// A reading has been taken.
     pub fn seen(&self) -> bool {
-        self.usual() || self.history.seen
+        self.trusted() || self.history.seen
     }
 
     /// One tick; `moving` says that the block does, by another sensor's account or this one's. `true` where there has been a reading and
     /// nothing can be held against it.
-    #[inline]
+    #[inline(always)]
     pub fn step(&mut self, reading: Reading, limits: &WatchLimits, moving: bool) -> bool {
         let bits = reading.value.to_bits();
-        // What is within its range is finite, too.
-        if reading.number != self.number && bits != self.bits && reading.value.abs() < limits.full_scale {
+        // Sizes compare as their bits do, and those of what is not finite are the largest.
+        let within = bits & SIZE < limits.full_scale.to_bits();
+        if reading.number != self.number && bits != self.bits && within {
             let last = if moving { Last::UsualInMotion } else { Last::UsualAtRest };
             (self.number, self.bits, self.last) = (reading.number, bits, last);
             return true;
+        }
+        self.repeat(reading, limits, moving)
+    }
+
+    /// The same where the reading is not usual, but perhaps the first that repeats.
+    #[inline(never)]
+    fn repeat(&mut self, reading: Reading, limits: &WatchLimits, moving: bool) -> bool {
+        if reading.number != self.number && reading.value.to_bits() == self.bits {
+            let repeated = match (self.last, moving) {
+                (Last::UsualAtRest, false) => Some(Last::RepeatedAtRest),
+                (Last::UsualInMotion, true) => Some(Last::RepeatedInMotion),
+                _ => None,
+            };
+            if let Some(last) = repeated {
+                (self.number, self.last) = (reading.number, last);
+                return true;
+            }
         }
         self.doubt(reading, limits, moving)
     }
@@ -97,11 +123,17 @@ impl Watch {
 
     /// What came before, from a usual reading on.
     fn recall(&mut self) -> &mut History {
-        if self.usual() {
-            let mut unchanged_moving = Streak::default();
-            unchanged_moving.note(self.last == Last::UsualInMotion);
-            self.history = History { seen: true, due: true, unchanged: Streak::ONE, unchanged_moving, ..History::default() };
-            self.last = Last::Doubted;
+        let last = core::mem::take(&mut self.last);
+        if last != Last::Doubted {
+            let moving = matches!(last, Last::UsualInMotion | Last::RepeatedInMotion);
+            let repeats = u8::from(matches!(last, Last::RepeatedAtRest | Last::RepeatedInMotion));
+            let repeats_moving = if moving { repeats } else { 0 };
+            let mut history = History { seen: true, due: true, repeats, repeats_moving, ..History::default() };
+            for _ in 0..=repeats {
+                history.unchanged.note(true);
+                history.unchanged_moving.note(moving);
+            }
+            self.history = history;
         }
         &mut self.history
     }
@@ -133,17 +165,17 @@ impl Watch {
     }
 
     pub fn stale(&self, limits: &WatchLimits) -> bool {
-        !self.usual() && self.history.due && self.history.age >= limits.stale
+        !self.trusted() && self.history.due && self.history.age >= limits.stale
     }
 
     pub fn saturated(&self, limits: &WatchLimits) -> bool {
-        !self.usual() && self.history.saturated.lasted(limits.saturation)
+        !self.trusted() && self.history.saturated.lasted(limits.saturation)
     }
 
     pub fn stuck(&self, limits: &WatchLimits) -> bool {
         let History { repeats, repeats_moving, unchanged, unchanged_moving, .. } = &self.history;
         let always = *repeats >= FEWEST_REPEATS && unchanged.lasted(limits.stuck);
-        !self.usual() && (always || (*repeats_moving >= FEWEST_REPEATS && unchanged_moving.lasted(limits.stuck_moving)))
+        !self.trusted() && (always || (*repeats_moving >= FEWEST_REPEATS && unchanged_moving.lasted(limits.stuck_moving)))
     }
 }
 
@@ -204,6 +236,28 @@ mod tests {
             assert!(!arrival.arrival(8, &LIMITS) && arrival.stale(&LIMITS));
         }
         assert!(arrival.arrival(0, &LIMITS) && !arrival.stale(&LIMITS));
+    }
+
+    /// Any readings, old, repeated and beyond the scale, to one watch that takes its short cuts and one that does not.
+    #[test]
+    fn short_cuts_change_nothing() {
+        let (mut short, mut long) = (Watch::default(), Watch::default());
+        let (mut reading, mut random, mut moving) = (Reading::default(), 1_u32, false);
+        for tick in 0..100_000 {
+            random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            let dice = random >> 24;
+            // Long runs of one kind among short ones.
+            let among = if tick / 1000 % 2 == 0 { 64 } else { 8 };
+            moving ^= dice.is_multiple_of(among);
+            reading.number = reading.number.wrapping_add(u32::from(dice % among > 2));
+            if dice % 11 > 4 {
+                reading.value = [0.1, 0.2, -0.3, 9.9, 10.0, -12.0, f32::NAN][(dice % 7) as usize];
+            }
+            let well = short.step(reading, &LIMITS, moving);
+            assert_eq!(well, long.doubt(reading, &LIMITS, moving), "{tick}");
+            let verdict = |watch: &Watch| (watch.seen(), watch.stale(&LIMITS), watch.stuck(&LIMITS), watch.saturated(&LIMITS));
+            assert_eq!(verdict(&short), verdict(&long), "{tick}");
+        }
     }
 
     #[test]

@@ -84,15 +84,14 @@ impl Instruments {
     #[inline(always)]
     pub fn read(&self, state: &mut InstrumentsState, sample: &Sample, zero: &Calibration) -> Measured {
         let ([along, up], [horizontal, vertical]) = (sample.block_accelerometer, sample.ground_accelerometer);
-        let numbers = [sample.gyroscope.number, sample.encoder.number, along.number, horizontal.number];
-        let last = core::mem::replace(&mut state.numbers, numbers);
-        let [a, b, c, d] = numbers;
-        let all = a != last[0] && b != last[1] && c != last[2] && d != last[3];
+        let [a, b, c, d] = state.numbers;
+        let all = sample.gyroscope.number != a && sample.encoder.number != b && along.number != c && horizontal.number != d;
         let sizes = [sample.gyroscope, along, up, horizontal, vertical].map(|reading| reading.value.abs());
         if all && sizes.iter().fold(0.0, |sum, size| sum + size) < PLAIN {
+            state.numbers = numbers(sample);
             return self.measure(state, sample, zero, [true; 4], |_| true);
         }
-        self.measure_some(state, sample, zero, last)
+        self.measure_some(state, sample, zero)
     }
 
     /// The same where it is done rarely.
@@ -102,8 +101,9 @@ impl Instruments {
     }
 
     #[inline(never)]
-    fn measure_some(&self, state: &mut InstrumentsState, sample: &Sample, zero: &Calibration, last: [u32; 4]) -> Measured {
-        let now = state.numbers;
+    fn measure_some(&self, state: &mut InstrumentsState, sample: &Sample, zero: &Calibration) -> Measured {
+        let now = numbers(sample);
+        let last = core::mem::replace(&mut state.numbers, now);
         let fresh = [now[0] != last[0], now[1] != last[1], now[2] != last[2], now[3] != last[3]];
         self.measure(state, sample, zero, fresh, usable)
     }
@@ -124,8 +124,7 @@ impl Instruments {
         let (mut ground, mut growth) = ([0.0; 2], [0.0; 2]);
         for axis in 0..2 {
             let track = &mut state.ground[axis];
-            self.track(track, accelerations[axis], fresh[3] && usable(accelerations[axis]));
-            growth[axis] = within(track.rate, FASTEST_GROWTH);
+            growth[axis] = self.track(track, accelerations[axis], fresh[3] && usable(accelerations[axis]));
             ground[axis] = track.value + growth[axis] * self.ground_delay;
         }
         Measured {
@@ -139,20 +138,35 @@ impl Instruments {
         }
     }
 
-    #[inline]
-    fn track(&self, track: &mut Track, reading: f32, fresh: bool) {
+    /// One tick of a `reading`; its growth as far as it is extrapolated.
+    #[inline(always)]
+    fn track(&self, track: &mut Track, reading: f32, fresh: bool) -> f32 {
         let ahead = track.value + track.rate * self.period;
-        if !track.started {
-            let value = if fresh { reading } else { 0.0 };
-            *track = Track { value, rate: 0.0, started: fresh };
-        } else if !fresh {
-            track.value = within(ahead, MOST_GROUND);
-        } else {
+        if track.started && fresh {
             let surprise = reading - ahead;
             track.value = within(ahead + self.gains[0] * surprise, MOST_GROUND);
-            track.rate = within(track.rate + self.gains[1] * surprise * self.period_inverse, MOST_GROWTH);
+            let rate = track.rate + self.gains[1] * surprise * self.period_inverse;
+            // What is slow enough to be extrapolated is slow enough to be tracked.
+            if rate.abs() <= FASTEST_GROWTH {
+                track.rate = rate;
+                return rate;
+            }
+            track.rate = within(rate, MOST_GROWTH);
+        } else if track.started {
+            track.value = within(ahead, MOST_GROUND);
+        } else {
+            let value = if fresh { reading } else { 0.0 };
+            *track = Track { value, rate: 0.0, started: fresh };
         }
+        beyond(track.rate, FASTEST_GROWTH)
     }
+}
+
+/// Of readings, in the order of [`InstrumentsState::numbers`].
+#[inline]
+fn numbers(sample: &Sample) -> [u32; 4] {
+    let ([along, _], [horizontal, _]) = (sample.block_accelerometer, sample.ground_accelerometer);
+    [sample.gyroscope.number, sample.encoder.number, along.number, horizontal.number]
 }
 
 /// As `x.clamp(-most, most)`, with one comparison for what is within.
@@ -190,6 +204,7 @@ struct Track {
 /// What reading remembers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct InstrumentsState {
+    /// Of the last readings of gyroscope, encoder, and both accelerometers.
     numbers: [u32; 4],
     ground: [Track; 2],
 }

@@ -2,7 +2,6 @@
 
 use super::event_log::Kind;
 use super::{Supervisor, SupervisorInput, SupervisorState, log};
-use crate::control::monitor::Findings;
 use crate::control::sensing::calibration::Averaging;
 
 /// Time in which a calibration follows a drift, s: a sensor warms up in minutes, a block moves within seconds.
@@ -25,18 +24,18 @@ pub(super) struct Following {
 impl Supervisor {
     /// One tick of an armed controller while nothing moves. The first sign of motion leaves this phase, and with it what has been averaged
     /// since the last step. Whether the calibration has changed.
-    pub(super) fn follow(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>, findings: &Findings) -> bool {
+    pub(super) fn follow(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) -> bool {
         state.following.waited += 1;
         if state.following.waited < EVERY {
             return false;
         }
         state.following.waited = 0;
-        self.follow_on(state, input, findings)
+        self.follow_on(state, input)
     }
 
     #[inline(never)]
-    fn follow_on(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>, findings: &Findings) -> bool {
-        state.averaging.add(input.sample, findings.good());
+    fn follow_on(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) -> bool {
+        state.averaging.add(input.sample, state.monitor.findings().good());
         if state.averaging.ticks() < self.averaged {
             return false;
         }

@@ -1,8 +1,9 @@
 //! Which faults there are at a tick, which of them are news, and which must be acted upon.
 
+use core::cmp::Ordering;
+
 use super::event_log::Kind;
 use super::{Phase, Supervisor, SupervisorInput, SupervisorState, log};
-use crate::control::monitor::Findings;
 use crate::control::monitor::coil::{CoilReport, trouble};
 use crate::control::monitor::fault::{Fault, Recovery};
 
@@ -12,13 +13,43 @@ pub(super) const SOURCES: usize = 8;
 impl Supervisor {
     /// Asks every source, logs what is new, and returns the first fault that must be acted upon, and whether any of them takes a request.
     #[inline]
-    pub(super) fn judge(
-        &self,
-        state: &mut SupervisorState,
-        input: &SupervisorInput<'_>,
-        findings: &Findings,
-    ) -> (Option<Fault>, bool) {
+    pub(super) fn judge(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) -> (Option<Fault>, bool) {
         let deciding = matches!(state.phase, Phase::Armed | Phase::Rocking);
+        let calm = input.coils == [CoilReport::Well; 2] && state.actuator.is_calm(state.sent, input.sample.engaged);
+        let clutch = if calm { None } else { self.of_clutches(state, input) };
+        // NaN is late, by any measure.
+        let later_than = |time: f32| !matches!(input.lateness.partial_cmp(&time), Some(Ordering::Less | Ordering::Equal));
+        let late = later_than(0.0);
+        state.late.note(late);
+        let overrun = late && (later_than(self.overrun_limit) || state.late.length() >= self.overrun_ticks);
+        let (rotation, velocity) = input.estimate;
+        let sick = || state.findings().faults().into_iter().flatten().any(|fault| self.acted_upon(state, fault));
+        // An estimate from a bad sensor is that sensor's fault. What an estimator has bounded does not add up to infinity.
+        let lost = deciding && !(rotation.abs() + velocity.abs()).is_finite() && !sick();
+        let both = deciding && self.too_many(input);
+        if state.findings().nothing() && clutch.is_none() && !overrun && !lost && !both && !state.any_active {
+            return (None, false);
+        }
+        let [gyroscope, block, ground, encoder] = state.findings().faults();
+        self.weigh(
+            state,
+            input,
+            [
+                gyroscope,
+                block,
+                ground,
+                encoder,
+                clutch,
+                overrun.then_some(Fault::Overrun),
+                lost.then_some(Fault::EstimateNotFinite),
+                both.then_some(Fault::BothClutches),
+            ],
+        )
+    }
+
+    /// The fault of the clutches or their coils.
+    #[inline(never)]
+    fn of_clutches(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) -> Option<Fault> {
         // The feedback of a coil whose switches are being tried says nothing of its clutch.
         let [first, second] = input.coils.map(|report| report == CoilReport::Testing);
         let engaged = input.sample.engaged;
@@ -32,34 +63,7 @@ impl Supervisor {
         });
         let coil = trouble(&input.coils);
         state.ladder.release |= moved.or(coil).is_some_and(Fault::is_of_an_engaged_clutch);
-        let clutch = coil.or(clutch);
-        // NaN is late, by any measure.
-        let later_than = |time: f32| input.lateness.is_nan() || input.lateness > time;
-        let late = later_than(0.0);
-        state.late.note(late);
-        let overrun = late && (later_than(self.overrun_limit) || state.late.length() >= self.overrun_ticks);
-        let (rotation, velocity) = input.estimate;
-        let sick = || findings.faults.into_iter().flatten().any(|fault| self.acted_upon(state, fault));
-        // An estimate from a bad sensor is that sensor's fault. What an estimator has bounded does not add up to infinity.
-        let lost = deciding && !(rotation.abs() + velocity.abs()).is_finite() && !sick();
-        let both = deciding && self.too_many(input);
-        if findings.nothing() && clutch.is_none() && !overrun && !lost && !both && !state.any_active {
-            return (None, false);
-        }
-        self.weigh(
-            state,
-            input,
-            [
-                findings.faults[0],
-                findings.faults[1],
-                findings.faults[2],
-                findings.faults[3],
-                clutch,
-                overrun.then_some(Fault::Overrun),
-                lost.then_some(Fault::EstimateNotFinite),
-                both.then_some(Fault::BothClutches),
-            ],
-        )
+        coil.or(clutch)
     }
 
     /// What the sources say now, beside what they said before.

@@ -4,7 +4,6 @@
 //! `docs/robustness.md` says why: one flywheel engaged for good costs a few percent of the peak, both open a half of it.
 
 use super::{Phase, Supervisor, SupervisorState, enter};
-use crate::control::monitor::Findings;
 use crate::control::monitor::fault::Fault;
 use crate::control::sensing::sensor::Sensor;
 use crate::control::supervisor::SupervisorInput;
@@ -40,23 +39,23 @@ impl Supervisor {
     /// First rung. A sensor that fails while the law decides, and the others are good, is not taken any more until it has been good for
     /// the recovery time, an encoder until it has been calibrated anew.
     #[inline]
-    pub(super) fn stand_in(&self, state: &mut SupervisorState, findings: &Findings) {
-        if findings.nothing() && state.ladder.lost.is_none() {
+    pub(super) fn stand_in(&self, state: &mut SupervisorState) {
+        if state.findings().nothing() && state.ladder.lost.is_none() {
             return;
         }
-        self.choose_stand_in(state, findings);
+        self.choose_stand_in(state);
     }
 
     #[inline(never)]
-    fn choose_stand_in(&self, state: &mut SupervisorState, findings: &Findings) {
+    fn choose_stand_in(&self, state: &mut SupervisorState) {
         let deciding = matches!(state.phase, Phase::Armed | Phase::Rocking);
         if !(self.required.has_substitutes() && deciding && state.calibrated) {
             let release = state.ladder.release;
             state.ladder = Ladder { release, ..Ladder::default() };
             return;
         }
+        let (good, faults) = (state.findings().good(), state.findings().faults());
         let ladder = &mut state.ladder;
-        let good = findings.good();
         // Of two that contradict each other nobody knows which to take.
         let plain = |fault: &Fault| !matches!(fault, Fault::Contradiction(Sensor::Gyroscope | Sensor::Encoder));
         let required = self.required.flags();
@@ -64,7 +63,7 @@ impl Supervisor {
         if ladder.lost.is_some() && ladder.good.lasted(self.recovery) && ladder.trusted[3] {
             (ladder.trusted, ladder.lost) = ([true; 4], None);
         }
-        let faults = findings.faults.iter().zip(required).zip(&mut ladder.trusted);
+        let faults = faults.iter().zip(required).zip(&mut ladder.trusted);
         for ((fault, _), trusted) in faults.filter(|((_, required), _)| *required) {
             if let Some(fault) = fault.filter(plain) {
                 *trusted = false;

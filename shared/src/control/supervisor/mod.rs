@@ -149,6 +149,12 @@ impl SupervisorState {
         self.phase == Phase::SelfTest
     }
 
+    /// What the monitor found at the last tick.
+    #[inline]
+    fn findings(&self) -> &Findings {
+        self.monitor.findings()
+    }
+
     /// What the last tick left.
     pub fn phase(&self) -> Phase {
         self.phase
@@ -211,8 +217,8 @@ impl Supervisor {
         let context = Context { calibration: &state.calibration, calibrated: state.calibrated, at_rest };
         let findings = self.monitor.step(&mut state.monitor, input.sample, &context);
         state.motion.step(&self.motion, input.sample, findings.good(), findings.shaking, &state.calibration);
-        self.stand_in(state, &findings);
-        let (alarm, latches) = if state.phase == Phase::Boot { (None, false) } else { self.judge(state, input, &findings) };
+        self.stand_in(state);
+        let (alarm, latches) = if state.phase == Phase::Boot { (None, false) } else { self.judge(state, input) };
         let clear = input.requests.clear && !state.clear_before;
         state.clear_before = input.requests.clear;
         let mut biases = Biases::Kept;
@@ -226,20 +232,21 @@ impl Supervisor {
                 self.fail(state, input, fault);
                 state.latched |= latches;
             }
-            (None, Phase::Boot) => self.boot(state, input, &findings),
+            (None, Phase::Boot) => self.boot(state, input),
             (None, Phase::SelfTest) => self.test(state, input),
-            (None, Phase::Calibrate) => biases = self.calibrate(state, input, &findings),
+            (None, Phase::Calibrate) => biases = self.calibrate(state, input),
             (None, Phase::Armed) if state.motion.quiet == 0 => enter(state, input, Phase::Rocking),
             (None, Phase::Rocking) if state.motion.quiet >= self.quiet => {
                 enter(state, input, if state.resumed { Phase::Calibrate } else { Phase::Armed });
             }
             (None, Phase::Armed) if self.calibrate_again(state, input) => {}
-            (None, Phase::Armed) if state.ladder.lost.is_none() && self.follow(state, input, &findings) => {
+            (None, Phase::Armed) if state.ladder.lost.is_none() && self.follow(state, input) => {
                 biases = Biases::Followed;
             }
             (None, Phase::Armed | Phase::Rocking) => {}
             (None, Phase::Fault) => {
-                let missing = self.required.flags().into_iter().zip(findings.good()).any(|(required, good)| required && !good);
+                let missing =
+                    self.required.flags().into_iter().zip(state.findings().good()).any(|(required, good)| required && !good);
                 state.good.note(!missing);
                 self.leave(state, input, clear, true);
             }
@@ -301,10 +308,11 @@ impl Supervisor {
     }
 
     #[inline(never)]
-    fn boot(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>, findings: &Findings) {
+    fn boot(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) {
+        let findings = state.findings();
         let mut missing = None;
         for ((sensor, required), (fault, seen)) in
-            Sensor::ALL.into_iter().zip(self.required.flags()).zip(findings.faults.into_iter().zip(findings.seen))
+            Sensor::ALL.into_iter().zip(self.required.flags()).zip(findings.faults().into_iter().zip(findings.seen()))
         {
             let wrong = if seen { fault } else { Some(Fault::Stale(sensor)) };
             missing = missing.or(wrong.filter(|_| required));
@@ -339,7 +347,7 @@ impl Supervisor {
     }
 
     #[inline(never)]
-    fn calibrate(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>, findings: &Findings) -> Biases {
+    fn calibrate(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) -> Biases {
         if state.resumed && state.motion.quiet == 0 {
             // The next shock must not find it waiting: what it has is good enough, as before.
             enter(state, input, Phase::Rocking);
@@ -349,7 +357,7 @@ impl Supervisor {
         if !state.motion.still(1) {
             state.averaging = Averaging::default();
         } else {
-            state.averaging.add(input.sample, findings.good());
+            state.averaging.add(input.sample, state.monitor.findings().good());
         }
         if state.averaging.ticks() >= self.calibration {
             let (found, wrong) = state.averaging.finish(&state.calibration, &self.plausible, self.motion.gravity);

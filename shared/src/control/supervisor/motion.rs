@@ -48,29 +48,49 @@ pub(super) struct Motion {
 impl Motion {
     /// One tick of sensors of which `good` (in the order of `Sensor::ALL`) may be believed; `shaking` is how far the ground's accelerometer is
     /// from rest, m/s².
+    #[inline]
     pub fn step(&mut self, limits: &MotionLimits, sample: &Sample, good: [bool; 4], shaking: f32, calibration: &Calibration) {
+        if good == [true; 4] {
+            self.step_of(limits, sample, [true; 4], shaking, calibration);
+        } else {
+            self.step_without(limits, sample, good, shaking, calibration);
+        }
+    }
+
+    #[inline(never)]
+    fn step_without(&mut self, limits: &MotionLimits, sample: &Sample, good: [bool; 4], shaking: f32, calibration: &Calibration) {
+        self.step_of(limits, sample, good, shaking, calibration);
+    }
+
+    // Twice: most of the time every sensor is good, and nothing needs to be asked.
+    #[inline(always)]
+    fn step_of(&mut self, limits: &MotionLimits, sample: &Sample, good: [bool; 4], shaking: f32, calibration: &Calibration) {
         let [gyroscope, _, ground, encoder] = good;
         let rate = sample.gyroscope.value;
-        let turned = gyroscope && (rate - self.rate).abs() > limits.rate;
-        if turned {
+        // Without a witness nobody knows that the block is still; a ground that nobody watches is no reason to wait.
+        let mut block_still = if gyroscope || encoder { self.block_still.saturating_add(1) } else { 0 };
+        if gyroscope && (rate - self.rate).abs() > limits.rate {
             self.rate = follow(self.rate, rate, limits.rate);
+            block_still = 0;
         }
         let counts = sample.encoder.counts;
         let travelled = encoder && counts.wrapping_sub(self.counts).unsigned_abs() > limits.counts;
         if travelled || (encoder && self.block_still % CREEPING == CREEPING - 1) {
             self.counts = counts;
+            if travelled {
+                block_still = 0;
+            }
         }
+        self.block_still = block_still;
         let force = sample.ground_accelerometer.map(|reading| reading.value);
         // The last place is off by (0, g) from what the function takes for rest, which is subtracted as a bias.
-        let shaken = ground && off_gravity(force, self.ground, 0.0) > limits.shaking;
-        if shaken {
+        let mut ground_still = self.ground_still.saturating_add(1);
+        if ground && off_gravity(force, self.ground, 0.0) > limits.shaking {
             let ([along, up], [along_now, up_now]) = (self.ground, force);
             self.ground = [follow(along, along_now, limits.shaking), follow(up, up_now, limits.shaking)];
+            ground_still = 0;
         }
-        // Without a witness nobody knows that the block is still; a ground that nobody watches is no reason to wait.
-        let block_still = (gyroscope || encoder) && !turned && !travelled;
-        self.block_still = if block_still { self.block_still.saturating_add(1) } else { 0 };
-        self.ground_still = if shaken { 0 } else { self.ground_still.saturating_add(1) };
+        self.ground_still = ground_still;
         let rocks = travelled || (gyroscope && (rate - calibration.gyroscope).abs() > limits.rate);
         let shakes = ground && shaking > limits.shaking;
         self.quiet = if rocks || shakes { 0 } else { self.quiet.saturating_add(1) };
