@@ -56,8 +56,11 @@ pub trait DenseOutput<S: Real> {
         self.at(self.length())
     }
 
-    /// Switching function of the clutch (Eq. 10).
-    fn switching(&self, time: S) -> S;
+    /// Switching function of the clutch (Eq. 10), where it is not θ̈ itself.
+    #[inline]
+    fn switching(&self, time: S) -> S {
+        self.at(time).acceleration
+    }
 
     /// First zero of θ̈ in (`from`, `to`], where θ̈ has the sign `sign` just after `from`. `from_zero` says that θ̈ is
     /// zero at `from`.

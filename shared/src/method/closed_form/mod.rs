@@ -230,11 +230,6 @@ impl<S: Real> DenseOutput<S> for SlenderArc<S> {
 
     /// θ̈: slender blocks switch with it.
     #[inline]
-    fn switching(&self, time: S) -> S {
-        self.at(time).acceleration
-    }
-
-    #[inline]
     fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
         let stretch = (from, to, self.at(to).acceleration);
         first_zero_of(|t| self.value_and_slope(t), self.curvature, stretch, sign, from_zero)

@@ -165,11 +165,6 @@ impl<S: Real> DenseOutput<S> for FixedModeOutput<'_, S> {
         let (Place { rotation, velocity, .. }, acceleration) = self.place(time);
         Motion { rotation, velocity, acceleration }
     }
-
-    #[inline]
-    fn switching(&self, time: S) -> S {
-        self.at(time).acceleration
-    }
 }
 
 impl<S: Real> ModeOutput<S> for FixedModeOutput<'_, S> {
