@@ -18,12 +18,7 @@ use sprag_shared::{
         rigid::RigidPair,
         scaled_parameters::ScaledParameters,
     },
-    equation::{
-        any_body::AnyBody,
-        body::FullBody,
-        kinematics::{BodyKinematics, RuntimeKinematics},
-        lever::TyingPoint,
-    },
+    equation::{any_body::AnyBody, body::FullBody, lever::TyingPoint},
     ground::Harmonics,
     method::fixed::FixedStep,
     motion::{
@@ -85,17 +80,13 @@ const ELASTIC: Drivetrain = Drivetrain {
 };
 const ALL: Drivetrain = Drivetrain { rack: RACK, actuation: LATE, ..FRICTION };
 
-fn body(consistent: bool, vertical: bool) -> FullBody<f32, RuntimeKinematics> {
+fn body(consistent: bool, vertical: bool) -> FullBody<f32> {
     let lever = TyingPoint { along: 1.0, across: 0.0 };
-    FullBody { block: super::BLOCK, lever, kinematics: RuntimeKinematics::chosen(consistent), vertical }
+    FullBody { block: super::BLOCK, lever, consistent, vertical }
 }
 
 /// A block on its device, with the numbers of the ideal pair's kernel.
-fn machine(
-    body: FullBody<f32, RuntimeKinematics>,
-    transmission: AnyTransmission<f32>,
-    drivetrain: &Drivetrain,
-) -> HybridSystem<f32> {
+fn machine(body: FullBody<f32>, transmission: AnyTransmission<f32>, drivetrain: &Drivetrain) -> HybridSystem<f32> {
     HybridSystem {
         body: AnyBody::Full(body),
         transmission,
