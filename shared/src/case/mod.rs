@@ -20,7 +20,6 @@ pub mod words;
 pub use error::CaseError;
 pub use ground::{Ground, GroundPiece, Shape};
 
-use crate::motion::device_snapshot::DeviceObserver;
 use crate::motion::observer::Observer;
 use crate::motion::state::BlockState;
 use crate::observers::outcome::Outcome;
@@ -115,18 +114,18 @@ pub struct RunEnd {
 ///
 /// # Errors
 /// [`CaseError`] names the word that is wrong, or why the run stopped.
-pub fn run<O: Observer<f32> + DeviceObserver<f32>>(words: &[u32], observer: &mut O) -> Result<RunEnd, CaseError> {
+pub fn run(words: &[u32], observer: &mut dyn Observer<f32>) -> Result<RunEnd, CaseError> {
     Case::decode(words)?.run(observer)
 }
 
 impl Case<'_> {
-    /// Runs the case and tells `observer` of it, piece after piece; times start anew with each. Of an ideal device over
-    /// horizontal ground it is told as an [`Observer`], of any other as a [`DeviceObserver`].
+    /// Runs the case and tells `observer` of it, piece after piece; times start anew with each. Of a device that is not ideal, or over ground
+    /// that moves vertically too, it is shown the device.
     ///
     /// # Errors
     /// [`CaseError::Parameter`] names the first parameter outside its range; [`CaseError::Method`] the method that does not
     /// run this device; [`CaseError::Stopped`].
-    pub fn run<O: Observer<f32> + DeviceObserver<f32>>(&self, observer: &mut O) -> Result<RunEnd, CaseError> {
+    pub fn run(&self, observer: &mut dyn Observer<f32>) -> Result<RunEnd, CaseError> {
         self.check()?;
         if self.is_ideal() { ideal::run(self, observer) } else { crate::case::hybrid::run(self, observer) }
     }

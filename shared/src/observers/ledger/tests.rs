@@ -120,16 +120,16 @@ struct UntilImpact(Ledger<f64>, Option<Entries<f64>>);
 
 impl Placed for UntilImpact {}
 
-impl DeviceObserver<f64> for UntilImpact {
+impl Observer<f64> for UntilImpact {
     fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
         self.0.device_interval(output, interval);
     }
 
-    fn device_event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
+    fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
         if event == Event::Impact {
             self.1.get_or_insert(self.0.entries());
         }
-        self.0.device_event(event, time, state);
+        self.0.event(event, time, state);
     }
 }
 
@@ -256,7 +256,7 @@ fn show(ledger: &mut Ledger<f64>, to: f64, script: impl Fn(f64) -> Snapshot<f64>
 }
 
 fn event(ledger: &mut Ledger<f64>, event: Event, velocity: f64) {
-    ledger.device_event(event, 0.0, &BlockState { velocity, ..BlockState::default() });
+    ledger.event(event, 0.0, &BlockState { velocity, ..BlockState::default() });
 }
 
 #[test]

@@ -24,9 +24,10 @@ use sprag_shared::{
         tier::{Libm, Micromath, OwnPolynomial},
         tiered::Tiered,
     },
-    method::closed_form::ClosedForm,
+    method::{closed_form::ClosedForm, dense_output::DenseOutput},
     motion::{
         ideal::IdealSystem,
+        observer::{Event, MonotoneInterval, Observer},
         state::{BlockState, Limits, Stopped},
         step_end::{TimeStepping, TimeSteppingState},
     },
@@ -156,10 +157,26 @@ fn closed_form(
         clutch,
     };
     let limits = Limits { overturned: FRAC_PI_2 as f32, events: 10_000 };
-    let mut watch = (Peaks::default(), core::mem::take(tally));
-    let done = system.advance(method, &mut BlockState::default(), &black_box(LINE), DURATION, &limits, &mut watch);
-    *tally = watch.1;
-    done
+    let mut watch = Watch { peaks: Peaks::default(), tally };
+    system.advance(method, &mut BlockState::default(), &black_box(LINE), DURATION, &limits, &mut watch)
+}
+
+/// Peaks and a tally.
+struct Watch<'t> {
+    peaks: Peaks<f32>,
+    tally: &'t mut Tally,
+}
+
+impl Observer<f32> for Watch<'_> {
+    fn interval(&mut self, output: &dyn DenseOutput<f32>, interval: &MonotoneInterval<f32>) {
+        self.peaks.interval(output, interval);
+        self.tally.interval(output, interval);
+    }
+
+    fn event(&mut self, event: Event, time: f32, state: &BlockState<f32>) {
+        self.peaks.event(event, time, state);
+        self.tally.event(event, time, state);
+    }
 }
 
 /// Prints a line for every combination that tells something; all zeros on the host.
