@@ -1,7 +1,8 @@
 use super::*;
 use crate::equation::FullBlock;
+use crate::ground::check::Sum;
 use crate::ground::harmonic::{Harmonic, MavroeidisPapageorgiou};
-use crate::ground::{Harmonics, Linear, Quiet, Ricker, Sum};
+use crate::ground::{Harmonics, Linear, Quiet, Ricker};
 use crate::math::{asin, exp, square_root};
 use crate::method::taylor::Taylor;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
