@@ -9,7 +9,7 @@ use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 
 /// Start of a step: state, equation and ground motion.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct StepStart<'a, S> {
     /// The equation of motion in force.
     pub equation: &'a AnyEquation<S>,

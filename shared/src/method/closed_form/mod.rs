@@ -49,7 +49,6 @@ impl<S: Real> ClosedForm<S> {
 }
 
 /// Dense output of one step.
-#[derive(Debug)]
 pub enum ClosedFormOutput<'a, S> {
     /// Motion in closed form.
     Closed(SlenderArc<S>),

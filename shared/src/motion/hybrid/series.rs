@@ -36,12 +36,6 @@ impl<S: Real, const N: usize> Series<S, N> {
     }
 }
 
-impl<S: Real, const N: usize> core::fmt::Debug for Series<S, N> {
-    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        formatter.debug_struct("Series").field("tolerance", &self.tolerance).field("step", &self.step).finish()
-    }
-}
-
 /// Mode output of one step as power series.
 #[derive(Clone, Copy, Debug)]
 pub struct SeriesModeOutput<S, const N: usize> {
