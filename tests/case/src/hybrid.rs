@@ -1,14 +1,14 @@
 //! Cases of devices with a memory, and of any device over ground that moves vertically too.
 
-use super::ideal::{STIFF, Watch, most_events};
-use super::{Case, CaseError, FixedMethod, Initially, RunEnd, Shape};
-use crate::method::fixed::FixedStep;
-use crate::motion::hybrid::HybridSystem;
-use crate::motion::hybrid::mode_output::Shaking;
-use crate::motion::observer::Observer;
-use crate::motion::state::{Limits, Phase, Stopped};
-use crate::observers::outcome::Outcome;
-use crate::observers::peaks::Peaks;
+use crate::ideal::{STIFF, Watch, most_events};
+use crate::{Case, CaseError, FixedMethod, Initially, RunEnd, Shape};
+use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::motion::hybrid::HybridSystem;
+use sprag_shared::motion::hybrid::mode_output::Shaking;
+use sprag_shared::motion::observer::Observer;
+use sprag_shared::motion::state::{Limits, Phase, Stopped};
+use sprag_shared::observers::outcome::Outcome;
+use sprag_shared::observers::peaks::Peaks;
 
 /// |θ| at which a block lies on the ground, rad. A device may bring a block back from beyond the angle from which its weight
 /// and the ground alone would not.

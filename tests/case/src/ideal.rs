@@ -1,15 +1,15 @@
 //! Cases of ideal devices over horizontal ground.
 
-use super::{Case, CaseError, FixedMethod, Initially, RunEnd, Shape, TERMS};
-use crate::method::dense_output::{DenseOutput, Integrator};
-use crate::method::fixed::FixedStep;
-use crate::method::taylor::Taylor;
-use crate::motion::device_snapshot::DeviceOutput;
-use crate::motion::ideal::IdealSystem;
-use crate::motion::observer::{Event, MonotoneInterval, Observer};
-use crate::motion::state::{BlockState, Limits, Phase, Stopped};
-use crate::observers::outcome::Outcome;
-use crate::observers::peaks::Peaks;
+use crate::{Case, CaseError, FixedMethod, Initially, RunEnd, Shape, TERMS};
+use sprag_shared::method::dense_output::{DenseOutput, Integrator};
+use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::motion::device_snapshot::DeviceOutput;
+use sprag_shared::motion::ideal::IdealSystem;
+use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
+use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
+use sprag_shared::observers::outcome::Outcome;
+use sprag_shared::observers::peaks::Peaks;
 
 /// What the exponential midpoint method runs.
 pub(super) const STIFF: &str = "elastic clutches only: nothing else is stiff";

@@ -5,15 +5,15 @@
 //!   step is all steps; only libm's sine takes its time by its argument. A single inerter costs what a pair costs.
 //! - `located`: the mean over a second that contains an uplift, turns, an impact and switches, all located, under ground motion that
 //!   is a straight line, as between two samples of a record. In single precision and with its own sine only: these are the loops of
-//!   the cases ([`sprag_shared::case`]), and flash holds no other set. Setting up is not counted.
+//!   the cases ([`sprag_case`]), and flash holds no other set. Setting up is not counted.
 //!
 //! Taylor steps are ten times as long as the others. A tier is no part of the slender model, so there its cost is the same for all.
 
 use super::{RESTITUTION, STEP, Tally, count, mean};
 use crate::watcher::Watcher;
 use core::{f64::consts::FRAC_PI_2, fmt, hint::black_box};
+use sprag_case::{Case, CaseError, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::{
-    case::{Case, CaseError, FixedMethod, Ground, GroundPiece, Initially, Shape},
     equation::{
         FullBlock, FullInerter, SlenderBlock, any_equation::AnyEquation, clutch_rule::ClutchRule, kinematics::Paper,
         lever::CentreOfMass, switched::Switched,

@@ -1,14 +1,14 @@
 //! What every effect of a real device costs: the mean of a Runge-Kutta step with its events located, over the pulse of the
 //! ideal pair's kernel.
 //!
-//! The loops are those of the cases ([`sprag_shared::case`]), so that they are in flash once: a shape of ground motion is chosen
+//! The loops are those of the cases ([`sprag_case`]), so that they are in flash once: a shape of ground motion is chosen
 //! at every look, and the ground moves vertically too, if only by nothing. Devices without a memory have the paper's
 //! kinematics unless the name says otherwise, all others the consistent ones.
 
 use super::{Tally, mean};
 use core::{f32::consts::TAU, fmt, hint::black_box};
+use sprag_case::Shape;
 use sprag_shared::{
-    case::Shape,
     drivetrain::{
         any_transmission::AnyTransmission,
         elastic::ElasticPair,
