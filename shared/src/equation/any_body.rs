@@ -23,16 +23,6 @@ pub enum AnyConfiguration<V> {
     Full(FullConfiguration<V>),
 }
 
-impl<S> AnyBody<S> {
-    /// Whether it has vertical ground motion.
-    pub fn is_vertical(&self) -> bool {
-        match self {
-            AnyBody::Slender(body) => body.vertical,
-            AnyBody::Full(body) => body.vertical,
-        }
-    }
-}
-
 /// Dispatch on body and configuration; a configuration of the other one, which is never made, is `otherwise`.
 macro_rules! either {
     ($self:ident, $configuration:ident, |$body:ident, $own:ident| $value:expr, $otherwise:expr) => {

@@ -1,6 +1,7 @@
 //! Vertical ground motion, guided racks and rack friction, against what they amount to.
 
 use super::{constant, pair, shake, sine, structure, tight};
+use crate::equation::any_body::AnyBody;
 use crate::ground::{AnySegment, Quiet};
 use crate::motion::hybrid::mode_output::Shaking;
 use crate::motion::hybrid::{HybridSystem, series::Series};
@@ -15,7 +16,11 @@ use crate::structure::drivetrain::{Drivetrain, Rack};
 /// Largest |θ| and the phase after one ground segment from rest.
 fn shaken(structure: &Structure, horizontal: AnySegment<f64>, vertical: Option<AnySegment<f64>>, duration: f64) -> (f64, Phase) {
     let machine: HybridSystem<f64> = Drivetrain::default().resolve(structure, vertical.is_some()).unwrap();
-    assert_eq!(machine.body.is_vertical(), vertical.is_some());
+    let moves_up = match machine.body {
+        AnyBody::Slender(body) => body.vertical,
+        AnyBody::Full(body) => body.vertical,
+    };
+    assert_eq!(moves_up, vertical.is_some());
     struct Watch(Peaks<f64>);
     impl crate::motion::observer::Observer<f64> for Watch {
         fn device_interval(
