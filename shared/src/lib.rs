@@ -5,7 +5,7 @@
 //!
 //! ```text
 //!        motion wing                              controller wing
-//!   case                                     device
+//!                                            device
 //!   observers                                settings      link
 //!   motion (ideal, hybrid, rest)             control (sensing, estimation, law, monitor, supervisor)
 //!   method
@@ -25,7 +25,6 @@
 //! - [`method`]: integrators with dense output over one step;
 //! - [`motion`]: event-driven integration, of ideal devices and of devices with a memory;
 //! - [`observers`]: peaks, energy ledger, checks of forces, digests;
-//! - [`case`]: a scene in words, which a board and its host run to the same bits.
 //!
 //! Controller wing:
 //! - [`control`]: from sensor readings to clutch commands;
@@ -77,7 +76,6 @@ extern crate std;
 #[cfg(test)]
 extern crate self as sprag_shared;
 
-pub mod case;
 pub mod control;
 pub mod device;
 pub mod drivetrain;

@@ -15,7 +15,7 @@ enum Wing {
 use Wing::{Controller, Foundation, Motion};
 
 /// Rooms from the ground up: floor, wing, path. A room is all that its path begins, less the rooms inside it.
-const ROOMS: [(u8, Wing, &str); 23] = [
+const ROOMS: [(u8, Wing, &str); 22] = [
     (0, Foundation, "math"),
     (1, Foundation, "equation"),
     (2, Foundation, "structure"),
@@ -27,7 +27,6 @@ const ROOMS: [(u8, Wing, &str); 23] = [
     (7, Motion, "motion::ideal"),
     (7, Motion, "motion::hybrid"),
     (8, Motion, "observers"),
-    (9, Motion, "case"),
     (3, Controller, "control::ticks"),
     (3, Controller, "control::model"),
     (3, Controller, "control::sensing"),

@@ -18,7 +18,7 @@ const SOURCES: [&str; 2] = ["shared/src", "sim-host/ensemble/src"];
 /// Programs below the target folder, and what builds them.
 const PROGRAMS: [(&str, &str); 2] = [("release/sprag", "cargo build --release"), ("images/core.elf", "cargo xtask firmware")];
 
-/// Names of functions that are event loops; functions of these names in the room `case` only call them.
+/// Names of functions that are event loops.
 const LOOPS: [&str; 2] = ["advance", "follow"];
 
 /// Rooms of the core in which no motion is computed.
@@ -94,7 +94,7 @@ fn show(name: &str, path: &Path) -> Result<(), Stop> {
     for (function, size) in functions(&bytes).map_err(|error| fault(&error))? {
         let room = function.split("::").next().unwrap_or_default();
         *rooms.entry(room.to_owned()).or_default() += size;
-        if room != "case" && function.rsplit("::").next().is_some_and(|last| LOOPS.contains(&last)) {
+        if function.rsplit("::").next().is_some_and(|last| LOOPS.contains(&last)) {
             *loops.entry(function).or_default() += 1;
         }
     }

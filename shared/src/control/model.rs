@@ -3,39 +3,13 @@
 //! The same bodies that the simulator integrates ([`crate::equation::body`]), in single precision: what the controller knows of the
 //! dynamics is written nowhere else.
 
-use crate::equation::FullBlock;
 use crate::equation::any_body::{AnyBody, AnyConfiguration};
-use crate::equation::body::{Body, FullBody, SlenderBody};
-use crate::equation::kinematics::{BodyKinematics, RuntimeKinematics};
-use crate::equation::lever::TyingPoint;
-use crate::math;
+use crate::equation::body::Body;
 use crate::math::sign::Sign;
 use crate::structure::Structure;
-use crate::structure::block::Geometry;
 use crate::structure::device::KinematicsKind;
 use crate::structure::drivetrain::{Drivetrain, Engagement};
 use crate::structure::error::ParameterError;
-
-/// The body of `structure`, which carries nothing. Its vertical ground motion is always looked at.
-fn body_of(structure: &Structure) -> Result<AnyBody<f32>, ParameterError> {
-    let (block, device) = (&structure.block, &structure.device);
-    let (frequency_squared, slenderness) = (block.frequency_parameter_squared() as f32, block.slenderness() as f32);
-    Ok(match structure.geometry {
-        Geometry::Slender => {
-            let lever = math::square_root(device.mount.slender_lever_squared(block)?) as f32;
-            AnyBody::Slender(SlenderBody { frequency_squared, slenderness, lever, vertical: true })
-        }
-        Geometry::Full => {
-            let lever = device.mount.lever(block)?;
-            AnyBody::Full(FullBody {
-                block: FullBlock { frequency_squared, slenderness },
-                lever: TyingPoint { along: lever.along as f32, across: lever.across as f32 },
-                kinematics: RuntimeKinematics::chosen(device.kinematics == KinematicsKind::Consistent),
-                vertical: true,
-            })
-        }
-    })
-}
 
 /// What the controller knows of the structure beside its body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,7 +65,7 @@ impl Model {
     pub fn new(structure: &Structure, drivetrain: &Drivetrain) -> Result<Model, ParameterError> {
         let structure = structure.loaded()?;
         let block = &structure.block;
-        let body = body_of(&structure)?;
+        let body = structure.body(structure.device.kinematics == KinematicsKind::Consistent, true)?;
         let wheels_spin = drivetrain.engagement != Engagement::Ideal;
         let flywheel = &drivetrain.flywheel;
         let stops_at_once = !wheels_spin || flywheel.brake_deceleration.is_infinite();
@@ -183,6 +157,7 @@ impl Model {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math;
     use crate::structure::block::{Block, Geometry};
     use crate::structure::device::{Device, DeviceKind, KinematicsKind};
     use crate::structure::mount::Mount;

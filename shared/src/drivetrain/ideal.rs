@@ -1,12 +1,11 @@
 //! Ideal devices in the hybrid loop: none, one inerter, and the ideal clutched pair, for scenes that need this loop for another
 //! reason. With `FRICTION` the rack and the bearings lose energy, and a guided rack has a mass.
 
-use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients};
+use super::clutch_state::{Coupling, DeviceState};
 use super::scaled_parameters::ScaledParameters;
-use super::transmission::{EventContext, PointOf, Transmission, acceleration};
+use super::transmission::{EventContext, PointOf, Transmission};
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
-use crate::math::sign::Sign;
 use crate::math::value::Value;
 
 /// Block without a device.
@@ -26,11 +25,6 @@ impl<S: Real> Transmission<S, 0, 0> for Alone {
     const HOLDS: bool = false;
 
     #[inline(always)]
-    fn law(&self, direction: Sign, _terminal_acceleration_sign: Sign, _device: &DeviceState<S>) -> ModeCoefficients<S> {
-        ModeCoefficients::of(direction)
-    }
-
-    #[inline(always)]
     fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 0>) -> (V, [V; 0]) {
         (at.body.driving_moment(&at.configuration, at.ground), [])
     }
@@ -44,19 +38,6 @@ impl<S: Real> Transmission<S, 0, 0> for Alone {
 impl<S: Real, const FRICTION: bool> Transmission<S, 0, 0> for Single<S, FRICTION> {
     const COMMANDED: bool = false;
     const HOLDS: bool = FRICTION;
-
-    #[inline(always)]
-    fn law(&self, direction: Sign, _terminal_acceleration_sign: Sign, device: &DeviceState<S>) -> ModeCoefficients<S> {
-        if FRICTION {
-            return self.0.law(direction, device);
-        }
-        ModeCoefficients { coupling: self.0.inertance, ..ModeCoefficients::of(direction) }
-    }
-
-    #[inline(always)]
-    fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 0>) -> (V, [V; 0]) {
-        (acceleration(at, self.0.rack_push, FRICTION, None), [])
-    }
 
     #[inline(always)]
     fn engage(&self, at: &mut EventContext<'_, S>, wheel: usize) {
@@ -85,23 +66,6 @@ impl<S: Real, const FRICTION: bool> Transmission<S, 0, 0> for Single<S, FRICTION
 impl<S: Real, const FRICTION: bool> Transmission<S, 0, 1> for IdealPair<S, FRICTION> {
     const COMMANDED: bool = true;
     const HOLDS: bool = FRICTION;
-
-    #[inline(always)]
-    fn law(&self, direction: Sign, terminal_acceleration_sign: Sign, device: &DeviceState<S>) -> ModeCoefficients<S> {
-        let mut law = if FRICTION {
-            self.0.law(direction, device)
-        } else {
-            let locked = device.wheels.iter().filter(|wheel| wheel.coupling == Coupling::Locked).count();
-            ModeCoefficients { coupling: S::count(locked as u32) * self.0.inertance, ..ModeCoefficients::of(direction) }
-        };
-        law.watch[0] = Guard::Command(terminal_acceleration_sign.unit());
-        law
-    }
-
-    #[inline(always)]
-    fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 0>) -> (V, [V; 0]) {
-        (acceleration(at, self.0.rack_push, FRICTION, None), [])
-    }
 
     #[inline(always)]
     fn engage(&self, at: &mut EventContext<'_, S>, wheel: usize) {

@@ -2,9 +2,8 @@
 //! accelerate it, and locks again at equal speeds, so that there is never a jolt.
 
 use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients};
-use super::rigid::coasting;
 use super::scaled_parameters::ScaledParameters;
-use super::transmission::{EventContext, PointOf, Transmission, acceleration, force_if_locked, jolt, locked_force, open};
+use super::transmission::{EventContext, PointOf, Transmission, force_if_locked, jolt, locked_force, open};
 use crate::equation::body::Body;
 use crate::equation::clutch_rule::wheel_for;
 use crate::math::scalar::Real;
@@ -33,11 +32,6 @@ impl<S: Real> Transmission<S, 2, 1> for OverrunningPair<S> {
             _ => Guard::Ahead(law.direction, wheel),
         };
         law
-    }
-
-    #[inline(always)]
-    fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 2>) -> (V, [V; 2]) {
-        (acceleration(at, self.0.rack_push, true, None), coasting(at))
     }
 
     #[inline(always)]

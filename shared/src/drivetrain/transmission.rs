@@ -71,26 +71,41 @@ pub trait Transmission<S: Real, const X: usize, const G: usize>: Copy {
     /// Elastic clutches, so that flywheels may swing while the block is held.
     const SPRINGS: bool = false;
 
-    /// Coefficients of the present mode; `driving_moment` is the sign of the terminals' acceleration.
-    fn law(&self, direction: Sign, terminal_acceleration_sign: Sign, device: &DeviceState<S>) -> ModeCoefficients<S>;
+    /// Coefficients of the present mode. The default watches the command alone.
+    #[inline(always)]
+    fn law(&self, direction: Sign, terminal_acceleration_sign: Sign, device: &DeviceState<S>) -> ModeCoefficients<S> {
+        let none = || ModeCoefficients::of(direction);
+        let mut law = self.parameters().map_or_else(none, |parameters| parameters.law(direction, device));
+        if Self::COMMANDED {
+            law.watch[0] = Guard::Command(terminal_acceleration_sign.unit());
+        }
+        law
+    }
 
-    /// θ̈ and the rates of the device's unknowns.
-    fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, X>) -> (V, [V; X]);
+    /// θ̈ and the rates of the device's unknowns. In the default flywheels that are not locked coast, ẇ = −c w − d sgn w.
+    #[inline(always)]
+    fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, X>) -> (V, [V; X]) {
+        let acceleration = acceleration(at, self.rack_push(), Self::HOLDS, None);
+        (acceleration, core::array::from_fn(|i| at.unknowns[i].scale(-at.law.decay[i & 1]).offset(-at.law.drag[i & 1])))
+    }
 
     /// Value of the guard `watch`, where θ̈ is `acceleration`; positive while the mode lasts. The default knows the command alone.
     #[inline(always)]
     fn guard<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, X>, acceleration: V, watch: Guard<S>) -> V {
         match watch {
-            Guard::Command(sign) if Self::COMMANDED => {
-                let push = self.parameters().map_or(S::ZERO, |parameters| parameters.rack_push);
-                command(at, push, Self::HOLDS, sign)
-            }
+            Guard::Command(sign) if Self::COMMANDED => command(at, self.rack_push(), Self::HOLDS, sign),
             _ => acceleration,
         }
     }
 
     /// The parameters, where there are any.
     fn parameters(&self) -> Option<&ScaledParameters<S>>;
+
+    /// [`ScaledParameters::rack_push`].
+    #[inline(always)]
+    fn rack_push(&self) -> S {
+        self.parameters().map_or(S::ZERO, |parameters| parameters.rack_push)
+    }
 
     /// The device's unknowns at the start of a step: speeds of the flywheels, then twists of the clutches.
     #[inline(always)]

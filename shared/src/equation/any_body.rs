@@ -2,7 +2,6 @@
 
 use super::body::{Body, FullBody, SlenderBody};
 use super::configuration::FullConfiguration;
-use super::kinematics::RuntimeKinematics;
 use crate::math::scalar::Scalar;
 use crate::math::value::Value;
 
@@ -12,7 +11,7 @@ pub enum AnyBody<S> {
     /// Linearised.
     Slender(SlenderBody<S>),
     /// Exact.
-    Full(FullBody<S, RuntimeKinematics>),
+    Full(FullBody<S>),
 }
 
 /// A configuration of either.
@@ -22,16 +21,6 @@ pub enum AnyConfiguration<V> {
     Slender(V),
     /// Of the exact block.
     Full(FullConfiguration<V>),
-}
-
-impl<S> AnyBody<S> {
-    /// Whether it has vertical ground motion.
-    pub fn is_vertical(&self) -> bool {
-        match self {
-            AnyBody::Slender(body) => body.vertical,
-            AnyBody::Full(body) => body.vertical,
-        }
-    }
 }
 
 /// Dispatch on body and configuration; a configuration of the other one, which is never made, is `otherwise`.
@@ -106,7 +95,6 @@ impl<S: Scalar> Body<S> for AnyBody<S> {
 mod tests {
     use super::*;
     use crate::equation::FullBlock;
-    use crate::equation::kinematics::{BodyKinematics, Consistent, Paper};
     use crate::equation::lever::TyingPoint;
 
     /// A grid of sides, rotations, velocities and ground accelerations.
@@ -154,13 +142,8 @@ mod tests {
         let block = FullBlock { frequency_squared: 3.678, slenderness: 0.1745 };
         let lever = TyingPoint { along: 0.95, across: 0.2 };
         for consistent in [false, true] {
-            let told =
-                AnyBody::Full(FullBody { block, lever, kinematics: RuntimeKinematics::chosen(consistent), vertical: true });
-            if consistent {
-                same_bits(&FullBody { block, lever, kinematics: Consistent, vertical: true }, &told);
-            } else {
-                same_bits(&FullBody { block, lever, kinematics: Paper, vertical: true }, &told);
-            }
+            let full = FullBody { block, lever, consistent, vertical: true };
+            same_bits(&full, &AnyBody::Full(full));
         }
     }
 }

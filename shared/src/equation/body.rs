@@ -9,7 +9,6 @@
 
 use super::FullBlock;
 use super::configuration::FullConfiguration;
-use super::kinematics::BodyKinematics;
 use super::lever::TyingPoint;
 use crate::math::scalar::Scalar;
 use crate::math::value::Value;
@@ -121,23 +120,23 @@ impl<S: Scalar> Body<S> for SlenderBody<S> {
 
 /// The exact block (Eq. 13-16) with any mount.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FullBody<S, K> {
+pub struct FullBody<S> {
     /// The block.
     pub block: FullBlock<S>,
     /// ℓ(θ).
     pub lever: TyingPoint<S>,
-    /// Paper or consistent.
-    pub kinematics: K,
+    /// Consistent kinematics, with the θ̇² term; else the paper's.
+    pub consistent: bool,
     /// The ground moves vertically too.
     pub vertical: bool,
 }
 
-impl<S: Scalar, K: BodyKinematics> Body<S> for FullBody<S, K> {
+impl<S: Scalar> Body<S> for FullBody<S> {
     type Configuration<V: Value<S>> = FullConfiguration<V>;
 
     #[inline(always)]
     fn configuration<V: Value<S>>(&self, side: S, rotation: V) -> FullConfiguration<V> {
-        FullConfiguration::new(&self.lever, self.kinematics.consistent(), side, self.block.delta(side, rotation))
+        FullConfiguration::new(&self.lever, self.consistent, side, self.block.delta(side, rotation))
     }
 
     #[inline(always)]

@@ -38,13 +38,9 @@ impl ClutchRule {
         }
     }
 
-    /// Engaged flywheel.
-    pub fn flywheel(self, engaged: bool, direction: Sign) -> Flywheel {
-        match (engaged, self.follows_signs(), direction) {
-            (false, _, _) => Flywheel::Idle,
-            (true, true, Sign::Negative) => Flywheel::Second,
-            _ => Flywheel::First,
-        }
+    /// The flywheel that transfers force, if one is engaged: that of the direction, or the only one.
+    pub fn flywheel(self, engaged: bool, direction: Sign) -> Option<usize> {
+        engaged.then(|| if self.follows_signs() { wheel_for(direction) } else { 0 })
     }
 }
 
@@ -78,18 +74,6 @@ impl Clutch for ClutchedPair {
     const RULE: ClutchRule = ClutchRule::Resisting;
 }
 
-/// Flywheel that transfers force.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Flywheel {
-    /// None.
-    #[default]
-    Idle,
-    /// The one for positive motion, or the only one.
-    First,
-    /// The one for negative motion.
-    Second,
-}
-
 /// The flywheel for motion in `direction`.
 #[inline(always)]
 pub fn wheel_for(direction: Sign) -> usize {
@@ -109,8 +93,8 @@ mod tests {
         let pair = ClutchRule::Resisting;
         assert!(pair.engages(Positive, Positive) && pair.engages(Negative, Negative));
         assert!(!pair.engages(Positive, Negative) && !pair.engages(Negative, Positive));
-        assert_eq!(pair.flywheel(true, Negative), Flywheel::Second);
-        assert_eq!(ClutchRule::Always.flywheel(true, Negative), Flywheel::First);
-        assert_eq!(pair.flywheel(false, Negative), Flywheel::Idle);
+        assert_eq!(pair.flywheel(true, Negative), Some(1));
+        assert_eq!(ClutchRule::Always.flywheel(true, Negative), Some(0));
+        assert_eq!(pair.flywheel(false, Negative), None);
     }
 }

@@ -43,6 +43,13 @@ pub struct TyingPoint<S> {
     pub across: S,
 }
 
+impl TyingPoint<f64> {
+    /// The same in another precision.
+    pub fn rounded<S: Scalar>(self) -> TyingPoint<S> {
+        TyingPoint { along: S::of(self.along), across: S::of(self.across) }
+    }
+}
+
 impl<S: Scalar> Lever<S> for TyingPoint<S> {
     #[inline(always)]
     fn arm<V: Value<S>>(&self, side: S, sin: V, cos: V) -> V {

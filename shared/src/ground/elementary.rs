@@ -64,8 +64,9 @@ impl<S: Real> Elementary<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ground::check::Sum;
     use crate::ground::harmonic::MavroeidisPapageorgiou;
-    use crate::ground::{GroundSegment, Harmonics, Linear, Quiet, Ricker, Sum};
+    use crate::ground::{GroundSegment, Harmonics, Linear, Quiet, Ricker};
     use crate::math::sin_cos;
 
     fn change(motion: &Elementary<f64>, t: f64) -> f64 {

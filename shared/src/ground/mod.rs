@@ -47,12 +47,6 @@ pub trait GroundSegment<S: Real> {
     }
 }
 
-impl<S> core::fmt::Debug for dyn GroundSegment<S> + '_ {
-    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        formatter.write_str("Piece")
-    }
-}
-
 /// Ground that does not move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quiet;
@@ -89,45 +83,42 @@ impl<S: Real> GroundSegment<S> for Quiet {
     }
 }
 
-/// Two motions at once.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sum<A, B>(pub A, pub B);
-
-impl<S: Real, A: GroundSegment<S>, B: GroundSegment<S>> GroundSegment<S> for Sum<A, B> {
-    #[inline(always)]
-    fn acceleration(&self, time: S) -> S {
-        self.0.acceleration(time) + self.1.acceleration(time)
-    }
-
-    #[inline(always)]
-    fn slope(&self, time: S) -> S {
-        self.0.slope(time) + self.1.slope(time)
-    }
-
-    #[inline(always)]
-    fn curvature_bound(&self) -> S {
-        self.0.curvature_bound() + self.1.curvature_bound()
-    }
-
-    #[inline]
-    fn series(&self, time: S, coefficients: &mut [S]) {
-        self.0.series(time, coefficients);
-        let mut others = [S::ZERO; crate::math::power_series::MAXIMUM_ORDER];
-        let length = coefficients.len().min(others.len());
-        self.1.series(time, &mut others[..length]);
-        for (sum, &other) in coefficients.iter_mut().zip(&others) {
-            *sum = *sum + other;
-        }
-    }
-
-    fn elementary(&self, time: S) -> Option<Elementary<S>> {
-        self.0.elementary(time)?.and(&self.1.elementary(time)?)
-    }
-}
-
 #[cfg(test)]
 pub(crate) mod check {
     use super::*;
+    use crate::math::power_series::MAXIMUM_ORDER;
+
+    /// Two motions at once.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Sum<A, B>(pub A, pub B);
+
+    impl<S: Real, A: GroundSegment<S>, B: GroundSegment<S>> GroundSegment<S> for Sum<A, B> {
+        fn acceleration(&self, time: S) -> S {
+            self.0.acceleration(time) + self.1.acceleration(time)
+        }
+
+        fn slope(&self, time: S) -> S {
+            self.0.slope(time) + self.1.slope(time)
+        }
+
+        fn curvature_bound(&self) -> S {
+            self.0.curvature_bound() + self.1.curvature_bound()
+        }
+
+        fn series(&self, time: S, coefficients: &mut [S]) {
+            self.0.series(time, coefficients);
+            let mut others = [S::ZERO; MAXIMUM_ORDER];
+            let length = coefficients.len().min(others.len());
+            self.1.series(time, &mut others[..length]);
+            for (sum, &other) in coefficients.iter_mut().zip(&others) {
+                *sum = *sum + other;
+            }
+        }
+
+        fn elementary(&self, time: S) -> Option<Elementary<S>> {
+            self.0.elementary(time)?.and(&self.1.elementary(time)?)
+        }
+    }
 
     /// A piece's slope and series must be those of its acceleration.
     pub fn consistency(piece: &impl GroundSegment<f64>, times: &[f64]) {

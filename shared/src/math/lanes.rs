@@ -49,8 +49,8 @@ fn chosen(mask: u64, yes: f64, no: f64) -> f64 {
 /// An operation on every lane. Written out, not as a loop or a closure: those are inlined or not as the compiler sees fit, and registers
 /// are filled only where they are.
 macro_rules! operator {
-    ($number:ident, $n:literal, $operator:ident, $method:ident, $($lane:literal)+) => {
-        impl $operator for $number<$n> {
+    ($lanes:ty, $operator:ident, $method:ident, $($lane:literal)+) => {
+        impl $operator for $lanes {
             type Output = Self;
 
             #[inline(always)]
@@ -59,29 +59,19 @@ macro_rules! operator {
             }
         }
     };
-    ($n:literal, $operator:ident, $method:ident, $($lane:literal)+) => {
-        impl<S: Scalar> $operator for Lanes<S, $n> {
-            type Output = Self;
-
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                Lanes([$(self.0[$lane].$method(other.0[$lane])),+])
-            }
-        }
-    };
 }
 
 macro_rules! lanes {
     ($n:literal: $($lane:literal)+) => {
-        operator!($n, Add, add, $($lane)+);
-        operator!($n, Sub, sub, $($lane)+);
-        operator!($n, Mul, mul, $($lane)+);
-        operator!($n, Div, div, $($lane)+);
-        operator!(LaneMask, $n, BitAnd, bitand, $($lane)+);
-        operator!(LaneMask, $n, BitOr, bitor, $($lane)+);
-        operator!(LaneMask, $n, BitXor, bitxor, $($lane)+);
+        operator!(Lanes<f64, $n>, Add, add, $($lane)+);
+        operator!(Lanes<f64, $n>, Sub, sub, $($lane)+);
+        operator!(Lanes<f64, $n>, Mul, mul, $($lane)+);
+        operator!(Lanes<f64, $n>, Div, div, $($lane)+);
+        operator!(LaneMask<$n>, BitAnd, bitand, $($lane)+);
+        operator!(LaneMask<$n>, BitOr, bitor, $($lane)+);
+        operator!(LaneMask<$n>, BitXor, bitxor, $($lane)+);
 
-        impl<S: Scalar> Neg for Lanes<S, $n> {
+        impl Neg for Lanes<f64, $n> {
             type Output = Self;
 
             #[inline(always)]

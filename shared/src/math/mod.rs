@@ -19,7 +19,6 @@
 
 pub mod fnv;
 pub mod lanes;
-pub(crate) mod outlined_series;
 pub mod polynomial;
 pub mod power_series;
 pub(crate) mod quadrature;

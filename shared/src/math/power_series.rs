@@ -16,6 +16,10 @@ pub const MAXIMUM_ORDER: usize = 32;
 /// Nodes that an equation of [`crate::equation`] may use.
 pub const SLOTS: usize = 48;
 
+/// Nodes that the largest device may use. A device has many equations, and each is a program of its own: on a tape this large the sums of
+/// products are called, on others they are copied into the equation.
+pub const DEVICE_SLOTS: usize = 136;
+
 /// The coefficients of one order, of every quantity. Neighbouring orders of one quantity are kept apart on purpose: side by
 /// side, compilers load two of them as one vector just after they were stored one by one, and the processor stalls.
 type Order<S, const SLOTS: usize> = [Cell<S>; SLOTS];
@@ -47,21 +51,13 @@ impl<S: Scalar, const N: usize, const SLOTS: usize> Tape<S, N, SLOTS> {
 }
 
 /// One quantity of the equation on the tape.
+#[derive(Clone, Copy)]
 pub struct Node<'t, S, const N: usize, const SLOTS: usize = { self::SLOTS }> {
     tape: &'t [Order<S, SLOTS>; N],
     next: &'t Cell<usize>,
     order: usize,
     slot: usize,
 }
-
-impl<S, const N: usize, const SLOTS: usize> Clone for Node<'_, S, N, SLOTS> {
-    #[inline(always)]
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S, const N: usize, const SLOTS: usize> Copy for Node<'_, S, N, SLOTS> {}
 
 impl<'t, S: Scalar, const N: usize, const SLOTS: usize> Node<'t, S, N, SLOTS> {
     /// Coefficients `from` up to and without `to`; `to` at most order + 1.
@@ -100,23 +96,25 @@ impl<'t, S: Scalar, const N: usize, const SLOTS: usize> Node<'t, S, N, SLOTS> {
 }
 
 /// Neighbouring coefficients of one quantity.
+#[derive(Clone, Copy)]
 struct Run<'t, S, const SLOTS: usize> {
     orders: &'t [Order<S, SLOTS>],
     slot: usize,
 }
 
-impl<S, const SLOTS: usize> Clone for Run<'_, S, SLOTS> {
-    #[inline(always)]
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S, const SLOTS: usize> Copy for Run<'_, S, SLOTS> {}
-
-/// Σ a_j b_{n−1−j} over two runs of the same length n: one coefficient of a product.
+/// Σ a_j b_{n−1−j} over two runs of the same length n: one coefficient of a product. Called on tapes of [`DEVICE_SLOTS`], else inlined.
 #[inline(always)]
 fn convolve<S: Scalar, const SLOTS: usize>(a: Run<'_, S, SLOTS>, b: Run<'_, S, SLOTS>) -> S {
+    if SLOTS == DEVICE_SLOTS { called_convolution(a, b) } else { convolution(a, b) }
+}
+
+#[inline(never)]
+fn called_convolution<S: Scalar, const SLOTS: usize>(a: Run<'_, S, SLOTS>, b: Run<'_, S, SLOTS>) -> S {
+    convolution(a, b)
+}
+
+#[inline(always)]
+fn convolution<S: Scalar, const SLOTS: usize>(a: Run<'_, S, SLOTS>, b: Run<'_, S, SLOTS>) -> S {
     let mut sums = [S::of(0.0); 4];
     let (quads, rest) = a.orders.as_chunks::<4>();
     let (rest_b, quads_b) = b.orders.as_rchunks::<4>();

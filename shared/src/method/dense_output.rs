@@ -9,7 +9,7 @@ use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 
 /// Start of a step: state, equation and ground motion.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct StepStart<'a, S> {
     /// The equation of motion in force.
     pub equation: &'a AnyEquation<S>,
@@ -56,8 +56,11 @@ pub trait DenseOutput<S: Real> {
         self.at(self.length())
     }
 
-    /// Switching function of the clutch (Eq. 10).
-    fn switching(&self, time: S) -> S;
+    /// Switching function of the clutch (Eq. 10), where it is not θ̈ itself.
+    #[inline]
+    fn switching(&self, time: S) -> S {
+        self.at(time).acceleration
+    }
 
     /// First zero of θ̈ in (`from`, `to`], where θ̈ has the sign `sign` just after `from`. `from_zero` says that θ̈ is
     /// zero at `from`.

@@ -70,7 +70,6 @@ pub fn runge_kutta_4<S: Scalar, E: Equation<S>>(
 }
 
 /// Dense output of a fixed-step method: its end, and the step taken again for every time before it.
-#[derive(Debug)]
 pub struct FixedOutput<'a, S> {
     method: FixedStep<S>,
     start: &'a StepStart<'a, S>,

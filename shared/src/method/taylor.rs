@@ -25,17 +25,6 @@ pub struct Taylor<S, const N: usize> {
     step: Option<S>,
 }
 
-impl<S: Real, const N: usize> core::fmt::Debug for Taylor<S, N> {
-    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        formatter
-            .debug_struct("Taylor")
-            .field("order", &(N - 1))
-            .field("tolerance", &self.tolerance)
-            .field("step", &self.step)
-            .finish()
-    }
-}
-
 impl<S: Real, const N: usize> Taylor<S, N> {
     /// Steps of its own choice: as long as the series' last terms stay below `tolerance` times the rotation that
     /// matters (α, or |θ| where larger). 1e-17 is tight in f64; from 1e-20 to 1e-2.

@@ -1,5 +1,6 @@
 //! Contract of an observer: it receives every monotone interval and every event. An unused observer costs nothing.
 
+use super::device_snapshot::DeviceOutput;
 use super::state::BlockState;
 use crate::equation::motion::Motion;
 use crate::math::scalar::Real;
@@ -60,6 +61,18 @@ pub trait Observer<S: Real> {
         let _ = (output, interval);
     }
 
+    /// Motion over a monotone interval, with the device: where the loop shows one, it calls this in the place of [`Observer::interval`].
+    #[inline(always)]
+    fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        self.interval(output.motion(), interval);
+    }
+
+    /// The block stands on its base while its flywheels may coast, or of no length: what one event left for another at the same instant.
+    #[inline(always)]
+    fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        let _ = (output, interval);
+    }
+
     /// An event, with the state after it.
     #[inline(always)]
     fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
@@ -77,51 +90,5 @@ pub trait Observer<S: Real> {
 impl<S: Real> Observer<S> for () {
     fn every_swing(&self) -> bool {
         false
-    }
-}
-
-/// Pair of observers, called in order.
-impl<S: Real, A: Observer<S>, B: Observer<S>> Observer<S> for (A, B) {
-    fn every_swing(&self) -> bool {
-        self.0.every_swing() || self.1.every_swing()
-    }
-
-    #[inline(always)]
-    fn decay(&mut self, decay: &Decay<S>) {
-        self.0.decay(decay);
-        self.1.decay(decay);
-    }
-
-    #[inline(always)]
-    fn interval(&mut self, output: &dyn DenseOutput<S>, interval: &MonotoneInterval<S>) {
-        self.0.interval(output, interval);
-        self.1.interval(output, interval);
-    }
-
-    #[inline(always)]
-    fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
-        self.0.event(event, time, state);
-        self.1.event(event, time, state);
-    }
-}
-
-impl<S: Real, O: Observer<S> + ?Sized> Observer<S> for &mut O {
-    fn every_swing(&self) -> bool {
-        (**self).every_swing()
-    }
-
-    #[inline(always)]
-    fn decay(&mut self, decay: &Decay<S>) {
-        (**self).decay(decay);
-    }
-
-    #[inline(always)]
-    fn interval(&mut self, output: &dyn DenseOutput<S>, interval: &MonotoneInterval<S>) {
-        (**self).interval(output, interval);
-    }
-
-    #[inline(always)]
-    fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
-        (**self).event(event, time, state);
     }
 }

@@ -4,7 +4,7 @@ use crate::math::fnv::Fnv;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
-use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput};
+use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::BlockState;
 
@@ -71,18 +71,12 @@ impl<S: Real> Observer<S> for Digest {
         };
         self.instant(state.rotation, state.velocity, state.side, kind);
     }
-}
 
-impl<S: Real> DeviceObserver<S> for Digest {
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
-        Observer::interval(self, output.motion(), interval);
+        self.interval(output.motion(), interval);
         let seen = output.snapshot(interval.to);
         seen.device.spin.iter().for_each(|&spin| self.hash.number(spin));
         self.hash.byte(seen.device.engaged.iter().fold(0, |flags, &engaged| flags << 1 | u8::from(engaged)));
-    }
-
-    fn device_event(&mut self, event: Event, time: S, state: &BlockState<S>) {
-        Observer::event(self, event, time, state);
     }
 }
 

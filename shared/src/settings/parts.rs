@@ -24,7 +24,6 @@ use crate::control::supervisor::{Parameters, SafeState};
 use crate::equation::FullBlock;
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::{FullBody, SlenderBody};
-use crate::equation::kinematics::{BodyKinematics, RuntimeKinematics};
 use crate::equation::lever::TyingPoint;
 
 /// Words that nobody has checked yet; the defaults where nothing is put.
@@ -336,8 +335,8 @@ impl Part for AnyBody<f32> {
             return AnyBody::Slender(SlenderBody { frequency_squared, slenderness, lever, vertical });
         }
         let block = FullBlock { frequency_squared, slenderness };
-        let ([along, across], kinematics) = (LEVER.read(settings), RuntimeKinematics::chosen(choice == CONSISTENT));
-        AnyBody::Full(FullBody { block, lever: TyingPoint { along, across }, kinematics, vertical })
+        let ([along, across], consistent) = (LEVER.read(settings), choice == CONSISTENT);
+        AnyBody::Full(FullBody { block, lever: TyingPoint { along, across }, consistent, vertical })
     }
 
     // Frequency and slenderness are those of the model.
@@ -349,7 +348,7 @@ impl Part for AnyBody<f32> {
             }
             AnyBody::Full(body) => {
                 LEVER.put(&[body.lever.along, body.lever.across], draft);
-                if body.kinematics.consistent() { CONSISTENT } else { PAPER }
+                if body.consistent { CONSISTENT } else { PAPER }
             }
         };
         draft.word(Item::Body, choice);

@@ -34,7 +34,7 @@ impl fmt::Display for Number {
 }
 
 /// `value`, if `allowed`; NaN never is.
-pub(crate) fn require(parameter: &'static str, value: f64, allowed: bool, range: &'static str) -> Result<f64, ParameterError> {
+pub fn require(parameter: &'static str, value: f64, allowed: bool, range: &'static str) -> Result<f64, ParameterError> {
     if allowed && value.is_finite() { Ok(value) } else { Err(ParameterError { parameter, value, range }) }
 }
 

@@ -61,16 +61,6 @@ impl Gear {
     pub fn bending_stress(&self, load: f64) -> f64 {
         load.abs() / (self.face_width_m * self.module_m * self.form_factor())
     }
-
-    /// Stress over what is allowed under `load` (N); above 1 a tooth is overloaded.
-    pub fn utilisation(&self, load: f64) -> f64 {
-        self.bending_stress(load) / self.allowable_stress_pa
-    }
-
-    /// ρ = m z/2, pitch radius, m.
-    pub fn pitch_radius(&self) -> f64 {
-        0.5 * self.module_m * f64::from(self.teeth)
-    }
 }
 
 #[cfg(test)]
@@ -129,8 +119,6 @@ mod tests {
     fn a_tooth_bends_under_its_load() {
         // 4 kN on 40 mm of module 4: 4000/(0.04 · 0.004 · 0.3405) = 73.4 MPa.
         assert!((PINION.bending_stress(-4000.0) / 73.42e6 - 1.0).abs() < 1e-3);
-        assert!((PINION.utilisation(4000.0) - 0.3671).abs() < 1e-3);
-        assert!((PINION.pitch_radius() - 0.04).abs() < 1e-15);
         let refused = |gear: Gear| gear.check().unwrap_err().parameter;
         assert_eq!(refused(Gear { module_m: 0.0, ..PINION }), "module_m");
         assert_eq!(refused(Gear { face_width_m: f64::NAN, ..PINION }), "face_width_m");

@@ -18,6 +18,12 @@ use block::{Block, Geometry};
 use device::Device;
 use error::ParameterError;
 
+use crate::equation::FullBlock;
+use crate::equation::any_body::AnyBody;
+use crate::equation::body::{FullBody, SlenderBody};
+use crate::math;
+use crate::math::scalar::Real;
+
 pub use restitution::Restitution;
 
 /// A block with its device.
@@ -62,6 +68,26 @@ impl Structure {
         let block = self.added_mass.block(&self.block)?;
         let device = self.added_mass.device(&self.block, self.geometry, &self.device);
         Ok(Structure { block, device, added_mass: AddedMass::NONE, ..*self })
+    }
+
+    /// The body of a structure that carries nothing, with `consistent` kinematics or the paper's, on ground that moves horizontally or, if
+    /// `vertical`, both ways.
+    ///
+    /// # Errors
+    /// As [`mount::Mount::lever`].
+    pub fn body<S: Real>(&self, consistent: bool, vertical: bool) -> Result<AnyBody<S>, ParameterError> {
+        let (block, mount) = (&self.block, &self.device.mount);
+        let (frequency_squared, slenderness) = (S::of(block.frequency_parameter_squared()), S::of(block.slenderness()));
+        Ok(match self.geometry {
+            Geometry::Slender => {
+                let lever = S::of(math::square_root(mount.slender_lever_squared(block)?));
+                AnyBody::Slender(SlenderBody { frequency_squared, slenderness, lever, vertical })
+            }
+            Geometry::Full => {
+                let block = FullBlock { frequency_squared, slenderness };
+                AnyBody::Full(FullBody { block, lever: mount.lever(&self.block)?.rounded(), consistent, vertical })
+            }
+        })
     }
 
     /// η of its impacts, with what it carries.

@@ -25,15 +25,6 @@ pub enum Mount {
     },
 }
 
-/// A and B of a [`Mount`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LeverConstants {
-    /// A.
-    pub along: f64,
-    /// B.
-    pub across: f64,
-}
-
 impl Mount {
     /// The constants of ℓ = A cos δ + s B sin δ for a block with half width R sin α and centre of mass at R cos α.
     ///
@@ -43,19 +34,19 @@ impl Mount {
     ///
     /// # Errors
     /// [`ParameterError`] for a height or a ratio not above 0.
-    pub fn lever(&self, block: &Block) -> Result<LeverConstants, ParameterError> {
+    pub fn lever(&self, block: &Block) -> Result<TyingPoint<f64>, ParameterError> {
         let (sin, cos) = math::sin_cos(block.slenderness());
         match *self {
-            Mount::CentreOfMass => Ok(LeverConstants { along: 1.0, across: 0.0 }),
+            Mount::CentreOfMass => Ok(TyingPoint { along: 1.0, across: 0.0 }),
             Mount::TyingPoint { height, pulley_ratio } => {
                 require("height", height, height > 0.0, "above 0 m")?;
                 let n = ratio(pulley_ratio)?;
                 let z = height / block.size();
-                Ok(LeverConstants { along: n * (z * cos + sin * sin), across: n * (z * sin - sin * cos) })
+                Ok(TyingPoint { along: n * (z * cos + sin * sin), across: n * (z * sin - sin * cos) })
             }
             Mount::BaseCorners { pulley_ratio } => {
                 let n = ratio(pulley_ratio)?;
-                Ok(LeverConstants { along: n * 2.0 * sin * cos, across: n * 2.0 * sin * sin })
+                Ok(TyingPoint { along: n * 2.0 * sin * cos, across: n * 2.0 * sin * sin })
             }
         }
     }
@@ -82,10 +73,10 @@ impl Mount {
         if geometry == Geometry::Slender {
             return Ok(math::square_root(self.slender_lever_squared(block)?));
         }
-        let constants = self.lever(block)?;
+        let lever = self.lever(block)?;
         let side = if rotation < 0.0 { -1.0 } else { 1.0 };
         let (sin, cos) = math::sin_cos(block.slenderness() * side - rotation);
-        Ok(TyingPoint { along: constants.along, across: constants.across }.arm(side, sin, cos))
+        Ok(lever.arm(side, sin, cos))
     }
 }
 

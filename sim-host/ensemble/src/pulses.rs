@@ -63,7 +63,6 @@ pub trait Stepping: Default {
 }
 
 /// Steps by power series.
-#[derive(Debug)]
 pub struct BySeries<M> {
     series: Series<SERIES_TERMS>,
     model: PhantomData<M>,

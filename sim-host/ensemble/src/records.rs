@@ -35,10 +35,8 @@ struct Place {
     sample: usize,
     threshold: f64,
     impacts: u32,
-    first_impact: Option<f64>,
-    first_counted_impact: Option<f64>,
-    /// It rests, or has overturned, since then.
-    ended: Option<f64>,
+    /// Times, in s from the record's start. The largest values are the lanes'.
+    peaks: Peaks<f64>,
 }
 
 /// The ground under the blocks in the lanes: straight lines since their last samples.
@@ -127,15 +125,8 @@ impl<'a, 'b> Lanes<'a, 'b> {
             self.bounds.tolerance.0[lane] = TOLERANCE * alpha;
             self.lines.step.0[lane] = block.step();
             self.lines.rate.0[lane] = 1.0 / block.step();
-            self.at[lane] = Some(Place {
-                index,
-                sample: 0,
-                threshold,
-                impacts: 0,
-                first_impact: None,
-                first_counted_impact: None,
-                ended: None,
-            });
+            self.at[lane] =
+                Some(Place { index, sample: 0, threshold, impacts: 0, peaks: Peaks { rocked: true, ..Peaks::default() } });
             self.blocks.renew(lane);
             self.uplift::<M>(lane, first);
             return;
@@ -178,12 +169,12 @@ impl<'a, 'b> Lanes<'a, 'b> {
         for lane in (0..WIDTH).filter(|&lane| notable.at(lane)) {
             let Some(mut place) = self.at[lane] else { continue };
             if first.at(lane) {
-                place.first_impact = Some(self.seconds(&place, self.lines.time.0[lane]));
+                place.peaks.first_impact = Some(self.seconds(&place, self.lines.time.0[lane]));
             }
             if counted.at(lane) {
                 place.impacts += 1;
-                if place.first_counted_impact.is_none() {
-                    place.first_counted_impact = Some(self.seconds(&place, self.lines.time.0[lane]));
+                if place.peaks.first_counted_impact.is_none() {
+                    place.peaks.first_counted_impact = Some(self.seconds(&place, self.lines.time.0[lane]));
                 }
             }
             self.at[lane] = Some(place);
@@ -223,7 +214,7 @@ impl<'a, 'b> Lanes<'a, 'b> {
         let rest = tail.rest(time, step, negligible, |at| push_at(at).abs() < 1.0);
         let Some(ends) = rest else { return AfterWeakImpact::Rocks };
         place.impacts += tail.impacts;
-        place.ended = Some(self.seconds(&place, ends));
+        place.peaks.ended = Some(self.seconds(&place, ends));
         self.at[lane] = Some(place);
         match block.next_uplift(place.sample, ends, place.threshold) {
             Err(Doubtful) => {
@@ -232,7 +223,8 @@ impl<'a, 'b> Lanes<'a, 'b> {
             }
             Ok(None) => AfterWeakImpact::Rests,
             Ok(Some(uplift)) => {
-                self.at[lane] = Some(Place { ended: None, ..place });
+                place.peaks.ended = None;
+                self.at[lane] = Some(place);
                 self.uplift::<M>(lane, uplift);
                 AfterWeakImpact::Uplifts
             }
@@ -251,11 +243,7 @@ impl<'a, 'b> Lanes<'a, 'b> {
             peaks: Peaks {
                 rotation: self.blocks.peak_rotation.0[lane],
                 acceleration: self.blocks.peak_acceleration.0[lane] * p * p,
-                rocked: true,
-                first_impact: place.first_impact,
-                first_counted_impact: place.first_counted_impact,
-                ended: place.ended,
-                origin: 0.0,
+                ..place.peaks
             },
         }
     }
@@ -320,7 +308,7 @@ pub(crate) fn run<M: Model, C: Clutch>(shaken: &[ShakenBlock<'_>], results: &mut
             } else if lanes.blocks.overturned.at(lane) {
                 let start = lanes.lines.time.0[lane] - went.0[lane];
                 let passed = passes(&series, lane, went.0[lane], lanes.bounds.no_return.0[lane]);
-                place.ended = Some(lanes.seconds(&place, start + passed));
+                place.peaks.ended = Some(lanes.seconds(&place, start + passed));
                 Some(Phase::Overturned)
             } else if rest.at(lane) {
                 Some(Phase::Rest)

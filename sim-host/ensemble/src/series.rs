@@ -29,12 +29,6 @@ impl<const TERMS: usize> Default for Series<TERMS> {
     }
 }
 
-impl<const TERMS: usize> std::fmt::Debug for Series<TERMS> {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.debug_struct("Series").field("motion", &self.motion).finish_non_exhaustive()
-    }
-}
-
 impl<const TERMS: usize> Series<TERMS> {
     /// Coefficients of θ̈ and of the ground motion.
     pub const RATES: usize = TERMS - 2;

@@ -9,7 +9,6 @@ use sprag_shared::method::closed_form::ClosedForm;
 use sprag_shared::method::dense_output::Integrator;
 use sprag_shared::method::fixed::FixedStep;
 use sprag_shared::method::taylor::{TERMS, Taylor};
-use sprag_shared::motion::device_snapshot::DeviceObserver;
 use sprag_shared::motion::hybrid::HybridState;
 use sprag_shared::motion::hybrid::HybridSystem;
 use sprag_shared::motion::hybrid::mode_output::{ModeIntegrator, Shaking};
@@ -65,7 +64,7 @@ pub trait HybridLoop<S: Real> {
         shaking: Shaking<'_, S>,
         duration: S,
         limits: &Limits<S>,
-        observer: &mut dyn DeviceObserver<S>,
+        observer: &mut dyn Observer<S>,
     ) -> Result<(), Stopped>;
 }
 
@@ -77,7 +76,7 @@ impl<S: Real, T: ModeIntegrator<S>> HybridLoop<S> for T {
         shaking: Shaking<'_, S>,
         duration: S,
         limits: &Limits<S>,
-        observer: &mut dyn DeviceObserver<S>,
+        observer: &mut dyn Observer<S>,
     ) -> Result<(), Stopped> {
         system.advance(self, state, shaking, duration, limits, observer)
     }

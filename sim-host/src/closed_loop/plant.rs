@@ -4,10 +4,10 @@ use sprag_loops::{HybridLoop, Method, hybrid};
 use sprag_shared::equation::body::Body;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::fixed::FixedStep;
-use sprag_shared::motion::device_snapshot::{DeviceObserver, DeviceOutput};
+use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::hybrid::mode_output::Shaking;
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
-use sprag_shared::motion::observer::{Event, MonotoneInterval};
+use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
 
 use super::truth::{Places, Shocks};
@@ -17,9 +17,9 @@ use crate::sensor::Truth;
 use crate::simulation::drive::{Course, Segmented};
 
 /// Someone who watches a plant.
-pub trait Watcher: DeviceObserver<f64> + Segmented {}
+pub trait Watcher: Observer<f64> + Segmented {}
 
-impl<T: DeviceObserver<f64> + Segmented> Watcher for T {}
+impl<T: Observer<f64> + Segmented> Watcher for T {}
 
 /// Steps and events that one piece may take.
 const MOST_EVENTS: u32 = 100_000;
@@ -205,15 +205,15 @@ impl<'a> Plant<'a> {
 /// A watcher and the shocks.
 struct Both<'a>(&'a mut dyn Watcher, &'a mut Shocks);
 
-impl DeviceObserver<f64> for Both<'_> {
+impl Observer<f64> for Both<'_> {
     fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
         self.0.device_interval(output, interval);
         self.1.device_interval(output, interval);
     }
 
-    fn device_event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
-        self.0.device_event(event, time, state);
-        self.1.device_event(event, time, state);
+    fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
+        self.0.event(event, time, state);
+        self.1.event(event, time, state);
     }
 }
 
@@ -224,14 +224,14 @@ pub struct Extremes {
     pub peaks: sprag_shared::observers::peaks::Peaks<f64>,
 }
 
-impl DeviceObserver<f64> for Extremes {
+impl Observer<f64> for Extremes {
     fn device_interval(&mut self, _output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
         let (first, last) = (interval.first.rotation.abs(), interval.last.rotation.abs());
         self.peaks.rotation = self.peaks.rotation.larger(first).larger(last);
     }
 
-    fn device_event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
-        sprag_shared::motion::observer::Observer::event(&mut self.peaks, event, time, state);
+    fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
+        self.peaks.event(event, time, state);
     }
 }
 

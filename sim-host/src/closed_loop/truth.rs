@@ -2,9 +2,9 @@
 
 use sprag_shared::equation::body::Body;
 use sprag_shared::math;
-use sprag_shared::motion::device_snapshot::{DeviceObserver, DeviceOutput, Snapshot};
+use sprag_shared::motion::device_snapshot::{DeviceOutput, Snapshot};
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
-use sprag_shared::motion::observer::{Event, MonotoneInterval};
+use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::structure::block::GRAVITY;
 
@@ -86,7 +86,7 @@ impl Shocks {
     }
 }
 
-impl DeviceObserver<f64> for Shocks {
+impl Observer<f64> for Shocks {
     fn device_interval(&mut self, _output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
         if let Some(before) = self.velocity {
             let jump = interval.first.velocity - before;
@@ -98,7 +98,7 @@ impl DeviceObserver<f64> for Shocks {
         self.velocity = Some(interval.last.velocity);
     }
 
-    fn device_event(&mut self, event: Event, _time: f64, _state: &BlockState<f64>) {
+    fn event(&mut self, event: Event, _time: f64, _state: &BlockState<f64>) {
         if matches!(event, Event::Rest | Event::Uplift | Event::Overturned) {
             self.velocity = None;
         }

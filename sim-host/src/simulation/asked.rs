@@ -1,8 +1,8 @@
 //! What a scene asks for beyond history, peaks and checks: the energy ledger.
 
 use sprag_shared::math::scalar::Real;
-use sprag_shared::motion::device_snapshot::{DeviceObserver, DeviceOutput};
-use sprag_shared::motion::observer::{Event, MonotoneInterval};
+use sprag_shared::motion::device_snapshot::DeviceOutput;
+use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::ledger::{Entries, Ledger};
 use sprag_shared::structure::Structure;
@@ -40,17 +40,23 @@ impl<S: Real> Asked<S> {
     }
 }
 
-impl<S: Real> DeviceObserver<S> for Asked<S> {
+impl<S: Real> Observer<S> for Asked<S> {
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
-        self.energy.device_interval(output, interval);
+        if let Some(energy) = &mut self.energy {
+            energy.device_interval(output, interval);
+        }
     }
 
     fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
-        self.energy.device_at_rest(output, interval);
+        if let Some(energy) = &mut self.energy {
+            energy.device_at_rest(output, interval);
+        }
     }
 
-    fn device_event(&mut self, event: Event, time: S, state: &BlockState<S>) {
-        self.energy.device_event(event, time, state);
+    fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
+        if let Some(energy) = &mut self.energy {
+            energy.event(event, time, state);
+        }
     }
 }
 
@@ -87,7 +93,7 @@ impl<S: Real> EnergyHistory<S> {
     }
 }
 
-impl<S: Real> DeviceObserver<S> for EnergyHistory<S> {
+impl<S: Real> Observer<S> for EnergyHistory<S> {
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         self.ledger.device_interval(output, interval);
         let time = self.origin + (interval.start + interval.to).to_f64();
@@ -100,13 +106,13 @@ impl<S: Real> DeviceObserver<S> for EnergyHistory<S> {
         self.device_interval(output, interval);
     }
 
-    fn device_event(&mut self, event: Event, time: S, state: &BlockState<S>) {
+    fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         let at = self.origin + time.to_f64();
         // Both sides of a jump.
         if event == Event::Impact || event == Event::Switch {
             self.write(at);
         }
-        self.ledger.device_event(event, time, state);
+        self.ledger.event(event, time, state);
         if event != Event::Turn {
             self.write(at);
         }

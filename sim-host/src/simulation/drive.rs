@@ -2,7 +2,6 @@
 
 use sprag_loops::{HybridLoop, IdealLoop};
 use sprag_shared::math::scalar::Real;
-use sprag_shared::motion::device_snapshot::DeviceObserver;
 use sprag_shared::motion::hybrid::mode_output::Shaking;
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
 use sprag_shared::motion::ideal::IdealSystem;
@@ -147,7 +146,7 @@ impl<'a> Course<'a> {
     ) -> Result<(), Stopped>
     where
         S: Real,
-        O: DeviceObserver<S> + Segmented,
+        O: Observer<S> + Segmented,
     {
         let lightest = self.lightest();
         let limits = |bound: f64| Limits { events: MOST_EVENTS, overturned: self.machine_angle(machine, bound, lightest) };

@@ -3,8 +3,8 @@
 use sprag_shared::drivetrain::transmission::Account;
 use sprag_shared::ground::GroundSegment;
 use sprag_shared::math::scalar::Real;
-use sprag_shared::motion::device_snapshot::{DeviceObserver, DeviceOutput, Snapshot};
-use sprag_shared::motion::observer::{Event, MonotoneInterval};
+use sprag_shared::motion::device_snapshot::{DeviceOutput, Snapshot};
+use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::structure::block::GRAVITY;
 
@@ -126,7 +126,7 @@ impl<'a> Recorder<'a> {
     }
 }
 
-impl<S: Real> DeviceObserver<S> for Recorder<'_> {
+impl<S: Real> Observer<S> for Recorder<'_> {
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         let start = self.origin + interval.start.to_f64();
         // Summed as the core sums them, so that an arc ends on the very instant at which the next one starts.
@@ -149,7 +149,7 @@ impl<S: Real> DeviceObserver<S> for Recorder<'_> {
         self.pending = Some(self.sample(to, &output.snapshot(interval.to)));
     }
 
-    fn device_event(&mut self, event: Event, time: S, _state: &BlockState<S>) {
+    fn event(&mut self, event: Event, time: S, _state: &BlockState<S>) {
         let at = self.origin + time.to_f64();
         match event {
             Event::Uplift => {

@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 
 use sprag_shared::math::scalar::Real;
-use sprag_shared::motion::device_snapshot::DeviceObserver;
+use sprag_shared::motion::observer::Observer;
 use sprag_shared::structure::Structure;
 
 use super::drive::Segmented;
@@ -28,7 +28,7 @@ impl<S: Real> Asked<S> {
     }
 }
 
-impl<S: Real> DeviceObserver<S> for Asked<S> {}
+impl<S: Real> Observer<S> for Asked<S> {}
 
 impl<S: Real> Segmented for Asked<S> {
     fn segment(&mut self, _start: f64, _segment: Option<&Segment>) {}

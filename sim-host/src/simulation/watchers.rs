@@ -1,7 +1,7 @@
 //! Everyone who watches a run: the history, the peaks, the checks, and what the scene asks for beyond them.
 
 use sprag_shared::math::scalar::Real;
-use sprag_shared::motion::device_snapshot::{DeviceObserver, DeviceOutput};
+use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::ideal::device_view::Watched;
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::state::BlockState;
@@ -26,13 +26,15 @@ pub struct Watchers<'a, S> {
     pub asked: Asked<S>,
 }
 
-impl<S: Real> DeviceObserver<S> for Watchers<'_, S> {
+impl<S: Real> Observer<S> for Watchers<'_, S> {
     // Every loop calls this: inlined where there is but one, it would look cheaper there.
     #[inline(never)]
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         self.recorder.device_interval(output, interval);
         self.peaks.interval(output.motion(), interval);
-        self.checks.device_interval(output, interval);
+        if let Some(checks) = &mut self.checks {
+            checks.device_interval(output, interval);
+        }
         self.asked.device_interval(output, interval);
     }
 
@@ -40,11 +42,13 @@ impl<S: Real> DeviceObserver<S> for Watchers<'_, S> {
         self.asked.device_at_rest(output, interval);
     }
 
-    fn device_event(&mut self, event: Event, time: S, state: &BlockState<S>) {
-        DeviceObserver::<S>::device_event(&mut self.recorder, event, time, state);
+    fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
+        Observer::<S>::event(&mut self.recorder, event, time, state);
         self.peaks.event(event, time, state);
-        self.checks.device_event(event, time, state);
-        self.asked.device_event(event, time, state);
+        if let Some(checks) = &mut self.checks {
+            checks.event(event, time, state);
+        }
+        self.asked.event(event, time, state);
     }
 }
 
@@ -60,18 +64,12 @@ impl<S: Real> Segmented for Watchers<'_, S> {
 }
 
 /// An ideal device as its watchers see it.
-impl<S: Real, O: DeviceObserver<S> + Segmented> Segmented for Watched<S, SumSegment<S>, O> {
+impl<S: Real, O: Observer<S> + Segmented> Segmented for Watched<'_, S, SumSegment<S>, O> {
     fn segment(&mut self, start: f64, segment: Option<&Segment>) {
         self.segment = match segment {
             Some(segment) => segment.shape.to(),
             None => SumSegment::QUIET,
         };
         self.observer.segment(start, segment);
-    }
-}
-
-impl<O: Segmented> Segmented for &mut O {
-    fn segment(&mut self, start: f64, segment: Option<&Segment>) {
-        (**self).segment(start, segment);
     }
 }

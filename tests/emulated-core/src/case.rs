@@ -2,10 +2,8 @@
 
 use crate::watcher::Watcher;
 use core::fmt;
-use sprag_shared::{
-    case::{self, CaseError},
-    observers::digest::Digest,
-};
+use sprag_case::CaseError;
+use sprag_shared::observers::digest::Digest;
 
 /// Why a case could not be run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,7 +46,7 @@ impl From<fmt::Error> for RunError {
 pub fn run_case(words: &[u32], counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> Result<(), RunError> {
     let mut watcher = Watcher { digest: Some(Digest::default()) };
     let before = counter();
-    let end = case::run(words, &mut watcher)?;
+    let end = sprag_case::run(words, &mut watcher)?;
     let instructions = counter().wrapping_sub(before);
     let digest = watcher.digest.unwrap_or_default();
     writeln!(out, "outcome {}", end.outcome.name())?;

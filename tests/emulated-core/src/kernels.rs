@@ -21,7 +21,6 @@ use sprag_shared::{
         taylor::Taylor,
     },
     motion::{
-        device_snapshot::{DeviceObserver, DeviceOutput},
         ideal::IdealSystem,
         observer::{Event, MonotoneInterval, Observer},
         state::{BlockState, Limits, Stopped},
@@ -118,16 +117,6 @@ impl Observer<f32> for Tally {
     }
 
     fn event(&mut self, _event: Event, _time: f32, _state: &BlockState<f32>) {
-        self.events += 1;
-    }
-}
-
-impl DeviceObserver<f32> for Tally {
-    fn device_interval(&mut self, _output: &dyn DeviceOutput<f32>, _interval: &MonotoneInterval<f32>) {
-        self.steps += 1;
-    }
-
-    fn device_event(&mut self, _event: Event, _time: f32, _state: &BlockState<f32>) {
         self.events += 1;
     }
 }

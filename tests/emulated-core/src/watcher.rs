@@ -3,7 +3,7 @@
 use sprag_shared::{
     method::dense_output::DenseOutput,
     motion::{
-        device_snapshot::{DeviceObserver, DeviceOutput},
+        device_snapshot::DeviceOutput,
         observer::{Event, MonotoneInterval, Observer},
         state::BlockState,
     },
@@ -28,21 +28,13 @@ impl Observer<f32> for Watcher {
     #[inline]
     fn event(&mut self, event: Event, time: f32, state: &BlockState<f32>) {
         if let Some(digest) = &mut self.digest {
-            Observer::event(digest, event, time, state);
+            digest.event(event, time, state);
         }
     }
-}
 
-impl DeviceObserver<f32> for Watcher {
     fn device_interval(&mut self, output: &dyn DeviceOutput<f32>, interval: &MonotoneInterval<f32>) {
         if let Some(digest) = &mut self.digest {
             digest.device_interval(output, interval);
-        }
-    }
-
-    fn device_event(&mut self, event: Event, time: f32, state: &BlockState<f32>) {
-        if let Some(digest) = &mut self.digest {
-            digest.device_event(event, time, state);
         }
     }
 }

@@ -3,10 +3,10 @@
 use sprag_shared::ground::{Harmonics, Quiet};
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::fixed::FixedStep;
-use sprag_shared::motion::device_snapshot::{DeviceObserver, DeviceOutput};
+use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::hybrid::HybridSystem;
 use sprag_shared::motion::hybrid::mode_output::Shaking;
-use sprag_shared::motion::observer::{Event, MonotoneInterval};
+use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::state::{BlockState, Limits, Stopped};
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::drivetrain::{Drivetrain, Engagement};
@@ -72,7 +72,7 @@ struct Watch {
     gain: f64,
 }
 
-impl<S: Real> DeviceObserver<S> for Watch {
+impl<S: Real> Observer<S> for Watch {
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         self.steps += 1;
         self.depth = self.depth.max(-interval.side.times(interval.last.rotation).to_f64());
@@ -87,7 +87,7 @@ impl<S: Real> DeviceObserver<S> for Watch {
         }
     }
 
-    fn device_event(&mut self, _event: Event, _time: S, _state: &BlockState<S>) {
+    fn event(&mut self, _event: Event, _time: S, _state: &BlockState<S>) {
         self.events += 1;
     }
 }

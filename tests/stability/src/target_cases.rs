@@ -1,6 +1,6 @@
 //! The hard cases that the target runs: single precision, fixed steps, as words that host and board both read.
 
-use sprag_shared::case::{Case, FixedMethod, Ground, GroundPiece, Initially, Shape};
+use sprag_case::{Case, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::ground::{Harmonics, Linear};
 use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::added_mass::AddedMass;

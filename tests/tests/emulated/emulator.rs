@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use sprag_shared::case::{self, Case, FixedMethod, Ground, GroundPiece, Initially, Shape};
+use sprag_case::{Case, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::ground::Harmonics;
 use sprag_shared::observers::digest::Digest;
 use sprag_shared::observers::outcome::Outcome;
@@ -98,7 +98,7 @@ fn compare(name: &str, case: &Case<'_>) -> Outcome {
     let count = case.encode(&mut words).unwrap();
     words.truncate(count);
     let mut digest = Digest::default();
-    let end = case::run(&words, &mut digest).unwrap();
+    let end = sprag_case::run(&words, &mut digest).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
     std::fs::write(folder.path().join("case.bin"), bytes).unwrap();

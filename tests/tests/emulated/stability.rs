@@ -4,7 +4,6 @@
 
 use std::collections::BTreeMap;
 
-use sprag_shared::case;
 use sprag_shared::observers::digest::Digest;
 use sprag_stability::target_cases::target_cases;
 use sprag_tests::emulation::{emulate, firmware};
@@ -18,7 +17,7 @@ fn the_hard_cases_are_the_same_on_the_board() {
         let count = target.case.encode(&mut words).expect("few words");
         words.truncate(count);
         let mut digest = Digest::default();
-        let end = case::run(&words, &mut digest).unwrap_or_else(|error| panic!("{}: {error}", target.name));
+        let end = sprag_case::run(&words, &mut digest).unwrap_or_else(|error| panic!("{}: {error}", target.name));
         let folder = tempfile::tempdir().expect("a folder");
         let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
         std::fs::write(folder.path().join("case.bin"), bytes).expect("a file");

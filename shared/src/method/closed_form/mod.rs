@@ -16,13 +16,12 @@
 //! and none is missed however long the step.
 //!
 //! It applies to slender blocks under ground segments that are [`Elementary`]: straight lines and sines, so records, pulses and
-//! Mavroeidis-Papageorgiou wavelets. [`ClosedForm::applies`] checks this. Anywhere else ([`Ricker`](crate::ground::Ricker)'s wavelet, the full model)
+//! Mavroeidis-Papageorgiou wavelets. Anywhere else ([`Ricker`](crate::ground::Ricker)'s wavelet, the full model)
 //! the method takes the Runge-Kutta step of the same length: never wrong, but of order 4.
 
-use crate::equation::any_equation::AnyEquation;
 use crate::equation::motion::Motion;
 use crate::equation::{Equation, SlenderBlock};
-use crate::ground::{Elementary, GroundSegment};
+use crate::ground::Elementary;
 use crate::math::polynomial::{Curve, first_zero_of, largest_magnitude_of};
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -40,16 +39,7 @@ pub struct ClosedForm<S> {
     pub step: S,
 }
 
-impl<S: Real> ClosedForm<S> {
-    /// Whether motions of `equation` under `segment` have a closed form; otherwise steps are those of [`FixedStep::RungeKutta4`].
-    #[inline]
-    pub fn applies(equation: &AnyEquation<S>, segment: &dyn GroundSegment<S>) -> bool {
-        equation.slender().is_some() && segment.elementary(S::ZERO).is_some()
-    }
-}
-
 /// Dense output of one step.
-#[derive(Debug)]
 pub enum ClosedFormOutput<'a, S> {
     /// Motion in closed form.
     Closed(SlenderArc<S>),
@@ -229,11 +219,6 @@ impl<S: Real> DenseOutput<S> for SlenderArc<S> {
     }
 
     /// θ̈: slender blocks switch with it.
-    #[inline]
-    fn switching(&self, time: S) -> S {
-        self.at(time).acceleration
-    }
-
     #[inline]
     fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
         let stretch = (from, to, self.at(to).acceleration);

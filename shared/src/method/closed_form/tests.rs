@@ -1,7 +1,9 @@
 use super::*;
 use crate::equation::FullBlock;
+use crate::equation::any_equation::AnyEquation;
+use crate::ground::check::Sum;
 use crate::ground::harmonic::{Harmonic, MavroeidisPapageorgiou};
-use crate::ground::{Harmonics, Linear, Quiet, Ricker, Sum};
+use crate::ground::{GroundSegment, Harmonics, Linear, Quiet, Ricker};
 use crate::math::{asin, exp, square_root};
 use crate::method::taylor::Taylor;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
@@ -217,9 +219,23 @@ fn it_knows_where_it_applies() {
     let slender = AnyEquation::Slender(SlenderBlock { frequency_squared: 1.0, slenderness: 0.2, inertia: 1.0, lever: 1.0 });
     let full = AnyEquation::Block(FullBlock { frequency_squared: 1.0, slenderness: 0.2 });
     let wavelet = Ricker { amplitude: 0.5, rate: 4.0, centre: 1.0 };
-    assert!(ClosedForm::applies(&slender, &Quiet) && ClosedForm::applies(&slender, &Harmonics::sine(0.3, 5.0)));
-    assert!(ClosedForm::applies(&slender, &Segment::wavelet(1.4, 0.4, 0.6).ground::<f64>()));
-    assert!(!ClosedForm::applies(&slender, &wavelet) && !ClosedForm::applies(&full, &Quiet));
+    let applies = |equation: &AnyEquation<f64>, segment: &dyn GroundSegment<f64>| {
+        let start = StepStart {
+            equation,
+            segment,
+            side: Sign::Positive,
+            rotation: 0.1,
+            velocity: 0.0,
+            time: 0.0,
+            length: 0.1,
+            acceleration: None,
+            scale: 0.2,
+        };
+        matches!(ClosedForm { step: 0.1 }.integrate(&start), ClosedFormOutput::Closed(_))
+    };
+    assert!(applies(&slender, &Quiet) && applies(&slender, &Harmonics::sine(0.3, 5.0)));
+    assert!(applies(&slender, &Segment::wavelet(1.4, 0.4, 0.6).ground::<f64>()));
+    assert!(!applies(&slender, &wavelet) && !applies(&full, &Quiet));
 }
 
 /// Where it does not apply, its steps are the Runge-Kutta method's to the last bit.

@@ -7,7 +7,7 @@ use crate::drivetrain::under_way::UnderWay;
 use crate::equation::clutch_rule::wheel_for;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::motion::device_snapshot::DeviceObserver;
+use crate::motion::observer::Observer;
 use crate::motion::state::Phase;
 use crate::structure::drivetrain::{Actuation, Delay};
 
@@ -77,7 +77,7 @@ fn ramp_due<S: Real>(parameters: &ScaledParameters<S>, wheel: &FlywheelState<S>,
 
 impl<S: Real> HybridSystem<S> {
     /// Gives the commands that the present signs ask for, and executes those that are due.
-    pub(super) fn command(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+    pub(super) fn command(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         if !self.transmission.traits().commanded || state.motion.phase != Phase::Rocking {
             return;
         }
@@ -138,7 +138,7 @@ impl<S: Real> HybridSystem<S> {
 
     /// A controller's command to each clutch, at local time 0 of the ground segment that follows. It takes effect after the
     /// delay, at once where there is none.
-    pub fn order(&self, state: &mut HybridState<S>, wanted: [bool; 2], observer: &mut dyn DeviceObserver<S>) {
+    pub fn order(&self, state: &mut HybridState<S>, wanted: [bool; 2], observer: &mut dyn Observer<S>) {
         // What is to be released is released first, so that two that change places are never both engaged.
         for engage in [false, true] {
             for (index, &wish) in wanted.iter().enumerate() {
@@ -168,7 +168,7 @@ impl<S: Real> HybridSystem<S> {
     }
 
     /// Commands to the clutches of a standing block that are due.
-    pub(super) fn carry_out_at_rest(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+    pub(super) fn carry_out_at_rest(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         for index in 0..2 {
             while state.device.wheels[index].pending == S::ZERO {
                 self.carry_out(state, index, time, observer);
@@ -212,7 +212,7 @@ impl<S: Real> HybridSystem<S> {
     }
 
     #[inline(never)]
-    fn carry_out(&self, state: &mut HybridState<S>, index: usize, time: S, observer: &mut dyn DeviceObserver<S>) {
+    fn carry_out(&self, state: &mut HybridState<S>, index: usize, time: S, observer: &mut dyn Observer<S>) {
         let wheel = &mut state.device.wheels[index];
         let engage = self.due_command(wheel);
         // By a transport delay a command may find the clutch as it shall be: the one before it was missed.

@@ -7,7 +7,7 @@ use crate::drivetrain::clutch_state::{Guard, ModeCoefficients};
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::motion::device_snapshot::DeviceObserver;
+use crate::motion::observer::Observer;
 use crate::motion::state::Limits;
 
 impl<S: Real> HybridSystem<S> {
@@ -42,7 +42,7 @@ impl<S: Real> HybridSystem<S> {
         shaking: Shaking<'_, S>,
         time: S,
         stop: S,
-        observer: &mut dyn DeviceObserver<S>,
+        observer: &mut dyn Observer<S>,
     ) -> S {
         let end = self.let_go(state, shaking, time, stop);
         let until = end.map_or(stop, |(at, _)| at);
@@ -89,7 +89,7 @@ impl<S: Real> HybridSystem<S> {
         state: &mut HybridState<S>,
         (sign, crossing): (Sign, bool),
         time: S,
-        observer: &mut dyn DeviceObserver<S>,
+        observer: &mut dyn Observer<S>,
     ) {
         (state.held, state.free) = (false, crossing);
         state.motion.direction = sign;
@@ -102,7 +102,7 @@ impl<S: Real> HybridSystem<S> {
     }
 
     /// At θ̇ = 0, where what holds or moves the block has changed: a held block that nothing holds any more goes. Whether it does.
-    pub(super) fn try_to_set_off(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) -> bool {
+    pub(super) fn try_to_set_off(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) -> bool {
         let was_held = state.held;
         self.turned(state);
         let goes = was_held && !state.held;
@@ -135,7 +135,7 @@ impl<S: Real> HybridSystem<S> {
         shaking: Shaking<'_, S>,
         (time, stop): (&mut S, S),
         guarded: (&Limits<S>, bool),
-        observer: &mut dyn DeviceObserver<S>,
+        observer: &mut dyn Observer<S>,
     ) {
         let on_base = state.motion.rotation == S::ZERO;
         let rests = if on_base { self.weight(state).exceeded(shaking, *time, stop) } else { None };
@@ -152,7 +152,7 @@ impl<S: Real> HybridSystem<S> {
     }
 
     /// Breakaway of a held block: the moving moment has reached the holding one.
-    pub(super) fn break_away(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+    pub(super) fn break_away(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         let side = state.motion.side;
         let push = |sign| self.breakaway(state, side, sign).at(state.ground);
         let outward = state.motion.rotation == S::ZERO || push(side) > push(side.opposite());

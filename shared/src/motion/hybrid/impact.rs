@@ -6,8 +6,7 @@ use crate::drivetrain::clutch_state::GUARDS;
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::motion::device_snapshot::DeviceObserver;
-use crate::motion::observer::Event;
+use crate::motion::observer::{Event, Observer};
 use crate::motion::rest::impact_accumulation::Accumulation;
 use crate::motion::state::Phase;
 
@@ -19,7 +18,7 @@ impl<S: Real> HybridSystem<S> {
         shaking: Shaking<'_, S>,
         time: S,
         duration: S,
-        observer: &mut dyn DeviceObserver<S>,
+        observer: &mut dyn Observer<S>,
     ) -> S {
         let motion = &mut state.motion;
         let incoming = motion.velocity;
@@ -37,7 +36,7 @@ impl<S: Real> HybridSystem<S> {
         motion.side = motion.direction;
         self.look_at_drive(state);
         let velocity = state.motion.velocity;
-        observer.device_event(Event::Impact, time, &state.motion);
+        observer.event(Event::Impact, time, &state.motion);
         self.with_instant(state, time, observer, |transmission, at| {
             transmission.impact(at, before);
             transmission.settle(at);
@@ -56,7 +55,7 @@ impl<S: Real> HybridSystem<S> {
         let Some(ends) = tail.rest(time, duration, negligible, stands) else { return time };
         *state = standing;
         state.motion.impacts += tail.impacts;
-        observer.device_event(Event::Rest, ends, &state.motion);
+        observer.event(Event::Rest, ends, &state.motion);
         // What its clutches let go shows at once, and what coasts until then after it.
         self.show_instant(state, time, observer);
         self.stand(state, &|t| shaking.at(time + t), time, ends, observer);
@@ -95,7 +94,7 @@ impl<S: Real> HybridSystem<S> {
     }
 
     /// The ground may have jumped between two ground segments.
-    pub(super) fn ground_at_start(&self, state: &mut HybridState<S>, ground: [S; 2], observer: &mut dyn DeviceObserver<S>) {
+    pub(super) fn ground_at_start(&self, state: &mut HybridState<S>, ground: [S; 2], observer: &mut dyn Observer<S>) {
         let jump = (ground[0] - state.ground[0]).abs().larger((ground[1] - state.ground[1]).abs());
         state.ground = ground;
         let size = ground[0].abs().larger(ground[1].abs()).larger(S::EPSILON);

@@ -34,8 +34,8 @@ use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
 use crate::method::step_grid::next_stop;
-use crate::motion::device_snapshot::{DeviceObserver, Snapshot};
-use crate::motion::observer::{Event, MonotoneInterval};
+use crate::motion::device_snapshot::Snapshot;
+use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits, Phase, Stopped};
 use crowding::{AT_ONCE, GRAZE, MOST_AT_ONCE, too_many};
 use mode_output::{ModeIntegrator, ModeOutput, ModeStart, Place, Shaking};
@@ -123,7 +123,7 @@ impl<S: Real> HybridSystem<S> {
         shaking: Shaking<'_, S>,
         duration: S,
         limits: &Limits<S>,
-        observer: &mut dyn DeviceObserver<S>,
+        observer: &mut dyn Observer<S>,
     ) -> Result<(), Stopped> {
         let mut time = S::ZERO;
         let mut tick = 0_u32;
@@ -156,7 +156,7 @@ impl<S: Real> HybridSystem<S> {
                 && state.motion.side.times(state.motion.rotation) >= limits.overturned;
             if outward {
                 state.motion.phase = Phase::Overturned;
-                observer.device_event(Event::Overturned, time, &state.motion);
+                observer.event(Event::Overturned, time, &state.motion);
                 break;
             }
             let step = integrator.step().map_or(duration, |step| next_stop(&mut tick, step, time, duration));
@@ -194,7 +194,7 @@ impl<S: Real> HybridSystem<S> {
         shaking: Shaking<'_, S>,
         (time, stop): (&mut S, S),
         (limits, guarded): (&Limits<S>, bool),
-        observer: &mut dyn DeviceObserver<S>,
+        observer: &mut dyn Observer<S>,
     ) {
         let motion = &state.motion;
         // Without springs a held block needs no step.
@@ -298,7 +298,7 @@ impl<S: Real> HybridSystem<S> {
             End::Reached => {}
             End::Turn => {
                 motion.velocity = S::ZERO;
-                observer.device_event(Event::Turn, *time, &state.motion);
+                observer.event(Event::Turn, *time, &state.motion);
                 state.motion.direction = state.motion.direction.opposite();
                 if state.jolted {
                     self.look_at_drive(state);
@@ -323,7 +323,7 @@ impl<S: Real> HybridSystem<S> {
             End::Overturned => {
                 motion.rotation = motion.side.times(limits.overturned);
                 motion.phase = Phase::Overturned;
-                observer.device_event(Event::Overturned, *time, &state.motion);
+                observer.event(Event::Overturned, *time, &state.motion);
             }
             End::Guard(index) => {
                 match law.watch[index] {
@@ -358,7 +358,7 @@ impl<S: Real> HybridSystem<S> {
         &self,
         state: &mut HybridState<S>,
         time: S,
-        observer: &mut dyn DeviceObserver<S>,
+        observer: &mut dyn Observer<S>,
         answer: impl FnOnce(&AnyTransmission<S>, &mut EventContext<'_, S>),
     ) {
         let before = state.device.wheels.map(|wheel| wheel.coupling);
@@ -383,15 +383,15 @@ impl<S: Real> HybridSystem<S> {
         }
         let after = state.device.wheels.map(|wheel| wheel.coupling);
         if before.map(Coupling::is_engaged) != after.map(Coupling::is_engaged) {
-            observer.device_event(Event::Switch, time, &state.motion);
+            observer.event(Event::Switch, time, &state.motion);
         } else if before != after {
-            observer.device_event(Event::Coupling, time, &state.motion);
+            observer.event(Event::Coupling, time, &state.motion);
         }
     }
 
     /// After a jump of velocity or ground: modes that it ended are left.
     #[inline(never)]
-    fn settle(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+    fn settle(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         self.with_instant(state, time, observer, |transmission, at| transmission.settle(at));
     }
 

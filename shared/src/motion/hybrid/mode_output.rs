@@ -12,7 +12,7 @@ use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
 
 /// Horizontal and vertical ground motion over one ground segment.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Shaking<'a, S> {
     /// Horizontal.
     pub horizontal: &'a dyn GroundSegment<S>,
@@ -30,7 +30,7 @@ impl<S: Real> Shaking<'_, S> {
 }
 
 /// Start of a step: state, mode and ground motion.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct ModeStart<'a, S> {
     /// Equations of the block.
     pub body: &'a AnyBody<S>,
@@ -65,7 +65,7 @@ pub struct ModeStart<'a, S> {
 }
 
 /// A step of a block and a device whose types are known.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct KnownModeStart<'a, S, B, D> {
     /// Start of the step.
     pub start: &'a ModeStart<'a, S>,

@@ -50,10 +50,6 @@ impl<S: Real> DenseOutput<S> for Still<'_, S> {
         let BlockState { rotation, velocity, .. } = self.state.motion;
         Motion { rotation, velocity, acceleration: S::ZERO }
     }
-
-    fn switching(&self, _time: S) -> S {
-        S::ZERO
-    }
 }
 
 impl<S: Real> DeviceOutput<S> for Still<'_, S> {

@@ -8,8 +8,7 @@ use crate::drivetrain::clutch_state::{GUARDS, Guard};
 use crate::drivetrain::transmission::{EvaluationPoint, Transmission, UNKNOWNS};
 use crate::equation::body::Body;
 use crate::equation::motion::Motion;
-use crate::math::outlined_series::{Quantity, SLOTS};
-use crate::math::power_series::{MAXIMUM_ORDER, Tape};
+use crate::math::power_series::{DEVICE_SLOTS, MAXIMUM_ORDER, Tape};
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::math::{RECIPROCALS, polynomial};
@@ -19,7 +18,7 @@ use crate::method::motion_series::{StepSeries, Truncation};
 /// A Taylor method with `N` coefficients for each quantity (8 to 32), and the tape it works on. One per thread: it is
 /// scratch space, not state.
 pub struct Series<S, const N: usize> {
-    tape: Tape<S, N, SLOTS>,
+    tape: Tape<S, N, DEVICE_SLOTS>,
     tolerance: S,
     step: Option<S>,
 }
@@ -37,12 +36,6 @@ impl<S: Real, const N: usize> Series<S, N> {
     }
 }
 
-impl<S: Real, const N: usize> core::fmt::Debug for Series<S, N> {
-    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        formatter.debug_struct("Series").field("tolerance", &self.tolerance).field("step", &self.step).finish()
-    }
-}
-
 /// Mode output of one step as power series.
 #[derive(Clone, Copy, Debug)]
 pub struct SeriesModeOutput<S, const N: usize> {
@@ -53,7 +46,7 @@ pub struct SeriesModeOutput<S, const N: usize> {
 
 /// The coefficients of a step's power series, order by order.
 struct Expansion<'a, S, const N: usize> {
-    tape: &'a Tape<S, N, SLOTS>,
+    tape: &'a Tape<S, N, DEVICE_SLOTS>,
     output: &'a mut SeriesModeOutput<S, N>,
     /// Ground acceleration in g, horizontal and vertical.
     ground: &'a [[S; N]; 2],
@@ -93,7 +86,7 @@ impl<S: Real, const N: usize> WithModeStart<S> for Expansion<'_, S, N> {
             }
             tape.set(4, k, if k == 1 { S::ONE } else { S::ZERO });
             next.set(GIVEN + X);
-            let given = |slot| Quantity(tape.given(&next, k, slot));
+            let given = |slot| tape.given(&next, k, slot);
             let (theta, omega, push) = (given(0), given(1), given(2));
             let up = if shaken_up { given(3) } else { push };
             let at = EvaluationPoint {
@@ -107,9 +100,9 @@ impl<S: Real, const N: usize> WithModeStart<S> for Expansion<'_, S, N> {
             };
             let (acceleration, rates) = known.transmission.flow(&at);
             if k == 0 {
-                acceleration.0.set_last(start.first(acceleration.0.last()));
+                acceleration.set_last(start.first(acceleration.last()));
             }
-            let a = if known.is_held() { S::ZERO } else { acceleration.0.last() };
+            let a = if known.is_held() { S::ZERO } else { acceleration.last() };
             let reciprocal = S::of(RECIPROCALS[(k + 1) & 63]);
             let rotation = output.series.motion.extend(tape, k, a);
             let mut term = truncation.term(rotation, ground[k]);
@@ -117,7 +110,7 @@ impl<S: Real, const N: usize> WithModeStart<S> for Expansion<'_, S, N> {
                 term = term.larger((vertical[k] * truncation.power).abs());
             }
             for (i, rate) in rates.iter().enumerate() {
-                let coefficient = rate.0.last() * reciprocal;
+                let coefficient = rate.last() * reciprocal;
                 output.unknowns[i][k + 1] = coefficient;
                 tape.set(GIVEN + i, k + 1, coefficient);
                 term = term.larger((coefficient * truncation.power * start.length).abs() * (scale / sizes[i]));
@@ -125,7 +118,7 @@ impl<S: Real, const N: usize> WithModeStart<S> for Expansion<'_, S, N> {
             for (i, guard) in output.guards.iter_mut().enumerate().take(G) {
                 let watch = start.law.watch[i];
                 if watch != Guard::Nothing {
-                    guard[k] = known.transmission.guard(&at, acceleration, watch).0.last();
+                    guard[k] = known.transmission.guard(&at, acceleration, watch).last();
                 }
             }
             if truncation.ends_at(k, term) {
@@ -181,11 +174,6 @@ impl<S: Real, const N: usize> DenseOutput<S> for SeriesModeOutput<S, N> {
     #[inline(never)]
     fn at(&self, time: S) -> Motion<S> {
         self.series.at(time)
-    }
-
-    #[inline]
-    fn switching(&self, time: S) -> S {
-        self.at(time).acceleration
     }
 
     #[inline]

@@ -10,14 +10,13 @@ use crate::drivetrain::under_way::UnderWay;
 use crate::equation::motion::Motion;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::motion::device_snapshot::DeviceObserver;
-use crate::motion::observer::{Event, MonotoneInterval};
+use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::BlockState;
 
 impl<S: Real> HybridSystem<S> {
     /// Block and device of `state` once the block stands.
     #[inline(never)]
-    pub(super) fn standing(&self, state: &HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) -> HybridState<S> {
+    pub(super) fn standing(&self, state: &HybridState<S>, time: S, observer: &mut dyn Observer<S>) -> HybridState<S> {
         let mut standing = HybridState { motion: state.motion.rested(state.motion.impacts), held: false, ..*state };
         self.part_at_rest(&mut standing, time, observer);
         // A flywheel that a resting block has left with less than rounding stands, or its sign would decide what the next clutch does.
@@ -30,7 +29,7 @@ impl<S: Real> HybridSystem<S> {
     }
 
     /// The clutches of a standing block are open, but for those that a controller holds; a device without clutches stays engaged.
-    pub(super) fn part_at_rest(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+    pub(super) fn part_at_rest(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         let Some(parameters) = self.transmission.parameters() else { return };
         if !self.transmission.traits().commanded && self.transmission.traits().unknowns == 0 {
             state.device.wheels[0].coupling = Coupling::Locked;
@@ -63,7 +62,7 @@ impl<S: Real> HybridSystem<S> {
     }
 
     /// Observation of block and device between two changes at one instant.
-    pub(super) fn show_instant(&self, state: &HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+    pub(super) fn show_instant(&self, state: &HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         self.show_still(state, &|_| state.ground, time, S::ZERO, observer);
     }
 
@@ -75,7 +74,7 @@ impl<S: Real> HybridSystem<S> {
         ground: &dyn Fn(S) -> [S; 2],
         time: S,
         length: S,
-        observer: &mut dyn DeviceObserver<S>,
+        observer: &mut dyn Observer<S>,
     ) {
         let BlockState { rotation, velocity, side, direction, .. } = state.motion;
         let still = Motion { rotation, velocity, acceleration: S::ZERO };
@@ -105,7 +104,7 @@ impl<S: Real> HybridSystem<S> {
         ground: &dyn Fn(S) -> [S; 2],
         time: S,
         end: S,
-        observer: &mut dyn DeviceObserver<S>,
+        observer: &mut dyn Observer<S>,
     ) {
         let (mut now, mut shown) = (time, *state);
         while now < end && shown.device.wheels.iter().any(|wheel| wheel.spin != S::ZERO) {
@@ -145,7 +144,7 @@ impl<S: Real> HybridSystem<S> {
         ground: [S; 2],
         time: S,
         crossing: bool,
-        observer: &mut dyn DeviceObserver<S>,
+        observer: &mut dyn Observer<S>,
     ) {
         let (side, _) = self.lifted(state, ground);
         state.motion = state.motion.uplifted(side);
@@ -165,14 +164,14 @@ impl<S: Real> HybridSystem<S> {
     }
 
     /// Uplift: θ̈ and the terminals' acceleration take the sign of the motion, and may have been zero until now.
-    pub(super) fn leave_base(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+    pub(super) fn leave_base(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         (state.motion.terminal_acceleration_sign, state.jolted, state.fresh[0]) =
             (state.motion.side, false, self.transmission.traits().commanded);
-        observer.device_event(Event::Uplift, time, &state.motion);
+        observer.event(Event::Uplift, time, &state.motion);
     }
 
     /// The clutches answer an uplift, and may hold the block on its base.
-    fn start_clutches(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+    fn start_clutches(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         let before = state.device.wheels.map(|wheel| wheel.coupling);
         self.settle(state, time, observer);
         self.command(state, time, observer);
@@ -185,14 +184,14 @@ impl<S: Real> HybridSystem<S> {
     }
 
     /// A block that falls back on its base under a ground acceleration that would uplift it, stays there while its clutches hold it.
-    pub(super) fn stay_on_base(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn DeviceObserver<S>) {
+    pub(super) fn stay_on_base(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         let mut held = *state;
         (held.motion.rotation, held.motion.velocity) = (S::ZERO, S::ZERO);
         let (side, threshold) = self.lifted(&held, state.ground);
         if self.transmission.traits().holds && !threshold.is_exceeded(state.ground) {
             (held.motion.side, held.motion.direction, held.held) = (side, side, true);
             *state = held;
-            observer.device_event(Event::Rest, time, &state.motion);
+            observer.event(Event::Rest, time, &state.motion);
         }
     }
 }

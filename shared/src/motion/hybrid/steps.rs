@@ -71,7 +71,6 @@ fn runge_kutta_4<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, 
 }
 
 /// Mode output of a fixed-step method: its ends, and the step taken again for every time between them.
-#[derive(Debug)]
 pub struct FixedModeOutput<'a, S> {
     method: FixedStep<S>,
     start: &'a ModeStart<'a, S>,
@@ -164,11 +163,6 @@ impl<S: Real> DenseOutput<S> for FixedModeOutput<'_, S> {
     fn at(&self, time: S) -> Motion<S> {
         let (Place { rotation, velocity, .. }, acceleration) = self.place(time);
         Motion { rotation, velocity, acceleration }
-    }
-
-    #[inline]
-    fn switching(&self, time: S) -> S {
-        self.at(time).acceleration
     }
 }
 

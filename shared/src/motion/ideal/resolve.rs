@@ -3,7 +3,7 @@
 use super::IdealSystem;
 use crate::equation::any_equation::AnyEquation;
 use crate::equation::clutch_rule::ClutchRule;
-use crate::equation::lever::{CentreOfMass, TyingPoint};
+use crate::equation::lever::CentreOfMass;
 use crate::equation::{FullBlock, FullInerter, SlenderBlock};
 use crate::math::scalar::Real;
 use crate::structure::block::Geometry;
@@ -71,8 +71,7 @@ impl Structure {
         if device.kind == DeviceKind::None {
             return Ok([alone; 2]);
         }
-        let constants = device.mount.lever(&self.block)?;
-        let point = TyingPoint { along: S::of(constants.along), across: S::of(constants.across) };
+        let point = device.mount.lever(&self.block)?.rounded();
         let inerter = |coupling: f64| {
             let coupling = S::of(coupling);
             match (device.mount, device.kinematics) {

@@ -6,8 +6,7 @@
 //! That makes it the yardstick for what the equations cost.
 
 use crate::equation::switched::Switched;
-use crate::ground::GroundSegment;
-use crate::math::scalar::{Real, Scalar};
+use crate::math::scalar::Scalar;
 use crate::method::fixed::runge_kutta_4;
 
 /// State of the block in time stepping.
@@ -40,17 +39,6 @@ pub struct TimeStepping<S, E> {
     pub restitution: S,
     /// Ground acceleration (in g) above which a block at rest uplifts.
     pub uplift: S,
-}
-
-/// Outcome of [`TimeStepping::follow`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct TimeSteppingPeaks<S> {
-    /// Largest |θ| at a step's end, rad.
-    pub rotation: S,
-    /// Changes of toe.
-    pub impacts: u32,
-    /// |θ| passed the limit.
-    pub overturned: bool,
 }
 
 impl<S: Scalar, E: Switched<S>> TimeStepping<S, E> {
@@ -101,38 +89,6 @@ impl<S: Scalar, E: Switched<S>> TimeStepping<S, E> {
             velocity: S::select(hit, end.velocity * self.restitution, end.velocity),
             side: S::select(hit, -end.side, end.side),
         }
-    }
-}
-
-impl<S: Real, E: Switched<S>> TimeStepping<S, E> {
-    /// Follows `state` over `segment` from its local time 0 to `duration` (s) in Runge-Kutta steps of `h` (s, above 0; the
-    /// last one may be shorter), until |θ| passes `overturned` (rad). At most 2²⁴ steps.
-    pub fn follow<P: GroundSegment<S>>(
-        &self,
-        state: &mut TimeSteppingState<S>,
-        segment: &P,
-        duration: S,
-        h: S,
-        overturned: S,
-    ) -> TimeSteppingPeaks<S> {
-        let mut seen = TimeSteppingPeaks::<S>::default();
-        let mut time = S::ZERO;
-        let mut push = segment.acceleration(time);
-        for tick in 1..=1 << 24 {
-            if time >= duration || seen.overturned {
-                break;
-            }
-            let end = (S::count(tick) * h).smaller(duration);
-            let push_at_end = segment.acceleration(end);
-            let ground = [push, segment.acceleration(S::HALF * (time + end)), push_at_end];
-            let before = (state.side, *state != TimeSteppingState::at_rest());
-            *state = self.runge_kutta_4(*state, ground, end - time);
-            seen.impacts += u32::from(before.1 && before.0 != state.side);
-            seen.rotation = seen.rotation.larger(state.rotation.abs());
-            seen.overturned = state.rotation.abs() > overturned;
-            (time, push) = (end, push_at_end);
-        }
-        seen
     }
 }
 

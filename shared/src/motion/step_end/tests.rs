@@ -1,11 +1,15 @@
+mod follow;
+
 use core::f64::consts::TAU;
 
+use self::follow::{TimeSteppingPeaks, follow};
 use super::*;
 use crate::equation::kinematics::{Consistent, Kinematics, Paper};
 use crate::equation::lever::CentreOfMass;
 use crate::equation::{FullBlock, FullInerter, SlenderBlock};
-use crate::ground::{Harmonics, Quiet};
+use crate::ground::{GroundSegment, Harmonics, Quiet};
 use crate::math::lanes::Lanes;
+use crate::math::scalar::Real;
 use crate::math::wide_sine;
 
 /// Figure 10: slender, one cycle of sine, ω/p = 6, a_g/gα = 7.7, σ = 0.5, η = 0.85; time in 1/p, rotation in α.
@@ -27,8 +31,8 @@ fn figure10<S: Real>(step: f64) -> TimeSteppingPeaks<S> {
     let block = slender_pair::<S>();
     let pulse = Harmonics::sine(S::of(AMPLITUDE), S::of(FREQUENCY));
     let mut state = TimeSteppingState::at_rest();
-    let first = block.follow(&mut state, &pulse, S::of(TAU / FREQUENCY), S::of(step), S::of(10.0));
-    let then = block.follow(&mut state, &Quiet, S::of(20.0), S::of(step), S::of(2.0));
+    let first = follow(&block, &mut state, &pulse, (S::of(TAU / FREQUENCY), S::of(step)), S::of(10.0));
+    let then = follow(&block, &mut state, &Quiet, (S::of(20.0), S::of(step)), S::of(2.0));
     TimeSteppingPeaks {
         rotation: first.rotation.larger(then.rotation),
         impacts: first.impacts + then.impacts,
@@ -109,8 +113,8 @@ fn without_a_clutch_the_error_is_that_of_the_impacts() {
     let none = TimeStepping { engaged: block.released, ..block };
     let pulse = Harmonics::sine(1.5, 4.0);
     let mut state = TimeSteppingState::at_rest();
-    let seen = none.follow(&mut state, &pulse, TAU / 4.0, 1e-4, 2.0);
-    let then = none.follow(&mut state, &Quiet, 3.0, 1e-4, 2.0);
+    let seen = follow(&none, &mut state, &pulse, (TAU / 4.0, 1e-4), 2.0);
+    let then = follow(&none, &mut state, &Quiet, (3.0, 1e-4), 2.0);
     // Figure 5, none: 0.4082.
     assert!((seen.rotation.larger(then.rotation) - 0.4082).abs() < 2e-4, "{seen:?} {then:?}");
     assert!(!seen.overturned && seen.impacts + then.impacts > 0);

@@ -16,8 +16,8 @@ pub use report::{Extreme, Report};
 use crate::math::root::illinois;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput, Snapshot};
-use crate::motion::observer::{Event, MonotoneInterval};
+use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
+use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::BlockState;
 use crate::observers::ledger::Account;
 use crate::structure::COUNTED_SPEED;
@@ -173,7 +173,7 @@ impl<S: Real> Checks<S> {
     }
 }
 
-impl<S: Real> DeviceObserver<S> for Checks<S> {
+impl<S: Real> Observer<S> for Checks<S> {
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         let is_beyond = self.beyond(interval.side, interval.last.rotation) > S::ZERO;
         let before = is_beyond.then(|| self.before(output, interval));
@@ -186,7 +186,7 @@ impl<S: Real> DeviceObserver<S> for Checks<S> {
         self.impulses.engaged = engaged.map(u32::from).iter().sum();
     }
 
-    fn device_event(&mut self, event: Event, time: S, state: &BlockState<S>) {
+    fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         self.overturned |= event == Event::Overturned;
         self.impulses.event(&self.toe, &mut self.report, event, self.origin + time, state);
     }

@@ -55,7 +55,7 @@ struct Look {
 
 impl Placed for Probe {}
 
-impl DeviceObserver<f64> for Probe {
+impl Observer<f64> for Probe {
     fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
         let span = interval.to - interval.from;
         if span < 0.01 {
@@ -209,7 +209,7 @@ struct DenseWatch(Checks<f64>, Dense);
 
 impl Placed for DenseWatch {}
 
-impl DeviceObserver<f64> for DenseWatch {
+impl Observer<f64> for DenseWatch {
     fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
         for i in 0..=2000 {
             let snapshot = output.snapshot(interval.from + (interval.to - interval.from) * f64::from(i) / 2000.0);

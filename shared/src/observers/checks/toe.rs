@@ -25,6 +25,7 @@
 //! which at the centre of mass needs a friction of (1 − η)/(1 + η) (1 + Σσ + μ_g)/tan α. A vertical device adds to V only, and is
 //! left out.
 
+use crate::equation::lever::TyingPoint;
 use crate::math;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -32,7 +33,7 @@ use crate::motion::device_snapshot::Snapshot;
 use crate::observers::ledger::{Account, Clutching};
 use crate::structure::block::{Block, Geometry};
 use crate::structure::error::ParameterError;
-use crate::structure::mount::{LeverConstants, Mount};
+use crate::structure::mount::Mount;
 
 /// Parameters of block and device for the reactions at the toe.
 #[derive(Clone, Copy, Debug)]
@@ -63,7 +64,7 @@ impl<S: Real> Toe<S> {
     /// # Errors
     /// As [`Mount::lever`].
     pub fn new(block: &Block, geometry: Geometry, mount: &Mount, account: &Account) -> Result<Toe<S>, ParameterError> {
-        let LeverConstants { along, across } = mount.lever(block)?;
+        let TyingPoint { along, across } = mount.lever(block)?;
         let slender = math::square_root(mount.slender_lever_squared(block)?);
         let p2 = block.frequency_parameter_squared();
         let alpha = block.slenderness();

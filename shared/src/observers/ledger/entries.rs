@@ -32,24 +32,6 @@ pub struct Entries<S> {
 }
 
 impl<S: Real> Entries<S> {
-    /// Name and value of every entry, in the order of the ledger.
-    pub fn list(&self) -> [(&'static str, S); 12] {
-        [
-            ("initial", self.initial),
-            ("input", self.input),
-            ("created", self.created),
-            ("kinetic", self.kinetic),
-            ("potential", self.potential),
-            ("stored", self.stored),
-            ("impact", self.impact),
-            ("clutch", self.clutch),
-            ("brake", self.brake),
-            ("bearing", self.bearing),
-            ("rack", self.rack),
-            ("kinematics", self.kinematics),
-        ]
-    }
-
     /// Kinetic, potential and stored energy.
     pub fn mechanical(&self) -> S {
         self.kinetic + self.potential + self.stored

@@ -17,8 +17,8 @@ pub use entries::Entries;
 
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput, Snapshot};
-use crate::motion::observer::{Event, MonotoneInterval};
+use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
+use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::BlockState;
 use crate::structure::block::{Block, Geometry};
 
@@ -240,7 +240,7 @@ impl<S: Real> Ledger<S> {
     }
 }
 
-impl<S: Real> DeviceObserver<S> for Ledger<S> {
+impl<S: Real> Observer<S> for Ledger<S> {
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         let first = self.balance(interval.side, &output.snapshot(interval.from));
         match self.last {
@@ -269,7 +269,7 @@ impl<S: Real> DeviceObserver<S> for Ledger<S> {
         self.device_interval(output, interval);
     }
 
-    fn device_event(&mut self, event: Event, _time: S, state: &BlockState<S>) {
+    fn event(&mut self, event: Event, _time: S, state: &BlockState<S>) {
         let Some(mut last) = self.last else {
             // Before any motion: a block that uplifts has stood.
             if event == Event::Uplift {

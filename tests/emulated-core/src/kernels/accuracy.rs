@@ -5,15 +5,15 @@
 //!   step is all steps; only libm's sine takes its time by its argument. A single inerter costs what a pair costs.
 //! - `located`: the mean over a second that contains an uplift, turns, an impact and switches, all located, under ground motion that
 //!   is a straight line, as between two samples of a record. In single precision and with its own sine only: these are the loops of
-//!   the cases ([`sprag_shared::case`]), and flash holds no other set. Setting up is not counted.
+//!   the cases ([`sprag_case`]), and flash holds no other set. Setting up is not counted.
 //!
 //! Taylor steps are ten times as long as the others. A tier is no part of the slender model, so there its cost is the same for all.
 
 use super::{RESTITUTION, STEP, Tally, count, mean};
 use crate::watcher::Watcher;
 use core::{f64::consts::FRAC_PI_2, fmt, hint::black_box};
+use sprag_case::{Case, CaseError, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::{
-    case::{Case, CaseError, FixedMethod, Ground, GroundPiece, Initially, Shape},
     equation::{
         FullBlock, FullInerter, SlenderBlock, any_equation::AnyEquation, clutch_rule::ClutchRule, kinematics::Paper,
         lever::CentreOfMass, switched::Switched,
@@ -24,9 +24,10 @@ use sprag_shared::{
         tier::{Libm, Micromath, OwnPolynomial},
         tiered::Tiered,
     },
-    method::closed_form::ClosedForm,
+    method::{closed_form::ClosedForm, dense_output::DenseOutput},
     motion::{
         ideal::IdealSystem,
+        observer::{Event, MonotoneInterval, Observer},
         state::{BlockState, Limits, Stopped},
         step_end::{TimeStepping, TimeSteppingState},
     },
@@ -156,10 +157,26 @@ fn closed_form(
         clutch,
     };
     let limits = Limits { overturned: FRAC_PI_2 as f32, events: 10_000 };
-    let mut watch = (Peaks::default(), core::mem::take(tally));
-    let done = system.advance(method, &mut BlockState::default(), &black_box(LINE), DURATION, &limits, &mut watch);
-    *tally = watch.1;
-    done
+    let mut watch = Watch { peaks: Peaks::default(), tally };
+    system.advance(method, &mut BlockState::default(), &black_box(LINE), DURATION, &limits, &mut watch)
+}
+
+/// Peaks and a tally.
+struct Watch<'t> {
+    peaks: Peaks<f32>,
+    tally: &'t mut Tally,
+}
+
+impl Observer<f32> for Watch<'_> {
+    fn interval(&mut self, output: &dyn DenseOutput<f32>, interval: &MonotoneInterval<f32>) {
+        self.peaks.interval(output, interval);
+        self.tally.interval(output, interval);
+    }
+
+    fn event(&mut self, event: Event, time: f32, state: &BlockState<f32>) {
+        self.peaks.event(event, time, state);
+        self.tally.event(event, time, state);
+    }
 }
 
 /// Prints a line for every combination that tells something; all zeros on the host.

@@ -1,14 +1,14 @@
 //! What every effect of a real device costs: the mean of a Runge-Kutta step with its events located, over the pulse of the
 //! ideal pair's kernel.
 //!
-//! The loops are those of the cases ([`sprag_shared::case`]), so that they are in flash once: a shape of ground motion is chosen
+//! The loops are those of the cases ([`sprag_case`]), so that they are in flash once: a shape of ground motion is chosen
 //! at every look, and the ground moves vertically too, if only by nothing. Devices without a memory have the paper's
 //! kinematics unless the name says otherwise, all others the consistent ones.
 
 use super::{Tally, mean};
 use core::{f32::consts::TAU, fmt, hint::black_box};
+use sprag_case::Shape;
 use sprag_shared::{
-    case::Shape,
     drivetrain::{
         any_transmission::AnyTransmission,
         elastic::ElasticPair,
@@ -18,12 +18,7 @@ use sprag_shared::{
         rigid::RigidPair,
         scaled_parameters::ScaledParameters,
     },
-    equation::{
-        any_body::AnyBody,
-        body::FullBody,
-        kinematics::{BodyKinematics, RuntimeKinematics},
-        lever::TyingPoint,
-    },
+    equation::{any_body::AnyBody, body::FullBody, lever::TyingPoint},
     ground::Harmonics,
     method::fixed::FixedStep,
     motion::{
@@ -85,17 +80,13 @@ const ELASTIC: Drivetrain = Drivetrain {
 };
 const ALL: Drivetrain = Drivetrain { rack: RACK, actuation: LATE, ..FRICTION };
 
-fn body(consistent: bool, vertical: bool) -> FullBody<f32, RuntimeKinematics> {
+fn body(consistent: bool, vertical: bool) -> FullBody<f32> {
     let lever = TyingPoint { along: 1.0, across: 0.0 };
-    FullBody { block: super::BLOCK, lever, kinematics: RuntimeKinematics::chosen(consistent), vertical }
+    FullBody { block: super::BLOCK, lever, consistent, vertical }
 }
 
 /// A block on its device, with the numbers of the ideal pair's kernel.
-fn machine(
-    body: FullBody<f32, RuntimeKinematics>,
-    transmission: AnyTransmission<f32>,
-    drivetrain: &Drivetrain,
-) -> HybridSystem<f32> {
+fn machine(body: FullBody<f32>, transmission: AnyTransmission<f32>, drivetrain: &Drivetrain) -> HybridSystem<f32> {
     HybridSystem {
         body: AnyBody::Full(body),
         transmission,

@@ -1,6 +1,11 @@
 //! Fixed steps from far below the control period to far beyond the block's own: what is located stays in order, whatever the step.
 
+#[path = "../../../../shared/src/motion/step_end/tests/follow.rs"]
+mod follow;
+
 use core::f64::consts::TAU;
+
+use self::follow::follow;
 
 use sprag_shared::equation::any_equation::WithEquation;
 use sprag_shared::equation::switched::Switched;
@@ -154,8 +159,8 @@ fn events_looked_for_once_a_step<S: Precision>() {
                 let level = S::of(amplitude) * uplift;
                 let pulse = sprag_shared::ground::Harmonics::sine(level, S::of(4.0));
                 let mut state = TimeSteppingState::at_rest();
-                let seen = block.follow(&mut state, &pulse, S::of(TAU / 4.0), self.step, S::of(1.5));
-                let then = block.follow(&mut state, &sprag_shared::ground::Quiet, S::of(4.0), self.step, S::of(1.5));
+                let seen = follow(&block, &mut state, &pulse, (S::of(TAU / 4.0), self.step), S::of(1.5));
+                let then = follow(&block, &mut state, &sprag_shared::ground::Quiet, (S::of(4.0), self.step), S::of(1.5));
                 let most = ((TAU / 4.0 + 4.0) / self.step.to_f64()) as u32 + 2;
                 assert!(state.rotation.is_finite() && state.velocity.is_finite() && seen.impacts + then.impacts <= most);
                 assert!(amplitude > 1.0 || seen.rotation == S::ZERO, "{seen:?}");

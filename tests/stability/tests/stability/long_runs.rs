@@ -2,7 +2,7 @@
 
 use core::f32::consts::TAU;
 
-use sprag_shared::case::{Case, FixedMethod, Ground, Initially};
+use sprag_case::{Case, FixedMethod, Ground, Initially};
 use sprag_shared::ground::{GroundSegment, Linear};
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::fixed::FixedStep;

@@ -1,6 +1,5 @@
 //! The cases of the target, on the host.
 
-use sprag_shared::case;
 use sprag_shared::observers::digest::Digest;
 use sprag_stability::target_cases::target_cases;
 
@@ -12,7 +11,7 @@ fn the_cases_of_the_target_end_as_they_must() {
         let count = target.case.encode(&mut words).expect("few words");
         let run = || {
             let mut digest = Digest::default();
-            let end = case::run(&words[..count], &mut digest).unwrap_or_else(|error| panic!("{}: {error}", target.name));
+            let end = sprag_case::run(&words[..count], &mut digest).unwrap_or_else(|error| panic!("{}: {error}", target.name));
             (end, digest.hash())
         };
         let (end, hash) = run();

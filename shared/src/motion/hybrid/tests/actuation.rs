@@ -4,9 +4,9 @@ use std::vec::Vec;
 
 use super::{HybridSystem, Seen, Watcher, pair, tight};
 use crate::ground::Quiet;
-use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput};
+use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::hybrid::mode_output::Shaking;
-use crate::motion::observer::{Event, MonotoneInterval};
+use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::BlockState;
 use crate::structure::block::Geometry;
 use crate::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses};
@@ -45,7 +45,8 @@ fn a_release_comes_late_by_its_delay() {
 fn pulse(mut machine: HybridSystem<f64>) -> (Vec<f64>, bool) {
     machine.actuator.controlled = true;
     let mut state = machine.released_at(0.1, 0.0, [0.0; 2]);
-    let mut watcher = Watcher::default();
+    let mut nobody = ();
+    let mut watcher = Watcher::new(&mut nobody);
     let shaking = Shaking { horizontal: &Quiet, vertical: None };
     let limits = pair(Geometry::Full, 1.0, 1.0).limits(true);
     for (wanted, until) in [([false, true], 0.005), ([false, false], 0.095)] {
@@ -164,7 +165,7 @@ fn the_force_of_a_spring_does_not_jump_with_its_plates() {
         slips: u32,
         jump: f64,
     }
-    impl DeviceObserver<f64> for Forces {
+    impl Observer<f64> for Forces {
         fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
             let first = output.snapshot(interval.from).device.force;
             for (before, after) in self.last.into_iter().flatten().zip(first) {
@@ -173,7 +174,7 @@ fn the_force_of_a_spring_does_not_jump_with_its_plates() {
             self.last = Some(output.snapshot(interval.to).device.force);
         }
 
-        fn device_event(&mut self, event: Event, _time: f64, _state: &BlockState<f64>) {
+        fn event(&mut self, event: Event, _time: f64, _state: &BlockState<f64>) {
             self.slips += u32::from(event == Event::Coupling);
             if matches!(event, Event::Switch | Event::Rest) {
                 self.last = None;

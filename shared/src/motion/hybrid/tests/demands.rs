@@ -5,8 +5,8 @@ use std::vec::Vec;
 use super::{pair, structure, tight};
 use crate::math;
 use crate::math::sign::Sign;
-use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput, Snapshot};
-use crate::motion::observer::{Event, MonotoneInterval};
+use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
+use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::BlockState;
 use crate::observers::checks::{Checks, Report};
 use crate::observers::ledger::{Account, Clutching};
@@ -30,7 +30,7 @@ fn the_support_takes_what_both_flywheels_pull() {
     /// Largest |F₁ + F₂| and |Fᵢ| of a dense history, over λmR.
     #[derive(Default)]
     struct Dense([f64; 2]);
-    impl DeviceObserver<f64> for Dense {
+    impl Observer<f64> for Dense {
         fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
             for i in 0..=200 {
                 let at = output.snapshot(interval.from + (interval.to - interval.from) * f64::from(i) / 200.0);
@@ -68,7 +68,7 @@ struct Jolts {
     found: Vec<(Sign, Snapshot<f64>, Snapshot<f64>)>,
 }
 
-impl DeviceObserver<f64> for Jolts {
+impl Observer<f64> for Jolts {
     fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
         if let (Some((side, before)), true) = (self.before, self.jumped) {
             self.found.push((side, before, output.snapshot(interval.from)));
@@ -77,7 +77,7 @@ impl DeviceObserver<f64> for Jolts {
         self.before = Some((interval.side, output.snapshot(interval.to)));
     }
 
-    fn device_event(&mut self, event: Event, _time: f64, state: &BlockState<f64>) {
+    fn event(&mut self, event: Event, _time: f64, state: &BlockState<f64>) {
         match (event, &mut self.before) {
             (Event::Impact, Some((side, before))) => {
                 // What is locked slows down with the block.

@@ -1,6 +1,7 @@
 //! Vertical ground motion, guided racks and rack friction, against what they amount to.
 
 use super::{constant, pair, shake, sine, structure, tight};
+use crate::equation::any_body::AnyBody;
 use crate::ground::{AnySegment, Quiet};
 use crate::motion::hybrid::mode_output::Shaking;
 use crate::motion::hybrid::{HybridSystem, series::Series};
@@ -15,9 +16,13 @@ use crate::structure::drivetrain::{Drivetrain, Rack};
 /// Largest |θ| and the phase after one ground segment from rest.
 fn shaken(structure: &Structure, horizontal: AnySegment<f64>, vertical: Option<AnySegment<f64>>, duration: f64) -> (f64, Phase) {
     let machine: HybridSystem<f64> = Drivetrain::default().resolve(structure, vertical.is_some()).unwrap();
-    assert_eq!(machine.body.is_vertical(), vertical.is_some());
+    let moves_up = match machine.body {
+        AnyBody::Slender(body) => body.vertical,
+        AnyBody::Full(body) => body.vertical,
+    };
+    assert_eq!(moves_up, vertical.is_some());
     struct Watch(Peaks<f64>);
-    impl crate::motion::device_snapshot::DeviceObserver<f64> for Watch {
+    impl crate::motion::observer::Observer<f64> for Watch {
         fn device_interval(
             &mut self,
             output: &dyn crate::motion::device_snapshot::DeviceOutput<f64>,
@@ -94,8 +99,8 @@ fn dry_friction_takes_its_force_times_the_travel() {
     let machine: HybridSystem<f64> = dry(force).resolve(&structure, false).unwrap();
     #[derive(Default)]
     struct Turns(std::vec::Vec<f64>);
-    impl crate::motion::device_snapshot::DeviceObserver<f64> for Turns {
-        fn device_event(&mut self, event: Event, _time: f64, state: &crate::motion::state::BlockState<f64>) {
+    impl crate::motion::observer::Observer<f64> for Turns {
+        fn event(&mut self, event: Event, _time: f64, state: &crate::motion::state::BlockState<f64>) {
             if event == Event::Turn {
                 self.0.push(state.rotation);
             }

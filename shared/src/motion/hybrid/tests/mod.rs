@@ -14,10 +14,11 @@ use super::mode_output::{ModeIntegrator, Shaking};
 use super::series::Series;
 use super::{HybridState, HybridSystem};
 use crate::ground::{AnySegment, Harmonics, Linear, Quiet};
+use crate::method::dense_output::DenseOutput;
 use crate::method::fixed::FixedStep;
 use crate::method::taylor::Taylor;
-use crate::motion::device_snapshot::DeviceObserver;
-use crate::motion::observer::Event;
+use crate::motion::device_snapshot::DeviceOutput;
+use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits};
 use crate::observers::peaks::Peaks;
 use crate::structure::added_mass::AddedMass;
@@ -78,28 +79,50 @@ pub fn shake(structure: Structure, amplitude: f64, frequency: f64) -> Shake {
     Shake { structure, pieces: std::vec![cycle], free_time: 12.0 / p }
 }
 
-/// Peaks of a machine, as those of a system.
-#[derive(Default)]
-struct Watcher {
+/// Peaks of a machine, as those of a system, and another observer.
+struct Watcher<'o> {
+    other: &'o mut dyn Observer<f64>,
     peaks: Peaks<f64>,
     events: Vec<(Event, f64)>,
     last: BlockState<f64>,
     switches: Vec<(f64, BlockState<f64>, BlockState<f64>)>,
 }
 
-impl DeviceObserver<f64> for Watcher {
-    fn device_interval(
-        &mut self,
-        output: &dyn crate::motion::device_snapshot::DeviceOutput<f64>,
-        interval: &crate::motion::observer::MonotoneInterval<f64>,
-    ) {
-        let (rotation, velocity) = (interval.last.rotation, interval.last.velocity);
-        self.last = BlockState { rotation, velocity, ..BlockState::default() };
-        crate::motion::observer::Observer::interval(&mut self.peaks, output.motion(), interval);
+impl<'o> Watcher<'o> {
+    fn new(other: &'o mut dyn Observer<f64>) -> Watcher<'o> {
+        let (peaks, last) = (Peaks::default(), BlockState::default());
+        Watcher { other, peaks, events: Vec::new(), last, switches: Vec::new() }
+    }
+}
+
+/// Pair of observers, called in order.
+impl<A: Observer<f64>, B: Observer<f64>> Observer<f64> for (A, B) {
+    fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+        self.0.device_interval(output, interval);
+        self.1.device_interval(output, interval);
     }
 
-    fn device_event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
-        crate::motion::observer::Observer::event(&mut self.peaks, event, time, state);
+    fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
+        self.0.event(event, time, state);
+        self.1.event(event, time, state);
+    }
+}
+
+impl Observer<f64> for Watcher<'_> {
+    fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+        let (rotation, velocity) = (interval.last.rotation, interval.last.velocity);
+        self.last = BlockState { rotation, velocity, ..BlockState::default() };
+        self.peaks.interval(output.motion(), interval);
+        self.other.device_interval(output, interval);
+    }
+
+    fn device_at_rest(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+        self.other.device_at_rest(output, interval);
+    }
+
+    fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
+        self.peaks.event(event, time, state);
+        self.other.event(event, time, state);
         self.events.push((event, self.peaks.origin + time));
         if event == Event::Switch {
             self.switches.push((self.peaks.origin + time, self.last, *state));
@@ -119,12 +142,8 @@ impl Shake {
     /// By the loop for ideal devices.
     pub fn ideal(&self) -> Seen {
         struct Every(Peaks<f64>);
-        impl crate::motion::observer::Observer<f64> for Every {
-            fn interval(
-                &mut self,
-                output: &dyn crate::method::dense_output::DenseOutput<f64>,
-                interval: &crate::motion::observer::MonotoneInterval<f64>,
-            ) {
+        impl Observer<f64> for Every {
+            fn interval(&mut self, output: &dyn DenseOutput<f64>, interval: &MonotoneInterval<f64>) {
                 self.0.interval(output, interval);
             }
             fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
@@ -159,12 +178,7 @@ impl Shake {
     }
 
     /// The same, with a `watcher`.
-    pub fn watched<T: ModeIntegrator<f64>>(
-        &self,
-        drivetrain: &Drivetrain,
-        method: &T,
-        watcher: &mut dyn DeviceObserver<f64>,
-    ) -> Seen {
+    pub fn watched<T: ModeIntegrator<f64>>(&self, drivetrain: &Drivetrain, method: &T, watcher: &mut dyn Observer<f64>) -> Seen {
         self.follow(&drivetrain.resolve(&self.structure, false).unwrap(), method, watcher)
     }
 
@@ -175,22 +189,17 @@ impl Shake {
         self.follow(&machine, &FixedStep::ExponentialMidpoint { step }, &mut ())
     }
 
-    fn follow<T: ModeIntegrator<f64>>(
-        &self,
-        machine: &HybridSystem<f64>,
-        method: &T,
-        watcher: &mut dyn DeviceObserver<f64>,
-    ) -> Seen {
-        let mut watcher = (Watcher::default(), watcher);
+    fn follow<T: ModeIntegrator<f64>>(&self, machine: &HybridSystem<f64>, method: &T, other: &mut dyn Observer<f64>) -> Seen {
+        let mut watcher = Watcher::new(other);
         let mut state: HybridState<f64> = machine.at_rest();
         for (ground, duration) in &self.pieces {
             let shaking = Shaking { horizontal: ground, vertical: None };
             machine.advance(method, &mut state, shaking, *duration, &self.limits(false), &mut watcher).unwrap();
-            watcher.0.peaks.origin += duration;
+            watcher.peaks.origin += duration;
         }
         let shaking = Shaking { horizontal: &Quiet, vertical: None };
         machine.advance(method, &mut state, shaking, self.free_time, &self.limits(true), &mut watcher).unwrap();
-        let own = watcher.0;
+        let own = watcher;
         Seen {
             peak: own.peaks.rotation,
             acceleration: own.peaks.acceleration,

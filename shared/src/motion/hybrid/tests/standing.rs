@@ -6,10 +6,10 @@ use super::{Shake, pair, shake, sine, structure, tight};
 use crate::ground::{AnySegment, Linear};
 use crate::math;
 use crate::method::fixed::FixedStep;
-use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput};
+use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::hybrid::HybridSystem;
 use crate::motion::hybrid::mode_output::Shaking;
-use crate::motion::observer::{Event, MonotoneInterval};
+use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits};
 use crate::observers::ledger::{Account, Clutching, Ledger};
 use crate::structure::block::Geometry;
@@ -39,14 +39,14 @@ fn uplift(drivetrain: &Drivetrain, engaged: Option<[bool; 2]>, spin: f64) -> f64
     let mut machine: HybridSystem<f64> = drivetrain.resolve(&structure, false).unwrap();
     #[derive(Default)]
     struct First(Option<f64>);
-    impl DeviceObserver<f64> for First {
+    impl Observer<f64> for First {
         fn device_interval(&mut self, _output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
             if interval.last.rotation != 0.0 {
                 self.0 = self.0.or(Some(interval.start));
             }
         }
 
-        fn device_event(&mut self, _event: Event, _time: f64, _state: &BlockState<f64>) {}
+        fn event(&mut self, _event: Event, _time: f64, _state: &BlockState<f64>) {}
     }
     let mut state = machine.at_rest();
     if let Some(engaged) = engaged {

@@ -8,18 +8,18 @@
 use crate::drivetrain::transmission::Account;
 use crate::equation::Equation;
 use crate::equation::any_equation::AnyEquation;
-use crate::equation::clutch_rule::{ClutchRule, Flywheel};
+use crate::equation::clutch_rule::ClutchRule;
 use crate::equation::motion::Motion;
 use crate::ground::GroundSegment;
 use crate::math::scalar::Real;
 use crate::method::dense_output::DenseOutput;
-use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput, Snapshot};
+use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::BlockState;
 
-/// Shows the motion of an ideal device to a [`DeviceObserver`].
-#[derive(Clone, Copy, Debug)]
-pub struct Watched<S, P, O> {
+/// Shows an observer the motion of an ideal device as that of one with a memory, by [`Observer::device_interval`].
+#[derive(Debug)]
+pub struct Watched<'o, S, P, O> {
     /// The equation of motion with the inerter engaged.
     pub engaged: AnyEquation<S>,
     /// k = σ/λ; 0 without an inerter.
@@ -27,12 +27,12 @@ pub struct Watched<S, P, O> {
     /// The ground motion in force, in the local time of the intervals that follow; the caller keeps it up to date.
     pub segment: P,
     /// The observer.
-    pub observer: O,
+    pub observer: &'o mut O,
     /// When it engages.
     pub clutch: ClutchRule,
 }
 
-impl<S: Real, P: GroundSegment<S>, O: DeviceObserver<S>> Observer<S> for Watched<S, P, O> {
+impl<S: Real, P: GroundSegment<S>, O: Observer<S>> Observer<S> for Watched<'_, S, P, O> {
     #[inline]
     fn interval(&mut self, output: &dyn DenseOutput<S>, interval: &MonotoneInterval<S>) {
         let output = WatchedArc {
@@ -49,7 +49,7 @@ impl<S: Real, P: GroundSegment<S>, O: DeviceObserver<S>> Observer<S> for Watched
 
     #[inline]
     fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
-        self.observer.device_event(event, time, state);
+        self.observer.event(event, time, state);
     }
 }
 
@@ -61,7 +61,7 @@ struct WatchedArc<'a, S, P> {
     segment: &'a P,
     start: S,
     side: S,
-    wheel: Flywheel,
+    wheel: Option<usize>,
 }
 
 impl<S: Real, P: GroundSegment<S>> DeviceOutput<S> for WatchedArc<'_, S, P> {
@@ -77,12 +77,7 @@ impl<S: Real, P: GroundSegment<S>> DeviceOutput<S> for WatchedArc<'_, S, P> {
         // Without a θ̇² term the terminals' acceleration is ℓ times what it is given.
         let terminal_velocity = self.equation.terminal_acceleration(self.side, rotation, S::ZERO, velocity);
         let mut device = Account::default();
-        let wheel = match self.wheel {
-            Flywheel::Idle => None,
-            Flywheel::First => Some(0),
-            Flywheel::Second => Some(1),
-        };
-        if let Some(wheel) = wheel {
+        if let Some(wheel) = self.wheel {
             let terminal = self.equation.terminal_acceleration(self.side, rotation, velocity, acceleration);
             device.force[wheel] = self.coupling * terminal;
             device.engaged[wheel] = true;

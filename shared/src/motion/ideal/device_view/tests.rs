@@ -92,7 +92,7 @@ pub(crate) fn structure(
 }
 
 /// An observer that may want to know when a ground segment starts.
-pub(crate) trait Placed: DeviceObserver<f64> {
+pub(crate) trait Placed: Observer<f64> {
     fn place(&mut self, _origin: f64) {}
 }
 
@@ -137,7 +137,7 @@ struct Looks(Vec<(MonotoneInterval<f64>, Snapshot<f64>, f64)>);
 
 impl Placed for Looks {}
 
-impl DeviceObserver<f64> for Looks {
+impl Observer<f64> for Looks {
     fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
         let time = 0.5 * (interval.from + interval.to);
         let step = 1e-5_f64.min(0.4 * (interval.to - interval.from));

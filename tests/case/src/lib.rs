@@ -1,10 +1,14 @@
 //! A case: one scene as a flat row of 32-bit words, small and plain enough for a board to read from its host, and complete
-//! enough for both to run it in single precision with fixed steps and compare every bit ([`crate::observers::digest`]).
+//! enough for both to run it in single precision with fixed steps and compare every bit ([`sprag_shared::observers::digest`]).
 //!
 //! The words and their order are in [`words`]; this page is what they mean. Ideal devices over horizontal ground run in the loop
-//! of [`crate::motion::ideal`], all others in that of [`crate::motion::hybrid`].
-//!
-//! The room imports the foundation and every other room of the motion wing.
+//! of [`sprag_shared::motion::ideal`], all others in that of [`sprag_shared::motion::hybrid`].
+
+#![no_std]
+#![forbid(unsafe_code)]
+
+#[cfg(test)]
+extern crate std;
 
 mod codec;
 mod drivetrain_words;
@@ -20,14 +24,13 @@ pub mod words;
 pub use error::CaseError;
 pub use ground::{Ground, GroundPiece, Shape};
 
-use crate::motion::device_snapshot::DeviceObserver;
-use crate::motion::observer::Observer;
-use crate::motion::state::BlockState;
-use crate::observers::outcome::Outcome;
-use crate::observers::peaks::Peaks;
-use crate::structure::Structure;
-use crate::structure::drivetrain::Drivetrain;
-use crate::structure::error::require;
+use sprag_shared::motion::observer::Observer;
+use sprag_shared::motion::state::BlockState;
+use sprag_shared::observers::outcome::Outcome;
+use sprag_shared::observers::peaks::Peaks;
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::drivetrain::Drivetrain;
+use sprag_shared::structure::error::require;
 
 /// Most pieces of ground motion in a case without a record.
 pub const MOST_PIECES: usize = 8;
@@ -55,13 +58,13 @@ pub enum Initially {
 /// The method, with fixed steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FixedMethod {
-    /// [`crate::method::fixed::FixedStep::SemiImplicitEuler`]; ideal devices only.
+    /// [`sprag_shared::method::fixed::FixedStep::SemiImplicitEuler`]; ideal devices only.
     SemiImplicitEuler,
-    /// [`crate::method::fixed::FixedStep::RungeKutta4`]; for everything.
+    /// [`sprag_shared::method::fixed::FixedStep::RungeKutta4`]; for everything.
     RungeKutta4,
-    /// [`crate::method::taylor::Taylor`] with [`TERMS`] coefficients; ideal devices only.
+    /// [`sprag_shared::method::taylor::Taylor`] with [`TERMS`] coefficients; ideal devices only.
     Taylor,
-    /// [`crate::method::fixed::FixedStep::ExponentialMidpoint`]; elastic clutches only.
+    /// [`sprag_shared::method::fixed::FixedStep::ExponentialMidpoint`]; elastic clutches only.
     ExponentialMidpoint,
 }
 
@@ -115,20 +118,20 @@ pub struct RunEnd {
 ///
 /// # Errors
 /// [`CaseError`] names the word that is wrong, or why the run stopped.
-pub fn run<O: Observer<f32> + DeviceObserver<f32>>(words: &[u32], observer: &mut O) -> Result<RunEnd, CaseError> {
+pub fn run(words: &[u32], observer: &mut dyn Observer<f32>) -> Result<RunEnd, CaseError> {
     Case::decode(words)?.run(observer)
 }
 
 impl Case<'_> {
-    /// Runs the case and tells `observer` of it, piece after piece; times start anew with each. Of an ideal device over
-    /// horizontal ground it is told as an [`Observer`], of any other as a [`DeviceObserver`].
+    /// Runs the case and tells `observer` of it, piece after piece; times start anew with each. Of a device that is not ideal, or over ground
+    /// that moves vertically too, it is shown the device.
     ///
     /// # Errors
     /// [`CaseError::Parameter`] names the first parameter outside its range; [`CaseError::Method`] the method that does not
     /// run this device; [`CaseError::Stopped`].
-    pub fn run<O: Observer<f32> + DeviceObserver<f32>>(&self, observer: &mut O) -> Result<RunEnd, CaseError> {
+    pub fn run(&self, observer: &mut dyn Observer<f32>) -> Result<RunEnd, CaseError> {
         self.check()?;
-        if self.is_ideal() { ideal::run(self, observer) } else { crate::case::hybrid::run(self, observer) }
+        if self.is_ideal() { ideal::run(self, observer) } else { hybrid::run(self, observer) }
     }
 
     /// The paper's device over ground that moves only horizontally.

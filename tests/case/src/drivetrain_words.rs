@@ -1,8 +1,8 @@
 //! The drivetrain of a case in words.
 
-use super::CaseError;
-use super::codec::{Reader, Writer};
-use crate::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
+use crate::CaseError;
+use crate::codec::{Reader, Writer};
+use sprag_shared::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
 
 pub(super) fn encode(drivetrain: &Drivetrain, out: &mut Writer<'_>) -> Result<(), CaseError> {
     let Drivetrain { engagement, flywheel, rack, actuation } = drivetrain;

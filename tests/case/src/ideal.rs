@@ -1,14 +1,15 @@
 //! Cases of ideal devices over horizontal ground.
 
-use super::{Case, CaseError, FixedMethod, Initially, RunEnd, Shape, TERMS};
-use crate::method::dense_output::{DenseOutput, Integrator};
-use crate::method::fixed::FixedStep;
-use crate::method::taylor::Taylor;
-use crate::motion::ideal::IdealSystem;
-use crate::motion::observer::{Event, MonotoneInterval, Observer};
-use crate::motion::state::{BlockState, Limits, Phase, Stopped};
-use crate::observers::outcome::Outcome;
-use crate::observers::peaks::Peaks;
+use crate::{Case, CaseError, FixedMethod, Initially, RunEnd, Shape, TERMS};
+use sprag_shared::method::dense_output::{DenseOutput, Integrator};
+use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::motion::device_snapshot::DeviceOutput;
+use sprag_shared::motion::ideal::IdealSystem;
+use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
+use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
+use sprag_shared::observers::outcome::Outcome;
+use sprag_shared::observers::peaks::Peaks;
 
 /// What the exponential midpoint method runs.
 pub(super) const STIFF: &str = "elastic clutches only: nothing else is stiff";
@@ -27,17 +28,23 @@ pub(super) fn run(case: &Case<'_>, observer: &mut dyn Observer<f32>) -> Result<R
 
 /// The caller's observer, the peaks, and a count of steps. It wants every swing on quiet ground too: digests and the count of steps are of
 /// the whole motion, and swings that are summed have no steps.
-pub(super) struct Watch<'o, O: ?Sized> {
-    pub observer: &'o mut O,
+pub(super) struct Watch<'o> {
+    pub observer: &'o mut dyn Observer<f32>,
     pub peaks: Peaks<f32>,
     pub steps: u32,
 }
 
-impl Observer<f32> for Watch<'_, dyn Observer<f32> + '_> {
+impl Observer<f32> for Watch<'_> {
     fn interval(&mut self, output: &dyn DenseOutput<f32>, interval: &MonotoneInterval<f32>) {
         self.steps += u32::from(interval.from == 0.0);
         self.peaks.interval(output, interval);
         self.observer.interval(output, interval);
+    }
+
+    fn device_interval(&mut self, output: &dyn DeviceOutput<f32>, interval: &MonotoneInterval<f32>) {
+        self.steps += u32::from(interval.from == 0.0);
+        self.peaks.interval(output.motion(), interval);
+        self.observer.device_interval(output, interval);
     }
 
     fn event(&mut self, event: Event, time: f32, state: &BlockState<f32>) {

@@ -1,18 +1,18 @@
 use super::words::{MAGIC, VERSION};
 use super::*;
-use crate::ground::harmonic::MavroeidisPapageorgiou;
-use crate::ground::{Harmonics, Linear, Quiet, Ricker};
-use crate::math::scalar::Real;
-use crate::method::taylor::Taylor;
-use crate::motion::state::Limits;
-use crate::observers::digest::Digest;
-use crate::structure::REST_SPEED;
-use crate::structure::added_mass::AddedMass;
-use crate::structure::block::{Block, Geometry};
-use crate::structure::device::{Device, DeviceKind, KinematicsKind};
-use crate::structure::drivetrain::{Actuation, Delay, Engagement, FlywheelLosses, Rack};
-use crate::structure::mount::Mount;
-use crate::structure::restitution::Restitution;
+use sprag_shared::ground::harmonic::MavroeidisPapageorgiou;
+use sprag_shared::ground::{Harmonics, Linear, Quiet, Ricker};
+use sprag_shared::math::scalar::Real;
+use sprag_shared::method::taylor::Taylor;
+use sprag_shared::motion::state::Limits;
+use sprag_shared::observers::digest::Digest;
+use sprag_shared::structure::REST_SPEED;
+use sprag_shared::structure::added_mass::AddedMass;
+use sprag_shared::structure::block::{Block, Geometry};
+use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
+use sprag_shared::structure::drivetrain::{Actuation, Delay, Engagement, FlywheelLosses, Rack};
+use sprag_shared::structure::mount::Mount;
+use sprag_shared::structure::restitution::Restitution;
 
 mod devices;
 
@@ -48,7 +48,7 @@ fn words(case: &Case<'_>) -> ([u32; 256], usize) {
 fn a_case_comes_back_as_it_went() {
     let record = [0, 0.25_f32.to_bits(), (-0.5_f32).to_bits()];
     let wavelet = MavroeidisPapageorgiou { velocity_amplitude: 0.9, frequency: 0.5, oscillations: 2.0, phase: 0.0 }.harmonics();
-    let single = wavelet.terms.map(|t| crate::ground::harmonic::Harmonic {
+    let single = wavelet.terms.map(|t| sprag_shared::ground::harmonic::Harmonic {
         amplitude: t.amplitude as f32,
         frequency: t.frequency as f32,
         phase: t.phase as f32,
@@ -190,7 +190,7 @@ fn single_precision_is_close_to_double() {
             let mut digest = Digest::default();
             let end = Case { method, step, ..case }.run(&mut digest).unwrap();
             assert_eq!(end.outcome, Outcome::Safe);
-            assert_eq!(end.state.phase, crate::motion::state::Phase::Rest, "{kind:?} {method:?}");
+            assert_eq!(end.state.phase, sprag_shared::motion::state::Phase::Rest, "{kind:?} {method:?}");
             let error = end.peaks.rotation.to_f64() / exact - 1.0;
             assert!(error.abs() < tolerance, "{kind:?} {method:?}: {error}");
             assert!(digest.stretches() >= end.steps && digest.events() > 10);

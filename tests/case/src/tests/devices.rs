@@ -1,9 +1,9 @@
 //! Cases of devices with a memory and of vertical ground motion.
 
 use super::*;
-use crate::motion::hybrid::HybridSystem;
-use crate::motion::hybrid::mode_output::Shaking;
-use crate::motion::hybrid::series::Series;
+use sprag_shared::motion::hybrid::HybridSystem;
+use sprag_shared::motion::hybrid::mode_output::Shaking;
+use sprag_shared::motion::hybrid::series::Series;
 
 /// One of every engagement, with losses, and the two halves of a seed; every number is one of single precision.
 pub fn drivetrains() -> [Drivetrain; 6] {

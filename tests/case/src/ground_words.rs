@@ -1,10 +1,10 @@
 //! The ground motion of a case in words.
 
-use super::codec::{Reader, Writer};
-use super::{CaseError, Ground, GroundPiece, MOST_PIECES, Shape};
-use crate::ground::harmonic::Harmonic;
-use crate::ground::{Harmonics, Linear, Ricker};
-use crate::structure::error::require;
+use crate::codec::{Reader, Writer};
+use crate::{CaseError, Ground, GroundPiece, MOST_PIECES, Shape};
+use sprag_shared::ground::harmonic::Harmonic;
+use sprag_shared::ground::{Harmonics, Linear, Ricker};
+use sprag_shared::structure::error::require;
 
 /// Numbers of a shape.
 const NUMBERS: usize = 9;

@@ -2,10 +2,10 @@
 
 use core::fmt;
 
-use super::words::VERSION;
-use super::{FixedMethod, MOST_PIECES, MOST_STEPS};
-use crate::motion::state::Stopped;
-use crate::structure::error::ParameterError;
+use crate::words::VERSION;
+use crate::{FixedMethod, MOST_PIECES, MOST_STEPS};
+use sprag_shared::motion::state::Stopped;
+use sprag_shared::structure::error::ParameterError;
 
 /// Why words are no case, or a case could not be run.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Words one after the other: what reads them and what writes them.
 
-use super::CaseError;
+use crate::CaseError;
 
 /// Takes words from the front.
 pub(super) struct Reader<'a>(pub &'a [u32]);

@@ -1,15 +1,14 @@
 //! Cases of devices with a memory, and of any device over ground that moves vertically too.
 
-use super::ideal::{STIFF, Watch, most_events};
-use super::{Case, CaseError, FixedMethod, Initially, RunEnd, Shape};
-use crate::method::fixed::FixedStep;
-use crate::motion::device_snapshot::{DeviceObserver, DeviceOutput};
-use crate::motion::hybrid::HybridSystem;
-use crate::motion::hybrid::mode_output::Shaking;
-use crate::motion::observer::{Event, MonotoneInterval, Observer};
-use crate::motion::state::{BlockState, Limits, Phase, Stopped};
-use crate::observers::outcome::Outcome;
-use crate::observers::peaks::Peaks;
+use crate::ideal::{STIFF, Watch, most_events};
+use crate::{Case, CaseError, FixedMethod, Initially, RunEnd, Shape};
+use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::motion::hybrid::HybridSystem;
+use sprag_shared::motion::hybrid::mode_output::Shaking;
+use sprag_shared::motion::observer::Observer;
+use sprag_shared::motion::state::{Limits, Phase, Stopped};
+use sprag_shared::observers::outcome::Outcome;
+use sprag_shared::observers::peaks::Peaks;
 
 /// |θ| at which a block lies on the ground, rad. A device may bring a block back from beyond the angle from which its weight
 /// and the ground alone would not.
@@ -19,7 +18,7 @@ const OVERTURNED: f32 = core::f32::consts::FRAC_PI_2;
 const IDEAL: &str = "ideal devices over horizontal ground only: loops for all others would not fit the flash of the board";
 
 /// Runs a case that is not ideal.
-pub(super) fn run(case: &Case<'_>, observer: &mut dyn DeviceObserver<f32>) -> Result<RunEnd, CaseError> {
+pub(super) fn run(case: &Case<'_>, observer: &mut dyn Observer<f32>) -> Result<RunEnd, CaseError> {
     let machine = case.drivetrain.resolve(&case.structure, case.ground.is_vertical())?;
     let step = case.step;
     let method = match case.method {
@@ -31,24 +30,11 @@ pub(super) fn run(case: &Case<'_>, observer: &mut dyn DeviceObserver<f32>) -> Re
     follow(case, &machine, &method, observer)
 }
 
-impl DeviceObserver<f32> for Watch<'_, dyn DeviceObserver<f32> + '_> {
-    fn device_interval(&mut self, output: &dyn DeviceOutput<f32>, interval: &MonotoneInterval<f32>) {
-        self.steps += 1;
-        self.peaks.interval(output.motion(), interval);
-        self.observer.device_interval(output, interval);
-    }
-
-    fn device_event(&mut self, event: Event, time: f32, state: &BlockState<f32>) {
-        self.peaks.event(event, time, state);
-        self.observer.device_event(event, time, state);
-    }
-}
-
 fn follow(
     case: &Case<'_>,
     machine: &HybridSystem<f32>,
     integrator: &FixedStep<f32>,
-    observer: &mut dyn DeviceObserver<f32>,
+    observer: &mut dyn Observer<f32>,
 ) -> Result<RunEnd, CaseError> {
     let Case { initially, step, ground, free_time, .. } = case;
     let mut watch = Watch { observer, peaks: Peaks::default(), steps: 0 };

@@ -21,14 +21,14 @@
 //! | 45- | pieces: 11 words each, shape (kind), duration, and nine numbers of the shape; record: interval, samples |
 //! | then | the vertical motion: 10 words for each piece, shape and nine numbers; or as many samples |
 
-use super::codec::{Reader, Writer};
-use super::{Case, CaseError, FixedMethod, Initially, drivetrain_words, ground_words};
-use crate::structure::Structure;
-use crate::structure::added_mass::AddedMass;
-use crate::structure::block::{Block, Geometry};
-use crate::structure::device::{Device, DeviceKind, KinematicsKind};
-use crate::structure::mount::Mount;
-use crate::structure::restitution::Restitution;
+use crate::codec::{Reader, Writer};
+use crate::{Case, CaseError, FixedMethod, Initially, drivetrain_words, ground_words};
+use sprag_shared::structure::Structure;
+use sprag_shared::structure::added_mass::AddedMass;
+use sprag_shared::structure::block::{Block, Geometry};
+use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
+use sprag_shared::structure::mount::Mount;
+use sprag_shared::structure::restitution::Restitution;
 
 /// "CASE", to be told from other files.
 pub const MAGIC: u32 = u32::from_le_bytes(*b"CASE");

@@ -1,8 +1,8 @@
 //! The ground motion of a case: a few shapes in closed form, or a record.
 
-use super::{CaseError, MOST_PIECES};
-use crate::ground::{AnySegment, GroundSegment, Linear};
-use crate::structure::error::{ParameterError, require};
+use crate::{CaseError, MOST_PIECES};
+use sprag_shared::ground::{AnySegment, GroundSegment, Linear};
+use sprag_shared::structure::error::{ParameterError, require};
 
 /// One shape of ground acceleration, in g, over local time.
 pub type Shape = AnySegment<f32>;
