@@ -65,6 +65,11 @@ impl Device {
         }
     }
 
+    /// Entries that the event log ever had.
+    pub fn log_count(&self) -> u32 {
+        self.state.supervisor().log.count()
+    }
+
     /// Entries of the event log from this number on, with their numbers; how many there ever were.
     pub fn logged(&self, from: u32) -> (impl Iterator<Item = (u32, &Entry)>, u32) {
         let log = &self.state.supervisor().log;

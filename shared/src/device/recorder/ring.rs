@@ -11,7 +11,7 @@ pub const RECORDS: usize = 2048;
 /// Ticks before the block's first motion that are kept.
 pub const BEFORE: u32 = 1000;
 
-/// Ticks that the block must stand for a recording to end.
+/// Ticks that the block must stand for a recording to end while the ground still shakes; where nothing moves any more it ends at once.
 pub const AFTER: u32 = 2000;
 
 /// Ticks in Fault after which a motion is not believed any more: what is recorded of it may be that of a sensor that is dead.
@@ -126,7 +126,9 @@ impl Ring {
             State::Waiting => {}
             // Nothing of what has come meanwhile is lost: it goes on.
             State::Ending if moves => self.state = State::Recording,
-            State::Recording if self.stood >= AFTER => (self.state, self.end) = (State::Ending, self.head),
+            State::Recording if self.stood >= AFTER || !matches!(phase, Phase::Rocking | Phase::Fault) => {
+                (self.state, self.end) = (State::Ending, self.head);
+            }
             State::Recording | State::Ending => {}
         }
         let waiting = self.head.wrapping_sub(self.tail);

@@ -1,4 +1,4 @@
-//! From the ring into flash, a double word at a time, and out of it over the link.
+//! From the ring into flash, a word at a time, and out of it over the link.
 //!
 //! Where erasing stops the processor the pages are filled once, and what is there is kept until somebody asks for it to be erased. Where it
 //! does not, the oldest page makes room for the newest.
@@ -12,8 +12,8 @@ use super::ring::{Source, Taken};
 use crate::link::{Done, RECORDED_PARTS, Recorded, RecorderActivity, RecorderState, Refusal, Reply, Request};
 use crate::settings::store::CRC;
 
-/// Bytes that are programmed at once: what the flashes of all boards take.
-const UNIT: usize = 8;
+/// Bytes in which everything is laid out: what the flashes of all boards can be programmed and read by.
+const ALIGNMENT: usize = 8;
 
 /// Pages whose headers are read at once at the start.
 const LOOKED_AT: u32 = 8;
@@ -80,9 +80,12 @@ pub struct Recorder<F> {
 }
 
 impl<F: NorFlash> Recorder<F> {
+    /// Bytes that are programmed at once: a word, where the flash takes one.
+    const UNIT: usize = if F::WRITE_SIZE > 4 { F::WRITE_SIZE } else { 4 };
+
     /// Fails to compile for a flash that it does not suit.
     const SUITS: () = {
-        assert!(UNIT.is_multiple_of(F::WRITE_SIZE) && UNIT.is_multiple_of(F::READ_SIZE), "read and write in double words");
+        assert!(ALIGNMENT.is_multiple_of(F::WRITE_SIZE) && ALIGNMENT.is_multiple_of(F::READ_SIZE), "read and write in double words");
         assert!(F::ERASE_SIZE.is_multiple_of(PAGE_BYTES as usize), "pages do not reach over the ends of sectors");
     };
 
@@ -116,7 +119,7 @@ impl<F: NorFlash> Recorder<F> {
         self.flash.capacity() as u32 / PAGE_BYTES
     }
 
-    /// A small piece of work that programs at most eight bytes. What there is to be kept it asks of `take`. Whether there was any.
+    /// A small piece of work that programs at most a word. What there is to be kept it asks of `take`. Whether there was any.
     pub fn work(&mut self, take: impl FnOnce() -> Option<Taken>) -> bool {
         if self.pending.done < self.pending.length {
             self.program();
@@ -270,9 +273,9 @@ impl<F: NorFlash> Recorder<F> {
 
     fn program(&mut self) {
         let Pending { offset, bytes, length, done } = &mut self.pending;
-        let unit = bytes.get(*done..*done + UNIT).unwrap_or_default();
+        let unit = bytes.get(*done..*done + Self::UNIT).unwrap_or_default();
         let taken = self.flash.write(*offset + *done as u32, unit).is_ok();
-        *done += UNIT;
+        *done += Self::UNIT;
         if !taken {
             *done = *length;
             match &mut self.stage {
@@ -350,7 +353,7 @@ impl<F: NorFlash> Recorder<F> {
     }
 
     fn recorded(&mut self, offset: u32) -> Reply {
-        let offset = offset - offset % UNIT as u32;
+        let offset = offset - offset % ALIGNMENT as u32;
         let left = (self.flash.capacity() as u32).saturating_sub(offset);
         let mut recorded = Recorded { offset, count: 0, bytes: [[0; 32]; RECORDED_PARTS] };
         for part in &mut recorded.bytes {
