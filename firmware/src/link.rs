@@ -78,7 +78,8 @@ impl Link {
     pub fn new(line: <Selected as Board>::Line, stored: &'static mut Stored, words: LastWords, device: &Device) -> Link {
         let LastWords { cause, place, length, file } = words;
         let commissioned = device.barred().is_none();
-        let started = Started { cause, resumed: device.resumes(), stored: commissioned, restarts: device.restarts(), length, place, file };
+        let started =
+            Started { cause, resumed: device.resumes(), stored: commissioned, restarts: device.restarts(), length, place, file };
         let around = Surroundings {
             version: VERSION,
             build: BUILD,

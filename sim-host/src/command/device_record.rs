@@ -68,9 +68,9 @@ pub fn run(given: &RecordArguments, out: &mut impl Write, interrupt: &Interrupt)
         let recordings = chosen(given, &parts)?
             .into_iter()
             .map(|(key, part)| {
-                recordings::read(session, key, &part.pages, |_| {}).map_err(Failure::from).and_then(|recording| {
-                    if interrupt.is_set() { Err(Failure::Interrupted) } else { Ok(recording) }
-                })
+                recordings::read(session, key, &part.pages, |_| {})
+                    .map_err(Failure::from)
+                    .and_then(|recording| if interrupt.is_set() { Err(Failure::Interrupted) } else { Ok(recording) })
             })
             .collect::<Result<Vec<Recording>, Failure>>()?;
         save(given, &recordings, out)
@@ -131,7 +131,9 @@ pub fn room(state: &RecorderState, period: f64) -> String {
         (_, RecorderActivity::Looking) => "it has just started, and looks for its last page".to_owned(),
         (_, RecorderActivity::Erasing) => "it is being erased".to_owned(),
         (true, _) => format!("room for the last {:.1} s", seconds(state.pages)),
-        (false, _) if left == 0 => "full: what is there is kept, and nothing new recorded (sprag device record --erase)".to_owned(),
+        (false, _) if left == 0 => {
+            "full: what is there is kept, and nothing new recorded (sprag device record --erase)".to_owned()
+        }
         (false, _) => format!("room for another {:.1} s of {:.1}", seconds(left), seconds(state.pages)),
     };
     if state.activity == RecorderActivity::Writing {

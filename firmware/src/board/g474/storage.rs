@@ -305,9 +305,12 @@ impl NorFlash for Recordings {
     fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), Error> {
         Recordings::within(offset, bytes.len(), 8)?;
         self.changed = true;
-        program(RECORDINGS + offset, bytes.chunks_exact(8).map(|double| {
-            let (first, second) = double.split_at_checked(4).unwrap_or_default();
-            [word_of(first), word_of(second)]
-        }))
+        program(
+            RECORDINGS + offset,
+            bytes.chunks_exact(8).map(|double| {
+                let (first, second) = double.split_at_checked(4).unwrap_or_default();
+                [word_of(first), word_of(second)]
+            }),
+        )
     }
 }

@@ -85,7 +85,10 @@ impl<F: NorFlash> Recorder<F> {
 
     /// Fails to compile for a flash that it does not suit.
     const SUITS: () = {
-        assert!(ALIGNMENT.is_multiple_of(F::WRITE_SIZE) && ALIGNMENT.is_multiple_of(F::READ_SIZE), "read and write in double words");
+        assert!(
+            ALIGNMENT.is_multiple_of(F::WRITE_SIZE) && ALIGNMENT.is_multiple_of(F::READ_SIZE),
+            "read and write in double words"
+        );
         assert!(F::ERASE_SIZE.is_multiple_of(PAGE_BYTES as usize), "pages do not reach over the ends of sectors");
     };
 
