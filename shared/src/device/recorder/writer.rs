@@ -79,6 +79,12 @@ pub struct Recorder<F> {
     refused: u16,
 }
 
+/// Takes words into a checksum. By itself, for flash is scarcer than time here.
+#[inline(never)]
+fn digest(digest: &mut Digest<'static, u32, Table<1>>, words: &[u32]) {
+    words.iter().for_each(|word| digest.update(&word.to_le_bytes()));
+}
+
 impl<F: NorFlash> Recorder<F> {
     /// Bytes that are programmed at once: a word, where the flash takes one.
     const UNIT: usize = if F::WRITE_SIZE > 4 { F::WRITE_SIZE } else { 4 };
@@ -154,6 +160,7 @@ impl<F: NorFlash> Recorder<F> {
     }
 
     /// Reads the headers of some pages.
+    #[inline(never)]
     fn look(&mut self, from: u32) {
         let end = (from + LOOKED_AT).min(self.pages());
         for page in from..end {
@@ -174,6 +181,7 @@ impl<F: NorFlash> Recorder<F> {
     }
 
     /// Whether a page says that its recording ends there.
+    #[inline(never)]
     fn ends(&mut self, page: u32) -> bool {
         let mut trailer = [0; TRAILER_BYTES];
         let read = self.flash.read((page + 1) * PAGE_BYTES - TRAILER_BYTES as u32, &mut trailer).is_ok();
@@ -182,6 +190,7 @@ impl<F: NorFlash> Recorder<F> {
     }
 
     /// Takes a record: into the page that is open, or into another.
+    #[inline(never)]
     fn keep(&mut self, tick: u32, words: [u32; 2], source: Source) {
         let page = self.next * PAGE_BYTES;
         let Stage::Writing(open) = &mut self.stage else {
@@ -192,7 +201,7 @@ impl<F: NorFlash> Recorder<F> {
         if tick == due && usize::from(open.count) < CAPACITY && !open.failed {
             let offset = page + (HEADER_BYTES + usize::from(open.count) * RECORD_BYTES) as u32;
             open.count += 1;
-            words.iter().for_each(|word| open.digest.update(&word.to_le_bytes()));
+            digest(&mut open.digest, &words);
             self.put(offset, &words);
         } else {
             self.lost = self.lost.saturating_add(tick.wrapping_sub(due));
@@ -202,6 +211,7 @@ impl<F: NorFlash> Recorder<F> {
     }
 
     /// Opens a page whose first record shall be this one.
+    #[inline(never)]
     fn begin(&mut self, tick: u32, record: [u32; 2], source: Source) {
         self.to_be_erased = false;
         if !self.find_room() {
@@ -219,15 +229,16 @@ impl<F: NorFlash> Recorder<F> {
         let Source { period, check, attached } = source;
         let header = Header { number, part, index, attached, first_tick: tick, period, check, sequence };
         let words = header.words();
-        let mut digest = CRC.digest();
-        words.iter().for_each(|word| digest.update(&word.to_le_bytes()));
-        self.stage = Stage::Writing(Open { header, count: 0, digest, failed: false });
+        let mut open = Open { header, count: 0, digest: CRC.digest(), failed: false };
+        digest(&mut open.digest, &words);
+        self.stage = Stage::Writing(open);
         (self.last, self.ended, self.own) = (Some(header), false, true);
         self.held = Some((tick, record, source));
         self.put(self.next * PAGE_BYTES, &words);
     }
 
     /// Closes the page that is open.
+    #[inline(never)]
     fn finish(&mut self, ends: bool) {
         let Stage::Writing(mut open) = core::mem::replace(&mut self.stage, Stage::Ready) else { return };
         self.next += 1;
@@ -237,11 +248,12 @@ impl<F: NorFlash> Recorder<F> {
         }
         self.ended = ends;
         let count = u32::from(open.count) | u32::from(ends) << 16;
-        open.digest.update(&count.to_le_bytes());
+        digest(&mut open.digest, &[count]);
         self.put(self.next * PAGE_BYTES - TRAILER_BYTES as u32, &[count, open.digest.finalize()]);
     }
 
     /// Goes to the next page that can be written to, if there is one.
+    #[inline(never)]
     fn find_room(&mut self) -> bool {
         if self.goes_round {
             if self.next >= self.pages() {
@@ -261,11 +273,13 @@ impl<F: NorFlash> Recorder<F> {
         self.next < self.pages()
     }
 
+    #[inline(never)]
     fn is_blank(&mut self, offset: u32, length: u32) -> bool {
         let mut bytes = [0; HEADER_BYTES];
         (offset..offset + length).step_by(HEADER_BYTES).all(|at| self.flash.read(at, &mut bytes).is_ok() && is_blank(&bytes))
     }
 
+    #[inline(never)]
     fn put(&mut self, offset: u32, words: &[u32]) {
         self.pending = Pending { offset, length: 4 * words.len().min(HEADER_WORDS), ..self.pending };
         self.pending.done = 0;
@@ -274,6 +288,7 @@ impl<F: NorFlash> Recorder<F> {
         }
     }
 
+    #[inline(never)]
     fn program(&mut self) {
         let Pending { offset, bytes, length, done } = &mut self.pending;
         let unit = bytes.get(*done..*done + Self::UNIT).unwrap_or_default();
@@ -355,6 +370,7 @@ impl<F: NorFlash> Recorder<F> {
         }
     }
 
+    #[inline(never)]
     fn recorded(&mut self, offset: u32) -> Reply {
         let offset = offset - offset % ALIGNMENT as u32;
         let left = (self.flash.capacity() as u32).saturating_sub(offset);
