@@ -150,18 +150,19 @@ mod app {
             moved |= context.local.link.record(|| context.shared.ring.lock(|ring| ring.take()));
             if let Some(recorder) = context.local.link.erasing() {
                 moved = true;
-                if !Selected::ERASING_STALLS {
-                    recorder.erase_sector();
-                } else {
-                    // As with the settings: nothing moves. Between two sectors the control task ticks.
-                    context.shared.device.lock(|device| {
-                        if device.rests() {
-                            Selected::stall(|| recorder.erase_sector());
-                            crate::control::forget_time();
-                        } else {
-                            recorder.stop_erasing();
-                        }
-                    });
+                // As with the settings: nothing moves, and between two sectors the control task ticks.
+                let rests = context.shared.device.lock(|device| {
+                    let rests = device.rests();
+                    if rests && Selected::ERASING_STALLS {
+                        Selected::stall(|| recorder.erase_sector());
+                        crate::control::forget_time();
+                    }
+                    rests
+                });
+                match rests {
+                    true if Selected::ERASING_STALLS => {}
+                    true => recorder.erase_sector(),
+                    false => recorder.stop_erasing(),
                 }
             }
             if !moved && context.local.link.may_sleep() {
