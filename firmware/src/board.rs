@@ -48,6 +48,9 @@ pub use qemu::chip;
 /// The flash of the selected board.
 pub type Flash = <Selected as Board>::Flash;
 
+/// The flash for recordings of the selected board.
+pub type Recordings = <Selected as Board>::Recordings;
+
 /// A board. Its parts go to the tasks that own them.
 pub trait Board: Sized {
     /// Its name, as the link tells it.
@@ -62,8 +65,12 @@ pub trait Board: Sized {
     /// Shortest period of the controller that leaves time for the link beside its ticks, s. Settings with a shorter one are refused.
     const LEAST_PERIOD: f32;
 
-    /// Whether erasing the flash stops the processor, for seconds.
+    /// Whether erasing the flash stops the processor, for seconds. Recordings of earthquakes are kept until somebody asks for them to be
+    /// erased then; otherwise the oldest page makes room for the newest.
     const ERASING_STALLS: bool;
+
+    /// For how long programming a word of the recordings' flash may stop the processor, µs.
+    const PROGRAMMING_STALL: u32;
 
     /// Every peripheral of the chip, as its register library hands them out.
     type Chip;
@@ -77,6 +84,8 @@ pub trait Board: Sized {
     type Line: Line;
     /// The two sectors for settings: a capacity of two erase sizes.
     type Flash: NorFlash;
+    /// The sectors for recordings of earthquakes, which are whole pages of [`sprag_shared::device::recorder`].
+    type Recordings: NorFlash;
     /// Status light.
     type Light: Light;
 
@@ -85,6 +94,9 @@ pub trait Board: Sized {
 
     /// The flash that holds the settings. To be called once.
     fn flash(&mut self) -> Self::Flash;
+
+    /// The flash that recordings of earthquakes go to. To be called once.
+    fn recordings(&mut self) -> Self::Recordings;
 
     /// Starts sensors, coils (released) and link. The encoder goes on from `counts`, as they were last read before a reset, and counts
     /// what the rack has moved since, if the board can; without them it starts at 0. The watchdog is running when this returns.

@@ -7,6 +7,7 @@ use crate::link::Outbox;
 use crate::memory;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::device::Device;
+use sprag_shared::device::recorder::Ring;
 use sprag_shared::link::Pace;
 
 /// The part of a period by which a tick may come later than one period after the last and still be in time.
@@ -52,6 +53,7 @@ pub struct Control {
     watchdog: <Selected as Board>::Watchdog,
     light: <Selected as Board>::Light,
     keeper: memory::Keeper,
+    log: memory::LogKeeper,
     last: Option<u32>,
     silence: u32,
     /// Counts ticks, for what need not be done at each.
@@ -74,6 +76,7 @@ impl Control {
             watchdog,
             light,
             keeper: memory::Keeper::new(),
+            log: memory::LogKeeper::new(),
             last: None,
             silence: 0,
             turn: 0,
@@ -84,7 +87,7 @@ impl Control {
 
 /// The interrupt of the control task, by the `timer` or because a sample has come. Reaches no panic: `cargo xtask firmware` shows it.
 #[inline(never)]
-pub fn control_tick(control: &mut Control, device: &mut Device, outbox: &mut Outbox, timer: bool) {
+pub fn control_tick(control: &mut Control, device: &mut Device, ring: &mut Ring, outbox: &mut Outbox, timer: bool) {
     if device.attached() == Some(Pace::Sample) {
         // The clock is the sender's, so nothing is ever late; only the end of the link is noticed.
         control.last = None;
@@ -95,7 +98,7 @@ pub fn control_tick(control: &mut Control, device: &mut Device, outbox: &mut Out
             control.silence = control.silence.saturating_add(1);
         }
         if device.has_sample() || control.silence > SILENCE_PERIODS {
-            tick(control, device, outbox, 0);
+            tick(control, device, ring, outbox, 0);
         }
     } else if timer {
         let begun = Selected::now();
@@ -107,7 +110,7 @@ pub fn control_tick(control: &mut Control, device: &mut Device, outbox: &mut Out
         let late = control.last.map_or(0, |last| begun.wrapping_sub(last).saturating_sub(period));
         let late = if late > period / GRACE { late } else { 0 };
         control.last = Some(begun);
-        tick(control, device, outbox, late);
+        tick(control, device, ring, outbox, late);
         if Selected::now().wrapping_sub(begun) < period {
             control.watchdog.feed();
         }
@@ -115,7 +118,7 @@ pub fn control_tick(control: &mut Control, device: &mut Device, outbox: &mut Out
 }
 
 /// Sensors, controller, coils.
-fn tick(control: &mut Control, device: &mut Device, outbox: &mut Outbox, late: u32) {
+fn tick(control: &mut Control, device: &mut Device, ring: &mut Ring, outbox: &mut Outbox, late: u32) {
     let begun = Selected::now();
     let Control { sensors, coils, .. } = control;
     #[cfg(feature = "log")]
@@ -133,6 +136,7 @@ fn tick(control: &mut Control, device: &mut Device, outbox: &mut Outbox, late: u
     // With samples from the link the clutches are somewhere else.
     let command = if device.attached().is_some() { device.safe_command() } else { decision.command };
     coils.drive(command, device.tests_coils());
+    ring.note(device);
     control.turn = control.turn.wrapping_add(1);
     let in_turn = control.turn.is_multiple_of(EVERY);
     if in_turn {
@@ -141,6 +145,7 @@ fn tick(control: &mut Control, device: &mut Device, outbox: &mut Outbox, late: u
     if in_turn || decision.phase != control.phase {
         control.phase = decision.phase;
         control.keeper.save(&device.retained());
+        control.log.save(device);
     }
     #[cfg(feature = "log")]
     crate::log::decision(&before, decision);

@@ -2,12 +2,13 @@
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
-use crate::board::{Board, Flash, Line, Selected};
+use crate::board::{Board, Flash, Line, Recordings, Selected};
 use crate::identity::{BOARD, BUILD, VERSION};
 use crate::last_words::{self, LastWords};
 use crate::log::{info, warn};
 use crate::{stack, tick};
 use heapless::Deque;
+use sprag_shared::device::recorder::{Recorder, Taken};
 use sprag_shared::device::{Answer, Device, Surroundings};
 use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::link::{Deframer, MAX_FRAME, Mishap, Pace, Reply, Request, Started, TickReport, encode};
@@ -42,10 +43,24 @@ impl Outbox {
     }
 }
 
+/// What is in flash.
+pub struct Stored {
+    /// The settings.
+    pub settings: Store<Flash>,
+    /// The recordings of earthquakes.
+    pub recorder: Recorder<Recordings>,
+}
+
+/// Pieces of work that the recorder does between two looks at the line, at most.
+const RECORDED_AT_ONCE: u32 = 8;
+
+/// µs by which programming may take longer than the data sheet says, and in which it begins.
+const RECORDING_MARGIN: u32 = 15;
+
 /// What the link task owns.
 pub struct Link {
     line: <Selected as Board>::Line,
-    store: &'static mut Store<Flash>,
+    stored: &'static mut Stored,
     around: Surroundings,
     deframer: Deframer,
     /// The frame on its way out and how much of it is gone.
@@ -60,10 +75,11 @@ pub struct Link {
 
 impl Link {
     /// With what is to be said about the start.
-    pub fn new(line: <Selected as Board>::Line, store: &'static mut Store<Flash>, words: LastWords, device: &Device) -> Link {
+    pub fn new(line: <Selected as Board>::Line, stored: &'static mut Stored, words: LastWords, device: &Device) -> Link {
         let LastWords { cause, place, length, file } = words;
-        let stored = device.barred().is_none();
-        let started = Started { cause, resumed: device.resumes(), stored, restarts: device.restarts(), length, place, file };
+        let commissioned = device.barred().is_none();
+        let started =
+            Started { cause, resumed: device.resumes(), stored: commissioned, restarts: device.restarts(), length, place, file };
         let around = Surroundings {
             version: VERSION,
             build: BUILD,
@@ -79,7 +95,7 @@ impl Link {
         let next = Some((0, Reply::Started(started)));
         Link {
             line,
-            store,
+            stored,
             around,
             deframer: Deframer::new(),
             frame: [0; MAX_FRAME],
@@ -92,7 +108,19 @@ impl Link {
 
     /// Writes the settings where a power cut has left one copy of them only.
     pub fn mend(&mut self) {
-        self.store.mend();
+        self.stored.settings.mend();
+    }
+
+    /// Writes what is to be kept of an earthquake, as `take` gives it, as long as the longest stall ends before the next tick. Whether there
+    /// was anything.
+    pub fn record(&mut self, mut take: impl FnMut() -> Option<Taken>) -> bool {
+        let in_time = || tick::is_further_than(Selected::PROGRAMMING_STALL + RECORDING_MARGIN);
+        (0..RECORDED_AT_ONCE).take_while(|_| in_time() && self.stored.recorder.work(&mut take)).count() > 0
+    }
+
+    /// The recorder, where it is to erase a sector now.
+    pub fn erasing(&mut self) -> Option<&mut Recorder<Recordings>> {
+        self.stored.recorder.erases().then_some(&mut self.stored.recorder)
     }
 
     /// Whether the processor may sleep until the next interrupt: bytes that come raise none, and where they make the ticks each counts.
@@ -109,7 +137,7 @@ impl Link {
     pub fn pump(
         &mut self,
         report: Option<TickReport>,
-        mut ask: impl FnMut(&Request, &mut Store<Flash>, &Surroundings) -> (Answer, Option<Pace>),
+        mut ask: impl FnMut(&Request, &mut Stored, &Surroundings) -> (Answer, Option<Pace>),
     ) -> bool {
         let mut moved = self.send();
         if let Some(report) = report {
@@ -139,7 +167,7 @@ impl Link {
                 Some(Ok(received)) => {
                     self.around.lost_reports = LOST_REPORTS.load(Ordering::Relaxed);
                     self.around.stack = stack::deepest();
-                    let (answer, pace) = ask(&received.message, self.store, &self.around);
+                    let (answer, pace) = ask(&received.message, self.stored, &self.around);
                     self.pace = pace;
                     self.act(received.tag, answer);
                 }
@@ -149,9 +177,9 @@ impl Link {
     }
 
     /// The device's host has said nothing for too long: asks the device to go on without it.
-    pub fn desert(&mut self, mut ask: impl FnMut(&Request, &mut Store<Flash>, &Surroundings) -> (Answer, Option<Pace>)) {
+    pub fn desert(&mut self, mut ask: impl FnMut(&Request, &mut Stored, &Surroundings) -> (Answer, Option<Pace>)) {
         warn!("the host is gone: detached");
-        (_, self.pace) = ask(&Request::Detach, self.store, &self.around);
+        (_, self.pace) = ask(&Request::Detach, self.stored, &self.around);
     }
 
     fn act(&mut self, tag: u8, answer: Answer) {
@@ -159,7 +187,7 @@ impl Link {
             Answer::Reply(reply) | Answer::Restarted(reply) => self.next = Some((tag, reply)),
             Answer::Sample if self.pace == Some(Pace::Sample) => tick::pend(),
             // Has been done before this is told.
-            Answer::Sample | Answer::Change(_) => {}
+            Answer::Sample | Answer::Change(_) | Answer::Recorder => {}
             Answer::Rehearse(mishap) => rehearse(mishap),
         }
     }

@@ -17,13 +17,14 @@ mod tick;
 
 #[rtic::app(device = crate::board::chip)]
 mod app {
-    use crate::board::{Board as _, Flash, Selected};
+    use crate::board::{Board as _, Selected};
     use crate::control::Control;
-    use crate::link::{Link, Outbox};
+    use crate::link::{Link, Outbox, Stored};
     use crate::log::info;
     use crate::{last_words, memory, stack, tick};
     use core::mem::MaybeUninit;
     use sprag_shared::device::beginning::Beginning;
+    use sprag_shared::device::recorder::{Recorder, Ring};
     use sprag_shared::device::retained::Retained;
     use sprag_shared::device::{Answer, Device, Surroundings};
     use sprag_shared::link::Request;
@@ -33,6 +34,7 @@ mod app {
     #[shared]
     struct Shared {
         device: &'static mut Device,
+        ring: &'static mut Ring,
         outbox: Outbox,
     }
 
@@ -42,26 +44,35 @@ mod app {
         link: Link,
     }
 
-    #[init(local = [device: MaybeUninit<Device> = MaybeUninit::uninit(), store: MaybeUninit<Store<Flash>> = MaybeUninit::uninit()])]
+    #[init(local = [
+        device: MaybeUninit<Device> = MaybeUninit::uninit(),
+        stored: MaybeUninit<Stored> = MaybeUninit::uninit(),
+        ring: Ring = Ring::new(),
+    ])]
     fn init(context: init::Context) -> (Shared, Local) {
         let (mut board, cause) = Selected::wake(context.core, context.device);
         stack::paint();
         let words = last_words::take(cause);
         let (store, settings) = Store::open(board.flash());
-        let store = context.local.store.write(store);
-        let kept = if words.cause.keeps_memory() { memory::load() } else { None };
+        let survived = words.cause.keeps_memory();
+        let kept = if survived { memory::load() } else { None };
         // Only a rehearsal goes on with the host it had.
         let kept = kept.map(|kept| if cfg!(feature = "board-qemu") { kept } else { kept.alone() });
         let device = start(context.local.device, settings.as_ref(), kept.as_ref());
+        if let Some(slots) = memory::load_log(survived) {
+            device.remember(&slots, words.cause);
+        }
+        let recorder = Recorder::new(board.recordings(), !Selected::ERASING_STALLS, device.resumes());
+        let stored = context.local.stored.write(Stored { settings: store, recorder });
         memory::Keeper::new().save(&device.retained());
         crate::control::set_safe_state(device.safe_command());
         let counts = kept.filter(|_| device.resumes()).map(|kept| kept.counts);
         let parts = board.begin(device.settings(), counts);
         tick::set_period(device.period_counts(Selected::CORE_HZ));
         info!("started: {}, resumes {}, commissioned {}", words.cause, device.resumes(), device.barred().is_none());
-        let link = Link::new(parts.line, store, words, device);
+        let link = Link::new(parts.line, stored, words, device);
         let control = Control::new(parts.sensors, parts.coils, parts.watchdog, parts.light);
-        (Shared { device, outbox: Outbox::new() }, Local { control, link })
+        (Shared { device, ring: context.local.ring, outbox: Outbox::new() }, Local { control, link })
     }
 
     /// The device with the settings found in flash, or with the defaults.
@@ -82,23 +93,27 @@ mod app {
         place.write(Device::new(beginning, kept))
     }
 
-    #[task(binds = SysTick, priority = 3, local = [control], shared = [device, outbox])]
+    #[task(binds = SysTick, priority = 3, local = [control], shared = [device, ring, outbox])]
     fn control(context: control::Context<'_>) {
         let timer = tick::by_timer();
         let control = context.local.control;
-        (context.shared.device, context.shared.outbox)
-            .lock(|device, outbox| crate::control::control_tick(control, device, outbox, timer));
+        (context.shared.device, context.shared.ring, context.shared.outbox)
+            .lock(|device, ring, outbox| crate::control::control_tick(control, device, ring, outbox, timer));
     }
 
-    #[idle(local = [link], shared = [device, outbox])]
+    #[idle(local = [link], shared = [device, ring, outbox])]
     fn idle(mut context: idle::Context<'_>) -> ! {
         context.local.link.mend();
         loop {
             let report = if context.local.link.has_room() { context.shared.outbox.lock(Outbox::take) } else { None };
             let deserted = context.shared.device.lock(|device| device.deserted());
-            let mut ask = |request: &Request, store: &mut Store<Flash>, around: &Surroundings| {
+            let mut ask = |request: &Request, stored: &mut Stored, around: &Surroundings| {
                 let device = &mut context.shared.device;
-                let answer = device.lock(|device| device.answer(request, around));
+                let answer = match device.lock(|device| device.answer(request, around)) {
+                    Answer::Recorder => Answer::Reply(stored.recorder.answer(request)),
+                    answer => answer,
+                };
+                let store = &mut stored.settings;
                 let change = if let Answer::Change(change) = answer {
                     // Checking and storing take longer than a control period, so the device is not held meanwhile.
                     let wanted = device.lock(|device| *device.wanted(change));
@@ -131,7 +146,25 @@ mod app {
             if deserted {
                 context.local.link.desert(&mut ask);
             }
-            let moved = context.local.link.pump(report, &mut ask);
+            let mut moved = context.local.link.pump(report, &mut ask);
+            moved |= context.local.link.record(|| context.shared.ring.lock(|ring| ring.take()));
+            if let Some(recorder) = context.local.link.erasing() {
+                moved = true;
+                // As with the settings: nothing moves, and between two sectors the control task ticks.
+                let rests = context.shared.device.lock(|device| {
+                    let rests = device.rests();
+                    if rests && Selected::ERASING_STALLS {
+                        Selected::stall(|| recorder.erase_sector());
+                        crate::control::forget_time();
+                    }
+                    rests
+                });
+                match rests {
+                    true if Selected::ERASING_STALLS => {}
+                    true => recorder.erase_sector(),
+                    false => recorder.stop_erasing(),
+                }
+            }
             if !moved && context.local.link.may_sleep() {
                 cortex_m::asm::wfi();
             }

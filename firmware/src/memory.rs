@@ -2,7 +2,10 @@
 
 use core::cell::UnsafeCell;
 use core::mem::MaybeUninit;
+use sprag_shared::control::supervisor::LOG_ENTRIES;
+use sprag_shared::device::Device;
 use sprag_shared::device::retained::{RETAINED_WORDS, Retained, latest};
+use sprag_shared::device::retained_log::{SLOT_WORDS, Slots, slot, words};
 
 /// A place that start-up code leaves alone.
 #[repr(transparent)]
@@ -79,9 +82,50 @@ impl Keeper {
     }
 }
 
+#[unsafe(link_section = ".uninit.LOG")]
+static LOG: [Lasting<[u32; SLOT_WORDS]>; LOG_ENTRIES] = [const { Lasting::new() }; LOG_ENTRIES];
+
+/// The event log as it was before the reset, if `survived`; otherwise its memory is cleared.
+pub fn load_log(survived: bool) -> Option<Slots> {
+    if survived {
+        // SAFETY: words hold any bits.
+        return Some(LOG.each_ref().map(|slot| unsafe { slot.read() }));
+    }
+    LOG.iter().for_each(|slot| slot.write([0; SLOT_WORDS]));
+    None
+}
+
+/// Keeps what is new in the event log.
+pub struct LogKeeper {
+    /// Entries that are kept, counted from the first that there ever was.
+    kept: u32,
+}
+
+impl LogKeeper {
+    /// That has kept nothing but what came before the last start.
+    pub const fn new() -> LogKeeper {
+        LogKeeper { kept: 0 }
+    }
+
+    /// Keeps the entries that have come since.
+    pub fn save(&mut self, device: &Device) {
+        if device.log_count() == self.kept {
+            return;
+        }
+        let (entries, count) = device.logged(self.kept);
+        for (number, entry) in entries {
+            if let Some(place) = LOG.get(slot(number)) {
+                place.write(words(number, entry));
+            }
+        }
+        self.kept = count;
+    }
+}
+
 /// Forgets what was kept.
 #[cfg(feature = "board-qemu")]
 pub fn forget() {
+    load_log(false);
     for copy in &KEPT {
         copy.write([0; RETAINED_WORDS]);
     }

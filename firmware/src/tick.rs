@@ -35,6 +35,13 @@ pub fn by_timer() -> bool {
     due
 }
 
+/// Whether the timer's next interrupt is further away than this, µs.
+pub fn is_further_than(microseconds: u32) -> bool {
+    // SAFETY: reading the count has no side effect.
+    let left = unsafe { (*SYST::PTR).cvr.read() };
+    left > Selected::CORE_HZ / 1_000_000 * microseconds
+}
+
 /// Lets the control task run as soon as nothing more urgent does.
 pub fn pend() {
     SCB::set_pendst();

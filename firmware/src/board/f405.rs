@@ -7,7 +7,7 @@
 //! | [`sensors`]: two inertial sensors, each on a [`mod@bus`] | SPI1, SPI2 |
 //! | [`coils`]: two coils and their currents | TIM8 with its break input PA6, PC8, PC9, ADC1 |
 //! | [`mod@line`]: the link | USART1, streams 2 and 7 of DMA2 |
-//! | [`storage`]: the settings | sectors 1 and 2 of the flash |
+//! | [`storage`]: the settings, and recordings of earthquakes | sectors 1 and 2, and 6 to 11, of the flash |
 //! | [`supply`]: what happens when it sags | PWR, EXTI line 16, option bytes |
 //! | the light | PC12 |
 //!
@@ -49,7 +49,7 @@ pub struct F405 {
 /// After so long without being fed the watchdog resets the chip, by steps of 4 ms of its own oscillator: 11 to 38 ms (47 to 17 kHz).
 const WATCHDOG_MILLISECONDS: u32 = 20;
 
-/// The same while the processor may stall: 2.7 to 7.5 s, for two sectors of at most 0.8 s each.
+/// The same while the processor may stall: 2.7 to 7.5 s, for two sectors of at most 0.8 s each, or one of at most 2.6 s.
 const STALLED_MILLISECONDS: u32 = 4000;
 
 impl Board for F405 {
@@ -64,12 +64,16 @@ impl Board for F405 {
 
     const ERASING_STALLS: bool = true;
 
+    /// A word takes 16 µs, at most 100 (DS8626, table 45).
+    const PROGRAMMING_STALL: u32 = 100;
+
     type Chip = pac::Peripherals;
     type Sensors = sensors::BoardSensors;
     type Coils = coils::BoardCoils;
     type Watchdog = BoardWatchdog;
     type Line = line::DmaLine;
-    type Flash = storage::Storage;
+    type Flash = storage::Settings;
+    type Recordings = storage::Recordings;
     type Light = PinLight<Pin<'C', 12, Output>>;
 
     fn wake(_core: cortex_m::Peripherals, chip: pac::Peripherals) -> (F405, Cause) {
@@ -79,9 +83,13 @@ impl Board for F405 {
         (F405 { chip, rcc, crystal }, cause)
     }
 
-    fn flash(&mut self) -> storage::Storage {
+    fn flash(&mut self) -> storage::Settings {
         supply::set_brown_out(&self.chip.PWR, &self.chip.FLASH, &mut self.rcc);
-        storage::Storage::new()
+        storage::Settings::new()
+    }
+
+    fn recordings(&mut self) -> storage::Recordings {
+        storage::Recordings::new()
     }
 
     fn begin(self, settings: &Settings, counts: Option<i32>) -> Parts<F405> {

@@ -8,7 +8,7 @@
 //! | [`sensors`]: two inertial sensors | SPI1, SPI2 |
 //! | [`coils`]: two coils and their currents | TIM8 with COMP1 and COMP3 at its break, DAC3, PC8, PC9, ADC1 |
 //! | [`mod@line`]: the link | USART1, channels 2 and 3 of DMA1 |
-//! | [`storage`]: the settings | bank 2 of the flash |
+//! | [`storage`]: the settings, and recordings of earthquakes | bank 2 of the flash |
 //! | [`supply`]: what happens when it sags | PWR, EXTI line 16, option bytes |
 //! | [`reset`]: why there was one | RCC, a backup register of TAMP |
 //!
@@ -66,12 +66,16 @@ impl Board for G474 {
     /// Erasing in bank 2 leaves the processor alone, which runs from bank 1.
     const ERASING_STALLS: bool = false;
 
+    /// Nor does programming.
+    const PROGRAMMING_STALL: u32 = 0;
+
     type Chip = pac::Peripherals;
     type Sensors = sensors::BoardSensors;
     type Coils = coils::BoardCoils;
     type Watchdog = BoardWatchdog;
     type Line = line::DmaLine;
     type Flash = storage::Storage;
+    type Recordings = storage::Recordings;
     type Light = PinLight<OutputPin>;
 
     fn wake(_core: cortex_m::Peripherals, chip: pac::Peripherals) -> (G474, Cause) {
@@ -83,6 +87,10 @@ impl Board for G474 {
     fn flash(&mut self) -> storage::Storage {
         supply::set_brown_out(&self.chip);
         storage::Storage::new()
+    }
+
+    fn recordings(&mut self) -> storage::Recordings {
+        storage::Recordings::new()
     }
 
     fn begin(self, settings: &Settings, counts: Option<i32>) -> Parts<G474> {

@@ -28,7 +28,7 @@ use stm32f4xx_hal::pac::{self, Interrupt, interrupt};
 
 pub use stm32f4xx_hal::pac as chip;
 
-pub use flash::{Flash, cut_power_after};
+pub use flash::cut_power_after;
 pub use line::Line;
 
 /// Counts of the timers in a second: QEMU clocks them so, whatever the program sets.
@@ -79,12 +79,14 @@ impl Board for Qemu {
     const LEAST_PERIOD: f32 = 10e-6;
     /// As on the board that it stands for, though nothing stalls here.
     const ERASING_STALLS: bool = true;
+    const PROGRAMMING_STALL: u32 = 0;
     type Chip = pac::Peripherals;
     type Sensors = Elsewhere;
     type Coils = Elsewhere;
     type Watchdog = Elsewhere;
     type Line = Line;
-    type Flash = Flash;
+    type Flash = flash::Settings;
+    type Recordings = flash::Recordings;
     type Light = Elsewhere;
 
     fn wake(mut core: cortex_m::Peripherals, chip: pac::Peripherals) -> (Qemu, Cause) {
@@ -102,8 +104,12 @@ impl Board for Qemu {
         (Qemu(chip), if alive { Cause::Pin } else { Cause::PowerOn })
     }
 
-    fn flash(&mut self) -> Flash {
-        Flash::new()
+    fn flash(&mut self) -> flash::Settings {
+        flash::settings()
+    }
+
+    fn recordings(&mut self) -> flash::Recordings {
+        flash::recordings()
     }
 
     fn begin(self, _settings: &Settings, _counts: Option<i32>) -> Parts<Qemu> {

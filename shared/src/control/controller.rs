@@ -101,6 +101,11 @@ impl ControllerState {
         self.supervisor.log.push(entry);
     }
 
+    /// Goes on with the log of before a reset, of which there have been `count` entries ever; its own has none yet.
+    pub fn continue_log(&mut self, entries: impl Iterator<Item = Entry>, count: u32) {
+        self.supervisor.log.go_on(entries, count);
+    }
+
     /// The biases that are subtracted.
     pub fn calibration(&self) -> &Calibration {
         self.supervisor.calibration()

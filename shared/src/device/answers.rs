@@ -59,6 +59,11 @@ impl Device {
             Request::Detach if self.attached.is_some() => return Answer::Change(Change::Detach),
             Request::Detach => Reply::Done(Done::AsAsked),
             Request::Sample(sample) => return self.take(sample),
+            Request::Recorder | Request::Recorded { .. } => return Answer::Recorder,
+            Request::EraseRecordings => match self.busy() {
+                Some(busy) => busy,
+                None => return Answer::Recorder,
+            },
             Request::Rehearse(mishap) if around.rehearsal => return Answer::Rehearse(mishap),
             Request::Rehearse(_) => Reply::Refused(Refusal::NotHere),
         };
@@ -167,12 +172,10 @@ impl Device {
     }
 
     fn log(&self, from: u32) -> LogBlock {
-        let log = &self.state.supervisor().log;
-        let total = log.count();
-        let oldest = total.saturating_sub(log.iter().count() as u32);
-        let from = from.clamp(oldest, total);
-        let mut block = LogBlock { from, count: 0, total, entries: [LogEntry::default(); LOG_BLOCK] };
-        for (place, entry) in block.entries.iter_mut().zip(log.iter().skip((from - oldest) as usize)) {
+        let (entries, total) = self.logged(from);
+        let mut block = LogBlock { from: total, count: 0, total, entries: [LogEntry::default(); LOG_BLOCK] };
+        for (place, (number, entry)) in block.entries.iter_mut().zip(entries) {
+            block.from = block.from.min(number);
             *place = LogEntry::from(entry);
             block.count += 1;
         }

@@ -14,7 +14,9 @@ pub mod inertial;
 pub mod light;
 mod mailbox;
 pub mod pull_in;
+pub mod recorder;
 pub mod retained;
+pub mod retained_log;
 #[cfg(test)]
 mod tests;
 
@@ -80,6 +82,8 @@ pub enum Answer {
     /// Other settings: to be [prepared](Change::prepare) from those of [`Device::wanted`] while the control task goes on, and then given to
     /// [`Device::install`].
     Change(Change),
+    /// The flight recorder's to answer.
+    Recorder,
     /// To be made to happen.
     Rehearse(Mishap),
     /// The period may be another now: to be answered, and the timer set.

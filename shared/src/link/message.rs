@@ -16,6 +16,9 @@ pub const WORD_BLOCK: usize = 16;
 /// Entries of the event log in one message.
 pub const LOG_BLOCK: usize = 3;
 
+/// Parts of 32 bytes of what the flight recorder holds in one message.
+pub const RECORDED_PARTS: usize = 3;
+
 /// To the device.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Request {
@@ -67,6 +70,15 @@ pub enum Request {
     Sample(TickSample),
     /// Something bad, on purpose; refused by images that are not for rehearsals.
     Rehearse(Mishap),
+    /// How the flight recorder is: [`Reply::Recorder`].
+    Recorder,
+    /// What it holds: [`Reply::Recorded`].
+    Recorded {
+        /// Where, bytes from its beginning; a multiple of 8.
+        offset: u32,
+    },
+    /// Erases all recordings, once the last one is whole; only while nothing moves. Given up where something moves before it is done.
+    EraseRecordings,
 }
 
 /// Who says when an attached device ticks.
@@ -144,6 +156,10 @@ pub enum Reply {
     Done(Done),
     /// It has not been done.
     Refused(Refusal),
+    /// How the flight recorder is.
+    Recorder(RecorderState),
+    /// What it holds.
+    Recorded(Recorded),
 }
 
 /// How a device started.
@@ -256,6 +272,47 @@ pub struct LogEntry {
     pub kind: [u8; 2],
 }
 
+/// What the flight recorder is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum RecorderActivity {
+    /// After a start it looks for its last page.
+    Looking,
+    /// It waits for an earthquake.
+    Ready,
+    /// A page is being written.
+    Writing,
+    /// It erases, or will.
+    Erasing,
+}
+
+/// How the flight recorder is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RecorderState {
+    /// Pages that there are.
+    pub pages: u16,
+    /// The page that is written next; none is left where it is not below `pages`.
+    pub next: u16,
+    /// The oldest page makes room for the newest; otherwise what is there is kept.
+    pub goes_round: bool,
+    /// What it is doing.
+    pub activity: RecorderActivity,
+    /// Ticks since the start that found no room.
+    pub lost: u32,
+    /// Pages since the start that the flash did not take.
+    pub refused: u16,
+}
+
+/// A piece of what the flight recorder holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Recorded {
+    /// Where it begins, bytes from the beginning.
+    pub offset: u32,
+    /// How many of them count: fewer only at the end.
+    pub count: u8,
+    /// The bytes.
+    pub bytes: [[u8; 32]; RECORDED_PARTS],
+}
+
 /// What has been done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Done {
@@ -303,6 +360,7 @@ impl From<&Entry> for LogEntry {
             Kind::Fault(code) => [3, code as u8],
             Kind::Warning(code) => [4, code as u8],
             Kind::Calibrated => [5, 0],
+            Kind::Started(cause) => [6, cause],
         };
         LogEntry { tick: entry.tick, rotation: entry.rotation, velocity: entry.velocity, kind }
     }
@@ -320,6 +378,7 @@ impl LogEntry {
             3 => Kind::Fault(of.into()),
             4 => Kind::Warning(of.into()),
             5 => Kind::Calibrated,
+            6 => Kind::Started(of),
             _ => return None,
         };
         Some(Entry { tick: self.tick, kind, rotation: self.rotation, velocity: self.velocity })

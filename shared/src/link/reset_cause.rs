@@ -26,6 +26,18 @@ pub enum Cause {
 }
 
 impl Cause {
+    /// Each, in the order of their numbers on the link.
+    pub const ALL: [Cause; 8] = [
+        Cause::PowerOn,
+        Cause::BrownOut,
+        Cause::Pin,
+        Cause::Watchdog,
+        Cause::Software,
+        Cause::Panic,
+        Cause::HardFault,
+        Cause::ClockFailure,
+    ];
+
     /// Whether the memory still holds what it held before: a controller may go on where it was.
     pub fn keeps_memory(self) -> bool {
         !matches!(self, Cause::PowerOn | Cause::BrownOut)

@@ -11,6 +11,7 @@ use sprag_shared::link::{Identity, Request, State};
 use sprag_shared::settings::{Item, Settings};
 
 use super::device_line::{Connected, LineArguments, connect, firmware};
+use super::device_record::{self, RecordArguments};
 use super::ended;
 use super::loop_scene::{LoopScene, LoopSceneError};
 use super::out_arguments::OverwriteArguments;
@@ -20,7 +21,7 @@ use crate::device::event_table::{what, write_csv, write_table};
 use crate::device::line::{DeviceError, Line};
 use crate::device::session::Session;
 use crate::device::strip_chart::StripChart;
-use crate::device::{parameters, setting_text};
+use crate::device::{parameters, recordings, setting_text};
 use crate::interrupt::Interrupt;
 use crate::output::{OutputError, Results, claim_file, is_standard_output};
 
@@ -29,6 +30,7 @@ use crate::output::{OutputError, Results, claim_file, is_standard_output};
 #[command(after_help = "Examples:\n  sprag device info --port /dev/ttyUSB0\n  \
     sprag device parameters --port /dev/ttyUSB0 --set law=passive --store\n  \
     sprag device log --port /dev/ttyUSB0 --csv events.csv\n  \
+    sprag device record --port /dev/ttyUSB0 --out earthquake.csv\n  \
     sprag device watch --port /dev/ttyUSB0\n\n\
     With --qemu a new device is started for each command, so nothing is left of what was told to the one before; and since it has no \
     settings of its own it is in Fault: not commissioned.")]
@@ -52,6 +54,8 @@ enum DeviceCommand {
         after_help = "Examples:\n  sprag device log --port /dev/ttyUSB0\n  sprag device log --port /dev/ttyUSB0 --csv events.csv"
     )]
     Log(LogArguments),
+    /// List the earthquakes that its flight recorder has kept, save one as CSV, draw it, or erase all.
+    Record(RecordArguments),
     /// Make it leave Fault, once what was wrong has been seen to; it must be at rest.
     #[command(after_help = "Example:\n  sprag device clear --port /dev/ttyUSB0")]
     Clear(InfoArguments),
@@ -130,8 +134,9 @@ struct WatchArguments {
     seconds: Option<f32>,
 }
 
+/// Why a command on a device has not ended well.
 #[derive(Debug, thiserror::Error)]
-enum Failure {
+pub(super) enum Failure {
     #[error("{0}")]
     Device(#[from] DeviceError),
     #[error("{0}")]
@@ -146,7 +151,7 @@ enum Failure {
     Interrupted,
 }
 
-type Talk = Session<Box<dyn Line>>;
+pub(super) type Talk = Session<Box<dyn Line>>;
 
 /// Runs the command; what the device says goes to `out`, errors go to `err`.
 pub fn run(arguments: &DeviceArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
@@ -156,6 +161,7 @@ pub fn run(arguments: &DeviceArguments, out: &mut impl Write, err: &mut impl Wri
         DeviceCommand::Parameters(given) => change(given, out, err, interrupt),
         DeviceCommand::SelfTest(info) => with_device(&info.line, out, |session, out| self_test(session, out, interrupt)),
         DeviceCommand::Log(given) => log_to(given, out),
+        DeviceCommand::Record(given) => device_record::run(given, out, interrupt),
         DeviceCommand::Clear(info) => with_device(&info.line, out, clear),
         DeviceCommand::Detach(info) => with_device(&info.line, out, detach),
         DeviceCommand::Watch(given) => with_device(&given.line, out, |session, out| watch(session, given, out, interrupt)),
@@ -171,7 +177,7 @@ pub fn run(arguments: &DeviceArguments, out: &mut impl Write, err: &mut impl Wri
 }
 
 /// Finds the device and talks to it; then shows what it has logged beside.
-fn with_device<W: Write>(
+pub(super) fn with_device<W: Write>(
     line: &LineArguments,
     out: &mut W,
     talk: impl FnOnce(&mut Talk, &mut W) -> Result<(), Failure>,
@@ -219,7 +225,9 @@ fn show(session: &mut Talk, out: &mut impl Write) -> Result<(), Failure> {
     writeln!(out, "worst delay   {}", duration(state.worst_lateness, &identity))?;
     writeln!(out, "stack         {} bytes at most", state.stack)?;
     writeln!(out, "link          {} bad frames, {} reports lost", state.bad_frames, state.lost_reports)?;
-    writeln!(out, "event log     {} entries since the start", state.log_count)?;
+    writeln!(out, "event log     {} entries", state.log_count)?;
+    let period = f64::from(parameters::read(session)?.period());
+    writeln!(out, "recordings    {}", device_record::room(&recordings::state(session)?, period))?;
     Ok(())
 }
 

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use sprag_shared::control::supervisor::event_log::{Entry, Kind};
+use sprag_shared::link::reset_cause::Cause;
 
 /// What happened, in words; with the text of a fault where it is one.
 pub fn what(kind: Kind) -> String {
@@ -17,6 +18,10 @@ pub fn what(kind: Kind) -> String {
         Kind::Fault(code) => format!("fault {}", fault(code)),
         Kind::Warning(code) => format!("warning {}", fault(code)),
         Kind::Calibrated => "calibrated".to_owned(),
+        Kind::Started(cause) => match Cause::ALL.get(usize::from(cause)) {
+            Some(cause) => format!("started anew ({cause:?}): what is above was before"),
+            None => format!("started anew for a cause {cause}, which this program does not know"),
+        },
     }
 }
 

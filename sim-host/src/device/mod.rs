@@ -3,7 +3,7 @@
 //! - [`mod@line`]: bytes to and from it; [`emulator`], [`serial`]: the two kinds; [`faulty`]: one that loses and damages frames;
 //! - [`image`]: building what runs in it; [`log`]: what it logs;
 //! - [`session`]: requests and replies; [`parameters`]: its settings, [`setting_text`]: as text, [`derived`]: those that follow
-//!   from others; [`event_table`]: its event log;
+//!   from others; [`event_table`]: its event log; [`recordings`]: its flight recorder;
 //! - [`strip_chart`]: its last seconds, drawn in the terminal;
 //! - [`driver`]: it in the place of the host's controller, compared with it at every tick; [`report`]: what that comes to.
 
@@ -17,6 +17,7 @@ pub mod line;
 #[cfg_attr(not(feature = "defmt"), path = "no_log.rs")]
 pub mod log;
 pub mod parameters;
+pub mod recordings;
 pub mod report;
 #[cfg_attr(not(feature = "serial"), path = "no_serial.rs")]
 pub mod serial;

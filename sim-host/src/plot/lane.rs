@@ -9,7 +9,7 @@ use super::palette::{FLYWHEEL_BARS, GROUND};
 use super::panel::Panel;
 
 /// Height of a lane, and of the bars in it (px).
-const LANE_PX: f64 = 26.0;
+pub(super) const LANE_PX: f64 = 26.0;
 const BAR_PX: f64 = 16.0;
 const LANES: [[&str; 2]; 3] = [["law on the", "true motion"], ["command", ""], ["clutches", ""]];
 const LANE_FONT_PX: f64 = 10.5;
@@ -22,7 +22,7 @@ pub(super) const LAW: RGBColor = GROUND;
 
 /// Left edges and widths (drawing units) of the times in which `active` holds, each value until the next sample. Times that would
 /// be too narrow to see are widened, and gaps too narrow to see are closed.
-fn bars(panel: &Panel<'_>, time: &[f64], active: impl Fn(usize) -> bool) -> Vec<(i32, i32)> {
+pub(super) fn bars(panel: &Panel<'_>, time: &[f64], active: impl Fn(usize) -> bool) -> Vec<(i32, i32)> {
     let x = |time: f64| units(panel.position_px((time, panel.y.start)).0);
     let mut bars: Vec<(i32, i32)> = Vec::new();
     for (index, pair) in time.windows(2).enumerate() {
@@ -75,12 +75,16 @@ pub(super) fn write_lanes(svg: &mut String, panel: &Panel<'_>, trace: &LoopTrace
             1 => write_flywheels(svg, panel, extent, (&trace.time, &trace.commanded), FLYWHEEL_BARS),
             _ => write_flywheels(svg, panel, extent, (&trace.time, &trace.engaged), FLYWHEEL_BARS),
         }
-        let lines = words.iter().filter(|word| !word.is_empty()).count();
-        for (line, word) in words.iter().take(lines).enumerate() {
-            let down = (line as f64 - 0.5 * (lines as f64 - 1.0)) * LANE_FONT_PX;
-            let at = (panel.left_px - 6.0, top_px + 0.5 * LANE_PX + down + 0.36 * LANE_FONT_PX);
-            Text { anchor: Anchor::End, ..Text::new(word, at, LANE_FONT_PX) }.write(svg, false);
-        }
+        write_lane_name(svg, panel, lane, words.split(|word| word.is_empty()).next().unwrap_or_default());
+    }
+}
+
+/// Appends the name of a lane, a line for each of its words.
+pub(super) fn write_lane_name(svg: &mut String, panel: &Panel<'_>, lane: usize, words: &[&str]) {
+    for (line, word) in words.iter().enumerate() {
+        let down = (line as f64 - 0.5 * (words.len() as f64 - 1.0)) * LANE_FONT_PX;
+        let at = (panel.left_px - 6.0, panel.top_px + (lane as f64 + 0.5) * LANE_PX + down + 0.36 * LANE_FONT_PX);
+        Text { anchor: Anchor::End, ..Text::new(word, at, LANE_FONT_PX) }.write(svg, false);
     }
 }
 

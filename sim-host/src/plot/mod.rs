@@ -1,4 +1,4 @@
-//! Figures as SVG text: responses, energies, sensitivities, closed loops, maps of outcomes, clouds of runs, trade-offs, charts of lines.
+//! Figures as SVG text: responses, energies, sensitivities, closed loops, recordings of devices, maps of outcomes, clouds of runs, trade-offs, charts of lines.
 //!
 //! plotters draws curves and guide lines; axes, clip, dash patterns, tints and texts are SVG around its output. [`png()`] makes dots of it.
 
@@ -28,6 +28,7 @@ mod panel;
 mod panel_heading;
 #[cfg_attr(not(feature = "png"), path = "no_png.rs")]
 mod png;
+mod recording_figure;
 mod rug;
 mod sensitivity_figure;
 #[cfg(test)]
@@ -51,6 +52,7 @@ pub use history_figure::history_figure;
 pub use loop_figure::{LoopTrace, loop_figure};
 pub use map_curve::MapCurve;
 pub use png::{Png, PngError, png};
+pub use recording_figure::{RecordingTrace, recording_figure};
 pub use rug::Rug;
 pub use sensitivity_figure::{OwnMark, SensitivityLane, SensitivityRow, sensitivity_figure};
 pub use ticks::Scale;

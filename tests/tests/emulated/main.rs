@@ -7,6 +7,7 @@ mod emulator;
 mod faults;
 mod firmware;
 mod lockstep;
+mod recordings;
 mod restarts;
 mod stability;
 mod storage;

@@ -1,4 +1,4 @@
-//! Two sectors of flash, played by memory that a reset does not clear, which can lose power in the middle of a write.
+//! Flash, played by memory that a reset does not clear, which can lose power in the middle of a write.
 
 use core::cell::UnsafeCell;
 use core::sync::atomic::{AtomicU32, Ordering};
@@ -16,16 +16,29 @@ const USED: u32 = 0xF1A5_4000;
 /// No power cut is due.
 const NEVER: u32 = u32::MAX;
 
-#[unsafe(link_section = ".uninit.FLASH_MARK")]
-static MARK: Lasting<u32> = Lasting::new();
+/// Sectors for the settings, and for recordings: as many as fit into the memory.
+const SETTINGS: usize = 2;
+const RECORDINGS: usize = 14;
 
-struct Sectors(UnsafeCell<[u8; 2 * SECTOR]>);
+struct Sectors<const COUNT: usize> {
+    mark: Lasting<u32>,
+    bytes: UnsafeCell<[[u8; SECTOR]; COUNT]>,
+}
 
-// SAFETY: there is one `Flash`, and only it looks inside.
-unsafe impl Sync for Sectors {}
+// SAFETY: there is one `Flash` of each, and only it looks inside.
+unsafe impl<const COUNT: usize> Sync for Sectors<COUNT> {}
+
+impl<const COUNT: usize> Sectors<COUNT> {
+    const fn new() -> Sectors<COUNT> {
+        Sectors { mark: Lasting::new(), bytes: UnsafeCell::new([[0; SECTOR]; COUNT]) }
+    }
+}
 
 #[unsafe(link_section = ".uninit.FLASH")]
-static SECTORS: Sectors = Sectors(UnsafeCell::new([0; 2 * SECTOR]));
+static OF_SETTINGS: Sectors<SETTINGS> = Sectors::new();
+
+#[unsafe(link_section = ".uninit.RECORDINGS")]
+static OF_RECORDINGS: Sectors<RECORDINGS> = Sectors::new();
 
 /// Bytes that will still be written before the supply fails.
 static LEFT: AtomicU32 = AtomicU32::new(NEVER);
@@ -35,28 +48,43 @@ pub fn cut_power_after(bytes: u32) {
     LEFT.store(bytes, Ordering::Relaxed);
 }
 
-/// The flash.
-pub struct Flash(());
+/// A flash of so many sectors.
+pub struct Flash<const COUNT: usize>(&'static Sectors<COUNT>);
 
-impl Flash {
-    /// To be called once.
-    pub fn new() -> Flash {
-        let mut flash = Flash(());
+/// That of the settings.
+pub type Settings = Flash<SETTINGS>;
+
+/// That of the recordings.
+pub type Recordings = Flash<RECORDINGS>;
+
+/// The flash of the settings. To be called once.
+pub fn settings() -> Settings {
+    Flash::of(&OF_SETTINGS)
+}
+
+/// The flash of the recordings. To be called once.
+pub fn recordings() -> Recordings {
+    Flash::of(&OF_RECORDINGS)
+}
+
+impl<const COUNT: usize> Flash<COUNT> {
+    fn of(sectors: &'static Sectors<COUNT>) -> Flash<COUNT> {
+        let mut flash = Flash(sectors);
         // SAFETY: a word holds any bits.
-        if unsafe { MARK.read() } != USED {
+        if unsafe { sectors.mark.read() } != USED {
             flash.bytes().fill(0xFF);
-            MARK.write(USED);
+            sectors.mark.write(USED);
         }
         flash
     }
 
-    fn bytes(&mut self) -> &mut [u8; 2 * SECTOR] {
-        // SAFETY: there is one `Flash`, borrowed for as long as the bytes are.
-        unsafe { &mut *SECTORS.0.get() }
+    fn bytes(&mut self) -> &mut [u8] {
+        // SAFETY: there is one of each, borrowed for as long as the bytes are.
+        unsafe { &mut *self.0.bytes.get() }.as_flattened_mut()
     }
 }
 
-/// Outside of the two sectors.
+/// Outside of the sectors.
 #[derive(Debug)]
 pub struct OutOfBounds;
 
@@ -66,11 +94,11 @@ impl NorFlashError for OutOfBounds {
     }
 }
 
-impl ErrorType for Flash {
+impl<const COUNT: usize> ErrorType for Flash<COUNT> {
     type Error = OutOfBounds;
 }
 
-impl ReadNorFlash for Flash {
+impl<const COUNT: usize> ReadNorFlash for Flash<COUNT> {
     const READ_SIZE: usize = 1;
 
     fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), OutOfBounds> {
@@ -81,11 +109,11 @@ impl ReadNorFlash for Flash {
     }
 
     fn capacity(&self) -> usize {
-        2 * SECTOR
+        COUNT * SECTOR
     }
 }
 
-impl NorFlash for Flash {
+impl<const COUNT: usize> NorFlash for Flash<COUNT> {
     const WRITE_SIZE: usize = 1;
     const ERASE_SIZE: usize = SECTOR;
 

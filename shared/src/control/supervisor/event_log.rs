@@ -20,6 +20,8 @@ pub enum Kind {
     Warning(u16),
     /// New biases were found.
     Calibrated,
+    /// The device started anew, for the cause of this number on the link; ticks count from 0 again.
+    Started(u8),
 }
 
 impl Kind {
@@ -70,6 +72,12 @@ impl<const N: usize> EventLog<N> {
         // There is room now, so nothing can be handed back.
         let _ = self.ring.push_back(entry);
         self.count = self.count.saturating_add(1);
+    }
+
+    /// Adds the entries of before a reset to a log that is empty, of which there have been `count` ever.
+    pub fn go_on(&mut self, entries: impl Iterator<Item = Entry>, count: u32) {
+        entries.for_each(|entry| self.push(entry));
+        self.count = count;
     }
 
     /// From the oldest to the newest.

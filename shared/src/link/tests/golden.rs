@@ -1,7 +1,7 @@
 //! The bytes of a frame of every kind. A change of any of them is a change of the protocol: raise [`VERSION`] with it.
 
 use super::framed;
-use super::message_maker::{CAUSES, REPLIES, REQUESTS, Source, WISHES, reply, request};
+use super::message_maker::{ACTIVITIES, CAUSES, REPLIES, REQUESTS, Source, WISHES, reply, request};
 use crate::control::monitor::fault::Fault;
 use crate::control::supervisor::Phase;
 use crate::link::reset_cause::Cause;
@@ -31,6 +31,9 @@ const GOLDEN: [&str; REQUESTS + REPLIES] = [
     "06020b0b6dcf00",
     "0b020c0c01db0f4940ac02010780bff0a20401010108db9fa482042c010109808080fc0b7011010901c9c0b7fb07ac02010201010104016e2300",
     "07020d0d01844d00",
+    "06020e0e3d6000",
+    "07020f0f01864500",
+    "06021010beb300",
     "02020103010101057001db2c057001db2c057001db2c057001db2c057001db2c057001db2c077001db2c185300",
     "0e02010101db9fa4820401012c010101010380bf0470110101010680bf701101020101010801db0f49402c010101010680bf70110102020107f0a20401748e00",
     "0702020201db2c057001db2c057001db2c057001db2c127001db2c808080fc0bf02201db9fa4820403608800",
@@ -39,6 +42,8 @@ const GOLDEN: [&str; REQUESTS + REPLIES] = [
     "1002050501dbac02808080fc0b701101020101010bdb2c808080fc0b701101020101010bdb2c808080fc0b7011010201010105db2c46b200",
     "07020606018f6100",
     "0702070707480500",
+    "0702080801db1f0107f0a20401794c00",
+    "0702090901db2c057001db2c057001db2c057001db2c057001db2c057001db2c057001db2c057001db2c057001db2c057001db2c057001db2c057001db2c057001db2c057001db2c057001db2c057001db2c057001db2c057001db2c057001db2c077001db2c4fda00",
 ];
 
 fn hexadecimal(frame: &[u8]) -> String {
@@ -85,6 +90,7 @@ fn choices_within_messages_are_what_they_were() {
     assert_eq!(Phase::ALL.map(|phase| contents(&phase)), core::array::from_fn(numbers));
     assert_eq!(CAUSES.map(|cause| contents(&cause)), core::array::from_fn(numbers));
     assert_eq!(contents(&Cause::ClockFailure), "07");
+    assert_eq!(ACTIVITIES.map(|activity| contents(&activity)), core::array::from_fn(numbers));
     assert_eq!(WISHES.map(|wish| contents(&wish)), core::array::from_fn(numbers));
     assert_eq!([Sign::Positive, Sign::Negative].map(|sign| contents(&sign)), ["00", "01"]);
     for fault in Fault::ALL {

@@ -12,9 +12,9 @@ use crate::link::*;
 use crate::math::sign::Sign;
 
 /// Kinds of requests.
-pub const REQUESTS: usize = 14;
+pub const REQUESTS: usize = 17;
 /// Kinds of replies.
-pub const REPLIES: usize = 8;
+pub const REPLIES: usize = 10;
 
 /// In the order of their numbers.
 pub const CAUSES: [Cause; 7] =
@@ -22,6 +22,10 @@ pub const CAUSES: [Cause; 7] =
 
 /// As [`CAUSES`].
 pub const WISHES: [Wish; 3] = [Wish::Release, Wish::Resist, Wish::Hold];
+
+/// As [`CAUSES`].
+pub const ACTIVITIES: [RecorderActivity; 4] =
+    [RecorderActivity::Looking, RecorderActivity::Ready, RecorderActivity::Writing, RecorderActivity::Erasing];
 
 /// Codes of the faults that messages are made of. Not [`Fault::ALL`]: a new fault must not change the recorded frames.
 const FAULTS: [u16; 31] =
@@ -143,13 +147,16 @@ pub fn request(variant: usize, source: &mut Source<'_>) -> Request {
             let (number, sample) = (source.word(), source.sample());
             Request::Sample(TickSample { number, sample, lateness: source.float(), clear: source.truth() })
         }
-        _ => Request::Rehearse(match source.word() % 5 {
+        13 => Request::Rehearse(match source.word() % 5 {
             0 => Mishap::Dawdle(source.word()),
             1 => Mishap::Reset,
             2 => Mishap::Panic,
             3 => Mishap::HardFault,
             _ => Mishap::PowerCut(source.word()),
         }),
+        14 => Request::Recorder,
+        15 => Request::Recorded { offset: source.word() },
+        _ => Request::EraseRecordings,
     }
 }
 
@@ -204,7 +211,7 @@ pub fn reply(variant: usize, source: &mut Source<'_>) -> Reply {
             entries: core::array::from_fn(|_| source.log_entry()),
         }),
         6 => Reply::Done(source.one_of(&[Done::AsAsked, Done::Stored])),
-        _ => {
+        7 => {
             let (index, other) = (source.word() as u16, source.word() as u16);
             let (phase, check) = (source.one_of(&Phase::ALL), source.word());
             Reply::Refused(source.one_of(&[
@@ -219,5 +226,18 @@ pub fn reply(variant: usize, source: &mut Source<'_>) -> Reply {
                 Refusal::TooFast { period: f32::from_bits(check), least: f32::from_bits(check) },
             ]))
         }
+        8 => Reply::Recorder(RecorderState {
+            pages: source.word() as u16,
+            next: source.word() as u16,
+            goes_round: source.truth(),
+            activity: source.one_of(&ACTIVITIES),
+            lost: source.word(),
+            refused: source.word() as u16,
+        }),
+        _ => Reply::Recorded(Recorded {
+            offset: source.word(),
+            count: source.byte(),
+            bytes: core::array::from_fn(|_| source.bytes()),
+        }),
     }
 }

@@ -20,7 +20,7 @@ const SLOT_WORDS: usize = HEADER + COUNT + 1;
 pub const SLOT_BYTES: u32 = 4 * SLOT_WORDS as u32;
 const BLANK: u32 = u32::MAX;
 /// A table of 1 KiB: a flash full of copies that have rotted is looked through in milliseconds, too.
-static CRC: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
+pub(crate) static CRC: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
 
 /// CRC-32 of words.
 pub(super) fn checksum(words: &[u32]) -> u32 {

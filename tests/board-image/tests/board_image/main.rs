@@ -5,6 +5,7 @@
 mod coils;
 mod faults;
 mod link;
+mod recorder;
 mod registers;
 mod resets;
 mod sensors;

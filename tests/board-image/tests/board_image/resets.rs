@@ -10,7 +10,7 @@ use sprag_shared::link::Request;
 use sprag_shared::settings::Settings;
 
 /// Armed, and then rocking for so many ticks.
-fn rocking(image: &Image, ticks: usize) -> Rig {
+pub fn rocking(image: &Image, ticks: usize) -> Rig {
     let mut rig = Rig::new(image, Some(&Settings::default()));
     rig.boot();
     let armed = rig.wait(4000, |state| state.phase == Phase::Armed);

@@ -1,0 +1,150 @@
+//! What a device's flight recorder holds: which recordings, and every tick of one.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
+use sprag_shared::device::recorder::page::{HEADER_BYTES, TRAILER_BYTES, words};
+use sprag_shared::device::recorder::{CAPACITY, Header, Moment, PAGE_BYTES, Page, PageError};
+use sprag_shared::link::{RecorderState, Reply, Request};
+
+use super::line::{DeviceError, Line, RefusalText};
+use super::session::Session;
+
+/// A part of a recording, as its pages say: by the number of the earthquake and of the part.
+pub type Parts = BTreeMap<(u16, u8), Part>;
+
+/// Pages of a part, without their records.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Part {
+    /// Where they are, in their order, with what they say of themselves.
+    pub pages: Vec<(u32, Header)>,
+    /// Ticks of those that are finished.
+    pub ticks: u32,
+    /// Pages that are not finished: the supply was cut, or they are being written.
+    pub unfinished: usize,
+    /// The recording ends with it.
+    pub ends: bool,
+}
+
+/// Every tick of a part.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Recording {
+    /// Number of the earthquake.
+    pub number: u16,
+    /// Number of the part.
+    pub part: u8,
+    /// From tick to tick, s.
+    pub period: f64,
+    /// Ticks, counted from the start of the device, and what was recorded of them.
+    pub moments: Vec<(u32, Moment)>,
+    /// Pages that were not whole, and are left out.
+    pub torn: usize,
+}
+
+/// How the recorder is.
+///
+/// # Errors
+/// As [`Session::ask`].
+pub fn state<L: Line>(session: &mut Session<L>) -> Result<RecorderState, DeviceError> {
+    match session.ask(&Request::Recorder)? {
+        Reply::Recorder(state) => Ok(state),
+        _ => Err(DeviceError::Confused("its recorder")),
+    }
+}
+
+/// So many bytes from an offset on; nothing where the flash cannot be read, as after a cut of the supply.
+fn bytes<L: Line>(session: &mut Session<L>, offset: u32, length: usize) -> Result<Option<Vec<u8>>, DeviceError> {
+    let mut bytes = Vec::new();
+    while bytes.len() < length {
+        let reply = match session.ask(&Request::Recorded { offset: offset + bytes.len() as u32 }) {
+            Err(DeviceError::Refused(RefusalText(sprag_shared::link::Refusal::FlashFailed))) => return Ok(None),
+            reply => reply?,
+        };
+        let Reply::Recorded(recorded) = reply else { return Err(DeviceError::Confused("its recordings")) };
+        let count = usize::from(recorded.count).min(recorded.bytes.as_flattened().len());
+        if count == 0 || recorded.offset != offset + bytes.len() as u32 {
+            return Err(DeviceError::Confused("its recordings"));
+        }
+        bytes.extend(&recorded.bytes.as_flattened()[..count]);
+    }
+    bytes.truncate(length);
+    Ok(Some(bytes))
+}
+
+/// Which recordings there are.
+///
+/// # Errors
+/// As [`Session::ask`].
+pub fn list<L: Line>(session: &mut Session<L>) -> Result<Parts, DeviceError> {
+    let state = state(session)?;
+    let end = if state.goes_round { state.pages } else { state.pages.min(state.next.saturating_add(1)) };
+    let mut parts = Parts::new();
+    for page in 0..u32::from(end) {
+        let offset = page * PAGE_BYTES;
+        let head = bytes(session, offset, HEADER_BYTES)?;
+        let Some(header) = head.and_then(|head| Header::of(&words(&head))) else { continue };
+        let trailer = bytes(session, offset + PAGE_BYTES - TRAILER_BYTES as u32, TRAILER_BYTES)?;
+        let [count, _] = trailer.map_or([u32::MAX; 2], |trailer| words(&trailer));
+        let part = parts.entry((header.number, header.part)).or_default();
+        part.pages.push((offset, header));
+        if (count & 0xFFFF) as usize <= CAPACITY {
+            part.ticks += count & 0xFFFF;
+            part.ends |= count >> 16 == 1;
+        } else {
+            part.unfinished += 1;
+        }
+    }
+    parts.values_mut().for_each(|part| part.pages.sort_by_key(|(_, header)| header.sequence));
+    Ok(parts)
+}
+
+/// Every tick of a part. `progress` is told how many of its pages have come.
+///
+/// # Errors
+/// As [`Session::ask`].
+pub fn read<L: Line>(
+    session: &mut Session<L>,
+    (number, part): (u16, u8),
+    pages: &[(u32, Header)],
+    mut progress: impl FnMut(usize),
+) -> Result<Recording, DeviceError> {
+    let period = pages.first().map_or(0.0, |(_, header)| f64::from(header.period));
+    let mut recording = Recording { number, part, period, ..Recording::default() };
+    for (come, (offset, header)) in pages.iter().enumerate() {
+        progress(come);
+        let bytes = bytes(session, *offset, PAGE_BYTES as usize)?;
+        match bytes.as_deref().map(Page::of) {
+            Some(Ok(page)) if page.header == *header => recording.moments.extend(page.moments()),
+            None | Some(Ok(_) | Err(PageError::Torn(_) | PageError::Foreign | PageError::Blank)) => recording.torn += 1,
+        }
+    }
+    Ok(recording)
+}
+
+/// As CSV, a row a tick.
+///
+/// # Errors
+/// As the writer.
+pub fn write_csv(recordings: &[Recording], out: &mut dyn Write) -> io::Result<()> {
+    writeln!(
+        out,
+        "earthquake,part,tick,time_s,rotation_rad,velocity_rad_s,ground_g,engage_first,engage_second,engaged_first,engaged_second,standing,state,fault_code"
+    )?;
+    for recording in recordings {
+        for (tick, moment) in &recording.moments {
+            let Moment { rotation, velocity, ground, command, engaged, phase, standing, fault } = moment;
+            let ([engage_first, engage_second], [first, second]) = (command.map(u8::from), engaged.map(u8::from));
+            writeln!(
+                out,
+                "{},{},{tick},{},{rotation},{velocity},{ground},{engage_first},{engage_second},{first},{second},{},{},{}",
+                recording.number,
+                recording.part,
+                f64::from(*tick) * recording.period,
+                u8::from(*standing),
+                format!("{phase:?}").to_lowercase(),
+                fault.unwrap_or(0),
+            )?;
+        }
+    }
+    Ok(())
+}
