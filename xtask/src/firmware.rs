@@ -2,6 +2,7 @@
 
 use crate::{
     process::{cargo_in, executables},
+    seal::seal,
     stop::Stop,
 };
 use std::{
@@ -125,6 +126,9 @@ impl Image {
         fs::create_dir_all(&folder)
             .and_then(|()| fs::copy(&built, &elf))
             .map_err(|error| Stop::failed(format!("{}: {error}", elf.display())))?;
+        if self.workspace == BOARD.workspace {
+            seal(&elf)?;
+        }
         println!("{:<10} {}", self.name, elf.display());
         Ok(elf)
     }

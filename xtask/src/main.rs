@@ -15,6 +15,7 @@ mod panic_check;
 mod process;
 mod program;
 mod reach;
+mod seal;
 mod size;
 mod steps;
 mod stop;

@@ -67,6 +67,9 @@ pub enum Request {
     Sample(TickSample),
     /// Something bad, on purpose; refused by images that are not for rehearsals.
     Rehearse(Mishap),
+    /// Protects the program in flash against writing, and the whole flash against being read out by a probe, from the next power-on on. Only
+    /// erasing the whole chip undoes it.
+    Protect,
 }
 
 /// Who says when an attached device ticks.
@@ -199,6 +202,23 @@ pub struct Identity {
     pub check: u32,
     /// The image is for rehearsals.
     pub rehearsal: bool,
+    /// Highest version of a firmware that has run on it: above its own, it has gone back to an older one.
+    pub highest: [u8; 3],
+    /// The image has a seal, so that a changed bit of the program is found.
+    pub sealed: bool,
+    /// The commissioning jumper is closed.
+    pub jumper: bool,
+    /// What its flash is protected against.
+    pub protection: Protection,
+}
+
+/// What a flash is protected against.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Protection {
+    /// Being read out by a probe.
+    pub reading: bool,
+    /// Its program being written.
+    pub writing: bool,
 }
 
 /// How a device is.
@@ -291,6 +311,10 @@ pub enum Refusal {
         /// The least that it may be on this board, s.
         least: f32,
     },
+    /// The commissioning jumper is open.
+    NoJumper,
+    /// The program has no seal, and shall not be protected so.
+    NotSealed,
 }
 
 impl From<&Entry> for LogEntry {
@@ -303,6 +327,7 @@ impl From<&Entry> for LogEntry {
             Kind::Fault(code) => [3, code as u8],
             Kind::Warning(code) => [4, code as u8],
             Kind::Calibrated => [5, 0],
+            Kind::Tested => [6, 0],
         };
         LogEntry { tick: entry.tick, rotation: entry.rotation, velocity: entry.velocity, kind }
     }
@@ -320,6 +345,7 @@ impl LogEntry {
             3 => Kind::Fault(of.into()),
             4 => Kind::Warning(of.into()),
             5 => Kind::Calibrated,
+            6 => Kind::Tested,
             _ => return None,
         };
         Some(Entry { tick: self.tick, kind, rotation: self.rotation, velocity: self.velocity })

@@ -17,6 +17,7 @@ pub fn what(kind: Kind) -> String {
         Kind::Fault(code) => format!("fault {}", fault(code)),
         Kind::Warning(code) => format!("warning {}", fault(code)),
         Kind::Calibrated => "calibrated".to_owned(),
+        Kind::Tested => "proof test passed".to_owned(),
     }
 }
 

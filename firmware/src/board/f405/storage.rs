@@ -1,4 +1,4 @@
-//! Sectors 1 and 2 of the flash, for the settings: see `memory.x`.
+//! Sectors 1 to 3 of the flash, for the settings and for which firmware has run: see `memory.x`.
 
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
 use stm32f4xx_hal::flash::{FlashExt, LockedFlash};
@@ -11,9 +11,9 @@ const SECTOR: u32 = 0x4000;
 /// Number of the first sector.
 const FIRST: u8 = 1;
 /// How many there are.
-const SECTORS: u32 = 2;
+const SECTORS: u32 = 3;
 
-/// The two sectors.
+/// The sectors.
 pub struct Storage {
     flash: LockedFlash,
     /// They have been changed since the caches were emptied.
@@ -23,7 +23,7 @@ pub struct Storage {
 /// What went wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Error {
-    /// Beyond the two sectors.
+    /// Beyond the sectors.
     OutOfBounds,
     /// Not at whole words, or not of whole sectors.
     NotAligned,

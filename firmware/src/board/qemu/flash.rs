@@ -1,4 +1,4 @@
-//! Two sectors of flash, played by memory that a reset does not clear, which can lose power in the middle of a write.
+//! Three sectors of flash, played by memory that a reset does not clear, which can lose power in the middle of a write.
 
 use core::cell::UnsafeCell;
 use core::sync::atomic::{AtomicU32, Ordering};
@@ -9,6 +9,8 @@ use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashEr
 
 /// Bytes of a sector; the board's have 16 KiB, which would only take longer to fill.
 const SECTOR: usize = 4096;
+/// Of all.
+const BYTES: usize = 3 * SECTOR;
 
 /// Memory holds this from the first start on.
 const USED: u32 = 0xF1A5_4000;
@@ -19,13 +21,13 @@ const NEVER: u32 = u32::MAX;
 #[unsafe(link_section = ".uninit.FLASH_MARK")]
 static MARK: Lasting<u32> = Lasting::new();
 
-struct Sectors(UnsafeCell<[u8; 2 * SECTOR]>);
+struct Sectors(UnsafeCell<[u8; BYTES]>);
 
 // SAFETY: there is one `Flash`, and only it looks inside.
 unsafe impl Sync for Sectors {}
 
 #[unsafe(link_section = ".uninit.FLASH")]
-static SECTORS: Sectors = Sectors(UnsafeCell::new([0; 2 * SECTOR]));
+static SECTORS: Sectors = Sectors(UnsafeCell::new([0; BYTES]));
 
 /// Bytes that will still be written before the supply fails.
 static LEFT: AtomicU32 = AtomicU32::new(NEVER);
@@ -50,13 +52,13 @@ impl Flash {
         flash
     }
 
-    fn bytes(&mut self) -> &mut [u8; 2 * SECTOR] {
+    fn bytes(&mut self) -> &mut [u8; BYTES] {
         // SAFETY: there is one `Flash`, borrowed for as long as the bytes are.
         unsafe { &mut *SECTORS.0.get() }
     }
 }
 
-/// Outside of the two sectors.
+/// Outside of the sectors.
 #[derive(Debug)]
 pub struct OutOfBounds;
 
@@ -81,7 +83,7 @@ impl ReadNorFlash for Flash {
     }
 
     fn capacity(&self) -> usize {
-        2 * SECTOR
+        BYTES
     }
 }
 

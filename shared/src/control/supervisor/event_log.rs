@@ -20,6 +20,8 @@ pub enum Kind {
     Warning(u16),
     /// New biases were found.
     Calibrated,
+    /// The clutches have passed a proof test.
+    Tested,
 }
 
 impl Kind {

@@ -12,7 +12,7 @@ use crate::link::*;
 use crate::math::sign::Sign;
 
 /// Kinds of requests.
-pub const REQUESTS: usize = 14;
+pub const REQUESTS: usize = 15;
 /// Kinds of replies.
 pub const REPLIES: usize = 8;
 
@@ -143,13 +143,14 @@ pub fn request(variant: usize, source: &mut Source<'_>) -> Request {
             let (number, sample) = (source.word(), source.sample());
             Request::Sample(TickSample { number, sample, lateness: source.float(), clear: source.truth() })
         }
-        _ => Request::Rehearse(match source.word() % 5 {
+        13 => Request::Rehearse(match source.word() % 5 {
             0 => Mishap::Dawdle(source.word()),
             1 => Mishap::Reset,
             2 => Mishap::Panic,
             3 => Mishap::HardFault,
             _ => Mishap::PowerCut(source.word()),
         }),
+        _ => Request::Protect,
     }
 }
 
@@ -181,6 +182,10 @@ pub fn reply(variant: usize, source: &mut Source<'_>) -> Reply {
             layout: source.word(),
             check: source.word(),
             rehearsal: source.truth(),
+            highest: source.bytes(),
+            sealed: source.truth(),
+            jumper: source.truth(),
+            protection: Protection { reading: source.truth(), writing: source.truth() },
         }),
         3 => Reply::State(State {
             phase: source.one_of(&Phase::ALL),
@@ -217,6 +222,8 @@ pub fn reply(variant: usize, source: &mut Source<'_>) -> Reply {
                 Refusal::FlashFailed,
                 Refusal::NotHere,
                 Refusal::TooFast { period: f32::from_bits(check), least: f32::from_bits(check) },
+                Refusal::NoJumper,
+                Refusal::NotSealed,
             ]))
         }
     }

@@ -25,7 +25,13 @@ impl Counter {
         *self = Counter { registers: Registers::of(&[(ARR, u32::MAX)]), ..Counter::default() };
     }
 
-    fn count(&self, clock: u64, now: u64) -> u64 {
+    /// What a register holds.
+    pub fn register(&self, offset: u32) -> u32 {
+        self.registers.get(offset)
+    }
+
+    /// Its count at a time, with the rate of its clock, 1/s.
+    pub fn count(&self, clock: u64, now: u64) -> u64 {
         let ticks = u128::from(now - self.begun) * u128::from(clock) / u128::from(SECOND) / u128::from(self.prescaler + 1);
         (ticks % (u128::from(self.registers.get(ARR)) + 1)) as u64
     }
