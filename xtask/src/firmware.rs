@@ -1,9 +1,10 @@
 //! The images for the board: what there is, and how they are built.
 
 use crate::{
-    process::{cargo_in, executables},
+    process::{cargo_in, executables, run as done},
     seal::seal,
     stop::Stop,
+    tools,
 };
 use std::{
     fs,
@@ -131,6 +132,16 @@ impl Image {
         }
         println!("{:<10} {}", self.name, elf.display());
         Ok(elf)
+    }
+
+    /// Builds it, and has probe-rs write it to a board with that `chip`.
+    ///
+    /// # Errors
+    /// If the build fails, or probe-rs is missing or fails.
+    pub fn flash(&self, root: &Path, chip: &str) -> Result<(), Stop> {
+        tools::need_board_target(root)?;
+        let elf = self.build(root)?;
+        done(Command::new("probe-rs").args(["run", "--chip", chip]).arg(elf))
     }
 }
 

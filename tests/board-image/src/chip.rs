@@ -61,6 +61,8 @@ pub struct Chip {
     pub instructions: u64,
     /// Counts of time in half a cycle.
     half_cycle: u64,
+    /// Rate of the timers' clock at APB1, 1/s.
+    timer_hz: u64,
     /// When something happens by itself that the processor must see.
     event: u64,
     /// When the bench wants the processor back.
@@ -144,7 +146,8 @@ impl Chip {
             now: 0,
             half_cycles: 0,
             instructions: 0,
-            half_cycle: 21,
+            half_cycle: 525,
+            timer_hz: 16_000_000,
             event: 0,
             until: 0,
             goes_on: false,
@@ -192,7 +195,18 @@ impl Chip {
         chip
     }
 
+    /// The crystal changes to another rate, 1/s.
+    pub fn set_crystal(&mut self, hz: u64) {
+        self.rcc.crystal_hz = hz;
+        self.clock_changed();
+    }
+
     fn clock_changed(&mut self) {
+        let [timers, _] = self.rcc.timer_hz();
+        let before = std::mem::replace(&mut self.timer_hz, timers);
+        if before != timers {
+            self.counters.iter_mut().for_each(|counter| counter.clocked(before, timers, self.now));
+        }
         self.half_cycle = SECOND / self.rcc.core_hz() / 2;
         self.event = self.now;
     }

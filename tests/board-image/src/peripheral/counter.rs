@@ -36,6 +36,13 @@ impl Counter {
         (ticks % (u128::from(self.registers.get(ARR)) + 1)) as u64
     }
 
+    /// Its clock changes from one rate to another, 1/s: it counts on.
+    pub fn clocked(&mut self, before: u64, after: u64, now: u64) {
+        let counted =
+            u128::from(self.count(before, now)) * u128::from(SECOND) * u128::from(self.prescaler + 1) / u128::from(after);
+        self.begun = now.saturating_sub(counted as u64);
+    }
+
     /// Whether it asks a stream for a transfer at each update.
     pub fn asks(&self) -> bool {
         self.registers.has(CR1, 1) && self.registers.has(DIER, 1 << 8)

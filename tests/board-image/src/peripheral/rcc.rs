@@ -74,7 +74,7 @@ pub struct Rcc {
     /// The crystal is there and whole.
     pub crystal: bool,
     /// Its rate, 1/s.
-    pub crystal_hz: u64,
+    pub(crate) crystal_hz: u64,
     /// When the crystal will run, if it has been switched on.
     crystal_at: Option<u64>,
     /// Likewise the PLL.

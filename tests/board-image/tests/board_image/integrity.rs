@@ -169,7 +169,7 @@ fn a_bit_of_the_settings_that_turns_in_memory_is_a_fault_within_seconds() {
 fn with_crystal(model: Model, share: f64, slow_hz: u64) -> Option<Fault> {
     let mut rig = Rig::new(&image_for(model), Some(&Settings::default()));
     let chip = rig.bench.chip_mut();
-    chip.rcc.crystal_hz = (8e6 * share) as u64;
+    chip.set_crystal((8e6 * share) as u64);
     chip.watchdog.hz = slow_hz;
     rig.boot();
     let state = rig.wait(3 * SECOND, |state| state.phase == Phase::Fault);
@@ -203,7 +203,7 @@ fn a_crystal_that_is_off_is_a_fault_and_a_slow_oscillator_that_is_off_is_none() 
 fn a_crystal_that_changes_its_rate_is_a_fault_within_seconds() {
     for model in Model::ALL {
         let mut rig = armed(model);
-        rig.bench.chip_mut().rcc.crystal_hz = 8_600_000;
+        rig.bench.chip_mut().set_crystal(8_600_000);
         let state = rig.wait(5 * SECOND, |state| state.phase == Phase::Fault);
         stands_aside(&mut rig, &state, Fault::ClockWrong, &format!("{model:?}"));
     }
