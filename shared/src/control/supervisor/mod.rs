@@ -1,7 +1,7 @@
 //! Who decides: the law while everything is well, and the safe state while it is not.
 //!
 //! Boot → SelfTest → Calibrate → Armed ⇄ Rocking, and Fault from everywhere after Boot. Only Armed and Rocking send what the law wishes, and
-//! only SelfTest pulses the clutches; all else sends the safe state. [`Fault::recovery`] has the ways out of Fault.
+//! only SelfTest and, in Armed, a proof test pulse the clutches; all else sends the safe state. [`Fault::recovery`] has the ways out of Fault.
 //!
 //! The room imports `structure`, `control::sensing`, `control::monitor` and `control::ticks`.
 
