@@ -33,7 +33,9 @@ compile_error!("select one board only: --no-default-features --features board-qe
 use embedded_storage::nor_flash::NorFlash;
 use sprag_shared::control::monitor::coil::CoilReading;
 use sprag_shared::control::sensing::sample::Sample;
+use sprag_shared::device::clock_check::ClockCheck;
 use sprag_shared::device::light::Shown;
+use sprag_shared::link::Protection;
 use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::settings::Settings;
 
@@ -82,7 +84,7 @@ pub trait Board: Sized {
     type Watchdog: Watchdog;
     /// Serial link.
     type Line: Line;
-    /// The two sectors for settings: a capacity of two erase sizes.
+    /// Three sectors: two for the settings, one for which firmware has run.
     type Flash: NorFlash;
     /// The sectors for recordings of earthquakes, which are whole pages of [`sprag_shared::device::recorder`].
     type Recordings: NorFlash;
@@ -115,8 +117,47 @@ pub trait Board: Sized {
     #[inline(always)]
     fn ticked() {}
 
+    /// The commissioning jumper is closed: somebody stands at the board. One without a jumper has it closed.
+    fn jumper_is_closed() -> bool {
+        true
+    }
+
+    /// CRC-32/MPEG-2 of words, each from its most significant bit on, going on from `before`, which at first is all ones.
+    fn crc(before: u32, words: &[u32]) -> u32;
+
+    /// The last edge of an oscillator that has nothing to do with the crystal, since it was asked for one.
+    fn slow_edge() -> Edge {
+        Edge::None
+    }
+
+    /// Whether something beside the processor reads or writes this word of the memory.
+    fn moves_by_itself(_place: u32) -> bool {
+        false
+    }
+
+    /// What the flash is protected against, with a program that ends before `end`.
+    fn protection(_end: u32) -> Protection {
+        Protection::default()
+    }
+
+    /// Protects it, from the next power-on on. Called with the control task held off; whether it has been done.
+    fn protect(_end: u32) -> bool {
+        false
+    }
+
     /// Puts the coils in the state `engaged` at once, whatever else holds them: called from panics and faults, with interrupts off.
     fn force_coils(engaged: [bool; 2]);
+}
+
+/// What a slow oscillator did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Edge {
+    /// Nothing.
+    None,
+    /// An edge came, when the [counter](Board::now) was at this.
+    At(u32),
+    /// More than one came.
+    Missed,
 }
 
 /// What [`Board::begin`] hands out.
@@ -131,6 +172,8 @@ pub struct Parts<B: Board> {
     pub line: B::Line,
     /// To the control task.
     pub light: B::Light,
+    /// What the edges of the [slow oscillator](Board::slow_edge) are held against.
+    pub clock: Option<ClockCheck>,
 }
 
 /// The sensors of a board.

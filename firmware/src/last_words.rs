@@ -8,6 +8,8 @@ use crate::control::safe_state;
 use crate::memory::Lasting;
 use crate::stack;
 use cortex_m::peripheral::SCB;
+use sprag_shared::device::Device;
+use sprag_shared::link::Started;
 use sprag_shared::link::reset_cause::Cause;
 
 /// Bytes of a file's name that are kept.
@@ -24,6 +26,14 @@ pub struct LastWords {
     pub length: u8,
     /// End of the name of the file that panicked; of a fault the registers CFSR, HFSR, BFAR and LR, eight digits each.
     pub file: [u8; NAME],
+}
+
+impl LastWords {
+    /// How a `device` started that told this; its settings are `stored` ones.
+    pub fn started(&self, device: &Device, stored: bool) -> Started {
+        let LastWords { cause, place, length, file } = *self;
+        Started { cause, resumed: device.resumes(), stored, restarts: device.restarts(), length, place, file }
+    }
 }
 
 #[derive(Clone, Copy)]

@@ -3,13 +3,12 @@
 use core::sync::atomic::{AtomicU32, Ordering};
 
 use crate::board::{Board, Flash, Line, Recordings, Selected};
-use crate::identity::{BOARD, BUILD, VERSION};
-use crate::last_words::{self, LastWords};
+use crate::last_words;
 use crate::log::{info, warn};
 use crate::{stack, tick};
 use heapless::Deque;
 use sprag_shared::device::recorder::{Recorder, Taken};
-use sprag_shared::device::{Answer, Device, Surroundings};
+use sprag_shared::device::{Answer, Surroundings};
 use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::link::{Deframer, MAX_FRAME, Mishap, Pace, Reply, Request, Started, TickReport, encode};
 use sprag_shared::settings::store::Store;
@@ -62,6 +61,7 @@ pub struct Link {
     line: <Selected as Board>::Line,
     stored: &'static mut Stored,
     around: Surroundings,
+    program_end: u32,
     deframer: Deframer,
     /// The frame on its way out and how much of it is gone.
     frame: [u8; MAX_FRAME],
@@ -74,36 +74,32 @@ pub struct Link {
 }
 
 impl Link {
-    /// With what is to be said about the start.
-    pub fn new(line: <Selected as Board>::Line, stored: &'static mut Stored, words: LastWords, device: &Device) -> Link {
-        let LastWords { cause, place, length, file } = words;
-        let commissioned = device.barred().is_none();
-        let started =
-            Started { cause, resumed: device.resumes(), stored: commissioned, restarts: device.restarts(), length, place, file };
-        let around = Surroundings {
-            version: VERSION,
-            build: BUILD,
-            board: BOARD,
-            counter_hz: Selected::COUNTER_HZ,
-            least_period: Selected::LEAST_PERIOD,
-            rehearsal: cfg!(feature = "board-qemu"),
-            cause,
-            bad_frames: 0,
-            lost_reports: 0,
-            stack: 0,
-        };
-        let next = Some((0, Reply::Started(started)));
+    /// With what is to be said about the start, of a sealed program that ends before `program_end` (0 without a seal).
+    pub fn new(
+        line: <Selected as Board>::Line,
+        stored: &'static mut Stored,
+        started: &Started,
+        around: Surroundings,
+        program_end: u32,
+        pace: Option<Pace>,
+    ) -> Link {
         Link {
             line,
             stored,
             around,
+            program_end,
             deframer: Deframer::new(),
             frame: [0; MAX_FRAME],
             length: 0,
             gone: 0,
-            next,
-            pace: device.attached(),
+            next: Some((0, Reply::Started(*started))),
+            pace,
         }
+    }
+
+    /// The address behind the program, where it has a seal.
+    pub fn program_end(&self) -> u32 {
+        self.program_end
     }
 
     /// Writes the settings where a power cut has left one copy of them only.
@@ -167,6 +163,8 @@ impl Link {
                 Some(Ok(received)) => {
                     self.around.lost_reports = LOST_REPORTS.load(Ordering::Relaxed);
                     self.around.stack = stack::deepest();
+                    self.around.locked = !Selected::jumper_is_closed();
+                    self.around.protection = Selected::protection(self.program_end);
                     let (answer, pace) = ask(&received.message, self.stored, &self.around);
                     self.pace = pace;
                     self.act(received.tag, answer);
@@ -187,7 +185,7 @@ impl Link {
             Answer::Reply(reply) | Answer::Restarted(reply) => self.next = Some((tag, reply)),
             Answer::Sample if self.pace == Some(Pace::Sample) => tick::pend(),
             // Has been done before this is told.
-            Answer::Sample | Answer::Change(_) | Answer::Recorder => {}
+            Answer::Sample | Answer::Change(_) | Answer::Recorder | Answer::Protect => {}
             Answer::Rehearse(mishap) => rehearse(mishap),
         }
     }

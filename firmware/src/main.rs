@@ -8,10 +8,13 @@
 mod board;
 mod control;
 mod identity;
+mod integrity;
 mod last_words;
 mod link;
 mod log;
 mod memory;
+mod memory_test;
+mod seal;
 mod stack;
 mod tick;
 
@@ -19,15 +22,19 @@ mod tick;
 mod app {
     use crate::board::{Board as _, Selected};
     use crate::control::Control;
+    use crate::identity;
+    use crate::integrity::{self, Integrity, Next};
     use crate::link::{Link, Outbox, Stored};
     use crate::log::info;
+    use crate::seal::{Program, Seen};
     use crate::{last_words, memory, stack, tick};
     use core::mem::MaybeUninit;
+    use sprag_shared::control::monitor::fault::Fault;
     use sprag_shared::device::beginning::Beginning;
     use sprag_shared::device::recorder::{Recorder, Ring};
     use sprag_shared::device::retained::Retained;
     use sprag_shared::device::{Answer, Device, Surroundings};
-    use sprag_shared::link::Request;
+    use sprag_shared::link::{Done, Refusal, Reply, Request};
     use sprag_shared::settings::Settings;
     use sprag_shared::settings::store::{Store, StoreError};
 
@@ -42,6 +49,7 @@ mod app {
     struct Local {
         control: Control,
         link: Link,
+        integrity: Integrity,
     }
 
     #[init(local = [
@@ -53,7 +61,10 @@ mod app {
         let (mut board, cause) = Selected::wake(context.core, context.device);
         stack::paint();
         let words = last_words::take(cause);
-        let (store, settings) = Store::open(board.flash());
+        let mut program = Program::sealed();
+        let damaged = program.as_mut().is_some_and(|program| program.look_through() == Seen::Damaged);
+        let (mut store, settings) = Store::open(board.flash());
+        let highest = store.note_firmware(identity::VERSION);
         let survived = words.cause.keeps_memory();
         let kept = if survived { memory::load() } else { None };
         // Only a rehearsal goes on with the host it had.
@@ -62,17 +73,30 @@ mod app {
         if let Some(slots) = memory::load_log(survived) {
             device.remember(&slots, words.cause);
         }
+        let commissioned = device.barred().is_none();
+        if damaged {
+            device.accuse(Fault::ImageDamaged);
+        }
+        for (warning, due) in [(Fault::NotSealed, program.is_none()), (Fault::OlderFirmware, highest != identity::VERSION)] {
+            if due {
+                device.warn(warning);
+            }
+        }
         let recorder = Recorder::new(board.recordings(), !Selected::ERASING_STALLS, device.resumes());
         let stored = context.local.stored.write(Stored { settings: store, recorder });
         memory::Keeper::new().save(&device.retained());
+        integrity::put_in_force(device);
         crate::control::set_safe_state(device.safe_command());
         let counts = kept.filter(|_| device.resumes()).map(|kept| kept.counts);
         let parts = board.begin(device.settings(), counts);
         tick::set_period(device.period_counts(Selected::CORE_HZ));
         info!("started: {}, resumes {}, commissioned {}", words.cause, device.resumes(), device.barred().is_none());
-        let link = Link::new(parts.line, stored, words, device);
+        let around = Surroundings { highest, sealed: program.is_some(), ..identity::surroundings(words.cause) };
+        let end = program.as_ref().map_or(0, Program::end);
+        let link = Link::new(parts.line, stored, &words.started(device, commissioned), around, end, device.attached());
+        let integrity = Integrity::new(program, parts.clock);
         let control = Control::new(parts.sensors, parts.coils, parts.watchdog, parts.light);
-        (Shared { device, ring: context.local.ring, outbox: Outbox::new() }, Local { control, link })
+        (Shared { device, ring: context.local.ring, outbox: Outbox::new() }, Local { control, link, integrity })
     }
 
     /// The device with the settings found in flash, or with the defaults.
@@ -101,9 +125,10 @@ mod app {
             .lock(|device, ring, outbox| crate::control::control_tick(control, device, ring, outbox, timer));
     }
 
-    #[idle(local = [link], shared = [device, ring, outbox])]
+    #[idle(local = [link, integrity], shared = [device, ring, outbox])]
     fn idle(mut context: idle::Context<'_>) -> ! {
         context.local.link.mend();
+        let end = context.local.link.program_end();
         loop {
             let report = if context.local.link.has_room() { context.shared.outbox.lock(Outbox::take) } else { None };
             let deserted = context.shared.device.lock(|device| device.deserted());
@@ -114,6 +139,9 @@ mod app {
                     answer => answer,
                 };
                 let store = &mut stored.settings;
+                if let Answer::Protect = answer {
+                    return device.lock(|device| (protect(end), device.attached()));
+                }
                 let change = if let Answer::Change(change) = answer {
                     // Checking and storing take longer than a control period, so the device is not held meanwhile.
                     let wanted = device.lock(|device| *device.wanted(change));
@@ -137,6 +165,7 @@ mod app {
                 device.lock(|device| {
                     let answer = change.map_or(answer, |(change, prepared)| device.install(change, &prepared));
                     if matches!(answer, Answer::Restarted(_)) {
+                        integrity::put_in_force(device);
                         crate::control::set_safe_state(device.safe_command());
                         tick::set_period(device.period_counts(Selected::CORE_HZ));
                     }
@@ -165,9 +194,24 @@ mod app {
                     false => recorder.stop_erasing(),
                 }
             }
-            if !moved && context.local.link.may_sleep() {
+            let next = context.local.integrity.turn(&mut |fault| context.shared.device.lock(|device| device.accuse(fault)));
+            if next == Next::Audit {
+                context.shared.device.lock(|device| {
+                    if !integrity::is_in_force(device) {
+                        device.accuse(Fault::SettingsDamaged);
+                    }
+                });
+            }
+            if !moved && next != Next::Turn && context.local.link.may_sleep() {
                 cortex_m::asm::wfi();
             }
         }
+    }
+
+    /// Protects the flash, with the control task held off.
+    fn protect(end: u32) -> Answer {
+        let done = Selected::protect(end);
+        crate::control::forget_time();
+        Answer::Reply(if done { Reply::Done(Done::Stored) } else { Reply::Refused(Refusal::FlashFailed) })
     }
 }

@@ -1,8 +1,10 @@
 //! The images for the board: what there is, and how they are built.
 
 use crate::{
-    process::{cargo_in, executables},
+    process::{cargo_in, executables, run as done},
+    seal::seal,
     stop::Stop,
+    tools,
 };
 use std::{
     fs,
@@ -125,8 +127,21 @@ impl Image {
         fs::create_dir_all(&folder)
             .and_then(|()| fs::copy(&built, &elf))
             .map_err(|error| Stop::failed(format!("{}: {error}", elf.display())))?;
+        if self.workspace == BOARD.workspace {
+            seal(&elf)?;
+        }
         println!("{:<10} {}", self.name, elf.display());
         Ok(elf)
+    }
+
+    /// Builds it, and has probe-rs write it to a board with that `chip`.
+    ///
+    /// # Errors
+    /// If the build fails, or probe-rs is missing or fails.
+    pub fn flash(&self, root: &Path, chip: &str) -> Result<(), Stop> {
+        tools::need_board_target(root)?;
+        let elf = self.build(root)?;
+        done(Command::new("probe-rs").args(["run", "--chip", chip]).arg(elf))
     }
 }
 

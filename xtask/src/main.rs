@@ -15,6 +15,7 @@ mod panic_check;
 mod process;
 mod program;
 mod reach;
+mod seal;
 mod size;
 mod steps;
 mod stop;
@@ -39,6 +40,9 @@ Tasks:
   nightly   the same, and each fuzz target from its seeds on
   firmware  build the images for the board, hold their sizes against tests/emulated-core/size.budget and
             firmware/size.budget, and prove that no panic can be reached from the firmware's control tick
+  flash [g474]
+            build the image for the board with an STM32F405 (or an STM32G474), seal it, write it to the board and show its output; needs
+            probe-rs
   effects   measure what each effect costs, on the host under callgrind and on the emulated board, and write
             docs/effects-cost.csv; fails if an effect that is off costs more than 1 %
   accuracy  measure what accuracy costs in time, on the host, in the emulator and against SciPy, and write docs/accuracy.md with
@@ -108,6 +112,8 @@ fn run(mut args: impl Iterator<Item = String>) -> Result<(), Stop> {
             tools::need_board_target(&root)?;
             test::images(&root, &mut Steps::default(), overwrite).map(drop)
         }
+        ["flash"] => firmware::BOARD.flash(&root, "STM32F405RGTx"),
+        ["flash", "g474"] => firmware::BOARD_G474.flash(&root, "STM32G474RETx"),
         ["effects"] => {
             tools::need_board_target(&root)?;
             effects::run(&root)

@@ -2,14 +2,17 @@
 //!
 //! | part | peripherals |
 //! | --- | --- |
-//! | [`clock`]: 168 MHz, and the counter of time | RCC, TIM5 |
+//! | [`clock`]: 168 MHz, the counter of time, and the slow oscillator beside it | RCC, TIM5 |
 //! | [`encoder`]: its counter, which goes on over a reset | TIM4, TIM3, stream 2 of DMA1 |
 //! | [`sensors`]: two inertial sensors, each on a [`mod@bus`] | SPI1, SPI2 |
 //! | [`coils`]: two coils and their currents | TIM8 with its break input PA6, PC8, PC9, ADC1 |
 //! | [`mod@line`]: the link | USART1, streams 2 and 7 of DMA2 |
-//! | [`storage`]: the settings, and recordings of earthquakes | sectors 1 and 2, and 6 to 11, of the flash |
-//! | [`supply`]: what happens when it sags | PWR, EXTI line 16, option bytes |
+//! | [`storage`]: the settings, which firmware has run, recordings of earthquakes | sectors 1 to 3 and 6 to 11 of the flash |
+//! | [`supply`]: what happens when it sags | PWR, EXTI line 16 |
+//! | [`options`]: brown-out reset, protection | option bytes |
 //! | the light | PC12 |
+//! | the commissioning jumper | PC13 |
+//! | the program's checksum | CRC |
 //!
 //! Interrupts: the supply's comes before everything but faults, then SysTick, the control task. Nothing else interrupts.
 
@@ -18,24 +21,27 @@ mod clock;
 mod coils;
 mod encoder;
 mod line;
+mod options;
 mod reset;
 mod sensors;
 mod storage;
 mod supply;
 
+use sprag_shared::device::clock_check::ClockCheck;
+use sprag_shared::link::Protection;
 use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::settings::Settings;
 use sprag_shared::settings::wiring::Wiring;
-use stm32f4xx_hal::gpio::{GpioExt, Output, Pin, PinState};
+use stm32f4xx_hal::gpio::{GpioExt, Input, Output, Pin, PinState};
 use stm32f4xx_hal::pac;
 use stm32f4xx_hal::prelude::_fugit_ExtU32;
-use stm32f4xx_hal::rcc::Rcc;
+use stm32f4xx_hal::rcc::{Enable, Rcc};
 use stm32f4xx_hal::watchdog::IndependentWatchdog;
 
-use super::parts::driver;
 use super::parts::inertial::MountedSensors;
 use super::parts::light::PinLight;
-use super::{Board, Parts, Watchdog};
+use super::parts::{self, driver};
+use super::{Board, Edge, Parts, Watchdog};
 
 pub use stm32f4xx_hal::pac as chip;
 
@@ -44,7 +50,11 @@ pub struct F405 {
     chip: pac::Peripherals,
     rcc: Rcc,
     crystal: bool,
+    check: ClockCheck,
 }
+
+/// The commissioning jumper's pin in port C, which it takes to ground.
+const JUMPER: u8 = 13;
 
 /// After so long without being fed the watchdog resets the chip, by steps of 4 ms of its own oscillator: 11 to 38 ms (47 to 17 kHz).
 const WATCHDOG_MILLISECONDS: u32 = 20;
@@ -79,12 +89,13 @@ impl Board for F405 {
     fn wake(_core: cortex_m::Peripherals, chip: pac::Peripherals) -> (F405, Cause) {
         let cause = reset::cause(&chip.RCC);
         // SAFETY: the peripherals' own is not used from here on.
-        let (rcc, crystal) = clock::start(unsafe { pac::RCC::steal() }, &chip.TIM5);
-        (F405 { chip, rcc, crystal }, cause)
+        let (mut rcc, crystal, check) = clock::start(unsafe { pac::RCC::steal() }, &chip.TIM5);
+        pac::CRC::enable(&mut rcc);
+        (F405 { chip, rcc, crystal, check }, cause)
     }
 
     fn flash(&mut self) -> storage::Settings {
-        supply::set_brown_out(&self.chip.PWR, &self.chip.FLASH, &mut self.rcc);
+        supply::set_brown_out(&self.chip.PWR, &mut self.rcc);
         storage::Settings::new()
     }
 
@@ -94,7 +105,7 @@ impl Board for F405 {
 
     fn begin(self, settings: &Settings, counts: Option<i32>) -> Parts<F405> {
         let wiring = Wiring::of(settings);
-        let F405 { chip, mut rcc, crystal } = self;
+        let F405 { chip, mut rcc, crystal, check } = self;
         let a = chip.GPIOA.split(&mut rcc);
         let c = chip.GPIOC.split(&mut rcc);
         let outputs = coils::Outputs { low: (c.pc6, c.pc7), high: (c.pc8, c.pc9), trip: a.pa6 };
@@ -110,6 +121,7 @@ impl Board for F405 {
         let ground = sensors::ground(chip.SPI2, b.pb13, b.pb14, b.pb15, b.pb12, &mut rcc);
         let line = line::DmaLine::at(chip.USART1, chip.DMA2, (a.pa9, a.pa10), &mut rcc);
         let lamp = c.pc12;
+        let _: Pin<'C', JUMPER, Input> = c.pc13.into_pull_up_input();
         let light = PinLight::new(lamp.into_push_pull_output_in_state(PinState::High), crystal);
         let mut watchdog = IndependentWatchdog::new(chip.IWDG);
         watchdog.stop_on_debug(&chip.DBGMCU, true);
@@ -120,6 +132,7 @@ impl Board for F405 {
             watchdog: BoardWatchdog(watchdog),
             line,
             light,
+            clock: Some(check),
         }
     }
 
@@ -141,6 +154,31 @@ impl Board for F405 {
 
     fn force_coils(engaged: [bool; 2]) {
         coils::force(engaged);
+    }
+
+    fn jumper_is_closed() -> bool {
+        // SAFETY: reading the pins has no side effect.
+        unsafe { &*pac::GPIOC::ptr() }.idr().read().bits() & 1 << JUMPER == 0
+    }
+
+    fn crc(before: u32, words: &[u32]) -> u32 {
+        parts::crc::crc(before, words)
+    }
+
+    fn slow_edge() -> Edge {
+        clock::SLOW.take()
+    }
+
+    fn moves_by_itself(place: u32) -> bool {
+        parts::moves_by_itself(place)
+    }
+
+    fn protection(end: u32) -> Protection {
+        options::protection(end)
+    }
+
+    fn protect(end: u32) -> bool {
+        F405::stall(|| options::protect(end))
     }
 }
 

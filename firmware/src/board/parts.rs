@@ -8,10 +8,19 @@
 //! | [`ring`]: the link, moved without the processor | [`ring::Streams`] |
 //! | [`kept_count`]: an encoder's counter that goes on over a reset | registers, as a table |
 //! | [`light`] | a pin of `embedded-hal` |
+//! | [`mod@crc`]: the unit for checksums | nothing |
+//! | [`slow_clock`]: the slow oscillator, captured by TIM5 | a channel, as a table |
 
 pub mod bus;
+pub mod crc;
 pub mod driver;
 pub mod inertial;
 pub mod kept_count;
 pub mod light;
 pub mod ring;
+pub mod slow_clock;
+
+/// As [`crate::board::Board::moves_by_itself`]: the word of the encoder's count, and those of the link's rings.
+pub fn moves_by_itself(place: u32) -> bool {
+    place == kept_count::COUNT.address() as u32 || ring::holds(place)
+}

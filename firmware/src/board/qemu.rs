@@ -123,7 +123,14 @@ impl Board for Qemu {
         }
         chip.TIM4.dier().write(|w| w.uie().set_bit());
         chip.TIM4.cr1().write(|w| w.cen().set_bit());
-        Parts { sensors: Elsewhere, coils: Elsewhere, watchdog: Elsewhere, line: Line::new(chip.USART1), light: Elsewhere }
+        Parts {
+            sensors: Elsewhere,
+            coils: Elsewhere,
+            watchdog: Elsewhere,
+            line: Line::new(chip.USART1),
+            light: Elsewhere,
+            clock: None,
+        }
     }
 
     #[inline(always)]
@@ -135,6 +142,24 @@ impl Board for Qemu {
     fn ticked() {
         note_time();
         TICKED.store(true, Ordering::Relaxed);
+    }
+
+    fn crc(before: u32, words: &[u32]) -> u32 {
+        /// By the half byte.
+        const TABLE: [u32; 16] = {
+            let (mut table, mut half) = ([0; 16], 0);
+            while half < 16 {
+                let (mut crc, mut bit) = ((half as u32) << 28, 0);
+                while bit < 4 {
+                    crc = crc << 1 ^ if crc >> 31 == 1 { 0x04C1_1DB7 } else { 0 };
+                    bit += 1;
+                }
+                table[half] = crc;
+                half += 1;
+            }
+            table
+        };
+        words.iter().fold(before, |crc, word| (0..8).fold(crc ^ word, |crc, _| crc << 4 ^ TABLE[(crc >> 28) as usize]))
     }
 
     fn force_coils(engaged: [bool; 2]) {

@@ -26,6 +26,9 @@ impl Device {
 
     /// Answers a request.
     pub fn answer(&mut self, request: &Request, around: &Surroundings) -> Answer {
+        if around.locked && needs_jumper(request) {
+            return Answer::Reply(Reply::Refused(Refusal::NoJumper));
+        }
         let reply = match *request {
             Request::Identify => Reply::Identity(self.identity(around)),
             Request::State => Reply::State(self.report_state(around)),
@@ -66,6 +69,11 @@ impl Device {
             },
             Request::Rehearse(mishap) if around.rehearsal => return Answer::Rehearse(mishap),
             Request::Rehearse(_) => Reply::Refused(Refusal::NotHere),
+            Request::Protect => match self.busy() {
+                Some(busy) => busy,
+                None if around.sealed => return Answer::Protect,
+                None => Reply::Refused(Refusal::NotSealed),
+            },
         };
         Answer::Reply(reply)
     }
@@ -151,6 +159,10 @@ impl Device {
             layout: LAYOUT,
             check: self.check,
             rehearsal: around.rehearsal,
+            highest: around.highest,
+            sealed: around.sealed,
+            jumper: !around.locked,
+            protection: around.protection,
         }
     }
 
@@ -181,6 +193,19 @@ impl Device {
         }
         block
     }
+}
+
+/// What changes the device, moves its clutches or takes it out of service: for somebody who stands at it.
+fn needs_jumper(request: &Request) -> bool {
+    matches!(
+        request,
+        Request::Write(_)
+            | Request::Apply { .. }
+            | Request::SelfTest
+            | Request::Attach { .. }
+            | Request::EraseRecordings
+            | Request::Protect
+    )
 }
 
 pub(super) fn refusal(error: SettingError) -> Refusal {

@@ -5,7 +5,7 @@
 use super::answers::refusal;
 use super::{Answer, Device};
 use crate::control::controller::Controller;
-use crate::control::monitor::fault::Fault;
+use crate::control::monitor::fault::{Fault, Recovery};
 use crate::link::{Done, Refusal, Reply};
 use crate::settings::Settings;
 use crate::settings::store::StoreError;
@@ -105,7 +105,7 @@ impl Device {
         let mut barred = None;
         if stored {
             (self.kept, self.doubtful, self.lasting) = (prepared.settings, false, !differs);
-            barred = self.barred.take();
+            barred = self.barred.take_if(|barred| barred.recovery() == Recovery::ByStoring);
             if barred == Some(Fault::GivenUp) {
                 self.restarts = 0;
             }

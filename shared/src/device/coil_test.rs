@@ -170,11 +170,13 @@ impl Coil {
     fn begin(&mut self, design: &CoilDesign, tested: bool) -> Switches {
         let alone = design.alone();
         self.stage = match self.stage {
-            Stage::Released if tested => Stage::HighAlone(1),
+            // One that is ended by a motion engages at once.
+            _ if !tested => Stage::Engaged(1),
+            Stage::Released => Stage::HighAlone(1),
             Stage::HighAlone(ticks) if ticks < alone => Stage::HighAlone(ticks + 1),
             Stage::HighAlone(_) => Stage::LowAlone(1),
             Stage::LowAlone(ticks) if ticks < alone => Stage::LowAlone(ticks + 1),
-            Stage::Released | Stage::LowAlone(_) | Stage::Engaged(_) => Stage::Engaged(1),
+            Stage::LowAlone(_) | Stage::Engaged(_) => Stage::Engaged(1),
         };
         match self.stage {
             Stage::Released => Switches::default(),

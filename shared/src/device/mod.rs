@@ -7,6 +7,7 @@
 mod answers;
 pub mod beginning;
 mod change;
+pub mod clock_check;
 pub mod coil;
 pub mod coil_test;
 pub mod counter;
@@ -25,13 +26,13 @@ pub use mailbox::Mailbox;
 
 use crate::control::controller::{Circumstances, Controller, ControllerState, Decision};
 use crate::control::monitor::coil::CoilReading;
-use crate::control::monitor::fault::Fault;
+use crate::control::monitor::fault::{Fault, Recovery};
 use crate::control::sensing::sample::Sample;
 use crate::control::supervisor::Phase;
 use crate::control::supervisor::event_log::{Entry, Kind};
 use crate::control::ticks::ticks;
 use crate::link::reset_cause::Cause;
-use crate::link::{Mishap, Pace, Reply, TickReport};
+use crate::link::{Mishap, Pace, Protection, Reply, TickReport};
 use crate::settings::Settings;
 use beginning::Beginning;
 use light::Shown;
@@ -62,6 +63,14 @@ pub struct Surroundings {
     pub least_period: f32,
     /// The image is for rehearsals.
     pub rehearsal: bool,
+    /// The commissioning jumper is open: it is not to be changed, tested or attached.
+    pub locked: bool,
+    /// Highest version of a firmware that has run on the board.
+    pub highest: [u8; 3],
+    /// The image has a seal.
+    pub sealed: bool,
+    /// What the flash is protected against.
+    pub protection: Protection,
     /// Why it started.
     pub cause: Cause,
     /// Frames that were not whole or not known.
@@ -86,6 +95,8 @@ pub enum Answer {
     Recorder,
     /// To be made to happen.
     Rehearse(Mishap),
+    /// The flash is to be protected.
+    Protect,
     /// The period may be another now: to be answered, and the timer set.
     Restarted(Reply),
 }
@@ -178,6 +189,30 @@ impl Device {
     /// Why it may not run without a host, if it may not.
     pub fn barred(&self) -> Option<Fault> {
         self.barred
+    }
+
+    /// Has it stand aside for a `fault` of the board that was found beside the ticks, until a new start does not find it.
+    #[inline(never)]
+    pub fn accuse(&mut self, fault: Fault) {
+        if self.barred.is_none_or(|barred| barred.recovery() != Recovery::ByStart) {
+            (self.barred, self.resuming) = (Some(fault), None);
+        }
+    }
+
+    /// Where what must not change while it is in force lies: address and bytes of the controller and of its settings.
+    pub fn constants(&self) -> [(usize, usize); 2] {
+        let controller = (core::ptr::from_ref(&self.controller).addr(), size_of::<Controller>());
+        [controller, (core::ptr::from_ref(&self.settings).addr(), size_of::<Settings>())]
+    }
+
+    /// Notes a warning in the event log.
+    #[inline(never)]
+    pub fn warn(&mut self, fault: Fault) {
+        self.note(Kind::Warning(fault.code()));
+    }
+
+    fn note(&mut self, kind: Kind) {
+        self.state.note(Entry { tick: self.ticks, kind, rotation: 0.0, velocity: 0.0 });
     }
 
     /// Who says when a tick is, if samples come from the link.
@@ -299,7 +334,7 @@ impl Device {
         self.clear = false;
         self.ticks = self.ticks.wrapping_add(1);
         if self.decision.fault != Some(fault) {
-            self.state.note(Entry { tick: self.ticks, kind: Kind::Fault(fault.code()), rotation: 0.0, velocity: 0.0 });
+            self.note(Kind::Fault(fault.code()));
         }
         self.decision = Decision { phase: Phase::Fault, fault: Some(fault), ..Decision::before(self.safe_command()) };
     }

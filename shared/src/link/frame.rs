@@ -5,7 +5,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 /// Of the messages: raised by every change of their meaning, so that strangers refuse each other instead of guessing.
-pub const VERSION: u8 = 2;
+pub const VERSION: u8 = 3;
 
 /// Longest message with version, tag and checksum.
 const MAX_CONTENT: usize = 124;

@@ -79,6 +79,9 @@ pub enum Request {
     },
     /// Erases all recordings, once the last one is whole; only while nothing moves. Given up where something moves before it is done.
     EraseRecordings,
+    /// Protects the program in flash against writing, and the whole flash against being read out by a probe, from the next power-on on. Only
+    /// erasing the whole chip undoes it.
+    Protect,
 }
 
 /// Who says when an attached device ticks.
@@ -215,6 +218,23 @@ pub struct Identity {
     pub check: u32,
     /// The image is for rehearsals.
     pub rehearsal: bool,
+    /// Highest version of a firmware that has run on it: above its own, it has gone back to an older one.
+    pub highest: [u8; 3],
+    /// The image has a seal, so that a changed bit of the program is found.
+    pub sealed: bool,
+    /// The commissioning jumper is closed.
+    pub jumper: bool,
+    /// What its flash is protected against.
+    pub protection: Protection,
+}
+
+/// What a flash is protected against.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Protection {
+    /// Being read out by a probe.
+    pub reading: bool,
+    /// Its program being written.
+    pub writing: bool,
 }
 
 /// How a device is.
@@ -348,6 +368,10 @@ pub enum Refusal {
         /// The least that it may be on this board, s.
         least: f32,
     },
+    /// The commissioning jumper is open.
+    NoJumper,
+    /// The program has no seal, and shall not be protected so.
+    NotSealed,
 }
 
 impl From<&Entry> for LogEntry {
@@ -361,6 +385,7 @@ impl From<&Entry> for LogEntry {
             Kind::Warning(code) => [4, code as u8],
             Kind::Calibrated => [5, 0],
             Kind::Started(cause) => [6, cause],
+            Kind::Tested => [7, 0],
         };
         LogEntry { tick: entry.tick, rotation: entry.rotation, velocity: entry.velocity, kind }
     }
@@ -379,6 +404,7 @@ impl LogEntry {
             4 => Kind::Warning(of.into()),
             5 => Kind::Calibrated,
             6 => Kind::Started(of),
+            7 => Kind::Tested,
             _ => return None,
         };
         Some(Entry { tick: self.tick, kind, rotation: self.rotation, velocity: self.velocity })

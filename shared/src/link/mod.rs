@@ -12,8 +12,8 @@ pub mod reset_cause;
 
 pub use frame::{Deframer, FrameError, MAX_FRAME, Received, VERSION, encode};
 pub use message::{
-    Done, Identity, LOG_BLOCK, LogBlock, LogEntry, Mishap, Pace, RECORDED_PARTS, Recorded, RecorderActivity, RecorderState,
-    Refusal, Reply, Request, Started, State, TickReport, TickSample, WORD_BLOCK, Words,
+    Done, Identity, LOG_BLOCK, LogBlock, LogEntry, Mishap, Pace, Protection, RECORDED_PARTS, Recorded, RecorderActivity,
+    RecorderState, Refusal, Reply, Request, Started, State, TickReport, TickSample, WORD_BLOCK, Words,
 };
 
 #[cfg(test)]

@@ -245,6 +245,7 @@ parts! {
         moving_counts: Item::MovingCounts,
         overrun_ticks: Item::OverrunTicks,
         overrun_limit: Item::OverrunLimit,
+        proof_test_interval: Item::ProofTestInterval,
     }
     Required {
         gyroscope: Item::RequiredGyroscope,

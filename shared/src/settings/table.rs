@@ -171,6 +171,7 @@ parameters! {
     MovingCounts "supervisor.moving_counts" whole("counts", 0, i32::MAX as u32, 2);
     OverrunTicks "supervisor.overrun_ticks" whole("ticks", 1, u32::MAX, 3);
     OverrunLimit "supervisor.overrun_limit" duration(1.0, 0.002);
+    ProofTestInterval "supervisor.proof_test_interval" span(1e9, 2_592_000.0);
 
     GyroscopeStaleTime "monitor.gyroscope.stale_time" duration(10.0, 0.003);
     GyroscopeStuckTime "monitor.gyroscope.stuck_time" span(10.0, 0.0);

@@ -145,6 +145,7 @@ fn supervisions() -> [Parameters; 2] {
         moving_counts: 3,
         overrun_ticks: 4,
         overrun_limit: 0.003,
+        proof_test_interval: 86_400.0,
     };
     [defaults, other]
 }

@@ -59,6 +59,11 @@ enum DeviceCommand {
     /// Make it leave Fault, once what was wrong has been seen to; it must be at rest.
     #[command(after_help = "Example:\n  sprag device clear --port /dev/ttyUSB0")]
     Clear(InfoArguments),
+    /// Protect its flash, from the next power-on on: the program against writing, and all of it against being read out by a probe.
+    ///
+    /// Its jumper JP1 must be closed. Only erasing the whole chip with a probe undoes it, and that takes program and settings with it.
+    #[command(after_help = "Example:\n  sprag device protect --port /dev/ttyUSB0")]
+    Protect(InfoArguments),
     /// Make it use its own sensors again, with the settings in its flash, after a loop that ended without letting go of it.
     #[command(after_help = "Example:\n  sprag device detach --port /dev/ttyUSB0")]
     Detach(InfoArguments),
@@ -163,6 +168,7 @@ pub fn run(arguments: &DeviceArguments, out: &mut impl Write, err: &mut impl Wri
         DeviceCommand::Log(given) => log_to(given, out),
         DeviceCommand::Record(given) => device_record::run(given, out, interrupt),
         DeviceCommand::Clear(info) => with_device(&info.line, out, clear),
+        DeviceCommand::Protect(info) => with_device(&info.line, out, protect),
         DeviceCommand::Detach(info) => with_device(&info.line, out, detach),
         DeviceCommand::Watch(given) => with_device(&given.line, out, |session, out| watch(session, given, out, interrupt)),
     };
@@ -214,6 +220,8 @@ fn show(session: &mut Talk, out: &mut impl Write) -> Result<(), Failure> {
         }
     )?;
     writeln!(out, "start         {:?}", state.cause)?;
+    writeln!(out, "program       {}", program_text(&identity))?;
+    writeln!(out, "jumper        {}", if identity.jumper { "closed: it may be changed; open it when done" } else { "open" })?;
     writeln!(out, "parameters    {}, check {:08x}", identity.settings, identity.check)?;
     writeln!(out, "calibration   gyroscope {:+.6} rad/s", calibration.gyroscope)?;
     let [along, up] = calibration.block;
@@ -229,6 +237,24 @@ fn show(session: &mut Talk, out: &mut impl Write) -> Result<(), Failure> {
     let period = f64::from(parameters::read(session)?.period());
     writeln!(out, "recordings    {}", device_record::room(&recordings::state(session)?, period))?;
     Ok(())
+}
+
+/// Whether the program is whole, protected and the newest.
+fn program_text(identity: &Identity) -> String {
+    let seal = if identity.sealed { "sealed" } else { "without a seal: damage to it would not be found" };
+    let protection = match (identity.protection.reading, identity.protection.writing) {
+        (true, true) => "protected against reading and writing",
+        (true, false) => "protected against reading only",
+        (false, true) => "protected against writing only",
+        (false, false) => "not protected",
+    };
+    let [major, minor, patch] = identity.highest;
+    let older = if identity.highest > identity.version {
+        format!("; version {major}.{minor}.{patch} has run before")
+    } else {
+        String::new()
+    };
+    format!("{seal}, {protection}{older}")
 }
 
 fn phase_text(phase: Phase, fault: Option<Fault>) -> String {
@@ -387,6 +413,12 @@ fn detach<W: Write>(session: &mut Talk, out: &mut W) -> Result<(), Failure> {
     let attached = session.state()?.attached.is_some();
     session.order(&Request::Detach)?;
     writeln!(out, "{}", if attached { "detached; it starts anew with its own sensors" } else { "it was not attached" })?;
+    Ok(())
+}
+
+fn protect<W: Write>(session: &mut Talk, out: &mut W) -> Result<(), Failure> {
+    session.order(&Request::Protect)?;
+    writeln!(out, "protected from the next power-on on; only erasing the whole chip with a probe undoes it")?;
     Ok(())
 }
 

@@ -22,6 +22,7 @@ pub fn what(kind: Kind) -> String {
             Some(cause) => format!("started anew ({cause:?}): what is above was before"),
             None => format!("started anew for a cause {cause}, which this program does not know"),
         },
+        Kind::Tested => "proof test passed".to_owned(),
     }
 }
 

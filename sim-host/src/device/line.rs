@@ -95,6 +95,8 @@ impl std::fmt::Display for RefusalText {
             Refusal::TooFast { period, least } => {
                 write!(out, "{} is {period} s, and must be at least {least} s on this board", name(Item::Period.index()))
             }
+            Refusal::NoJumper => write!(out, "its commissioning jumper (JP1) is open: close it, and open it again when done"),
+            Refusal::NotSealed => write!(out, "its program has no seal: flash it by cargo xtask flash"),
             Refusal::NotHere => write!(out, "not this firmware, or not in this mode"),
         }
     }

@@ -3,7 +3,7 @@
 //! Exceptions are carried out here, as the processor does it (ARMv7-M, B1.5): registers go to the stack, the handler runs, and its return
 //! brings them back.
 
-use crate::chip::{Chip, REGISTERS};
+use crate::chip::{Chip, REGISTERS, StuckBit};
 use crate::engine::{Context, Engine, Register};
 use crate::image::Image;
 use crate::model::Model;
@@ -80,8 +80,14 @@ pub struct Bench {
 impl Bench {
     /// A new chip with `image`, just powered.
     pub fn new(image: &Image) -> Bench {
+        Bench::with(image, None)
+    }
+
+    /// The same with a bit of its memory `stuck`.
+    pub fn with(image: &Image, stuck: Option<StuckBit>) -> Bench {
         let mut engine = Engine::new(Chip::new(image.model));
         let chip = engine.guest_mut();
+        chip.stuck_bit = stuck;
         for (address, bytes) in &image.segments {
             chip.flash.memory.write(*address, bytes);
         }
@@ -102,7 +108,15 @@ impl Bench {
             }
         };
         engine.map_registers(seen..flash_end);
-        engine.map(|chip| &chip.ram, crate::chip::RAM, 128 << 10, true);
+        // The page of a stuck bit is not mapped, so that each store to it is seen.
+        let (ram, ram_end) = (crate::chip::RAM, crate::chip::RAM + (128 << 10));
+        let page = stuck.map_or(ram_end..ram_end, |stuck| stuck.address & !0xFFF..(stuck.address & !0xFFF) + 0x1000);
+        if !page.is_empty() {
+            engine.map_registers(page.clone());
+        }
+        for part in [ram..page.start, page.end..ram_end].into_iter().filter(|part| !part.is_empty()) {
+            engine.map(|chip| &chip.ram, part.start, part.end - part.start, true);
+        }
         engine.map(|chip| &chip.core_coupled, 0x1000_0000, 64 << 10, true);
         for range in REGISTERS {
             engine.map_registers(range);
@@ -154,8 +168,9 @@ impl Bench {
         self.engine.processor().set(Register::Stack, crate::chip::RAM + bytes);
     }
 
-    /// Has the program go on at `address`, as if it had gone astray.
+    /// Has the program go on at `address`, as if a call had gone astray.
     pub fn stray(&mut self, address: u32) {
+        self.engine.processor().set(Register::Link, self.program | 1);
         (self.program, self.asleep) = (address, false);
     }
 

@@ -11,6 +11,7 @@ use std::collections::{BTreeMap, HashMap, VecDeque};
 use crate::engine::{Memory, Processor, Register};
 use crate::model::Model;
 use crate::peripheral::backup::Backup;
+use crate::peripheral::capture::Capture;
 use crate::peripheral::coil::Coil;
 use crate::peripheral::comparators::Comparators;
 use crate::peripheral::converter::Converter;
@@ -34,6 +35,20 @@ use crate::time::SECOND;
 pub const RAM: u32 = 0x2000_0000;
 const RAM_LENGTH: usize = 128 << 10;
 
+/// Pin of port C that the commissioning jumper takes to ground.
+pub const JUMPER: usize = 13;
+
+/// A bit of the memory that does not change any more.
+#[derive(Clone, Copy, Debug)]
+pub struct StuckBit {
+    /// Of its byte.
+    pub address: u32,
+    /// Its place in it.
+    pub bit: u32,
+    /// What it always is.
+    pub set: bool,
+}
+
 /// Everything but the processor.
 #[derive(Debug)]
 pub struct Chip {
@@ -46,6 +61,8 @@ pub struct Chip {
     pub instructions: u64,
     /// Counts of time in half a cycle.
     half_cycle: u64,
+    /// Rate of the timers' clock at APB1, 1/s.
+    timer_hz: u64,
     /// When something happens by itself that the processor must see.
     event: u64,
     /// When the bench wants the processor back.
@@ -54,6 +71,8 @@ pub struct Chip {
     pub goes_on: bool,
     /// 128 KiB.
     pub ram: Memory,
+    /// A bit of it that is stuck, from before the first start on.
+    pub stuck_bit: Option<StuckBit>,
     /// The page that returns from exceptions lead to.
     pub returns: Memory,
     /// 64 KiB of core-coupled memory.
@@ -82,6 +101,7 @@ pub struct Chip {
     converters: Registers,
     /// TIM2, TIM3, TIM5.
     counters: [Counter; 3],
+    capture: Capture,
     copier: Copier,
     /// USART1 and DMA2.
     pub line: Line,
@@ -126,11 +146,13 @@ impl Chip {
             now: 0,
             half_cycles: 0,
             instructions: 0,
-            half_cycle: 21,
+            half_cycle: 525,
+            timer_hz: 16_000_000,
             event: 0,
             until: 0,
             goes_on: false,
             ram: Memory::new(RAM, RAM_LENGTH, 0),
+            stuck_bit: None,
             returns: Memory::new(0xFFFF_F000, 0x1000, 0xBF),
             core_coupled: Memory::new(0x1000_0000, 64 << 10, 0),
             flash: Flash::new(model),
@@ -145,6 +167,7 @@ impl Chip {
             converted: [0; 2],
             converters: Registers::default(),
             counters: Default::default(),
+            capture: Capture::new(model),
             copier: Copier::default(),
             line: Line::new(model),
             supply: Supply::new(model),
@@ -166,11 +189,24 @@ impl Chip {
             coils_at: 0,
             broken: false,
         };
+        // The commissioning jumper is closed.
+        chip.ports[2].outside[JUMPER] = Some(false);
         chip.resets(Cause::Power);
         chip
     }
 
+    /// The crystal changes to another rate, 1/s.
+    pub fn set_crystal(&mut self, hz: u64) {
+        self.rcc.crystal_hz = hz;
+        self.clock_changed();
+    }
+
     fn clock_changed(&mut self) {
+        let [timers, _] = self.rcc.timer_hz();
+        let before = std::mem::replace(&mut self.timer_hz, timers);
+        if before != timers {
+            self.counters.iter_mut().for_each(|counter| counter.clocked(before, timers, self.now));
+        }
         self.half_cycle = SECOND / self.rcc.core_hz() / 2;
         self.event = self.now;
     }
@@ -305,6 +341,22 @@ impl Chip {
             Model::F405 => self.store_f4(address, value),
             Model::G474 => self.store_g4(address, value),
         }
+    }
+
+    /// Rate of the slow internal oscillator, 1/s, if it runs: the watchdog switches it on, too.
+    fn slow_hz(&self) -> Option<u64> {
+        (self.rcc.slow_runs() || self.watchdog.bites.is_some()).then_some(self.watchdog.hz)
+    }
+
+    /// A load from TIM5.
+    fn load_time(&mut self, offset: u32, clock: u64) -> u32 {
+        let captured = self.capture.read(offset, &self.counters[2], self.slow_hz(), clock, self.now);
+        captured.unwrap_or_else(|| self.counters[2].read(offset, clock, self.now))
+    }
+
+    fn store_time(&mut self, offset: u32, value: u32) {
+        self.counters[2].write(offset, value, self.now);
+        self.capture.written(offset, value, &self.counters[2], self.slow_hz(), self.now);
     }
 
     fn nobody(&mut self, address: u32) -> u32 {

@@ -104,7 +104,11 @@ pub struct Rig {
 impl Rig {
     /// A new board with `image`, at rest, just powered. In flash are `stored` settings, if there are any.
     pub fn new(image: &Image, stored: Option<&Settings>) -> Rig {
-        let mut bench = Bench::new(image);
+        Rig::on(Bench::new(image), stored)
+    }
+
+    /// The same on a board of somebody's choice.
+    pub fn on(mut bench: Bench, stored: Option<&Settings>) -> Rig {
         if let Some(settings) = stored {
             keep(&mut bench.chip_mut().flash, settings, 1);
         }

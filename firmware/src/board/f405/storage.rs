@@ -5,8 +5,8 @@ use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashEr
 use stm32f4xx_hal::flash::FlashExt;
 use stm32f4xx_hal::pac;
 
-/// The settings, in sectors 1 and 2.
-pub type Settings = Storage<1, 2, 0x4000>;
+/// The settings, in sectors 1 and 2, and which firmware has run, in sector 3.
+pub type Settings = Storage<1, 3, 0x4000>;
 
 /// The recordings of earthquakes, in sectors 6 to 11.
 pub type Recordings = Storage<6, 6, 0x2_0000>;

@@ -5,23 +5,20 @@ use stm32f4xx_hal::pac::{self, interrupt};
 use stm32f4xx_hal::rcc::{Enable, Rcc};
 
 use super::clock::HZ;
-use super::coils;
+use super::{coils, options};
 
 /// PLS of the voltage detector for 2.9 V.
 const DETECTOR_LEVEL: u8 = 7;
 /// Its line of EXTI.
 const DETECTOR_LINE: u8 = 16;
 
-/// BOR_LEV for level 3: RM0090 counts the levels downward, 3 (off) to 0. The names that the register library has for them are upside down.
-const BROWN_OUT_LEVEL_3: u8 = 0;
-
-/// Keys of the option bytes.
-const OPTION_KEYS: [u32; 2] = [0x0819_2A3B, 0x4C5D_6E7F];
+/// Level 3, as its [option](options::brown_out) says it. The names that the register library has for the levels are upside down.
+const BROWN_OUT_LEVEL_3: u32 = 0;
 
 /// Sets the brown-out reset to level 3, below which 168 MHz are out of the flash's reach, unless it already is. That is once in the life
 /// of a chip, for the option bytes keep it; every other option stays as it is. Needs a supply above the detector's level.
-pub fn set_brown_out(power: &pac::PWR, flash: &pac::FLASH, rcc: &mut Rcc) {
-    if flash.optcr().read().bor_lev().bits() == BROWN_OUT_LEVEL_3 {
+pub fn set_brown_out(power: &pac::PWR, rcc: &mut Rcc) {
+    if options::brown_out() == BROWN_OUT_LEVEL_3 {
         return;
     }
     pac::PWR::enable(rcc);
@@ -31,13 +28,7 @@ pub fn set_brown_out(power: &pac::PWR, flash: &pac::FLASH, rcc: &mut Rcc) {
     if power.csr().read().pvdo().bit_is_set() {
         return;
     }
-    for key in OPTION_KEYS {
-        flash.optkeyr().write(|w| w.optkeyr().set(key));
-    }
-    flash.optcr().modify(|_, w| w.bor_lev().set(BROWN_OUT_LEVEL_3));
-    flash.optcr().modify(|_, w| w.optstrt().set_bit());
-    while flash.sr().read().bsy().bit_is_set() {}
-    flash.optcr().modify(|_, w| w.optlock().set_bit());
+    options::set_brown_out(BROWN_OUT_LEVEL_3);
 }
 
 /// Watches the supply from now on, with the state that the coils go to.

@@ -2,7 +2,10 @@
 //!
 //! The chip could do 170 MHz. With 168 every bus and every timer has the rates that the F405 has, or twice those.
 
+use sprag_shared::device::clock_check::ClockCheck;
 use stm32g4::stm32g474 as pac;
+
+use crate::board::parts::slow_clock::Channel;
 
 /// Of the processor, of both peripheral buses and of all timers, 1/s.
 pub const HZ: u32 = 168_000_000;
@@ -16,11 +19,23 @@ const INTERNAL_DIVIDER: u8 = 16 / 4;
 /// … of which this is a multiple that, halved, is the processor's.
 const MULTIPLIER: u8 = (2 * HZ / 4_000_000) as u8;
 
-/// Starts clocks and counter. Says whether the crystal runs; where it does not, everything runs within the ±1 % (25 °C) of the internal
+/// Channel 1 of TIM5, whose input TIM5_TISEL makes the slow oscillator (RM0440, TIM2 to TIM5).
+pub const SLOW: Channel = Channel { source: (0x5C, 1), mode: (0x18, 0x000D), on: 1, edge: 0x34, came: 1 << 1, missed: 1 << 9 };
+
+/// Starts clocks and counter. Says whether the crystal runs, and what its rate is to be held against; where it does not run, everything runs within the ±1 % (25 °C) of the internal
 /// oscillator, which is no measure of time but a controller that works.
-pub fn start(chip: &pac::Peripherals) -> bool {
+pub fn start(chip: &pac::Peripherals) -> (bool, ClockCheck) {
     let rcc = &chip.RCC;
     rcc.cr().modify(|_, w| w.hseon().set_bit());
+    // A timer, and not the processor's counter of cycles, which a probe that leaves may stop: then no tick would ever be late.
+    rcc.apb1enr1().modify(|_, w| w.tim5en().set_bit());
+    // SAFETY: every value of the register is a period.
+    chip.TIM5.arr().write(|w| unsafe { w.bits(u32::MAX) });
+    chip.TIM5.cr1().write(|w| w.cen().set_bit());
+    // The crystal takes longer to start than this.
+    rcc.csr().modify(|_, w| w.lsion().set_bit());
+    SLOW.begin();
+    let check = SLOW.check(HZ);
     let crystal = (0..PATIENCE).any(|_| rcc.cr().read().hserdy().bit_is_set());
     if !crystal {
         rcc.cr().modify(|_, w| w.hseon().clear_bit());
@@ -47,12 +62,7 @@ pub fn start(chip: &pac::Peripherals) -> bool {
     if crystal {
         rcc.cr().modify(|_, w| w.csson().set_bit());
     }
-    // A timer, and not the processor's counter of cycles, which a probe that leaves may stop: then no tick would ever be late.
-    rcc.apb1enr1().modify(|_, w| w.tim5en().set_bit());
-    // SAFETY: every value of the register is a period.
-    chip.TIM5.arr().write(|w| unsafe { w.bits(u32::MAX) });
-    chip.TIM5.cr1().write(|w| w.cen().set_bit());
-    crystal
+    (crystal, check)
 }
 
 /// Time, in counts of [`HZ`].

@@ -15,6 +15,8 @@ enum Does {
     Low,
     /// It is read by a converter or a comparator.
     Analog,
+    /// It is read by the program.
+    Input,
 }
 
 /// What a pin is pulled to.
@@ -25,12 +27,12 @@ enum Pulled {
     Down = 2,
 }
 
-use Does::{Analog, Function, High, Low};
+use Does::{Analog, Function, High, Input, Low};
 use Pulled::{Down, No, Up};
 
 /// Port from A on, number, what it does, what it is pulled to; alternate functions by DS12288, tables 13 to 15. PB6 and PB7 are
 /// so already by the encoder's [first steps](super::encoder), and do not change while it counts.
-const PINS: [(u32, u32, Does, Pulled); 19] = [
+const PINS: [(u32, u32, Does, Pulled); 20] = [
     // Block sensor: CS, SCK, MOSI, MISO. Without a sensor MISO reads low, which is no new reading.
     (0, 4, High, No),
     (0, 5, Function(5), No),
@@ -55,6 +57,8 @@ const PINS: [(u32, u32, Does, Pulled); 19] = [
     (0, 10, Function(7), Up),
     // Light.
     (LIGHT.port, LIGHT.number, High, No),
+    // Commissioning jumper, to ground.
+    (2, JUMPER, Input, Up),
     // Encoder: A, B.
     (1, 6, Function(2), Up),
     (1, 7, Function(2), Up),
@@ -62,6 +66,14 @@ const PINS: [(u32, u32, Does, Pulled); 19] = [
 
 /// Number of the first coil's high-side pin in port C; the second's is the next.
 pub const FIRST_HIGH: u32 = 8;
+
+/// The commissioning jumper's pin in port C, which it takes to ground.
+const JUMPER: u32 = 13;
+
+/// Whether the commissioning jumper is closed.
+pub fn jumper_is_closed() -> bool {
+    port(2).idr().read().bits() & 1 << JUMPER == 0
+}
 
 /// Selects the block's sensor while it is low.
 pub const BLOCK_SELECT: OutputPin = OutputPin { port: 0, number: 4 };
@@ -106,6 +118,7 @@ pub fn begin(rcc: &pac::RCC) {
                     1
                 }
                 Analog => 3,
+                Input => 0,
             };
             port.moder().modify(|r, w| w.bits(r.bits() & !(3 << double) | mode << double));
         }

@@ -1,4 +1,4 @@
-//! Bank 2 of the flash, for the settings and the recordings: see `memory.x`.
+//! Bank 2 of the flash, for the settings, which firmware has run and the recordings: see `memory.x`.
 //!
 //! The flash programs double words, each once, with check bits. A word of the settings takes a double word of its own, beside its
 //! complement, so that a sector of 16 KiB is 16 pages of 2 KiB; recordings, whose pages have checksums, are written as they are. Bank 1, from
@@ -19,7 +19,7 @@ const SECTOR: u32 = 0x4000;
 /// … and in the flash.
 const SECTOR_IN_FLASH: u32 = 2 * SECTOR;
 /// How many there are.
-const SECTORS: u32 = 2;
+const SECTORS: u32 = 3;
 
 const KEYS: [u32; 2] = [0x4567_0123, 0xCDEF_89AB];
 
@@ -53,7 +53,7 @@ pub fn note_broken() {
     flash().eccr().modify(|_, w| w.eccd().set_bit());
 }
 
-/// The two sectors.
+/// The sectors.
 pub struct Storage {
     /// They have been changed since the cache was emptied.
     changed: bool,
@@ -62,7 +62,7 @@ pub struct Storage {
 /// What went wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Error {
-    /// Beyond the two sectors.
+    /// Beyond the sectors.
     OutOfBounds,
     /// Not at whole words, or not of whole sectors.
     NotAligned,

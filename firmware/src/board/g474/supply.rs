@@ -4,17 +4,13 @@ use cortex_m::peripheral::NVIC;
 use stm32g4::stm32g474::{self as pac, interrupt};
 
 use super::clock::HZ;
-use super::coils;
+use super::{coils, options};
 
 /// Of the voltage detector, for 2.9 V.
 const DETECTOR_LEVEL: u8 = 6;
 
 /// BOR_LEV for some 2.8 V.
 const BROWN_OUT_LEVEL_4: u8 = 4;
-
-/// Keys of the flash's registers, and of the option bytes.
-const KEYS: [u32; 2] = [0x4567_0123, 0xCDEF_89AB];
-const OPTION_KEYS: [u32; 2] = [0x0819_2A3B, 0x4C5D_6E7F];
 
 /// Sets the brown-out reset to level 4, unless it already is. That is once in the life of a chip, for the option bytes keep it; every other
 /// option stays as it is. The chip takes them over by a reset, which this ends in. Needs a supply above the detector's level.
@@ -29,18 +25,8 @@ pub fn set_brown_out(chip: &pac::Peripherals) {
     if low() {
         return;
     }
-    // SAFETY: the keys are what the registers take, and the level is one that there is.
-    unsafe {
-        for key in KEYS {
-            flash.keyr().write(|w| w.bits(key));
-        }
-        for key in OPTION_KEYS {
-            flash.optkeyr().write(|w| w.bits(key));
-        }
-        flash.optr().modify(|_, w| w.bor_lev().bits(BROWN_OUT_LEVEL_4));
-    }
-    flash.cr().modify(|_, w| w.optstrt().set_bit());
-    while flash.sr().read().bsy().bit_is_set() {}
+    // SAFETY: the level is one that there is.
+    options::program(|flash| _ = flash.optr().modify(|_, w| unsafe { w.bor_lev().bits(BROWN_OUT_LEVEL_4) }));
     flash.cr().modify(|_, w| w.obl_launch().set_bit());
     cortex_m::asm::delay(HZ / 1000);
 }

@@ -20,6 +20,11 @@ pub fn received() -> u32 {
     RECEIVED.as_ptr() as u32
 }
 
+/// Whether a word has bytes of a ring, which the streams read and write at any time.
+pub fn holds(place: u32) -> bool {
+    [RECEIVED.as_ptr() as u32, SENT.as_ptr() as u32].iter().any(|ring| (*ring & !3..ring + u32::from(RING)).contains(&place))
+}
+
 /// The two streams of a serial port.
 pub trait Streams {
     /// How many bytes the receiving stream has left to the end of its ring. Clears what keeps the port from receiving.

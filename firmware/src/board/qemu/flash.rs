@@ -16,8 +16,8 @@ const USED: u32 = 0xF1A5_4000;
 /// No power cut is due.
 const NEVER: u32 = u32::MAX;
 
-/// Sectors for the settings, and for recordings: as many as fit into the memory.
-const SETTINGS: usize = 2;
+/// Sectors for the settings and which firmware has run, and for recordings: as many as fit into the memory.
+const SETTINGS: usize = 3;
 const RECORDINGS: usize = 14;
 
 struct Sectors<const COUNT: usize> {

@@ -75,6 +75,18 @@ pub enum Fault {
     NotCommissioned,
     /// Reset after reset, without a second of good work between them: it has given up the settings in flash.
     GivenUp,
+    /// The program in flash is not what was sealed.
+    ImageDamaged,
+    /// A word of memory does not hold what is written to it.
+    MemoryDamaged,
+    /// The crystal's rate is off.
+    ClockWrong,
+    /// Settings or controller in memory are not what they were when they came into force.
+    SettingsDamaged,
+    /// Only a warning: nothing tells whether the program in flash is whole.
+    NotSealed,
+    /// Only a warning: a newer firmware has run on this board.
+    OlderFirmware,
     /// Only a warning: armed with the last biases, for lack of stillness.
     CalibrationAbandoned,
     /// Only a warning: the clutches were not tested, for lack of stillness.
@@ -119,6 +131,8 @@ pub enum Recovery {
     OnRequest,
     /// Once settings have been stored in the device, through a new start.
     ByStoring,
+    /// By a new start that does not find it again: the part is broken, or was disturbed.
+    ByStart,
     /// It never was more than a warning.
     NotNeeded,
 }
@@ -184,11 +198,17 @@ codes! {
     62 EstimateNotFinite;
     63 NotCommissioned;
     64 GivenUp;
+    65 ImageDamaged;
+    66 MemoryDamaged;
+    67 ClockWrong;
+    68 SettingsDamaged;
     71 CalibrationAbandoned;
     72 SelfTestAbandoned;
     73 CommandsTooMany;
     74 ClosingTimeChanged(Wheel::First);
     75 ClosingTimeChanged(Wheel::Second);
+    76 NotSealed;
+    77 OlderFirmware;
     81 HighSideClosed(Wheel::First);
     82 HighSideClosed(Wheel::Second);
     83 LowSideClosed(Wheel::First);
@@ -218,6 +238,12 @@ impl Fault {
             | Fault::EstimateNotFinite
             | Fault::NotCommissioned
             | Fault::GivenUp
+            | Fault::ImageDamaged
+            | Fault::MemoryDamaged
+            | Fault::ClockWrong
+            | Fault::SettingsDamaged
+            | Fault::NotSealed
+            | Fault::OlderFirmware
             | Fault::CalibrationAbandoned
             | Fault::ClosingTimeChanged(_)
             | Fault::SelfTestAbandoned
@@ -253,7 +279,8 @@ impl Fault {
     /// | of a clutch or its coil, failed self-test | on request | a part that may be broken shows nothing until it is used: somebody must look |
     /// | overrun, estimate not finite | on request | the program or its parameters are wrong, which time does not mend |
     /// | not commissioned, settings given up | by storing | only somebody who knows the structure can say what the settings must be |
-    /// | abandoned calibration or self-test, too many commands, changed closing time | not needed | a warning only |
+    /// | image, memory, clock, settings in memory | by a new start | the board itself is not to be relied upon; a new start reads and tests all anew |
+    /// | abandoned calibration or self-test, too many commands, changed closing time, no seal, older firmware | not needed | a warning only |
     pub fn recovery(self) -> Recovery {
         match self {
             Fault::Stale(_) | Fault::Stuck(_) | Fault::Saturated(_) | Fault::NotFinite(_) | Fault::Contradiction(_) => {
@@ -267,9 +294,11 @@ impl Fault {
             }
             Fault::Overrun | Fault::EstimateNotFinite => Recovery::OnRequest,
             Fault::NotCommissioned | Fault::GivenUp => Recovery::ByStoring,
+            Fault::ImageDamaged | Fault::MemoryDamaged | Fault::ClockWrong | Fault::SettingsDamaged => Recovery::ByStart,
             Fault::CalibrationAbandoned | Fault::SelfTestAbandoned | Fault::CommandsTooMany | Fault::ClosingTimeChanged(_) => {
                 Recovery::NotNeeded
             }
+            Fault::NotSealed | Fault::OlderFirmware => Recovery::NotNeeded,
         }
     }
 }
@@ -306,6 +335,12 @@ impl fmt::Display for Fault {
             Fault::GivenUp => {
                 write!(formatter, "stored settings given up: reset after reset with them, until they are stored anew")
             }
+            Fault::ImageDamaged => write!(formatter, "board: the program in its flash is damaged"),
+            Fault::MemoryDamaged => write!(formatter, "board: a word of its memory does not hold what is written to it"),
+            Fault::ClockWrong => write!(formatter, "board: the rate of its crystal is off by more than 5 %"),
+            Fault::SettingsDamaged => write!(formatter, "board: its settings have changed in memory, by themselves"),
+            Fault::NotSealed => write!(formatter, "board: its program has no seal, so damage to it would not be found"),
+            Fault::OlderFirmware => write!(formatter, "board: a newer firmware than this one has run on it"),
             Fault::CalibrationAbandoned => {
                 write!(formatter, "calibration abandoned for lack of stillness: armed with the last biases")
             }
@@ -353,6 +388,7 @@ mod tests {
             let expected = match fault.code() {
                 ..50 => Recovery::WhenGood,
                 63 | 64 => Recovery::ByStoring,
+                65..=68 => Recovery::ByStart,
                 50..70 | 80.. => Recovery::OnRequest,
                 _ => Recovery::NotNeeded,
             };

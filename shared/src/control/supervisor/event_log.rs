@@ -22,6 +22,8 @@ pub enum Kind {
     Calibrated,
     /// The device started anew, for the cause of this number on the link; ticks count from 0 again.
     Started(u8),
+    /// The clutches have passed a proof test.
+    Tested,
 }
 
 impl Kind {

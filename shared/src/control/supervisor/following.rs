@@ -41,6 +41,7 @@ impl Supervisor {
         }
         let (found, _) = state.averaging.finish(&state.calibration, &self.plausible, self.motion.gravity);
         state.averaging = Averaging::default();
+        self.wait_for_proof(state, input);
         if state.following.unsure {
             state.following = Following::default();
             (state.calibration, state.calibrated) = (found, true);

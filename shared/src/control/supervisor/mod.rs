@@ -1,7 +1,7 @@
 //! Who decides: the law while everything is well, and the safe state while it is not.
 //!
 //! Boot → SelfTest → Calibrate → Armed ⇄ Rocking, and Fault from everywhere after Boot. Only Armed and Rocking send what the law wishes, and
-//! only SelfTest pulses the clutches; all else sends the safe state. [`Fault::recovery`] has the ways out of Fault.
+//! only SelfTest and, in Armed, a proof test pulse the clutches; all else sends the safe state. [`Fault::recovery`] has the ways out of Fault.
 //!
 //! The room imports `structure`, `control::sensing`, `control::monitor` and `control::ticks`.
 
@@ -13,6 +13,7 @@ mod judge;
 mod ladder;
 mod motion;
 mod parameters;
+mod proof_test;
 mod self_test;
 
 pub use interface::{Biases, Phase, Requests, SupervisorInput, Verdict};
@@ -33,6 +34,7 @@ use following::Following;
 use judge::SOURCES;
 use ladder::Ladder;
 use motion::{Motion, MotionLimits};
+use proof_test::ProofTest;
 use self_test::SelfTest;
 
 /// Entries that the log holds.
@@ -63,6 +65,8 @@ pub struct Supervisor {
     averaged: u32,
     /// … and its share of the way.
     followed: f32,
+    /// Averages from one proof test to the next.
+    proof_interval: u32,
 }
 
 /// Where a supervisor stands; the default is before its first tick.
@@ -96,6 +100,7 @@ pub struct SupervisorState {
     actuator: ActuatorState,
     motion: Motion,
     self_test: SelfTest,
+    proof: ProofTest,
     averaging: Averaging,
     following: Following,
     command_rate: CommandRate,
@@ -128,6 +133,7 @@ impl SupervisorState {
             actuator,
             motion,
             self_test,
+            proof,
             averaging,
             following,
             command_rate,
@@ -139,14 +145,14 @@ impl SupervisorState {
         (*waiting, *clear_before, *late, *good) = (0, false, Streak::default(), Streak::default());
         *monitor = MonitorState::default();
         (*actuator, *motion) = (ActuatorState::default(), Motion::default());
-        (*self_test, *averaging) = (SelfTest::default(), Averaging::default());
+        (*self_test, *proof, *averaging) = (SelfTest::default(), ProofTest::default(), Averaging::default());
         (*following, *command_rate) = (Following::default(), CommandRate::default());
         *ladder = Ladder::default();
     }
 
     /// A board that measures its coils' currents shall try their switches one by one before it engages.
     pub fn tests_coils(&self) -> bool {
-        self.phase == Phase::SelfTest
+        self.phase == Phase::SelfTest || self.proof.goes_on()
     }
 
     /// What the monitor found at the last tick.
@@ -240,6 +246,7 @@ impl Supervisor {
                 enter(state, input, if state.resumed { Phase::Calibrate } else { Phase::Armed });
             }
             (None, Phase::Armed) if self.calibrate_again(state, input) => {}
+            (None, Phase::Armed) if state.proof.goes_on() => self.prove(state, input),
             (None, Phase::Armed) if state.ladder.lost.is_none() && self.follow(state, input) => {
                 biases = Biases::Followed;
             }
@@ -273,6 +280,7 @@ impl Supervisor {
     /// What is to be sent: in a self-test the safe state until nothing moves. Never both to a block that moves, where that is not allowed: what was sent before then stays.
     fn command(&self, state: &SupervisorState, input: &SupervisorInput<'_>) -> [bool; 2] {
         match state.phase {
+            Phase::Armed if state.proof.goes_on() => state.proof.command(input.wish),
             Phase::Armed | Phase::Rocking if self.too_many(input) => state.sent,
             Phase::Armed | Phase::Rocking => input.wish,
             Phase::SelfTest if self.self_test && state.motion.still(self.stillness) => state.self_test.command(),
@@ -393,6 +401,7 @@ fn enter(state: &mut SupervisorState, input: &SupervisorInput<'_>, phase: Phase)
     state.phase = phase;
     state.waiting = 0;
     state.self_test = SelfTest::default();
+    state.proof.end();
     state.averaging = Averaging::default();
     log(state, input, Kind::Phase(phase));
 }

@@ -8,7 +8,7 @@ use crate::control::monitor::fault::Wheel;
 use crate::control::monitor::{MonitorParameters, duration};
 use crate::control::sensing::calibration::Plausible;
 use crate::control::sensing::required::Required;
-use crate::control::ticks::ticks;
+use crate::control::ticks::{ticks, ticks_or_never};
 use crate::structure::error::{ParameterError, require};
 
 /// What the clutches do while the controller does not decide: before it is armed, and on a fault, unless an engaged clutch is the fault.
@@ -76,6 +76,9 @@ pub struct Parameters {
     pub overrun_ticks: u32,
     /// Lateness of a single tick that is one, s; above 0, up to 1. Default 2 ms, for the same reason.
     pub overrun_limit: f32,
+    /// Of rest while armed from one proof test of the clutches to the next, s; 0, which is never, to 1e9. Default 30 days: a clutch or a coil
+    /// that has failed shows nothing until it is used.
+    pub proof_test_interval: f32,
 }
 
 impl Default for Parameters {
@@ -100,6 +103,7 @@ impl Default for Parameters {
             moving_counts: 2,
             overrun_ticks: 3,
             overrun_limit: 0.002,
+            proof_test_interval: 2_592_000.0,
         }
     }
 }
@@ -137,6 +141,8 @@ impl Parameters {
         require("overrun_ticks", self.overrun_ticks.into(), self.overrun_ticks >= 1, "at least 1")?;
         let late = self.overrun_limit;
         require("overrun_limit", late.into(), late > 0.0 && late <= 1.0, "above 0 s, up to 1 s")?;
+        let interval = self.proof_test_interval;
+        require("proof_test_interval", interval.into(), (0.0..=1e9).contains(&interval), "from 0 s to 1e9 s")?;
         self.monitor.check(period)
     }
 
@@ -174,6 +180,7 @@ impl Parameters {
             second: of(1.0),
             averaged: of(self.calibration_time / EVERY as f32).max(1),
             followed: if share < 1.0 { share } else { 1.0 },
+            proof_interval: ticks_or_never(self.proof_test_interval, self.calibration_time).max(1),
         }
     }
 }

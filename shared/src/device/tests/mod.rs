@@ -15,6 +15,7 @@ use std::vec::Vec;
 
 mod alone;
 mod flash;
+mod integrity;
 mod resume;
 mod rig;
 mod wraps;

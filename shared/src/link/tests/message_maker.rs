@@ -12,7 +12,7 @@ use crate::link::*;
 use crate::math::sign::Sign;
 
 /// Kinds of requests.
-pub const REQUESTS: usize = 17;
+pub const REQUESTS: usize = 18;
 /// Kinds of replies.
 pub const REPLIES: usize = 10;
 
@@ -156,7 +156,8 @@ pub fn request(variant: usize, source: &mut Source<'_>) -> Request {
         }),
         14 => Request::Recorder,
         15 => Request::Recorded { offset: source.word() },
-        _ => Request::EraseRecordings,
+        16 => Request::EraseRecordings,
+        _ => Request::Protect,
     }
 }
 
@@ -188,6 +189,10 @@ pub fn reply(variant: usize, source: &mut Source<'_>) -> Reply {
             layout: source.word(),
             check: source.word(),
             rehearsal: source.truth(),
+            highest: source.bytes(),
+            sealed: source.truth(),
+            jumper: source.truth(),
+            protection: Protection { reading: source.truth(), writing: source.truth() },
         }),
         3 => Reply::State(State {
             phase: source.one_of(&Phase::ALL),
@@ -224,6 +229,8 @@ pub fn reply(variant: usize, source: &mut Source<'_>) -> Reply {
                 Refusal::FlashFailed,
                 Refusal::NotHere,
                 Refusal::TooFast { period: f32::from_bits(check), least: f32::from_bits(check) },
+                Refusal::NoJumper,
+                Refusal::NotSealed,
             ]))
         }
         8 => Reply::Recorder(RecorderState {

@@ -5,6 +5,8 @@
 //! the middle of an earthquake cannot wait. Erasing stops the processor for longer than that, so only [`Store::make_room`] does it, when
 //! somebody asks for it: a sector without room, after seeing to it that the other one holds the newest copy.
 
+mod firmware;
+
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
 use embedded_storage::nor_flash::NorFlash;
 
@@ -243,8 +245,12 @@ impl<F: NorFlash> Store<F> {
 
     /// What cannot be read is not blank, and no copy.
     fn read(&mut self, which: usize, slot: u32, place: usize) -> Option<u32> {
+        self.read_at(Self::address(which, slot, place))
+    }
+
+    fn read_at(&mut self, address: u32) -> Option<u32> {
         let mut bytes = [0; 4];
-        self.flash.read(Self::address(which, slot, place), &mut bytes).ok()?;
+        self.flash.read(address, &mut bytes).ok()?;
         Some(u32::from_le_bytes(bytes))
     }
 

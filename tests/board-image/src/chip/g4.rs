@@ -35,7 +35,7 @@ impl Chip {
         let [slow, _] = self.rcc.timer_hz();
         match base {
             0x4000_0000 | 0x4000_0400 => self.counters[(base >> 10 & 1) as usize].read(offset, slow, self.now),
-            0x4000_0C00 => self.counters[2].read(offset, slow, self.now),
+            0x4000_0C00 => self.load_time(offset, slow),
             0x4000_0800 => self.encoder.read(offset),
             0x4000_2400 if offset >= BACKUP => self.backup.read(offset - BACKUP + BACKUP_OF_F4),
             0x4000_3000 => self.watchdog.read(offset),
@@ -75,7 +75,7 @@ impl Chip {
         let [slow, fast] = self.rcc.peripheral_hz();
         match base {
             0x4000_0000 | 0x4000_0400 => self.counters[(base >> 10 & 1) as usize].write(offset, value, self.now),
-            0x4000_0C00 => self.counters[2].write(offset, value, self.now),
+            0x4000_0C00 => self.store_time(offset, value),
             0x4000_0800 => self.encoder.write(offset, value),
             0x4000_2400 if offset >= BACKUP => {
                 self.backup.write(offset - BACKUP + BACKUP_OF_F4, value, self.supply.backup_writable());

@@ -3,6 +3,7 @@
 use super::{Chip, RAM, RAM_LENGTH};
 use crate::model::Model;
 use crate::peripheral::backup::Backup;
+use crate::peripheral::capture::Capture;
 use crate::peripheral::counter::Counter;
 use crate::peripheral::crc::CrcUnit;
 use crate::peripheral::processor::{FIRST_INTERRUPT, NMI, Private};
@@ -39,6 +40,7 @@ impl Chip {
         self.comparators.reset();
         self.converters = Registers::default();
         self.counters.iter_mut().for_each(Counter::reset);
+        self.capture = Capture::new(self.model);
         self.copier.reset();
         self.line.reset();
         self.line.reset_streams();

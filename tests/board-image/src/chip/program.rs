@@ -21,6 +21,15 @@ impl Chip {
         self.private.waits() && self.private.next(self.active).is_some() && self.private.next(self.threshold(processor)).is_some()
     }
 
+    /// A stuck bit is as it always is.
+    fn stick(&self) {
+        let Some(stuck) = self.stuck_bit else { return };
+        let mut byte = [0];
+        self.ram.read(stuck.address, &mut byte);
+        let mask = 1 << stuck.bit;
+        self.ram.write(stuck.address, &[if stuck.set { byte[0] | mask } else { byte[0] & !mask }]);
+    }
+
     /// Instructions between `address` and `address + size`.
     fn length(&mut self, address: u32, size: u32) -> u64 {
         if let Some(count) = self.lengths.get(&(address, size)) {
@@ -57,6 +66,11 @@ impl Guest for Chip {
         if let Some((word, bit)) = bit_band(address) {
             return self.load(word) >> bit & 1;
         }
+        if self.ram.contains(address) {
+            let mut bytes = [0; 4];
+            self.ram.read(address, &mut bytes[..size as usize]);
+            return u32::from_le_bytes(bytes);
+        }
         if self.flash.memory.contains(address) {
             let mut bytes = [0; 4];
             match self.model {
@@ -73,6 +87,10 @@ impl Guest for Chip {
         if let Some((word, bit)) = bit_band(address) {
             let old = self.load(word);
             return self.store(word, old & !(1 << bit) | (value & 1) << bit);
+        }
+        if self.ram.contains(address) {
+            self.ram.write(address, &value.to_le_bytes()[..size as usize]);
+            return self.stick();
         }
         if self.flash.memory.contains(address) {
             let work = self.flash.store(address, size, value);

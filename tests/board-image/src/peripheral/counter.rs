@@ -25,9 +25,22 @@ impl Counter {
         *self = Counter { registers: Registers::of(&[(ARR, u32::MAX)]), ..Counter::default() };
     }
 
-    fn count(&self, clock: u64, now: u64) -> u64 {
+    /// What a register holds.
+    pub fn register(&self, offset: u32) -> u32 {
+        self.registers.get(offset)
+    }
+
+    /// Its count at a time, with the rate of its clock, 1/s.
+    pub fn count(&self, clock: u64, now: u64) -> u64 {
         let ticks = u128::from(now - self.begun) * u128::from(clock) / u128::from(SECOND) / u128::from(self.prescaler + 1);
         (ticks % (u128::from(self.registers.get(ARR)) + 1)) as u64
+    }
+
+    /// Its clock changes from one rate to another, 1/s: it counts on.
+    pub fn clocked(&mut self, before: u64, after: u64, now: u64) {
+        let counted =
+            u128::from(self.count(before, now)) * u128::from(SECOND) * u128::from(self.prescaler + 1) / u128::from(after);
+        self.begun = now.saturating_sub(counted as u64);
     }
 
     /// Whether it asks a stream for a transfer at each update.

@@ -36,6 +36,10 @@ const WRITE_PROTECTED: u32 = 1 << 4;
 const PARALLELISM_ERROR: u32 = 1 << 6;
 const SEQUENCE_ERROR: u32 = 1 << 7;
 
+/// RDP of a flash that a probe may read, and of one that it never may again.
+const OPEN: u32 = 0xAA;
+const FOR_EVER: u32 = 0xCC;
+
 /// Option bytes of a new chip: no protection, brown-out reset off.
 const NEW_OPTIONS: u32 = 0x0FFF_AAEC;
 
@@ -160,7 +164,11 @@ impl Flash {
                 }
                 self.registers.set(CR, value & !START_BIT);
                 if value & (START_BIT | SECTOR_ERASE) == START_BIT | SECTOR_ERASE {
-                    return Some(Work::Erase(value >> 3 & 15));
+                    let sector = value >> 3 & 15;
+                    if self.writable(sector) {
+                        return Some(Work::Erase(sector));
+                    }
+                    self.registers.set(SR, self.registers.get(SR) | WRITE_PROTECTED);
                 }
             }
             OPTCR if self.registers.has(OPTCR, OPTION_LOCK) => {}
@@ -188,13 +196,41 @@ impl Flash {
             SEQUENCE_ERROR
         } else if size != width {
             PARALLELISM_ERROR
-        } else if self.options >> (16 + sector_of(address)) & 1 == 0 {
+        } else if !self.writable(sector_of(address)) {
             WRITE_PROTECTED
         } else {
             return Some(Work::Program(address, size, value));
         };
         self.registers.set(SR, self.registers.get(SR) | error);
         None
+    }
+
+    /// Whether a sector of an F4 may be erased and programmed: its nWRP.
+    fn writable(&self, sector: u32) -> bool {
+        self.options >> (16 + sector) & 1 == 1
+    }
+
+    /// RDP of option bytes.
+    fn reading(&self, options: u32) -> u32 {
+        options >> if self.model == Model::G474 { 0 } else { 8 } & 0xFF
+    }
+
+    /// What a probe reads, where the protection in force lets it.
+    pub fn by_probe(&self, address: u32) -> Option<u32> {
+        (self.reading(self.options) == OPEN).then(|| self.memory.word(address))
+    }
+
+    /// Takes new option bytes over: level 2 is for ever, and going back to no protection erases everything.
+    fn adopt(&mut self, options: u32) {
+        let (before, after) = (self.reading(self.options), self.reading(options));
+        if before == FOR_EVER {
+            return;
+        }
+        if before != OPEN && after == OPEN {
+            let blank = vec![0xFF; self.model.flash_length() as usize];
+            self.memory.write(START, &blank);
+        }
+        self.options = options;
     }
 
     /// How long a work takes.
@@ -252,7 +288,7 @@ impl Flash {
             Work::ErasePage(page) => self.finish_page(page, cut),
             Work::Options(_) if cut => {}
             Work::Options(value) if self.model == Model::G474 => self.finish_options(value),
-            Work::Options(value) => self.options = value & 0x0FFF_FFEC,
+            Work::Options(value) => self.adopt(value & 0x0FFF_FFEC),
         }
     }
 

@@ -2,6 +2,7 @@
 //! connected to them.
 
 pub mod backup;
+pub mod capture;
 pub mod coil;
 pub mod comparators;
 pub mod converter;

@@ -28,7 +28,7 @@ const CSS_CLEAR: u32 = 1 << 23;
 
 /// Of the internal oscillator, 1/s.
 const HSI: u64 = 16_000_000;
-/// Of the crystal, 1/s.
+/// Of a crystal that is right, 1/s.
 const HSE: u64 = 8_000_000;
 /// A crystal's start: 2 ms (DS8626, table 39).
 const CRYSTAL_START: u64 = milliseconds(2);
@@ -73,6 +73,8 @@ pub struct Rcc {
     registers: Registers,
     /// The crystal is there and whole.
     pub crystal: bool,
+    /// Its rate, 1/s.
+    pub(crate) crystal_hz: u64,
     /// When the crystal will run, if it has been switched on.
     crystal_at: Option<u64>,
     /// Likewise the PLL.
@@ -82,9 +84,9 @@ pub struct Rcc {
 impl Rcc {
     /// After a reset for that cause; flags of before stay until the program clears them.
     pub fn reset(model: Model, before: Option<&Rcc>, cause: Cause) -> Rcc {
-        let crystal = before.is_none_or(|rcc| rcc.crystal);
+        let (crystal, crystal_hz) = before.map_or((true, HSE), |rcc| (rcc.crystal, rcc.crystal_hz));
         if model == Model::G474 {
-            return Rcc { model, registers: g4::registers(before, cause), crystal, crystal_at: None, pll_at: None };
+            return Rcc { model, registers: g4::registers(before, cause), crystal, crystal_hz, crystal_at: None, pll_at: None };
         }
         let flags = match before {
             Some(rcc) if cause != Cause::Power => rcc.registers.get(CSR) & 0xFE00_0000,
@@ -97,7 +99,7 @@ impl Rcc {
             (CSR, flags | cause.flags()),
             (0x84, 0x2000_3000),
         ]);
-        Rcc { model, registers, crystal, crystal_at: None, pll_at: None }
+        Rcc { model, registers, crystal, crystal_hz, crystal_at: None, pll_at: None }
     }
 
     fn crystal_runs(&self, now: u64) -> bool {
@@ -112,7 +114,7 @@ impl Rcc {
         let configuration = self.registers.get(CFGR);
         let hz = match configuration >> 2 & 3 {
             0 => HSI,
-            1 => HSE,
+            1 => self.crystal_hz,
             _ => self.pll_hz(),
         };
         match configuration >> 4 & 15 {
@@ -124,7 +126,7 @@ impl Rcc {
 
     fn pll_hz(&self) -> u64 {
         let word = self.registers.get(PLLCFGR);
-        let source = if word & PLL_FROM_HSE != 0 { HSE } else { HSI };
+        let source = if word & PLL_FROM_HSE != 0 { self.crystal_hz } else { HSI };
         let (m, n, p) = (u64::from(word & 63), u64::from(word >> 6 & 511), u64::from(word >> 16 & 3) * 2 + 2);
         source / m.max(1) * n / p
     }
@@ -150,6 +152,11 @@ impl Rcc {
         let divided = self.dividers().map(|shift| self.registers.get(CFGR) >> shift & 7 >= 4);
         let [first, second] = self.peripheral_hz();
         [if divided[0] { 2 * first } else { first }, if divided[1] { 2 * second } else { second }]
+    }
+
+    /// The slow internal oscillator has been switched on: LSION of RCC_CSR.
+    pub fn slow_runs(&self) -> bool {
+        self.registers.has(if self.model == Model::G474 { g4::CSR } else { CSR }, 1)
     }
 
     /// Whether the clock of the peripheral at `base` is on.

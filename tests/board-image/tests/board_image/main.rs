@@ -3,8 +3,11 @@
 //! Needs the image that `SPRAG_BOARD_ELF` names; `cargo xtask test` builds it. `-- --nocapture` shows the numbers.
 
 mod coils;
+mod commissioning;
 mod faults;
+mod integrity;
 mod link;
+mod proof_test;
 mod recorder;
 mod registers;
 mod resets;

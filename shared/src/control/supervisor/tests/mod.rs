@@ -6,6 +6,7 @@ use std::vec::Vec;
 mod faults;
 mod garbage;
 mod ladder;
+mod proof_test;
 mod recovery;
 mod rig;
 mod wraps;

@@ -3,7 +3,7 @@
 //! The processor runs from bank 1, so that work in bank 2 holds up nothing but loads from bank 2.
 
 use super::super::registers::Registers;
-use super::{Flash, KEYS, OPTION_KEYS, Pace, START, Work};
+use super::{Flash, KEYS, OPTION_KEYS, Pace, START, WRITE_PROTECTED, Work};
 use crate::model::Model;
 
 const KEYR: u32 = 0x08;
@@ -12,6 +12,7 @@ const SR: u32 = 0x10;
 const CR: u32 = 0x14;
 const ECCR: u32 = 0x18;
 const OPTR: u32 = 0x20;
+const WRP1AR: u32 = 0x2C;
 
 const PROGRAM: u32 = 1;
 const PAGE_ERASE: u32 = 1 << 1;
@@ -33,6 +34,8 @@ const IN_BANK_2: u32 = 1 << 21;
 
 /// Option bytes of a new chip: two banks, no protection, brown-out reset at its lowest.
 pub(super) const NEW_OPTIONS: u32 = 0xFFEF_F8AA;
+/// WRP1AR of it: the first page is behind the last.
+const NO_PAGE: u32 = 0x7F;
 
 /// First address of bank 2.
 pub const BANK_2: u32 = 0x0804_0000;
@@ -54,11 +57,20 @@ pub(super) struct Banks {
     reload: bool,
     /// In force from the next reset on.
     options: u32,
+    /// The pages of bank 1 that are protected against writing, from the first to the last: likewise.
+    protected: u32,
 }
 
 impl Default for Banks {
     fn default() -> Banks {
-        Banks { checks: vec![0xFF; (BANK_2 - START) as usize / 8], half: None, going: None, reload: false, options: NEW_OPTIONS }
+        Banks {
+            checks: vec![0xFF; (BANK_2 - START) as usize / 8],
+            half: None,
+            going: None,
+            reload: false,
+            options: NEW_OPTIONS,
+            protected: NO_PAGE,
+        }
     }
 }
 
@@ -116,8 +128,13 @@ impl Flash {
             self.finish(work, true);
         }
         (self.banks.half, self.banks.reload) = (None, false);
-        self.options = self.banks.options;
-        self.registers = Registers::of(&[(0, 0x0004_0600), (CR, LOCK | OPTION_LOCK), (OPTR, self.options)]);
+        let before = self.memory.word(START);
+        self.adopt(self.banks.options);
+        if self.memory.word(START) != before {
+            self.banks.checks.fill(0xFF);
+        }
+        let protected = self.banks.protected;
+        self.registers = Registers::of(&[(0, 0x0004_0600), (CR, LOCK | OPTION_LOCK), (OPTR, self.options), (WRP1AR, protected)]);
     }
 
     /// Level of the brown-out reset, V, falling (DS12288, typical), if it is above the lowest.
@@ -223,10 +240,14 @@ impl Flash {
                 // In one bank, pages are of 4 KiB and BKER does nothing; the program refuses to store then.
                 if value & (START_BIT | PAGE_ERASE) == START_BIT | PAGE_ERASE {
                     let bank = if value & BANK != 0 { BANK_2 } else { START };
+                    let (page, area) = (value >> 3 & 127, self.banks.protected);
+                    if bank == START && (area & 127..=area >> 16 & 127).contains(&page) {
+                        return self.fails(WRITE_PROTECTED);
+                    }
                     return Some(Work::ErasePage(bank + PAGE * (value >> 3 & 127)));
                 }
             }
-            OPTR if set & (LOCK | OPTION_LOCK) != 0 => {}
+            OPTR | WRP1AR if set & (LOCK | OPTION_LOCK) != 0 => {}
             _ => self.registers.set(offset, value),
         }
         None
@@ -287,7 +308,7 @@ impl Flash {
     }
 
     pub(super) fn finish_options(&mut self, value: u32) {
-        self.banks.options = value;
+        (self.banks.options, self.banks.protected) = (value, self.registers.get(WRP1AR));
     }
 
     /// Pages of a copy of the settings.

@@ -1,7 +1,7 @@
 //! RCC of the G4 (RM0440, RCC).
 
 use super::super::registers::Registers;
-use super::{CR, CSS_ON, Cause, HSE, HSE_ON, HSE_READY, HSI, PLL_ON, PLL_READY, Rcc};
+use super::{CR, CSS_ON, Cause, HSE_ON, HSE_READY, HSI, PLL_ON, PLL_READY, Rcc};
 use crate::time::microseconds;
 
 const CFGR: u32 = 0x08;
@@ -11,7 +11,7 @@ const CICR: u32 = 0x20;
 const AHB1RSTR: u32 = 0x28;
 const APB2RSTR: u32 = 0x40;
 const AHB1ENR: u32 = 0x48;
-const CSR: u32 = 0x94;
+pub(super) const CSR: u32 = 0x94;
 
 /// HSION and HSIRDY.
 const HSI_RUNS: u32 = 1 << 8 | 1 << 10;
@@ -49,7 +49,7 @@ impl Rcc {
     pub(super) fn core_hz_g4(&self) -> u64 {
         let configuration = self.registers.get(CFGR);
         let hz = match configuration >> 2 & 3 {
-            2 => HSE,
+            2 => self.crystal_hz,
             3 => self.pll_hz_g4(),
             _ => HSI,
         };
@@ -62,7 +62,7 @@ impl Rcc {
 
     fn pll_hz_g4(&self) -> u64 {
         let word = self.registers.get(PLLCFGR);
-        let source = if word & 3 == 3 { HSE } else { HSI };
+        let source = if word & 3 == 3 { self.crystal_hz } else { HSI };
         let field = |shift: u32, mask: u32| u64::from(word >> shift & mask);
         source / (field(4, 15) + 1) * field(8, 127) / (2 * field(25, 3) + 2)
     }
