@@ -28,9 +28,10 @@ const OLD_BIAS: f32 = 5e-4;
 /// Of a rotation that nobody knows, over R: as good as any.
 const ANYWHERE: f32 = 1.0;
 
-/// For how long a reset may have lost counts, s, and how many in any case, over R: those of a fall from rest in that time.
-const RESET_TIME: f32 = 0.1;
-const RESET_TRAVEL: f32 = 4e-3;
+/// For how long a reset loses counts on a board whose counter goes on over it, s, and how many in any case, over R. One that has lost more is
+/// found out by the first impact, and taken for unknown then.
+const RESET_TIME: f32 = 2e-3;
+const RESET_TRAVEL: f32 = 1e-4;
 
 /// Of the gyroscope's mean over a swing, rad/s: scale, and shocks that it has felt.
 const MEAN_RATE: f32 = 5e-4;

@@ -200,3 +200,33 @@ fn resets_before_the_first_tick_count_too() {
     }
     assert!(!reset(&bench).device.resumes());
 }
+
+/// As on a board, whose encoder counts on while its sensors start: reset at every third tick of half a second, before impacts too, it knows at
+/// once where the block is.
+#[test]
+fn reset_at_any_tick_it_knows_where_the_block_is() {
+    const SILENT: usize = 13;
+    let mut bench = Bench::rocking();
+    for begun in 0..330 {
+        let mut again = reset(&bench);
+        for tick in 0..400 {
+            let now = again.rig.sample();
+            again.device.tick(
+                |own| {
+                    (own.encoder, own.engaged) = (now.encoder, now.engaged);
+                    if tick >= SILENT {
+                        *own = now;
+                    }
+                },
+                0.0,
+            );
+            let decision = *again.device.decision();
+            if tick >= SILENT {
+                assert!(decision.estimate.located(0.174_532_92), "reset {begun}, tick {tick}: {:?}", decision.estimate);
+                assert!(again.errors()[0] < 1e-3, "reset {begun}, tick {tick}: {:?}", again.errors());
+            }
+            again.rig.advance(decision.command);
+        }
+        bench.ticks(3);
+    }
+}
