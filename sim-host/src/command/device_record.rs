@@ -15,7 +15,7 @@ use super::device_line::LineArguments;
 use super::out_arguments::OverwriteArguments;
 use crate::device::line::DeviceError;
 use crate::device::parameters;
-use crate::device::recordings::{self, Part, Parts, Recording};
+use crate::device::recordings::{self, Key, Part, Parts, Recording};
 use crate::interrupt::Interrupt;
 use crate::output::{Results, claim_file, is_standard_output};
 use crate::plot::{FigureTitle, RecordingTrace, recording_figure};
@@ -78,7 +78,7 @@ pub fn run(given: &RecordArguments, out: &mut impl Write, interrupt: &Interrupt)
 }
 
 /// Those that are asked for.
-fn chosen<'a>(given: &RecordArguments, parts: &'a Parts) -> Result<Vec<((u16, u8), &'a Part)>, Failure> {
+fn chosen<'a>(given: &RecordArguments, parts: &'a Parts) -> Result<Vec<(Key, &'a Part)>, Failure> {
     let Some(newest) = parts.iter().max_by_key(|(_, part)| part.pages.last().map(|(_, header)| header.sequence)) else {
         return Err(Failure::Input("it has recorded no earthquake".to_owned()));
     };

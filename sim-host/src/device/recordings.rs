@@ -10,8 +10,11 @@ use sprag_shared::link::{RecorderState, Reply, Request};
 use super::line::{DeviceError, Line, RefusalText};
 use super::session::Session;
 
-/// A part of a recording, as its pages say: by the number of the earthquake and of the part.
-pub type Parts = BTreeMap<(u16, u8), Part>;
+/// Parts of recordings, as their pages say.
+pub type Parts = BTreeMap<Key, Part>;
+
+/// Number of an earthquake, and of a part of its recording.
+pub type Key = (u16, u8);
 
 /// Pages of a part, without their records.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -104,7 +107,7 @@ pub fn list<L: Line>(session: &mut Session<L>) -> Result<Parts, DeviceError> {
 /// As [`Session::ask`].
 pub fn read<L: Line>(
     session: &mut Session<L>,
-    (number, part): (u16, u8),
+    (number, part): Key,
     pages: &[(u32, Header)],
     mut progress: impl FnMut(usize),
 ) -> Result<Recording, DeviceError> {
