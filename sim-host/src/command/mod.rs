@@ -11,6 +11,7 @@ pub mod cloud;
 pub mod device;
 #[cfg(feature = "effects")]
 mod device_line;
+#[cfg(feature = "effects")]
 mod device_record;
 pub mod effects;
 pub mod explain;
