@@ -51,7 +51,7 @@ pub struct Stored {
 }
 
 /// Pieces of work that the recorder does between two looks at the line, at most.
-const RECORDED_AT_ONCE: u32 = 8;
+const RECORDED_AT_ONCE: u32 = 2;
 
 /// µs by which programming may take longer than the data sheet says, and in which it begins.
 const RECORDING_MARGIN: u32 = 15;
@@ -162,7 +162,10 @@ impl Link {
                 }
                 Some(Ok(received)) => {
                     self.around.lost_reports = LOST_REPORTS.load(Ordering::Relaxed);
-                    self.around.stack = stack::deepest();
+                    // It takes as long as half a period, and only this one tells.
+                    if matches!(received.message, Request::State) {
+                        self.around.stack = stack::deepest();
+                    }
                     self.around.locked = !Selected::jumper_is_closed();
                     self.around.protection = Selected::protection(self.program_end);
                     let (answer, pace) = ask(&received.message, self.stored, &self.around);

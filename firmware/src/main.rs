@@ -168,6 +168,8 @@ mod app {
                         integrity::put_in_force(device);
                         crate::control::set_safe_state(device.safe_command());
                         tick::set_period(device.period_counts(Selected::CORE_HZ));
+                        // The period begins now: nothing is late.
+                        crate::control::forget_time();
                     }
                     (answer, device.attached())
                 })
@@ -194,6 +196,10 @@ mod app {
                     false => recorder.stop_erasing(),
                 }
             }
+            // What has come is answered first: a turn takes as long as some frames.
+            if moved {
+                continue;
+            }
             let next = context.local.integrity.turn(&mut |fault| context.shared.device.lock(|device| device.accuse(fault)));
             if next == Next::Audit {
                 context.shared.device.lock(|device| {
@@ -202,7 +208,7 @@ mod app {
                     }
                 });
             }
-            if !moved && next != Next::Turn && context.local.link.may_sleep() {
+            if next != Next::Turn && context.local.link.may_sleep() {
                 cortex_m::asm::wfi();
             }
         }

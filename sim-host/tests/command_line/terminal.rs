@@ -213,7 +213,7 @@ fn map_with_boundaries_shows_what_it_traces() {
 #[test]
 fn cloud_keeps_its_rows_and_goes_on() {
     let folder = tempfile::tempdir().unwrap();
-    records(folder.path(), MANY);
+    records(folder.path(), 4 * MANY);
     let study = scene("cloud");
     let arguments = ["cloud", &study, "--out", "cloud", "--threads", "1", "--records", "records"];
     stopped(folder.path(), &arguments, "termination", "the same command with --resume goes on");

@@ -12,6 +12,7 @@ use sprag_board_image::bench::TickCost;
 use sprag_board_image::image::Image;
 use sprag_board_image::lockstep;
 use sprag_board_image::rig::{Rig, swing};
+use sprag_board_image::time::microseconds;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::settings::Settings;
 
@@ -102,6 +103,7 @@ fn serve(path: &Path) -> Result<(), String> {
         let (now, chip) = (rig.bench.now(), rig.bench.chip_mut());
         let clock = chip.rcc.peripheral_hz()[1];
         chip.line.send(&bytes, clock, now);
-        rig.settle();
+        // It wakes up here, and may go on until the next tick.
+        rig.settle(microseconds(100));
     }
 }

@@ -14,7 +14,7 @@ use crate::peripheral::flash::Flash;
 use crate::peripheral::icm42688::Measured;
 use crate::peripheral::rcc::Cause;
 use crate::random::Random;
-use crate::time::{SECOND, milliseconds, seconds};
+use crate::time::{SECOND, microseconds, milliseconds, seconds};
 
 /// The image for a chip that is tested: the one that [`Model::variable`] names, as `cargo xtask test` sets it.
 ///
@@ -166,14 +166,14 @@ impl Rig {
     pub fn period(&mut self) {
         self.bench.until_asleep = false;
         while self.bench.run(self.bench.now() + SECOND) != Stop::Tick {}
-        self.settle();
+        self.settle(microseconds(300));
     }
 
-    /// Runs until the program has nothing left to do, at most to the next control tick.
-    pub fn settle(&mut self) {
+    /// Runs until the program has nothing left to do, for `at_most` counts: while it measures its clock it never sleeps.
+    pub fn settle(&mut self, at_most: u64) {
         self.bench.until_asleep = true;
         self.bench.wake();
-        self.bench.run(self.bench.now() + milliseconds(1));
+        self.bench.run(self.bench.now() + at_most);
         self.bench.until_asleep = false;
     }
 

@@ -77,7 +77,7 @@ fn the_near_fault_motion_is_decided_alike_from_the_same_counts() {
     one_code("near fault", &scene("near_fault.toml", &[SENSORS, "run.free_time_s=0.5"]));
 }
 
-/// Of 20 phases all but one cost less than 5 % of the peak, and none a third of it.
+/// At none of 20 phases does it cost 5 % of the peak.
 #[test]
 #[ignore = "needs Unicorn and the board's image: run by cargo xtask test"]
 fn a_reset_at_any_phase_of_an_earthquake_is_gone_on_from() {
@@ -107,6 +107,6 @@ fn a_reset_at_any_phase_of_an_earthquake_is_gone_on_from() {
         costs.push(cost);
     }
     costs.sort_by(f64::total_cmp);
-    println!("of 20 phases: in control after {latest:.1} ms, peaks {:+.2} % and {:+.2} %", 100.0 * costs[18], 100.0 * costs[19]);
-    assert!(costs[18] < 0.05 && costs[19] < 1.0 / 3.0, "{costs:?}");
+    println!("of 20 phases: in control after {latest:.1} ms, peaks up to {:+.2} %", 100.0 * costs[19]);
+    assert!(costs[19] < 0.05, "{costs:?}");
 }

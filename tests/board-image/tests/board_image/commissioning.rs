@@ -6,6 +6,7 @@ use sprag_board_image::model::Model;
 use sprag_board_image::peripheral::flash::Work;
 use sprag_board_image::peripheral::rcc::Cause;
 use sprag_board_image::rig::{Rig, image_for};
+use sprag_board_image::time::milliseconds;
 use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::control::supervisor::event_log::Kind;
@@ -91,7 +92,7 @@ fn a_flash_that_is_protected_is_neither_read_out_nor_overwritten() {
         wanted.set(Item::Dwell.index(), 3).unwrap();
         assert_eq!(rig.ask(&Request::Apply { check: wanted.check(), store: true }), Reply::Done(Done::Stored), "{model:?}");
         // Sectors, or pages, of the program take nothing.
-        rig.settle();
+        rig.settle(milliseconds(1));
         let chip = rig.bench.chip_mut();
         assert_eq!(erase(model, |address, value| chip.store(address, value)), (), "{model:?}");
         let erased =

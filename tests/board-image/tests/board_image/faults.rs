@@ -18,7 +18,7 @@ fn armed() -> Rig {
     assert_eq!(state.phase, Phase::Armed, "{:?}", state.fault);
     // The pull-in is over, and the program has nothing left to do.
     rig.ticks(100);
-    rig.settle();
+    rig.settle(milliseconds(1));
     assert_ne!(drives(&rig), RELEASED);
     rig
 }

@@ -79,7 +79,7 @@ fn a_supply_that_falls_at_any_instruction_of_the_coils_driver_releases_them() {
 
 /// Addresses of the instructions that a tick carries out from its first look at the supply to its last.
 fn between_looks(rig: &mut Rig) -> BTreeSet<u32> {
-    rig.settle();
+    rig.settle(milliseconds(1));
     let looks = rig.bench.chip().supply.looks;
     let mut blocks = BTreeSet::new();
     while rig.bench.chip().supply.looks < looks + 2 {
