@@ -9,6 +9,7 @@ use super::layer::{document, units};
 use super::legend::{Key, Swatch, write_heading};
 use super::palette::{FLYWHEEL_BARS, FLYWHEEL_TINTS, GROUND, Stroke, device_look};
 use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel, scale_around_zero};
+use super::time_axis::span_of;
 use super::{FigureTitle, PlotError};
 
 const WIDTH_PX: f64 = 760.0;
@@ -74,13 +75,8 @@ pub struct LoopTrace {
 pub fn loop_figure(title: impl Into<FigureTitle>, trace: &LoopTrace) -> Result<String, PlotError> {
     let title = title.into();
     check(trace)?;
-    let (Some(&start), Some(&end)) = (trace.time.first(), trace.time.last()) else {
-        return Err(PlotError::EmptyTimeSpan);
-    };
-    if end <= start {
-        return Err(PlotError::EmptyTimeSpan);
-    }
-    let x = start..end;
+    let x = span_of(trace.time.iter().copied())?;
+    let Range { start, end } = x;
     let (left_px, width_px) = (MARGIN_PX + LEFT_LABELS_PX, WIDTH_PX - MARGIN_PX - LEFT_LABELS_PX - RIGHT_MARGIN_PX);
     let inside = |time: f64| time >= start && time <= end;
     let position_px = |time: f64| left_px + (time - start) / (end - start) * width_px;

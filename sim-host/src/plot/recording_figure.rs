@@ -1,5 +1,7 @@
 //! The figure of an earthquake as a device recorded it: ground, rotation and velocity over time, commands, clutches and phases.
 
+use std::ops::Range;
+
 use super::curve::write_curve;
 use super::fault_mark::{FAULT_ROW_PX, fault_places, fault_stroke, write_faults};
 use super::lane::{LANE_PX, bars, write_flywheels, write_lane_name};
@@ -7,6 +9,7 @@ use super::layer::{document, units};
 use super::legend::{Key, Swatch, write_heading};
 use super::palette::{FAULT, FLYWHEEL_BARS, FLYWHEEL_TINTS, GROUND, Stroke, device_look};
 use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel, scale_around_zero};
+use super::time_axis::span_of;
 use super::{FigureTitle, PlotError};
 use crate::plot::engagement::write_bars;
 
@@ -53,12 +56,7 @@ pub struct RecordingTrace {
 pub fn recording_figure(title: impl Into<FigureTitle>, trace: &RecordingTrace) -> Result<String, PlotError> {
     let title = title.into();
     check(trace)?;
-    let (Some(&start), Some(&end)) = (trace.time.first(), trace.time.last()) else {
-        return Err(PlotError::EmptyTimeSpan);
-    };
-    if end <= start {
-        return Err(PlotError::EmptyTimeSpan);
-    }
+    let Range { start, end } = span_of(trace.time.iter().copied())?;
     let (left_px, width_px) = (MARGIN_PX + LEFT_LABELS_PX, WIDTH_PX - MARGIN_PX - LEFT_LABELS_PX - RIGHT_MARGIN_PX);
     let position_px = |time: f64| left_px + (time - start) / (end - start) * width_px;
     let marks: Vec<(f64, &str)> = trace.faults.iter().map(|fault| (position_px(fault.0), fault.1.as_str())).collect();

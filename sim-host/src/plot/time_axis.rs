@@ -37,10 +37,16 @@ impl TimeAxis {
 ///
 /// Fails with [`PlotError::EmptyTimeSpan`] when there is no time between them.
 pub(super) fn time_span(histories: &[History], axes: TimeAxis) -> Result<Range<f64>, PlotError> {
-    let times = histories.iter().flat_map(|history| {
+    span_of(histories.iter().flat_map(|history| {
         let scale = axes.scale(history.frequency_parameter_1_s);
         history.samples.iter().map(move |sample| scale * sample.time_s)
-    });
+    }))
+}
+
+/// From the first to the last of `times`.
+///
+/// Fails with [`PlotError::EmptyTimeSpan`] when there is no time between them.
+pub(super) fn span_of(times: impl Iterator<Item = f64>) -> Result<Range<f64>, PlotError> {
     let (start, end) = times.fold((f64::INFINITY, f64::NEG_INFINITY), |(start, end), time| (start.min(time), end.max(time)));
     if end > start { Ok(start..end) } else { Err(PlotError::EmptyTimeSpan) }
 }
