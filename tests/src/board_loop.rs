@@ -16,8 +16,8 @@ use sprag_shared::device::inertial::Component;
 use sprag_shared::link::{Deframer, MAX_FRAME, Reply, Request, Started, TickReport, encode};
 use sprag_shared::settings::Settings;
 use sprag_shared::settings::wiring::{Axis, Wiring};
-use sprag_sim_host::closed_loop::driver::Driver;
-use sprag_sim_host::closed_loop::plant::Whereabouts;
+use sprag_sim::closed_loop::driver::Driver;
+use sprag_sim::closed_loop::plant::Whereabouts;
 
 use crate::board_mirror::{Mirror, Read};
 

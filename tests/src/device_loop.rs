@@ -4,26 +4,26 @@ use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
+use sprag_cli::command::loop_scene::LoopScene;
+use sprag_cli::command::record_arguments::SceneRecordArguments;
+use sprag_cli::device::driver::{DeviceDriver, DeviceTick, Farewell};
+use sprag_cli::device::emulator::{Emulator, Way};
+use sprag_cli::device::faulty::{Direction, Fate, FaultyLine};
+use sprag_cli::device::parameters;
+use sprag_cli::device::session::Session;
 use sprag_shared::control::controller::{Circumstances, Decision};
 use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::{Phase, Requests};
 use sprag_shared::link::{Identity, Mishap, Started, State};
 use sprag_shared::settings::Settings;
-use sprag_sim_host::closed_loop::LoopTask;
-use sprag_sim_host::closed_loop::disturbance::Disturbance;
-use sprag_sim_host::closed_loop::driver::Driver;
-use sprag_sim_host::closed_loop::plant::Extremes;
-use sprag_sim_host::closed_loop::run::{Ending, Tick};
-use sprag_sim_host::command::loop_scene::LoopScene;
-use sprag_sim_host::command::record_arguments::SceneRecordArguments;
-use sprag_sim_host::device::driver::{DeviceDriver, DeviceTick, Farewell};
-use sprag_sim_host::device::emulator::{Emulator, Way};
-use sprag_sim_host::device::faulty::{Direction, Fate, FaultyLine};
-use sprag_sim_host::device::parameters;
-use sprag_sim_host::device::session::Session;
-use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::sensor::{Sensors, Truth};
+use sprag_sim::closed_loop::LoopTask;
+use sprag_sim::closed_loop::disturbance::Disturbance;
+use sprag_sim::closed_loop::driver::Driver;
+use sprag_sim::closed_loop::plant::Extremes;
+use sprag_sim::closed_loop::run::{Ending, Tick};
+use sprag_sim::interrupt::Interrupt;
+use sprag_sim::sensor::{Sensors, Truth};
 
 /// A file of the scenes.
 pub fn scene_file(name: &str) -> PathBuf {

@@ -6,7 +6,7 @@ use sprag_shared::motion::state::BlockState;
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
-use sprag_sim_host::batch::case::PulseShape;
+use sprag_sim::batch::case::PulseShape;
 
 use crate::{FullLog, Segment, shake, unit_block};
 

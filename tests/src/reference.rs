@@ -2,8 +2,8 @@
 
 use std::fs::{File, read_to_string};
 
-use sprag_sim_host::batch::case::Case;
-use sprag_sim_host::batch::table::read_cases;
+use sprag_sim::batch::case::Case;
+use sprag_sim::batch::table::read_cases;
 
 use crate::shared_file;
 

@@ -9,10 +9,10 @@ use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::event_log::{Entry, Kind};
 use sprag_shared::control::supervisor::{Phase, Requests};
 use sprag_shared::motion::state::Phase as Standing;
-use sprag_sim_host::closed_loop::driver::Driver;
-use sprag_sim_host::closed_loop::plant::{Extremes, Whereabouts};
-use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::scene::controller::EstimatorName;
+use sprag_sim::closed_loop::driver::Driver;
+use sprag_sim::closed_loop::plant::{Extremes, Whereabouts};
+use sprag_sim::interrupt::Interrupt;
+use sprag_sim::scene::controller::EstimatorName;
 
 use crate::device_loop::{decides, is_way, pulse};
 

@@ -1,8 +1,8 @@
 //! Scenes as text.
 
-use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::scene::Scene;
-use sprag_sim_host::simulation::{DeviceRun, simulate};
+use sprag_sim::interrupt::Interrupt;
+use sprag_sim::scene::Scene;
+use sprag_sim::simulation::{DeviceRun, simulate};
 
 /// No device, an inerter and an ideal pair.
 pub const IDEAL_DEVICES: &str = r#"

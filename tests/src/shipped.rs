@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use sprag_sim_host::map::grid::Grid;
-use sprag_sim_host::scene::{Scene, overrides, text_of};
-use sprag_sim_host::similarity::compare::Response;
-use sprag_sim_host::similarity::groups::{Group, groups};
-use sprag_sim_host::simulation::DeviceRun;
+use sprag_sim::scene::{Scene, document, overrides, text_of};
+use sprag_sim::simulation::DeviceRun;
+use sprag_studies::map::grid::Grid;
+use sprag_studies::similarity::compare::Response;
+use sprag_studies::similarity::groups::{Group, groups};
 
 use crate::scene_text::run;
 
@@ -24,7 +24,7 @@ pub fn grid(scene: &str, changes: &[&str]) -> Grid {
     let path = path(scene);
     let origin = path.display().to_string();
     let text = text_of(&path).expect("a scene that ships");
-    let mut table = Scene::table(&text, &origin).expect("TOML");
+    let mut table = document::table(&text, &origin).expect("TOML");
     for change in changes {
         overrides::apply(&mut table, change, &origin).expect("a key");
     }

@@ -3,16 +3,17 @@
 mod levels;
 mod others;
 
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+};
+
 use crate::{
     firmware,
     process::{cargo, executables, output, run as done},
     stop::Stop,
     tools,
-};
-use std::{
-    fs,
-    path::{Path, PathBuf},
-    process::Command,
 };
 
 /// Where everything goes, from the root.
@@ -31,7 +32,7 @@ const SCENES: [(&str, &str); 3] = [("figure05", "3e-5"), ("figure10", "3e-5"), (
 pub fn run(root: &Path) -> Result<(), Stop> {
     tools::need_emulator()?;
     let image = firmware::CORE.build(root)?;
-    let built = executables(&mut cargo(root, &["build", "--release", "--package", "sprag-sim-host"]))?;
+    let built = executables(&mut cargo(root, &["build", "--release", "--package", "sprag-cli"]))?;
     let sprag = built.into_iter().next_back().ok_or_else(|| Stop::failed("cargo named no program"))?;
     let mut parts = vec![("levels", levels::table(root, &sprag)?), ("others", others::table(root, &sprag)?)];
     for (scene, step) in SCENES {

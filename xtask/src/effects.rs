@@ -4,17 +4,18 @@
 //! A run with half the step takes the same motion in twice as many steps; the difference between both, over the added steps, is
 //! the cost of a step without start and output.
 
-use crate::{
-    firmware,
-    process::{executables, output},
-    stop::Stop,
-    tools,
-};
 use std::{
     fmt::Write as _,
     path::{Path, PathBuf},
     process::Command,
     time::{Duration, Instant},
+};
+
+use crate::{
+    firmware,
+    process::{executables, output},
+    stop::Stop,
+    tools,
 };
 
 /// Largest relative difference between the loop of the full program and that of one without effects.
@@ -192,7 +193,7 @@ pub fn off_costs_nothing(root: &Path) -> Result<String, Stop> {
 /// The program, built for speed in a folder of its own for each set of features.
 fn sprag(root: &Path, features: &[&str]) -> Result<PathBuf, Stop> {
     let folder = if features.is_empty() { "target" } else { "target/without-effects" };
-    let mut build = crate::process::cargo(root, &["build", "--release", "--package", "sprag-sim-host", "--bin", "sprag"]);
+    let mut build = crate::process::cargo(root, &["build", "--release", "--package", "sprag-cli", "--bin", "sprag"]);
     build.args(features).arg("--target-dir").arg(root.join(folder));
     executables(&mut build)?.pop().ok_or_else(|| Stop::failed("cargo names no program"))
 }

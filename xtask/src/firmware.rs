@@ -139,7 +139,7 @@ impl Image {
     /// # Errors
     /// If the build fails, or probe-rs is missing or fails.
     pub fn flash(&self, root: &Path, chip: &str) -> Result<(), Stop> {
-        tools::need_board_target(root)?;
+        tools::need_target(root, TARGET)?;
         let elf = self.build(root)?;
         done(Command::new("probe-rs").args(["run", "--chip", chip]).arg(elf))
     }

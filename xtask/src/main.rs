@@ -109,26 +109,26 @@ fn run(mut args: impl Iterator<Item = String>) -> Result<(), Stop> {
         ["test" | "ci"] => test::run(&root, None),
         ["nightly"] => test::run(&root, Some(seconds)),
         ["firmware"] => {
-            tools::need_board_target(&root)?;
+            tools::need_target(&root, firmware::TARGET)?;
             test::images(&root, &mut Steps::default(), overwrite).map(drop)
         }
         ["flash"] => firmware::BOARD.flash(&root, "STM32F405RGTx"),
         ["flash", "g474"] => firmware::BOARD_G474.flash(&root, "STM32G474RETx"),
         ["effects"] => {
-            tools::need_board_target(&root)?;
+            tools::need_target(&root, firmware::TARGET)?;
             effects::run(&root)
         }
         ["accuracy"] => {
-            tools::need_board_target(&root)?;
+            tools::need_target(&root, firmware::TARGET)?;
             accuracy::run(&root)
         }
         ["ticks"] => {
-            tools::need_board_target(&root)?;
+            tools::need_target(&root, firmware::TARGET)?;
             ticks::run(&root)
         }
         ["hardware"] => hardware::run(&root, &mut Steps::default()),
         ["board-image", what @ ("ticks" | "profile")] => {
-            tools::need_board_target(&root)?;
+            tools::need_target(&root, firmware::TARGET)?;
             board_image::measure(&root, what)
         }
         ["figures"] => figures::run(&root, None),

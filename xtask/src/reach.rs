@@ -196,7 +196,7 @@ mod tests {
     /// Links the sample for the board and gives its file.
     fn sample(level: &str) -> PathBuf {
         let package = Path::new(env!("CARGO_MANIFEST_DIR"));
-        tools::need_board_target(package).unwrap();
+        tools::need_target(package, firmware::TARGET).unwrap();
         let elf = std::env::temp_dir().join(format!("sprag-ways-to-a-panic-{level}-{}.elf", std::process::id()));
         let mut rustc = Command::new("rustc");
         rustc.current_dir(package).args(["samples/ways_to_a_panic.rs", "--edition", "2024", "--target", firmware::TARGET]);

@@ -1,8 +1,10 @@
 //! Every check of the project, in the order in which they are cheapest to fail.
 
+use std::path::Path;
+
 use crate::{
     board_image,
-    firmware::{BOARD, Built, LINTED},
+    firmware::{BOARD, Built, LINTED, TARGET},
     fuzz::{self, Inputs},
     hardware, panic_check,
     process::{Beside, cargo, cargo_in, host, run as done},
@@ -11,7 +13,9 @@ use crate::{
     stop::Stop,
     tools,
 };
-use std::path::Path;
+
+/// The target of programs in a browser.
+const PAGE: &str = "wasm32-unknown-unknown";
 
 /// Runs every check; where `fuzz_seconds` are given, each fuzz target too, for so long.
 ///
@@ -20,7 +24,7 @@ use std::path::Path;
 pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     let mut steps = Steps::default();
     steps.step("tools", || {
-        tools::need_board_target(root)?;
+        tools::need_target(root, TARGET)?;
         tools::need_emulator()?;
         tools::need_unicorn()?;
         tools::need_cxx()
@@ -33,9 +37,14 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     // Not the tests: they are of the whole program.
     steps.step("lints, parts of host", || {
         ["", "effects"].iter().try_for_each(|features| {
-            let args = ["clippy", "--package", "sprag-sim-host", "--bins", "--no-default-features", "--features", features];
+            let args = ["clippy", "--package", "sprag-cli", "--bins", "--no-default-features", "--features", features];
             done(cargo(root, &args).args(["--", "-D", "warnings"]))
         })
+    })?;
+    steps.step("lints, page", || {
+        tools::need_target(root, PAGE)?;
+        let args = ["clippy", "--package", "sprag-sim", "--no-default-features", "--features", "effects", "--target", PAGE];
+        done(cargo(root, &args).args(["--", "-D", "warnings"]))
     })?;
     steps.step("lints, board", || {
         LINTED.iter().try_for_each(|image| done(image.cargo(root, "clippy").args(["--", "-D", "warnings"])))
@@ -80,7 +89,7 @@ fn tests(root: &Path, built: &Built) -> Result<(), Stop> {
             lacking.push((need, format!("no folder {folder}")));
         }
     }
-    match tools::python(root, "sim-host/tests/command_line/needs_python/requirements.txt") {
+    match tools::python(root, "sim-host/cli/tests/command_line/needs_python/requirements.txt") {
         Ok(python) => _ = command.env("SPRAG_PYTHON", python),
         Err(stop) => lacking.push(("needs_python", stop.to_string())),
     }

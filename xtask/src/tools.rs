@@ -9,12 +9,11 @@ use std::{
     process::Command,
 };
 
-/// Makes sure that the board's target is installed.
+/// Makes sure that the standard library for `target` is installed.
 ///
 /// # Errors
 /// If it is not and cannot be.
-pub fn need_board_target(root: &Path) -> Result<(), Stop> {
-    let target = crate::firmware::TARGET;
+pub fn need_target(root: &Path, target: &str) -> Result<(), Stop> {
     // Asking the compiler works without rustup too.
     let mut ask = Command::new("rustc");
     let libraries = output(ask.current_dir(root).args(["--print", "target-libdir", "--target", target]))?;

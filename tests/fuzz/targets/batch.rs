@@ -4,8 +4,8 @@
 
 use libfuzzer_sys::fuzz_target;
 use sprag_shared::method::taylor::{TERMS, Taylor};
-use sprag_sim_host::batch::case::{Case, CaseResult, TIGHT};
-use sprag_sim_host::batch::table::{RESULT_COLUMNS, read_cases, write_result};
+use sprag_sim::batch::case::{Case, CaseResult, TIGHT};
+use sprag_sim::batch::table::{RESULT_COLUMNS, read_cases, write_result};
 
 /// Cases of one table that are run.
 const MOST_CASES: usize = 3;

@@ -3,7 +3,7 @@
 #![no_main]
 
 use libfuzzer_sys::{Corpus, fuzz_target};
-use sprag_sim_host::record::{Component, ReadOptions, Record, Units};
+use sprag_sim::record::{Component, ReadOptions, Record, Units};
 
 fuzz_target!(|input: &[u8]| -> Corpus {
     // The first byte chooses what the caller knows, the rest is the file. In the seeds it is a letter.

@@ -2,7 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use sprag_sim_host::scene::Scene;
+use sprag_sim::scene::Scene;
 
 fuzz_target!(|text: &str| {
     if let Err(error) = Scene::parse(text, "scene.toml") {

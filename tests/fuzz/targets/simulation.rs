@@ -10,13 +10,13 @@ mod random_scene;
 use draw::Draw;
 use libfuzzer_sys::{Corpus, fuzz_target};
 use sprag_shared::motion::state::Stopped;
+use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::drivetrain::Engagement;
-use sprag_sim_host::ground_motion::{Component, GroundMotion};
-use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::outcome::Outcome;
-use sprag_sim_host::scene::Scene;
-use sprag_sim_host::scene::motions::GroundMotions;
-use sprag_sim_host::simulation::{DeviceRun, RunError, simulate};
+use sprag_sim::ground_motion::{Component, GroundMotion};
+use sprag_sim::interrupt::Interrupt;
+use sprag_sim::scene::Scene;
+use sprag_sim::scene::motions::GroundMotions;
+use sprag_sim::simulation::{DeviceRun, RunError, simulate};
 
 /// Steps of a fixed length, or periods of the fastest part, that one run may take.
 const MOST_STEPS: f64 = 10_000.0;

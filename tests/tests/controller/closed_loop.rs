@@ -1,16 +1,16 @@
 //! The controller in closed loop: its limit, its worth with real sensors, its faults.
 
+use sprag_report::progress::Progress;
 use sprag_shared::equation::clutch_rule::wheel_for;
-use sprag_sim_host::closed_loop::plant::Extremes;
-use sprag_sim_host::closed_loop::run::Tick;
-use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::loop_study::bench::{Conditions, Variant, each, run_ideal, run_loop, with_loop};
-use sprag_sim_host::loop_study::faults::{self, Failing, INSTANTS, Instant, Part};
-use sprag_sim_host::loop_study::ideal_limit;
-use sprag_sim_host::loop_study::motion::{Motion, grid};
-use sprag_sim_host::loop_study::practice::Comparison;
-use sprag_sim_host::progress::Progress;
-use sprag_sim_host::scene::controller::{EstimatorName, LawName};
+use sprag_sim::closed_loop::plant::Extremes;
+use sprag_sim::closed_loop::run::Tick;
+use sprag_sim::interrupt::Interrupt;
+use sprag_sim::scene::controller::{EstimatorName, LawName};
+use sprag_studies::loop_study::bench::{Conditions, Variant, each, run_ideal, run_loop, with_loop};
+use sprag_studies::loop_study::faults::{self, Failing, INSTANTS, Instant, Part};
+use sprag_studies::loop_study::ideal_limit;
+use sprag_studies::loop_study::motion::{Motion, grid};
+use sprag_studies::loop_study::practice::Comparison;
 
 fn quiet() -> (Progress, Interrupt) {
     (Progress::new("runs"), Interrupt::default())
@@ -85,7 +85,7 @@ fn a_run_is_its_seed() {
     };
     let (one, two) = (run(1), run(2));
     let bits = |results: &[Vec<_>], index: usize| -> u64 {
-        let closed: &sprag_sim_host::loop_study::bench::LoopResult = &results[index][0];
+        let closed: &sprag_studies::loop_study::bench::LoopResult = &results[index][0];
         closed.peak.to_bits()
     };
     assert_eq!(bits(&one, 0), bits(&one, 2));

@@ -8,7 +8,7 @@ use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::sensing::sensor::Sensor;
 use sprag_shared::control::supervisor::Phase;
-use sprag_sim_host::scene::controller::EstimatorName;
+use sprag_sim::scene::controller::EstimatorName;
 use sprag_tests::sample_tape::{Player, Tape, numbered_on};
 
 /// Ticks a second.

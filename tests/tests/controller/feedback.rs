@@ -1,10 +1,10 @@
 //! Clutches that are told by the currents of their coils, which go before the armatures.
 
-use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::loop_study::bench::{Conditions, Variant, each, run_ideal, run_loop};
-use sprag_sim_host::loop_study::losses::pulses;
-use sprag_sim_host::loop_study::practice::Comparison;
-use sprag_sim_host::progress::Progress;
+use sprag_report::progress::Progress;
+use sprag_sim::interrupt::Interrupt;
+use sprag_studies::loop_study::bench::{Conditions, Variant, each, run_ideal, run_loop};
+use sprag_studies::loop_study::losses::pulses;
+use sprag_studies::loop_study::practice::Comparison;
 
 /// A clutch of 20 ms: its current is there after 2 ms, the armature 18 ms later; released, 2 ms after the current has died.
 #[test]

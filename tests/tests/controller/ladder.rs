@@ -1,10 +1,10 @@
 //! A sensor that is lost in mid-swing: another one stands in for it, and the law goes on.
 
-use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::loop_study::bench::Conditions;
-use sprag_sim_host::loop_study::losses::{LOSSES, losses, pulses};
-use sprag_sim_host::progress::Progress;
-use sprag_sim_host::statistics::quantile;
+use sprag_report::progress::Progress;
+use sprag_sim::interrupt::Interrupt;
+use sprag_studies::loop_study::bench::Conditions;
+use sprag_studies::loop_study::losses::{LOSSES, losses, pulses};
+use sprag_studies::statistics::quantile;
 
 /// Two of three tell the rate: gyroscope, encoder's derivative, and the accelerometers by the equation of motion.
 #[test]

@@ -5,6 +5,10 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 use std::time::Duration;
 
+use sprag_cli::device::driver::DeviceDriver;
+use sprag_cli::device::line::{DeviceError, Line};
+use sprag_cli::device::parameters;
+use sprag_cli::device::session::Session;
 use sprag_shared::control::controller::{Circumstances, Controller};
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::device::beginning::Beginning;
@@ -12,11 +16,7 @@ use sprag_shared::device::{Answer, Device, Surroundings};
 use sprag_shared::link::{Deframer, MAX_FRAME, Pace, Reply, Request, encode};
 use sprag_shared::settings::store::Store;
 use sprag_shared::settings::{Item, LAYOUT, Settings};
-use sprag_sim_host::closed_loop::driver::{Driver, Shared};
-use sprag_sim_host::device::driver::DeviceDriver;
-use sprag_sim_host::device::line::{DeviceError, Line};
-use sprag_sim_host::device::parameters;
-use sprag_sim_host::device::session::Session;
+use sprag_sim::closed_loop::driver::{Driver, Shared};
 use sprag_tests::flash::Flash;
 
 /// A device, as a board on a serial port has it, in this process.

@@ -4,10 +4,10 @@
 //! product, so what is tested here is what would be flashed. `docs/controller.md` explains it step by step.
 
 use sprag_shared::control::law::{Law, Situation, Wish};
-use sprag_sim_host::closed_loop::plant::Extremes;
-use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::loop_study::bench::{Conditions, Variant, run_loop, with_loop};
-use sprag_sim_host::loop_study::motion::Motion;
+use sprag_sim::closed_loop::plant::Extremes;
+use sprag_sim::interrupt::Interrupt;
+use sprag_studies::loop_study::bench::{Conditions, Variant, run_loop, with_loop};
+use sprag_studies::loop_study::motion::Motion;
 
 /// Resists only a block that moves outward.
 #[derive(Clone, Copy)]

@@ -6,7 +6,7 @@ use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::sensing::sample::{Reading, Sample};
 use sprag_shared::control::sensing::sensor::Sensor;
 use sprag_shared::control::supervisor::Phase;
-use sprag_sim_host::scene::controller::EstimatorName;
+use sprag_sim::scene::controller::EstimatorName;
 use sprag_tests::device_loop::decides;
 use sprag_tests::sample_tape::{Player, Tape};
 

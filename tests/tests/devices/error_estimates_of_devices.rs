@@ -7,8 +7,8 @@ use rayon::prelude::*;
 use sprag_reference::effort::Effort;
 use sprag_reference::generate::scene;
 use sprag_reference::simulate::run_with;
-use sprag_sim_host::scene::Scene;
-use sprag_sim_host::simulation::DeviceRun;
+use sprag_sim::scene::Scene;
+use sprag_sim::simulation::DeviceRun;
 use sprag_tests::scene_text::run;
 
 const SEED: u64 = 23;

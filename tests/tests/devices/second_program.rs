@@ -11,10 +11,10 @@ use sprag_reference::generate::scene;
 use sprag_reference::ledger::Shares;
 use sprag_reference::method::Method;
 use sprag_reference::tally::Tally;
-use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::scene::Scene;
-use sprag_sim_host::simulation::energy::COLUMNS;
-use sprag_sim_host::simulation::simulate;
+use sprag_sim::interrupt::Interrupt;
+use sprag_sim::scene::Scene;
+use sprag_sim::simulation::energy::COLUMNS;
+use sprag_sim::simulation::simulate;
 
 const SEED: u64 = 16;
 const COUNT: u64 = 300;

@@ -5,15 +5,15 @@
 
 use std::time::Duration;
 
+use sprag_cli::device::emulator::{Emulator, Way};
+use sprag_cli::device::parameters;
+use sprag_cli::device::session::Session;
 use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::device::HOST_SILENCE;
 use sprag_shared::device::beginning::MOST_STARTS;
 use sprag_shared::link::{Mishap, Pace, Request, Started, State};
 use sprag_shared::settings::{Item, Settings};
-use sprag_sim_host::device::emulator::{Emulator, Way};
-use sprag_sim_host::device::parameters;
-use sprag_sim_host::device::session::Session;
 use sprag_tests::device_loop::row;
 use sprag_tests::emulation::controller_firmware;
 

@@ -3,15 +3,15 @@
 //! The numbers of `docs/faults.md` come from `cargo test -p sprag-tests --test emulated faults -- --ignored --nocapture`, with the image that
 //! `cargo xtask test` builds. What holds whatever happens is in [`Course::check`].
 
+use sprag_cli::command::loop_scene::LoopScene;
+use sprag_cli::device::faulty::{Direction, Fate};
 use sprag_shared::control::controller::Circumstances;
 use sprag_shared::control::monitor::fault::{Fault, Recovery};
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::sensing::sensor::Sensor;
 use sprag_shared::control::supervisor::Phase;
-use sprag_sim_host::closed_loop::disturbance::Disturbance;
-use sprag_sim_host::command::loop_scene::LoopScene;
-use sprag_sim_host::device::faulty::{Direction, Fate};
-use sprag_sim_host::loop_study::faults::{ALL, Failing, Injected, Part};
+use sprag_sim::closed_loop::disturbance::Disturbance;
+use sprag_studies::loop_study::faults::{ALL, Failing, Injected, Part};
 use sprag_tests::device_loop::{Course, Timed, Trial, faithful, mid_swing, on_the_host, pulse, row};
 use sprag_tests::dice::Dice;
 use sprag_tests::emulation::controller_firmware;

@@ -3,14 +3,13 @@
 //!
 //! Needs the image that `cargo xtask test` builds; `-- --nocapture` shows the numbers.
 
+use sprag_cli::command::loop_scene::LoopScene;
+use sprag_cli::device::emulator::Way;
+use sprag_cli::device::image::build_bench;
+use sprag_cli::device::report::costs;
 use sprag_shared::control::supervisor::Phase;
-use sprag_sim_host::device::emulator::Way;
-use sprag_sim_host::device::image::build_bench;
-use sprag_sim_host::device::report::costs;
 use sprag_tests::device_loop::{Course, Trial, faithful, on_the_host, pulse, scene};
 use sprag_tests::emulation::{board_firmware, controller_firmware};
-
-use sprag_sim_host::command::loop_scene::LoopScene;
 
 /// Runs `scene` on the device in the emulator and on the host.
 fn one_code(name: &str, scene: &LoopScene, way: Way) {

@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use sprag_cli::command::loop_scene::LoopScene;
+use sprag_cli::device::image::build_bench;
 use sprag_shared::control::law::Wish;
 use sprag_shared::control::supervisor::Phase;
-use sprag_sim_host::closed_loop::plant::Extremes;
-use sprag_sim_host::closed_loop::run::{Ending, Tick};
-use sprag_sim_host::command::loop_scene::LoopScene;
-use sprag_sim_host::device::image::build_bench;
-use sprag_sim_host::interrupt::Interrupt;
+use sprag_sim::closed_loop::plant::Extremes;
+use sprag_sim::closed_loop::run::{Ending, Tick};
+use sprag_sim::interrupt::Interrupt;
 use sprag_tests::board_loop::BoardDriver;
 use sprag_tests::device_loop::{decides, pulse, scene};
 use sprag_tests::emulation::board_firmware;

@@ -5,20 +5,20 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 use std::time::Duration;
 
+use sprag_cli::device::driver::{DeviceDriver, DeviceTick};
+use sprag_cli::device::emulator::{Emulator, Way};
+use sprag_cli::device::line::{DeviceError, Line};
+use sprag_cli::device::parameters;
+use sprag_cli::device::recordings::{self, Parts, Recording};
+use sprag_cli::device::session::Session;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::control::supervisor::event_log::{Entry, Kind};
 use sprag_shared::device::recorder::BEFORE;
 use sprag_shared::device::recorder::record::{GROUND_STEP, ROTATION_STEP, VELOCITY_STEP};
 use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::link::{Mishap, Pace, RecorderActivity, Request, TickReport};
-use sprag_sim_host::closed_loop::plant::Extremes;
-use sprag_sim_host::device::driver::{DeviceDriver, DeviceTick};
-use sprag_sim_host::device::emulator::{Emulator, Way};
-use sprag_sim_host::device::line::{DeviceError, Line};
-use sprag_sim_host::device::parameters;
-use sprag_sim_host::device::recordings::{self, Parts, Recording};
-use sprag_sim_host::device::session::Session;
-use sprag_sim_host::interrupt::Interrupt;
+use sprag_sim::closed_loop::plant::Extremes;
+use sprag_sim::interrupt::Interrupt;
 use sprag_tests::device_loop::{mid_swing, on_the_host, pulse};
 use sprag_tests::emulation::controller_firmware;
 

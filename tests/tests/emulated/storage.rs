@@ -6,15 +6,15 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use sprag_cli::device::emulator::{Emulator, Way};
+use sprag_cli::device::line::Line as _;
+use sprag_cli::device::parameters;
+use sprag_cli::device::session::Session;
 use sprag_shared::control::sensing::sample::{Count, Reading, Sample};
 use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::link::{Done, MAX_FRAME, Mishap, Pace, Reply, Request, Started, TickSample, WORD_BLOCK, Words, encode};
 use sprag_shared::settings::store::SLOT_BYTES;
 use sprag_shared::settings::{Item, Settings};
-use sprag_sim_host::device::emulator::{Emulator, Way};
-use sprag_sim_host::device::line::Line as _;
-use sprag_sim_host::device::parameters;
-use sprag_sim_host::device::session::Session;
 use sprag_tests::device_loop::row;
 use sprag_tests::dice::Dice;
 use sprag_tests::emulation::controller_firmware;

@@ -1,7 +1,7 @@
 //! Blocks let go exactly where nothing moves them: on the tip, under ground that is only about to move.
 
-use sprag_sim_host::outcome::Outcome;
-use sprag_sim_host::simulation::DeviceRun;
+use sprag_shared::observers::outcome::Outcome;
+use sprag_sim::simulation::DeviceRun;
 use sprag_tests::scene_text::{self, IDEAL_DEVICES, RIGID_PAIR};
 
 const CONSISTENT_PAIR: &str = r#"

@@ -8,11 +8,11 @@ use sprag_shared::math::{asin, atanh, square_root};
 use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::observer::Event;
 use sprag_shared::motion::state::{BlockState, Phase};
+use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
-use sprag_sim_host::batch::case::{Case, CaseResult, PulseShape, TIGHT};
-use sprag_sim_host::outcome::Outcome;
+use sprag_sim::batch::case::{Case, CaseResult, PulseShape, TIGHT};
 use sprag_tests::{Dice, FullLog, GEOMETRIES, Log, Segment, Start, follow, relative, release, sane, shake, tight, unit_block};
 
 /// Cases of all kinds, the same on every machine.

@@ -2,11 +2,11 @@
 
 use sprag_loops::{Method, Precision};
 use sprag_shared::math;
+use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::block::Geometry;
-use sprag_sim_host::batch::case::{Case, PulseShape, TIGHT};
-use sprag_sim_host::outcome::Outcome;
-use sprag_sim_host::scene::Scene;
-use sprag_sim_host::simulation::DeviceRun;
+use sprag_sim::batch::case::{Case, PulseShape, TIGHT};
+use sprag_sim::scene::Scene;
+use sprag_sim::simulation::DeviceRun;
 use sprag_tests::scene_text::{self, IDEAL_DEVICES, RIGID_PAIR};
 
 /// Runs that in units of 1/p are the same for every `p` (1/s).

@@ -8,7 +8,7 @@ use sprag_shared::math::sin;
 use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
-use sprag_sim_host::batch::case::PulseShape;
+use sprag_sim::batch::case::PulseShape;
 use sprag_tests::FullLog;
 use sprag_tests::pulse::Pulsed;
 

@@ -8,10 +8,10 @@ use sprag_shared::math::sign::Sign;
 use sprag_shared::math::{acosh, asin, cos, cosh, exp, sinh, square_root};
 use sprag_shared::motion::observer::Event;
 use sprag_shared::motion::state::Phase;
+use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
-use sprag_sim_host::batch::case::{Case, PulseShape, TIGHT};
-use sprag_sim_host::outcome::Outcome;
+use sprag_sim::batch::case::{Case, PulseShape, TIGHT};
 use sprag_tests::{
     Dice, FullLog, GEOMETRIES, Log, Segment, Start, boundary, follow, relative, release, sane, shake, tight, unit_block,
 };

@@ -1,13 +1,12 @@
 //! Blocks under pulses in lanes against the core, which follows one at a time.
 
-use sprag_loops::{Method, Precision};
-use sprag_shared::structure::block::Geometry;
-use sprag_shared::structure::device::DeviceKind;
-
 use sprag_ensemble::machine::{Registers, run};
 use sprag_ensemble::pulsed::{PulseResult, PulsedBlock};
+use sprag_loops::{Method, Precision};
 use sprag_shared::observers::outcome::Outcome;
-use sprag_sim_host::batch::case::{Case, PulseShape, TIGHT};
+use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::device::DeviceKind;
+use sprag_sim::batch::case::{Case, PulseShape, TIGHT};
 
 /// A coarse grid of everything, dense enough that every kind of event occurs.
 fn cases(geometry: Geometry, device: DeviceKind, side: u32) -> Vec<Case> {

@@ -1,5 +1,8 @@
 //! Blocks under records in lanes against the core, which follows one at a time.
 
+use sprag_ensemble::machine::{Registers, shake};
+use sprag_ensemble::plain::PlainBlock;
+use sprag_ensemble::shaken::{Samples, Shaken, ShakenBlock};
 use sprag_loops::{Method, Precision};
 use sprag_shared::math;
 use sprag_shared::motion::state::{BlockState, Phase};
@@ -9,13 +12,9 @@ use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::mount::Mount;
 use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
-
-use sprag_ensemble::machine::{Registers, shake};
-use sprag_ensemble::plain::PlainBlock;
-use sprag_ensemble::shaken::{Samples, Shaken, ShakenBlock};
-use sprag_sim_host::batch::case::TIGHT;
-use sprag_sim_host::ground_motion::{Component, GroundMotion};
-use sprag_sim_host::simulation::drive::{Course, Overturning};
+use sprag_sim::batch::case::TIGHT;
+use sprag_sim::ground_motion::{Component, GroundMotion};
+use sprag_sim::simulation::drive::{Course, Overturning};
 
 const STEP: f64 = 0.01;
 const FREE_TIME: f64 = 6.0;

@@ -5,11 +5,11 @@ use std::fmt::Write;
 use std::path::Path;
 
 use sprag_shared::math;
+use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::block::GRAVITY;
-use sprag_sim_host::outcome::Outcome;
-use sprag_sim_host::record::{ReadOptions, Record, RecordError, Units, Warning};
-use sprag_sim_host::scene::Scene;
-use sprag_sim_host::simulation::DeviceRun;
+use sprag_sim::record::{ReadOptions, Record, RecordError, Units, Warning};
+use sprag_sim::scene::Scene;
+use sprag_sim::simulation::DeviceRun;
 use sprag_tests::scene_text::{self, IDEAL_DEVICES};
 
 /// A pier with no device, an inerter, an ideal pair, and a pair of rigid clutches that come late and whose flywheels spin.

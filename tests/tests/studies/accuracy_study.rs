@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use sprag_sim_host::accuracy_study::row::{Row, order};
-use sprag_sim_host::accuracy_study::study::{Extent, study};
-use sprag_sim_host::accuracy_study::variant::{Method, Number, Setting};
-use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::progress::Progress;
-use sprag_sim_host::scene::Scene;
-use sprag_sim_host::scene::accuracy::EventTreatment;
+use sprag_report::progress::Progress;
+use sprag_sim::interrupt::Interrupt;
+use sprag_sim::scene::Scene;
+use sprag_sim::scene::accuracy::EventTreatment;
+use sprag_studies::accuracy_study::row::{Row, order};
+use sprag_studies::accuracy_study::study::{Extent, study};
+use sprag_studies::accuracy_study::variant::{Method, Number, Setting};
 
 const PAIR: usize = 2;
 

@@ -3,12 +3,12 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use sprag_sim_host::accuracy::AccuracyArguments;
-use sprag_sim_host::batch::case::TIGHT;
-use sprag_sim_host::batch::table::{CASE_COLUMNS, RESULT_COLUMNS};
-use sprag_sim_host::command::batch::{BatchArguments, run};
-use sprag_sim_host::command::out_arguments::OverwriteArguments;
-use sprag_sim_host::interrupt::Interrupt;
+use sprag_cli::command::accuracy_arguments::AccuracyArguments;
+use sprag_cli::command::batch::{BatchArguments, run};
+use sprag_cli::command::out_arguments::OverwriteArguments;
+use sprag_sim::batch::case::TIGHT;
+use sprag_sim::batch::table::{CASE_COLUMNS, RESULT_COLUMNS};
+use sprag_sim::interrupt::Interrupt;
 use sprag_tests::dice::Dice;
 
 const CASES: usize = 600;

@@ -2,17 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
-use sprag_sim_host::cloud::figures::{demand_picture, fragility_picture};
-use sprag_sim_host::cloud::findings::Findings;
-use sprag_sim_host::cloud::pages::{demand_page, fragility_page, ranking_page};
-use sprag_sim_host::cloud::records::StudyRecords;
-use sprag_sim_host::cloud::runs::Runs;
-use sprag_sim_host::cloud::study::Study;
-use sprag_sim_host::cloud::typed_tables::{DemandTable, FragilityTable, RankingTable, RunsTable};
-use sprag_sim_host::columns::{Table, write_csv};
-use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::simulation::RunError;
-use sprag_sim_host::statistics::Fragility;
+use sprag_report::columns::{Table, write_csv};
+use sprag_sim::interrupt::Interrupt;
+use sprag_sim::simulation::RunError;
+use sprag_studies::cloud::figures::{demand_picture, fragility_picture};
+use sprag_studies::cloud::findings::Findings;
+use sprag_studies::cloud::pages::{demand_page, fragility_page, ranking_page};
+use sprag_studies::cloud::records::StudyRecords;
+use sprag_studies::cloud::runs::Runs;
+use sprag_studies::cloud::study::Study;
+use sprag_studies::cloud::typed_tables::{DemandTable, FragilityTable, RankingTable, RunsTable};
+use sprag_studies::statistics::Fragility;
 use sprag_tests::pulse_records::sine_pulses;
 
 fn study(text: &str, records: &Path) -> Study {

@@ -1,11 +1,11 @@
 //! Overturning maps: the counts of Figure 8, and what must not depend on threads.
 
-use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::map::grid::Grid;
-use sprag_sim_host::map::study::study;
-use sprag_sim_host::map::table::Labels;
-use sprag_sim_host::map::tally::Counts;
-use sprag_sim_host::progress::Progress;
+use sprag_report::progress::Progress;
+use sprag_sim::interrupt::Interrupt;
+use sprag_studies::map::grid::Grid;
+use sprag_studies::map::study::study;
+use sprag_studies::map::table::Labels;
+use sprag_studies::map::tally::Counts;
 use sprag_tests::shipped::grid;
 
 fn counts(changes: &[&str]) -> Vec<Counts> {

@@ -2,16 +2,16 @@
 
 use std::f64::consts::{PI, TAU};
 
+use sprag_report::columns::write_csv;
+use sprag_report::progress::Progress;
 use sprag_shared::math::{asin, exp, ln, square_root};
-use sprag_sim_host::columns::write_csv;
-use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::map::boundaries::{Boundaries, Boundary, EVALUATIONS, TOLERANCE, refine};
-use sprag_sim_host::map::boundary_table::BoundaryTable;
-use sprag_sim_host::map::grid::{Grid, Values};
-use sprag_sim_host::map::study::{results_at, study};
-use sprag_sim_host::outcome::Outcome;
-use sprag_sim_host::progress::Progress;
-use sprag_sim_host::scene::map::{AxisTable, ScaleName};
+use sprag_shared::observers::outcome::Outcome;
+use sprag_sim::interrupt::Interrupt;
+use sprag_sim::scene::map::{AxisTable, ScaleName};
+use sprag_studies::map::boundaries::{Boundaries, Boundary, EVALUATIONS, TOLERANCE, refine};
+use sprag_studies::map::boundary_table::BoundaryTable;
+use sprag_studies::map::grid::{Grid, Values};
+use sprag_studies::map::study::{results_at, study};
 use sprag_tests::boundary;
 use sprag_tests::shipped::grid;
 
@@ -19,7 +19,7 @@ use sprag_tests::shipped::grid;
 fn traced(grid: &Grid, evaluations: usize) -> Vec<Boundaries> {
     let (progress, interrupt) = (Progress::new("blocks"), Interrupt::default());
     let maps = study(grid, &progress, &interrupt).expect("a map");
-    let of_device = |(device, map): (usize, &sprag_sim_host::map::tally::DeviceMap)| {
+    let of_device = |(device, map): (usize, &sprag_studies::map::tally::DeviceMap)| {
         let outcomes: Vec<Outcome> = map.shown.iter().map(|result| result.outcome).collect();
         refine(grid, device, &outcomes, evaluations, &progress, &interrupt).expect("boundaries")
     };

@@ -1,6 +1,6 @@
 //! Self-similarity: Figures 6 and 7.
 
-use sprag_sim_host::similarity::compare::Departure;
+use sprag_studies::similarity::compare::Departure;
 use sprag_tests::shipped::responses;
 
 /// Departures of the second block of a figure from the first, device by device.

@@ -22,7 +22,7 @@ const COUNT: f64 = 5e-7;
 const DEVIATION: Deviation = Deviation { rotation: 1e-6, velocity: 5e-4, push: 5e-3, ground: 1e-3 };
 const STANDING: Standing = Standing { rotation: 5e-6, velocity: 3e-3, ticks: 40 };
 
-/// Gains of the steady state for an ICM-42688-P at 2 kHz, rounded (`sim-host/src/closed_loop/design.rs`).
+/// Gains of the steady state for an ICM-42688-P at 2 kHz, rounded (`sim-host/sim/src/closed_loop/design.rs`).
 fn estimators() -> [(&'static str, Estimator); 3] {
     let standing = STANDING;
     let deviation = DEVIATION;

@@ -1,7 +1,7 @@
 //! Whether errors that are reported are true, over the reference cells.
 
-use sprag_sim_host::accuracy::Accuracy;
-use sprag_sim_host::batch::case::CaseResult;
+use sprag_sim::accuracy::Accuracy;
+use sprag_sim::batch::case::CaseResult;
 use sprag_tests::reference::{Cell, cells};
 
 /// Part of the errors that an estimate must bound, at least.

@@ -1,7 +1,7 @@
 //! The 1,260 reference cells, computed independently in 113-bit arithmetic.
 
 use sprag_loops::{Method, Precision};
-use sprag_sim_host::batch::case::{Case, CaseResult, TIGHT};
+use sprag_sim::batch::case::{Case, CaseResult, TIGHT};
 use sprag_tests::reference::{RelativeErrors, cells};
 
 #[test]

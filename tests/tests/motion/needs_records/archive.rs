@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sprag_sim_host::record::{Component, Intensity, ReadOptions, Record, RecordError, Units};
+use sprag_sim::record::{Component, Intensity, ReadOptions, Record, RecordError, Units};
 use sprag_tests::records::recorded_motions;
 
 /// Half of the last digit that the index prints.

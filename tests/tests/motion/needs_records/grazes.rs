@@ -1,6 +1,6 @@
 //! Clutches at a graze: what they watch touches zero, and rounding decides whether they hold.
 
-use sprag_sim_host::simulation::DeviceRun;
+use sprag_sim::simulation::DeviceRun;
 use sprag_tests::scene_text::runs;
 use sprag_tests::shared_file;
 

@@ -5,10 +5,10 @@
 
 use std::path::Path;
 
-use sprag_sim_host::interrupt::Interrupt;
-use sprag_sim_host::outcome::Outcome;
-use sprag_sim_host::scene::Scene;
-use sprag_sim_host::simulation::{DeviceRun, simulate};
+use sprag_shared::observers::outcome::Outcome;
+use sprag_sim::interrupt::Interrupt;
+use sprag_sim::scene::Scene;
+use sprag_sim::simulation::{DeviceRun, simulate};
 use sprag_tests::records::{RecordedMotion, recorded_motions};
 
 const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/record.toml");

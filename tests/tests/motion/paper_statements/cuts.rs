@@ -1,6 +1,6 @@
 //! Section 5, Figure 13: cuts at two amplitudes, of full blocks as in the figure and of slender ones, which the paper finds similar.
 
-use sprag_sim_host::outcome::Outcome;
+use sprag_shared::observers::outcome::Outcome;
 
 use super::say;
 use super::spectra::{Cell, DEVICES, INERTER, KINDS, NONE, PAIR, REGION_1, Ratios, Spectra};

@@ -1,11 +1,11 @@
 //! Sections 2.3 and 3: Equations 15 to 18, and Figures 5 to 7.
 
+use sprag_ensemble::machine::{Registers, run};
+use sprag_ensemble::pulsed::PulsedBlock;
 use sprag_shared::math;
-use sprag_sim_host::ensemble::machine::{Registers, run};
-use sprag_sim_host::ensemble::pulsed::PulsedBlock;
-use sprag_sim_host::similarity::compare::{Departure, Response};
-use sprag_sim_host::simulation::DeviceRun;
-use sprag_sim_host::simulation::energy::Shares;
+use sprag_sim::simulation::DeviceRun;
+use sprag_sim::simulation::energy::Shares;
+use sprag_studies::similarity::compare::{Departure, Response};
 use sprag_tests::relative;
 use sprag_tests::shipped::{grid, responses, runs};
 

@@ -6,7 +6,7 @@ use sprag_shared::motion::observer::Event;
 use sprag_shared::motion::state::Phase;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
-use sprag_sim_host::batch::case::PulseShape;
+use sprag_sim::batch::case::PulseShape;
 use sprag_tests::pulse::Pulsed;
 use sprag_tests::{boundary, overturned_without_impact};
 

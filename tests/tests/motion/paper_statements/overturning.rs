@@ -1,6 +1,6 @@
 //! Section 4, Figure 8: regions of overturning.
 
-use sprag_sim_host::outcome::Outcome;
+use sprag_shared::observers::outcome::Outcome;
 
 use super::say;
 use super::spectra::{Cell, DEVICES, INERTER, KINDS, NONE, PAIR, REGION_1, REGION_2, SPECTRA, Spectra};

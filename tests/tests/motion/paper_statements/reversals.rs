@@ -4,10 +4,10 @@ use core::f64::consts::TAU;
 
 use rayon::prelude::*;
 use sprag_shared::motion::observer::Event;
+use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
-use sprag_sim_host::batch::case::PulseShape;
-use sprag_sim_host::outcome::Outcome;
+use sprag_sim::batch::case::PulseShape;
 use sprag_tests::pulse::Pulsed;
 
 use super::say;

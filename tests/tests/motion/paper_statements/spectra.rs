@@ -3,10 +3,10 @@
 use std::sync::LazyLock;
 
 use rayon::prelude::*;
-use sprag_sim_host::ensemble::machine::{Registers, run};
-use sprag_sim_host::ensemble::pulsed::PulseResult;
-use sprag_sim_host::outcome::Outcome;
-use sprag_sim_host::statistics::quantile;
+use sprag_ensemble::machine::{Registers, run};
+use sprag_ensemble::pulsed::PulseResult;
+use sprag_shared::observers::outcome::Outcome;
+use sprag_studies::statistics::quantile;
 use sprag_tests::shipped::grid;
 
 /// Places of the devices in the scenes.

@@ -1,7 +1,7 @@
 //! Blocks in lanes, of which overturning maps are made, against the reference cells.
 
-use sprag_sim_host::ensemble::machine::{Registers, run};
-use sprag_sim_host::ensemble::pulsed::PulsedBlock;
+use sprag_ensemble::machine::{Registers, run};
+use sprag_ensemble::pulsed::PulsedBlock;
 use sprag_tests::reference::{RelativeErrors, cells};
 
 /// Blocks in lanes, whose free motions are settled by their first integral, are as right as the core.

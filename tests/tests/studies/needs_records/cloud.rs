@@ -4,8 +4,8 @@
 
 use std::path::Path;
 
-use sprag_sim_host::cloud::demand::Demand;
-use sprag_sim_host::cloud::study::Study;
+use sprag_studies::cloud::demand::Demand;
+use sprag_studies::cloud::study::Study;
 use sprag_tests::records::{RecordedMotion, recorded_motions};
 
 use crate::cloud::run;

@@ -1,0 +1,500 @@
+//! `sprag device`: talk to a device.
+
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use clap::{Args, Subcommand};
+use sprag_report::output::{OutputError, Results, claim_file, is_standard_output};
+use sprag_shared::control::monitor::fault::{Fault, Recovery};
+use sprag_shared::control::supervisor::Phase;
+use sprag_shared::link::{Identity, Request, State};
+use sprag_shared::settings::{Item, Settings};
+use sprag_sim::interrupt::Interrupt;
+
+use super::device_line::{Connected, LineArguments, connect, firmware};
+use super::device_record::{self, RecordArguments};
+use super::ended;
+use super::loop_scene::{LoopScene, LoopSceneError};
+use super::out_arguments::OverwriteArguments;
+use super::record_arguments::SceneRecordArguments;
+use super::warned;
+use crate::device::event_table::{what, write_csv, write_table};
+use crate::device::line::{DeviceError, Line};
+use crate::device::session::Session;
+use crate::device::strip_chart::StripChart;
+use crate::device::{parameters, recordings, setting_text};
+
+/// Talk to a device: who it is, its parameters, its self-test, its event log, and what it believes of the motion.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag device info --port /dev/ttyUSB0\n  \
+    sprag device parameters --port /dev/ttyUSB0 --set law=passive --store\n  \
+    sprag device log --port /dev/ttyUSB0 --csv events.csv\n  \
+    sprag device record --port /dev/ttyUSB0 --out earthquake.csv\n  \
+    sprag device watch --port /dev/ttyUSB0\n\n\
+    With --qemu a new device is started for each command, so nothing is left of what was told to the one before; and since it has no \
+    settings of its own it is in Fault: not commissioned.")]
+pub struct DeviceArguments {
+    #[command(subcommand)]
+    command: DeviceCommand,
+}
+
+#[derive(Subcommand, Clone, Debug)]
+enum DeviceCommand {
+    /// Show who the device is and how it is.
+    #[command(after_help = "Examples:\n  sprag device info --port /dev/ttyUSB0\n  sprag device info --qemu")]
+    Info(InfoArguments),
+    /// Show, change, save and restore its parameters.
+    Parameters(ParameterArguments),
+    /// Make it test its clutches and calibrate its sensors again, and wait for the outcome; it must be Armed.
+    #[command(after_help = "Example:\n  sprag device self-test --port /dev/ttyUSB0")]
+    SelfTest(InfoArguments),
+    /// Show its event log.
+    #[command(
+        after_help = "Examples:\n  sprag device log --port /dev/ttyUSB0\n  sprag device log --port /dev/ttyUSB0 --csv events.csv"
+    )]
+    Log(LogArguments),
+    /// List the earthquakes that its flight recorder has kept, save one as CSV, draw it, or erase all.
+    Record(RecordArguments),
+    /// Make it leave Fault, once what was wrong has been seen to; it must be at rest.
+    #[command(after_help = "Example:\n  sprag device clear --port /dev/ttyUSB0")]
+    Clear(InfoArguments),
+    /// Protect its flash, from the next power-on on: the program against writing, and all of it against being read out by a probe.
+    ///
+    /// Its jumper JP1 must be closed. Only erasing the whole chip with a probe undoes it, and that takes program and settings with it.
+    #[command(after_help = "Example:\n  sprag device protect --port /dev/ttyUSB0")]
+    Protect(InfoArguments),
+    /// Make it use its own sensors again, with the settings in its flash, after a loop that ended without letting go of it.
+    #[command(after_help = "Example:\n  sprag device detach --port /dev/ttyUSB0")]
+    Detach(InfoArguments),
+    /// Plot rotation, velocity and commands as they come; CSV lines where the output is not a terminal. Ends with Ctrl-C.
+    ///
+    /// The emulated device has no settings of its own: with --qemu there is a device in Fault to be seen.
+    #[command(
+        after_help = "Examples:\n  sprag device watch --port /dev/ttyUSB0\n  sprag device watch --port /dev/ttyUSB0 --seconds 60 > motion.csv"
+    )]
+    Watch(WatchArguments),
+}
+
+#[derive(Args, Clone, Debug)]
+struct InfoArguments {
+    #[command(flatten)]
+    line: LineArguments,
+}
+
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag device parameters --port /dev/ttyUSB0\n  \
+    sprag device parameters --port /dev/ttyUSB0 --get model.size --get law\n  \
+    sprag device parameters --port /dev/ttyUSB0 --scene scenes/controller.toml --set law=sign-table --store\n  \
+    sprag device parameters --port /dev/ttyUSB0 --out pier.toml\n  \
+    sprag device parameters --port /dev/ttyUSB0 --file pier.toml --store\n\n\
+    A block of another size, slenderness (rad), inertia ratio, mass ratio or restitution: frequency, uplift, coupling and the like follow.\n  \
+    sprag device parameters --port /dev/ttyUSB0 --set model.size=2.5 --set model.slenderness=0.2\n  \
+    sprag device parameters --port /dev/ttyUSB0 --set model.mass_ratio=0.8 --set model.inertia_ratio=1.4 --store\n\n\
+    Changes are checked as a whole before any is sent: first those of --scene, then those of --file, then those of --set; values that \
+    contradict each other are refused. Gains and limits that a scene's sensors decide stay: --scene designs them, too. The device takes \
+    changes while nothing moves, and starts its controller anew. A scene says nothing of how the board is wired: board.* stays.")]
+struct ParameterArguments {
+    #[command(flatten)]
+    line: LineArguments,
+    /// Show the value of this one only, such as law or model.inertia_ratio.
+    #[arg(long, value_name = "NAME")]
+    get: Vec<String>,
+    /// Change one, such as model.size=2.5, and those that follow from it.
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// Take all from the controller of a scene.
+    #[arg(long, value_name = "SCENE.toml")]
+    scene: Option<PathBuf>,
+    /// Take those in this file, as --out writes it.
+    #[arg(long, value_name = "FILE.toml")]
+    file: Option<PathBuf>,
+    /// Also keep them in flash, for the next start.
+    #[arg(long)]
+    store: bool,
+    /// Save all to this file.
+    #[arg(long, value_name = "FILE.toml")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    replace: OverwriteArguments,
+}
+
+#[derive(Args, Clone, Debug)]
+struct LogArguments {
+    #[command(flatten)]
+    line: LineArguments,
+    /// Write it to this file, as CSV.
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    #[command(flatten)]
+    replace: OverwriteArguments,
+}
+
+#[derive(Args, Clone, Debug)]
+struct WatchArguments {
+    #[command(flatten)]
+    line: LineArguments,
+    /// End after this time of the device.
+    #[arg(long, value_name = "N")]
+    seconds: Option<f32>,
+}
+
+/// Why a command on a device has not ended well.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum Failure {
+    #[error("{0}")]
+    Device(#[from] DeviceError),
+    #[error("{0}")]
+    Scene(#[from] LoopSceneError),
+    #[error("{0}")]
+    Input(String),
+    #[error("{0}")]
+    Output(#[from] OutputError),
+    #[error("the output cannot be written: {0}")]
+    Stream(#[from] std::io::Error),
+    #[error("interrupted")]
+    Interrupted,
+}
+
+pub(super) type Talk = Session<Box<dyn Line>>;
+
+/// Runs the command; what the device says goes to `out`, errors go to `err`.
+pub fn run(arguments: &DeviceArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
+    interrupt.keep("what was changed in the device stays as it is");
+    let outcome = match &arguments.command {
+        DeviceCommand::Info(info) => with_device(&info.line, out, |session, out| show(session, out)),
+        DeviceCommand::Parameters(given) => change(given, out, err, interrupt),
+        DeviceCommand::SelfTest(info) => with_device(&info.line, out, |session, out| self_test(session, out, interrupt)),
+        DeviceCommand::Log(given) => log_to(given, out),
+        DeviceCommand::Record(given) => device_record::run(given, out, interrupt),
+        DeviceCommand::Clear(info) => with_device(&info.line, out, clear),
+        DeviceCommand::Protect(info) => with_device(&info.line, out, protect),
+        DeviceCommand::Detach(info) => with_device(&info.line, out, detach),
+        DeviceCommand::Watch(given) => with_device(&given.line, out, |session, out| watch(session, given, out, interrupt)),
+    };
+    match outcome {
+        Ok(()) => 0,
+        // Reported where standard output is.
+        Err(Failure::Stream(_)) => 0,
+        // Watching ends so.
+        Err(Failure::Interrupted) if matches!(arguments.command, DeviceCommand::Watch(_)) => interrupt.exit_code(),
+        outcome => ended(outcome.map(|()| true), interrupt, err),
+    }
+}
+
+/// Finds the device and talks to it; then shows what it has logged beside.
+pub(super) fn with_device<W: Write>(
+    line: &LineArguments,
+    out: &mut W,
+    talk: impl FnOnce(&mut Talk, &mut W) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let Connected { line, log } = connect(line)?;
+    let mut session = Session::new(line);
+    let outcome = talk(&mut session, out);
+    drop(session);
+    if let Some(log) = log {
+        for line in log.read()? {
+            writeln!(out, "{line}")?;
+        }
+    }
+    outcome
+}
+
+fn show(session: &mut Talk, out: &mut impl Write) -> Result<(), Failure> {
+    let identity = session.identify()?;
+    let state = session.state()?;
+    let State { calibration, .. } = state;
+    writeln!(
+        out,
+        "device        {}{}",
+        firmware(&identity),
+        if identity.rehearsal { ", a test build that takes orders to fail on purpose" } else { "" }
+    )?;
+    writeln!(out, "state         {}, {} ticks after its start", phase_text(state.phase, state.fault), state.ticks)?;
+    writeln!(
+        out,
+        "sensors       {}",
+        match state.attached {
+            None => "its own",
+            Some(_) => "those of a host: it does not protect the structure (sprag device detach)",
+        }
+    )?;
+    writeln!(out, "start         {:?}", state.cause)?;
+    writeln!(out, "program       {}", program_text(&identity))?;
+    writeln!(out, "jumper        {}", if identity.jumper { "closed: it may be changed; open it when done" } else { "open" })?;
+    writeln!(out, "parameters    {}, check {:08x}", identity.settings, identity.check)?;
+    writeln!(out, "calibration   gyroscope {:+.6} rad/s", calibration.gyroscope)?;
+    let [along, up] = calibration.block;
+    writeln!(out, "              block accelerometer {along:+.4}, {up:+.4} m/s²")?;
+    let [along, up] = calibration.ground;
+    writeln!(out, "              ground accelerometer {along:+.4}, {up:+.4} m/s²")?;
+    writeln!(out, "              encoder {} counts", calibration.encoder_zero)?;
+    writeln!(out, "worst tick    {}", duration(state.worst_cost, &identity))?;
+    writeln!(out, "worst delay   {}", duration(state.worst_lateness, &identity))?;
+    writeln!(out, "stack         {} bytes at most", state.stack)?;
+    writeln!(out, "link          {} bad frames, {} reports lost", state.bad_frames, state.lost_reports)?;
+    writeln!(out, "event log     {} entries", state.log_count)?;
+    let period = f64::from(parameters::read(session)?.period());
+    writeln!(out, "recordings    {}", device_record::room(&recordings::state(session)?, period))?;
+    Ok(())
+}
+
+/// Whether the program is whole, protected and the newest.
+fn program_text(identity: &Identity) -> String {
+    let seal = if identity.sealed { "sealed" } else { "without a seal: damage to it would not be found" };
+    let protection = match (identity.protection.reading, identity.protection.writing) {
+        (true, true) => "protected against reading and writing",
+        (true, false) => "protected against reading only",
+        (false, true) => "protected against writing only",
+        (false, false) => "not protected",
+    };
+    let [major, minor, patch] = identity.highest;
+    let older = if identity.highest > identity.version {
+        format!("; version {major}.{minor}.{patch} has run before")
+    } else {
+        String::new()
+    };
+    format!("{seal}, {protection}{older}")
+}
+
+fn phase_text(phase: Phase, fault: Option<Fault>) -> String {
+    match fault {
+        Some(fault) => format!("{phase:?} ({}, {fault})", fault.code()),
+        None => format!("{phase:?}"),
+    }
+}
+
+fn duration(counts: u32, identity: &Identity) -> String {
+    let microseconds = f64::from(counts) * 1e6 / f64::from(identity.counter_hz.max(1));
+    format!("{counts} counts, {microseconds:.1} µs")
+}
+
+fn change(given: &ParameterArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+    // Whatever can be wrong here is found before the device is looked for.
+    for name in &given.get {
+        setting_text::value(&Settings::default(), name).map_err(Failure::Input)?;
+    }
+    let set: Vec<(&str, &str)> =
+        given.set.iter().map(|text| setting_text::assignment(text)).collect::<Result<_, _>>().map_err(Failure::Input)?;
+    let scene = given.scene.as_ref().map(|path| of_scene(path, err, interrupt)).transpose()?;
+    let file = given.file.as_ref().map(|path| {
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(path).map_err(|error| Failure::Input(format!("{name}: {error}")))?;
+        let assignments = setting_text::of_toml(&name, &text).map_err(Failure::Input)?;
+        Ok::<_, Failure>((name, assignments))
+    });
+    let file = file.transpose()?;
+    if let Some(path) = &given.out {
+        let inputs: Vec<&Path> = given.scene.iter().chain(&given.file).map(PathBuf::as_path).collect();
+        // What another device or another time had is not made again by the same command.
+        claim_file(path, &inputs, given.replace.overwrite, |_| false)?;
+    }
+    with_device(&given.line, out, |session, out| {
+        let before = parameters::read(session)?;
+        let mut wanted = scene.map_or(before, |scene| setting_text::with_board_of(&scene, &before));
+        if let Some((name, assignments)) = &file {
+            let each = assignments.iter().map(|(name, text)| (name.as_str(), text.as_str()));
+            setting_text::assign(&mut wanted, each).map_err(|error| Failure::Input(format!("{name}: {error}")))?;
+        }
+        setting_text::assign(&mut wanted, set).map_err(Failure::Input)?;
+        let changes = given.store || wanted != before;
+        if changes {
+            setting_text::check(&wanted).map_err(Failure::Input)?;
+        }
+        // A file that cannot be written is found out before the device is another.
+        let mut results = Results::default();
+        if let Some(path) = &given.out {
+            results.add(path, |file| file.write_all(setting_text::to_toml(&wanted).as_bytes()))?;
+        }
+        if changes {
+            parameters::write(session, &wanted, given.store)?;
+        }
+        results.commit()?;
+        report(given, &before, &wanted, out)?;
+        Ok(())
+    })
+}
+
+/// What was asked for, or what has changed, or where neither is the case everything.
+fn report(given: &ParameterArguments, before: &Settings, now: &Settings, out: &mut impl Write) -> std::io::Result<()> {
+    for name in &given.get {
+        if let Ok(value) = setting_text::value(now, name) {
+            writeln!(out, "{value}")?;
+        }
+    }
+    let told = given.store || given.scene.is_some() || given.file.is_some() || !given.set.is_empty();
+    if told {
+        let differing = before.words().iter().zip(now.words()).filter(|(before, now)| before != now).count();
+        let until = if given.store { "and kept in flash" } else { "until the next start; --store keeps them" };
+        let parameters = if differing == 1 { "parameter" } else { "parameters" };
+        writeln!(out, "{differing} {parameters} changed; in force {until}")?;
+    }
+    if let Some(path) = &given.out {
+        // Not among the settings, if they are read from there.
+        if !is_standard_output(path) {
+            writeln!(out, "saved in {}", path.display())?;
+        }
+    }
+    if !told && given.get.is_empty() && given.out.is_none() {
+        write!(out, "{}", setting_text::table(now))?;
+    }
+    Ok(())
+}
+
+fn of_scene(path: &Path, err: &mut impl Write, interrupt: &Interrupt) -> Result<Settings, Failure> {
+    let desk = LoopScene::load(path, &[], &SceneRecordArguments::default())?;
+    warned(desk.scene.warnings(), err);
+    let Some(&index) = desk.pairs.first() else { return Err(Failure::Input(format!("{}: no clutched pair", path.display()))) };
+    let settings = desk.task(index, desk.controller.sensors.seed(), interrupt).settings();
+    settings.map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
+}
+
+/// For how long the outcome of a request is waited for between two questions.
+const PAUSE: Duration = Duration::from_millis(50);
+
+fn self_test(session: &mut Talk, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+    let settings = parameters::read(session)?;
+    let before = session.state()?.log_count;
+    session.order(&Request::SelfTest)?;
+    let time = |item: Item| settings.get(item.index()).map_or(0.0, f32::from_bits);
+    // Each of its two parts may wait as long as this, and a device on a slow line more.
+    let patience = time(Item::BootTime) + 2.0 * time(Item::CalibrationPatience) + 5.0;
+    let begun = Instant::now();
+    let state = loop {
+        let state = session.state()?;
+        if !matches!(state.phase, Phase::Boot | Phase::SelfTest | Phase::Calibrate) {
+            break state;
+        }
+        if interrupt.is_set() {
+            return Err(Failure::Interrupted);
+        }
+        if begun.elapsed().as_secs_f32() > patience {
+            return Err(Failure::Input(format!("the self-test has not ended after {patience:.0} s: {:?}", state.phase)));
+        }
+        std::thread::sleep(PAUSE);
+    };
+    let (entries, total) = session.log()?;
+    let new = entries.len().min(total.saturating_sub(before) as usize);
+    for entry in &entries[entries.len() - new..] {
+        writeln!(out, "{:9.3} s  {}", f64::from(entry.tick) * f64::from(settings.period()), what(entry.kind))?;
+    }
+    show(session, out)?;
+    match state.fault {
+        Some(fault) => Err(Failure::Input(format!("the self-test failed: {fault}"))),
+        None => Ok(()),
+    }
+}
+
+fn log_to(given: &LogArguments, out: &mut impl Write) -> Result<(), Failure> {
+    if let Some(path) = &given.csv {
+        // A log is of its time: the same command makes another.
+        claim_file(path, &[], given.replace.overwrite, |_| false)?;
+    }
+    with_device(&given.line, out, |session, out| log(session, given, out))
+}
+
+fn log(session: &mut Talk, given: &LogArguments, out: &mut impl Write) -> Result<(), Failure> {
+    let period = parameters::read(session)?.period();
+    let (entries, total) = session.log()?;
+    if let Some(path) = &given.csv {
+        let mut results = Results::default();
+        results.add(path, |file| write_csv(&entries, period, file))?;
+        results.commit()?;
+        if !is_standard_output(path) {
+            writeln!(out, "{} of {total} entries in {}", entries.len(), path.display())?;
+        }
+    } else {
+        write_table(&entries, total, period, out)?;
+    }
+    Ok(())
+}
+
+fn detach<W: Write>(session: &mut Talk, out: &mut W) -> Result<(), Failure> {
+    let attached = session.state()?.attached.is_some();
+    session.order(&Request::Detach)?;
+    writeln!(out, "{}", if attached { "detached; it starts anew with its own sensors" } else { "it was not attached" })?;
+    Ok(())
+}
+
+fn protect<W: Write>(session: &mut Talk, out: &mut W) -> Result<(), Failure> {
+    session.order(&Request::Protect)?;
+    writeln!(out, "protected from the next power-on on; only erasing the whole chip with a probe undoes it")?;
+    Ok(())
+}
+
+fn clear<W: Write>(session: &mut Talk, out: &mut W) -> Result<(), Failure> {
+    let before = session.state()?;
+    if before.phase != Phase::Fault {
+        writeln!(out, "it is not in Fault: {:?}", before.phase)?;
+        return Ok(());
+    }
+    session.order(&Request::Clear)?;
+    // The next tick takes it or does not.
+    std::thread::sleep(PAUSE);
+    let after = session.state()?;
+    writeln!(out, "{} -> {}", phase_text(before.phase, before.fault), phase_text(after.phase, after.fault))?;
+    match after.fault {
+        Some(fault) if fault.recovery() == Recovery::ByStoring => {
+            Err(Failure::Input(format!("it stays in Fault: {fault}: sprag device parameters --scene SCENE.toml --store")))
+        }
+        Some(fault) => {
+            Err(Failure::Input(format!("it stays in Fault: {fault}; it leaves only at rest, and while nothing is wrong")))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Time between two reports that are drawn and two that are printed, s, and between two pictures.
+const FINE: f32 = 0.01;
+const REDRAW: Duration = Duration::from_millis(200);
+/// A device that reports nothing for so long has gone.
+const SILENCE: Duration = Duration::from_secs(5);
+
+fn watch(session: &mut Talk, given: &WatchArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+    let period = parameters::read(session)?.period();
+    let every = (FINE / period).round().clamp(1.0, f32::from(u16::MAX)) as u16;
+    session.order(&Request::Stream { every })?;
+    let terminal = std::io::stdout().is_terminal();
+    if !terminal {
+        writeln!(out, "time_s,rotation_rad,velocity_rad_s,engage_first,engage_second,state,fault_code")?;
+    }
+    let mut chart = StripChart::new(period);
+    let (mut height, mut drawn, mut heard, mut time) = (0, None::<Instant>, Instant::now(), 0.0);
+    while !interrupt.is_set() && given.seconds.is_none_or(|seconds| time < seconds) {
+        session.receive(PAUSE)?;
+        while let Some(report) = session.take_tick() {
+            heard = Instant::now();
+            time = chart.add(report);
+            if !terminal {
+                let decision = &report.decision;
+                let (estimate, [first, second]) = (&decision.estimate, decision.command.map(u8::from));
+                let fault = decision.fault.map_or(0, Fault::code);
+                let (rotation, velocity, phase) = (estimate.rotation, estimate.velocity, decision.phase);
+                writeln!(out, "{time},{rotation},{velocity},{first},{second},{phase:?},{fault}")?;
+            }
+        }
+        if heard.elapsed() > SILENCE {
+            return Err(DeviceError::Silent(" any more".to_owned()).into());
+        }
+        if terminal && drawn.is_none_or(|drawn| drawn.elapsed() >= REDRAW) {
+            drawn = Some(Instant::now());
+            height = redraw(&chart.draw(), height, out)?;
+        }
+    }
+    // Not answered, if it has gone meanwhile.
+    let _ = session.send(&Request::Stream { every: 0 });
+    let _ = session.receive(PAUSE);
+    if interrupt.is_set() { Err(Failure::Interrupted) } else { Ok(()) }
+}
+
+/// Draws over a picture of so many lines; gives the lines of the new one.
+fn redraw(picture: &str, height: usize, out: &mut impl Write) -> std::io::Result<usize> {
+    if height > 0 {
+        write!(out, "\x1b[{height}A")?;
+    }
+    for line in picture.lines() {
+        writeln!(out, "{line}\x1b[K")?;
+    }
+    out.flush()?;
+    Ok(picture.lines().count())
+}

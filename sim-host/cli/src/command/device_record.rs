@@ -1,0 +1,226 @@
+//! `sprag device record`: the earthquakes that a device has recorded.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use clap::Args;
+use sprag_report::output::{Results, claim_file, is_standard_output};
+use sprag_report::plot::{FigureTitle, RecordingTrace, recording_figure};
+use sprag_shared::control::monitor::fault::Fault;
+use sprag_shared::control::supervisor::Phase;
+use sprag_shared::device::recorder::CAPACITY;
+use sprag_shared::link::{RecorderActivity, RecorderState, Request};
+use sprag_sim::interrupt::Interrupt;
+
+use super::device::{Failure, Talk, with_device};
+use super::device_line::LineArguments;
+use super::out_arguments::OverwriteArguments;
+use crate::device::line::DeviceError;
+use crate::device::parameters;
+use crate::device::recordings::{self, Key, Part, Parts, Recording};
+
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag device record --port /dev/ttyUSB0\n  \
+    sprag device record --port /dev/ttyUSB0 --out earthquake.csv --svg earthquake.svg\n  \
+    sprag device record --port /dev/ttyUSB0 --earthquake 3 --part 1 --svg part1.svg\n  \
+    sprag device record --port /dev/ttyUSB0 --erase\n\n\
+    A reset in mid-motion begins another part, whose ticks count from the start of the device again. What is recorded while a host says \
+    what the sensors read (sprag hil) is marked so.")]
+pub struct RecordArguments {
+    #[command(flatten)]
+    line: LineArguments,
+    /// The earthquake of this number; the newest without.
+    #[arg(long, value_name = "N")]
+    earthquake: Option<u16>,
+    /// This part of it only.
+    #[arg(long, value_name = "N")]
+    part: Option<u8>,
+    /// Write every tick of it to this file, as CSV.
+    #[arg(long, value_name = "FILE.csv")]
+    out: Option<PathBuf>,
+    /// Draw it to this file.
+    #[arg(long, value_name = "FILE.svg")]
+    svg: Option<PathBuf>,
+    /// Erase all recordings; nothing may move. On some boards this takes seconds, in which nothing is protected.
+    #[arg(long, conflicts_with_all = ["earthquake", "part", "out", "svg"])]
+    erase: bool,
+    #[command(flatten)]
+    replace: OverwriteArguments,
+}
+
+/// Lists, saves, draws or erases.
+pub fn run(given: &RecordArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+    let files: Vec<&Path> = given.out.iter().chain(&given.svg).map(PathBuf::as_path).collect();
+    for (place, path) in files.iter().enumerate() {
+        // What a device had at another time is not made again by the same command.
+        claim_file(path, &files[..place], given.replace.overwrite, |_| false)?;
+    }
+    with_device(&given.line, out, |session, out| {
+        if given.erase {
+            return erase(session, out, interrupt);
+        }
+        let parts = recordings::list(session)?;
+        if files.is_empty() {
+            let period = f64::from(parameters::read(session)?.period());
+            return show(&recordings::state(session)?, &parts, period, out);
+        }
+        let recordings = chosen(given, &parts)?
+            .into_iter()
+            .map(|(key, part)| {
+                recordings::read(session, key, &part.pages, |_| {})
+                    .map_err(Failure::from)
+                    .and_then(|recording| if interrupt.is_set() { Err(Failure::Interrupted) } else { Ok(recording) })
+            })
+            .collect::<Result<Vec<Recording>, Failure>>()?;
+        save(given, &recordings, out)
+    })
+}
+
+/// Those that are asked for.
+fn chosen<'a>(given: &RecordArguments, parts: &'a Parts) -> Result<Vec<(Key, &'a Part)>, Failure> {
+    let Some(newest) = parts.iter().max_by_key(|(_, part)| part.pages.last().map(|(_, header)| header.sequence)) else {
+        return Err(Failure::Input("it has recorded no earthquake".to_owned()));
+    };
+    let number = given.earthquake.unwrap_or(newest.0.0);
+    let of_number: Vec<_> = parts.iter().filter(|((of, _), _)| *of == number).map(|(key, part)| (*key, part)).collect();
+    if of_number.is_empty() {
+        let mut numbers: Vec<String> = parts.keys().map(|(number, _)| number.to_string()).collect();
+        numbers.dedup();
+        return Err(Failure::Input(format!("it has no recording of an earthquake {number}; it has {}", numbers.join(", "))));
+    }
+    let count = of_number.len();
+    let chosen: Vec<_> = of_number.into_iter().filter(|((_, part), _)| given.part.is_none_or(|wanted| wanted == *part)).collect();
+    match (chosen.len(), given.part) {
+        (0, Some(part)) => Err(Failure::Input(format!("the recording of earthquake {number} has no part {part}"))),
+        (2.., _) if given.svg.is_some() => {
+            Err(Failure::Input(format!("the recording of earthquake {number} has {count} parts: --part says which one to draw")))
+        }
+        _ => Ok(chosen),
+    }
+}
+
+fn show(state: &RecorderState, parts: &Parts, period: f64, out: &mut impl Write) -> Result<(), Failure> {
+    if !parts.is_empty() {
+        writeln!(out, "{:>10} {:>5} {:>9} {:>10} {:>8}  what", "earthquake", "part", "ticks", "time s", "pages")?;
+    }
+    for ((number, part), Part { pages, ticks, unfinished, ends }) in parts {
+        let Some((_, header)) = pages.first() else { continue };
+        let mut notes = Vec::new();
+        if header.attached {
+            notes.push("of what a host said".to_owned());
+        }
+        if *unfinished > 0 {
+            notes.push(format!("{unfinished} of its pages not finished"));
+        }
+        if !ends {
+            notes.push("no end: a reset, no more room, or it goes on".to_owned());
+        }
+        let seconds = f64::from(*ticks) * f64::from(header.period);
+        writeln!(out, "{number:>10} {part:>5} {ticks:>9} {seconds:>10.3} {:>8}  {}", pages.len(), notes.join(", "))?;
+    }
+    writeln!(out, "{}", room(state, period))?;
+    Ok(())
+}
+
+/// What room there is, in words.
+pub fn room(state: &RecorderState, period: f64) -> String {
+    let seconds = |pages: u16| f64::from(pages) * CAPACITY as f64 * period;
+    let left = state.pages.saturating_sub(state.next);
+    let mut text = match (state.goes_round, state.activity) {
+        (_, RecorderActivity::Looking) => "it has just started, and looks for its last page".to_owned(),
+        (_, RecorderActivity::Erasing) => "it is being erased".to_owned(),
+        (true, _) => format!("room for the last {:.1} s", seconds(state.pages)),
+        (false, _) if left == 0 => {
+            "full: what is there is kept, and nothing new recorded (sprag device record --erase)".to_owned()
+        }
+        (false, _) => format!("room for another {:.1} s of {:.1}", seconds(left), seconds(state.pages)),
+    };
+    if state.activity == RecorderActivity::Writing {
+        text += ", an earthquake is being recorded";
+    }
+    if state.lost > 0 {
+        text += &format!(", {} ticks found no room since the start", state.lost);
+    }
+    if state.refused > 0 {
+        text += &format!(", {} pages were refused by the flash", state.refused);
+    }
+    text
+}
+
+fn save(given: &RecordArguments, recordings: &[Recording], out: &mut impl Write) -> Result<(), Failure> {
+    let mut results = Results::default();
+    if let Some(path) = &given.out {
+        results.add(path, |file| recordings::write_csv(recordings, file))?;
+    }
+    if let (Some(path), [recording]) = (&given.svg, recordings) {
+        let name = format!("earthquake {}, part {}", recording.number, recording.part);
+        let figure = recording_figure(FigureTitle::from(name.as_str()), &trace(recording))
+            .map_err(|error| Failure::Input(format!("{name} cannot be drawn: {error}")))?;
+        results.add(path, |file| file.write_all(figure.as_bytes()))?;
+    }
+    results.commit()?;
+    if given.out.iter().chain(&given.svg).any(|path| is_standard_output(path)) {
+        return Ok(());
+    }
+    for Recording { number, part, moments, torn, .. } in recordings {
+        let torn = if *torn > 0 { format!(", {torn} pages that are not whole left out") } else { String::new() };
+        writeln!(out, "earthquake {number}, part {part}: {} ticks{torn}", moments.len())?;
+    }
+    for path in given.out.iter().chain(&given.svg) {
+        writeln!(out, "saved in {}", path.display())?;
+    }
+    Ok(())
+}
+
+/// As it is drawn: time from its first tick on.
+fn trace(recording: &Recording) -> RecordingTrace {
+    let first = recording.moments.first().map_or(0, |(tick, _)| *tick);
+    let both = |[first, second]: [bool; 2]| u8::from(first) + 2 * u8::from(second);
+    let (mut trace, mut before) = (RecordingTrace::default(), None);
+    for (tick, moment) in &recording.moments {
+        let time = f64::from(tick.wrapping_sub(first)) * recording.period;
+        trace.time.push(time);
+        trace.ground_g.push(moment.ground.into());
+        trace.rotation.push(moment.rotation.into());
+        trace.velocity.push(moment.velocity.into());
+        trace.commanded.push(both(moment.command));
+        trace.engaged.push(both(moment.engaged));
+        trace.state.push(match moment.phase {
+            Phase::Rocking => 1,
+            Phase::Fault => 2,
+            _ => 0,
+        });
+        if let Some(fault) = moment.fault.filter(|_| before != moment.fault).and_then(Fault::from_code) {
+            trace.faults.push((time, format!("{}, {fault}", fault.code())));
+        }
+        before = moment.fault;
+    }
+    trace
+}
+
+/// How often it is asked whether it has been done, and for how long a device that erases a sector may be silent.
+const PAUSE: Duration = Duration::from_millis(50);
+const SILENCE: Duration = Duration::from_secs(10);
+
+fn erase(session: &mut Talk, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+    session.order(&Request::EraseRecordings)?;
+    let mut heard = Instant::now();
+    loop {
+        match recordings::state(session) {
+            Ok(state) if state.activity == RecorderActivity::Erasing => heard = Instant::now(),
+            Ok(_) => break,
+            Err(DeviceError::Silent(_)) if heard.elapsed() < SILENCE => {}
+            Err(error) => return Err(error.into()),
+        }
+        if interrupt.is_set() {
+            return Err(Failure::Interrupted);
+        }
+        std::thread::sleep(PAUSE);
+    }
+    match recordings::list(session)?.len() {
+        0 => writeln!(out, "erased")?,
+        _ => return Err(Failure::Input("not all is erased: something began to move; ask again at rest".to_owned())),
+    }
+    Ok(())
+}

@@ -1,0 +1,121 @@
+//! `sprag effects`: which effects there are, their keys, equations and cost.
+
+use std::io::{self, Write};
+
+use clap::Args;
+use serde::Serialize;
+use sprag_sim::effect::measured::{Cost, cost};
+use sprag_sim::effect::{EFFECTS, Effect, find};
+
+use super::BAD_INPUT;
+
+/// List the effects that a scene may ask for, or show one in full.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag effects\n  sprag effects clutch\n  sprag effects --json\n\n\
+    An effect is off until one of its keys turns it on in a scene; `sprag explain SCENE.toml` says which are on and what follows.")]
+pub struct EffectsArguments {
+    /// The effect to show in full.
+    #[arg(value_name = "NAME")]
+    pub name: Option<String>,
+    /// Print JSON: an array of effects, or the one that is named.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// An effect as JSON.
+#[derive(Serialize)]
+struct Entry {
+    name: &'static str,
+    summary: &'static str,
+    equation: &'static [&'static str],
+    source: &'static str,
+    keys: Vec<KeyEntry>,
+    cost: Option<Cost>,
+}
+
+#[derive(Serialize)]
+struct KeyEntry {
+    key: &'static str,
+    default: &'static str,
+    range: &'static str,
+}
+
+impl Entry {
+    fn of(effect: &Effect) -> Entry {
+        let keys = effect.keys.iter().map(|key| KeyEntry { key: key.key, default: key.default, range: key.range }).collect();
+        let Effect { name, summary, equation, source, .. } = *effect;
+        Entry { name, summary, equation, source, keys, cost: cost(name) }
+    }
+}
+
+/// Runs the command and returns its exit status: 0, or 2 after one line on `err`.
+pub fn run(arguments: &EffectsArguments, out: &mut impl Write, err: &mut impl Write) -> i32 {
+    let written = match &arguments.name {
+        None if arguments.json => write_json(&EFFECTS.map(Entry::of), out),
+        None => write!(out, "{}", table()),
+        Some(name) => match find(name) {
+            Some(effect) if arguments.json => write_json(&Entry::of(effect), out),
+            Some(effect) => write!(out, "{}", in_full(effect)),
+            None => {
+                let names = EFFECTS.map(|effect| effect.name).join(", ");
+                let _ = writeln!(err, "sprag: no effect \"{name}\"; there are: {names}");
+                return BAD_INPUT;
+            }
+        },
+    };
+    // Reported where standard output is.
+    let _ = written;
+    0
+}
+
+fn write_json(value: &impl Serialize, out: &mut impl Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, value)?;
+    writeln!(out)
+}
+
+/// What an effect costs, in words.
+fn cost_in_words(name: &str) -> String {
+    match cost(name) {
+        Some(cost) => format!(
+            "host {} instructions, {} ns; target {} instructions",
+            cost.host_instructions, cost.host_ns, cost.target_instructions
+        ),
+        None => "not measured".to_owned(),
+    }
+}
+
+/// Every effect with its keys, their defaults and its cost.
+fn table() -> String {
+    let widest = |texts: &mut dyn Iterator<Item = usize>| texts.max().unwrap_or(0);
+    let keys = || EFFECTS.into_iter().flat_map(|effect| effect.keys);
+    let name_width = widest(&mut EFFECTS.into_iter().map(|effect| effect.name.len()));
+    let key_width = widest(&mut keys().map(|key| key.key.len()));
+    let default_width = widest(&mut keys().map(|key| key.default.len()));
+    let row = |name: &str, key: &str, default: &str, allowed: &str| {
+        let row = format!("{name:name_width$}  {key:key_width$}  {default:default_width$}  {allowed}");
+        format!("{}\n", row.trim_end())
+    };
+    let mut text = row("effect", "key", "default", "allowed");
+    for effect in EFFECTS {
+        text += &format!("\n{:name_width$}  {}\n", effect.name, effect.summary);
+        for key in effect.keys {
+            text += &row("", key.key, key.default, key.range);
+        }
+        text += &row("", &format!("cost: {}", cost_in_words(effect.name)), "", "");
+    }
+    text += "\nAll are off until a key says otherwise. `sprag effects NAME` shows the equation and its source;\n\
+        costs are those of docs/effects.md.\n";
+    text
+}
+
+fn in_full(effect: &Effect) -> String {
+    let mut text = format!("{}: {}\n\nequation\n", effect.name, effect.summary);
+    for line in effect.equation {
+        text += &format!("  {line}\n");
+    }
+    text += &format!("\nsource\n  {}\n\nkeys\n", effect.source);
+    for key in effect.keys {
+        text += &format!("  {}\n      default {}; {}\n", key.key, key.default, key.range);
+    }
+    text + &format!("\ncost\n  {}\n", cost_in_words(effect.name))
+}

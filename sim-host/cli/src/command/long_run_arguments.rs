@@ -1,0 +1,65 @@
+//! Options of commands whose rows can be split and resumed.
+
+use clap::Args;
+use sprag_report::long_run::shard::{MOST_SHARDS, Shard};
+use sprag_report::long_run::start::Start;
+
+/// What to do with the rows of an interrupted run.
+#[derive(Args, Clone, Debug, Default)]
+pub struct ResumeArguments {
+    /// Go on where an interrupted run has ended.
+    #[arg(long, help_heading = "Long runs")]
+    pub resume: bool,
+    /// Throw away what an interrupted run has left.
+    #[arg(long, conflicts_with = "resume", help_heading = "Long runs")]
+    pub restart: bool,
+}
+
+/// Which rows, and what to do with those that are there.
+#[derive(Args, Clone, Debug, Default)]
+pub struct LongRunArguments {
+    /// Only the I-th of N equal parts of the rows, as for array jobs of a cluster; --merge N puts them together.
+    #[arg(long, value_name = "I/N", help_heading = "Long runs")]
+    pub shard: Option<Shard>,
+    /// Whether some rows are there.
+    #[command(flatten)]
+    pub rows: ResumeArguments,
+    /// Put the N shards in the folder together, to the bytes of a run that was not split.
+    #[arg(long, value_name = "N", conflicts_with_all = ["shard", "resume", "restart"], help_heading = "Long runs",
+        value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SHARDS)))]
+    pub merge: Option<u32>,
+}
+
+impl ResumeArguments {
+    /// The first of these options that is given, if any.
+    pub fn given(&self) -> Option<&'static str> {
+        [("--resume", self.resume), ("--restart", self.restart)].into_iter().find_map(|(option, given)| given.then_some(option))
+    }
+
+    /// How the rows begin.
+    pub fn start(&self) -> Start {
+        match self {
+            ResumeArguments { resume: true, .. } => Start::Resume,
+            ResumeArguments { restart: true, .. } => Start::Restart,
+            _ => Start::New,
+        }
+    }
+}
+
+impl LongRunArguments {
+    /// The first of these options that is given, if any.
+    pub fn given(&self) -> Option<&'static str> {
+        let here = [("--shard", self.shard.is_some()), ("--merge", self.merge.is_some())];
+        here.into_iter().find_map(|(option, given)| given.then_some(option)).or_else(|| self.rows.given())
+    }
+
+    /// How the rows begin.
+    pub fn start(&self) -> Start {
+        self.merge.map_or_else(|| self.rows.start(), Start::Merge)
+    }
+
+    /// Which rows.
+    pub fn shard(&self) -> Shard {
+        self.shard.unwrap_or(Shard::WHOLE)
+    }
+}

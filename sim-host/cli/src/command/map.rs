@@ -1,0 +1,346 @@
+//! `sprag map`: overturning maps and rocking spectra over two keys of a scene.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde::Serialize;
+use sprag_report::columns::{TableError, metadata_of};
+use sprag_report::long_run::error::LongRunError;
+use sprag_report::long_run::origin::Origin;
+use sprag_report::long_run::rows::{Plan, Rows};
+use sprag_report::long_run::shard::Shard;
+use sprag_report::output::{Digest, OutputError, Results};
+use sprag_report::plot::PlotError;
+use sprag_report::progress::Progress;
+use sprag_sim::interrupt::Interrupt;
+use sprag_sim::record::{RecordSummary, warning_lines};
+use sprag_sim::scene::ground::GroundTable;
+use sprag_sim::scene::map::AxisTable;
+use sprag_sim::scene::schema::SceneFile;
+use sprag_sim::scene::{Scene, SceneError, document, text_of};
+use sprag_studies::map::boundaries::{Boundaries, EVALUATIONS};
+use sprag_studies::map::boundary_figure;
+use sprag_studies::map::boundary_table::BoundaryTable;
+use sprag_studies::map::figures::figures;
+use sprag_studies::map::grid::Grid;
+use sprag_studies::map::study::{MapError, study_to};
+use sprag_studies::map::table::{Labels, columns};
+use sprag_studies::map::tally::{Counts, DeviceMap, Tally};
+
+use super::format_arguments::FormatArguments;
+use super::map_boundaries::{BoundarySummary, trace, write_boundary_table};
+use super::out_arguments::{FolderArguments, claim_of_scene};
+use super::record_arguments::SceneRecordArguments;
+use super::{DRAWING, ended, resumable, warned};
+use crate::command::long_run_arguments::LongRunArguments;
+
+/// Map a scene over two of its keys: regions of overturning, peaks as spectra.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag map scenes/figure08.toml\n  \
+    sprag map scenes/figure08.toml --set map.x.cells=512 --set map.y.cells=512\n  \
+    sprag map scenes/figure08.toml --x ground.0.frequency_ratio=0.5:8:200:log --y block.restitution=0.5:1:200\n  \
+    sprag map scenes/figure08.toml --refine\n  \
+    sprag map scenes/figure08.toml --shard 1/2; sprag map scenes/figure08.toml --shard 2/2; sprag map scenes/figure08.toml --merge 2\n\n\
+    Writes summary.json, the table map.csv and map.parquet, and the pictures map (outcomes), rotation and acceleration (peaks), each \
+    as .svg and .png; without an axis y the picture cut. With --refine the table boundaries too, and for two axes the picture \
+    boundaries. Rows go to the disk as they are made, map.run.json says what they come from, and Ctrl-C leaves them there for \
+    --resume.")]
+pub struct MapArguments {
+    /// Scene file.
+    #[arg(value_name = "SCENE.toml")]
+    pub scene: PathBuf,
+    /// Change one value of the scene, such as block.restitution=0.9 or map.x.cells=256.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Axis across, in the place of the scene's: any numeric key; with :log in equal factors.
+    #[arg(long, value_name = "KEY=FROM:TO:CELLS")]
+    pub x: Option<AxisTable>,
+    /// Axis up.
+    #[arg(long, value_name = "KEY=FROM:TO:CELLS")]
+    pub y: Option<AxisTable>,
+    /// Leave out the axis up: a cut along x.
+    #[arg(long, conflicts_with = "y")]
+    pub cut: bool,
+    /// Trace the boundaries between outcomes to a relative 1e-6 of the axes' values: boundaries.csv and boundaries.svg. Takes many times as
+    /// long as the map, a minute and more for 512 x 512 cells.
+    #[arg(long)]
+    pub refine: bool,
+    /// Most blocks that --refine follows for one device; what that leaves coarser is told.
+    #[arg(long, value_name = "N", requires = "refine", default_value_t = EVALUATIONS, value_parser = evaluations)]
+    pub evaluations: usize,
+    /// Records.
+    #[command(flatten)]
+    pub records: SceneRecordArguments,
+    /// Where results go.
+    #[command(flatten)]
+    pub folder: FolderArguments,
+    /// Threads; as many as the machine has by default.
+    #[arg(long, value_name = "N", value_parser = super::threads)]
+    pub threads: Option<u16>,
+    /// What is written.
+    #[command(flatten)]
+    pub formats: FormatArguments,
+    /// Which of the cells, and whether some are there.
+    #[command(flatten)]
+    pub long_run: LongRunArguments,
+}
+
+fn evaluations(text: &str) -> Result<usize, String> {
+    super::whole_number(text, 0, u32::MAX.into()).map(|evaluations| evaluations as usize)
+}
+
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error("{0}")]
+    Map(#[from] MapError),
+    #[error("the picture cannot be drawn: {0}")]
+    Plot(#[from] PlotError),
+    #[error("{0}")]
+    Output(#[from] OutputError),
+    #[error("{0}")]
+    Table(#[from] TableError),
+    #[error("the threads cannot be started: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+    #[error("--refine divides squares where boundaries are, and takes maps of at most 1024 x 1024 cells")]
+    TooManyCells,
+}
+
+impl From<LongRunError> for Failure {
+    fn from(error: LongRunError) -> Failure {
+        Failure::Map(MapError::Rows(error))
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Failure {
+        Failure::Map(MapError::Scene(error))
+    }
+}
+
+/// What `map.parquet` says of itself.
+#[derive(Serialize)]
+struct MadeBy<'a> {
+    command: &'static str,
+    version: &'static str,
+    scene: &'a SceneFile,
+}
+
+/// `summary.json`.
+#[derive(Serialize)]
+struct Summary<'a> {
+    command: &'static str,
+    version: &'static str,
+    scene: &'a SceneFile,
+    records: &'a [RecordSummary],
+    warnings: &'a [String],
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    files: &'a BTreeMap<String, Digest>,
+    runs: Vec<DeviceSummary<'a>>,
+}
+
+#[derive(Serialize)]
+struct DeviceSummary<'a> {
+    device: &'a str,
+    cells: usize,
+    #[serde(flatten)]
+    counts: Counts,
+    seconds: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refined: Option<BoundarySummary>,
+}
+
+impl<'a> DeviceSummary<'a> {
+    fn of(map: &'a DeviceMap, boundaries: Option<&Boundaries>) -> DeviceSummary<'a> {
+        let refined = boundaries.map(BoundarySummary::of);
+        DeviceSummary { device: &map.device, cells: map.counts.cells(), counts: map.counts, seconds: map.seconds, refined }
+    }
+}
+
+/// Names of what is written beside the summary.
+const NAMES: [&str; 5] = ["map", "cut", "rotation", "acceleration", "boundaries"];
+
+/// Runs the command; a table goes to `out`, errors go to `err`.
+pub fn run(arguments: &MapArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
+    let result = run_or_fail(arguments, out, err, interrupt);
+    ended(result.map(|()| true), interrupt, err)
+}
+
+fn run_or_fail(
+    arguments: &MapArguments,
+    out: &mut impl Write,
+    err: &mut impl Write,
+    interrupt: &Interrupt,
+) -> Result<(), Failure> {
+    let (grid, file) = grid(arguments)?;
+    let records = records(&grid, &file)?;
+    let warnings = warned(grid.scene.warnings().into_iter().chain(warning_lines(&records)), err);
+    let (labels, mut tally) = (Labels::new(&grid)?, Tally::new(&grid));
+    if arguments.refine && tally.maps.iter().any(|map| map.shown.len() != grid.columns() * grid.rows()) {
+        return Err(Failure::TooManyCells);
+    }
+    let mut folder = arguments.folder.folder(&arguments.scene, "map");
+    let claim = claim_of_scene("map", &arguments.scene, &grid.scene, &file, &NAMES, &[])?;
+    folder.open(&claim)?;
+    let subject = claim.subject;
+    let origin = Origin::new(subject.clone(), grid.table_rows());
+    let shard = arguments.long_run.shard();
+    let columns = columns(&grid);
+    let titles = columns.iter().map(|column| column.name.clone()).collect();
+    let plan = Plan { folder: &folder, name: "map", columns: titles, together: 1, shard, origin };
+    let mut rows = Rows::begin(&plan, arguments.long_run.start(), |row, record| {
+        tally.add(row, labels.read(row, record)?);
+        Ok(())
+    })?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
+    interrupt.keep(resumable("finished rows", &folder));
+    let progress = Progress::new("cells");
+    let whole = pool.install(|| study_to(&mut rows, &grid, &labels, &mut tally, &progress, interrupt));
+    progress.finish();
+    if !whole? {
+        interrupt.keep(rows.interrupted());
+        return Err(rows.interrupted().into());
+    }
+    let path = rows.finish()?;
+    interrupt.keep(resumable("all rows", &path));
+    if shard != Shard::WHOLE {
+        let _ = writeln!(out, "shard {shard}: {}", path.display());
+        return Ok(());
+    }
+    let boundaries =
+        if arguments.refine { pool.install(|| trace(&grid, &tally.maps, arguments.evaluations, interrupt))? } else { Vec::new() };
+    let drawing = Progress::uncounted(DRAWING);
+    let mut pictures = figures(&grid, &tally)?;
+    if arguments.refine {
+        pictures.extend(boundary_figure::figure(&grid, &tally, &boundaries)?.map(|picture| ("boundaries", picture)));
+    }
+    let runs = tally.maps.iter().enumerate().map(|(device, map)| DeviceSummary::of(map, boundaries.get(device))).collect();
+    let (command, version) = ("map", env!("CARGO_PKG_VERSION"));
+    let (records, files) = (&records, &subject.files);
+    let summary = Summary { command, version, scene: &file, records, warnings: &warnings, files, runs };
+    let made_by = metadata_of(&MadeBy { command, version, scene: &file })?;
+    let formats = arguments.formats.formats;
+    let mut results = Results::default();
+    results.add_json(&folder.join("summary.json"), &summary)?;
+    if formats.parquet {
+        results.add_parquet_of(&path, &columns, &made_by)?;
+    }
+    if arguments.refine {
+        results.add_table(&folder, "boundaries", &BoundaryTable { grid: &grid, all: &boundaries }, &made_by, formats)?;
+    }
+    let mut first = None;
+    for (name, picture) in &pictures {
+        let added = results.add_picture(&folder, name, picture, formats)?;
+        first = first.or(added);
+    }
+    if interrupt.is_set() {
+        return Err(MapError::Interrupted.into());
+    }
+    results.commit_telling(err)?;
+    drawing.finish();
+    let _ = write_table(out, &tally.maps);
+    if arguments.refine {
+        let _ = write_boundary_table(out, &boundaries);
+    }
+    let _ = writeln!(out, "\n{}", first.unwrap_or(path).display());
+    Ok(())
+}
+
+/// The records of the first cell, by the names that `file` has for them.
+fn records(grid: &Grid, file: &SceneFile) -> Result<Vec<RecordSummary>, MapError> {
+    let mut first = grid.scene_of(0, 0)?;
+    let as_written = |tables: &mut [GroundTable], written: &[GroundTable]| {
+        for (table, written) in tables.iter_mut().zip(written) {
+            (table.file, table.of_command_line) = (written.file.clone(), written.of_command_line);
+        }
+    };
+    as_written(&mut first.file.ground, &file.ground);
+    as_written(&mut first.file.vertical, &file.vertical);
+    Ok(first.records()?)
+}
+
+/// The scene with its overrides, records and axes, and what it says with its records named as the user wrote them, so that
+/// summaries do not depend on where they were made.
+fn grid(arguments: &MapArguments) -> Result<(Grid, SceneFile), SceneError> {
+    let origin = arguments.scene.display().to_string();
+    let text = text_of(&arguments.scene)?;
+    let mut table = document::table(&text, &origin)?;
+    let mut changes = arguments.set.clone();
+    let axes = [("x", &arguments.x), ("y", &arguments.y)];
+    for (name, axis) in axes {
+        if let Some(axis) = axis {
+            let scale = serde_json::to_value(axis.scale).unwrap_or_default();
+            changes.push(format!(
+                "map.{name}={{ key = {:?}, from = {:?}, to = {:?}, cells = {}, scale = {scale} }}",
+                axis.key, axis.from, axis.to, axis.cells
+            ));
+        }
+    }
+    for change in &changes {
+        sprag_sim::scene::overrides::apply(&mut table, change, &origin)?;
+    }
+    let with_records = arguments.records.is_given();
+    let mut written = None;
+    if with_records {
+        let mut place = Scene::of_table(table.clone(), &origin, &[])?;
+        arguments.records.apply(&mut place)?;
+        for (name, tables) in [("ground", &place.file.ground), ("vertical", &place.file.vertical)] {
+            put(&mut table, name, tables);
+        }
+        written = Some((place.file.ground, place.file.vertical));
+    }
+    if let (true, Some(toml::Value::Table(map))) = (arguments.cut, table.get_mut("map")) {
+        map.remove("y");
+    }
+    // A scene whose file has no line for its keys any more is told from one that was read as it is.
+    let mut scene = if changes.is_empty() && !with_records && !arguments.cut {
+        Scene::parse(&text, &origin)?
+    } else {
+        Scene::of_table(table.clone(), &origin, &[])?
+    };
+    scene.folder = arguments.scene.parent().map(Path::to_path_buf).unwrap_or_default();
+    let mut file = scene.file.clone();
+    if let Some((ground, vertical)) = written {
+        (file.ground, file.vertical) = (ground, vertical);
+    }
+    Ok((Grid::new(scene, table)?, file))
+}
+
+/// Puts the motions `tables` into the scene `table` under `name`, with files that do not depend on the scene's folder.
+fn put(table: &mut toml::Table, name: &str, tables: &[GroundTable]) {
+    let Some(toml::Value::Array(places)) = table.get_mut(name) else { return };
+    for (place, motion) in places.iter_mut().zip(tables) {
+        let mut motion = motion.clone();
+        if motion.of_command_line {
+            motion.file = motion.file.map(|file| std::path::absolute(&file).unwrap_or(file));
+        }
+        if let Ok(motion) = toml::Value::try_from(motion) {
+            *place = motion;
+        }
+    }
+}
+
+fn write_table(out: &mut impl Write, maps: &[DeviceMap]) -> std::io::Result<()> {
+    let width = maps.iter().map(|map| map.device.chars().count()).max().unwrap_or(0).max(6);
+    writeln!(
+        out,
+        "{:width$} {:>10} {:>10} {:>10} {:>16} {:>14} {:>12}",
+        "device", "cells", "no rocking", "safe", "over, no impact", "over, impact", "cells/s"
+    )?;
+    for map in maps {
+        let counts = &map.counts;
+        let speed = if map.worked_out > 0 { format!("{:.0}", map.worked_out as f64 / map.seconds) } else { "-".to_owned() };
+        writeln!(
+            out,
+            "{:width$} {:>10} {:>10} {:>10} {:>16} {:>14} {speed:>12}",
+            map.device,
+            counts.cells(),
+            counts.no_rocking,
+            counts.safe,
+            counts.overturned_without_impact,
+            counts.overturned_after_impact,
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,80 @@
+//! What `sprag map --refine` adds: the boundaries of every device, and what is said about them.
+
+use std::io::Write;
+
+use indicatif::HumanCount;
+use serde::Serialize;
+use sprag_report::progress::Progress;
+use sprag_shared::observers::outcome::Outcome;
+use sprag_sim::interrupt::Interrupt;
+use sprag_studies::map::boundaries::{Boundaries, refine};
+use sprag_studies::map::grid::Grid;
+use sprag_studies::map::study::MapError;
+use sprag_studies::map::tally::DeviceMap;
+
+/// The boundaries of a device in `summary.json`.
+#[derive(Serialize)]
+pub(super) struct BoundarySummary {
+    boundaries: usize,
+    vertices: usize,
+    evaluations: usize,
+    unresolved_squares: usize,
+    unresolved_relative_width: f64,
+    seconds: f64,
+}
+
+impl BoundarySummary {
+    pub(super) fn of(boundaries: &Boundaries) -> BoundarySummary {
+        BoundarySummary {
+            boundaries: boundaries.boundaries.len(),
+            vertices: boundaries.vertices(),
+            evaluations: boundaries.evaluations,
+            unresolved_squares: boundaries.unresolved,
+            unresolved_relative_width: boundaries.unresolved_width,
+            seconds: boundaries.seconds,
+        }
+    }
+}
+
+/// The boundaries of every device's map, all of whose cells are shown, with so many evaluations for each.
+pub(super) fn trace(
+    grid: &Grid,
+    maps: &[DeviceMap],
+    evaluations: usize,
+    interrupt: &Interrupt,
+) -> Result<Vec<Boundaries>, MapError> {
+    let most = HumanCount((evaluations * maps.len()) as u64);
+    let progress = Progress::of_unknown_length(&format!("blocks (at most {most}) on boundaries"));
+    let of_device = |(device, map): (usize, &DeviceMap)| {
+        let outcomes: Vec<Outcome> = map.shown.iter().map(|result| result.outcome).collect();
+        refine(grid, device, &outcomes, evaluations, &progress, interrupt)
+    };
+    let all = maps.iter().enumerate().map(of_device).collect();
+    progress.finish();
+    all
+}
+
+/// Writes a row a device, and what was left coarser.
+pub(super) fn write_boundary_table(out: &mut impl Write, all: &[Boundaries]) -> std::io::Result<()> {
+    let width = all.iter().map(|boundaries| boundaries.device.chars().count()).max().unwrap_or(0).max(6);
+    writeln!(out, "\n{:width$} {:>10} {:>10} {:>12} {:>10}", "device", "boundaries", "vertices", "evaluations", "seconds")?;
+    for of_device in all {
+        writeln!(
+            out,
+            "{:width$} {:>10} {:>10} {:>12} {:>10.1}",
+            of_device.device,
+            of_device.boundaries.len(),
+            of_device.vertices(),
+            of_device.evaluations,
+            of_device.seconds,
+        )?;
+    }
+    for Boundaries { device, unresolved, unresolved_width, evaluations, .. } in all.iter().filter(|all| all.unresolved > 0) {
+        writeln!(
+            out,
+            "{device}: {unresolved} squares on boundaries are left coarser, up to a relative {unresolved_width:.1e} wide, after \
+             {evaluations} evaluations; --evaluations allows more",
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,74 @@
+//! Options that say where results go, and what of a scene they depend on.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use sprag_report::output::{Claim, Digest, OutputError, ResultFolder, Subject};
+use sprag_sim::scene::Scene;
+use sprag_sim::scene::schema::SceneFile;
+
+/// What may be replaced.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub struct OverwriteArguments {
+    /// Replace what is there, also results of other commands and inputs; those of the same command and input are replaced anyway.
+    #[arg(long)]
+    pub overwrite: bool,
+}
+
+/// Where a folder of results is.
+#[derive(Args, Clone, Debug, Default)]
+pub struct FolderArguments {
+    /// Folder for the results; by default out/NAME-COMMAND, of `simulate` out/NAME, with the name of the scene or study.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// What may be replaced in it.
+    #[command(flatten)]
+    pub replace: OverwriteArguments,
+}
+
+impl FolderArguments {
+    /// The folder for results of `command` on `input`, a scene or study.
+    pub(super) fn folder(&self, input: &Path, command: &str) -> ResultFolder {
+        let path = self.out.clone().unwrap_or_else(|| {
+            let stem = input.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
+            Path::new("out").join(if command == "simulate" { stem.into_owned() } else { format!("{stem}-{command}") })
+        });
+        ResultFolder::new(path, self.replace.overwrite)
+    }
+}
+
+/// What a command is about to make of the scene at `path`: results called `names` and a summary. `file` is the scene as the user wrote it,
+/// `records` are files that it reads beside those of the scene.
+///
+/// # Errors
+/// [`OutputError`] when the scene cannot be written as JSON.
+pub(super) fn claim_of_scene<'a>(
+    command: &str,
+    path: &Path,
+    scene: &Scene,
+    file: &SceneFile,
+    names: &'a [&'a str],
+    records: &[PathBuf],
+) -> Result<Claim<'a>, OutputError> {
+    let tables = file.ground.iter().chain(&file.vertical);
+    let of_scene = tables.filter_map(|table| Some((table.file.clone()?, table.path(&scene.folder)?)));
+    let read: Vec<(PathBuf, PathBuf)> = of_scene.chain(records.iter().map(|path| (path.clone(), path.clone()))).collect();
+    let subject = Subject::new(command, digests(&read)).with("scene", file)?;
+    let inputs = std::iter::once(path.to_owned()).chain(read.into_iter().map(|(_, path)| file_of(&path))).collect();
+    Ok(Claim { subject, page: "summary.json", names, inputs })
+}
+
+/// The contents of record files by their names.
+pub(super) fn digests(read: &[(PathBuf, PathBuf)]) -> BTreeMap<String, Digest> {
+    // A file that cannot be read is refused, or named, where its motion is read.
+    read.iter().filter_map(|(name, path)| Some((name.display().to_string(), Digest::of(&file_of(path)).ok()?))).collect()
+}
+
+/// The file of a record that may be named as FILE#COMPONENT.
+pub(super) fn file_of(record: &Path) -> PathBuf {
+    match record.to_str().and_then(|name| name.rsplit_once('#')) {
+        Some((file, _)) if !record.exists() => PathBuf::from(file),
+        _ => record.to_owned(),
+    }
+}

@@ -1,0 +1,301 @@
+//! `sprag similar`: responses of blocks with equal dimensionless groups, overlaid.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use serde::Serialize;
+use sprag_report::heading::of_scenes;
+use sprag_report::output::{Digest, OutputError, Results};
+use sprag_report::plot::{Chart, ChartPanel, FigureTitle, Line, PlotError, Scale, chart_figure};
+use sprag_report::progress::Progress;
+use sprag_shared::structure::error::ParameterError;
+use sprag_sim::effect::number::number;
+use sprag_sim::interrupt::Interrupt;
+use sprag_sim::record::{RecordSummary, warning_lines};
+use sprag_sim::scene::ground::GroundError;
+use sprag_sim::scene::schema::SceneFile;
+use sprag_sim::scene::{Scene, SceneError};
+use sprag_sim::simulation::{DeviceRun, RunError, simulate};
+use sprag_studies::similarity::compare::{Departure, INSTANTS, Response};
+use sprag_studies::similarity::groups::{Group, groups};
+
+use super::format_arguments::PictureArguments;
+use super::out_arguments::{FolderArguments, claim_of_scene};
+use super::record_arguments::SceneRecordArguments;
+use super::{ended, warned};
+
+/// Compare a block with others of equal dimensionless groups: θ/α over p t, and how far the responses depart.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag similar scenes/figure06.toml --with block.size_m=5,block.slenderness_deg=5\n  \
+    sprag similar scenes/figure07.toml --with block.size_m=5,block.slenderness_deg=20 --with block.size_m=2,block.slenderness_deg=15\n\n\
+    Writes summary.json, similar.csv and similar.svg, with --png similar.png too. Groups that are not equal are named: amplitudes and frequencies \
+    should be ratios (amplitude_ratio, frequency_ratio).")]
+pub struct SimilarArguments {
+    /// Scene file: the first block.
+    #[arg(value_name = "SCENE.toml")]
+    pub scene: PathBuf,
+    /// Another block: the scene with these values changed, separated by commas.
+    #[arg(long, value_name = "KEY=VALUE,…", required = true)]
+    pub with: Vec<String>,
+    /// Change one value of the scene for all blocks.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Records.
+    #[command(flatten)]
+    pub records: SceneRecordArguments,
+    /// Where results go.
+    #[command(flatten)]
+    pub folder: FolderArguments,
+    /// Pictures.
+    #[command(flatten)]
+    pub pictures: PictureArguments,
+}
+
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error("{0}")]
+    Scene(#[from] SceneError),
+    #[error("{0}")]
+    Ground(#[from] GroundError),
+    #[error("{0}")]
+    Parameter(#[from] ParameterError),
+    #[error("{0}")]
+    Run(#[from] RunError),
+    #[error("--with: names nothing that differs; give KEY=VALUE, such as block.size_m=2")]
+    Same,
+    #[error("--with {0}: the block has another number of devices than the first")]
+    Devices(String),
+    #[error("the picture cannot be drawn: {0}")]
+    Plot(#[from] PlotError),
+    #[error("{0}")]
+    Output(#[from] OutputError),
+}
+
+/// A block with its responses.
+struct Block {
+    name: String,
+    scene: Scene,
+    groups: Vec<Group>,
+    records: Vec<RecordSummary>,
+    runs: Vec<DeviceRun>,
+    responses: Vec<Response>,
+}
+
+/// `summary.json`.
+#[derive(Serialize)]
+struct Summary<'a> {
+    command: &'static str,
+    version: &'static str,
+    scene: &'a SceneFile,
+    records: &'a [RecordSummary],
+    warnings: &'a [String],
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    files: &'a BTreeMap<String, Digest>,
+    with: &'a [String],
+    blocks: Vec<BlockSummary<'a>>,
+}
+
+#[derive(Serialize)]
+struct BlockSummary<'a> {
+    block: &'a str,
+    groups: &'a [Group],
+    unequal_groups: Vec<&'a str>,
+    runs: Vec<RunSummary<'a>>,
+}
+
+#[derive(Serialize)]
+struct RunSummary<'a> {
+    #[serde(flatten)]
+    run: &'a DeviceRun,
+    /// From the first block; none of the first itself.
+    departure: Option<Departure>,
+}
+
+/// Runs the command; a table goes to `out`, errors go to `err`.
+pub fn run(arguments: &SimilarArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
+    let result = run_or_fail(arguments, out, err, interrupt);
+    ended(result.map(|()| true), interrupt, err)
+}
+
+fn run_or_fail(
+    arguments: &SimilarArguments,
+    out: &mut impl Write,
+    err: &mut impl Write,
+    interrupt: &Interrupt,
+) -> Result<(), Failure> {
+    if arguments.with.iter().any(|changes| changes.split(',').all(|change| change.trim().is_empty())) {
+        return Err(Failure::Same);
+    }
+    let mut folder = arguments.folder.folder(&arguments.scene, "similar");
+    let progress = Progress::new("blocks");
+    progress.begin(1 + arguments.with.len() as u64);
+    let mut blocks = vec![block(arguments, "", None, interrupt)?];
+    progress.step();
+    let first = &blocks[0].scene;
+    let mut claim = claim_of_scene("similar", &arguments.scene, first, &first.file, &["similar"], &[])?;
+    claim.subject = claim.subject.with("with", &arguments.with)?;
+    folder.open(&claim)?;
+    for changes in &arguments.with {
+        let other = block(arguments, changes, Some(&blocks[0]), interrupt)?;
+        for name in unequal(&blocks[0], &other) {
+            let _ = writeln!(err, "sprag: --with {changes}: {name} is not that of the first block");
+        }
+        blocks.push(other);
+        progress.step();
+    }
+    progress.finish();
+    let mut records: Vec<RecordSummary> = Vec::new();
+    for record in blocks.iter().flat_map(|block| &block.records) {
+        if !records.contains(record) {
+            records.push(record.clone());
+        }
+    }
+    let of_blocks = blocks.iter().flat_map(|block| block.scene.warnings());
+    let warnings = warned(of_blocks.chain(warning_lines(&records)), err);
+    let figure = figure(&blocks)?;
+    let first = &blocks[0];
+    let of = |block: &'_ Block, device: usize| {
+        (!std::ptr::eq(block, first)).then(|| Departure::between(&first.responses[device], &block.responses[device]))
+    };
+    let summaries = blocks.iter().map(|block| BlockSummary {
+        block: &block.name,
+        groups: &block.groups,
+        unequal_groups: unequal(first, block),
+        runs: block.runs.iter().enumerate().map(|(device, run)| RunSummary { run, departure: of(block, device) }).collect(),
+    });
+    let (command, version, with) = ("similar", env!("CARGO_PKG_VERSION"), &arguments.with[..]);
+    let (scene, files, summaries) = (&first.scene.file, &claim.subject.files, summaries.collect());
+    let summary = Summary { command, version, scene, records: &records, warnings: &warnings, files, with, blocks: summaries };
+    let mut results = Results::default();
+    results.add_json(&folder.join("summary.json"), &summary)?;
+    results.add(&folder.join("similar.csv"), |file| write_csv(&blocks, file))?;
+    let picture = results.add_picture(&folder, "similar", &figure, arguments.pictures.formats)?;
+    if interrupt.is_set() {
+        return Err(RunError::Interrupted.into());
+    }
+    results.commit_telling(err)?;
+    let _ = writeln!(out, "largest departure of θ/α from the first block");
+    for block in &blocks[1..] {
+        for (device, run) in block.runs.iter().enumerate() {
+            let departure = Departure::between(&first.responses[device], &block.responses[device]);
+            let overturned = [&first.runs[device], run].map(|run| run.outcome.overturned());
+            let _ = writeln!(out, "{}, {}: {}", block.name, run.device, in_words(&departure, overturned));
+        }
+    }
+    if let Some(picture) = picture {
+        let _ = writeln!(out, "{}", picture.display());
+    }
+    Ok(())
+}
+
+/// How far a block departs from the first, and which of the two overturns.
+fn in_words(departure: &Departure, overturned: [bool; 2]) -> String {
+    let Departure { largest, at_frequency_parameter_time: at, relative } = departure;
+    let share = match relative.map(|share| 100.0 * share) {
+        None => String::new(),
+        Some(0.0) => " (0 % of the peak)".to_owned(),
+        Some(percent) if percent < 0.01 => " (less than 0.01 % of the peak)".to_owned(),
+        Some(percent) => format!(" ({percent:.2} % of the peak)"),
+    };
+    let ends = match overturned {
+        [false, false] => "",
+        [true, true] => "; both overturn",
+        [true, false] => "; the first block overturns, and this one does not",
+        [false, true] => "; this block overturns, and the first one does not",
+    };
+    format!("{} at p t = {at:.2}{share}{ends}", number(*largest))
+}
+
+/// The scene with `changes`, simulated; `first` is the block that it is compared with.
+fn block(arguments: &SimilarArguments, changes: &str, first: Option<&Block>, interrupt: &Interrupt) -> Result<Block, Failure> {
+    let mut overrides = arguments.set.clone();
+    overrides.extend(changes.split(',').map(str::trim).filter(|change| !change.is_empty()).map(str::to_owned));
+    let mut scene = Scene::load(&arguments.scene, &overrides)?;
+    arguments.records.apply(&mut scene)?;
+    if first.is_some_and(|first| first.scene.devices.len() != scene.devices.len()) {
+        return Err(Failure::Devices(changes.to_owned()));
+    }
+    let ground = scene.ground_motions()?;
+    let p = scene.block.frequency_parameter();
+    let duration = p * (ground.horizontal.duration() + scene.free_time_s());
+    let step = first.map_or(duration / (INSTANTS - 1) as f64, |first| first.responses[0].step);
+    scene.file.output.interval_s = Some(step / p);
+    let runs = simulate(&scene, &ground, interrupt)?;
+    let responses = runs.iter().map(|run| Response::of(&run.history, step)).collect();
+    let name = if changes.is_empty() { "first block".to_owned() } else { changes.replace(',', ", ") };
+    Ok(Block { name, groups: groups(&scene)?, scene, records: ground.records, runs, responses })
+}
+
+/// Names of the groups of `other` that are not those of `first`.
+fn unequal<'a>(first: &Block, other: &'a Block) -> Vec<&'a str> {
+    let same = |group: &Group| first.groups.iter().any(|known| known.equals(group));
+    other.groups.iter().filter(|group| !same(group)).map(|group| group.name.as_str()).collect()
+}
+
+fn figure(blocks: &[Block]) -> Result<String, PlotError> {
+    let first = &blocks[0];
+    let points = |response: &Response| -> Vec<(f64, f64)> {
+        response.rotations.iter().enumerate().map(|(index, rotation)| (index as f64 * response.step, *rotation)).collect()
+    };
+    let panel = |device: usize| ChartPanel {
+        title: first.runs[device].device.clone(),
+        y_title: "*θ*/α".to_owned(),
+        y: Scale::Linear,
+        lines: blocks
+            .iter()
+            .map(|block| Line { name: block.name.clone(), points: points(&block.responses[device]), ..Line::default() })
+            .collect(),
+    };
+    chart_figure(&Chart {
+        title: FigureTitle {
+            text: first.scene.file.title.clone(),
+            conditions: of_scenes(&blocks.iter().map(|block| &block.scene).collect::<Vec<_>>()),
+        },
+        x_title: "*p t*".to_owned(),
+        x: Scale::Linear,
+        panels: (0..first.runs.len()).map(panel).collect(),
+        columns: 1,
+        keys: Vec::new(),
+    })
+}
+
+/// `device,frequency_parameter_time` and θ/α of every block; empty where a block has overturned.
+fn write_csv(blocks: &[Block], out: &mut impl Write) -> std::io::Result<()> {
+    let mut table = csv::Writer::from_writer(out);
+    let names = ["device", "frequency_parameter_time"].into_iter().chain(blocks.iter().map(|block| block.name.as_str()));
+    table.write_record(names)?;
+    for (device, run) in blocks[0].runs.iter().enumerate() {
+        for instant in 0..INSTANTS {
+            let time = instant as f64 * blocks[0].responses[device].step;
+            let mut row = vec![run.device.clone(), format!("{time:?}")];
+            let rotation = |block: &Block| block.responses[device].rotations.get(instant).map(|rotation| format!("{rotation:?}"));
+            row.extend(blocks.iter().map(|block| rotation(block).unwrap_or_default()));
+            table.write_record(row)?;
+        }
+    }
+    table.flush()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn departures_are_plain_numbers_and_name_the_block_that_overturns() {
+        let of = |largest, relative| Departure { largest, at_frequency_parameter_time: 3.0, relative };
+        for (departure, overturned, words) in [
+            (
+                of(4.005, Some(2.5)),
+                [false, true],
+                "4.005 at p t = 3.00 (250.00 % of the peak); this block overturns, and the first one does not",
+            ),
+            (of(0.0, Some(0.0)), [false; 2], "0 at p t = 3.00 (0 % of the peak)"),
+            (of(0.012, Some(1e-6)), [true; 2], "0.012 at p t = 3.00 (less than 0.01 % of the peak); both overturn"),
+            (of(0.5, None), [true, false], "0.5 at p t = 3.00; the first block overturns, and this one does not"),
+        ] {
+            assert_eq!(in_words(&departure, overturned), words);
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! What commands that run a study over records have in common: the study, its records, and what is said of them on the command line.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use rayon::ThreadPool;
+use sprag_report::output::{Digest, Subject};
+use sprag_report::progress::Progress;
+use sprag_sim::record::Record;
+use sprag_sim::scene::SceneError;
+use sprag_studies::cloud::records::{StudyRecord, StudyRecords};
+use sprag_studies::cloud::study::{Study, StudyError};
+
+use super::out_arguments::file_of;
+use super::record_arguments::ReadArguments;
+use super::warned;
+
+/// A study and its records.
+#[derive(Args, Clone, Debug)]
+pub struct StudyArguments {
+    /// Study file.
+    #[arg(value_name = "STUDY.toml")]
+    pub study: PathBuf,
+    /// Records and folders of them, in the place of the study's.
+    #[arg(long, value_name = "PATH", num_args = 1..)]
+    pub records: Vec<PathBuf>,
+    /// How they are read.
+    #[command(flatten)]
+    pub reading: ReadArguments,
+    /// Change one value of the study's scene, such as block.size_m=2 or device.1.mass_ratio=0.5.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+}
+
+/// A study or records that cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyInputError {
+    /// The study, or its scene.
+    #[error("{0}")]
+    Study(#[from] StudyError),
+    /// What the study says of a record.
+    #[error("{0}")]
+    Record(#[from] SceneError),
+    /// There is no record at all.
+    #[error("{}: no record could be read{}", study.display(), first.as_ref().map_or_else(String::new, |line| format!("; {line}")))]
+    NoRecord {
+        /// The study.
+        study: PathBuf,
+        /// Why the first could not be read.
+        first: Option<String>,
+    },
+}
+
+impl StudyArguments {
+    /// The study, with one more `change` of its scene.
+    ///
+    /// # Errors
+    /// [`StudyInputError::Study`].
+    pub fn load(&self, change: Option<String>) -> Result<Study, StudyInputError> {
+        let mut changes = self.set.clone();
+        changes.extend(change);
+        let mut study = Study::load(&self.study, &changes, &self.records)?;
+        study.apply_record_options(&self.reading.table());
+        Ok(study)
+    }
+
+    /// The records of `study`, one at least, and the warnings of both; `err` gets these and what cannot be read.
+    ///
+    /// # Errors
+    /// [`StudyInputError`] for what the study says of its records, and where none can be read.
+    pub(super) fn read(
+        &self,
+        study: &Study,
+        pool: &ThreadPool,
+        err: &mut impl Write,
+    ) -> Result<(StudyRecords, Vec<String>), StudyInputError> {
+        let reading = Progress::uncounted("reading records");
+        let records = pool.install(|| StudyRecords::read(study))?;
+        reading.finish();
+        if records.records.is_empty() {
+            let first = records.unreadable.first().cloned();
+            return Err(StudyInputError::NoRecord { study: self.study.clone(), first });
+        }
+        for line in &records.unreadable {
+            let _ = writeln!(err, "sprag: {line}");
+        }
+        let warnings = warned(study.warnings().into_iter().chain(records.warnings()), err);
+        Ok((records, warnings))
+    }
+
+    /// The files that were read: the study, its scene and its records.
+    pub(super) fn files(&self, study: &Study, records: &StudyRecords) -> Vec<PathBuf> {
+        let folder = self.study.parent().unwrap_or(Path::new(""));
+        let scene = study.file.scene.iter().map(|scene| folder.join(scene));
+        let records = records.records.iter().map(|record| file_of(Path::new(&record.motion.record.name)));
+        std::iter::once(self.study.clone()).chain(scene).chain(records).collect()
+    }
+}
+
+/// What results of `command` are of, as far as it is the samples of every record.
+pub fn study_subject(command: &str, records: &[StudyRecord]) -> Subject {
+    let digest = |record: &StudyRecord| {
+        let Record { time_step_s, acceleration_m_s2, .. } = &record.motion.record;
+        let bytes: Vec<u8> =
+            std::iter::once(time_step_s).chain(acceleration_m_s2).flat_map(|value| value.to_le_bytes()).collect();
+        (record.name.clone(), Digest::of_bytes(&bytes))
+    };
+    Subject::new(command, records.iter().map(digest).collect())
+}

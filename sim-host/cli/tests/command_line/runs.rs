@@ -1,0 +1,230 @@
+//! What runs write and say.
+
+use std::fs;
+use std::process::Command;
+
+use super::{refused, scene, sprag};
+
+#[test]
+fn simulate_writes_its_three_files_and_a_summary() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("near");
+    let output = sprag(&["simulate", &scene("near_fault"), "--out", out.to_str().unwrap()]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let table = String::from_utf8(output.stdout).unwrap();
+    for device in ["none", "inerter", "clutched pair"] {
+        assert!(table.contains(device), "{table}");
+    }
+    assert!(table.contains("friction needed at impacts: 0.460 (none), 0.690 (inerter), 0.460 (clutched pair)"), "{table}");
+    let mut files: Vec<_> = fs::read_dir(&out).unwrap().map(|file| file.unwrap().file_name()).collect();
+    files.sort();
+    assert_eq!(files, ["history.csv", "history.svg", "summary.json"]);
+    let summary: serde_json::Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+    assert_eq!(summary["command"], "simulate");
+    assert_eq!(summary["scene"]["block"]["restitution"], 0.85);
+    let runs = summary["runs"].as_array().unwrap();
+    assert_eq!(runs.len(), 3);
+    for run in runs {
+        for key in ["device", "outcome", "peak_rotation", "peak_acceleration", "impacts"] {
+            assert!(run.get(key).is_some(), "{key} in {run}");
+        }
+    }
+}
+
+#[test]
+fn the_same_scene_gives_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let outs = ["first", "second"].map(|name| folder.path().join(name));
+    for out in &outs {
+        assert!(sprag(&["simulate", &scene("near_fault"), "--out", out.to_str().unwrap()]).status.success());
+    }
+    for file in ["summary.json", "history.csv", "history.svg"] {
+        assert!(fs::read(outs[0].join(file)).unwrap() == fs::read(outs[1].join(file)).unwrap(), "{file}");
+    }
+}
+
+#[test]
+fn batch_results_do_not_depend_on_the_number_of_threads_and_keep_their_order() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases = folder.path().join("cases.csv");
+    let mut text =
+        "id,geometry,slenderness_deg,device,mass_ratio,restitution,pulse,frequency_ratio,amplitude_ratio,free_time\n".to_owned();
+    for index in 0..1000 {
+        let device = ["none", "inerter", "clutched-pair"][index % 3];
+        let geometry = ["full", "slender"][index % 2];
+        text += &format!(
+            "c{},{geometry},15,{device},0.5,0.85,sine,{},{},60\n",
+            999 - index,
+            1.0 + index as f64 * 0.005,
+            1.5 + (index % 7) as f64
+        );
+    }
+    fs::write(&cases, text).unwrap();
+    let results = ["1", "2", "7"].map(|threads| {
+        let out = folder.path().join(format!("{threads}.csv"));
+        let output = sprag(&["batch", cases.to_str().unwrap(), "--out", out.to_str().unwrap(), "--threads", threads]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        fs::read_to_string(out).unwrap()
+    });
+    assert!(results[0] == results[1] && results[1] == results[2]);
+    let ids: Vec<&str> = results[0].lines().skip(1).map(|line| line.split(',').next().unwrap()).collect();
+    assert_eq!((ids.len(), ids[0], ids[999]), (1000, "c999", "c0"));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn ctrl_c_ends_a_long_run_and_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_sprag"))
+        .args(["simulate", &scene("figure05"), "--out", out.to_str().unwrap()])
+        .args([
+            "--set",
+            "accuracy.method=runge-kutta-4",
+            "--set",
+            "accuracy.step_ratio=1e-7",
+            "--set",
+            "run.free_time_ratio=10000",
+        ])
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    // The folder is made once the scene has been read and just before the work starts.
+    while !out.is_dir() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(!out.exists(), "an empty folder");
+}
+
+#[test]
+fn effects_are_listed_and_shown() {
+    let text = |arguments: &[&str]| {
+        let output = sprag(arguments);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let table = text(&["effects"]);
+    let names = [
+        "kinematics",
+        "mount",
+        "geometry",
+        "vertical",
+        "impact",
+        "flywheel",
+        "engagement",
+        "clutch",
+        "rack",
+        "actuation",
+        "weight",
+        "checks",
+        "energy",
+    ];
+    for name in names {
+        assert!(table.lines().any(|line| line.starts_with(name)), "{name}: {table}");
+        let in_full = text(&["effects", name]);
+        assert!(["equation", "source", "keys", "cost"].iter().all(|part| in_full.contains(part)), "{in_full}");
+        assert!(in_full.lines().chain(table.lines()).all(|line| line.chars().count() <= 130), "{in_full}");
+    }
+    assert!(table.contains("device.N.clutch.capacity_ratio") && !table.contains('\u{1b}'), "{table}");
+    let json: serde_json::Value = serde_json::from_str(&text(&["effects", "--json"])).unwrap();
+    let entries = json.as_array().unwrap();
+    assert_eq!(entries.len(), names.len());
+    for entry in entries {
+        assert!(names.iter().any(|name| entry["name"] == *name), "{entry}");
+        for key in ["summary", "equation", "source", "keys"] {
+            assert!(entry.get(key).is_some(), "{key} in {entry}");
+        }
+        assert!(entry["keys"][0]["key"].is_string() && entry.get("cost").is_some(), "{entry}");
+    }
+    let one: serde_json::Value = serde_json::from_str(&text(&["effects", "rack", "--json"])).unwrap();
+    assert_eq!(one["name"], "rack");
+    let nowhere = tempfile::tempdir().unwrap();
+    refused(&["effects", "magic"], nowhere.path(), &["magic", "kinematics", "energy"]);
+}
+
+#[test]
+fn explain_says_what_is_on_why_and_which_equation_results() {
+    let seed = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/fuzz/seeds/scene/effects.toml");
+    let output = sprag(&["explain", seed, "--set", "device.3.clutch.capacity_ratio=0.25"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).unwrap();
+    for words in [
+        "whole scene",
+        "because block.restitution = \"momentum-balance\"",
+        "because device.3.clutch.capacity_ratio = 0.25",
+        "(λ + κ σ ℓ²) θ̈ + κ σ ℓ ℓ′ θ̇² = −(g/R) [ (1 + v̈_g/g) sin δ + (ü_g/g) cos δ ] − ℓ (F₁ + F₂)/(m R)",
+        "F_c = 0.25 m g",
+        "effects off: mount",
+        "followed by",
+    ] {
+        assert!(text.contains(words), "must say `{words}`: {text}");
+    }
+    assert!(text.lines().all(|line| line.chars().count() <= 130) && !text.contains('\u{1b}'), "{text}");
+    // No record is read, so that a scene may be explained before there is one.
+    let output = sprag(&["explain", &scene("record")]);
+    assert!(output.status.success() && String::from_utf8_lossy(&output.stdout).contains("effects on: none"));
+    let nowhere = tempfile::tempdir().unwrap();
+    refused(&["explain", "nowhere.toml"], nowhere.path(), &["nowhere.toml"]);
+    let brake = "device.2.flywheel.brake_deceleration_m_s2=instant";
+    refused(&["explain", &scene("figure05"), "--set", brake], nowhere.path(), &["figure05.toml", "brake", "ideal clutch"]);
+}
+
+#[test]
+fn every_subcommand_has_help_with_an_example() {
+    for command in [
+        "simulate",
+        "loop",
+        "loop-study",
+        "batch",
+        "cloud",
+        "optimise",
+        "sensitivity",
+        "record",
+        "synthesize",
+        "effects",
+        "explain",
+    ] {
+        let output = sprag(&[command, "--help"]);
+        let help = String::from_utf8(output.stdout).unwrap();
+        assert!(output.status.success() && help.contains("Example"), "{command}: {help}");
+    }
+}
+
+#[test]
+fn loop_writes_its_files_and_does_not_depend_on_the_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let outs = ["1", "2"].map(|threads| {
+        let out = folder.path().join(threads);
+        let output = sprag(&[
+            "loop",
+            &scene("controller"),
+            "--set",
+            "run.free_time_s=0",
+            "--set",
+            "controller.rate_hz=500",
+            "--monte-carlo",
+            "3",
+            "--threads",
+            threads,
+            "--out",
+            out.to_str().unwrap(),
+        ]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(String::from_utf8_lossy(&output.stdout).contains("ideal pair"));
+        out
+    });
+    for name in ["summary.json", "history.csv", "loop.svg", "monte_carlo.csv"] {
+        let [one, two] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
+        assert!(!one.is_empty() && one == two, "{name}");
+    }
+    let summary: serde_json::Value = serde_json::from_slice(&fs::read(outs[0].join("summary.json")).unwrap()).unwrap();
+    let run = &summary["runs"][0];
+    assert_eq!(
+        (&summary["command"], &run["outcome"], &run["controller_state"]),
+        (&"loop".into(), &"safe".into(), &"armed".into())
+    );
+    assert_eq!(run["monte_carlo"]["specimens"], 3);
+    assert!(run["peak_change"].as_f64().unwrap().abs() < 0.05);
+}

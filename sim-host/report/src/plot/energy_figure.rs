@@ -1,0 +1,368 @@
+//! The energy of every device over time: where the work of the ground is, and where it went.
+
+use std::ops::Range;
+
+use plotters::coord::types::RangedCoordf64;
+use plotters::prelude::{Cartesian2d, Polygon, SVGBackend};
+use plotters::style::{Color, RGBColor};
+use sprag_sim::simulation::DeviceRun;
+use sprag_sim::simulation::energy::Shares;
+
+use super::curve::write_curve;
+use super::decimate::decimate;
+use super::layer::{Anchor, Text, document, escape, plotters_layer, text_of, units, write_rect};
+use super::legend::write_heading;
+use super::palette::{FLYWHEEL_TINTS, GROUND, GUIDE, INK, Stroke, device_look, hex};
+use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
+use super::text_width::text_width_px;
+use super::{FigureTitle, PlotError};
+
+const WIDTH_PX: f64 = 760.0;
+const MARGIN_PX: f64 = 10.0;
+/// Wider on the right, where half of the last tick label sticks out.
+const RIGHT_MARGIN_PX: f64 = 20.0;
+const PANEL_PX: f64 = 150.0;
+/// Room above a panel for the name of its device.
+const NAME_PX: f64 = 22.0;
+const FONT_PX: f64 = 11.0;
+const ROW_PX: f64 = 17.0;
+const SWATCH_PX: f64 = 18.0;
+/// Shares that round to nothing in a picture.
+const NEGLIGIBLE: f64 = 5e-4;
+/// A device below this part of the highest one gets a scale of its own.
+const OWN_SCALE_BELOW: f64 = 0.2;
+
+/// An area of the stack.
+struct Layer {
+    name: &'static str,
+    colour: RGBColor,
+    thickness: fn(&Shares) -> f64,
+}
+
+/// From the bottom: what is gone, then what is there.
+fn layers() -> [Layer; 9] {
+    let colour = |index: usize| device_look(index).colour;
+    let layer = |name, colour, thickness| Layer { name, colour, thickness };
+    [
+        layer("gone in impacts", GUIDE, |shares| shares.impact),
+        layer("in clutches", colour(1), |shares| shares.clutch),
+        layer("in brakes", colour(6), |shares| shares.brake),
+        layer("in bearings", colour(4), |shares| shares.bearing),
+        layer("in the rack", GROUND, |shares| shares.rack),
+        layer("taken by the paper's kinematics", FLYWHEEL_TINTS[1], |shares| shares.kinematics.max(0.0)),
+        layer("stored in the device", colour(3), |shares| shares.stored),
+        layer("potential", colour(5), |shares| shares.potential.max(0.0)),
+        // Beyond 2α the potential energy is negative, and what is left of the kinetic energy closes the stack.
+        layer("kinetic", colour(2), |shares| shares.kinetic + shares.potential.min(0.0)),
+    ]
+}
+
+/// What was put in, to which the areas add up.
+fn supply(shares: &Shares) -> f64 {
+    shares.initial + shares.input + shares.created + (-shares.kinematics).max(0.0)
+}
+
+/// Draws the energy ledgers of `runs` as an SVG document: one panel a device over a shared time axis, in shares of the barrier
+/// to overturning.
+///
+/// Areas from the bottom are what is gone, by where it went, and what is there: stored in the device, potential and kinetic. The
+/// line is what was put in, so that a ledger that closes has the line on top of its areas. Energy that the paper's kinematics
+/// take is an area, energy that they give is put in. Panels share one scale except where a device would be too low to see. Areas
+/// of an overturned block end where it has passed 2α for good.
+///
+/// The text is the same for the same input, and long ledgers are thinned to the width of the panels.
+///
+/// # Errors
+/// [`PlotError`] when no run has a ledger, without a time span, and for numbers that are not finite or out of time order.
+pub fn energy_figure(title: impl Into<FigureTitle>, runs: &[DeviceRun]) -> Result<String, PlotError> {
+    let title = title.into();
+    if runs.iter().all(|run| run.energy.is_none()) {
+        return Err(PlotError::NoHistories);
+    }
+    for run in runs {
+        check(run)?;
+    }
+    let end = runs.iter().map(|run| run.end_time_s).fold(0.0, f64::max);
+    if end <= 0.0 {
+        return Err(PlotError::EmptyTimeSpan);
+    }
+    let ledgers: Vec<Vec<(f64, Shares)>> = runs.iter().map(|run| ledger(run, end)).collect();
+    let layers = layers();
+
+    let (left_px, width_px) = (MARGIN_PX + LEFT_LABELS_PX, WIDTH_PX - MARGIN_PX - LEFT_LABELS_PX - RIGHT_MARGIN_PX);
+    let mut body = String::new();
+    let heading_px = write_heading(&mut body, &title, &[], (left_px, width_px), MARGIN_PX);
+    let mut top_px = write_legend(&mut body, &ledgers, &layers, (left_px, width_px), heading_px - 4.0);
+
+    let height_px = top_px + runs.len() as f64 * (NAME_PX + PANEL_PX) + BOTTOM_LABELS_PX + 4.0;
+    let canvas = (units(WIDTH_PX) as u32, units(height_px) as u32);
+    let scales = scales(&ledgers);
+    for (index, ((run, ledger), scale)) in runs.iter().zip(&ledgers).zip(scales).enumerate() {
+        top_px += NAME_PX;
+        let (x, y) = (0.0..end, 0.0..scale);
+        let panel = Panel::new((left_px, top_px), (width_px, PANEL_PX), x, y);
+        let panel = Panel { title: Some("share of the barrier"), guides: &[1.0], ..panel };
+        let at = (left_px, top_px - 6.0);
+        Text { attributes: " font-weight=\"bold\"", ..Text::new(&escape(&name(run)), at, FONT_PX) }.write(&mut body, false);
+        write_areas(&mut body, canvas, &panel, ledger, &layers)?;
+        panel.write_axes(&mut body, canvas, (index + 1 == runs.len()).then_some("time (s)"))?;
+        let line: Vec<(f64, f64)> = ledger.iter().map(|(time, shares)| (*time, supply(shares))).collect();
+        write_curve(&mut body, canvas, &panel, &line, Stroke::solid(INK))?;
+        if run.outcome.overturned()
+            && let Some((x, y)) = line.last().map(|point| panel.position_px(*point))
+        {
+            let note = Text { colour: GROUND, ..Text::new("overturns", (x + 6.0, y.max(top_px + 12.0)), FONT_PX) };
+            note.write(&mut body, false);
+        }
+        if ledger.is_empty() {
+            let note = if run.energy.is_some() { "never rocks" } else { "no energy ledger" };
+            let middle = (left_px + 0.5 * width_px, top_px + 0.5 * PANEL_PX);
+            Text { anchor: Anchor::Middle, colour: GROUND, ..Text::new(note, middle, 13.0) }.write(&mut body, false);
+        }
+        top_px += PANEL_PX;
+    }
+    Ok(document(&title.text, (WIDTH_PX, height_px), &body))
+}
+
+/// Refuses numbers that cannot be drawn.
+fn check(run: &DeviceRun) -> Result<(), PlotError> {
+    let mut before = f64::NEG_INFINITY;
+    for (time_s, shares) in run.energy.iter().flat_map(|energy| &energy.history) {
+        // The square root keeps sums finite too.
+        if !shares.row().iter().chain([time_s]).all(|value| value.abs() < f64::MAX.sqrt()) {
+            return Err(PlotError::NotFinite { device: run.device.clone(), time_s: *time_s });
+        }
+        if *time_s < before {
+            return Err(PlotError::TimeGoesBack { device: run.device.clone(), time_s: *time_s });
+        }
+        before = *time_s;
+    }
+    Ok(())
+}
+
+/// What is drawn of a run's ledger: to `end` (s), or to where the block has passed 2α for good.
+fn ledger(run: &DeviceRun, end: f64) -> Vec<(f64, Shares)> {
+    let mut samples = run.energy.as_ref().map_or_else(Vec::new, |energy| energy.history.clone());
+    if run.outcome.overturned() {
+        let shown = samples.iter().rposition(|(_, shares)| shares.potential >= 0.0).map_or(0, |last| last + 1);
+        samples.truncate(shown);
+    } else if let Some(&(_, last)) = samples.last() {
+        samples.push((end, last));
+    }
+    samples
+}
+
+/// Name and outcome, and what the paper's kinematics did if that is not negligible.
+fn name(run: &DeviceRun) -> String {
+    let kinematics = run.energy.as_ref().map_or(0.0, |energy| energy.entries.kinematics);
+    let verb = if kinematics > 0.0 { "took" } else { "gave" };
+    let note = if kinematics.abs() < NEGLIGIBLE || run.outcome.overturned() {
+        String::new()
+    } else {
+        format!("; by the end the paper's kinematics {verb} {:.3}", kinematics.abs())
+    };
+    format!("{} ({}){note}", run.device, run.outcome)
+}
+
+/// Upper ends of the panels' scales.
+fn scales(ledgers: &[Vec<(f64, Shares)>]) -> Vec<f64> {
+    let peak = |ledger: &Vec<(f64, Shares)>| ledger.iter().map(|(_, shares)| supply(shares)).fold(0.0, f64::max);
+    let peaks: Vec<f64> = ledgers.iter().map(peak).collect();
+    let highest = peaks.iter().copied().fold(0.0, f64::max);
+    let scale = |peak: f64| match peak {
+        _ if highest < NEGLIGIBLE => 1.0,
+        peak if peak < NEGLIGIBLE => highest,
+        peak if peak < OWN_SCALE_BELOW * highest => peak,
+        _ => highest,
+    };
+    peaks.into_iter().map(|peak| 1.08 * scale(peak)).collect()
+}
+
+/// Appends the areas: each from zero up to its upper edge, the highest first, so that thinning leaves no gaps between them.
+fn write_areas(
+    svg: &mut String,
+    canvas: (u32, u32),
+    panel: &Panel<'_>,
+    ledger: &[(f64, Shares)],
+    layers: &[Layer],
+) -> Result<(), PlotError> {
+    let pixels = (units(panel.left_px)..units(panel.right_px()), units(panel.bottom_px())..units(panel.top_px));
+    for (index, layer) in layers.iter().enumerate().rev() {
+        if ledger.iter().all(|(_, shares)| (layer.thickness)(shares).abs() < NEGLIGIBLE) {
+            continue;
+        }
+        let edge = |shares: &Shares| layers[..=index].iter().map(|layer| (layer.thickness)(shares)).sum::<f64>();
+        let Range { start, end } = panel.y;
+        let edge: Vec<(f64, f64)> = ledger.iter().map(|(time, shares)| (*time, edge(shares).clamp(start, end))).collect();
+        let mut outline = decimate(&edge, &panel.x, panel.width_px as usize);
+        let (Some(first), Some(last)) = (outline.first().copied(), outline.last().copied()) else {
+            continue;
+        };
+        outline.extend([(last.0, start), (first.0, start)]);
+        svg.push_str(&plotters_layer(canvas, |root| {
+            let scales = Cartesian2d::<RangedCoordf64, RangedCoordf64>::new(panel.x.clone(), panel.y.clone(), pixels.clone());
+            let area = root.clone().apply_coord_spec(scales);
+            area.draw(&Polygon::new(outline, layer.colour.filled())).map_err(text_of::<SVGBackend<'_>>)
+        })?);
+    }
+    Ok(())
+}
+
+/// Appends an entry for the line and for every area that some device has; returns the lower edge (px).
+fn write_legend(
+    svg: &mut String,
+    ledgers: &[Vec<(f64, Shares)>],
+    layers: &[Layer],
+    (left_px, width_px): (f64, f64),
+    top_px: f64,
+) -> f64 {
+    let any = |value: &dyn Fn(&Shares) -> f64| ledgers.iter().flatten().any(|(_, shares)| value(shares) > NEGLIGIBLE);
+    let parts = [
+        ("put in: ", true),
+        ("at the start, ", any(&|shares| shares.initial)),
+        ("by the ground", true),
+        (", created by ideal clutches", any(&|shares| shares.created)),
+        (", given by the paper's kinematics", any(&|shares| -shares.kinematics)),
+    ];
+    let line: String = parts.into_iter().filter_map(|(text, shown)| shown.then_some(text)).collect();
+    let shown = layers.iter().filter(|layer| any(&|shares| (layer.thickness)(shares).abs()));
+    let areas = shown.map(|layer| (Some(layer.colour), layer.name.to_owned()));
+
+    let (mut x, mut middle) = (left_px, top_px + 0.5 * ROW_PX);
+    for (colour, text) in std::iter::once((None, line)).chain(areas) {
+        let entry_px = SWATCH_PX + 5.0 + text_width_px(&text, FONT_PX);
+        if x > left_px && x + entry_px > left_px + width_px {
+            (x, middle) = (left_px, middle + ROW_PX);
+        }
+        match colour {
+            Some(colour) => write_rect(svg, (units(x), units(middle - 5.0)), (units(SWATCH_PX), units(10.0)), colour),
+            None => svg.push_str(&format!(
+                "<path d=\"M{} {}h{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"13\"/>\n",
+                units(x),
+                units(middle),
+                units(SWATCH_PX),
+                hex(INK),
+            )),
+        }
+        Text::new(&escape(&text), (x + SWATCH_PX + 5.0, middle + 0.36 * FONT_PX), FONT_PX).write(svg, false);
+        x += entry_px + 12.0;
+    }
+    middle + 0.5 * ROW_PX
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::synthetic::assert_well_formed;
+    use sprag_shared::observers::outcome::Outcome;
+    use sprag_sim::history::History;
+    use sprag_sim::simulation::demand::Impulses;
+    use sprag_sim::simulation::energy::EnergyReport;
+
+    const NOTHING: Shares = Shares {
+        initial: 0.0,
+        input: 0.0,
+        created: 0.0,
+        kinetic: 0.0,
+        potential: 0.0,
+        stored: 0.0,
+        impact: 0.0,
+        clutch: 0.0,
+        brake: 0.0,
+        bearing: 0.0,
+        rack: 0.0,
+        kinematics: 0.0,
+        residual: 0.0,
+    };
+
+    fn run(device: &str, outcome: Outcome, history: Vec<(f64, Shares)>) -> DeviceRun {
+        let entries = history.last().map_or(NOTHING, |(_, shares)| *shares);
+        DeviceRun {
+            device: device.to_owned(),
+            outcome,
+            peak_rotation: Some(0.5),
+            peak_acceleration: Some(1.0),
+            impacts: 3,
+            first_impact_time_s: Some(1.0),
+            end_time_s: 10.0,
+            clutch_switches: 0,
+            missed_engagements: 0,
+            peak_force_ratio: None,
+            impulses: Impulses::default(),
+            checks: None,
+            energy: Some(EnergyReport { entries, history }),
+            error: None,
+            history: History::default(),
+        }
+    }
+
+    /// Kinetic and potential energy take turns and go to impacts, or grow until the potential energy drops.
+    fn swinging(count: usize, grows: bool) -> Vec<(f64, Shares)> {
+        let sample = |index: usize| {
+            let part = index as f64 / count as f64;
+            let (total, wave) = (if grows { 2.0 * part } else { 0.8 * (1.0 - part) }, (40.0 * part).fract());
+            let potential = if grows && part > 0.9 { -50.0 * part } else { total * wave };
+            let kinetic = total - potential;
+            let impact = if grows { 0.0 } else { 0.8 * part };
+            (9.0 * part, Shares { input: total + impact, kinetic, potential, impact, ..NOTHING })
+        };
+        (0..count).map(sample).collect()
+    }
+
+    #[test]
+    fn every_device_has_a_panel_and_only_what_some_device_has_is_in_the_legend() {
+        let runs = [
+            run("one & only", Outcome::Safe, swinging(500, false)),
+            run("over", Outcome::OverturnedAfterImpact, swinging(500, true)),
+            run("rest", Outcome::NoRocking, Vec::new()),
+        ];
+        let svg = energy_figure("A <title>", &runs).unwrap();
+        assert_well_formed(&svg);
+        assert_eq!(svg.matches("rotate(-90 ").count(), 3);
+        assert_eq!(svg.matches(">overturns<").count(), 1);
+        assert_eq!(svg.matches(">never rocks<").count(), 1);
+        assert!(svg.contains("A &lt;title&gt;") && svg.contains("one &amp; only (safe)"));
+        assert!(svg.contains("gone in impacts") && svg.contains(">potential<") && svg.contains(">kinetic<"));
+        for absent in ["brakes", "clutches", "bearings", "the rack", "stored", "created", "kinematics"] {
+            assert!(!svg.contains(absent), "{absent}");
+        }
+    }
+
+    #[test]
+    fn energy_that_the_papers_kinematics_give_is_put_in_and_what_they_take_is_an_area() {
+        let with = |kinematics: f64| {
+            let add = |(time, shares): (f64, Shares)| (time, Shares { kinematics, ..shares });
+            let history = swinging(100, false).into_iter().map(add).collect();
+            energy_figure("", &[run("one", Outcome::Safe, history)]).unwrap()
+        };
+        let (taken, given) = (with(0.25), with(-0.25));
+        assert!(taken.contains("taken by the paper's kinematics") && taken.contains("kinematics took 0.250"));
+        assert!(given.contains("given by the paper's kinematics") && given.contains("kinematics gave 0.250"));
+        let shares = Shares { input: 1.0, kinematics: -0.25, ..NOTHING };
+        assert_eq!(supply(&shares), 1.25);
+    }
+
+    #[test]
+    fn long_ledgers_stay_small_and_the_bytes_repeat() {
+        let runs = [run("long", Outcome::Safe, swinging(200_000, false))];
+        let svg = energy_figure("", &runs).unwrap();
+        assert_well_formed(&svg);
+        assert!(svg.len() < 300_000, "{}", svg.len());
+        assert_eq!(svg, energy_figure("", &runs).unwrap());
+    }
+
+    #[test]
+    fn what_cannot_be_drawn_is_refused() {
+        assert_eq!(energy_figure("", &[]), Err(PlotError::NoHistories));
+        let mut without = run("none", Outcome::Safe, Vec::new());
+        without.energy = None;
+        assert_eq!(energy_figure("", &[without]), Err(PlotError::NoHistories));
+        let mut history = swinging(100, false);
+        history[50].1.kinetic = f64::NAN;
+        let broken = energy_figure("", &[run("one", Outcome::Safe, history.clone())]);
+        assert!(matches!(broken, Err(PlotError::NotFinite { .. })));
+        history[50].1.kinetic = 0.0;
+        history.swap(3, 30);
+        assert!(matches!(energy_figure("", &[run("one", Outcome::Safe, history)]), Err(PlotError::TimeGoesBack { .. })));
+    }
+}

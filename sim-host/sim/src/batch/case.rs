@@ -1,0 +1,169 @@
+//! One case of a batch: a dimensionless block under one cycle of a pulse.
+
+use sprag_shared::ground::{Harmonics, Quiet};
+use sprag_shared::motion::state::{BlockState, Limits};
+use sprag_shared::observers::peaks::Peaks;
+use sprag_shared::structure::added_mass::AddedMass;
+use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
+use sprag_shared::structure::error::ParameterError;
+use sprag_shared::structure::mount::Mount;
+use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
+
+pub use sprag_ensemble::alone::{CaseError, TIGHT};
+pub use sprag_ensemble::pulsed::PulseShape;
+use sprag_ensemble::pulsed::PulsedBlock;
+use sprag_loops::{IdealLoop, Method, Precision};
+
+use crate::accuracy::answer::{Answer, Comparable, answer};
+use crate::accuracy::{Accuracy, Compared};
+use sprag_shared::observers::outcome::Outcome;
+
+/// The columns of DESIGN section 5, resolved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Case {
+    /// Full or slender.
+    pub geometry: Geometry,
+    /// α, rad.
+    pub slenderness: f64,
+    /// The device, at the centre of mass.
+    pub device: DeviceKind,
+    /// σ.
+    pub mass_ratio: f64,
+    /// η.
+    pub restitution: f64,
+    /// Shape of the pulse.
+    pub pulse: PulseShape,
+    /// ω_g/p.
+    pub frequency_ratio: f64,
+    /// a_g/(g tan α), or a_g/(gα) for the slender model.
+    pub amplitude_ratio: f64,
+    /// How long the motion is followed after the pulse, in 1/p.
+    pub free_time: f64,
+    /// θ̇/(pα) below which an impact may end in rest.
+    pub rest_speed: f64,
+}
+
+/// What became of a case; times in 1/p from the pulse's start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CaseResult {
+    /// Outcome.
+    pub outcome: Outcome,
+    /// max |θ|/α.
+    pub peak_rotation: f64,
+    /// max |θ̈|/(p²α).
+    pub peak_acceleration: f64,
+    /// Impacts that came in with more than 1e-6 pα.
+    pub impacts: u32,
+    /// The first of them, if any.
+    pub first_impact_time: Option<f64>,
+    /// Rest, the proof of overturning, or the end of the free time.
+    pub end_time: f64,
+}
+
+impl Default for Case {
+    fn default() -> Case {
+        Case {
+            geometry: Geometry::Full,
+            slenderness: 20.0_f64.to_radians(),
+            device: DeviceKind::None,
+            mass_ratio: 0.5,
+            restitution: 0.85,
+            pulse: PulseShape::Sine,
+            frequency_ratio: 2.0,
+            amplitude_ratio: 2.0,
+            free_time: 60.0,
+            rest_speed: REST_SPEED,
+        }
+    }
+}
+
+impl Case {
+    /// The block and its device, in units of 1/p.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for a slenderness outside its range.
+    pub fn structure(&self) -> Result<Structure, ParameterError> {
+        Ok(Structure {
+            block: Block::of_unit_frequency(self.slenderness, RECTANGLE_INERTIA_RATIO)?,
+            geometry: self.geometry,
+            device: Device {
+                kind: self.device,
+                mass_ratio: self.mass_ratio,
+                mount: Mount::CentreOfMass,
+                kinematics: KinematicsKind::Paper,
+            },
+            added_mass: AddedMass::NONE,
+            restitution: Restitution::Constant(self.restitution),
+            rest_speed: self.rest_speed,
+        })
+    }
+
+    /// Runs the case by `method`.
+    ///
+    /// # Errors
+    /// [`CaseError`] for a parameter outside its range, or a motion that cannot be followed.
+    pub fn run(&self, method: &dyn IdealLoop<f64>) -> Result<CaseResult, CaseError> {
+        let structure = self.structure()?;
+        let system = structure.resolve::<f64>()?;
+        let amplitude = self.amplitude_ratio * system.uplift;
+        let pulse = match self.pulse {
+            PulseShape::Sine => Harmonics::sine(amplitude, self.frequency_ratio),
+            PulseShape::Cosine => Harmonics::cosine(amplitude, self.frequency_ratio),
+        };
+        let duration = core::f64::consts::TAU / self.frequency_ratio;
+        let mut state = BlockState::default();
+        let mut peaks = Peaks::default();
+        let limits = |bound| Limits { overturned: self.geometry.point_of_no_return(&structure.block, bound), events: 1_000_000 };
+        method.advance(&system, &mut state, &pulse, duration, &limits(amplitude.abs()), &mut peaks)?;
+        peaks.origin = duration;
+        method.advance(&system, &mut state, &Quiet, self.free_time, &limits(0.0), &mut peaks)?;
+        let outcome = Outcome::of(&state, &peaks);
+        Ok(CaseResult {
+            outcome,
+            peak_rotation: peaks.rotation / self.slenderness,
+            peak_acceleration: peaks.acceleration / self.slenderness,
+            impacts: state.impacts,
+            first_impact_time: peaks.first_counted_impact,
+            end_time: peaks.ended.unwrap_or(if peaks.rocked { duration + self.free_time } else { duration }),
+        })
+    }
+
+    /// Runs the case as accurately as asked, and tells the error.
+    ///
+    /// # Errors
+    /// Those of [`Case::run`].
+    pub fn answer(&self, accuracy: Accuracy) -> Result<Answer<CaseResult>, CaseError> {
+        answer(accuracy, |closeness| self.run(&*f64::ideal(Method::Adaptive(closeness.tolerance))))
+    }
+}
+
+impl Comparable for CaseResult {
+    type Outcome = Outcome;
+
+    fn compared(&self) -> Compared<Outcome> {
+        // The peaks of a block that overturns end with the proof that it does.
+        let peak = |value: f64| (!self.outcome.overturned()).then_some(value);
+        Compared {
+            outcome: self.outcome,
+            peak_rotation: peak(self.peak_rotation),
+            peak_acceleration: peak(self.peak_acceleration),
+            first_impact_time: self.first_impact_time,
+        }
+    }
+}
+
+impl From<&Case> for PulsedBlock {
+    fn from(case: &Case) -> PulsedBlock {
+        PulsedBlock {
+            geometry: case.geometry,
+            device: case.device,
+            slenderness: case.slenderness,
+            coupling: if case.device == DeviceKind::None { 0.0 } else { case.mass_ratio / RECTANGLE_INERTIA_RATIO },
+            restitution: case.restitution,
+            pulse: case.pulse,
+            frequency_ratio: case.frequency_ratio,
+            amplitude_ratio: case.amplitude_ratio,
+        }
+    }
+}

@@ -1,0 +1,151 @@
+use std::path::Path;
+
+use super::explanation::{Effects, Explanation};
+use super::*;
+
+const ALL: &str = include_str!("../../../../tests/fuzz/seeds/scene/effects.toml");
+
+fn scenes_page() -> String {
+    std::fs::read_to_string(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scenes.md"))).unwrap()
+}
+
+/// A key as the page of scenes spells it: within its table.
+fn on_the_page(key: &str) -> String {
+    let key = ["device.N.", "block."].iter().fold(key, |key, table| key.strip_prefix(table).unwrap_or(key));
+    format!("`{key}`")
+}
+
+#[test]
+fn every_effect_is_complete_and_has_a_name_of_its_own() {
+    for (index, effect) in EFFECTS.into_iter().enumerate() {
+        let Effect { name, summary, equation, source, keys, .. } = effect;
+        assert!(!summary.is_empty() && !equation.is_empty() && !source.is_empty() && !keys.is_empty(), "{name}");
+        assert!(keys.iter().all(|key| !key.default.is_empty() && !key.range.is_empty()), "{name}");
+        assert!(EFFECTS[..index].iter().all(|other| other.name != *name), "{name}");
+        assert_eq!(find(name).unwrap().name, *name);
+    }
+    assert!(find("magic").is_none());
+}
+
+#[test]
+fn every_key_is_on_the_page_of_scenes() {
+    let page = scenes_page();
+    for key in EFFECTS.into_iter().flat_map(|effect| effect.keys) {
+        assert!(page.contains(&on_the_page(key.key)), "{}", key.key);
+    }
+}
+
+/// What serde says that a table may hold.
+fn fields(scene: &str, table: &str) -> Vec<String> {
+    let message = Scene::parse_with(scene, "scene", &[format!("{table}unheard_of=1")]).unwrap_err().to_string();
+    assert!(message.contains("unknown field `unheard_of`"), "{message}");
+    message.split('`').skip(3).step_by(2).map(str::to_owned).collect()
+}
+
+#[test]
+fn every_key_of_a_scene_is_documented_and_those_of_effects_belong_to_one() {
+    let page = scenes_page();
+    let known: Vec<&str> = EFFECTS.into_iter().flat_map(|effect| effect.keys).map(|key| key.key).collect();
+    for table in ["device.3.clutch.", "device.0.flywheel.", "device.0.rack.", "device.3.actuation.", "device.0.weight."] {
+        for field in fields(ALL, table) {
+            let key = format!("device.N.{}{field}", &table["device.0.".len()..]);
+            assert!(known.contains(&key.as_str()), "{key} belongs to no effect");
+        }
+    }
+    for table in ["checks.", "checks.gear."] {
+        for field in fields(ALL, table).iter().filter(|field| *field != "gear") {
+            assert!(known.contains(&format!("{table}{field}").as_str()), "{table}{field} belongs to no effect");
+        }
+    }
+    for table in ["block.", "device.0.", "ground.0.", "vertical.0.", "run.", "accuracy.", "output."] {
+        for field in fields(ALL, table) {
+            let full = format!("`{table}{field}`");
+            assert!(page.contains(&format!("`{field}`")) || page.contains(&full), "{table}{field} is not on the page");
+        }
+    }
+}
+
+#[test]
+fn an_ideal_scene_turns_nothing_on_and_one_of_everything_turns_all_on() {
+    let near_fault = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/near_fault.toml"));
+    let ideal = Scene::load(near_fault, &[]).unwrap();
+    assert!(Effects::of_scene(&ideal).on.is_empty());
+    for index in 0..ideal.devices.len() {
+        assert!(Effects::of_device(&ideal, index).on.is_empty());
+        let text = text_of(&Explanation::of(&ideal, index));
+        assert!(text.contains("ideal: the device's state follows from the block's"), "{text}");
+    }
+    let scene = Scene::parse_with(ALL, "scene", &["block.geometry=slender".to_owned()]).unwrap();
+    let devices = (0..scene.devices.len()).flat_map(|index| Effects::of_device(&scene, index).on);
+    let on: Vec<_> = Effects::of_scene(&scene).on.into_iter().chain(devices).collect();
+    for effect in EFFECTS {
+        let setting = on.iter().find(|setting| setting.effect.name == effect.name);
+        let setting = setting.unwrap_or_else(|| panic!("{} is never on", effect.name));
+        assert!(setting.keys.contains(" = ") || effect.name == "vertical", "{}: {}", effect.name, setting.keys);
+    }
+}
+
+fn text_of(explanation: &Explanation) -> String {
+    explanation.sections.iter().flat_map(|section| &section.lines).map(|line| format!("{line}\n")).collect()
+}
+
+fn explained(index: usize, overrides: &[&str]) -> String {
+    let overrides: Vec<String> = overrides.iter().map(|item| (*item).to_owned()).collect();
+    text_of(&Explanation::of(&Scene::parse_with(ALL, "scene", &overrides).unwrap(), index))
+}
+
+#[test]
+fn the_equation_has_what_the_scene_asks_for() {
+    let bracket = "−(g/R) [ (1 + v̈_g/g) sin δ + (ü_g/g) cos δ ]";
+    for (index, equation) in [
+        (0, format!("(λ + σ ℓ²) θ̈ + σ ℓ ℓ′ θ̇² = {bracket} − ℓ (F_b + F_r)/(m R)\n")),
+        (1, format!("(λ + κ σ ℓ² + μ_g ℓ²) θ̈ + (κ σ + μ_g) ℓ ℓ′ θ̇² = {bracket} − μ_g ℓ ü_g/R\n")),
+        (2, format!("(λ + κ σ ℓ²) θ̈ + κ σ ℓ ℓ′ θ̇² = {bracket} − ℓ F_b/(m R)\n")),
+        (3, format!("(λ + κ σ ℓ²) θ̈ + κ σ ℓ ℓ′ θ̇² = {bracket} − ℓ (F₁ + F₂)/(m R)\n")),
+        (4, format!("λ θ̈ = {bracket} − ℓ (F₁ + F₂ + F_r)/(m R)\n")),
+    ] {
+        let text = explained(index, &[]);
+        assert!(text.starts_with(&equation), "{index}: {text}");
+    }
+    let slender = explained(2, &["block.geometry=slender", "vertical=[]"]);
+    assert!(slender.starts_with("(λ + κ σ ℓ²) θ̈ = −(g/R) [ δ + ü_g/g ] − ℓ F_b/(m R)\n"), "{slender}");
+}
+
+#[test]
+fn an_explanation_has_the_numbers_of_the_scene() {
+    for (index, words) in [
+        (
+            0,
+            &["λ = 1.3309", "alone: R = 2 m,  α = 10°", "σ = m_r/m = 0.4902", "c = 0.1 1/s", "stands still", "Runge-Kutta 4"][..],
+        ),
+        (1, &["μ_g = 0.005", "stopped at once", "exchange momentum", "with no flywheel"]),
+        (2, &["nobody commands it", "c = 0.2 1/s", "run on"]),
+        (3, &["F_c = 0.2 m g", "engages 0.01 s after", "capacity rises over 0.02 s", "probability 0.1; seed 7", "plates slip"]),
+        (4, &["K/m = 3677.5 1/s²", "z₀ = ±0.00025 m", "F_c = 0.20394 m g", "exponential midpoint, step 0.001 s"]),
+        (5, &["K/m = 250 1/s²", "no backlash", "device with memory"]),
+    ] {
+        let text = explained(index, &[]);
+        for word in words {
+            assert!(text.contains(word), "{index} must say `{word}`: {text}");
+        }
+    }
+}
+
+#[test]
+fn an_uplift_names_the_friction_that_holds_the_block() {
+    let near_fault = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/near_fault.toml"));
+    let uplift = |settings: &[&str]| {
+        let settings =
+            ["flywheel.dry_deceleration_m_s2=0.05"].iter().chain(settings).map(|setting| format!("device.2.{setting}"));
+        let scene = Scene::load(near_fault, &settings.collect::<Vec<_>>()).unwrap();
+        let text = text_of(&Explanation::of(&scene, 2));
+        text.lines().find(|line| line.contains("uplifts from rest")).unwrap().to_owned()
+    };
+    for held in [&[][..], &["clutch.capacity_ratio=0.1"], &["engagement=\"overrunning\""]] {
+        assert!(uplift(held).contains("+ σ d ℓ"), "{held:?}");
+    }
+    assert!(uplift(&["clutch.capacity_ratio=0.001"]).contains("+ F_c ℓ"));
+    for free in ["actuation.engagement_delay_s=0.01", "clutch={stiffness_ratio=1e3, capacity_ratio=0.1}"] {
+        assert!(!uplift(&[free]).contains(" + "), "{free}");
+    }
+}

@@ -1,0 +1,22 @@
+//! Simulation on the host: scenes and ground motions in, responses and closed loops through the shared core out. Nothing here starts a
+//! thread or reads a clock, so that it also runs where there is neither.
+//!
+//! - [`scene`], [`record`], [`ground_motion`], [`synthesis`]: what is simulated.
+//! - [`simulation`]: one scene, every device; [`batch`]: one dimensionless case; [`accuracy`]: as accurate as asked, and how accurate that is.
+//! - [`sensor`], [`closed_loop`]: the controller that is flashed, with the sensors and the plant that it has on the host.
+//! - [`effect`]: what a scene may ask for, and what follows from it; [`history`]: the response sampled in time; [`interrupt`]: a request to
+//!   stop.
+
+pub mod accuracy;
+pub mod batch;
+#[cfg(feature = "effects")]
+pub mod closed_loop;
+pub mod effect;
+pub mod ground_motion;
+pub mod history;
+pub mod interrupt;
+pub mod record;
+pub mod scene;
+pub mod sensor;
+pub mod simulation;
+pub mod synthesis;

@@ -1,0 +1,323 @@
+//! `[[device]]`: which device, where, and what is real about it.
+
+use serde::{Deserialize, Serialize};
+use sprag_shared::structure::added_mass::AddedMass;
+use sprag_shared::structure::block::Block;
+use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
+use sprag_shared::structure::drivetrain::Drivetrain;
+use sprag_shared::structure::inertance::{Flywheel, inertance_of_train};
+use sprag_shared::structure::mount::Mount;
+
+use super::drivetrain::{ActuationTable, ClutchTable, EngagementName, FlywheelLossesTable, RackTable};
+use super::error::SceneError;
+use super::schema::KeyOf;
+use super::weight::WeightTable;
+
+/// A device of a scene, every value within its range.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneDevice {
+    /// Its name in tables and legends.
+    pub name: String,
+    /// Kind, mass ratio, mount, kinematics.
+    pub device: Device,
+    /// What it has beyond the ideal device; [`Drivetrain::default`] without.
+    pub drivetrain: Drivetrain,
+    /// What of it rides on the block.
+    pub added_mass: AddedMass,
+}
+
+impl SceneDevice {
+    /// Resolves `table`, one of `all` of a scene with `block` of `block_mass` (kg); `key` names the keys of this table.
+    ///
+    /// # Errors
+    /// [`SceneError`] names the key.
+    pub(super) fn resolve(
+        table: &DeviceTable,
+        all: &[DeviceTable],
+        block: &Block,
+        block_mass: Option<f64>,
+        key: &KeyOf<'_>,
+    ) -> Result<SceneDevice, SceneError> {
+        let mut device = resolve_inerter(table, block_mass, key)?;
+        let (mut drivetrain, mut added_mass) = (Drivetrain::default(), AddedMass::NONE);
+        if device.kind != DeviceKind::None {
+            drivetrain = table.drivetrain(&device, block, block_mass, key)?;
+            if let Some(weight) = &table.weight {
+                (added_mass, drivetrain.rack.guided_mass_ratio) = weight.resolve(&device, block, block_mass, key)?;
+            }
+        }
+        if drivetrain.has_memory(device.kind) {
+            if table.kinematics == Some(KinematicsName::Paper) {
+                let reason =
+                    "flywheels with a speed of their own need consistent kinematics: the paper's rack would run away from them";
+                return Err(key("kinematics").conflict(reason));
+            }
+            device.kinematics = KinematicsKind::Consistent;
+        }
+        drivetrain.check().map_err(|error| key(&table.key_of(error.parameter)).range(error.value, error.range))?;
+        let name = table.name.clone().unwrap_or_else(|| default_name(table, all));
+        Ok(SceneDevice { name, device, drivetrain, added_mass })
+    }
+
+    /// Whether it is the ideal device of the paper, however mounted and whatever it weighs.
+    pub fn is_ideal(&self) -> bool {
+        self.drivetrain == Drivetrain::default()
+    }
+}
+
+/// `[[device]]`.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DeviceTable {
+    /// None, inerter or clutched pair.
+    pub kind: Kind,
+    /// Its name in tables and legends.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// σ.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_ratio: Option<f64>,
+    /// m_r, kg.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inertance_kg: Option<f64>,
+    /// A flywheel train (Eq. 9), the first on the rack.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flywheels: Option<Vec<FlywheelTable>>,
+    /// Where it is attached.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mount: Option<MountName>,
+    /// Height of a tying point above the base, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mount_height_m: Option<f64>,
+    /// Travel of the terminal over that of the point.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pulley_ratio: Option<f64>,
+    /// Paper or consistent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kinematics: Option<KinematicsName>,
+    /// How its flywheels are coupled, without a clutch's properties.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub engagement: Option<EngagementName>,
+    /// What slows its flywheels down.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flywheel: Option<FlywheelLossesTable>,
+    /// Its clutches' properties.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clutch: Option<ClutchTable>,
+    /// What its rack meets.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rack: Option<RackTable>,
+    /// What delays its clutches.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub actuation: Option<ActuationTable>,
+    /// What it weighs, and where.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weight: Option<WeightTable>,
+}
+
+impl DeviceTable {
+    /// The ideal device of this kind, at the centre of mass; without a mass ratio yet.
+    pub fn of(kind: Kind) -> DeviceTable {
+        DeviceTable {
+            kind,
+            name: None,
+            mass_ratio: None,
+            inertance_kg: None,
+            flywheels: None,
+            mount: None,
+            mount_height_m: None,
+            pulley_ratio: None,
+            kinematics: None,
+            engagement: None,
+            flywheel: None,
+            clutch: None,
+            rack: None,
+            actuation: None,
+            weight: None,
+        }
+    }
+}
+
+/// Kinds of devices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// No device.
+    None,
+    /// One inerter.
+    Inerter,
+    /// Two clutched inerters.
+    ClutchedPair,
+}
+
+impl Kind {
+    /// As scenes spell it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::None => "none",
+            Kind::Inerter => "inerter",
+            Kind::ClutchedPair => "clutched-pair",
+        }
+    }
+}
+
+impl From<Kind> for DeviceKind {
+    fn from(kind: Kind) -> DeviceKind {
+        match kind {
+            Kind::None => DeviceKind::None,
+            Kind::Inerter => DeviceKind::Inerter,
+            Kind::ClutchedPair => DeviceKind::ClutchedPair,
+        }
+    }
+}
+
+/// A flywheel and its pinion.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FlywheelTable {
+    /// kg.
+    pub mass_kg: f64,
+    /// m.
+    pub radius_m: f64,
+    /// m.
+    pub pinion_radius_m: f64,
+}
+
+impl FlywheelTable {
+    /// As the core has it.
+    pub fn wheel(&self) -> Flywheel {
+        Flywheel { mass: self.mass_kg, radius: self.radius_m, pinion_radius: self.pinion_radius_m }
+    }
+}
+
+/// Mounts of Figure 3.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MountName {
+    /// Horizontal at the centre of mass.
+    #[default]
+    CentreOfMass,
+    /// Horizontal at a height on the centre line.
+    TyingPoint,
+    /// Vertical at both base corners.
+    BaseCorners,
+}
+
+impl MountName {
+    /// As scenes spell it.
+    pub fn name(self) -> &'static str {
+        match self {
+            MountName::CentreOfMass => "centre-of-mass",
+            MountName::TyingPoint => "tying-point",
+            MountName::BaseCorners => "base-corners",
+        }
+    }
+}
+
+/// Paper or consistent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum KinematicsName {
+    /// Eq. 11.
+    Paper,
+    /// With the θ̇² term.
+    Consistent,
+}
+
+impl From<KinematicsName> for KinematicsKind {
+    fn from(name: KinematicsName) -> KinematicsKind {
+        match name {
+            KinematicsName::Paper => KinematicsKind::Paper,
+            KinematicsName::Consistent => KinematicsKind::Consistent,
+        }
+    }
+}
+
+/// A name for a device without one, among `all` devices of its scene.
+pub(super) fn default_name(table: &DeviceTable, all: &[DeviceTable]) -> String {
+    let kind = match table.kind {
+        Kind::None => "none",
+        Kind::Inerter => "inerter",
+        Kind::ClutchedPair => "clutched pair",
+    };
+    if all.iter().filter(|other| other.kind == table.kind && other.name.is_none()).count() < 2 {
+        return kind.to_owned();
+    }
+    // Several of a kind are told apart by what they differ in most often.
+    let position = all.iter().position(|other| std::ptr::eq(other, table)).unwrap_or(0);
+    match table.mass_ratio {
+        Some(ratio) => format!("{kind} {} (σ = {ratio})", position + 1),
+        None => format!("{kind} {}", position + 1),
+    }
+}
+
+/// The device itself: kind, mass ratio, mount and kinematics.
+///
+/// # Errors
+/// [`SceneError`] names the key.
+fn resolve_inerter(table: &DeviceTable, block_mass: Option<f64>, key: &KeyOf<'_>) -> Result<Device, SceneError> {
+    let kind = DeviceKind::from(table.kind);
+    if kind == DeviceKind::None {
+        let stray = [
+            ("mass_ratio", table.mass_ratio.is_some()),
+            ("inertance_kg", table.inertance_kg.is_some()),
+            ("flywheels", table.flywheels.is_some()),
+            ("mount", table.mount.is_some()),
+            ("mount_height_m", table.mount_height_m.is_some()),
+            ("pulley_ratio", table.pulley_ratio.is_some()),
+            ("kinematics", table.kinematics.is_some()),
+            ("engagement", table.engagement.is_some()),
+            ("flywheel", table.flywheel.is_some()),
+            ("clutch", table.clutch.is_some()),
+            ("rack", table.rack.is_some()),
+            ("actuation", table.actuation.is_some()),
+            ("weight", table.weight.is_some()),
+        ];
+        return match stray.iter().find(|(_, given)| *given) {
+            Some((name, _)) => Err(key(name).conflict("a device of kind \"none\" has no inerter")),
+            None => Ok(Device::NONE),
+        };
+    }
+    let mass = || block_mass.ok_or_else(|| key("inertance_kg").conflict("an inertance in kg needs block.mass_kg"));
+    let mass_ratio = match (table.mass_ratio, table.inertance_kg, &table.flywheels) {
+        (Some(ratio), None, None) => ratio,
+        (None, Some(inertance), None) => {
+            if inertance.is_nan() || inertance < 0.0 {
+                return Err(key("inertance_kg").range(inertance, "0 kg or more"));
+            }
+            inertance / mass()?
+        }
+        (None, None, Some(wheels)) => {
+            let train: Vec<Flywheel> = wheels.iter().map(FlywheelTable::wheel).collect();
+            inertance_of_train(&train).map_err(|error| key("flywheels").parameter(&error))? / mass()?
+        }
+        (None, None, None) => return Err(key("mass_ratio").missing("mass_ratio, inertance_kg or flywheels")),
+        _ => return Err(key("mass_ratio").conflict("give only one of mass_ratio, inertance_kg and flywheels")),
+    };
+    let mount = resolve_mount(table.mount.unwrap_or_default(), table.mount_height_m, table.pulley_ratio, key)?;
+    let kinematics = table.kinematics.map_or(KinematicsKind::Paper, KinematicsKind::from);
+    Ok(Device { kind, mass_ratio, mount, kinematics })
+}
+
+/// The mount of these keys; ranges are left to [`Mount::lever`].
+///
+/// # Errors
+/// [`SceneError`] names the key.
+pub fn resolve_mount(
+    mount: MountName,
+    height: Option<f64>,
+    pulley_ratio: Option<f64>,
+    key: &KeyOf<'_>,
+) -> Result<Mount, SceneError> {
+    let ratio = pulley_ratio.unwrap_or(1.0);
+    match (mount, height) {
+        (MountName::TyingPoint, Some(height)) => Ok(Mount::TyingPoint { height, pulley_ratio: ratio }),
+        (MountName::TyingPoint, None) => Err(key("mount_height_m").missing("the height of the tying point above the base, in m")),
+        (_, Some(_)) => Err(key("mount_height_m").conflict("only a mount of kind \"tying-point\" has a height")),
+        (MountName::BaseCorners, None) => Ok(Mount::BaseCorners { pulley_ratio: ratio }),
+        (MountName::CentreOfMass, None) if pulley_ratio.is_some() => {
+            Err(key("pulley_ratio").conflict("a pulley needs a mount of kind \"tying-point\" or \"base-corners\""))
+        }
+        (MountName::CentreOfMass, None) => Ok(Mount::CentreOfMass),
+    }
+}

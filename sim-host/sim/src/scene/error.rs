@@ -1,0 +1,158 @@
+//! What can be wrong with a scene.
+
+use sprag_shared::structure::error::{Number, ParameterError};
+
+/// A scene that cannot be read, in one line.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SceneError {
+    /// The file cannot be read.
+    #[error("{origin}: {message}")]
+    Unreadable {
+        /// File.
+        origin: String,
+        /// Why.
+        message: String,
+    },
+    /// The file is too large to be a scene.
+    #[error("{origin}: {bytes} bytes are too large for a scene; at most 1 MiB is read")]
+    TooLarge {
+        /// File.
+        origin: String,
+        /// Its size.
+        bytes: u64,
+    },
+    /// Not TOML, an unknown key, or a value of another kind.
+    #[error("{origin}{}: {message}", line.map_or_else(String::new, |line| format!(":{line}")))]
+    Syntax {
+        /// File.
+        origin: String,
+        /// Line, from 1.
+        line: Option<usize>,
+        /// What is wrong.
+        message: String,
+    },
+    /// A value outside its range.
+    #[error("{origin}: {key} is {value}, but must be {range}")]
+    Range {
+        /// File.
+        origin: String,
+        /// Key.
+        key: String,
+        /// Value.
+        value: String,
+        /// What it may be.
+        range: String,
+    },
+    /// A value that is needed.
+    #[error("{origin}: {key} is missing: {needed}")]
+    Missing {
+        /// File.
+        origin: String,
+        /// Key.
+        key: String,
+        /// What is needed.
+        needed: String,
+    },
+    /// Values that contradict each other.
+    #[error("{origin}: {key}: {reason}")]
+    Conflict {
+        /// File.
+        origin: String,
+        /// Key.
+        key: String,
+        /// Why.
+        reason: String,
+    },
+}
+
+/// The place of a value, from which errors about it are made.
+#[derive(Debug, Clone)]
+pub struct Key {
+    /// File.
+    pub origin: String,
+    /// Key, with dots.
+    pub key: String,
+}
+
+impl Key {
+    /// `value` is outside `range`.
+    pub fn range(self, value: f64, range: &str) -> SceneError {
+        SceneError::Range { origin: self.origin, key: self.key, value: Number(value).to_string(), range: range.to_owned() }
+    }
+
+    /// A parameter below this key is outside its range.
+    pub fn parameter(self, error: &ParameterError) -> SceneError {
+        let key = format!("{}: {}", self.key, error.parameter);
+        SceneError::Range { origin: self.origin, key, value: Number(error.value).to_string(), range: error.range.to_owned() }
+    }
+
+    /// Something is needed here.
+    pub fn missing(self, needed: &str) -> SceneError {
+        SceneError::Missing { origin: self.origin, key: self.key, needed: needed.to_owned() }
+    }
+
+    /// Something here contradicts something else.
+    pub fn conflict(self, reason: &str) -> SceneError {
+        SceneError::Conflict { origin: self.origin, key: self.key, reason: reason.to_owned() }
+    }
+
+    /// `value`, if finite and `allowed`.
+    ///
+    /// # Errors
+    /// [`SceneError::Range`] with `range`.
+    pub fn require(self, value: f64, allowed: bool, range: &str) -> Result<f64, SceneError> {
+        if allowed && value.is_finite() { Ok(value) } else { Err(self.range(value, range)) }
+    }
+}
+
+impl SceneError {
+    /// What is wrong with the key `path` ("" for the whole file), in the words of the TOML library, as one line; with the number of the line
+    /// where it is known.
+    pub fn syntax(origin: &str, line: Option<usize>, path: &str, message: &str) -> SceneError {
+        let message = one_line(message);
+        let path = dotted(path);
+        let message = match (in_words(&message), path.as_str()) {
+            (None, "" | ".") => message,
+            (None, path) => format!("{path}: {message}"),
+            (Some(words), "" | ".") => format!("the scene {words}"),
+            (Some(words), path) => format!("{path} {words}"),
+        };
+        SceneError::Syntax { origin: origin.to_owned(), line, message }
+    }
+}
+
+/// `device.1.kind` for `device[1].kind`, as `--set` and every other message have it.
+fn dotted(path: &str) -> String {
+    path.replace('[', ".").replace(']', "")
+}
+
+/// A complaint about the kind of a value, `invalid type: integer `5`, expected f64`, in the words of a person; `None` for any other.
+fn in_words(message: &str) -> Option<String> {
+    let (found, wanted) = message.strip_prefix("invalid type: ")?.split_once(", expected ")?;
+    let found = match found {
+        "map" => "a table".to_owned(),
+        "sequence" => "a list".to_owned(),
+        // What a choice of words says of any number.
+        "unit variant" => "no text".to_owned(),
+        other => ["string ", "integer ", "floating point ", "boolean "]
+            .iter()
+            .find_map(|kind| other.strip_prefix(kind))
+            .map_or_else(|| other.to_owned(), |value| value.trim_matches('`').to_owned()),
+    };
+    let wanted = match wanted {
+        "f64" => "a number",
+        "a string" | "path string" | "string only" => "a text in quotes",
+        "a sequence" => "a list; of tables name one by its number, from 0, as in --set ground.0.scale=2",
+        "a map" => "a table",
+        "a boolean" => "true or false",
+        _ if wanted.starts_with("struct ") => "a table",
+        _ if wanted.starts_with(['u', 'i']) && wanted[1..].parse::<u8>().is_ok() || wanted == "usize" => "a whole number",
+        other => other,
+    };
+    Some(format!("is {found}, but must be {wanted}"))
+}
+
+/// Folds a message into one line.
+pub fn one_line(message: &str) -> String {
+    message.split_whitespace().collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,122 @@
+//! The ground motion of a scene: its `[[ground]]` and `[[vertical]]` tables, read and summed.
+
+use std::path::Path;
+
+use super::Scene;
+use super::error::{Key, SceneError};
+use super::ground::{Direction, GroundError, GroundTable, Motion};
+use crate::ground_motion::{Component, GroundMotion};
+use crate::record::{Record, RecordSummary};
+
+const NEEDS_RECORD: &str = "a record from the command line needs a [[ground]] table with motion = \"record\"";
+
+/// How the ground moves, in both directions.
+#[derive(Clone, Debug)]
+pub struct GroundMotions {
+    /// ü_g.
+    pub horizontal: GroundMotion,
+    /// v̈_g, positive upwards, if the scene has one; its segments are those of the horizontal motion.
+    pub vertical: Option<GroundMotion>,
+    /// The records that were read for it, the vertical ones last.
+    pub records: Vec<RecordSummary>,
+}
+
+impl Scene {
+    /// Reads the records and sums the motions.
+    ///
+    /// # Errors
+    /// [`GroundError`] names the file and what is wrong with it, or the instant at which the vertical motion would take the
+    /// ground away from under the block (1 + v̈_g/g ≤ 0).
+    pub fn ground_motions(&self) -> Result<GroundMotions, GroundError> {
+        let mut records = Vec::new();
+        let horizontal = self.components(Direction::Horizontal, &mut records)?;
+        if self.file.vertical.is_empty() {
+            return Ok(GroundMotions { horizontal: GroundMotion::sum(&horizontal), vertical: None, records });
+        }
+        let vertical = self.components(Direction::Vertical, &mut records)?;
+        let [horizontal, vertical] = GroundMotion::aligned(&horizontal, &vertical);
+        let (lowest, time) = vertical.lowest();
+        if 1.0 + lowest <= 0.0 {
+            let [weight, time] = [1.0 + lowest, time].map(|value| (value * 1e4).round() / 1e4);
+            let reason = format!(
+                "the ground would fall away from the block (1 + v̈_g/g = {weight} at {time} s); lower an amplitude or a scale"
+            );
+            return Err(self.key("vertical").conflict(&reason).into());
+        }
+        Ok(GroundMotions { horizontal, vertical: Some(vertical), records })
+    }
+
+    /// What its record files hold.
+    ///
+    /// # Errors
+    /// [`GroundError`] names the file that cannot be read.
+    pub fn records(&self) -> Result<Vec<RecordSummary>, GroundError> {
+        let mut records = Vec::new();
+        self.components(Direction::Horizontal, &mut records)?;
+        self.components(Direction::Vertical, &mut records)?;
+        Ok(records)
+    }
+
+    /// The only record that shakes the block, before it is scaled; none where anything else does.
+    ///
+    /// # Errors
+    /// As of [`Scene::ground_motions`].
+    pub fn only_record(&self) -> Result<Option<Record>, GroundError> {
+        match (&self.file.ground[..], &self.file.vertical[..]) {
+            ([table], []) if table.motion == Motion::Record => {
+                table.record(&self.folder, Direction::Horizontal, &|key| self.key(&format!("ground.0.{key}"))).map(Some)
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// The horizontal one of [`Scene::ground_motions`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn ground_motion(&self) -> Result<GroundMotion, GroundError> {
+        Ok(self.ground_motions()?.horizontal)
+    }
+
+    /// Puts `file` in the place of the scene's record.
+    ///
+    /// # Errors
+    /// [`SceneError::Missing`] when the scene has no `[[ground]]` table of motion "record".
+    pub fn use_record(&mut self, file: &Path) -> Result<(), SceneError> {
+        let missing = self.key("ground").missing(NEEDS_RECORD);
+        replace_record(&mut self.file.ground, file).ok_or(missing)
+    }
+
+    /// Puts `file` in the place of the scene's vertical record.
+    ///
+    /// # Errors
+    /// [`SceneError::Missing`] when the scene has no `[[vertical]]` table of motion "record".
+    pub fn use_vertical_record(&mut self, file: &Path) -> Result<(), SceneError> {
+        let missing = self.key("vertical").missing("--record-vertical needs a [[vertical]] table with motion = \"record\"");
+        replace_record(&mut self.file.vertical, file).ok_or(missing)
+    }
+
+    fn components(&self, direction: Direction, records: &mut Vec<RecordSummary>) -> Result<Vec<Component>, GroundError> {
+        let (name, tables) = match direction {
+            Direction::Horizontal => ("ground", &self.file.ground),
+            Direction::Vertical => ("vertical", &self.file.vertical),
+        };
+        let components = tables.iter().enumerate().map(|(index, table)| {
+            let key = |key: &str| self.key(&format!("{name}.{index}.{key}"));
+            table.component(&self.block, self.uplift_threshold(), (&self.folder, direction), &key, records)
+        });
+        components.collect()
+    }
+
+    /// The place of `key`, for messages.
+    pub fn key(&self, key: &str) -> Key {
+        Key { origin: self.origin.clone(), key: key.to_owned() }
+    }
+}
+
+fn replace_record(tables: &mut [GroundTable], file: &Path) -> Option<()> {
+    let table = tables.iter_mut().find(|table| table.motion == Motion::Record)?;
+    table.file = Some(file.to_owned());
+    table.of_command_line = true;
+    Some(())
+}

@@ -1,0 +1,119 @@
+use sprag_shared::structure::added_mass::AddedMass;
+use sprag_shared::structure::device::KinematicsKind;
+use sprag_shared::structure::mount::Mount;
+
+use super::*;
+
+const SCENE: &str = r#"
+title = "a test"
+[block]
+size_m = 2.0
+slenderness_deg = 10.0
+[[device]]
+kind = "none"
+[[device]]
+kind = "clutched-pair"
+mass_ratio = 0.5
+[[ground]]
+motion = "sine"
+amplitude_ratio = 2.0
+frequency_ratio = 3.0
+"#;
+
+fn refused(overrides: &[&str]) -> String {
+    let overrides: Vec<String> = overrides.iter().map(|item| (*item).to_owned()).collect();
+    let message = Scene::parse_with(SCENE, "scene.toml", &overrides).expect_err("must be refused").to_string();
+    assert!(!message.contains('\n'), "one line: {message}");
+    assert!(message.starts_with("scene.toml"), "names the file: {message}");
+    message
+}
+
+#[test]
+fn defaults_are_the_papers() {
+    let scene = Scene::parse(SCENE, "scene.toml").unwrap();
+    assert_eq!(scene.restitution, Restitution::Constant(0.85));
+    assert_eq!(scene.geometry(), Geometry::Full);
+    assert!((scene.block.inertia_ratio() - 4.0 / 3.0).abs() < 1e-15);
+    let [none, pair] = scene.devices.as_slice() else { panic!("two devices") };
+    assert_eq!((none.name.as_str(), pair.name.as_str()), ("none", "clutched pair"));
+    assert_eq!((pair.device.mount, pair.device.kinematics), (Mount::CentreOfMass, KinematicsKind::Paper));
+    assert!(none.is_ideal() && pair.is_ideal() && none.added_mass == AddedMass::NONE && pair.added_mass == AddedMass::NONE);
+}
+
+#[test]
+fn an_error_names_the_key_the_value_and_what_it_may_be() {
+    for (item, key, range) in [
+        ("block.slenderness_deg=90", "block.slenderness_deg is 90", "below 90 degrees"),
+        ("block.slenderness_deg=nan", "block.slenderness_deg is NaN", "below 90 degrees"),
+        ("block.restitution=1.1", "block.restitution is 1.1", "from 0 to 1"),
+        ("block.restitution=bouncy", "block.restitution is \"bouncy\"", "geometric"),
+        ("block.mass_kg=-3", "block.mass_kg is -3", "above 0 kg"),
+        ("block.size_m=0", "block.size_m is 0", "from 0.001"),
+        ("device.1.mass_ratio=-0.5", "mass_ratio is -0.5", "from 0 to 10000"),
+        ("ground.0.frequency_ratio=0", "ground.0.frequency_ratio is 0", "from 0.001"),
+        ("accuracy.tolerance=1", "accuracy.tolerance is 1", "from 1e-20"),
+        ("run.rest_speed_ratio=0.5", "run.rest_speed_ratio is 0.5", "from 1e-12"),
+    ] {
+        let message = refused(&[item]);
+        assert!(message.contains(key) && message.contains(range), "{item}: {message}");
+    }
+}
+
+#[test]
+fn unknown_keys_and_wrong_kinds_are_refused() {
+    for item in ["block.weight=3", "colour=red", "block.size_m=long", "device.0.kind=damper", "ground.0.motion=square"] {
+        refused(&[item]);
+    }
+    let message =
+        Scene::parse(&SCENE.replace("size_m = 2.0", "size_m = 2.0\nsize_ft = 6"), "scene.toml").unwrap_err().to_string();
+    assert!(message.starts_with("scene.toml:5: block") && message.contains("unknown field `size_ft`"), "{message}");
+}
+
+#[test]
+fn contradictions_are_refused_with_the_reason() {
+    for (items, reason) in [
+        (&["device.0.mass_ratio=0.5"][..], "has no inerter"),
+        (&["block.frequency_parameter_1_s=2"], "only one of"),
+        (&["device.1.inertance_kg=100"], "only one of"),
+        (&["ground.0.amplitude_g=0.3"], "only one of"),
+        (&["ground.0.duration_s=1"], "no such key"),
+        (&["device.1.mount=tying-point"], "height"),
+        (&["device.1.mount_height_m=2"], "tying-point"),
+        (&["accuracy.method=runge-kutta-4"], "step"),
+        (&["accuracy.precision=f32"], "fixed step"),
+        (&["accuracy.events=step-end"], "step-end"),
+        (&["run.free_time_s=1", "run.free_time_ratio=1"], "only one of"),
+        (&["ground=[]"], "free rocking"),
+        (&["device=[]"], "at least one"),
+    ] {
+        let message = refused(items);
+        assert!(message.contains(reason), "{items:?}: {message}");
+    }
+}
+
+#[test]
+fn a_flywheel_train_gives_the_mass_ratio_of_equation_8() {
+    let text = SCENE.replace("mass_ratio = 0.5", "flywheels = [{ mass_kg = 3.0, radius_m = 0.4, pinion_radius_m = 0.1 }]");
+    let message = Scene::parse(&text, "scene.toml").unwrap_err().to_string();
+    assert!(message.contains("needs block.mass_kg"), "{message}");
+    let scene = Scene::parse_with(&text, "scene.toml", &["block.mass_kg=48".to_owned()]).unwrap();
+    // ½ · 3 · (0.4/0.1)² / 48 = 0.5.
+    assert!((scene.devices[1].device.mass_ratio - 0.5).abs() < 1e-15);
+}
+
+#[test]
+fn every_scene_of_the_repository_is_read() {
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes"));
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        // Studies are not scenes.
+        let is_study = path.ends_with("cloud.toml") || path.ends_with("optimise.toml");
+        if !is_study && path.extension().is_some_and(|extension| extension == "toml") {
+            let scene = Scene::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
+            assert!(!scene.file.title.is_empty(), "{}", path.display());
+            count += 1;
+        }
+    }
+    assert!(count >= 8, "{count} scenes");
+}

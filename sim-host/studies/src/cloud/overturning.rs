@@ -1,0 +1,223 @@
+//! Fragilities: the probability of overturning of each structure and device.
+
+use serde::Serialize;
+
+use super::measure::Measure;
+use super::runs::Run;
+use crate::statistics::{
+    Bootstrap, BootstrapError, Fragility, FragilityBands, FragilityError, Observation, fragility, fragility_bands,
+};
+
+/// Intensities at which a curve and its band are drawn.
+const CURVE_POINTS: u32 = 120;
+
+/// The fragility of one structure and device (Eq. 26).
+#[derive(Clone, Debug, Serialize)]
+pub struct DeviceFragility {
+    /// Number of the structure.
+    #[serde(skip)]
+    pub structure_index: usize,
+    /// The structure.
+    pub structure: String,
+    /// Number of the device.
+    #[serde(skip)]
+    pub device_index: usize,
+    /// The device.
+    pub device: String,
+    /// IM.
+    pub measure: Measure,
+    /// Runs in it.
+    pub runs: usize,
+    /// Those that overturned.
+    pub overturned: usize,
+    /// Runs that failed, and are not in it.
+    pub failed: usize,
+    /// Runs without a value of the measure, and not in it.
+    pub zero: usize,
+    /// The curve, or what the runs say instead.
+    pub fragility: Fragility,
+    /// Why there is no curve, in words.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// Its bands; null without a curve.
+    pub bands: Option<FragilityBands>,
+    /// Probability of overturning at the intensities at which it is 0.1 and 0.5 with the first device; null for that one.
+    pub at_first: Option<[f64; 2]>,
+    /// Its median over that of the first device; null for that one.
+    pub median_ratio: Option<f64>,
+    /// What it was fitted to.
+    #[serde(skip)]
+    pub observations: Vec<Observation>,
+}
+
+/// Why there is neither a curve nor a reason for having none.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum OverturningError {
+    /// The fit.
+    #[error("fragility of {structure}, {device}: {error}")]
+    Fit {
+        /// Structure.
+        structure: String,
+        /// Device.
+        device: String,
+        /// Why.
+        error: Box<FragilityError>,
+    },
+    /// Its bands.
+    #[error("fragility of {structure}, {device}: {error}")]
+    Bands {
+        /// Structure.
+        structure: String,
+        /// Device.
+        device: String,
+        /// Why.
+        error: Box<BootstrapError>,
+    },
+}
+
+impl DeviceFragility {
+    /// That of `runs`, which are all those of structure and device number `structure.0` and `device.0`; `None` if none of them
+    /// has a value of the measure. `highest` is where its band ends.
+    ///
+    /// # Errors
+    /// [`OverturningError`]; not known to happen.
+    pub fn fit(
+        runs: &[&Run],
+        structure: (usize, &str),
+        device: (usize, &str),
+        measure: Measure,
+        bootstrap: Bootstrap,
+        highest: f64,
+    ) -> Result<Option<DeviceFragility>, OverturningError> {
+        let (mut failed, mut zero) = (0, 0);
+        let mut observations = Vec::new();
+        for run in runs {
+            let intensity = run.measure(measure);
+            match &run.answer {
+                Err(_) => failed += 1,
+                Ok(answer) if intensity > 0.0 => {
+                    observations.push(Observation { intensity, overturned: answer.outcome.overturned().into(), of: 1 });
+                }
+                Ok(_) => zero += 1,
+            }
+        }
+        if observations.is_empty() {
+            return Ok(None);
+        }
+        let names = || (structure.1.to_owned(), device.1.to_owned());
+        let fragility = fragility(&observations).map_err(|error| {
+            let (structure, device) = names();
+            OverturningError::Fit { structure, device, error: Box::new(error) }
+        })?;
+        let intensities: Vec<f64> = (1..=CURVE_POINTS).map(|k| highest * f64::from(k) / f64::from(CURVE_POINTS)).collect();
+        let bands = match fragility {
+            Fragility::Estimated(_) => Some(fragility_bands(&observations, &intensities, bootstrap).map_err(|error| {
+                let (structure, device) = names();
+                OverturningError::Bands { structure, device, error: Box::new(error) }
+            })?),
+            _ => None,
+        };
+        Ok(Some(DeviceFragility {
+            structure_index: structure.0,
+            structure: structure.1.to_owned(),
+            device_index: device.0,
+            device: device.1.to_owned(),
+            measure,
+            runs: observations.len(),
+            overturned: observations.iter().map(|observation| observation.overturned as usize).sum(),
+            failed,
+            zero,
+            reason: fragility.reason(),
+            fragility,
+            bands,
+            at_first: None,
+            median_ratio: None,
+            observations,
+        }))
+    }
+
+    /// Intensity and share of overturned runs of each stripe; `None` where most intensities have a single run, as in a cloud.
+    pub fn shares(&self) -> Option<Vec<(f64, f64)>> {
+        let mut all = self.observations.clone();
+        all.sort_by(|one, other| one.intensity.total_cmp(&other.intensity));
+        // A level is met to within rounding.
+        let stripes = all.chunk_by(|one, other| other.intensity <= one.intensity * (1.0 + 1e-9));
+        let share = |stripe: &[Observation]| {
+            let overturned: u32 = stripe.iter().map(|observation| observation.overturned).sum();
+            (stripe[0].intensity, f64::from(overturned) / stripe.len() as f64)
+        };
+        let shares: Vec<(f64, f64)> = stripes.map(share).collect();
+        (all.len() >= 2 * shares.len()).then_some(shares)
+    }
+
+    /// Puts it beside `first`, the fragility of the same structure with the first device.
+    pub fn compare(&mut self, first: &DeviceFragility) {
+        if let (Some(curve), Some(first)) = (self.fragility.curve(), first.fragility.curve()) {
+            self.at_first = Some([0.1, 0.5].map(|probability| curve.probability(first.intensity(probability))));
+            self.median_ratio = Some(curve.median / first.median);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cloud::runs::Answer;
+    use crate::statistics::Level;
+    use sprag_shared::observers::outcome::Outcome;
+
+    fn runs(outcomes: &[(f64, bool)]) -> Vec<Run> {
+        let run = |(record, &(intensity, overturned)): (usize, &(f64, bool))| Run {
+            structure: 0,
+            record,
+            device: 0,
+            factor: 1.0,
+            level: None,
+            measures: [intensity; Measure::COUNT],
+            answer: Ok(Answer {
+                outcome: if overturned { Outcome::OverturnedAfterImpact } else { Outcome::NoRocking },
+                peak_rotation: (!overturned).then_some(0.0),
+                peak_acceleration: (!overturned).then_some(0.0),
+                impacts: 0,
+                end_time_s: 0.0,
+                error: None,
+            }),
+        };
+        outcomes.iter().enumerate().map(run).collect()
+    }
+
+    fn fit(runs: &[Run]) -> Option<DeviceFragility> {
+        let all: Vec<&Run> = runs.iter().collect();
+        let bootstrap = Bootstrap { resamples: 50, seed: 1, level: Level::COMMON };
+        DeviceFragility::fit(&all, (0, "pier"), (0, "none"), Measure::Pgv, bootstrap, 4.0).unwrap()
+    }
+
+    #[test]
+    fn blocks_that_do_not_rock_count_as_standing() {
+        let outcomes = [(0.5, false), (1.0, false), (1.5, true), (2.0, false), (2.5, true), (3.0, true)];
+        let mut all = runs(&outcomes);
+        all.push(Run { answer: Err("it failed".to_owned()), ..all[0].clone() });
+        all.push(Run { measures: [0.0; Measure::COUNT], ..all[0].clone() });
+        let mut found = fit(&all).unwrap();
+        assert_eq!((found.runs, found.overturned, found.failed, found.zero), (6, 3, 1, 1));
+        assert_eq!(found.bands.as_ref().unwrap().curve.len(), CURVE_POINTS as usize);
+        found.compare(&found.clone());
+        assert_eq!(found.median_ratio, Some(1.0));
+        let [tenth, half] = found.at_first.unwrap();
+        assert!((tenth - 0.1).abs() < 1e-12 && (half - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn stripes_have_shares_and_clouds_none() {
+        let found = fit(&runs(&[(2.0, true), (1.0, false), (2.0, false), (1.0, false), (2.0, true), (3.0, true)])).unwrap();
+        assert_eq!(found.shares(), Some(vec![(1.0, 0.0), (2.0, 2.0 / 3.0), (3.0, 1.0)]));
+        assert_eq!(fit(&runs(&[(1.0, false), (2.0, true), (3.0, false)])).unwrap().shares(), None);
+    }
+
+    #[test]
+    fn a_block_that_never_overturns_has_a_reason_and_no_curve() {
+        let found = fit(&runs(&[(0.5, false), (1.0, false)])).unwrap();
+        assert!(found.bands.is_none() && found.reason.unwrap().starts_with("none of 2 runs overturned"));
+        assert!(fit(&[]).is_none());
+    }
+}

@@ -1,0 +1,204 @@
+//! The records of a study: files named one by one, and those of folders.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use rayon::prelude::*;
+use sprag_sim::ground_motion::{self, GroundMotion};
+use sprag_sim::record::{Component, ReadOptions, Record, RecordSummary, STANDARD_GRAVITY_M_S2, Warning, warning_lines};
+use sprag_sim::scene::SceneError;
+use sprag_sim::scene::error::Key;
+use sprag_sim::scene::motions::GroundMotions;
+
+use super::folder;
+use super::measure::MeasuredRecord;
+use super::study::{Study, check_record};
+use super::study_file::{DescribedRecord, RecordEntry};
+
+/// A record of a study.
+#[derive(Clone, Debug)]
+pub struct StudyRecord {
+    /// As tables print it: its path below the folder that was named, or the name of the file; its whole path where others are
+    /// called so too.
+    pub name: String,
+    /// The record and its measures.
+    pub motion: MeasuredRecord,
+}
+
+impl StudyRecord {
+    /// The record times `factor` as a ground motion that starts at `start_s`.
+    pub fn ground(&self, factor: f64, start_s: f64) -> GroundMotions {
+        let Record { acceleration_m_s2, time_step_s, .. } = &self.motion.record;
+        let samples = acceleration_m_s2.iter().map(|a| factor * a / STANDARD_GRAVITY_M_S2);
+        let component = ground_motion::Component::record(start_s, *time_step_s, samples);
+        GroundMotions { horizontal: GroundMotion::sum(&[component]), vertical: None, records: Vec::new() }
+    }
+}
+
+/// The records of a study, and what could not be read.
+#[derive(Clone, Debug, Default)]
+pub struct StudyRecords {
+    /// By the order in the study, within a folder by path.
+    pub records: Vec<StudyRecord>,
+    /// One line for each file or folder without a record; names the file.
+    pub unreadable: Vec<String>,
+    /// One line for each folder in which something was passed over.
+    pub passed_over: Vec<String>,
+}
+
+/// A file to be read.
+struct Source {
+    name: String,
+    path: PathBuf,
+    options: ReadOptions,
+}
+
+impl StudyRecords {
+    /// Reads the records of `study`, on rayon's threads. A file that is named twice counts once.
+    ///
+    /// # Errors
+    /// [`SceneError`] for units or a time step of an entry outside their range; a file that cannot be read is among
+    /// [`StudyRecords::unreadable`].
+    pub fn read(study: &Study) -> Result<StudyRecords, SceneError> {
+        let mut found = StudyRecords::default();
+        let mut sources = sources(study, &mut found)?;
+        let mut seen = BTreeSet::new();
+        sources.retain(|source| seen.insert(std::fs::canonicalize(&source.path).unwrap_or_else(|_| source.path.clone())));
+        let same = |name: &str| sources.iter().filter(|source| source.name == name).count() > 1;
+        let named = |source: &Source| if same(&source.name) { folder::shown(&source.path) } else { source.name.clone() };
+        let names: Vec<String> = sources.iter().map(named).collect();
+        let read: Vec<_> = sources.par_iter().map(|source| Record::read(&source.path, &source.options)).collect();
+        for (name, record) in names.into_iter().zip(read) {
+            match record {
+                Ok(record) => found.records.push(StudyRecord { name, motion: record.as_horizontal().into() }),
+                Err(error) => found.unreadable.push(match error.key() {
+                    Some(key) => format!("{error}, or record.{key} in {}", study.origin),
+                    None => error.to_string(),
+                }),
+            }
+        }
+        Ok(found)
+    }
+
+    /// The records as summaries have them.
+    pub fn summaries(&self) -> Vec<RecordSummary> {
+        self.records.iter().map(|record| RecordSummary::of(&record.motion.record, &record.name)).collect()
+    }
+
+    /// What a person should look at, in a few lines.
+    pub fn warnings(&self) -> Vec<String> {
+        let is_vertical = |warning: &Warning| matches!(warning, Warning::VerticalComponent { .. });
+        let mut lines = self.passed_over.clone();
+        let vertical = self.records.iter().filter(|record| record.motion.record.warnings.iter().any(is_vertical));
+        let vertical: Vec<&str> = vertical.map(|record| record.name.as_str()).collect();
+        if !vertical.is_empty() {
+            lines.push(format!(
+                "vertical components by their names or headers, taken as horizontal motions: {} of {} records: {}",
+                vertical.len(),
+                self.records.len(),
+                folder::first_of(&vertical)
+            ));
+        }
+        let mut others = self.summaries();
+        for (summary, record) in others.iter_mut().zip(&self.records) {
+            // Said above, and the last of a record's warnings.
+            let kept = record.motion.record.warnings.iter().filter(|warning| !is_vertical(warning));
+            summary.warnings = kept.map(ToString::to_string).collect();
+        }
+        lines.extend(warning_lines(&others));
+        lines
+    }
+}
+
+/// The files of `study`; what is no file, and folders without any, are noted in `found`.
+fn sources(study: &Study, found: &mut StudyRecords) -> Result<Vec<Source>, SceneError> {
+    let mut sources = Vec::new();
+    for (index, entry) in study.file.records.iter().enumerate() {
+        let mut options = study.reading.clone();
+        let path = match entry {
+            RecordEntry::Path(path) => path,
+            RecordEntry::Described(DescribedRecord { file, units, time_step_s, component }) => {
+                let key = |key: &str| Key { origin: study.origin.clone(), key: key.to_owned() };
+                check_record(units.as_deref(), *time_step_s, &format!("records.{index}"), &key)?;
+                options.units = units.as_ref().and_then(|units| units.parse().ok()).or(options.units);
+                options.time_step_s = time_step_s.or(options.time_step_s);
+                options.component = component.as_deref().map(Component::from).or(options.component);
+                file
+            }
+        };
+        let path = study.folder.join(path);
+        if !path.is_dir() {
+            let name = path.file_name().map_or_else(|| folder::shown(&path), |name| name.to_string_lossy().into_owned());
+            sources.push(Source { name, path, options });
+            continue;
+        }
+        let inside = folder::search(&path);
+        found.passed_over.extend(inside.passed_over_line(&path));
+        if inside.files.is_empty() && inside.unreadable.is_empty() {
+            found.unreadable.push(format!("{}: no file in it ends in {}", path.display(), folder::ENDINGS.join(", ")));
+        }
+        found.unreadable.extend(inside.unreadable);
+        for file in inside.files {
+            let name = folder::shown(file.strip_prefix(&path).unwrap_or(&file));
+            sources.push(Source { name, path: file, options: options.clone() });
+        }
+    }
+    Ok(sources)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::cloud::study_file::RecordTable;
+
+    fn study(folder: &Path, records: &str) -> Study {
+        Study::parse(&format!("records = {records}"), "study.toml", folder, &[], &[]).unwrap()
+    }
+
+    fn names(found: &StudyRecords) -> Vec<&str> {
+        found.records.iter().map(|record| record.name.as_str()).collect()
+    }
+
+    #[test]
+    fn folders_are_searched_and_files_are_read_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        std::fs::create_dir_all(at("a/deeper")).unwrap();
+        std::fs::create_dir_all(at("empty")).unwrap();
+        for name in ["a/2.csv", "a/1.csv", "a/deeper/1.csv", "b.csv", "a/.hidden.csv"] {
+            std::fs::write(at(name), "time_s,acc_g\n0,0\n0.01,0.1\n0.02,0.2\n").unwrap();
+        }
+        std::fs::write(at("a/README.md"), "not a record").unwrap();
+        std::fs::write(at("a/broken.csv"), "no numbers").unwrap();
+        let found = StudyRecords::read(&study(folder.path(), "['a', 'b.csv', 'a/1.csv', 'empty', 'gone.csv']")).unwrap();
+        assert_eq!(names(&found), ["1.csv", "2.csv", "deeper/1.csv", "b.csv"]);
+        assert_eq!(found.unreadable.len(), 3, "{:?}", found.unreadable);
+        for part in ["empty: no file in it", "broken.csv", "gone.csv"] {
+            assert!(found.unreadable.iter().any(|line| line.contains(part) && !line.contains('\n')), "{part}");
+        }
+        // Two of one name are told apart.
+        let found = StudyRecords::read(&study(folder.path(), "['a/1.csv', 'a/deeper/1.csv']")).unwrap();
+        assert!(names(&found)[0].ends_with("/a/1.csv") && names(&found)[1].ends_with("/a/deeper/1.csv"));
+    }
+
+    #[test]
+    fn what_a_file_does_not_say_comes_from_its_entry_or_the_study() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("plain.g3"), "0 1 2 1 0").unwrap();
+        let of = |records: &str| StudyRecords::read(&study(folder.path(), records)).unwrap();
+        assert_eq!(of("['plain.g3']").records.len(), 0);
+        let described = of("[{ file = 'plain.g3', units = 'm/s2', time_step_s = 0.02 }]");
+        assert_eq!(described.records[0].motion.record.time_step_s, 0.02);
+        let mut told = study(folder.path(), "['plain.g3']");
+        let units = Some("m/s2".to_owned());
+        told.apply_record_options(&RecordTable { units, time_step_s: Some(0.02), ..RecordTable::default() });
+        assert_eq!(StudyRecords::read(&told).unwrap().records[0].motion.record, described.records[0].motion.record);
+        let of_all = of("['plain.g3']\n[record]\nunits = 'm/s2'\ntime_step_s = 0.02");
+        assert_eq!(of_all.records[0].motion.record, described.records[0].motion.record);
+        let study = study(folder.path(), "[{ file = 'plain.g3', units = 'furlongs' }]");
+        let error = StudyRecords::read(&study).unwrap_err().to_string();
+        assert_eq!(error, "study.toml: records.0.units is \"furlongs\", but must be g, m/s2, cm/s2 (gal), mm/s2, in/s2, ft/s2");
+    }
+}

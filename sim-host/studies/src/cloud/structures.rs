@@ -1,0 +1,91 @@
+//! The structures of a study: its scene, changed as each of them says.
+
+use std::path::Path;
+
+use serde::Serialize;
+use sprag_sim::scene::error::Key;
+use sprag_sim::scene::ground::Motion;
+use sprag_sim::scene::schema::SceneFile;
+use sprag_sim::scene::{Scene, SceneError};
+
+use super::measure::BlockScales;
+use super::study::StudyError;
+use super::study_file::StudyFile;
+
+/// The scene of a study that names none.
+const PIER: &str = include_str!("../../../../scenes/record.toml");
+
+/// Most structures of a study.
+pub const MOST_STRUCTURES: usize = 64;
+
+/// A structure of a study.
+#[derive(Clone, Debug, Serialize)]
+pub struct StudyStructure {
+    /// Its name.
+    pub name: String,
+    /// What its measures are relative to.
+    #[serde(flatten)]
+    pub scales: BlockScales,
+    /// As resolved.
+    #[serde(rename = "scene", serialize_with = "file_of")]
+    pub scene: Scene,
+}
+
+fn file_of<S: serde::Serializer>(scene: &Scene, serializer: S) -> Result<S::Ok, S::Error> {
+    SceneFile::serialize(&scene.file, serializer)
+}
+
+/// The structures of `file`, a study called `origin` in `folder`.
+///
+/// # Errors
+/// [`StudyError`] names the scene, or the structure and what its scene may be.
+pub(super) fn structures(
+    file: &StudyFile,
+    origin: &str,
+    folder: &Path,
+    overrides: &[String],
+) -> Result<Vec<StudyStructure>, StudyError> {
+    let key = |key: &str| Key { origin: origin.to_owned(), key: key.to_owned() };
+    let load = |overrides: &[String]| match &file.scene {
+        Some(path) => Scene::load(&folder.join(path), overrides),
+        None => Scene::parse_with(PIER, "the scene of a study that names none", overrides),
+    };
+    let base = load(overrides)?;
+    if file.structure.is_empty() {
+        let name = if base.file.title.is_empty() { "scene".to_owned() } else { base.file.title.clone() };
+        return Ok(vec![structure(name, base)?]);
+    }
+    if file.structure.len() > MOST_STRUCTURES {
+        return Err(key("structure").range(file.structure.len() as f64, "at most 64 tables").into());
+    }
+    let mut structures: Vec<StudyStructure> = Vec::new();
+    for (index, table) in file.structure.iter().enumerate() {
+        if table.name.is_empty() || structures.iter().any(|other| other.name == table.name) {
+            let reason = "each structure needs a name of its own";
+            return Err(key(&format!("structure.{index}.name")).conflict(reason).into());
+        }
+        let mut all = overrides.to_vec();
+        all.extend(table.set.iter().map(|(key, value)| format!("{key}={value}")));
+        let of_structure = |error| StudyError::Structure { origin: origin.to_owned(), index, error: Box::new(error) };
+        let scene = load(&all).map_err(of_structure)?;
+        structures.push(structure(table.name.clone(), scene).map_err(of_structure)?);
+    }
+    Ok(structures)
+}
+
+/// A structure, if the records of a study can be its ground motion.
+fn structure(name: String, scene: Scene) -> Result<StudyStructure, SceneError> {
+    let key = |key: &str| Key { origin: scene.origin.clone(), key: key.to_owned() };
+    let ground = &scene.file.ground;
+    if ground.len() != 1 || ground[0].motion != Motion::Record {
+        let reason = "a study shakes by its records: the scene needs one [[ground]] table, with motion = \"record\"";
+        return Err(key("ground").conflict(reason));
+    }
+    if ground[0].scale != 1.0 {
+        return Err(key("ground.0.scale").conflict("factors on records belong into the study"));
+    }
+    if !scene.file.vertical.is_empty() {
+        return Err(key("vertical").conflict("the records of a study are horizontal"));
+    }
+    Ok(StudyStructure { name, scales: BlockScales::of(&scene), scene })
+}

@@ -1,0 +1,259 @@
+//! A study whose every value is within its range: its structures, and how records are scaled.
+
+use std::path::{Path, PathBuf};
+
+use sprag_sim::record::{Component, ReadOptions, TIME_STEP_RANGE_S, Units};
+use sprag_sim::scene::error::Key;
+use sprag_sim::scene::{Scene, SceneError, document, text_of};
+
+use super::measure::{LARGEST_FACTOR, Measure};
+use super::structures::{StudyStructure, structures};
+use super::study_file::{RecordEntry, RecordTable, StudyFile};
+use crate::statistics::bootstrap::MOST_RESAMPLES;
+use crate::statistics::{Bootstrap, Level};
+
+/// Most factors or levels of a study.
+pub const MOST_SCALES: usize = 1000;
+
+/// A study.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// As written, with defaults filled in.
+    pub file: StudyFile,
+    /// Where it was read from, for messages.
+    pub origin: String,
+    /// Folder that its paths are relative to.
+    pub folder: PathBuf,
+    /// What is shaken.
+    pub structures: Vec<StudyStructure>,
+    /// Names of the devices, the same for every structure.
+    pub devices: Vec<String>,
+    /// By how much.
+    pub scaling: Scaling,
+    /// How bands are found.
+    pub bootstrap: Bootstrap,
+    /// What record files do not say themselves.
+    pub reading: ReadOptions,
+}
+
+/// By how much records are scaled.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Scaling {
+    /// Every record by each of these.
+    Factors(Vec<f64>),
+    /// Every record to each of these levels of a measure.
+    Levels(Measure, Vec<f64>),
+}
+
+/// A study that cannot be run, in one line.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum StudyError {
+    /// The study file itself, or its scene.
+    #[error("{0}")]
+    File(#[from] SceneError),
+    /// The scene does not take the changes of a structure.
+    #[error("{origin}: structure.{index}.set: {error}")]
+    Structure {
+        /// Study file.
+        origin: String,
+        /// Number of the structure, from 0.
+        index: usize,
+        /// Why not.
+        error: Box<SceneError>,
+    },
+}
+
+impl Study {
+    /// Reads the study at `path`; `overrides` (`KEY=VALUE`) change its scene before each structure does, and `records` take the
+    /// place of its own, relative to where the user stands.
+    ///
+    /// # Errors
+    /// [`StudyError`] names the file, the key and what it may be.
+    pub fn load(path: &Path, overrides: &[String], records: &[PathBuf]) -> Result<Study, StudyError> {
+        let origin = path.display().to_string();
+        let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+        Study::parse(&text_of(path)?, &origin, &folder, overrides, records)
+    }
+
+    /// [`Study::load`] of `text`, a file called `origin` in `folder`.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn parse(
+        text: &str,
+        origin: &str,
+        folder: &Path,
+        overrides: &[String],
+        records: &[PathBuf],
+    ) -> Result<Study, StudyError> {
+        let mut file: StudyFile = document::from_text(text, origin)?;
+        let key = |key: &str| Key { origin: origin.to_owned(), key: key.to_owned() };
+        let mut folder_of_records = folder.to_owned();
+        if !records.is_empty() {
+            file.records = records.iter().cloned().map(RecordEntry::Path).collect();
+            folder_of_records = PathBuf::new();
+        }
+        if file.records.is_empty() {
+            return Err(key("records").missing("a list of record files and folders here, or --records PATH…").into());
+        }
+        let structures = structures(&file, origin, folder, overrides)?;
+        let devices: Vec<String> = names(&structures[0].scene);
+        for (index, structure) in structures.iter().enumerate() {
+            let others = names(&structure.scene);
+            if others != devices {
+                let [others, devices] = [others, devices].map(|names| names.join(", "));
+                let reason =
+                    format!("its devices are {others}, those of the first structure {devices}; give them the same names");
+                return Err(key(&format!("structure.{index}.set")).conflict(&reason).into());
+            }
+        }
+        let scaling = scaling(&file, &key)?;
+        if let (Scaling::Factors(factors), None) = (&scaling, &file.scale) {
+            file.scale = Some(factors.clone());
+        }
+        check_names(&file.demand.structures, &structures, key("demand.structures"))?;
+        check_names(&file.fragility.structures, &structures, key("fragility.structures"))?;
+        if file.measures.is_empty() {
+            return Err(key("measures").missing("one measure to rank or more").into());
+        }
+        let mut seen = Vec::new();
+        file.measures.retain(|measure| {
+            !seen.contains(measure) && {
+                seen.push(*measure);
+                true
+            }
+        });
+        let bootstrap = bootstrap(&file, &key)?;
+        let reading = reading(&file.record, &structures[0].scene, &key)?;
+        let origin = origin.to_owned();
+        Ok(Study { file, origin, folder: folder_of_records, structures, devices, scaling, bootstrap, reading })
+    }
+
+    /// Takes what is `given` of record files before what the study says of them.
+    pub fn apply_record_options(&mut self, given: &RecordTable) {
+        let table = &mut self.file.record;
+        *table = RecordTable {
+            units: given.units.clone().or(table.units.take()),
+            time_step_s: given.time_step_s.or(table.time_step_s),
+            component: given.component.clone().or(table.component.take()),
+            resample_to_s: given.resample_to_s.or(table.resample_to_s),
+        };
+        self.reading = read_options(table, &self.structures[0].scene);
+    }
+
+    /// What looks like a mistake in the scenes of its structures, in a line each ([`Scene::warnings`]).
+    pub fn warnings(&self) -> Vec<String> {
+        self.structures.iter().flat_map(|structure| structure.scene.warnings()).collect()
+    }
+
+    /// Whether the measure titles of `structures` shall be those of the slender model: all of them have it.
+    pub fn slender(&self) -> bool {
+        self.structures.iter().all(|structure| structure.scene.geometry() == sprag_shared::structure::block::Geometry::Slender)
+    }
+
+    /// Whether runs shall say how accurate they are.
+    pub fn asks_for_errors(&self) -> bool {
+        self.structures.iter().any(|structure| structure.scene.file.accuracy.level.is_some())
+    }
+
+    /// Factors or levels: runs of every record for each structure and device.
+    pub fn scalings(&self) -> usize {
+        match &self.scaling {
+            Scaling::Factors(factors) => factors.len(),
+            Scaling::Levels(_, levels) => levels.len(),
+        }
+    }
+}
+
+fn names(scene: &Scene) -> Vec<String> {
+    scene.devices.iter().map(|device| device.name.clone()).collect()
+}
+
+fn scaling(file: &StudyFile, key: &dyn Fn(&str) -> Key) -> Result<Scaling, SceneError> {
+    let check = |name: &str, values: &[f64], most: f64, range: &str| {
+        if values.is_empty() || values.len() > MOST_SCALES {
+            return Err(key(name).range(values.len() as f64, "a list of 1 to 1000 numbers"));
+        }
+        for (index, &value) in values.iter().enumerate() {
+            key(&format!("{name}.{index}")).require(value, value > 0.0 && value <= most, range)?;
+        }
+        Ok(())
+    };
+    match (&file.scale, &file.stripes) {
+        (Some(_), Some(_)) => Err(key("scale").conflict("give only one of scale and [stripes]")),
+        (None, None) => Ok(Scaling::Factors(vec![1.0])),
+        (Some(factors), None) => {
+            check("scale", factors, LARGEST_FACTOR, "above 0, to 1000")?;
+            Ok(Scaling::Factors(factors.clone()))
+        }
+        (None, Some(stripes)) => {
+            check("stripes.levels", &stripes.levels, 1e6, "above 0, to 1e6")?;
+            if !stripes.measure.scales() {
+                let reason = format!("{} does not change when a record is scaled", stripes.measure.name());
+                return Err(key("stripes.measure").conflict(&reason));
+            }
+            Ok(Scaling::Levels(stripes.measure, stripes.levels.clone()))
+        }
+    }
+}
+
+fn check_names(asked: &[String], structures: &[StudyStructure], key: Key) -> Result<(), SceneError> {
+    let names: Vec<&str> = structures.iter().map(|structure| structure.name.as_str()).collect();
+    match asked.iter().find(|name| !names.contains(&name.as_str())) {
+        Some(name) => Err(SceneError::Range {
+            origin: key.origin,
+            key: key.key,
+            value: format!("{name:?}"),
+            range: format!("among the structures {}", names.join(", ")),
+        }),
+        None => Ok(()),
+    }
+}
+
+fn bootstrap(file: &StudyFile, key: &dyn Fn(&str) -> Key) -> Result<Bootstrap, SceneError> {
+    let table = file.bootstrap;
+    let allowed = (1..=MOST_RESAMPLES).contains(&table.resamples);
+    key("bootstrap.resamples").require(f64::from(table.resamples), allowed, "from 1 to 1000000")?;
+    let level = Level::new(table.level).map_err(|_| key("bootstrap.level").range(table.level, "above 0 and below 1"))?;
+    Ok(Bootstrap { resamples: table.resamples, seed: table.seed, level })
+}
+
+/// What files do not say: from `table`, and else from the scene's own.
+///
+/// # Errors
+/// [`SceneError`] for units or a time step outside their range.
+fn reading(table: &RecordTable, scene: &Scene, key: &dyn Fn(&str) -> Key) -> Result<ReadOptions, SceneError> {
+    check_record(table.units.as_deref(), table.time_step_s, "record", key)?;
+    check_record(None, table.resample_to_s, "record", &|_| key("record.resample_to_s"))?;
+    Ok(read_options(table, scene))
+}
+
+fn read_options(table: &RecordTable, scene: &Scene) -> ReadOptions {
+    let own = &scene.file.ground[0];
+    ReadOptions {
+        units: table.units.as_ref().or(own.units.as_ref()).and_then(|units| units.parse().ok()),
+        time_step_s: table.time_step_s.or(own.time_step_s),
+        component: table.component.as_deref().or(own.component.as_deref()).map(Component::from),
+        resample_to_s: table.resample_to_s.or(own.resample_to_s),
+    }
+}
+
+/// Units and time step of `table`, if they can be meant.
+pub(super) fn check_record(
+    units: Option<&str>,
+    step: Option<f64>,
+    table: &str,
+    key: &dyn Fn(&str) -> Key,
+) -> Result<(), SceneError> {
+    if let Some(units) = units.filter(|units| units.parse::<Units>().is_err()) {
+        let Key { origin, key } = key(&format!("{table}.units"));
+        let range = Units::ALLOWED.to_owned();
+        return Err(SceneError::Range { origin, key, value: format!("{units:?}"), range });
+    }
+    if let Some(step) = step {
+        let (lowest, highest) = TIME_STEP_RANGE_S;
+        let range = format!("from {lowest} to {highest} s");
+        key(&format!("{table}.time_step_s")).require(step, (lowest..=highest).contains(&step), &range)?;
+    }
+    Ok(())
+}

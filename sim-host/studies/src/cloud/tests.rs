@@ -1,0 +1,81 @@
+//! Studies that cannot be run, and what they say.
+
+use std::path::Path;
+
+use super::measure::Measure;
+use super::study::{Scaling, Study};
+
+const RECORDS: &str = "records = ['a.csv']\n";
+
+fn parse(text: &str) -> Result<Study, String> {
+    Study::parse(text, "study.toml", Path::new(""), &[], &[]).map_err(|error| error.to_string())
+}
+
+#[test]
+fn a_study_needs_records_and_nothing_else() {
+    let study = parse(RECORDS).unwrap();
+    assert_eq!(study.devices, ["none", "inerter", "clutched pair"]);
+    assert_eq!((study.structures.len(), study.scalings()), (1, 1));
+    assert_eq!(study.scaling, Scaling::Factors(vec![1.0]));
+    assert_eq!(study.file.measures, Measure::ALL);
+    assert_eq!((study.file.demand.measure, study.file.fragility.measure), (Measure::UniformDuration, Measure::Pgv));
+    assert_eq!((study.bootstrap.resamples, study.bootstrap.seed, study.bootstrap.level.value()), (1000, 1, 0.95));
+    // The paper's pier: p = √(3g/(4R)).
+    let scales = study.structures[0].scales;
+    assert!((scales.frequency_parameter_1_s - (0.75_f64 * 9.80665 / 2.0).sqrt()).abs() < 1e-12);
+    assert!((scales.uplift_threshold_m_s2 - 9.80665 * 0.176_326_980_708_465).abs() < 1e-9);
+    assert_eq!(
+        parse("title = 'x'").unwrap_err(),
+        "study.toml: records is missing: a list of record files and folders here, or --records PATH…"
+    );
+}
+
+#[test]
+fn structures_change_the_scene() {
+    let study = parse(&format!(
+        "{RECORDS}[[structure]]\nname = 'small'\nset = {{ 'block.size_m' = 1, 'block.geometry' = 'slender' }}\n\
+         [[structure]]\nname = 'heavy'\nset = {{ 'device.1.mass_ratio' = 1.0 }}"
+    ))
+    .unwrap();
+    let [small, heavy] = &study.structures[..] else { panic!() };
+    assert_eq!((small.scene.file.block.size_m, heavy.scene.file.block.size_m), (Some(1.0), Some(2.0)));
+    assert_eq!(heavy.scene.file.device[1].mass_ratio, Some(1.0));
+    assert!((small.scales.uplift_threshold_m_s2 - 9.80665 * 10.0_f64.to_radians()).abs() < 1e-12);
+    assert!(!study.slender());
+}
+
+#[test]
+fn what_is_wrong_is_named_with_its_key_and_range() {
+    for (keys, expected) in [
+        ("scale = [0.0]", "scale.0 is 0, but must be above 0, to 1000"),
+        ("scale = []", "scale is 0, but must be a list of 1 to 1000 numbers"),
+        ("scale = [1]\n[stripes]\nmeasure = 'pga'\nlevels = [1]", "scale: give only one of scale and [stripes]"),
+        ("[stripes]\nmeasure = 'pga'\nlevels = [1, -1]", "stripes.levels.1 is -1, but must be above 0, to 1e6"),
+        ("[stripes]\nmeasure = 'frequency'\nlevels = [1]", "stripes.measure: frequency does not change when a record is scaled"),
+        ("measures = []", "measures is missing: one measure to rank or more"),
+        ("measures = ['sa']", "measures.0: unknown variant `sa`, expected one of"),
+        ("speed = 1", "unknown field `speed`"),
+        ("[bootstrap]\nlevel = 1.0", "bootstrap.level is 1, but must be above 0 and below 1"),
+        ("[bootstrap]\nresamples = 0", "bootstrap.resamples is 0, but must be from 1 to 1000000"),
+        ("[record]\ntime_step_s = 0", "record.time_step_s is 0, but must be from 0.00001 to 1 s"),
+        ("[record]\nunits = 'ell'", "record.units is \"ell\", but must be g, m/s2, cm/s2 (gal), mm/s2, in/s2, ft/s2"),
+        ("[demand]\nstructures = ['tall']", "demand.structures is \"tall\", but must be among the structures"),
+        ("[[structure]]\nname = 'a'\nset = { 'block.size_m' = -1 }", "block.size_m is -1, but must be from 0.001 to 10000 m"),
+        ("[[structure]]\nname = 'a'\nset = { 'block.sise_m' = 1 }", "unknown field `sise_m`"),
+        ("[[structure]]\nname = 'a'\n[[structure]]\nname = 'a'", "structure.1.name: each structure needs a name of its own"),
+        ("[[structure]]\nname = 'a'\n[[structure]]\nname = 'b'\nset = { 'device.0.name' = 'x' }", "give them the same names"),
+        ("[[structure]]\nname = 'a'\nset = { 'ground.0.scale' = 2 }", "factors on records belong into the study"),
+    ] {
+        let error = parse(&format!("{RECORDS}{keys}")).unwrap_err();
+        assert!(error.starts_with("study.toml") && error.contains(expected), "{keys}: {error}");
+        assert!(!error.contains('\n'), "{error}");
+    }
+}
+
+#[test]
+fn every_study_of_the_repository_is_read() {
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes"));
+    for name in ["cloud.toml", "optimise.toml"] {
+        Study::load(&folder.join(name), &[], &[folder.to_owned()]).unwrap_or_else(|error| panic!("{error}"));
+    }
+}

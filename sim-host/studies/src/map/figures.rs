@@ -1,0 +1,176 @@
+//! A map as pictures: regions of outcomes, spectra of peaks in bands, and cuts along one axis.
+
+use sprag_ensemble::pulsed::PulseResult;
+use sprag_report::heading;
+use sprag_report::heading::axis_title;
+use sprag_report::plot::{
+    Cell, CellMap, CellMaps, Chart, ChartPanel, Class, FigureTitle, Line, PlotError, Scale, band, cell_map_figure, chart_figure,
+};
+use sprag_shared::math;
+use sprag_sim::scene::map::{AxisTable, ScaleName};
+
+use super::grid::Grid;
+use super::tally::{DeviceMap, Shown, Tally};
+
+/// A peak of a cell.
+type Peak = fn(&PulseResult) -> f64;
+
+/// Bands of a spectrum, at most.
+const BANDS: f64 = 14.0;
+
+/// What the spectra show.
+const ROTATION: &str = "peak rotation max |θ|/α";
+const ACCELERATION: &str = "peak angular acceleration max |θ̈|/(p²α)";
+
+/// The pictures of a map: name, SVG text.
+///
+/// # Errors
+/// [`PlotError`].
+pub fn figures(grid: &Grid, tally: &Tally) -> Result<Vec<(&'static str, String)>, PlotError> {
+    let Some(y) = &grid.map.y else {
+        return Ok(vec![("cut", cut(grid, tally)?)]);
+    };
+    let outcomes = small_multiples(grid, y, tally, "", Class::outcomes(), |result| Cell::from(result.outcome).class());
+    let mut files = vec![("map", cell_map_figure(&outcomes)?)];
+    let spectra: [(&str, &str, Peak); 2] = [
+        ("rotation", ROTATION, |result| result.peak_rotation),
+        ("acceleration", ACCELERATION, |result| result.peak_acceleration),
+    ];
+    for (file, name, peak) in spectra {
+        let safe = tally.maps.iter().flat_map(|map| &map.shown).filter(|result| !result.outcome.overturned()).map(peak);
+        let limits = limits(safe.fold(0.0, f64::max));
+        let classes = Class::bands(&limits);
+        let overturned = classes.len() - 1;
+        let class = |result: &PulseResult| {
+            if result.outcome.overturned() {
+                return overturned;
+            }
+            let rocks = result.outcome != sprag_shared::observers::outcome::Outcome::NoRocking;
+            band(&limits, rocks.then(|| peak(result)))
+        };
+        files.push((file, cell_map_figure(&small_multiples(grid, y, tally, name, classes, class))?));
+    }
+    Ok(files)
+}
+
+/// Round limits of bands from 0 up to `largest`.
+fn limits(largest: f64) -> Vec<f64> {
+    let rough = (largest / BANDS).max(1e-12);
+    let decade = math::pow(10.0, math::log10(rough).floor());
+    let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|factor| factor * decade).find(|step| *step >= rough).unwrap_or(rough);
+    (0..=(largest / step) as usize).map(|index| index as f64 * step).collect()
+}
+
+/// One map a device, side by side.
+pub(super) fn small_multiples(
+    grid: &Grid,
+    y: &AxisTable,
+    tally: &Tally,
+    what: &str,
+    classes: Vec<Class>,
+    class: impl Fn(&PulseResult) -> usize,
+) -> CellMaps {
+    let cells = grid.columns() * grid.rows();
+    let note = |map: &DeviceMap| format!("{} of {cells} overturn", map.counts.overturned());
+    CellMaps {
+        title: title(grid, what),
+        classes,
+        scales: (scale(&grid.map.x), scale(y)),
+        x_title: axis_title(&grid.scene, &grid.map.x.key),
+        x: ends(&grid.map.x, &tally.columns),
+        y_title: axis_title(&grid.scene, &y.key),
+        y: ends(y, &tally.rows),
+        maps: tally
+            .maps
+            .iter()
+            .map(|map| CellMap {
+                title: map.device.clone(),
+                note: note(map),
+                columns: tally.columns.count(),
+                rows: tally.rows.count(),
+                to_the_edges: false,
+                cells: map.shown.iter().map(&class).collect(),
+                curves: Vec::new(),
+            })
+            .collect(),
+        curves: Vec::new(),
+        columns: tally.maps.len().min(3),
+    }
+}
+
+/// The scene's title and what the picture shows, and below it what no axis sets: one picture is told from another of the same scene.
+fn title(grid: &Grid, what: &str) -> FigureTitle {
+    let (last_column, last_row) = (grid.columns() - 1, grid.rows() - 1);
+    let corners = [(0, 0), (last_column, 0), (0, last_row), (last_column, last_row)];
+    // The grid has made them all before; what holds at the corners holds between them.
+    let corners: Vec<_> = corners.into_iter().filter_map(|(column, row)| grid.scene_of(column, row).ok()).collect();
+    let parts = [grid.scene.file.title.as_str(), what];
+    let text = parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(": ");
+    FigureTitle { text, conditions: heading::of_scenes(&corners.iter().collect::<Vec<_>>()) }
+}
+
+/// Peaks along the only axis, a line a device, broken where the block overturns.
+fn cut(grid: &Grid, tally: &Tally) -> Result<String, PlotError> {
+    let peaks: [(&str, Peak); 2] =
+        [("max |*θ*|/α", |result| result.peak_rotation), ("max |*θ*''|/(*p*²α)", |result| result.peak_acceleration)];
+    let lines = |peak: Peak| {
+        let mut lines = Vec::new();
+        for map in &tally.maps {
+            let runs = map.shown.chunk_by(|a, b| a.outcome.overturned() == b.outcome.overturned());
+            let mut first = 0;
+            for run in runs {
+                let at = |index: usize| grid.map.x.value(first + index);
+                let points: Vec<(f64, f64)> = run.iter().enumerate().map(|(index, result)| (at(index), peak(result))).collect();
+                first += run.len();
+                if !run[0].outcome.overturned() {
+                    lines.push(Line { name: map.device.clone(), points, ..Line::default() });
+                }
+            }
+        }
+        lines
+    };
+    let panels = peaks
+        .into_iter()
+        .map(|(y_title, peak)| ChartPanel { y_title: y_title.to_owned(), lines: lines(peak), ..ChartPanel::default() })
+        .collect();
+    chart_figure(&Chart {
+        title: title(grid, ""),
+        x_title: axis_title(&grid.scene, &grid.map.x.key),
+        x: scale(&grid.map.x),
+        panels,
+        columns: 1,
+        keys: Vec::new(),
+    })
+}
+
+fn scale(axis: &AxisTable) -> Scale {
+    match axis.scale {
+        ScaleName::Linear => Scale::Linear,
+        ScaleName::Logarithmic => Scale::Logarithmic,
+    }
+}
+
+/// The first and the last of the cells that are shown, as the scale of their axis is divided.
+fn ends(axis: &AxisTable, shown: &Shown) -> (f64, f64) {
+    let [first, last] = [0, shown.count() - 1].map(|place| axis.value(shown.cell(place)));
+    match axis.scale {
+        ScaleName::Linear => (first, last),
+        ScaleName::Logarithmic => (math::log10(first), math::log10(last)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_are_round_and_few() {
+        assert_eq!(limits(1.0).len(), 11);
+        for largest in [0.003, 0.9, 1.07, 4.4, 12.0, 99.0, 3e5] {
+            let limits = limits(largest);
+            assert!(limits.len() <= 15 && limits.len() >= 5, "{largest}: {limits:?}");
+            assert!(limits[limits.len() - 1] <= largest);
+        }
+        assert_eq!(limits(0.0), vec![0.0]);
+    }
+}

@@ -1,0 +1,112 @@
+//! A map as a table: one row a cell and device.
+
+use csv::StringRecord;
+use sprag_ensemble::pulsed::PulseResult;
+use sprag_report::columns::{Column, TableError};
+use sprag_shared::observers::outcome::Outcome;
+
+use super::grid::Grid;
+
+/// `device`, the keys of the axes, `outcome`, `peak_rotation` and `peak_acceleration`: peaks max|θ|/α and max|θ̈|/(p²α), empty when overturned;
+/// numbers read back to the same f64. Devices one after another, of each cells row by row from the lowest, each from the left.
+pub fn columns(grid: &Grid) -> Vec<Column> {
+    let mut columns = vec![Column::text("device"), Column::number(&grid.map.x.key)];
+    columns.extend(grid.map.y.iter().map(|y| Column::number(&y.key)));
+    columns.push(Column::text("outcome"));
+    columns.extend(["peak_rotation", "peak_acceleration"].map(|name| Column::number(name).or_nothing()));
+    columns
+}
+
+/// What says of a row which cell it is: put into words once, since a map has many more rows than names and values.
+#[derive(Clone, Debug)]
+pub struct Labels {
+    devices: Vec<String>,
+    /// Their fields in a CSV file.
+    quoted: Vec<Vec<u8>>,
+    x: Vec<String>,
+    /// Empty in a cut.
+    y: Vec<String>,
+}
+
+impl Labels {
+    /// Of the cells of `grid`.
+    ///
+    /// # Errors
+    /// When a name cannot be written.
+    pub fn new(grid: &Grid) -> Result<Labels, TableError> {
+        let devices: Vec<String> = grid.scene.devices.iter().map(|device| device.name.clone()).collect();
+        Ok(Labels {
+            quoted: devices.iter().map(|name| quoted(name)).collect::<Result<_, _>>()?,
+            devices,
+            x: (0..grid.columns()).map(|column| format!("{:?}", grid.map.x.value(column))).collect(),
+            y: grid.map.y.iter().flat_map(|y| (0..y.cells).map(|row| format!("{:?}", y.value(row)))).collect(),
+        })
+    }
+
+    /// Number of the device, x and y of row number `row`.
+    fn of(&self, row: usize) -> (usize, &str, Option<&str>) {
+        let (columns, rows) = (self.x.len(), self.y.len().max(1));
+        let up = self.y.get(row / columns % rows).map(String::as_str);
+        (row / (columns * rows), &self.x[row % columns], up)
+    }
+
+    /// Writes row number `row` to the end of `out`.
+    pub fn write(&self, row: usize, result: &PulseResult, out: &mut Vec<u8>) {
+        let (device, x, y) = self.of(row);
+        out.extend_from_slice(&self.quoted[device]);
+        for label in [Some(x), y, Some(result.outcome.name())].into_iter().flatten() {
+            out.push(b',');
+            out.extend_from_slice(label.as_bytes());
+        }
+        let peaks = if result.outcome.overturned() {
+            ",,\n".to_owned()
+        } else {
+            format!(",{:?},{:?}\n", result.peak_rotation, result.peak_acceleration)
+        };
+        out.extend_from_slice(peaks.as_bytes());
+    }
+
+    /// What row number `row` says.
+    ///
+    /// # Errors
+    /// When it is another cell's, or no row of a map.
+    pub fn read(&self, row: usize, record: &StringRecord) -> Result<PulseResult, String> {
+        let (device, x, y) = self.of(row);
+        let mut fields = record.iter();
+        let mut next = || fields.next().unwrap_or_default();
+        for label in [Some(self.devices[device].as_str()), Some(x), y].into_iter().flatten() {
+            let field = next();
+            if field != label {
+                return Err(format!("`{field}` should be {label}"));
+            }
+        }
+        let name = next();
+        let outcome = Outcome::from_name(name).ok_or_else(|| format!("`{name}` is no outcome"))?;
+        let mut peak = || match next() {
+            "" if outcome.overturned() => Ok(f64::NAN),
+            text => text.parse().map_err(|_| format!("`{text}` is no peak of a block with the outcome {outcome}")),
+        };
+        Ok(PulseResult { outcome, peak_rotation: peak()?, peak_acceleration: peak()? })
+    }
+}
+
+/// A field of a CSV file.
+fn quoted(text: &str) -> Result<Vec<u8>, csv::Error> {
+    let mut line = csv::Writer::from_writer(Vec::new());
+    line.write_record([text])?;
+    let mut field = line.into_inner().map_err(|error| error.into_error())?;
+    // The end of the line.
+    field.pop();
+    Ok(field)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fields_with_commas_are_quoted() {
+        assert_eq!(quoted("pair (σ = 0.5)").unwrap(), "pair (σ = 0.5)".as_bytes());
+        assert_eq!(quoted("a, \"b\"").unwrap(), b"\"a, \"\"b\"\"\"");
+    }
+}

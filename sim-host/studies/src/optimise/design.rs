@@ -1,0 +1,167 @@
+//! A device of one size, and what it comes to over all motions.
+
+use sprag_shared::math;
+use sprag_shared::observers::outcome::Outcome;
+
+use super::limit::{Limits, Quantity};
+use super::response::Response;
+use crate::statistics::quantile;
+
+/// A device to be tried.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Candidate {
+    /// Number of its law and mount.
+    pub curve: usize,
+    /// σ.
+    pub mass_ratio: f64,
+}
+
+impl Candidate {
+    /// The one of the same law and mount halfway to `other`, by factors.
+    pub fn halfway(self, other: Candidate) -> Candidate {
+        Candidate { mass_ratio: math::square_root(self.mass_ratio * other.mass_ratio), ..self }
+    }
+}
+
+/// The responses of one design, motion by motion; in words why there is none.
+pub type Responses = Vec<Result<Response, String>>;
+
+/// A device that was tried, or the bare block.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Design {
+    /// The device; `None` is the bare block.
+    pub candidate: Option<Candidate>,
+    /// What the block does under each motion.
+    pub responses: Responses,
+    /// What that comes to.
+    pub score: Score,
+}
+
+/// What a design comes to over all motions.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Score {
+    /// Motions with a response.
+    pub motions: usize,
+    /// Those that overturn the block.
+    pub overturned: usize,
+    /// Motions without a response.
+    pub failed: usize,
+    /// Those that overturn the bare block, and not this one.
+    pub saved: usize,
+    /// Those that overturn this one, and not the bare block.
+    pub newly_overturned: usize,
+    /// Quantile of max |F|/(mg) over the motions whose force counts.
+    pub force_ratio: f64,
+    /// Quantile of the stroke over the motions in which the block stands, m; `None` where it never does.
+    pub stroke_m: Option<f64>,
+    /// Median of max |θ|/α over the motions that rock the bare block, where overturning counts as infinite.
+    pub median_rotation: f64,
+}
+
+impl Score {
+    /// Of `responses`, beside those of the `bare` block under the same motions; `limits` say of what quantile.
+    ///
+    /// The force on a block that overturns counts unless it is told not to: its support has to bear it as long as there is something to
+    /// save, and a design must not respect a limit by losing the block. The travel does not count there: a block that lies down takes
+    /// the terminals farther than any stroke that could be meant.
+    ///
+    /// Rotations are compared over the same motions for every design. Leaving out those that overturn the block would compare each
+    /// design over motions of its own, and reward the one that overturns under the strong ones.
+    pub fn of(responses: &Responses, bare: &Responses, limits: &Limits) -> Score {
+        let mut score = Score::default();
+        let (mut forces, mut strokes, mut rotations) = (Vec::new(), Vec::new(), Vec::new());
+        for (response, bare) in responses.iter().zip(bare) {
+            let Ok(response) = response else {
+                score.failed += 1;
+                continue;
+            };
+            let overturned = response.outcome.overturned();
+            score.motions += 1;
+            score.overturned += usize::from(overturned);
+            if !overturned || limits.force_of_overturned {
+                forces.push(response.force_ratio);
+            }
+            if !overturned {
+                strokes.push(response.stroke_m);
+            }
+            let Ok(bare) = bare else { continue };
+            score.saved += usize::from(bare.outcome.overturned() && !overturned);
+            score.newly_overturned += usize::from(!bare.outcome.overturned() && overturned);
+            if bare.outcome != Outcome::NoRocking {
+                rotations.push(response.peak_rotation.unwrap_or(f64::INFINITY));
+            }
+        }
+        score.force_ratio = quantile(&forces, limits.quantile).unwrap_or(0.0);
+        score.stroke_m = quantile(&strokes, limits.quantile);
+        score.median_rotation = quantile(&rotations, 0.5).unwrap_or(0.0);
+        score
+    }
+
+    /// What it asks for of `quantity`; nothing of a stroke where the block never stands.
+    pub fn asks(&self, quantity: Quantity) -> f64 {
+        match quantity {
+            Quantity::Force => self.force_ratio,
+            Quantity::Stroke => self.stroke_m.unwrap_or(0.0),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIMITS: Limits = Limits { force: None, stroke: None, quantile: 1.0, force_of_overturned: true };
+
+    fn stands(peak: f64, force_ratio: f64, stroke_m: f64) -> Result<Response, String> {
+        let outcome = if peak > 0.0 { Outcome::Safe } else { Outcome::NoRocking };
+        Ok(Response { outcome, peak_rotation: Some(peak), force_ratio, stroke_m, error: None })
+    }
+
+    fn falls(force_ratio: f64, stroke_m: f64) -> Result<Response, String> {
+        let outcome = Outcome::OverturnedAfterImpact;
+        Ok(Response { outcome, peak_rotation: None, force_ratio, stroke_m, error: None })
+    }
+
+    fn bare() -> Responses {
+        vec![stands(0.0, 0.0, 0.0), stands(0.4, 0.0, 0.1), falls(0.0, 2.0), falls(0.0, 2.0), stands(0.6, 0.0, 0.2)]
+    }
+
+    #[test]
+    fn motions_are_counted_beside_the_bare_block() {
+        let responses =
+            vec![stands(0.0, 0.0, 0.0), falls(0.5, 1.9), stands(0.8, 0.2, 0.3), falls(0.6, 1.9), stands(0.2, 0.1, 0.1)];
+        let score = Score::of(&responses, &bare(), &LIMITS);
+        assert_eq!((score.motions, score.overturned, score.saved, score.newly_overturned), (5, 2, 1, 1));
+        // The force on a falling block counts, its travel does not.
+        assert_eq!((score.force_ratio, score.stroke_m), (0.6, Some(0.3)));
+        let standing = Score::of(&responses, &bare(), &Limits { force_of_overturned: false, ..LIMITS });
+        assert_eq!((standing.force_ratio, standing.stroke_m), (0.2, Some(0.3)));
+        // The median of 0.2, 0.8 and twice infinite.
+        assert_eq!(score.median_rotation, f64::INFINITY);
+    }
+
+    #[test]
+    fn quantiles_relax_a_limit() {
+        let responses: Responses = (0..=10).map(|k| stands(0.1, 0.1 * f64::from(k), f64::from(k))).collect();
+        let bare = responses.clone();
+        let of = |quantile: f64| Score::of(&responses, &bare, &Limits { quantile, ..LIMITS });
+        assert_eq!((of(1.0).force_ratio, of(1.0).stroke_m), (1.0, Some(10.0)));
+        assert!((of(0.9).force_ratio - 0.9).abs() < 1e-15 && (of(0.5).stroke_m.unwrap() - 5.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn motions_that_do_not_rock_the_bare_block_do_not_hide_the_others() {
+        let quiet = || stands(0.0, 0.0, 0.0);
+        let [bare, design] = [0.8, 0.3].map(|peak| -> Responses { vec![quiet(), quiet(), quiet(), stands(peak, 0.1, 0.1)] });
+        assert_eq!(Score::of(&design, &bare, &LIMITS).median_rotation, 0.3);
+        assert_eq!(Score::of(&bare, &bare, &LIMITS).median_rotation, 0.8);
+    }
+
+    #[test]
+    fn a_run_that_failed_is_no_motion() {
+        let mut responses = bare();
+        responses[2] = Err("stopped".to_owned());
+        let score = Score::of(&responses, &bare(), &LIMITS);
+        assert_eq!((score.motions, score.failed, score.overturned, score.saved), (4, 1, 1, 0));
+    }
+}

@@ -1,0 +1,33 @@
+//! What a block with one device does under one motion.
+
+use sprag_shared::observers::outcome::Outcome;
+use sprag_sim::accuracy::ErrorEstimate;
+use sprag_sim::simulation::DeviceRun;
+
+/// A response.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Response {
+    /// Its outcome.
+    pub outcome: Outcome,
+    /// max |θ|/α; `None` when overturned.
+    pub peak_rotation: Option<f64>,
+    /// max |F|/(mg) of the device on its support, until the end of the run or overturning; 0 where the block never rocks.
+    pub force_ratio: f64,
+    /// Farthest travel of the terminals to one side until then, m.
+    pub stroke_m: f64,
+    /// How accurate that is, where it was asked for.
+    pub error: Option<ErrorEstimate>,
+}
+
+impl Response {
+    /// Of a run with checks.
+    pub fn of(run: &DeviceRun) -> Response {
+        Response {
+            outcome: run.outcome,
+            peak_rotation: run.peak_rotation,
+            force_ratio: run.peak_force_ratio.unwrap_or(0.0),
+            stroke_m: run.checks.as_ref().and_then(|checks| checks.stroke_with_fall_m).unwrap_or(0.0),
+            error: run.error.map(|report| report.estimate),
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! `[optimise]` tables: what they resolve to, and what they are refused for.
+
+use std::path::Path;
+
+use sprag_sim::scene::device::{Kind, MountName};
+use sprag_sim::scene::drivetrain::EngagementName;
+
+use super::problem::Choices;
+use crate::cloud::study::Study;
+
+fn study(text: &str) -> Study {
+    Study::parse(&format!("records = ['a.csv']\n{text}"), "study.toml", Path::new(""), &[], &[]).unwrap()
+}
+
+fn refusal(text: &str) -> String {
+    Choices::of(&study(text)).map(|_| ()).expect_err(text).to_string()
+}
+
+#[test]
+fn a_study_without_the_table_has_the_devices_of_its_scene() {
+    let study = study("");
+    let choices = Choices::of(&study).unwrap();
+    let names: Vec<String> = choices.curves.iter().map(super::curve::Curve::name).collect();
+    assert_eq!(names, ["inerter, centre-of-mass", "clutched pair, centre-of-mass"]);
+    assert!(!choices.limits.any() && choices.limits.quantile == 1.0 && choices.limits.force_of_overturned);
+    let grid = choices.table.mass_ratio.grid();
+    assert_eq!((grid.len(), grid[0], grid[11]), (12, 0.05, 2.0));
+    assert!(grid.windows(3).all(|three| (three[1] * three[1] / (three[0] * three[2]) - 1.0).abs() < 1e-14));
+}
+
+#[test]
+fn laws_are_devices_of_the_scene_or_ideal_ones() {
+    let study = study(
+        "[optimise]\nlaws = ['slipping', 'overrunning', 'inerter']\nmounts = ['base-corners', { mount = 'tying-point', \
+         mount_height_m = 1.5, pulley_ratio = 2.0 }]\n[[structure]]\nname = 'a'\nset = { 'device.2' = { kind = 'clutched-pair', \
+         name = 'slipping', mass_ratio = 0.3, clutch = { capacity_ratio = 0.1 } } }",
+    );
+    let choices = Choices::of(&study).unwrap();
+    let names: Vec<String> = choices.curves.iter().map(super::curve::Curve::name).collect();
+    // A flywheel of its own speed cannot be at the base corners; the others go on.
+    let point = "tying-point 1.5 m, pulley 2";
+    assert_eq!(
+        names,
+        ["slipping, ", "overrunning, ", "inerter, base-corners+", "inerter, "].map(|name| match name.strip_suffix('+') {
+            Some(whole) => whole.to_owned(),
+            None => format!("{name}{point}"),
+        })
+    );
+    assert_eq!(choices.left_out.len(), 2);
+    assert!(
+        choices.left_out[0].starts_with("slipping, base-corners: ") && choices.left_out[0].contains("needs a horizontal mount")
+    );
+    assert!(choices.left_out.iter().all(|line| !line.contains("device.0")), "{:?}", choices.left_out);
+    let [slipping, overrunning, ..] = &choices.curves[..] else { panic!() };
+    assert_eq!(slipping.device.clutch.as_ref().and_then(|clutch| clutch.capacity_ratio), Some(0.1));
+    assert_eq!((overrunning.device.kind, overrunning.device.engagement), (Kind::ClutchedPair, Some(EngagementName::Overrunning)));
+    assert_eq!((slipping.device.mount, slipping.device.mass_ratio), (Some(MountName::TyingPoint), None));
+    let scene = slipping.scene(&choices.structure.scene, 0.7).unwrap();
+    assert_eq!((scene.devices.len(), scene.devices[0].device.mass_ratio), (1, 0.7));
+    assert!(scene.file.checks.is_some());
+}
+
+#[test]
+fn limits_of_the_scene_stand_where_the_study_sets_none() {
+    let checked = "[[structure]]\nname = 'a'\nset = { checks = { largest_force_ratio = 0.4, largest_stroke_m = 0.3 } }\n";
+    let limits = |optimise: &str| {
+        let study = study(&format!("{checked}{optimise}"));
+        let limits = Choices::of(&study).unwrap().limits;
+        (limits.force, limits.stroke)
+    };
+    assert_eq!(limits(""), (Some(0.4), Some(0.3)));
+    assert_eq!(limits("[optimise]\nlargest_force_ratio = 0.1"), (Some(0.1), Some(0.3)));
+}
+
+#[test]
+fn one_of_several_structures_is_named() {
+    let two = "[[structure]]\nname = 'a'\n[[structure]]\nname = 'b'\nset = { 'block.size_m' = 1 }\n";
+    assert_eq!(refusal(two), "study.toml: optimise.structure is missing: which of the structures \"a\", \"b\" gets the device");
+    let study = study(&format!("{two}[optimise]\nstructure = 'b'"));
+    assert_eq!(Choices::of(&study).unwrap().structure.name, "b");
+}
+
+#[test]
+fn what_is_wrong_is_named_with_its_key_its_value_and_its_range() {
+    for (keys, expected) in [
+        ("mass_ratio = { from = 0, to = 1 }", "optimise.mass_ratio.from is 0, but must be above 0, to 10000"),
+        ("mass_ratio = { from = 1, to = 1 }", "optimise.mass_ratio.to is 1, but must be above `from`, to 10000"),
+        ("mass_ratio = { from = 1, to = nan }", "optimise.mass_ratio.to is NaN, but must be above `from`"),
+        ("mass_ratio = { from = 1, to = 2, cells = 1 }", "optimise.mass_ratio.cells is 1, but must be from 2 to 1000"),
+        ("largest_force_ratio = 0", "optimise.largest_force_ratio is 0, but must be above 0, to 1e6"),
+        ("largest_stroke_m = -1", "optimise.largest_stroke_m is -1, but must be above 0, to 10000 m"),
+        ("limit_quantile = 1.5", "optimise.limit_quantile is 1.5, but must be from 0 to 1"),
+        ("structure = 'tall'", "optimise.structure is \"tall\", but must be among the structures"),
+        ("laws = ['magic']", "optimise.laws.0 is \"magic\", but must be among \"inerter\", \"clutched-pair\", \"rigid\""),
+        ("laws = ['none']", "optimise.laws.0: the device \"none\" of the scene has no inerter"),
+        ("laws = ['rigid', 'rigid']", "optimise.laws.1: \"rigid\" is there twice"),
+        ("mounts = ['tying-point']", "optimise.mounts.0.mount_height_m is missing: the height of the tying point"),
+        ("mounts = ['base-corners', 'base-corners']", "optimise.mounts.1: \"base-corners\" is there twice"),
+        ("mounts = [{ mount = 'base-corners', pulley_ratio = -1 }]", "optimise.mounts.0.pulley_ratio is -1, but must be above 0"),
+        (
+            "mounts = [{ mount = 'tying-point', mount_height_m = 0 }]",
+            "optimise.mounts.0.mount_height_m is 0, but must be above 0 m",
+        ),
+        ("laws = ['rigid']\nmounts = ['base-corners']", "optimise.laws: none of them can be; rigid, base-corners: "),
+    ] {
+        let message = refusal(&format!("[optimise]\n{keys}"));
+        assert!(message.starts_with("study.toml: ") && message.contains(expected), "{keys}: {message}");
+        assert!(!message.contains('\n'), "{message}");
+    }
+    let syntax = |keys: &str| {
+        let text = format!("records = ['a.csv']\n[optimise]\n{keys}");
+        Study::parse(&text, "study.toml", Path::new(""), &[], &[]).unwrap_err().to_string()
+    };
+    for (keys, expected) in [
+        ("mounts = ['roof']", "optimise.mounts.0: a mount is \"centre-of-mass\", \"base-corners\", or"),
+        ("mass_ratio = 1", "optimise.mass_ratio"),
+        ("limits = 1", "unknown field `limits`"),
+    ] {
+        let message = syntax(keys);
+        assert!(message.starts_with("study.toml") && message.contains(expected), "{message}");
+    }
+}

@@ -1,0 +1,108 @@
+//! The tables of an optimisation for programs, as CSV and Parquet: one row a design, and one row a motion.
+
+use sprag_report::columns::{Column, Fields, RowWriter, Table, TableError};
+use sprag_report::long_run::row_fields::FAILED;
+
+use super::design::Design;
+use super::findings::{Findings, Row};
+use super::motion::Motion;
+use super::problem::{Problem, Solution};
+use super::response::Response;
+
+/// `designs`: the bare block, then every device that was tried, by law, mount and mass ratio.
+pub struct DesignTable<'s>(pub &'s Findings);
+
+fn yes_or_no(yes: bool) -> &'static str {
+    if yes { "true" } else { "false" }
+}
+
+fn design_fields() -> Fields<Row> {
+    let number = |name: &str| Column::number(name).or_nothing();
+    Fields::<Row>::default()
+        .with(Column::text("law"), |row| (&row.law).into())
+        .with(Column::text("mount").or_nothing(), |row| row.mount.as_ref().into())
+        .with(number("mass_ratio"), |row| row.mass_ratio.into())
+        .with(Column::count("motions"), |row| row.motions.into())
+        .with(Column::count("overturned"), |row| row.overturned.into())
+        .with(Column::count("failed"), |row| row.failed.into())
+        .with(Column::number("probability"), |row| row.probability.into())
+        .with(Column::number("probability_low"), |row| row.probability_band.low.into())
+        .with(Column::number("probability_high"), |row| row.probability_band.high.into())
+        .with(Column::count("saved"), |row| row.saved.into())
+        .with(Column::count("newly_overturned"), |row| row.newly_overturned.into())
+        .with(Column::number("peak_force_ratio"), |row| row.peak_force_ratio.into())
+        .with(number("stroke_m"), |row| row.stroke_m.into())
+        .with(number("median_peak_rotation"), |row| row.median_peak_rotation.into())
+        .with(Column::text("feasible"), |row| yes_or_no(row.feasible).into())
+        .with(Column::text("on_force_front"), |row| yes_or_no(row.on_force_front).into())
+        .with(Column::text("on_stroke_front"), |row| yes_or_no(row.on_stroke_front).into())
+}
+
+impl Table for DesignTable<'_> {
+    fn columns(&self) -> Vec<Column> {
+        design_fields().columns()
+    }
+
+    fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
+        let fields = design_fields();
+        std::iter::once(&self.0.reference).chain(&self.0.rows).try_for_each(|row| fields.row(row, writer))
+    }
+}
+
+/// `motions`: every motion under the bare block and under the chosen device, if there is one. Peaks are max |θ|/α, empty when overturned;
+/// forces and strokes are those of this one motion.
+pub struct MotionTable<'s> {
+    /// The motions.
+    pub problem: &'s Problem<'s>,
+    /// What they do.
+    pub solution: &'s Solution,
+    /// The chosen device.
+    pub chosen: Option<&'s Row>,
+}
+
+/// A motion under a design.
+struct MotionRow<'s> {
+    motion: &'s Motion<'s>,
+    design: &'s Design,
+    response: &'s Result<Response, String>,
+}
+
+impl MotionRow<'_> {
+    fn answer(&self) -> Option<&Response> {
+        self.response.as_ref().ok()
+    }
+}
+
+fn motion_fields<'s>() -> Fields<MotionRow<'s>> {
+    let number = |name: &str| Column::number(name).or_nothing();
+    Fields::<MotionRow<'s>>::default()
+        .with(Column::text("record"), |row| (&row.motion.record.name).into())
+        .with(Column::number("scale"), |row| row.motion.factor.into())
+        .with(number("level"), |row| row.motion.level.into())
+        .with(Column::text("device"), |row| if row.design.candidate.is_none() { "none" } else { "chosen" }.into())
+        .with(Column::text("outcome"), |row| row.answer().map_or(FAILED, |response| response.outcome.name()).into())
+        .with(number("peak_rotation"), |row| row.answer().and_then(|response| response.peak_rotation).into())
+        .with(number("peak_force_ratio"), |row| row.answer().map(|response| response.force_ratio).into())
+        .with(number("stroke_m"), |row| {
+            row.answer().filter(|_| row.design.candidate.is_some()).map(|response| response.stroke_m).into()
+        })
+        .with(Column::text("failure").or_nothing(), |row| row.response.as_ref().err().into())
+}
+
+impl Table for MotionTable<'_> {
+    fn columns(&self) -> Vec<Column> {
+        motion_fields().columns()
+    }
+
+    fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
+        let fields = motion_fields();
+        let of_chosen = |design: &&Design| self.chosen.is_some_and(|row| row.candidate == design.candidate);
+        let chosen = self.solution.designs.iter().find(of_chosen);
+        for (index, motion) in self.problem.motions.iter().enumerate() {
+            for design in std::iter::once(&self.solution.bare).chain(chosen) {
+                fields.row(&MotionRow { motion, design, response: &design.responses[index] }, writer)?;
+            }
+        }
+        Ok(())
+    }
+}

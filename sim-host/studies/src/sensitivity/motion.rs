@@ -1,0 +1,95 @@
+//! The ground motions of a study: the scene's own, and each record in its place.
+
+use std::path::{Path, PathBuf};
+
+use sprag_sim::record::RecordSummary;
+use sprag_sim::scene::Scene;
+use sprag_sim::scene::ground::{GroundError, Motion};
+use sprag_sim::scene::motions::GroundMotions;
+
+use super::variants::VERTICAL_RATIO;
+
+/// A ground motion, with and without a vertical one.
+#[derive(Debug)]
+pub struct StudyMotion {
+    /// The scene's own, and not a record in its place.
+    pub own: bool,
+    /// As tables print it.
+    pub name: String,
+    /// As the scene has it.
+    pub ground: GroundMotions,
+    /// With a vertical motion beside it, or why there is none.
+    pub with_vertical: Result<GroundMotions, String>,
+    /// The records that were read for both.
+    pub records: Vec<RecordSummary>,
+}
+
+/// A record in the place of the scene's.
+#[derive(Clone, Debug)]
+pub struct RecordFiles {
+    /// The horizontal component.
+    pub horizontal: PathBuf,
+    /// The vertical one of the same station, if there is one.
+    pub vertical: Option<PathBuf>,
+}
+
+impl StudyMotion {
+    /// The scene's own motion; `None` when it is a record that the scene does not name.
+    ///
+    /// # Errors
+    /// As [`Scene::ground_motions`].
+    pub fn own(scene: &Scene) -> Result<Option<StudyMotion>, GroundError> {
+        if scene.file.ground.iter().any(|table| table.motion == Motion::Record && table.file.is_none()) {
+            return Ok(None);
+        }
+        StudyMotion::of(scene, "own motion".to_owned(), true, None).map(Some)
+    }
+
+    /// `record` in the place of the scene's.
+    ///
+    /// # Errors
+    /// [`GroundError`] names the file, or says that the scene has no record to replace.
+    pub fn record(scene: &Scene, record: &RecordFiles) -> Result<StudyMotion, GroundError> {
+        let mut scene = scene.clone();
+        scene.use_record(&record.horizontal)?;
+        let name = record.horizontal.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        StudyMotion::of(&scene, name, false, record.vertical.as_deref())
+    }
+
+    fn of(scene: &Scene, name: String, own: bool, vertical: Option<&Path>) -> Result<StudyMotion, GroundError> {
+        let ground = scene.ground_motions()?;
+        let with_vertical = match with_vertical(scene, vertical).ground_motions() {
+            Ok(ground) => Ok(ground),
+            Err(error @ GroundError::Record { .. }) => return Err(error),
+            Err(GroundError::Scene(error)) => Err(error.to_string()),
+        };
+        let mut records = ground.records.clone();
+        if let (Some(_), Ok(both)) = (vertical, &with_vertical) {
+            records.clone_from(&both.records);
+        }
+        Ok(StudyMotion { own, name, ground, with_vertical, records })
+    }
+}
+
+/// `scene` with `record` as its vertical motion, or else the horizontal one times [`VERTICAL_RATIO`].
+pub fn with_vertical(scene: &Scene, record: Option<&Path>) -> Scene {
+    let mut scene = scene.clone();
+    let uplift = scene.uplift_threshold();
+    scene.file.vertical.clone_from(&scene.file.ground);
+    for table in &mut scene.file.vertical {
+        // Amplitudes over the uplift threshold are for horizontal motions only.
+        table.amplitude_g = table.amplitude_ratio.take().map(|ratio| ratio * uplift).or(table.amplitude_g);
+        if record.is_none() {
+            table.scale *= VERTICAL_RATIO;
+        }
+    }
+    if let Some(record) = record {
+        scene.file.vertical.retain(|table| table.motion == Motion::Record);
+        scene.file.vertical.truncate(1);
+        for table in &mut scene.file.vertical {
+            (table.file, table.of_command_line) = (Some(record.to_owned()), true);
+            table.component = None;
+        }
+    }
+    scene
+}

@@ -1,0 +1,284 @@
+//! The runs of a study: every motion, every device, as the scene has it and with each variant.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+use sprag_shared::observers::outcome::Outcome;
+use sprag_sim::accuracy::{ErrorEstimate, Worst};
+use sprag_sim::interrupt::Interrupt;
+use sprag_sim::scene::{Scene, SceneError};
+use sprag_sim::simulation::{RunError, simulate_for_study};
+
+use super::motion::{StudyMotion, with_vertical};
+use super::variants::{VARIANTS, Variant};
+
+/// Peak |θ|/α of the scene as it is from which a change is reported: below it a block hardly rocks, and ratios are of nothing.
+pub const ROCKS_FROM: f64 = 0.05;
+
+/// What a run comes to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Answer {
+    /// Its outcome.
+    pub outcome: Outcome,
+    /// max |θ|/α; `None` when overturned.
+    pub peak: Option<f64>,
+    /// How accurate that is, where it was asked for.
+    pub error: Option<ErrorEstimate>,
+}
+
+/// A variant against the scene as it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Comparison {
+    /// Number of the motion.
+    pub motion: usize,
+    /// Number of the device.
+    pub device: usize,
+    /// Number in [`VARIANTS`].
+    pub variant: usize,
+    /// The scene as it is.
+    pub base: Answer,
+    /// The variant.
+    pub answer: Answer,
+}
+
+/// Which way an outcome changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flip {
+    /// The block stood and now overturns.
+    ToOverturned,
+    /// It overturned and now stands.
+    ToStanding,
+}
+
+impl Comparison {
+    /// Relative change of the peak rotation, where both blocks stand and the one of the scene as it is rocks.
+    pub fn change(&self) -> Option<f64> {
+        let (base, answer) = (self.base.peak?, self.answer.peak?);
+        (base >= ROCKS_FROM).then(|| answer / base - 1.0)
+    }
+
+    /// Whether it decides about overturning.
+    pub fn flip(&self) -> Option<Flip> {
+        match (self.base.outcome.overturned(), self.answer.outcome.overturned()) {
+            (false, true) => Some(Flip::ToOverturned),
+            (true, false) => Some(Flip::ToStanding),
+            _ => None,
+        }
+    }
+}
+
+/// What a study compares: for each device the scene as it is, and with each variant that is for it.
+#[derive(Debug)]
+pub struct Study {
+    /// The devices' names.
+    pub devices: Vec<String>,
+    /// Variants left out for a device, and why, in a line each.
+    pub left_out: Vec<String>,
+    setups: Vec<Setup>,
+}
+
+/// One device of a scene.
+#[derive(Debug)]
+struct Setup {
+    device: usize,
+    variant: Option<usize>,
+    scene: Scene,
+}
+
+/// What all runs of a study came to.
+#[derive(Debug, Default)]
+pub struct Findings {
+    /// By variant, device and motion.
+    pub comparisons: Vec<Comparison>,
+    /// Runs under one motion that could not be had, and why, in a line each.
+    pub left_out: Vec<String>,
+    /// Runs that failed, in a line each.
+    pub failed: Vec<String>,
+    /// The least accurate of them, where that was asked for.
+    pub worst: Option<Worst>,
+}
+
+impl Study {
+    /// The study of the scene at `path` with `overrides`.
+    ///
+    /// # Errors
+    /// [`SceneError`] when the scene itself is wrong.
+    pub fn load(path: &Path, overrides: &[String]) -> Result<(Scene, Study), SceneError> {
+        let base = Scene::load(path, overrides)?;
+        let mut study = Study {
+            devices: base.devices.iter().map(|device| device.name.clone()).collect(),
+            left_out: Vec::new(),
+            setups: Vec::new(),
+        };
+        for device in 0..base.devices.len() {
+            study.setups.push(Setup { device, variant: None, scene: base.only(device) });
+        }
+        for (number, variant) in VARIANTS.iter().enumerate() {
+            for (device, table) in base.file.device.iter().enumerate() {
+                let Some(changes) = variant.overrides(device, table.kind) else {
+                    continue;
+                };
+                match changed(path, overrides, &base, variant, &changes, device) {
+                    Ok(scene) => study.setups.push(Setup { device, variant: Some(number), scene }),
+                    Err(reason) => {
+                        study.left_out.push(format!("{} for {}: {reason}", variant.label(), base.devices[device].name));
+                    }
+                }
+            }
+        }
+        Ok((base, study))
+    }
+
+    /// Number of runs under one motion.
+    pub fn runs(&self) -> usize {
+        self.setups.len()
+    }
+
+    /// Runs everything under `motions` on rayon's threads; `done` is called after each run. The findings do not depend on the
+    /// number of threads.
+    ///
+    /// # Errors
+    /// [`RunError::Interrupted`]; runs that fail are among the findings.
+    pub fn run(&self, motions: &[StudyMotion], interrupt: &Interrupt, done: &(dyn Fn() + Sync)) -> Result<Findings, RunError> {
+        let answers: Vec<Result<Answer, Missing>> = self
+            .setups
+            .par_iter()
+            .flat_map(|setup| motions.par_iter().map(move |motion| (setup, motion)))
+            .map(|(setup, motion)| {
+                let answer = if interrupt.is_set() { Err(Missing::Interrupted) } else { setup.answer(motion, interrupt) };
+                done();
+                answer
+            })
+            .collect();
+        let mut findings = Findings::default();
+        if interrupt.is_set() || answers.contains(&Err(Missing::Interrupted)) {
+            return Err(RunError::Interrupted);
+        }
+        for (answer, error) in answers.iter().flatten().filter_map(|answer| Some((answer, answer.error.as_ref()?))) {
+            findings.worst.get_or_insert_default().note(error, answer.peak);
+        }
+        for (setup, of_setup) in self.setups.iter().zip(answers.chunks(motions.len().max(1))) {
+            for (index, (motion, answer)) in motions.iter().zip(of_setup).enumerate() {
+                let what = setup.variant.map_or_else(|| "as it is".to_owned(), |variant| VARIANTS[variant].label());
+                let line = |reason: &str| format!("{what} under {}: {reason}", motion.name);
+                match (answer, setup.variant) {
+                    // The same for every device.
+                    (Err(Missing::Impossible(reason)), _) if findings.left_out.contains(&line(reason)) => {}
+                    (Err(Missing::Impossible(reason)), _) => findings.left_out.push(line(reason)),
+                    (Err(Missing::Failed(reason)), _) => findings.failed.push(line(reason)),
+                    (Ok(answer), Some(variant)) => {
+                        // The setups of the scene as it is come first, in the order of the devices.
+                        if let Ok(base) = answers[setup.device * motions.len() + index] {
+                            let device = setup.device;
+                            findings.comparisons.push(Comparison { motion: index, device, variant, base, answer: *answer });
+                        }
+                    }
+                    _ => {}
+                }
+            }
+        }
+        Ok(findings)
+    }
+}
+
+/// Why there is no answer.
+#[derive(Clone, Debug, PartialEq)]
+enum Missing {
+    Interrupted,
+    Impossible(String),
+    Failed(String),
+}
+
+impl Setup {
+    fn answer(&self, motion: &StudyMotion, interrupt: &Interrupt) -> Result<Answer, Missing> {
+        let vertical = self.variant.is_some_and(|variant| VARIANTS[variant].vertical);
+        let ground = match &motion.with_vertical {
+            Ok(ground) if vertical => ground,
+            Err(reason) if vertical => return Err(Missing::Impossible(reason.clone())),
+            _ => &motion.ground,
+        };
+        let runs = simulate_for_study(&self.scene, ground, interrupt).map_err(|error| match error {
+            RunError::Interrupted => Missing::Interrupted,
+            error => Missing::Failed(error.to_string()),
+        })?;
+        match runs.first() {
+            Some(run) => {
+                let error = run.error.map(|report| report.estimate);
+                Ok(Answer { outcome: run.outcome, peak: run.peak_rotation, error })
+            }
+            None => Err(Missing::Failed("no device".to_owned())),
+        }
+    }
+}
+
+/// The scene with `changes`, and with only device number `index`; or why the variant makes no sense there.
+fn changed(
+    path: &Path,
+    overrides: &[String],
+    base: &Scene,
+    variant: &Variant,
+    changes: &[String],
+    index: usize,
+) -> Result<Scene, String> {
+    let mut overrides = [overrides, changes].concat();
+    if variant.vertical {
+        if !base.file.vertical.is_empty() {
+            return Err("the scene has it already".to_owned());
+        }
+        // What the scene may not have beside a vertical motion is found here; the motion itself belongs to each ground motion.
+        let tables = with_vertical(base, None).file.vertical;
+        let tables = toml::Value::try_from(&tables).map_err(|error| error.to_string())?;
+        overrides.push(format!("vertical={tables}"));
+    }
+    let scene = Scene::load(path, &overrides).map_err(|error| error.to_string())?;
+    let same = scene.devices[index] == base.devices[index]
+        && scene.geometry() == base.geometry()
+        && scene.file.block.restitution == base.file.block.restitution;
+    if same && !variant.vertical {
+        return Err("the scene has it already".to_owned());
+    }
+    Ok(scene.only(index))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn near_fault() -> &'static Path {
+        Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/near_fault.toml"))
+    }
+
+    #[test]
+    fn variants_are_for_the_devices_that_they_apply_to() {
+        let (scene, study) = Study::load(near_fault(), &[]).unwrap();
+        assert_eq!(study.devices, ["none", "inerter", "clutched pair"]);
+        assert!(study.left_out.is_empty(), "{:?}", study.left_out);
+        let of_device = |device: usize| study.setups.iter().filter(|setup| setup.device == device).count();
+        assert_eq!(of_device(2), 1 + VARIANTS.len());
+        assert!(of_device(0) < of_device(1) && of_device(1) < of_device(2));
+        assert!(study.setups.iter().all(|setup| setup.scene.devices.len() == 1));
+        assert_eq!(study.setups[2].scene.devices[0], scene.devices[2]);
+    }
+
+    #[test]
+    fn a_variant_that_the_scene_has_or_contradicts_is_left_out_with_the_reason() {
+        let sets = ["device.2.engagement=rigid", "device.1.kinematics=consistent"].map(str::to_owned);
+        let (_, study) = Study::load(near_fault(), &sets).unwrap();
+        let left_out = study.left_out.join("\n");
+        assert!(left_out.contains("kinematics: consistent for inerter: the scene has it already"), "{left_out}");
+        assert!(left_out.contains("give only one of both"), "{left_out}");
+    }
+
+    #[test]
+    fn a_change_needs_two_blocks_that_stand_and_one_that_rocks() {
+        let standing = |peak| Answer { outcome: Outcome::Safe, peak: Some(peak), error: None };
+        let lying = Answer { outcome: Outcome::OverturnedAfterImpact, peak: None, error: None };
+        let of = |base, answer| Comparison { motion: 0, device: 0, variant: 0, base, answer };
+        assert_eq!(of(standing(0.5), standing(0.25)).change(), Some(-0.5));
+        assert_eq!(of(standing(0.5), lying).change(), None);
+        assert_eq!(of(standing(0.01), standing(0.25)).change(), None);
+        assert_eq!(of(standing(0.5), lying).flip(), Some(Flip::ToOverturned));
+        assert_eq!(of(lying, standing(0.5)).flip(), Some(Flip::ToStanding));
+        assert_eq!(of(lying, lying).flip(), None);
+    }
+}

@@ -1,0 +1,223 @@
+//! The effects that a study of sensitivity turns on, each at a stated, typical value.
+
+use sprag_sim::scene::device::Kind;
+
+/// One change of a scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Variant {
+    /// The effect's name in [`sprag_sim::effect::EFFECTS`]; "together" for several.
+    pub effect: &'static str,
+    /// What it is set to, for tables and pictures: everything that is turned on, and whether a fraction is one of the block's mass or weight.
+    pub name: &'static str,
+    /// The kinds of devices that it is for.
+    pub kinds: &'static [Kind],
+    /// `KEY=VALUE`, as for `--set`; `N` is the number of the device.
+    pub changes: &'static [&'static str],
+    /// Further ones, for a clutched pair.
+    pub of_pair: &'static [&'static str],
+    /// The ground moves vertically too.
+    pub vertical: bool,
+}
+
+/// Vertical over horizontal acceleration where there is no vertical record: the ratio that codes take.
+pub const VERTICAL_RATIO: f64 = 2.0 / 3.0;
+
+const EVERY: &[Kind] = &[Kind::None, Kind::Inerter, Kind::ClutchedPair];
+const INERTERS: &[Kind] = &[Kind::Inerter, Kind::ClutchedPair];
+const PAIR: &[Kind] = &[Kind::ClutchedPair];
+
+const fn variant(effect: &'static str, name: &'static str, kinds: &'static [Kind], changes: &'static [&'static str]) -> Variant {
+    Variant { effect, name, kinds, changes, of_pair: &[], vertical: false }
+}
+
+/// All of them, in the order of the registry of effects.
+///
+/// - Losses ("bearings"): 0.05 m/s² at the rack, with a mass ratio of 0.5 a force of 0.0025 m g, is a train of gears with seals (plain rolling
+///   bearings have a tenth of it); 0.05 1/s is windage, a flywheel that coasts for 20 s. A brake of 10 m/s² stops one from 1 m/s
+///   within 0.1 s.
+/// - Clutches: a tenth of the block's weight is about the largest force of the ideal device, a fiftieth makes it slip. 1e4 m p²
+///   is a mode of shaft and flywheel at 140 p for a mass ratio of 0.5, 10 % its damping with gears and lubricant, 1 mm the play
+///   of coarse gears after years. Released flywheels stop at once, as the ideal ones do, so that the clutch alone differs.
+/// - Rack: 0.01 of the weight and 0.05 1/s are rolling guides and their seals.
+/// - Delays: 20 ms is a fast electromagnetic clutch with its driver, 50 ms an ordinary one; every tenth engagement missed is a
+///   poor sensor.
+/// - Weight: a flywheel of 0.02 of the block's mass and seven times its pinion's radius has a mass ratio of 0.5; the rack has
+///   half of that mass.
+pub const VARIANTS: [Variant; 21] = [
+    variant("geometry", "slender", EVERY, &["block.geometry=slender"]),
+    Variant { vertical: true, ..variant("vertical", "vertical ground motion", EVERY, &[]) },
+    variant("impact", "geometric restitution", EVERY, &["block.restitution=geometric"]),
+    variant("impact", "momentum balance", EVERY, &["block.restitution=momentum-balance"]),
+    variant("kinematics", "consistent", INERTERS, &["device.N.kinematics=consistent"]),
+    variant("weight", "guided rack, 0.01 × block mass", INERTERS, &["device.N.weight={ rack_ratio = 0.01 }"]),
+    variant(
+        "weight",
+        "flywheels on the block, 0.02 × its mass",
+        INERTERS,
+        &["device.N.weight={ flywheels_ratio = 0.02, flywheels_on = \"block\" }"],
+    ),
+    variant("rack", "dry friction, 0.01 × block weight", INERTERS, &["device.N.rack={ dry_friction_ratio = 0.01 }"]),
+    variant("rack", "viscous 0.05 1/s", INERTERS, &["device.N.rack={ viscous_1_s = 0.05 }"]),
+    variant(
+        "engagement",
+        "rigid, bearings, brake 10 m/s²",
+        PAIR,
+        &[
+            "device.N.engagement=rigid",
+            "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05, brake_deceleration_m_s2 = 10 }",
+        ],
+    ),
+    variant(
+        "engagement",
+        "rigid, bearings, instant brake",
+        PAIR,
+        &[
+            "device.N.engagement=rigid",
+            "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05, brake_deceleration_m_s2 = \"instant\" }",
+        ],
+    ),
+    variant(
+        "engagement",
+        "overrunning, bearings, no brake",
+        PAIR,
+        &["device.N.engagement=overrunning", "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05 }"],
+    ),
+    variant(
+        "clutch",
+        "capacity 0.1 × block weight, instant brake",
+        PAIR,
+        &["device.N.clutch={ capacity_ratio = 0.1 }", INSTANT_BRAKE],
+    ),
+    variant(
+        "clutch",
+        "capacity 0.02 × block weight, instant brake",
+        PAIR,
+        &["device.N.clutch={ capacity_ratio = 0.02 }", INSTANT_BRAKE],
+    ),
+    variant(
+        "clutch",
+        "elastic, K = 1e4 m p², ζ = 0.1, instant brake",
+        PAIR,
+        &["device.N.clutch={ stiffness_ratio = 1e4, damping_ratio = 0.1 }", INSTANT_BRAKE],
+    ),
+    variant(
+        "clutch",
+        "K = 1e4 m p², ζ = 0.1, 1 mm backlash, instant brake",
+        PAIR,
+        &["device.N.clutch={ stiffness_ratio = 1e4, damping_ratio = 0.1, backlash_m = 0.001 }", INSTANT_BRAKE],
+    ),
+    variant("actuation", "delays of 20 ms", PAIR, &["device.N.actuation={ engagement_delay_s = 0.02, release_delay_s = 0.02 }"]),
+    variant("actuation", "delays of 50 ms", PAIR, &["device.N.actuation={ engagement_delay_s = 0.05, release_delay_s = 0.05 }"]),
+    variant("actuation", "1 in 10 engagements missed", PAIR, &["device.N.actuation={ miss_probability = 0.1 }"]),
+    variant(
+        "flywheel",
+        "bearings 0.05 m/s², 0.05 1/s",
+        INERTERS,
+        &["device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05 }"],
+    ),
+    Variant {
+        of_pair: &[
+            "device.N.clutch={ capacity_ratio = 0.1 }",
+            "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05, brake_deceleration_m_s2 = 10 }",
+            "device.N.actuation={ engagement_delay_s = 0.02, release_delay_s = 0.02 }",
+        ],
+        ..variant(
+            "together",
+            "a realistic device",
+            INERTERS,
+            &[
+                "device.N.kinematics=consistent",
+                "block.restitution=geometric",
+                "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05 }",
+                "device.N.rack={ dry_friction_ratio = 0.01, viscous_1_s = 0.05 }",
+                "device.N.weight={ flywheels_ratio = 0.02, rack_ratio = 0.01 }",
+            ],
+        )
+    },
+];
+
+/// As the ideal clutch has it.
+const INSTANT_BRAKE: &str = "device.N.flywheel={ brake_deceleration_m_s2 = \"instant\" }";
+
+impl Variant {
+    /// Its `KEY=VALUE` for device number `index` of `kind`; `None` if it is not for that kind.
+    pub fn overrides(&self, index: usize, kind: Kind) -> Option<Vec<String>> {
+        let of_pair = if kind == Kind::ClutchedPair { self.of_pair } else { &[] };
+        let changes = self.changes.iter().chain(of_pair);
+        self.kinds.contains(&kind).then(|| changes.map(|change| change.replacen(".N.", &format!(".{index}."), 1)).collect())
+    }
+
+    /// Effect and name in one.
+    pub fn label(&self) -> String {
+        format!("{}: {}", self.effect, self.name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use sprag_sim::effect;
+    use sprag_sim::effect::explanation::Effects;
+    use sprag_sim::scene::Scene;
+
+    #[test]
+    fn every_variant_turns_its_effect_on_and_nothing_else_but_what_it_needs() {
+        let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/near_fault.toml"));
+        let base = Scene::load(path, &[]).unwrap();
+        for variant in &VARIANTS {
+            for (index, table) in base.file.device.iter().enumerate() {
+                let Some(overrides) = variant.overrides(index, table.kind) else {
+                    continue;
+                };
+                let scene = Scene::load(path, &overrides).unwrap_or_else(|error| panic!("{}: {error}", variant.label()));
+                if variant.effect == "together" || variant.vertical {
+                    continue;
+                }
+                let effect = effect::find(variant.effect).unwrap();
+                assert!((effect.is_on)(&scene, index).is_some(), "{}", variant.label());
+                let on = Effects::of_scene(&scene).on.into_iter().chain(Effects::of_device(&scene, index).on);
+                let others: Vec<_> = on.map(|setting| setting.effect.name).filter(|name| *name != variant.effect).collect();
+                // Flywheels with a speed of their own bring the consistent kinematics with them.
+                let brought = ["flywheel", "kinematics"];
+                assert!(others.iter().all(|name| brought.contains(name)), "{}: {others:?}", variant.label());
+            }
+        }
+    }
+
+    #[test]
+    fn a_label_says_all_that_its_variant_sets_and_no_mass_reads_as_metres() {
+        let said = [
+            ("brake_deceleration_m_s2 = 10", "brake 10 m/s²"),
+            ("brake_deceleration_m_s2 = \"instant\"", "instant brake"),
+            ("viscous_rate_1_s", "bearings"),
+            ("capacity_ratio = 0.1 ", "capacity 0.1 × block weight"),
+            ("capacity_ratio = 0.02", "capacity 0.02 × block weight"),
+            ("stiffness_ratio = 1e4", "K = 1e4 m p²"),
+            ("damping_ratio = 0.1", "ζ = 0.1"),
+            ("backlash_m = 0.001", "1 mm backlash"),
+            ("rack_ratio = 0.01", "0.01 × block mass"),
+            ("flywheels_ratio = 0.02", "flywheels"),
+            ("flywheels_on = \"block\"", "on the block"),
+            ("dry_friction_ratio = 0.01", "0.01 × block weight"),
+            ("engagement=rigid", "rigid"),
+            ("engagement=overrunning", "overrunning"),
+        ];
+        // What is together is listed key by key beside the table.
+        for variant in VARIANTS.iter().filter(|variant| variant.effect != "together") {
+            let changes = variant.changes.join("; ");
+            for (_, words) in said.iter().filter(|(key, _)| changes.contains(key)) {
+                assert!(variant.name.contains(words), "{}: {changes}", variant.name);
+            }
+            let reads_as_metres = variant.name.contains(" m g") || variant.name.ends_with(" m") || variant.name.contains(" m on");
+            assert!(!reads_as_metres, "{}", variant.name);
+        }
+    }
+
+    #[test]
+    fn names_tell_variants_apart() {
+        let labels: std::collections::BTreeSet<String> = VARIANTS.iter().map(Variant::label).collect();
+        assert_eq!(labels.len(), VARIANTS.len());
+    }
+}
