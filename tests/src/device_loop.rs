@@ -4,13 +4,13 @@ use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
+use sprag_cli::board::driver::{DeviceDriver, DeviceTick, Farewell};
+use sprag_cli::board::emulator::{Emulator, Way};
+use sprag_cli::board::faulty::{Direction, Fate, FaultyLine};
+use sprag_cli::board::parameters;
+use sprag_cli::board::session::Session;
 use sprag_cli::command::loop_scene::LoopScene;
 use sprag_cli::command::record_arguments::SceneRecordArguments;
-use sprag_cli::device::driver::{DeviceDriver, DeviceTick, Farewell};
-use sprag_cli::device::emulator::{Emulator, Way};
-use sprag_cli::device::faulty::{Direction, Fate, FaultyLine};
-use sprag_cli::device::parameters;
-use sprag_cli::device::session::Session;
 use sprag_shared::control::controller::{Circumstances, Decision};
 use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::sensing::sample::Sample;

@@ -5,10 +5,10 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 use std::time::Duration;
 
-use sprag_cli::device::driver::DeviceDriver;
-use sprag_cli::device::line::{DeviceError, Line};
-use sprag_cli::device::parameters;
-use sprag_cli::device::session::Session;
+use sprag_cli::board::driver::DeviceDriver;
+use sprag_cli::board::line::{DeviceError, Line};
+use sprag_cli::board::parameters;
+use sprag_cli::board::session::Session;
 use sprag_shared::control::controller::{Circumstances, Controller};
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::device::beginning::Beginning;

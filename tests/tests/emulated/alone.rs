@@ -5,9 +5,9 @@
 
 use std::time::Duration;
 
-use sprag_cli::device::emulator::{Emulator, Way};
-use sprag_cli::device::parameters;
-use sprag_cli::device::session::Session;
+use sprag_cli::board::emulator::{Emulator, Way};
+use sprag_cli::board::parameters;
+use sprag_cli::board::session::Session;
 use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::device::HOST_SILENCE;

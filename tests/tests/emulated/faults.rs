@@ -3,8 +3,8 @@
 //! The numbers of `docs/faults.md` come from `cargo test -p sprag-tests --test emulated faults -- --ignored --nocapture`, with the image that
 //! `cargo xtask test` builds. What holds whatever happens is in [`Course::check`].
 
+use sprag_cli::board::faulty::{Direction, Fate};
 use sprag_cli::command::loop_scene::LoopScene;
-use sprag_cli::device::faulty::{Direction, Fate};
 use sprag_shared::control::controller::Circumstances;
 use sprag_shared::control::monitor::fault::{Fault, Recovery};
 use sprag_shared::control::sensing::sample::Sample;

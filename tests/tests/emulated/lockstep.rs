@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use sprag_cli::board::image::build_bench;
 use sprag_cli::command::loop_scene::LoopScene;
-use sprag_cli::device::image::build_bench;
 use sprag_shared::control::law::Wish;
 use sprag_shared::control::supervisor::Phase;
 use sprag_sim::closed_loop::plant::Extremes;

@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 use std::time::Duration;
 
-use sprag_cli::device::driver::{DeviceDriver, DeviceTick};
-use sprag_cli::device::emulator::{Emulator, Way};
-use sprag_cli::device::line::{DeviceError, Line};
-use sprag_cli::device::parameters;
-use sprag_cli::device::recordings::{self, Parts, Recording};
-use sprag_cli::device::session::Session;
+use sprag_cli::board::driver::{DeviceDriver, DeviceTick};
+use sprag_cli::board::emulator::{Emulator, Way};
+use sprag_cli::board::line::{DeviceError, Line};
+use sprag_cli::board::parameters;
+use sprag_cli::board::recordings::{self, Parts, Recording};
+use sprag_cli::board::session::Session;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::control::supervisor::event_log::{Entry, Kind};
 use sprag_shared::device::recorder::BEFORE;

@@ -6,10 +6,10 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use sprag_cli::device::emulator::{Emulator, Way};
-use sprag_cli::device::line::Line as _;
-use sprag_cli::device::parameters;
-use sprag_cli::device::session::Session;
+use sprag_cli::board::emulator::{Emulator, Way};
+use sprag_cli::board::line::Line as _;
+use sprag_cli::board::parameters;
+use sprag_cli::board::session::Session;
 use sprag_shared::control::sensing::sample::{Count, Reading, Sample};
 use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::link::{Done, MAX_FRAME, Mishap, Pace, Reply, Request, Started, TickSample, WORD_BLOCK, Words, encode};

@@ -23,9 +23,9 @@ use super::format_arguments::PictureArguments;
 use super::out_arguments::{FolderArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
 use super::{ended, warned};
-use crate::device::step_cost::{BoardError, measure};
+use crate::board::step_cost::{BoardError, measure};
 
-/// Follow a scene by every method, step, precision and source of sines: errors, wrong outcomes, and what they cost in time.
+/// Methods, steps and precisions: errors, and what they cost.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag accuracy scenes/figure10.toml\n  \
     sprag accuracy scenes/near_fault.toml --smallest-step 1e-3 --qemu\n\n\

@@ -19,7 +19,7 @@ use super::accuracy_arguments::AccuracyArguments;
 use super::ended;
 use super::out_arguments::OverwriteArguments;
 
-/// Run many independent cases: dimensionless blocks under one-cycle pulses.
+/// Run many dimensionless blocks under one-cycle pulses.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = format!("Example:\n  sprag batch cases.csv --out results.csv\n\nA case file has the columns\n  {CASE_COLUMNS}\n\
     and the result file\n  {RESULT_COLUMNS}\nwith times in 1/p from the pulse's start; with --accuracy or --time-budget also\n  {ERROR_COLUMNS}\n\

@@ -36,7 +36,7 @@ use super::study_input::{StudyArguments, StudyInputError, study_subject};
 use super::{DRAWING, ended, resumable};
 use crate::command::long_run_arguments::LongRunArguments;
 
-/// Demand regressions and overturning fragilities over many records (Figures 15 and 16).
+/// Demands and fragilities over many records.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag cloud scenes/cloud.toml --records records/\n  \
     sprag cloud study.toml --records near_fault/*.AT2 --out out/near_fault\n\n\

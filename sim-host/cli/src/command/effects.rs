@@ -9,7 +9,7 @@ use sprag_sim::effect::{EFFECTS, Effect, find};
 
 use super::BAD_INPUT;
 
-/// List the effects that a scene may ask for, or show one in full.
+/// List the effects that a scene may ask for, or show one.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag effects\n  sprag effects clutch\n  sprag effects --json\n\n\
     An effect is off until one of its keys turns it on in a scene; `sprag explain SCENE.toml` says which are on and what follows.")]

@@ -12,7 +12,7 @@ use super::{BAD_INPUT, warned};
 /// Columns that a line takes, unless a word is longer.
 const WIDTH: usize = 120;
 
-/// Explain a scene: the effects that it turns on, by which keys, and the equations that result for each device.
+/// Show which effects a scene turns on, and its equations.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag explain scenes/near_fault.toml\n  \
     sprag explain scenes/figure05.toml --set device.1.kinematics=consistent\n\n\

@@ -22,20 +22,20 @@ use sprag_sim::scene::schema::SceneFile;
 use sprag_sim::simulation::ErrorReport;
 
 use super::accuracy_arguments::AccuracyArguments;
+use super::board_line::{LineArguments, connect};
 use super::closed_loop::heading;
-use super::device_line::{LineArguments, connect};
 use super::format_arguments::PictureArguments;
 use super::loop_scene::{LoopScene, LoopSceneError};
 use super::loop_trace::loop_trace;
 use super::out_arguments::{FolderArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
 use super::{DRAWING, ended, warned};
-use crate::device::driver::{DeviceDriver, DeviceTick, Farewell};
-use crate::device::line::DeviceError;
-use crate::device::report::{DeviceSummary, costs, write_device_ticks};
-use crate::device::session::Session;
+use crate::board::driver::{DeviceDriver, DeviceTick, Farewell};
+use crate::board::line::DeviceError;
+use crate::board::report::{DeviceSummary, costs, write_device_ticks};
+use crate::board::session::Session;
 
-/// Run the controller of a scene on a device: the firmware, in the emulator or on a board, in closed loop with the simulated plant.
+/// The same with the firmware, in an emulator or on a board.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag hil scenes/controller.toml --qemu\n  \
     sprag hil scenes/controller.toml --qemu --log info --set controller.law=sign-table\n  \
@@ -244,7 +244,7 @@ fn one(arguments: &HilArguments, desk: &LoopScene, index: usize, host: Host, int
         instructions_per_tick: cost.map(|cost| cost.0),
         instructions_per_tick_worst: cost.map(|cost| cost.1),
         stack_bytes: state.stack,
-        firmware: super::device_line::firmware(&identity),
+        firmware: super::board_line::firmware(&identity),
     };
     let log = device.log.map(|log| log.read()).transpose()?;
     Ok(Run { report, summary, ticks, host: looped.ticks, log })

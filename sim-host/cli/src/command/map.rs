@@ -36,7 +36,7 @@ use super::record_arguments::SceneRecordArguments;
 use super::{DRAWING, ended, resumable, warned};
 use crate::command::long_run_arguments::LongRunArguments;
 
-/// Map a scene over two of its keys: regions of overturning, peaks as spectra.
+/// Map outcomes and peaks over two keys of a scene.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag map scenes/figure08.toml\n  \
     sprag map scenes/figure08.toml --set map.x.cells=512 --set map.y.cells=512\n  \

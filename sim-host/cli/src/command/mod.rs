@@ -6,15 +6,17 @@ pub mod accuracy;
 pub mod accuracy_arguments;
 pub mod batch;
 #[cfg(feature = "effects")]
+pub mod board;
+#[cfg(feature = "effects")]
+mod board_line;
+#[cfg(feature = "effects")]
+mod board_record;
+#[cfg(feature = "effects")]
 pub mod closed_loop;
 pub mod cloud;
-#[cfg(feature = "effects")]
-pub mod device;
-#[cfg(feature = "effects")]
-mod device_line;
-#[cfg(feature = "effects")]
-mod device_record;
+pub mod completions;
 pub mod effects;
+pub mod example;
 pub mod explain;
 mod format_arguments;
 #[cfg(feature = "effects")]
@@ -26,6 +28,7 @@ pub mod loop_scene;
 pub mod loop_study;
 #[cfg(feature = "effects")]
 mod loop_trace;
+pub mod manual;
 pub mod map;
 mod map_boundaries;
 pub mod optimise;

@@ -37,7 +37,7 @@ use super::study_input::{StudyArguments, StudyInputError, study_subject};
 use super::{DRAWING, ended, resumable};
 use crate::command::long_run_arguments::ResumeArguments;
 
-/// Choose a device: the mass ratio, mount and clutch law that overturn least, under a limit on force or stroke.
+/// Choose the device that overturns least, under limits.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag optimise scenes/optimise.toml --records records/\n  \
     sprag optimise study.toml --records near_fault/*.AT2 --set block.size_m=3 --out out/pier\n\n\

@@ -29,7 +29,7 @@ use super::out_arguments::{FolderArguments, claim_of_scene};
 use super::record_arguments::ReadArguments;
 use super::{DRAWING, ended, warned};
 
-/// Turn each effect on alone, and all of a realistic device together: does it matter?
+/// Turn effects on one by one: what does each change?
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag sensitivity scenes/near_fault.toml\n  \
     sprag sensitivity scenes/near_fault.toml --records records/*.AT2 --out out/sensitivity\n\n\

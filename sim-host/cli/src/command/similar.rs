@@ -15,6 +15,7 @@ use sprag_sim::effect::number::number;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::{RecordSummary, warning_lines};
 use sprag_sim::scene::ground::GroundError;
+use sprag_sim::scene::overrides::items;
 use sprag_sim::scene::schema::SceneFile;
 use sprag_sim::scene::{Scene, SceneError};
 use sprag_sim::simulation::{DeviceRun, RunError, simulate};
@@ -26,7 +27,7 @@ use super::out_arguments::{FolderArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
 use super::{ended, warned};
 
-/// Compare a block with others of equal dimensionless groups: θ/α over p t, and how far the responses depart.
+/// Compare blocks of equal dimensionless groups.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag similar scenes/figure06.toml --with block.size_m=5,block.slenderness_deg=5\n  \
     sprag similar scenes/figure07.toml --with block.size_m=5,block.slenderness_deg=20 --with block.size_m=2,block.slenderness_deg=15\n\n\
@@ -125,7 +126,7 @@ fn run_or_fail(
     err: &mut impl Write,
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
-    if arguments.with.iter().any(|changes| changes.split(',').all(|change| change.trim().is_empty())) {
+    if arguments.with.iter().any(|changes| items(changes).next().is_none()) {
         return Err(Failure::Same);
     }
     let mut folder = arguments.folder.folder(&arguments.scene, "similar");
@@ -211,7 +212,7 @@ fn in_words(departure: &Departure, overturned: [bool; 2]) -> String {
 /// The scene with `changes`, simulated; `first` is the block that it is compared with.
 fn block(arguments: &SimilarArguments, changes: &str, first: Option<&Block>, interrupt: &Interrupt) -> Result<Block, Failure> {
     let mut overrides = arguments.set.clone();
-    overrides.extend(changes.split(',').map(str::trim).filter(|change| !change.is_empty()).map(str::to_owned));
+    overrides.extend(items(changes).map(str::to_owned));
     let mut scene = Scene::load(&arguments.scene, &overrides)?;
     arguments.records.apply(&mut scene)?;
     if first.is_some_and(|first| first.scene.devices.len() != scene.devices.len()) {
@@ -224,7 +225,7 @@ fn block(arguments: &SimilarArguments, changes: &str, first: Option<&Block>, int
     scene.file.output.interval_s = Some(step / p);
     let runs = simulate(&scene, &ground, interrupt)?;
     let responses = runs.iter().map(|run| Response::of(&run.history, step)).collect();
-    let name = if changes.is_empty() { "first block".to_owned() } else { changes.replace(',', ", ") };
+    let name = if changes.is_empty() { "first block".to_owned() } else { items(changes).collect::<Vec<_>>().join(", ") };
     Ok(Block { name, groups: groups(&scene)?, scene, records: ground.records, runs, responses })
 }
 

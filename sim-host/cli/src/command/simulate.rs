@@ -132,7 +132,7 @@ fn run_or_fail(
     let _ = write!(out, "{}", summary_table(&rows));
     for run in &runs {
         if let Some(error) = &run.error {
-            let _ = writeln!(out, "{}: {}", run.device, error.words(run.peak_rotation));
+            let _ = writeln!(out, "device `{}`: {}", run.device, error.words(run.peak_rotation));
         }
     }
     if scene.file.checks.as_ref().is_none_or(|checks| checks.friction_coefficient.is_none()) {

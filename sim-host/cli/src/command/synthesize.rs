@@ -12,7 +12,7 @@ use super::out_arguments::OverwriteArguments;
 
 const DEFAULT: NearFaultMotion = NearFaultMotion::DEFAULT;
 
-/// Make a synthetic near-fault ground motion: a velocity pulse with band-limited noise.
+/// Make a synthetic near-fault ground motion.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Example:\n  sprag synthesize --out near_fault.csv --seed 7 --pulse-period 1.5\n\n\
     The pulse is the one of Mavroeidis and Papageorgiou (2003). The same flags give the same bytes on every machine.")]

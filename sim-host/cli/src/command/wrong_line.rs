@@ -24,7 +24,7 @@ pub fn wrong_line(error: &Error) -> String {
     said.join("; ")
 }
 
-/// The words of `line` that name the command or subcommand that was meant, such as `sprag device info`.
+/// The words of `line` that name the command or subcommand that was meant, such as `sprag board info`.
 pub fn command_named(command: &clap::Command, line: impl Iterator<Item = OsString>) -> String {
     let mut named = vec![command.get_name().to_owned()];
     let mut command = command;

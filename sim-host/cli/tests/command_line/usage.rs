@@ -25,10 +25,10 @@ fn a_wrong_command_line_costs_one_line_and_points_to_the_help() {
         (&["mapp"], &["'mapp'", "'map'", "see sprag --help"]),
         (&["batch", "c.csv", "--outt", "x.csv"], &["'--outt'", "'--out'", "see sprag batch --help"]),
         (&["loop", &figure, "--rate", "1"], &["'--rate'", "see sprag loop --help"]),
-        (&["device", "log", "--qemu", "--port", "x"], &["'--qemu'", "'--port <DEV>'", "see sprag device log --help"]),
+        (&["board", "log", "--qemu", "--port", "x"], &["'--qemu'", "'--port <DEV>'", "see sprag board log --help"]),
         (&["hil", &figure, "--qemu", "--way", "air"], &["'air'", "streams, usart"]),
         (&["hil", &figure], &["--port <DEV>", "--qemu", "--board-image"]),
-        (&["device", "info"], &["--port <DEV>", "--qemu"]),
+        (&["board", "info"], &["--port <DEV>", "--qemu"]),
         (&["map", &figure, "--threads", "0"], &["'0'", "from 1 to 1024"]),
         (&["cloud", "study.toml", "--threads", "-1"], &["'-1'", "from 1 to 1024"]),
         (&["loop-study", "laws", "--out", "x", "--threads", "2000"], &["'2000'", "from 1 to 1024"]),
@@ -64,14 +64,14 @@ fn every_message_begins_with_the_name_of_the_program() {
 #[test]
 fn a_file_that_is_no_port_or_no_firmware_is_named() {
     let controller = scene("controller");
-    one_line(&sprag(&["device", "info", "--port", "/dev/null"]), &["/dev/null", "is not a serial port"]);
-    one_line(&sprag(&["device", "info", "--port", "/dev/no-such-port"]), &["/dev/no-such-port"]);
+    one_line(&sprag(&["board", "info", "--port", "/dev/null"]), &["/dev/null", "is not a serial port"]);
+    one_line(&sprag(&["board", "info", "--port", "/dev/no-such-port"]), &["/dev/no-such-port"]);
     let itself = env!("CARGO_BIN_EXE_sprag");
     let folder = tempfile::tempdir().unwrap();
     let empty = folder.path().join("empty.elf");
     File::create(&empty).unwrap();
     for image in [itself, empty.to_str().unwrap()] {
-        let arguments = ["device", "info", "--qemu", "--firmware", image];
+        let arguments = ["board", "info", "--qemu", "--firmware", image];
         one_line(&sprag(&arguments), &[image, "must be an ELF file for ARM"]);
     }
     let out = folder.path().join("out");
@@ -90,7 +90,7 @@ fn a_machine_without_unicorn_is_told_what_to_install() {
     std::fs::set_permissions(&linker, std::fs::Permissions::from_mode(0o755)).unwrap();
     let mut line = Command::new(env!("CARGO_BIN_EXE_sprag"));
     let paths = std::env::join_paths([folder.path(), Path::new("/usr/bin"), Path::new("/bin")]).unwrap();
-    line.args(["device", "info", "--board-image"]).env("PATH", paths).env_remove("UNICORN_LIB_DIR");
+    line.args(["board", "info", "--board-image"]).env("PATH", paths).env_remove("UNICORN_LIB_DIR");
     one_line(&line.output().unwrap(), &["Unicorn is not installed", "libunicorn-dev"]);
 }
 
@@ -106,13 +106,13 @@ const COMMANDS: [&[&str]; 22] = [
     &["accuracy"],
     &["loop"],
     &["hil"],
-    &["device"],
-    &["device", "info"],
-    &["device", "parameters"],
-    &["device", "self-test"],
-    &["device", "log"],
-    &["device", "clear"],
-    &["device", "watch"],
+    &["board"],
+    &["board", "info"],
+    &["board", "parameters"],
+    &["board", "self-test"],
+    &["board", "log"],
+    &["board", "clear"],
+    &["board", "watch"],
     &["loop-study"],
     &["record"],
     &["synthesize"],

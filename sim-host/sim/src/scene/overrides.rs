@@ -36,6 +36,25 @@ pub fn apply(table: &mut Table, item: &str, origin: &str) -> Result<(), SceneErr
     place.put(path, last, given).map_err(|reason| refuse(path, reason))
 }
 
+/// The items of `list` that commas separate, but for commas in TOML's brackets, braces and quotes:
+/// `block.size_m=2, device.0={ kind = "inerter", mass_ratio = 0.5 }` has two.
+pub fn items(list: &str) -> impl Iterator<Item = &str> {
+    let (mut depth, mut quote) = (0_u32, None);
+    let separates = move |character| {
+        match (quote, character) {
+            (Some(open), close) if open == close => quote = None,
+            (Some(_), _) => {}
+            (None, '"' | '\'') => quote = Some(character),
+            (None, '[' | '{') => depth += 1,
+            (None, ']' | '}') => depth = depth.saturating_sub(1),
+            (None, ',') => return depth == 0,
+            _ => {}
+        }
+        false
+    };
+    list.split(separates).map(str::trim).filter(|item| !item.is_empty())
+}
+
 enum Place<'a> {
     Table(&'a mut Table),
     Array(&'a mut Vec<Value>),
@@ -95,6 +114,15 @@ fn index_in(array: &[Value], part: &str) -> Result<usize, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn commas_inside_values_separate_nothing() {
+        let list = r#"block.size_m=2,, device.0={kind="inerter",mass_ratio=0.5}, a=[1,[2,3]] ,title='x, y',b="]","#;
+        let found: Vec<&str> = items(list).collect();
+        let expected =
+            ["block.size_m=2", r#"device.0={kind="inerter",mass_ratio=0.5}"#, "a=[1,[2,3]]", "title='x, y'", r#"b="]""#];
+        assert_eq!(found, expected);
+    }
 
     #[test]
     fn values_are_set_where_the_path_leads() {

@@ -79,8 +79,8 @@ impl ErrorReport {
     pub fn words(&self, peak: Option<f64>) -> String {
         let enough = if self.as_wanted { "" } else { ", more than was asked for" };
         match (self.estimate.outcome_certain, peak) {
-            (false, _) => "the outcome is in doubt: the motion comes too close to a boundary".to_owned(),
-            (true, None) => "the outcome is certain".to_owned(),
+            (false, _) => "outcome in doubt: the motion comes too close to a boundary".to_owned(),
+            (true, None) => "outcome certain".to_owned(),
             (true, Some(_)) => {
                 format!(
                     "peak θ/α within {:.1e} ({:.1e} of it){enough}",

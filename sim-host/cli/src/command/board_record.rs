@@ -1,4 +1,4 @@
-//! `sprag device record`: the earthquakes that a device has recorded.
+//! `sprag board record`: the earthquakes that a device has recorded.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -13,18 +13,18 @@ use sprag_shared::device::recorder::CAPACITY;
 use sprag_shared::link::{RecorderActivity, RecorderState, Request};
 use sprag_sim::interrupt::Interrupt;
 
-use super::device::{Failure, Talk, with_device};
-use super::device_line::LineArguments;
+use super::board::{Failure, Talk, with_device};
+use super::board_line::LineArguments;
 use super::out_arguments::OverwriteArguments;
-use crate::device::line::DeviceError;
-use crate::device::parameters;
-use crate::device::recordings::{self, Key, Part, Parts, Recording};
+use crate::board::line::DeviceError;
+use crate::board::parameters;
+use crate::board::recordings::{self, Key, Part, Parts, Recording};
 
 #[derive(Args, Clone, Debug)]
-#[command(after_help = "Examples:\n  sprag device record --port /dev/ttyUSB0\n  \
-    sprag device record --port /dev/ttyUSB0 --out earthquake.csv --svg earthquake.svg\n  \
-    sprag device record --port /dev/ttyUSB0 --earthquake 3 --part 1 --svg part1.svg\n  \
-    sprag device record --port /dev/ttyUSB0 --erase\n\n\
+#[command(after_help = "Examples:\n  sprag board record --port /dev/ttyUSB0\n  \
+    sprag board record --port /dev/ttyUSB0 --out earthquake.csv --svg earthquake.svg\n  \
+    sprag board record --port /dev/ttyUSB0 --earthquake 3 --part 1 --svg part1.svg\n  \
+    sprag board record --port /dev/ttyUSB0 --erase\n\n\
     A reset in mid-motion begins another part, whose ticks count from the start of the device again. What is recorded while a host says \
     what the sensors read (sprag hil) is marked so.")]
 pub struct RecordArguments {
@@ -132,7 +132,7 @@ pub fn room(state: &RecorderState, period: f64) -> String {
         (_, RecorderActivity::Erasing) => "it is being erased".to_owned(),
         (true, _) => format!("room for the last {:.1} s", seconds(state.pages)),
         (false, _) if left == 0 => {
-            "full: what is there is kept, and nothing new recorded (sprag device record --erase)".to_owned()
+            "full: what is there is kept, and nothing new recorded (sprag board record --erase)".to_owned()
         }
         (false, _) => format!("room for another {:.1} s of {:.1}", seconds(left), seconds(state.pages)),
     };

@@ -6,11 +6,11 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args};
 use sprag_shared::link::Identity;
 
-use crate::device::emulator::{Emulator, Way};
-use crate::device::image;
-use crate::device::line::{DeviceError, Line};
-use crate::device::log::Log;
-use crate::device::serial;
+use crate::board::emulator::{Emulator, Way};
+use crate::board::image;
+use crate::board::line::{DeviceError, Line};
+use crate::board::log::Log;
+use crate::board::serial;
 use crate::part::{DEFMT, SERIAL};
 
 /// Where the device is.

@@ -1,4 +1,4 @@
-//! `sprag device`: talk to a device.
+//! `sprag board`: talk to a device.
 
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -12,29 +12,29 @@ use sprag_shared::link::{Identity, Request, State};
 use sprag_shared::settings::{Item, Settings};
 use sprag_sim::interrupt::Interrupt;
 
-use super::device_line::{Connected, LineArguments, connect, firmware};
-use super::device_record::{self, RecordArguments};
+use super::board_line::{Connected, LineArguments, connect, firmware};
+use super::board_record::{self, RecordArguments};
 use super::ended;
 use super::loop_scene::{LoopScene, LoopSceneError};
 use super::out_arguments::OverwriteArguments;
 use super::record_arguments::SceneRecordArguments;
 use super::warned;
-use crate::device::event_table::{what, write_csv, write_table};
-use crate::device::line::{DeviceError, Line};
-use crate::device::session::Session;
-use crate::device::strip_chart::StripChart;
-use crate::device::{parameters, recordings, setting_text};
+use crate::board::event_table::{what, write_csv, write_table};
+use crate::board::line::{DeviceError, Line};
+use crate::board::session::Session;
+use crate::board::strip_chart::StripChart;
+use crate::board::{parameters, recordings, setting_text};
 
-/// Talk to a device: who it is, its parameters, its self-test, its event log, and what it believes of the motion.
+/// Talk to a board: settings, self-test, logs, recordings.
 #[derive(Args, Clone, Debug)]
-#[command(after_help = "Examples:\n  sprag device info --port /dev/ttyUSB0\n  \
-    sprag device parameters --port /dev/ttyUSB0 --set law=passive --store\n  \
-    sprag device log --port /dev/ttyUSB0 --csv events.csv\n  \
-    sprag device record --port /dev/ttyUSB0 --out earthquake.csv\n  \
-    sprag device watch --port /dev/ttyUSB0\n\n\
+#[command(after_help = "Examples:\n  sprag board info --port /dev/ttyUSB0\n  \
+    sprag board parameters --port /dev/ttyUSB0 --set law=passive --store\n  \
+    sprag board log --port /dev/ttyUSB0 --csv events.csv\n  \
+    sprag board record --port /dev/ttyUSB0 --out earthquake.csv\n  \
+    sprag board watch --port /dev/ttyUSB0\n\n\
     With --qemu a new device is started for each command, so nothing is left of what was told to the one before; and since it has no \
     settings of its own it is in Fault: not commissioned.")]
-pub struct DeviceArguments {
+pub struct BoardArguments {
     #[command(subcommand)]
     command: DeviceCommand,
 }
@@ -42,36 +42,36 @@ pub struct DeviceArguments {
 #[derive(Subcommand, Clone, Debug)]
 enum DeviceCommand {
     /// Show who the device is and how it is.
-    #[command(after_help = "Examples:\n  sprag device info --port /dev/ttyUSB0\n  sprag device info --qemu")]
+    #[command(after_help = "Examples:\n  sprag board info --port /dev/ttyUSB0\n  sprag board info --qemu")]
     Info(InfoArguments),
     /// Show, change, save and restore its parameters.
     Parameters(ParameterArguments),
     /// Make it test its clutches and calibrate its sensors again, and wait for the outcome; it must be Armed.
-    #[command(after_help = "Example:\n  sprag device self-test --port /dev/ttyUSB0")]
+    #[command(after_help = "Example:\n  sprag board self-test --port /dev/ttyUSB0")]
     SelfTest(InfoArguments),
     /// Show its event log.
     #[command(
-        after_help = "Examples:\n  sprag device log --port /dev/ttyUSB0\n  sprag device log --port /dev/ttyUSB0 --csv events.csv"
+        after_help = "Examples:\n  sprag board log --port /dev/ttyUSB0\n  sprag board log --port /dev/ttyUSB0 --csv events.csv"
     )]
     Log(LogArguments),
     /// List the earthquakes that its flight recorder has kept, save one as CSV, draw it, or erase all.
     Record(RecordArguments),
     /// Make it leave Fault, once what was wrong has been seen to; it must be at rest.
-    #[command(after_help = "Example:\n  sprag device clear --port /dev/ttyUSB0")]
+    #[command(after_help = "Example:\n  sprag board clear --port /dev/ttyUSB0")]
     Clear(InfoArguments),
     /// Protect its flash, from the next power-on on: the program against writing, and all of it against being read out by a probe.
     ///
     /// Its jumper JP1 must be closed. Only erasing the whole chip with a probe undoes it, and that takes program and settings with it.
-    #[command(after_help = "Example:\n  sprag device protect --port /dev/ttyUSB0")]
+    #[command(after_help = "Example:\n  sprag board protect --port /dev/ttyUSB0")]
     Protect(InfoArguments),
     /// Make it use its own sensors again, with the settings in its flash, after a loop that ended without letting go of it.
-    #[command(after_help = "Example:\n  sprag device detach --port /dev/ttyUSB0")]
+    #[command(after_help = "Example:\n  sprag board detach --port /dev/ttyUSB0")]
     Detach(InfoArguments),
     /// Plot rotation, velocity and commands as they come; CSV lines where the output is not a terminal. Ends with Ctrl-C.
     ///
     /// The emulated device has no settings of its own: with --qemu there is a device in Fault to be seen.
     #[command(
-        after_help = "Examples:\n  sprag device watch --port /dev/ttyUSB0\n  sprag device watch --port /dev/ttyUSB0 --seconds 60 > motion.csv"
+        after_help = "Examples:\n  sprag board watch --port /dev/ttyUSB0\n  sprag board watch --port /dev/ttyUSB0 --seconds 60 > motion.csv"
     )]
     Watch(WatchArguments),
 }
@@ -83,14 +83,14 @@ struct InfoArguments {
 }
 
 #[derive(Args, Clone, Debug)]
-#[command(after_help = "Examples:\n  sprag device parameters --port /dev/ttyUSB0\n  \
-    sprag device parameters --port /dev/ttyUSB0 --get model.size --get law\n  \
-    sprag device parameters --port /dev/ttyUSB0 --scene scenes/controller.toml --set law=sign-table --store\n  \
-    sprag device parameters --port /dev/ttyUSB0 --out pier.toml\n  \
-    sprag device parameters --port /dev/ttyUSB0 --file pier.toml --store\n\n\
+#[command(after_help = "Examples:\n  sprag board parameters --port /dev/ttyUSB0\n  \
+    sprag board parameters --port /dev/ttyUSB0 --get model.size --get law\n  \
+    sprag board parameters --port /dev/ttyUSB0 --scene scenes/controller.toml --set law=sign-table --store\n  \
+    sprag board parameters --port /dev/ttyUSB0 --out pier.toml\n  \
+    sprag board parameters --port /dev/ttyUSB0 --file pier.toml --store\n\n\
     A block of another size, slenderness (rad), inertia ratio, mass ratio or restitution: frequency, uplift, coupling and the like follow.\n  \
-    sprag device parameters --port /dev/ttyUSB0 --set model.size=2.5 --set model.slenderness=0.2\n  \
-    sprag device parameters --port /dev/ttyUSB0 --set model.mass_ratio=0.8 --set model.inertia_ratio=1.4 --store\n\n\
+    sprag board parameters --port /dev/ttyUSB0 --set model.size=2.5 --set model.slenderness=0.2\n  \
+    sprag board parameters --port /dev/ttyUSB0 --set model.mass_ratio=0.8 --set model.inertia_ratio=1.4 --store\n\n\
     Changes are checked as a whole before any is sent: first those of --scene, then those of --file, then those of --set; values that \
     contradict each other are refused. Gains and limits that a scene's sensors decide stay: --scene designs them, too. The device takes \
     changes while nothing moves, and starts its controller anew. A scene says nothing of how the board is wired: board.* stays.")]
@@ -159,14 +159,14 @@ pub(super) enum Failure {
 pub(super) type Talk = Session<Box<dyn Line>>;
 
 /// Runs the command; what the device says goes to `out`, errors go to `err`.
-pub fn run(arguments: &DeviceArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
+pub fn run(arguments: &BoardArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
     interrupt.keep("what was changed in the device stays as it is");
     let outcome = match &arguments.command {
         DeviceCommand::Info(info) => with_device(&info.line, out, |session, out| show(session, out)),
         DeviceCommand::Parameters(given) => change(given, out, err, interrupt),
         DeviceCommand::SelfTest(info) => with_device(&info.line, out, |session, out| self_test(session, out, interrupt)),
         DeviceCommand::Log(given) => log_to(given, out),
-        DeviceCommand::Record(given) => device_record::run(given, out, interrupt),
+        DeviceCommand::Record(given) => board_record::run(given, out, interrupt),
         DeviceCommand::Clear(info) => with_device(&info.line, out, clear),
         DeviceCommand::Protect(info) => with_device(&info.line, out, protect),
         DeviceCommand::Detach(info) => with_device(&info.line, out, detach),
@@ -216,7 +216,7 @@ fn show(session: &mut Talk, out: &mut impl Write) -> Result<(), Failure> {
         "sensors       {}",
         match state.attached {
             None => "its own",
-            Some(_) => "those of a host: it does not protect the structure (sprag device detach)",
+            Some(_) => "those of a host: it does not protect the structure (sprag board detach)",
         }
     )?;
     writeln!(out, "start         {:?}", state.cause)?;
@@ -235,7 +235,7 @@ fn show(session: &mut Talk, out: &mut impl Write) -> Result<(), Failure> {
     writeln!(out, "link          {} bad frames, {} reports lost", state.bad_frames, state.lost_reports)?;
     writeln!(out, "event log     {} entries", state.log_count)?;
     let period = f64::from(parameters::read(session)?.period());
-    writeln!(out, "recordings    {}", device_record::room(&recordings::state(session)?, period))?;
+    writeln!(out, "recordings    {}", board_record::room(&recordings::state(session)?, period))?;
     Ok(())
 }
 
@@ -435,7 +435,7 @@ fn clear<W: Write>(session: &mut Talk, out: &mut W) -> Result<(), Failure> {
     writeln!(out, "{} -> {}", phase_text(before.phase, before.fault), phase_text(after.phase, after.fault))?;
     match after.fault {
         Some(fault) if fault.recovery() == Recovery::ByStoring => {
-            Err(Failure::Input(format!("it stays in Fault: {fault}: sprag device parameters --scene SCENE.toml --store")))
+            Err(Failure::Input(format!("it stays in Fault: {fault}: sprag board parameters --scene SCENE.toml --store")))
         }
         Some(fault) => {
             Err(Failure::Input(format!("it stays in Fault: {fault}; it leaves only at rest, and while nothing is wrong")))

@@ -12,7 +12,7 @@ use super::derived::{self, Given};
 /// # Errors
 /// One line, where there is none.
 pub fn find(name: &str) -> Result<(u16, &'static Description), String> {
-    Description::find(name).ok_or_else(|| format!("there is no parameter {name}; \"sprag device parameters\" lists them"))
+    Description::find(name).ok_or_else(|| format!("there is no parameter {name}; \"sprag board parameters\" lists them"))
 }
 
 /// Gives the parameter called `name` the value `text`.
@@ -90,7 +90,7 @@ pub fn check(settings: &Settings) -> Result<(), String> {
 
 /// All of them as a TOML file, with unit and range beside each.
 pub fn to_toml(settings: &Settings) -> String {
-    let mut text = String::from("# Parameters of a device: sprag device parameters --file THIS --port DEV\n");
+    let mut text = String::from("# Parameters of a device: sprag board parameters --file THIS --port DEV\n");
     for (description, &word) in Description::all().iter().zip(settings.words()) {
         let value = description.show(word);
         let quote = if matches!(description.kind, Kind::Choice(_)) { "\"" } else { "" };

@@ -1,0 +1,148 @@
+//! `sprag example`: the scenes and studies that ship, which are inside the program.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use include_dir::{Dir, File, include_dir};
+use sprag_report::output::{OutputError, Results};
+
+use super::BAD_INPUT;
+use super::out_arguments::OverwriteArguments;
+
+/// The scenes of the repository.
+static SCENES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/../../scenes");
+
+/// Write a scene or study that ships with the program, or list them.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "Examples:\n  sprag example\n  sprag example near_fault && sprag simulate near_fault.toml\n\n\
+    Writes NAME.toml, and the record that it names where there is one.")]
+pub struct ExampleArguments {
+    /// The scene or study to write; all are listed without it.
+    #[arg(value_name = "NAME")]
+    pub name: Option<String>,
+    /// Folder for the files; it is made where it is missing.
+    #[arg(long, value_name = "DIR", default_value = ".", value_hint = clap::ValueHint::DirPath)]
+    pub out: PathBuf,
+    /// What may be replaced.
+    #[command(flatten)]
+    pub replace: OverwriteArguments,
+}
+
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error("there is no example {name}; there are {}", names().join(", "))]
+    Unknown { name: String },
+    #[error("{} is there already; --overwrite replaces it", path.display())]
+    Exists { path: PathBuf },
+    #[error("{}: {error}", path.display())]
+    Folder { path: PathBuf, error: std::io::Error },
+    #[error("{0}")]
+    Output(#[from] OutputError),
+}
+
+/// Runs the command and gives its exit code.
+pub fn run(arguments: &ExampleArguments, out: &mut impl Write, err: &mut impl Write) -> i32 {
+    let Some(name) = &arguments.name else {
+        for file in scenes() {
+            let _ = writeln!(out, "{:<14}{}", stem(file), title(file));
+        }
+        return 0;
+    };
+    match write(name, arguments) {
+        Ok(paths) => {
+            for path in paths {
+                let _ = writeln!(out, "{}", path.display());
+            }
+            0
+        }
+        Err(failure) => {
+            let _ = writeln!(err, "sprag: {failure}");
+            BAD_INPUT
+        }
+    }
+}
+
+fn write(name: &str, arguments: &ExampleArguments) -> Result<Vec<PathBuf>, Failure> {
+    let name = name.strip_suffix(".toml").unwrap_or(name);
+    let scene = scenes().find(|file| stem(file) == name).ok_or_else(|| Failure::Unknown { name: name.to_owned() })?;
+    let named = |file: &&File<'_>| file.path() == scene.path() || text(scene).contains(&format!("\"{}\"", file.path().display()));
+    let files: Vec<&File<'_>> = SCENES.files().filter(named).collect();
+    let folder = &arguments.out;
+    std::fs::create_dir_all(folder).map_err(|error| Failure::Folder { path: folder.clone(), error })?;
+    let mut results = Results::default();
+    let mut paths = Vec::new();
+    for file in files {
+        let path = folder.join(file.path());
+        let is_new = std::fs::read(&path).map_or(true, |there| there != file.contents());
+        if path.exists() && is_new && !arguments.replace.overwrite {
+            return Err(Failure::Exists { path });
+        }
+        results.add(&path, |to| to.write_all(file.contents()))?;
+        paths.push(path);
+    }
+    results.commit()?;
+    Ok(paths)
+}
+
+/// The scenes and studies, by name.
+fn scenes() -> impl Iterator<Item = &'static File<'static>> {
+    SCENES.files().filter(|file| file.path().extension().is_some_and(|extension| extension == "toml"))
+}
+
+fn names() -> Vec<String> {
+    scenes().map(stem).collect()
+}
+
+fn stem(file: &File<'_>) -> String {
+    file.path().file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
+}
+
+fn text(file: &'static File<'static>) -> &'static str {
+    file.contents_utf8().unwrap_or_default()
+}
+
+/// The title of a scene or study.
+fn title(file: &'static File<'static>) -> String {
+    let table: toml::Table = text(file).parse().unwrap_or_default();
+    table.get("title").and_then(toml::Value::as_str).unwrap_or_default().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    fn example(name: &str, folder: &Path) -> (i32, String) {
+        let arguments =
+            ExampleArguments { name: Some(name.to_owned()), out: folder.to_owned(), replace: OverwriteArguments::default() };
+        let mut err = Vec::new();
+        let code = run(&arguments, &mut Vec::new(), &mut err);
+        (code, String::from_utf8(err).unwrap())
+    }
+
+    #[test]
+    fn every_example_has_a_title_and_is_written_with_what_it_needs() {
+        for name in names() {
+            let folder = tempfile::tempdir().unwrap();
+            assert_eq!(example(&name, folder.path()), (0, String::new()));
+            let scene = scenes().find(|file| stem(file) == name).unwrap();
+            assert!(!title(scene).is_empty(), "{name}");
+            let needs_record = text(scene).contains("near_fault.csv\"");
+            assert_eq!(folder.path().join("near_fault.csv").exists(), needs_record, "{name}");
+        }
+    }
+
+    #[test]
+    fn what_the_user_has_changed_is_not_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("statue.toml");
+        std::fs::write(&path, "mine").unwrap();
+        let (code, message) = example("statue", folder.path());
+        assert!(code == BAD_INPUT && message.contains("--overwrite"), "{message}");
+        assert_eq!(std::fs::read_to_string(path).unwrap(), "mine");
+        let (code, message) = example("status", folder.path());
+        assert!(code == BAD_INPUT && message.contains("statue"), "{message}");
+    }
+}
