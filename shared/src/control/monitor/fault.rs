@@ -118,6 +118,8 @@ pub enum Fault {
     ClosingTimeChanged(Wheel),
     /// Only a warning: the inertial part answered its own self-test otherwise than in the factory.
     AnswersWrongly(Place),
+    /// Only a warning: the inertial parts were not tested, for lack of stillness or of time.
+    PartsUntested,
     /// Only a warning: the accelerometer at rest is so far from 1 g that its range must be another.
     ScaleWrong(Place),
     /// Only a warning: the coils' supply is lower than the pull-in time was measured with.
@@ -250,6 +252,7 @@ codes! {
     94 ScaleWrong(Place::Ground);
     95 SupplyLow;
     96 TemperatureUnusual;
+    97 PartsUntested;
 }
 
 impl Fault {
@@ -284,6 +287,7 @@ impl Fault {
             | Fault::SelfTestAbandoned
             | Fault::CommandsTooMany
             | Fault::AnswersWrongly(_)
+            | Fault::PartsUntested
             | Fault::ScaleWrong(_)
             | Fault::SupplyLow
             | Fault::TemperatureUnusual => None,
@@ -339,7 +343,7 @@ impl Fault {
                 Recovery::NotNeeded
             }
             Fault::NotSealed | Fault::OlderFirmware | Fault::AnswersWrongly(_) | Fault::ScaleWrong(_) => Recovery::NotNeeded,
-            Fault::SupplyLow | Fault::TemperatureUnusual => Recovery::NotNeeded,
+            Fault::SupplyLow | Fault::TemperatureUnusual | Fault::PartsUntested => Recovery::NotNeeded,
         }
     }
 }
@@ -393,6 +397,7 @@ impl fmt::Display for Fault {
             Fault::AnswersWrongly(place) => {
                 write!(formatter, "inertial part on the {place}: it answers its self-test otherwise than in the factory")
             }
+            Fault::PartsUntested => write!(formatter, "inertial parts: untested, for lack of stillness or of time"),
             Fault::ScaleWrong(place) => {
                 write!(
                     formatter,
