@@ -13,10 +13,10 @@ use crate::control::sensing::sample::{Reading, Sample};
 pub const TOLERANCE: f32 = 0.2;
 
 /// Ticks of which one is looked at, a power of two: rest has many.
-const EVERY: u32 = 64;
+const EVERY: u32 = 256;
 
 /// Readings that are averaged, over 8 s at 2 kHz: for so long no earthquake pushes the ground by [`TOLERANCE`] of g to one side.
-const AVERAGED: u16 = 256;
+const AVERAGED: u16 = 64;
 
 /// Sums over a rest; the default is before one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -102,12 +102,12 @@ mod tests {
             for upright in [[0.0, 1.0], [0.6, 0.8], [-0.8, 0.6]] {
                 let force = upright.map(|share| factor * share);
                 let mut scale = Scale::default();
-                assert_eq!(looks(&mut scale, force, 255), 0);
+                assert_eq!(looks(&mut scale, force, 63), 0);
                 assert_eq!(looks(&mut scale, force, 1), 1, "{factor} {upright:?}");
                 assert_eq!(looks(&mut scale, force, 2048), 0, "told once");
                 // What has been right again is told anew.
-                assert_eq!(looks(&mut scale, [0.0, 1.0], 256), 0);
-                assert_eq!(looks(&mut scale, force, 256), 1);
+                assert_eq!(looks(&mut scale, [0.0, 1.0], 64), 0);
+                assert_eq!(looks(&mut scale, force, 64), 1);
             }
         }
     }
@@ -128,7 +128,7 @@ mod tests {
     fn motion_begins_anew_and_what_was_never_read_says_nothing() {
         let mut scale = Scale::default();
         for _ in 0..100 {
-            assert_eq!(looks(&mut scale, [0.0, 2.0], 255), 0);
+            assert_eq!(looks(&mut scale, [0.0, 2.0], 63), 0);
             assert_eq!(scale.look(&Sample::default(), false, GRAVITY), [false; 2]);
         }
         for value in [0.0, f32::NAN] {

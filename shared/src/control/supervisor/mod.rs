@@ -222,6 +222,9 @@ impl Supervisor {
     /// One tick.
     pub fn step(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) -> Verdict {
         state.tick = state.tick.wrapping_add(1);
+        if Scale::is_due(state.tick) {
+            self.weigh_gravity(state, input);
+        }
         let at_rest = state.motion.block_still >= self.quiet;
         let context = Context { calibration: &state.calibration, calibrated: state.calibrated, at_rest };
         let findings = self.monitor.step(&mut state.monitor, input.sample, &context);
@@ -261,9 +264,6 @@ impl Supervisor {
                 self.leave(state, input, clear, true);
             }
         }
-        if Scale::is_due(state.tick) {
-            self.weigh_gravity(state, input, at_rest);
-        }
         if let Some(wheel) = input.slower {
             log(state, input, Kind::Warning(Fault::ClosingTimeChanged(wheel).code()));
         }
@@ -299,8 +299,11 @@ impl Supervisor {
     }
 
     /// Has the accelerometers' scale looked at, whatever the phase.
+    // Before all else of a tick, which then need not keep anything for it.
+    #[cold]
     #[inline(never)]
-    fn weigh_gravity(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>, at_rest: bool) {
+    fn weigh_gravity(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) {
+        let at_rest = state.motion.block_still >= self.quiet;
         let found = state.scale.look(input.sample, at_rest, self.motion.gravity);
         for (place, _) in Place::ALL.into_iter().zip(found).filter(|(_, found)| *found) {
             log(state, input, Kind::Warning(Fault::ScaleWrong(place).code()));

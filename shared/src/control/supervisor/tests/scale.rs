@@ -11,8 +11,8 @@ fn scaled(factors: [f32; 2]) -> impl Fn(&mut Sample, &Sample) {
     }
 }
 
-/// Ticks in which it must be found: 256 looks, one every 64 ticks, and those of a rest that has just begun.
-const FOUND_WITHIN: u32 = 257 * 64;
+/// Ticks in which it must be found: 64 looks, one every 256 ticks, and those of a rest that has just begun.
+const FOUND_WITHIN: u32 = 65 * 256;
 
 fn warned(rig: &Rig) -> [bool; 2] {
     Place::ALL.map(|place| rig.complaints().contains(&Kind::Warning(Fault::ScaleWrong(place).code())))
