@@ -13,6 +13,8 @@ const GYROSCOPE_CONFIG: u8 = 0x4F;
 const ACCELEROMETER_CONFIG: u8 = 0x50;
 const SELF_TEST: u8 = 0x70;
 const IDENTITY: u8 = 0x75;
+/// ZG_ST_DATA of bank 1, the last of the factory's codes.
+const LAST_CODE: u8 = 0x61;
 
 const DATA_READY: u8 = 1 << 3;
 const RESET_DONE: u8 = 1 << 4;
@@ -56,6 +58,9 @@ pub struct Icm42688 {
     pub answers: [[f64; 3]; 2],
     /// °C.
     pub temperature: f64,
+    /// What the factory has left has been read to the end, as at the end of a self-test: what was delivered before was not for the
+    /// controller.
+    pub judged: bool,
     /// Self-tests, by the times that the gyroscope's was switched on.
     pub tests: u32,
     /// Resets asked for over the bus.
@@ -89,6 +94,7 @@ impl Icm42688 {
             accelerometer_start: milliseconds(10),
             answers: [[1.0; 3]; 2],
             temperature: 25.0,
+            judged: false,
             tests: 0,
             resets: 0,
             forbidden: 0,
@@ -224,6 +230,9 @@ impl Icm42688 {
             return self.bank;
         }
         if self.bank != 0 {
+            if self.bank == 1 && register == LAST_CODE {
+                (self.judged, self.delivered) = (true, None);
+            }
             return self.banks[usize::from(self.bank)][usize::from(register)];
         }
         let words = self.latched.acceleration.into_iter().chain(self.latched.rate);
