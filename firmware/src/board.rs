@@ -32,6 +32,7 @@ compile_error!("select one board only: --no-default-features --features board-qe
 
 use embedded_storage::nor_flash::NorFlash;
 use sprag_shared::control::monitor::coil::CoilReading;
+use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::device::clock_check::ClockCheck;
 use sprag_shared::device::light::Shown;
@@ -182,6 +183,20 @@ pub trait Sensors {
     /// does not answer keeps its number, and the supervisor notices. Takes a bounded time, a small part of a control period. Leaves
     /// `sample.engaged` alone.
     fn read(&mut self, sample: &mut Sample);
+
+    /// Has the parts test themselves, with a tick every `period` s: they give no readings meanwhile, which must end within `patience` s.
+    /// Only where nothing relies on readings.
+    fn test(&mut self, _period: f32, _patience: f32) {}
+
+    /// What the test of a part has come to, if it has failed, or could not be made. To be asked now and then: a part at a time.
+    fn untrue(&mut self) -> Option<Fault> {
+        None
+    }
+
+    /// Temperature at the block, °C, if it is known.
+    fn temperature(&self) -> Option<f32> {
+        None
+    }
 }
 
 /// The coils of the two clutches.
@@ -192,6 +207,11 @@ pub trait Coils {
     /// Carries out a command, once a control period: pulls in with the full current, then holds with less; where it is `tested`, tries
     /// each switch alone first.
     fn drive(&mut self, command: [bool; 2], tested: bool);
+
+    /// The coils' supply, V, if it is measured.
+    fn supply(&self) -> Option<f32> {
+        None
+    }
 }
 
 /// The watchdog: resets the chip unless fed in time.

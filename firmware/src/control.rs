@@ -1,12 +1,14 @@
 //! The control task: one tick, in time or noticed to be late.
 
-use core::sync::atomic::{AtomicBool, AtomicU8, Ordering};
+use core::sync::atomic::{AtomicU8, Ordering};
 
 use crate::board::{Board, Coils, Light, Selected, Sensors, Watchdog};
 use crate::link::Outbox;
 use crate::memory;
+use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::device::Device;
+use sprag_shared::device::conditions::Conditions;
 use sprag_shared::device::recorder::Ring;
 use sprag_shared::link::Pace;
 
@@ -23,8 +25,13 @@ const EVERY: u8 = 4;
 /// What the coils do when the program stops: bit 0 the first, bit 1 the second.
 static SAFE_STATE: AtomicU8 = AtomicU8::new(0);
 
-/// The next tick comes after a pause that was meant: it is not late.
-static PAUSED: AtomicBool = AtomicBool::new(false);
+/// What the next tick begins with, as bits.
+static ASKED: AtomicU8 = AtomicU8::new(0);
+
+/// Of [`ASKED`]: the tick comes after a pause that was meant, so it is not late.
+const FORGET_TIME: u8 = 1;
+/// Of [`ASKED`]: the sensors are to test themselves.
+const TEST_SENSORS: u8 = 2;
 
 /// What is added to the next tick in a rehearsal, counts.
 #[cfg(feature = "board-qemu")]
@@ -43,11 +50,21 @@ pub fn safe_state() -> [bool; 2] {
 
 /// Makes the next tick not late, whenever it comes.
 pub fn forget_time() {
-    PAUSED.store(true, Ordering::Relaxed);
+    ask(FORGET_TIME);
+}
+
+/// Has the sensors test themselves from the next tick on. Only where nothing relies on their readings.
+pub fn test_sensors() {
+    ask(TEST_SENSORS);
+}
+
+fn ask(bit: u8) {
+    ASKED.fetch_or(bit, Ordering::Relaxed);
 }
 
 /// What the control task owns.
 pub struct Control {
+    conditions: Conditions,
     sensors: <Selected as Board>::Sensors,
     coils: <Selected as Board>::Coils,
     watchdog: <Selected as Board>::Watchdog,
@@ -63,14 +80,16 @@ pub struct Control {
 }
 
 impl Control {
-    /// Before the first tick.
+    /// Before the first tick, of a device that is to be within these `conditions`.
     pub fn new(
+        conditions: Conditions,
         sensors: <Selected as Board>::Sensors,
         coils: <Selected as Board>::Coils,
         watchdog: <Selected as Board>::Watchdog,
         light: <Selected as Board>::Light,
     ) -> Control {
         Control {
+            conditions,
             sensors,
             coils,
             watchdog,
@@ -81,6 +100,28 @@ impl Control {
             silence: 0,
             turn: 0,
             phase: Phase::Boot,
+        }
+    }
+
+    /// Looks at what surrounds the controller, every fourth tick.
+    #[inline]
+    fn look_around(&mut self, device: &mut Device) {
+        if self.coils.supply().is_some_and(|volts| self.conditions.see_supply(volts)) {
+            device.warn(Fault::SupplyLow);
+        }
+        if self.turn == 0 {
+            self.look_farther(device);
+        }
+    }
+
+    /// The same every 256th tick.
+    #[inline(never)]
+    fn look_farther(&mut self, device: &mut Device) {
+        if self.sensors.temperature().is_some_and(|celsius| self.conditions.see_temperature(celsius)) {
+            device.warn(Fault::TemperatureUnusual);
+        }
+        if let Some(fault) = self.sensors.untrue() {
+            device.warn(fault);
         }
     }
 }
@@ -102,9 +143,14 @@ pub fn control_tick(control: &mut Control, device: &mut Device, ring: &mut Ring,
         }
     } else if timer {
         let begun = Selected::now();
-        if PAUSED.load(Ordering::Relaxed) {
-            PAUSED.store(false, Ordering::Relaxed);
+        let asked = ASKED.load(Ordering::Relaxed);
+        if asked != 0 {
+            ASKED.store(0, Ordering::Relaxed);
+            // Either has taken longer than a period may.
             control.last = None;
+            if asked & TEST_SENSORS != 0 {
+                control.sensors.test(device.period(), device.patience());
+            }
         }
         let period = device.period_counts(Selected::COUNTER_HZ);
         let late = control.last.map_or(0, |last| begun.wrapping_sub(last).saturating_sub(period));
@@ -120,7 +166,7 @@ pub fn control_tick(control: &mut Control, device: &mut Device, ring: &mut Ring,
 /// Sensors, controller, coils.
 fn tick(control: &mut Control, device: &mut Device, ring: &mut Ring, outbox: &mut Outbox, late: u32) {
     let begun = Selected::now();
-    let Control { sensors, coils, .. } = control;
+    let Control { sensors, coils, .. } = &mut *control;
     #[cfg(feature = "log")]
     let before = *device.decision();
     let seen = Coils::read(coils);
@@ -149,6 +195,9 @@ fn tick(control: &mut Control, device: &mut Device, ring: &mut Ring, outbox: &mu
     }
     #[cfg(feature = "log")]
     crate::log::decision(&before, decision);
+    if in_turn {
+        control.look_around(device);
+    }
     #[cfg(feature = "deliberate-panic")]
     deliberate_panic(device);
     #[cfg(feature = "board-qemu")]

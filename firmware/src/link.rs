@@ -185,7 +185,7 @@ impl Link {
 
     fn act(&mut self, tag: u8, answer: Answer) {
         match answer {
-            Answer::Reply(reply) | Answer::Restarted(reply) => self.next = Some((tag, reply)),
+            Answer::Reply(reply) | Answer::Restarted(reply) | Answer::SelfTest(reply) => self.next = Some((tag, reply)),
             Answer::Sample if self.pace == Some(Pace::Sample) => tick::pend(),
             // Has been done before this is told.
             Answer::Sample | Answer::Change(_) | Answer::Recorder | Answer::Protect => {}

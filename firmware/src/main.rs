@@ -31,12 +31,14 @@ mod app {
     use core::mem::MaybeUninit;
     use sprag_shared::control::monitor::fault::Fault;
     use sprag_shared::device::beginning::Beginning;
+    use sprag_shared::device::conditions::Conditions;
     use sprag_shared::device::recorder::{Recorder, Ring};
     use sprag_shared::device::retained::Retained;
     use sprag_shared::device::{Answer, Device, Surroundings};
     use sprag_shared::link::{Done, Refusal, Reply, Request};
     use sprag_shared::settings::Settings;
     use sprag_shared::settings::store::{Store, StoreError};
+    use sprag_shared::settings::wiring::Wiring;
 
     #[shared]
     struct Shared {
@@ -88,14 +90,18 @@ mod app {
         integrity::put_in_force(device);
         crate::control::set_safe_state(device.safe_command());
         let counts = kept.filter(|_| device.resumes()).map(|kept| kept.counts);
+        let conditions = Conditions::new(&Wiring::of(device.settings()));
         let parts = board.begin(device.settings(), counts);
+        if !device.resumes() && device.barred().is_none() {
+            crate::control::test_sensors();
+        }
         tick::set_period(device.period_counts(Selected::CORE_HZ));
         info!("started: {}, resumes {}, commissioned {}", words.cause, device.resumes(), device.barred().is_none());
         let around = Surroundings { highest, sealed: program.is_some(), ..identity::surroundings(words.cause) };
         let end = program.as_ref().map_or(0, Program::end);
         let link = Link::new(parts.line, stored, &words.started(device, commissioned), around, end, device.attached());
         let integrity = Integrity::new(program, parts.clock);
-        let control = Control::new(parts.sensors, parts.coils, parts.watchdog, parts.light);
+        let control = Control::new(conditions, parts.sensors, parts.coils, parts.watchdog, parts.light);
         (Shared { device, ring: context.local.ring, outbox: Outbox::new() }, Local { control, link, integrity })
     }
 
@@ -134,7 +140,15 @@ mod app {
             let deserted = context.shared.device.lock(|device| device.deserted());
             let mut ask = |request: &Request, stored: &mut Stored, around: &Surroundings| {
                 let device = &mut context.shared.device;
-                let answer = match device.lock(|device| device.answer(request, around)) {
+                let answer = device.lock(|device| {
+                    let answer = device.answer(request, around);
+                    // Before the next tick.
+                    if matches!(answer, Answer::SelfTest(_)) {
+                        crate::control::test_sensors();
+                    }
+                    answer
+                });
+                let answer = match answer {
                     Answer::Recorder => Answer::Reply(stored.recorder.answer(request)),
                     answer => answer,
                 };

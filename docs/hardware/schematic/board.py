@@ -69,6 +69,10 @@ def supply():
     place(s, "U4", p.LDO_3, p1="GND", p2="V3", p3="V5")
     two(s, "C6", p.C10U, "V5", "GND")
     two(s, "C7", p.C10U, "V3", "GND")
+    # 36.3 V at the end of the converter's scale; below 3.3 V at its pin with the clamp at work.
+    two(s, "R4", p.resistor("100K"), "V24", "SUPPLY")
+    two(s, "R5", p.resistor("10K"), "SUPPLY", "GND")
+    two(s, "C8", p.C10N, "SUPPLY", "GND")
     for ref, name in [("TP1", "V24"), ("TP2", "V12"), ("TP3", "V5"), ("TP4", "V3"), ("TP5", "GND")]:
         place(s, ref, p.TEST_POINT, p1=name)
 

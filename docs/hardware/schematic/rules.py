@@ -10,7 +10,7 @@ DERATING = 0.8
 CLAMPED = {"COIL1+", "COIL1-", "COIL2+", "COIL2-", "COIL1_NODE", "COIL2_NODE"}
 # Parts without which a rule must be violated: each is taken away in turn, to see that its rule sees.
 GUARDED = ["F1", "D6", "C1", "R50", "R51", "D20", "D21", "D30", "D31", "D32", "R62", "R66", "R72", "R76", "F2", "F3", "U9", "R82", "JP1",
-           "R12", "Q5", "D61", "D62", "C80", "R10", "C17", "TP1", "R60", "D60"]
+           "R12", "Q5", "D61", "D62", "C80", "R10", "C17", "TP1", "R60", "D60", "R4", "R5", "C8"]
 
 
 def violations(netlist, kinds):
@@ -42,6 +42,10 @@ def violations(netlist, kinds):
     need("reverse polarity is blocked", any(kinds[r]["number"].startswith("SQD50P06") for r, _ in nets["V24_FUSED"] if r in refs))
     need("the 24 V rail has clamp and capacitor", any(kinds[r]["number"] == "SMBJ26A" for r in between("V24", "GND", "D")) and
          any("1000" in kinds[r]["what"] for r in between("V24", "GND", "C")))
+    # The measured supply, and a capacitor that the converter's sampling draws from.
+    need("the supply's divider is of 100 kΩ and 10 kΩ, with a capacitor",
+         any(kinds[r]["what"].startswith("100K") for r in between("V24", "SUPPLY", "R")) and
+         any(kinds[r]["what"].startswith("10K") for r in between("SUPPLY", "GND", "R")) and between("SUPPLY", "GND", "C"))
     # Each chip's supply pins have a capacitor each.
     chips = [(r, n) for r, pins in of.items() if r.startswith("U") for n in {net for pin, net in pins.items()} & {"V3", "VDDA", "V12", "V5"}]
     extra = {"V3": sum(1 for pin, net in of["U1"].items() if net == "V3" and pin != "1") - 1}

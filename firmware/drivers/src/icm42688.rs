@@ -4,19 +4,27 @@
 //! bits, both at 8 kHz behind anti-alias filters at 536 Hz, user-interface filters wide open.
 //!
 //! A part that is configured already is only read back, so that a processor that was reset in the middle of a motion has readings again
-//! within some ticks. While it is read, its configuration is compared on and on.
+//! within some ticks. While it is read, its configuration is compared on and on, and its temperature is read now and then.
+//!
+//! Where somebody asks for it, the part tests itself before it is read, once: never by itself, for it takes some 0.4 s.
 //!
 //! The driver never waits and never gives up: a part that is absent, comes late, or lost its supply and its configuration is configured
 //! anew from the top until it answers, and meanwhile gives no readings.
 
 mod registers;
+mod self_test;
 
 #[cfg(test)]
 mod tests;
 
 use embedded_hal::spi::SpiDevice;
 
-use registers::{BANK, CONFIGURATION, FIRST_DATA, IDENTITY, IDENTITY_OF_PART, READ, RESET, STATUS_DATA_READY, STATUS_RESERVED};
+use registers::{
+    ACCELEROMETER_CODES, BANK, CONFIGURATION, FIRST_DATA, GYROSCOPE_CODES, IDENTITY, IDENTITY_OF_PART, READ, RESET, SELF_TEST,
+    STATUS_DATA_READY, STATUS_RESERVED, TEMPERATURE,
+};
+pub use self_test::Verdict;
+use self_test::{Order, SelfTest};
 
 /// Ticks left to the part after its reset, which takes 1 ms: enough at 10 kHz.
 const RESET_TICKS: u8 = 16;
@@ -31,7 +39,7 @@ const SILENT_TICKS_FOUND: u16 = 16;
 /// Registers that are read back in a tick to recognise a part that is configured already.
 const READ_BACK_A_TICK: usize = 4;
 
-/// Ticks between two registers that are compared while the part is read: all of them within 0.6 s at 2 kHz.
+/// Ticks between two registers that are compared while the part is read, or its temperature: all of them within 0.7 s at 2 kHz.
 const COMPARED_EVERY: u8 = 64;
 
 /// Words of a reading: the address, acceleration (6 bytes), rate (6), time of synchronisation (2), status.
@@ -62,6 +70,8 @@ enum Stage {
     Identify,
     /// Writes an entry of [`CONFIGURATION`].
     Setup(usize),
+    /// Goes on with its self-test.
+    Test,
     /// Reads; so many times in a row there was nothing new.
     Run(u16),
 }
@@ -81,12 +91,42 @@ pub struct Icm42688<D> {
     device: D,
     stage: Stage,
     comparison: Comparison,
+    temperature: Option<i16>,
+    /// Asked for, or under way.
+    test: Option<SelfTest>,
+    verdict: Option<Verdict>,
+}
+
+/// For how long a part that is [tested](Icm42688::test) gives no readings, s, with a tick every `period` s.
+pub fn test_duration(period: f32) -> f32 {
+    self_test::duration(period)
 }
 
 impl<D: SpiDevice<u16>> Icm42688<D> {
     /// On a bus of at most 24 MHz in mode 0 or 3, that sends words of 16 bits with the most significant bit first: an address and a value.
     pub fn new(device: D) -> Icm42688<D> {
-        Icm42688 { device, stage: Stage::Recognise(0), comparison: Comparison::default() }
+        let (stage, comparison) = (Stage::Recognise(0), Comparison::default());
+        Icm42688 { device, stage, comparison, temperature: None, test: None, verdict: None }
+    }
+
+    /// Has the part test itself, with a tick every `period` s, as soon as it is configured: before its first reading, or now. One that does
+    /// not answer at once is not tested when it comes.
+    #[inline(never)]
+    pub fn test(&mut self, period: f32) {
+        (self.test, self.verdict) = (Some(SelfTest::new(period)), None);
+        if let Stage::Run(_) = self.stage {
+            self.stage = Stage::Test;
+        }
+    }
+
+    /// What the test has come to, once.
+    pub fn verdict(&mut self) -> Option<Verdict> {
+        self.verdict.take()
+    }
+
+    /// Temperature of the part as last read, °C: every half second at 2 kHz, to some kelvins.
+    pub fn temperature(&self) -> Option<f32> {
+        self.temperature.map(|counts| 25.0 + f32::from(counts) / 132.48)
     }
 
     /// To be called once a tick: a reading, if there is a new one.
@@ -127,10 +167,12 @@ impl<D: SpiDevice<u16>> Icm42688<D> {
                 if self.is_there() {
                     Stage::Setup(0)
                 } else {
+                    self.give_up();
                     Stage::Reset
                 }
             }
             Stage::Setup(entry) => self.set_up(entry),
+            Stage::Test => self.go_on(),
             Stage::Run(silent) => Stage::Run(silent),
         }
     }
@@ -144,9 +186,57 @@ impl<D: SpiDevice<u16>> Icm42688<D> {
         let end = entry + READ_BACK_A_TICK;
         match (entry..end).all(|entry| self.holds(entry)) {
             true if end < CONFIGURATION.len() => Stage::Recognise(end),
-            true => Stage::Run(SILENT_TICKS - SILENT_TICKS_FOUND),
+            true => self.begin(SILENT_TICKS - SILENT_TICKS_FOUND),
             false => Stage::Reset,
         }
+    }
+
+    /// The part is configured: it is tested, if that is asked for, or read from `silent` ticks without a reading on.
+    fn begin(&self, silent: u16) -> Stage {
+        if self.test.is_some() { Stage::Test } else { Stage::Run(silent) }
+    }
+
+    fn give_up(&mut self) {
+        if self.test.take().is_some() {
+            self.verdict = Some(Verdict::Undecided);
+        }
+    }
+
+    /// A tick of the self-test.
+    fn go_on(&mut self) -> Stage {
+        let reading = self.read_apart();
+        let Some(test) = &mut self.test else { return Stage::Run(0) };
+        let order = test.step(reading);
+        let excited = test.has_excited();
+        match order {
+            Order::Read => return Stage::Test,
+            Order::Excite(axes) if self.put(SELF_TEST, axes) => return Stage::Test,
+            Order::ReadCodes => {
+                let mut codes = [0; 6];
+                let [x, y, z, of_gyroscope @ ..] = &mut codes;
+                let read =
+                    self.read_codes(ACCELEROMETER_CODES, [x, y, z]) && self.read_codes(GYROSCOPE_CODES, of_gyroscope.each_mut());
+                match self.test.take() {
+                    Some(test) if read => self.verdict = Some(test.judge(codes)),
+                    _ => self.verdict = Some(Verdict::Undecided),
+                }
+            }
+            Order::Excite(_) | Order::End => self.give_up(),
+        }
+        if excited { Stage::Reset } else { Stage::Run(0) }
+    }
+
+    /// What the factory has left of three axes; whether it could be read.
+    #[inline(never)]
+    fn read_codes(&mut self, (bank, first): (u8, u8), codes: [&mut u8; 3]) -> bool {
+        let mut read = self.put(BANK, bank);
+        for (code, address) in codes.into_iter().zip(first..) {
+            match self.register(address) {
+                Some(value) => *code = value,
+                None => read = false,
+            }
+        }
+        self.put(BANK, 0) && read
     }
 
     fn reset(&mut self) -> Stage {
@@ -160,7 +250,7 @@ impl<D: SpiDevice<u16>> Icm42688<D> {
     }
 
     fn set_up(&mut self, number: usize) -> Stage {
-        let Some(entry) = CONFIGURATION.get(number) else { return Stage::Run(0) };
+        let Some(entry) = CONFIGURATION.get(number) else { return self.begin(0) };
         let selected = number.checked_sub(1).and_then(|last| CONFIGURATION.get(last)).map_or(0, |last| last.bank);
         let done = (entry.bank == selected || self.put(BANK, entry.bank)) && self.put(entry.address, entry.value);
         if done { Stage::Setup(number + 1) } else { Stage::Reset }
@@ -190,9 +280,20 @@ impl<D: SpiDevice<u16>> Icm42688<D> {
     fn compare_next(&mut self) -> bool {
         let Comparison { entry, doubtful, .. } = self.comparison;
         let holds = self.holds(entry);
-        let next = if entry + 1 < CONFIGURATION.len() { entry + 1 } else { 0 };
+        let next = if entry < CONFIGURATION.len() { entry + 1 } else { 0 };
+        if entry == CONFIGURATION.len() {
+            self.read_temperature();
+        }
         self.comparison = Comparison { ticks: 0, entry: if holds { next } else { entry }, doubtful: !holds };
         holds || !doubtful
+    }
+
+    fn read_temperature(&mut self) {
+        let mut words = [u16::from_be_bytes([TEMPERATURE | READ, 0]), 0];
+        let read = self.device.transfer_in_place(&mut words).is_ok();
+        let [[_, high], [low, _]] = words.map(u16::to_be_bytes);
+        let counts = i16::from_be_bytes([high, low]);
+        self.temperature = (read && counts != INVALID).then_some(counts);
     }
 
     /// Writes a register.
@@ -209,20 +310,40 @@ impl<D: SpiDevice<u16>> Icm42688<D> {
         Some(value)
     }
 
-    #[inline]
+    // Twice: a reading in operation is not to cost a call.
+    #[inline(always)]
     fn read(&mut self) -> Option<Reading> {
-        let mut words = [0; LENGTH];
-        words[0] = u16::from_be_bytes([FIRST_DATA | READ, 0]);
+        let mut words = REQUEST;
         self.device.transfer_in_place(&mut words).ok()?;
-        let [a, b, c, d, e, f, g, last] = words;
-        // Each value lies across two words.
-        let value = |first: u16, second: u16| (first << 8 | second >> 8) as i16;
-        let reading =
-            Reading { acceleration: [value(a, b), value(b, c), value(c, d)], rate: [value(d, e), value(e, f), value(f, g)] };
-        let [_, status] = last.to_be_bytes();
-        // A line that is stuck high reads as reserved bits, too.
-        let new = status & STATUS_DATA_READY != 0 && status & STATUS_RESERVED == 0;
-        let valid = !reading.acceleration.contains(&INVALID) && !reading.rate.contains(&INVALID);
-        (new && valid).then_some(reading)
+        reading_of(words)
     }
+
+    #[inline(never)]
+    fn read_apart(&mut self) -> Option<Reading> {
+        let mut words = REQUEST;
+        self.device.transfer_in_place(&mut words).ok()?;
+        reading_apart(words)
+    }
+}
+
+/// Asks for a reading.
+const REQUEST: [u16; LENGTH] = [u16::from_be_bytes([FIRST_DATA | READ, 0]), 0, 0, 0, 0, 0, 0, 0];
+
+/// The reading that a burst of words is, if it is a new one.
+#[inline(always)]
+fn reading_of([a, b, c, d, e, f, g, last]: [u16; LENGTH]) -> Option<Reading> {
+    // Each value lies across two words.
+    let value = |first: u16, second: u16| (first << 8 | second >> 8) as i16;
+    let reading =
+        Reading { acceleration: [value(a, b), value(b, c), value(c, d)], rate: [value(d, e), value(e, f), value(f, g)] };
+    let [_, status] = last.to_be_bytes();
+    // A line that is stuck high reads as reserved bits, too.
+    let new = status & STATUS_DATA_READY != 0 && status & STATUS_RESERVED == 0;
+    let valid = !reading.acceleration.contains(&INVALID) && !reading.rate.contains(&INVALID);
+    (new && valid).then_some(reading)
+}
+
+#[inline(never)]
+fn reading_apart(words: [u16; LENGTH]) -> Option<Reading> {
+    reading_of(words)
 }

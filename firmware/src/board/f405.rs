@@ -5,7 +5,7 @@
 //! | [`clock`]: 168 MHz, the counter of time, and the slow oscillator beside it | RCC, TIM5 |
 //! | [`encoder`]: its counter, which goes on over a reset | TIM4, TIM3, stream 2 of DMA1 |
 //! | [`sensors`]: two inertial sensors, each on a [`mod@bus`] | SPI1, SPI2 |
-//! | [`coils`]: two coils and their currents | TIM8 with its break input PA6, PC8, PC9, ADC1 |
+//! | [`coils`]: two coils, their currents and their supply | TIM8 with its break input PA6, PC8, PC9, ADC1 |
 //! | [`mod@line`]: the link | USART1, streams 2 and 7 of DMA2 |
 //! | [`storage`]: the settings, which firmware has run, recordings of earthquakes | sectors 1 to 3 and 6 to 11 of the flash |
 //! | [`supply`]: what happens when it sags | PWR, EXTI line 16 |
@@ -109,7 +109,7 @@ impl Board for F405 {
         let a = chip.GPIOA.split(&mut rcc);
         let c = chip.GPIOC.split(&mut rcc);
         let outputs = coils::Outputs { low: (c.pc6, c.pc7), high: (c.pc8, c.pc9), trip: a.pa6 };
-        let currents = coils::Currents::new(chip.ADC1, &chip.ADC_COMMON, (c.pc0, c.pc1), &mut rcc);
+        let currents = coils::Currents::new(chip.ADC1, &chip.ADC_COMMON, (c.pc0, c.pc1, c.pc2), &mut rcc);
         let coils = coils::begin(chip.TIM8, outputs, currents, driver::design(settings, &wiring), &mut rcc);
         supply::watch(chip.PWR, &chip.EXTI, &mut rcc);
         encoder::pause(&chip.TIM4);

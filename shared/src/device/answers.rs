@@ -48,10 +48,7 @@ impl Device {
                 Reply::Done(Done::AsAsked)
             }
             Request::SelfTest => match self.decision.phase {
-                Phase::Armed => {
-                    self.restart();
-                    Reply::Done(Done::AsAsked)
-                }
+                Phase::Armed => return self.test_itself(),
                 phase => Reply::Refused(Refusal::Busy(phase)),
             },
             Request::Stream { every } => {
@@ -100,6 +97,17 @@ impl Device {
         }
         self.mailbox.put(sample);
         Answer::Sample
+    }
+
+    /// From the beginning, with a test of the clutches and, where they are its own, of the sensors: what they have said before is nothing new.
+    fn test_itself(&mut self) -> Answer {
+        self.restart();
+        let done = Reply::Done(Done::AsAsked);
+        if self.attached.is_some() {
+            return Answer::Reply(done);
+        }
+        self.hear(None);
+        Answer::SelfTest(done)
     }
 
     fn attach(&mut self, pace: Pace) -> Answer {

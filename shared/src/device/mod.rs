@@ -10,6 +10,7 @@ mod change;
 pub mod clock_check;
 pub mod coil;
 pub mod coil_test;
+pub mod conditions;
 pub mod counter;
 pub mod inertial;
 pub mod light;
@@ -33,7 +34,7 @@ use crate::control::supervisor::event_log::{Entry, Kind};
 use crate::control::ticks::ticks;
 use crate::link::reset_cause::Cause;
 use crate::link::{Mishap, Pace, Protection, Reply, TickReport};
-use crate::settings::Settings;
+use crate::settings::{Item, Settings};
 use beginning::Beginning;
 use light::Shown;
 use retained::{MOST_RESTARTS, Retained};
@@ -97,6 +98,8 @@ pub enum Answer {
     Rehearse(Mishap),
     /// The flash is to be protected.
     Protect,
+    /// The sensors are to test themselves, from before the next tick on; to be answered.
+    SelfTest(Reply),
     /// The period may be another now: to be answered, and the timer set.
     Restarted(Reply),
 }
@@ -239,6 +242,16 @@ impl Device {
     /// Period of the controller in counts of a counter of this rate (1/s).
     pub fn period_counts(&self, counter_hz: u32) -> u32 {
         (self.controller.instruments.period * counter_hz as f32 + 0.5) as u32
+    }
+
+    /// For how long it waits for its sensors' first readings, s: for that long they may test themselves.
+    pub fn patience(&self) -> f32 {
+        self.settings.real(Item::BootTime)
+    }
+
+    /// Period of the controller, s.
+    pub fn period(&self) -> f32 {
+        self.controller.instruments.period
     }
 
     /// Slots of the light since the start, counted in whole ticks; they begin anew when the count of ticks does.

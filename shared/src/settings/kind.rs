@@ -36,7 +36,7 @@ pub enum Use {
 pub struct Description {
     /// Dotted, such as `model.size`.
     pub name: &'static str,
-    /// SI, `g`, `ticks` or `counts`; empty where there is none.
+    /// SI, `°C`, `g`, `ticks` or `counts`; empty where there is none.
     pub unit: &'static str,
     /// How its word is read.
     pub kind: Kind,

@@ -206,6 +206,9 @@ parameters! {
     CoilHoldShare "board.coil_hold_share" real("", 0.05, 1.0, 0.35).only(Use::Board);
     CoilEngagedCurrent "board.coil_engaged_current" real("A", 0.0, 20.0, 0.2).only(Use::Board);
     CoilFullCurrent "board.coil_full_current" real("A", 0.0, 20.0, 1.2).only(Use::Board);
+    CoilSupplyLeast "board.coil_supply_least" real("V", 0.0, 36.0, 21.6).only(Use::Board);
+    TemperatureLeast "board.temperature_least" real("°C", -40.0, 125.0, -20.0).only(Use::Board);
+    TemperatureMost "board.temperature_most" real("°C", -40.0, 125.0, 70.0).only(Use::Board);
     BlockGyroscopeAxis "board.block_gyroscope_axis" axis(2);
     BlockAlongAxis "board.block_along_axis" axis(0);
     BlockUpAxis "board.block_up_axis" axis(4);

@@ -35,6 +35,10 @@ pub struct Wiring {
     pub coil_engaged_current: f32,
     /// Supply over resistance, A; 0 to 20, 0 where it is not known.
     pub coil_full_current: f32,
+    /// Supply from which the pull-in time holds, V; 0 to 36, 0 where the supply is not watched.
+    pub coil_supply_least: f32,
+    /// Least and most of the block's sensor at which the pull-in time holds, °C; -40 to 125.
+    pub temperatures: [f32; 2],
     /// Of the block's gyroscope: about it θ is positive.
     pub block_gyroscope: Axis,
     /// Of the block's accelerometer, horizontal and vertical at rest.
@@ -49,7 +53,7 @@ impl Wiring {
     /// Whether `settings` have a wiring that can be.
     ///
     /// # Errors
-    /// [`SettingError::Contradiction`] where two axes of one sensor that must be across each other are not.
+    /// [`SettingError::Contradiction`] where two axes of one sensor that must be across each other are not, or no temperature is allowed.
     pub fn check(settings: &Settings) -> Result<(), SettingError> {
         for (item, other) in [
             (Item::BlockUpAxis, Item::BlockAlongAxis),
@@ -60,6 +64,9 @@ impl Wiring {
             if Axis::read(settings, item).index() == Axis::read(settings, other).index() {
                 return Err(SettingError::contradiction(item, other));
             }
+        }
+        if settings.real(Item::TemperatureLeast) > settings.real(Item::TemperatureMost) {
+            return Err(SettingError::contradiction(Item::TemperatureLeast, Item::TemperatureMost));
         }
         Ok(())
     }
@@ -72,6 +79,8 @@ impl Wiring {
             coil_hold_share: settings.real(Item::CoilHoldShare),
             coil_engaged_current: settings.real(Item::CoilEngagedCurrent),
             coil_full_current: settings.real(Item::CoilFullCurrent),
+            coil_supply_least: settings.real(Item::CoilSupplyLeast),
+            temperatures: [Item::TemperatureLeast, Item::TemperatureMost].map(|item| settings.real(item)),
             block_gyroscope: axis(Item::BlockGyroscopeAxis),
             block: [axis(Item::BlockAlongAxis), axis(Item::BlockUpAxis)],
             ground: [axis(Item::GroundAlongAxis), axis(Item::GroundUpAxis)],
@@ -97,5 +106,12 @@ mod tests {
         assert_eq!(Wiring::check(&settings), Err(SettingError::contradiction(Item::BlockUpAxis, Item::BlockAlongAxis)));
         settings.set(Item::BlockUpAxis.index(), 3).unwrap();
         assert_eq!(Wiring::check(&settings), Err(SettingError::contradiction(Item::BlockGyroscopeAxis, Item::BlockUpAxis)));
+    }
+    #[test]
+    fn a_range_of_temperatures_holds_one() {
+        let mut settings = Settings::default();
+        settings.set(Item::TemperatureLeast.index(), 70.5_f32.to_bits()).unwrap();
+        let error = SettingError::contradiction(Item::TemperatureLeast, Item::TemperatureMost);
+        assert_eq!(Wiring::check(&settings), Err(error));
     }
 }

@@ -79,7 +79,8 @@ fn settings(line: &str) -> Option<Settings> {
 fn read(rig: &mut Rig) -> String {
     let chip = rig.bench.chip_mut();
     let delivered = chip.buses.each_mut().map(|bus| {
-        bus.sensor.delivered.take().map_or_else(
+        let delivered = bus.sensor.delivered.take().filter(|_| bus.sensor.judged);
+        delivered.map_or_else(
             || "-".to_owned(),
             |Measured { acceleration: [a, b, c], rate: [d, e, f] }| format!("{a},{b},{c},{d},{e},{f}"),
         )

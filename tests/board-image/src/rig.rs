@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashErrorKind, ReadNorFlash};
+use sprag_shared::control::monitor::fault::Fault;
+use sprag_shared::control::supervisor::event_log::Kind;
 use sprag_shared::link::{Deframer, MAX_FRAME, Reply, Request, Started, State, TickReport, encode};
 use sprag_shared::settings::store::Store;
 use sprag_shared::settings::{Item, Settings};
@@ -89,6 +91,8 @@ pub struct Rig {
     pub bench: Bench,
     /// The structure, at a time.
     pub structure: Box<dyn Fn(u64) -> Whereabouts>,
+    /// Of the block's and of the ground's sensor at rest, counts.
+    pub gravity: f64,
     /// What the program has said about its starts.
     pub starts: Vec<Started>,
     /// Reports that came.
@@ -115,6 +119,7 @@ impl Rig {
         Rig {
             bench,
             structure: Box::new(|_| Whereabouts::default()),
+            gravity: 4096.0,
             starts: Vec::new(),
             reports: Vec::new(),
             costs: Vec::new(),
@@ -127,12 +132,12 @@ impl Rig {
 
     /// Sensors and encoder as the structure is now.
     fn sense(&mut self) {
-        let at = (self.structure)(self.bench.now());
+        let (at, gravity) = ((self.structure)(self.bench.now()), self.gravity);
         let mut noisy = |value: f64| (value + NOISE * self.noise.normal()).round() as i16;
         let block =
-            Measured { acceleration: [noisy(0.0), noisy(0.0), noisy(4096.0)], rate: [noisy(0.0), noisy(at.rate), noisy(0.0)] };
+            Measured { acceleration: [noisy(0.0), noisy(0.0), noisy(gravity)], rate: [noisy(0.0), noisy(at.rate), noisy(0.0)] };
         let ground = Measured {
-            acceleration: [noisy(at.push), noisy(0.0), noisy(4096.0)],
+            acceleration: [noisy(at.push), noisy(0.0), noisy(gravity)],
             rate: [0; 3].map(|rate| noisy(f64::from(rate))),
         };
         let chip = self.bench.chip_mut();
@@ -245,6 +250,29 @@ impl Rig {
         match self.ask(&Request::State) {
             Reply::State(state) => state,
             other => panic!("{other:?}"),
+        }
+    }
+
+    /// The warnings in the board's event log.
+    ///
+    /// # Panics
+    /// If it does not give it.
+    pub fn warnings(&mut self) -> Vec<Fault> {
+        let (mut from, mut warnings) = (0, Vec::new());
+        loop {
+            let block = match self.ask(&Request::Log { from }) {
+                Reply::Log(block) => block,
+                other => panic!("{other:?}"),
+            };
+            for entry in block.entries.iter().take(block.count.into()) {
+                if let Some(Kind::Warning(code)) = entry.entry().map(|entry| entry.kind) {
+                    warnings.extend(Fault::from_code(code));
+                }
+            }
+            from = block.from + u32::from(block.count);
+            if block.count == 0 || from >= block.total {
+                return warnings;
+            }
         }
     }
 

@@ -32,6 +32,17 @@ fn the_simulated_driver_is_driven_as_the_firmware_drives_it() {
     assert_eq!(after(&driver, &["Rsh node top "]), after(&coil, &["4096.0 / (", " * "]));
 }
 
+#[test]
+fn the_divider_of_the_coils_supply_is_the_one_that_the_firmware_converts_by() {
+    let board = read("docs/hardware/schematic/board.py");
+    let code = read("shared/src/device/conditions.rs");
+    let kiloohms = |part: &str| after(&board.replace("K\")", "\")"), &[&format!("\"{part}\", p.resistor(\"")]);
+    let divider = |marks: &[&str]| after(&code, marks);
+    assert_eq!(kiloohms("R4"), divider(&["DIVIDER: f32 = ("]));
+    assert_eq!(kiloohms("R5"), divider(&["DIVIDER: f32 = (", " + "]));
+    assert_eq!(kiloohms("R5"), divider(&["DIVIDER: f32 = (", " / "]));
+}
+
 /// Where the firmware names pins, and the nets of the pins that follow there.
 const NAMED: [(&str, &[&str]); 10] = [
     ("sensors::block(", &["BLOCK_SCK", "BLOCK_MISO", "BLOCK_MOSI", "BLOCK_CS"]),
@@ -40,7 +51,7 @@ const NAMED: [(&str, &[&str]); 10] = [
     ("low: (", &["LOW1", "LOW2"]),
     ("high: (", &["HIGH1", "HIGH2"]),
     ("trip: ", &["BREAK"]),
-    ("coils::Currents::new(", &["CURRENT1", "CURRENT2"]),
+    ("coils::Currents::new(", &["CURRENT1", "CURRENT2", "SUPPLY"]),
     ("line::DmaLine::at(", &["LINK_TX", "LINK_RX"]),
     ("let lamp = ", &["LIGHT"]),
     // Not the application's: the probe, the oscillator, and the jumper.
@@ -80,7 +91,7 @@ fn the_firmware_the_schematic_and_the_page_have_the_same_pins() {
         }
     }
     // The jumper is in the table before the firmware has it or after.
-    assert_eq!(seen, 20);
+    assert_eq!(seen, 21);
     assert_eq!(table.len(), NAMED.iter().map(|(_, nets)| nets.len()).sum::<usize>());
     let mut all: Vec<String> = pins(&board).filter(|pin| pin != "PC13").collect();
     all.sort();

@@ -8,6 +8,9 @@ pub const IDENTITY: u8 = 0x75;
 /// What it says.
 pub const IDENTITY_OF_PART: u8 = 0x47;
 
+/// TEMP_DATA1 and 0: 132.48 counts a kelvin from 25 °C on.
+pub const TEMPERATURE: u8 = 0x1D;
+
 /// ACCEL_DATA_X1, the first of the registers that hold a reading, up to INT_STATUS.
 pub const FIRST_DATA: u8 = 0x1F;
 /// Of INT_STATUS: DATA_RDY_INT, cleared by reading it.
@@ -20,6 +23,22 @@ pub const BANK: u8 = 0x76;
 
 /// DEVICE_CONFIG of bank 0, with SOFT_RESET_CONFIG set.
 pub const RESET: (u8, u8) = (0x11, 0x01);
+
+/// SELF_TEST_CONFIG of bank 0.
+pub const SELF_TEST: u8 = 0x70;
+/// Of it: the three axes of the gyroscope.
+pub const TEST_GYROSCOPE: u8 = 0x07;
+/// Of it: those of the accelerometer, and the supply of their test.
+pub const TEST_ACCELEROMETER: u8 = 0x78;
+/// Bank and first address of what the factory has found of the accelerometer's three axes (XA_ST_DATA), …
+pub const ACCELEROMETER_CODES: (u8, u8) = (2, 0x3B);
+/// … and of the gyroscope's (XG_ST_DATA).
+pub const GYROSCOPE_CODES: (u8, u8) = (1, 0x5F);
+
+/// FS_SEL of the gyroscope: ±500 °/s.
+pub const GYROSCOPE_RANGE: u8 = 2;
+/// FS_SEL of the accelerometer: ±8 g.
+pub const ACCELEROMETER_RANGE: u8 = 1;
 
 /// DELT, DELTSQR and BITSHIFT of the anti-alias filters for 536 Hz.
 const FILTER: (u8, u16, u8) = (12, 144, 8);
@@ -42,7 +61,9 @@ const fn entry(bank: u8, address: u8, value: u8, kept: u8) -> Entry {
 }
 
 /// The configuration, in the order in which it is written after a reset, a tick each.
-pub const CONFIGURATION: [Entry; 17] = [
+pub const CONFIGURATION: [Entry; 18] = [
+    // SELF_TEST_CONFIG: off. A processor that was reset in the middle of a test finds it on.
+    entry(0, SELF_TEST, 0x00, 0x7F),
     // INTF_CONFIG0: big-endian, I²C off.
     entry(0, 0x4C, 0x33, 0),
     // INTF_CONFIG1: clock from the PLL; the undocumented change of full scale at run time off.
@@ -56,9 +77,9 @@ pub const CONFIGURATION: [Entry; 17] = [
     // INT_SOURCE0: data-ready.
     entry(0, 0x65, 0x08, 0x7F),
     // GYRO_CONFIG0: ±500 °/s, 8 kHz.
-    entry(0, 0x4F, 2 << 5 | 3, 0xEF),
+    entry(0, 0x4F, GYROSCOPE_RANGE << 5 | 3, 0xEF),
     // ACCEL_CONFIG0: ±8 g, 8 kHz.
-    entry(0, 0x50, 1 << 5 | 3, 0xEF),
+    entry(0, 0x50, ACCELEROMETER_RANGE << 5 | 3, 0xEF),
     // GYRO_ACCEL_CONFIG0: user-interface filters at half the data rate.
     entry(0, 0x52, 0x00, 0xFF),
     // GYRO_CONFIG_STATIC2: notch and anti-alias filter on.

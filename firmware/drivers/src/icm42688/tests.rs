@@ -14,6 +14,12 @@ use super::*;
 const RESET_TAKES: u32 = 2;
 const START_TAKES: u32 = 60;
 
+/// Ticks from the beginning of a self-test to its response.
+const RESPONSE_TAKES: u32 = 300;
+/// What the factory has left of accelerometer and gyroscope, and what that stands for, counts.
+const CODES: [[u8; 3]; 2] = [[50, 100, 150], [120, 130, 140]];
+const RESPONSES: [f64; 6] = [1066.6, 1754.1, 2884.9, 4280.7, 4728.6, 5223.3];
+
 const WORDS: [i16; 6] = [1, -2, 300, -400, 32_767, -32_767];
 const READING: Reading = Reading { acceleration: [1, -2, 300], rate: [-400, 32_767, -32_767] };
 
@@ -34,6 +40,9 @@ struct Part {
     /// Transactions until the answer to one has a bit flipped.
     flip: Option<u32>,
     broken: bool,
+    /// Since when SELF_TEST_CONFIG is as it is, and by which share of what the factory has found each axis answers.
+    tested: u32,
+    answers: [f64; 6],
 }
 
 #[derive(Clone, Debug)]
@@ -53,6 +62,8 @@ impl Part {
             stuck: None,
             flip: None,
             broken: false,
+            tested: 0,
+            answers: [1.0; 6],
         };
         part.restore();
         part.banks[0][0x75] = identity;
@@ -82,6 +93,9 @@ impl Part {
         ] {
             self.banks[bank][address] = value;
         }
+        for (bank, address, codes) in [(2, 0x3B, CODES[0]), (1, 0x5F, CODES[1])] {
+            self.banks[bank][address..address + 3].copy_from_slice(&codes);
+        }
         (self.bank, self.on, self.status) = (0, None, 0);
     }
 
@@ -94,6 +108,9 @@ impl Part {
             }
             (bank, address) => {
                 self.banks[bank][usize::from(address)] = value;
+                if (bank, address) == (0, 0x70) {
+                    self.tested = self.now;
+                }
                 if (bank, address) == (0, 0x4E) {
                     self.on = (value & 0x0F == 0x0F).then_some(self.now);
                 }
@@ -108,12 +125,28 @@ impl Part {
             if self.bank == 0 {
                 if (0x1F..0x2B).contains(&address) {
                     let place = usize::from(address - 0x1F);
-                    *into = self.words[place / 2].to_be_bytes()[place % 2];
+                    *into = self.word(place / 2).to_be_bytes()[place % 2];
                 } else if address == 0x2D {
                     *into = core::mem::take(&mut self.status);
                 }
             }
         }
+    }
+
+    /// Acceleration and rate, and what the self-test adds.
+    fn word(&self, place: usize) -> i16 {
+        let config = self.banks[0][0x70];
+        // The accelerometer's axes answer with the supply of their test only.
+        let on = if place < 3 { config >> 6 & config >> (3 + place) & 1 } else { config >> (place - 3) & 1 };
+        // Full scale halves with each step of FS_SEL, and the response doubles.
+        let range = if place < 3 { self.banks[0][0x50] >> 5 } else { self.banks[0][0x4F] >> 5 };
+        let doubled = f64::from(1_u8 << range) / if place < 3 { 2.0 } else { 4.0 };
+        let answers = on == 1 && self.now >= self.tested + if place < 3 { 40 } else { RESPONSE_TAKES };
+        if !answers {
+            return self.words[place];
+        }
+        let response = self.answers[place] * RESPONSES[place] * doubled;
+        (f64::from(self.words[place]) + response).clamp(-32_767.0, 32_767.0) as i16
     }
 
     fn tick(&mut self) {
@@ -326,4 +359,97 @@ fn filters_are_those_of_the_data_sheet() {
     assert_eq!([0x03, 0x04, 0x05].map(|address| at(2, address)), [Some(24), Some(144), Some(0x80)]);
     let last = CONFIGURATION.last().map(|entry| (entry.bank, entry.address, entry.value));
     assert_eq!(last, Some((0, 0x4E, 0x0F)));
+}
+
+/// A part that is asked to test itself, and so many ticks later: its verdict, and after how many ticks it gave a reading.
+fn tested(line: &Line) -> (Option<Verdict>, u32) {
+    line.0.borrow_mut().words = [10, -20, 4096, 3, 4, -5];
+    let mut driver = Icm42688::new(line.clone());
+    driver.test(0.0005);
+    let took = (1..5000).find(|_| !ticks(&mut driver, line, 1).is_empty()).expect("a reading");
+    assert!(is_configured(line), "as without a test");
+    assert_eq!(ticks(&mut driver, line, 3), [Reading { acceleration: [10, -20, 4096], rate: [3, 4, -5] }; 3]);
+    let verdict = driver.verdict();
+    assert_eq!(driver.verdict(), None, "told once");
+    (verdict, took)
+}
+
+#[test]
+fn a_whole_part_passes_its_self_test_in_time() {
+    let line = Part::on_a_line(0x47);
+    let (verdict, took) = tested(&line);
+    assert_eq!(verdict, Some(Verdict::Passed));
+    let most = test_duration(0.0005) / 0.0005;
+    assert!(took > 600 && (took as f32) < most && most < 1000.0, "{took} {most}");
+}
+
+#[test]
+fn an_axis_that_answers_by_half_or_twice_fails_the_self_test() {
+    for axis in 0..6 {
+        for (answer, passes) in [(0.0, false), (0.45, false), (0.6, true), (1.4, true), (2.0, false)] {
+            let line = Part::on_a_line(0x47);
+            line.0.borrow_mut().answers[axis] = answer;
+            let failed = Verdict::Failed { gyroscope: axis >= 3, accelerometer: axis < 3 };
+            assert_eq!(tested(&line).0, Some(if passes { Verdict::Passed } else { failed }), "axis {axis}: {answer}");
+        }
+    }
+}
+
+#[test]
+fn a_part_that_moves_is_not_judged_and_read_the_sooner() {
+    for (axis, swing) in [(0, 500), (4, 400)] {
+        let line = Part::on_a_line(0x47);
+        let mut driver = Icm42688::new(line.clone());
+        driver.test(0.0005);
+        let mut took = 0;
+        while driver.verdict().is_none() {
+            took += 1;
+            line.0.borrow_mut().words = [0; 6];
+            line.0.borrow_mut().words[axis] = if took % 8 < 4 { swing } else { -swing };
+            assert_eq!(ticks(&mut driver, &line, 1), []);
+        }
+        assert!(took < 350, "axis {axis}: {took}");
+        assert_eq!(ticks(&mut driver, &line, 3).len(), 3);
+        assert_eq!(line.0.borrow().resets, 1);
+    }
+}
+
+/// Nor is one that comes when its readings may be needed.
+#[test]
+fn a_part_that_is_absent_at_first_is_not_tested() {
+    let line = Part::on_a_line(0x00);
+    let mut driver = Icm42688::new(line.clone());
+    driver.test(0.0005);
+    assert_eq!(ticks(&mut driver, &line, 100), []);
+    assert_eq!(driver.verdict(), Some(Verdict::Undecided));
+    line.0.borrow_mut().banks[0][0x75] = 0x47;
+    assert!(ticks_to_a_reading(&mut driver, &line) < 100);
+    assert_eq!(driver.verdict(), None);
+}
+
+/// The processor is reset while the part is pushed: what it says then is no reading.
+#[test]
+fn a_self_test_that_was_left_on_is_found() {
+    for axes in [0x07, 0x78] {
+        let (_, line) = running();
+        line.0.borrow_mut().write(0x70, axes);
+        let mut driver = Icm42688::new(line.clone());
+        assert_eq!(ticks(&mut driver, &line, 40), []);
+        ticks_to_a_reading(&mut driver, &line);
+        assert!(is_configured(&line) && line.0.borrow().resets == 2);
+    }
+}
+
+#[test]
+fn the_temperature_is_read_within_a_second() {
+    let (mut driver, line) = running();
+    assert_eq!(driver.temperature(), None);
+    for (counts, celsius) in [(0_i16, 25.0), (-5961, -20.0), (5961, 70.0)] {
+        line.0.borrow_mut().banks[0][0x1D..0x1F].copy_from_slice(&counts.to_be_bytes());
+        assert_eq!(ticks(&mut driver, &line, 1400).len(), 1400, "and costs no reading");
+        assert!(driver.temperature().is_some_and(|found| (found - celsius).abs() < 0.01), "{:?}", driver.temperature());
+    }
+    line.0.borrow_mut().banks[0][0x1D..0x1F].copy_from_slice(&i16::MIN.to_be_bytes());
+    ticks(&mut driver, &line, 1400);
+    assert_eq!(driver.temperature(), None);
 }

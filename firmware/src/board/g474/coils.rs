@@ -75,6 +75,10 @@ impl Stage for BoardStage {
         self.currents.read()
     }
 
+    fn supply(&self) -> u16 {
+        self.currents.supply()
+    }
+
     fn arm(&mut self) {
         enable_break();
     }

@@ -32,7 +32,7 @@ use Pulled::{Down, No, Up};
 
 /// Port from A on, number, what it does, what it is pulled to; alternate functions by DS12288, tables 13 to 15. PB6 and PB7 are
 /// so already by the encoder's [first steps](super::encoder), and do not change while it counts.
-const PINS: [(u32, u32, Does, Pulled); 20] = [
+const PINS: [(u32, u32, Does, Pulled); 21] = [
     // Block sensor: CS, SCK, MOSI, MISO. Without a sensor MISO reads low, which is no new reading.
     (0, 4, High, No),
     (0, 5, Function(5), No),
@@ -52,6 +52,8 @@ const PINS: [(u32, u32, Does, Pulled); 20] = [
     // Currents: ADC1 IN2 and COMP1, ADC1 IN7 and COMP3.
     (0, 1, Analog, No),
     (2, 1, Analog, No),
+    // The coils' supply, behind its divider: ADC1 IN8.
+    (2, 2, Analog, No),
     // USART1: out, in.
     (0, 9, Function(7), No),
     (0, 10, Function(7), Up),

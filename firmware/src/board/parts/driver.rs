@@ -9,6 +9,7 @@
 use sprag_shared::control::monitor::coil::CoilReading;
 use sprag_shared::device::coil::{FULL_SCALE, PeakHold, compare};
 use sprag_shared::device::coil_test::{Coil, CoilDesign, Switches};
+use sprag_shared::device::conditions;
 use sprag_shared::settings::Settings;
 use sprag_shared::settings::wiring::Wiring;
 
@@ -21,6 +22,9 @@ pub trait Stage {
 
     /// The latest currents, A.
     fn currents(&self) -> [f32; 2];
+
+    /// The converter's latest counts of the coils' supply, behind its divider.
+    fn supply(&self) -> u16;
 
     /// Lets the low sides be driven, until a comparator switches them off.
     fn arm(&mut self);
@@ -95,5 +99,10 @@ impl<S: Stage> Coils for DrivenCoils<S> {
             // It began to fall while this was written, and its interrupt has been overwritten.
             S::force(crate::control::safe_state());
         }
+    }
+
+    #[inline]
+    fn supply(&self) -> Option<f32> {
+        Some(conditions::supply(self.stage.supply()))
     }
 }

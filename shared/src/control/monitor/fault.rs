@@ -35,6 +35,27 @@ impl fmt::Display for Wheel {
     }
 }
 
+/// Where an inertial part is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Place {
+    /// On the block.
+    Block,
+    /// On the ground.
+    Ground,
+}
+
+impl Place {
+    /// Each, in the order of arrays over inertial parts.
+    pub const ALL: [Place; 2] = [Place::Block, Place::Ground];
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(if *self == Place::Block { "block" } else { "ground" })
+    }
+}
+
 /// A fault, or the occasion of a warning. Two witnesses that disagree do not tell which of them lies: the sensor of a contradiction is the
 /// likelier one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -95,6 +116,16 @@ pub enum Fault {
     CommandsTooMany,
     /// Only a warning: it closes by a third sooner or later than it should.
     ClosingTimeChanged(Wheel),
+    /// Only a warning: the inertial part answered its own self-test otherwise than in the factory.
+    AnswersWrongly(Place),
+    /// Only a warning: the inertial parts were not tested, for lack of stillness or of time.
+    PartsUntested,
+    /// Only a warning: the accelerometer at rest is so far from 1 g that its range must be another.
+    ScaleWrong(Place),
+    /// Only a warning: the coils' supply is lower than the pull-in time was measured with.
+    SupplyLow,
+    /// Only a warning: it is colder or hotter than where the pull-in time was measured.
+    TemperatureUnusual,
 }
 
 /// A fault travels as its code.
@@ -146,7 +177,7 @@ macro_rules! codes {
             pub const ALL: [Fault; [$($code),*].len()] = [$(Fault::$fault $(($part::$which))?),*];
 
             /// A number for logs and telegrams, of two digits: the sensor (1 to 4) and what it did, 5x a clutch, 6x the controller itself,
-            /// 7x a warning, 8x a clutch's coil. Numbers are never given anew.
+            /// 7x and 9x a warning, 8x a clutch's coil. Numbers are never given anew.
             pub fn code(self) -> u16 {
                 match self {
                     $(Fault::$fault $(($part::$which))? => $code,)*
@@ -215,10 +246,17 @@ codes! {
     84 LowSideClosed(Wheel::Second);
     85 WrongCurrent(Wheel::First);
     86 WrongCurrent(Wheel::Second);
+    91 AnswersWrongly(Place::Block);
+    92 AnswersWrongly(Place::Ground);
+    93 ScaleWrong(Place::Block);
+    94 ScaleWrong(Place::Ground);
+    95 SupplyLow;
+    96 TemperatureUnusual;
+    97 PartsUntested;
 }
 
 impl Fault {
-    /// The sensor that is at fault.
+    /// The sensor that is at fault; none of a warning.
     pub fn sensor(self) -> Option<Sensor> {
         match self {
             Fault::Stale(sensor)
@@ -247,7 +285,12 @@ impl Fault {
             | Fault::CalibrationAbandoned
             | Fault::ClosingTimeChanged(_)
             | Fault::SelfTestAbandoned
-            | Fault::CommandsTooMany => None,
+            | Fault::CommandsTooMany
+            | Fault::AnswersWrongly(_)
+            | Fault::PartsUntested
+            | Fault::ScaleWrong(_)
+            | Fault::SupplyLow
+            | Fault::TemperatureUnusual => None,
         }
     }
 
@@ -281,6 +324,7 @@ impl Fault {
     /// | not commissioned, settings given up | by storing | only somebody who knows the structure can say what the settings must be |
     /// | image, memory, clock, settings in memory | by a new start | the board itself is not to be relied upon; a new start reads and tests all anew |
     /// | abandoned calibration or self-test, too many commands, changed closing time, no seal, older firmware | not needed | a warning only |
+    /// | a part's self-test, its scale, supply, temperature | not needed | a warning only |
     pub fn recovery(self) -> Recovery {
         match self {
             Fault::Stale(_) | Fault::Stuck(_) | Fault::Saturated(_) | Fault::NotFinite(_) | Fault::Contradiction(_) => {
@@ -298,7 +342,8 @@ impl Fault {
             Fault::CalibrationAbandoned | Fault::SelfTestAbandoned | Fault::CommandsTooMany | Fault::ClosingTimeChanged(_) => {
                 Recovery::NotNeeded
             }
-            Fault::NotSealed | Fault::OlderFirmware => Recovery::NotNeeded,
+            Fault::NotSealed | Fault::OlderFirmware | Fault::AnswersWrongly(_) | Fault::ScaleWrong(_) => Recovery::NotNeeded,
+            Fault::SupplyLow | Fault::TemperatureUnusual | Fault::PartsUntested => Recovery::NotNeeded,
         }
     }
 }
@@ -349,6 +394,20 @@ impl fmt::Display for Fault {
             }
             Fault::SelfTestAbandoned => write!(formatter, "self-test abandoned for lack of stillness: the clutches are untested"),
             Fault::CommandsTooMany => write!(formatter, "controller: it commands the clutches more often than a motion asks for"),
+            Fault::AnswersWrongly(place) => {
+                write!(formatter, "inertial part on the {place}: it answers its self-test otherwise than in the factory")
+            }
+            Fault::PartsUntested => write!(formatter, "inertial parts: untested, for lack of stillness or of time"),
+            Fault::ScaleWrong(place) => {
+                write!(
+                    formatter,
+                    "accelerometer on the {place}: at rest it is more than a fifth off 1 g, as if its range were another"
+                )
+            }
+            Fault::SupplyLow => write!(formatter, "coils' supply: lower than the clutches' pull-in time was measured with"),
+            Fault::TemperatureUnusual => {
+                write!(formatter, "temperature: beyond the range in which the clutches' pull-in time was measured")
+            }
         }
     }
 }
@@ -389,7 +448,7 @@ mod tests {
                 ..50 => Recovery::WhenGood,
                 63 | 64 => Recovery::ByStoring,
                 65..=68 => Recovery::ByStart,
-                50..70 | 80.. => Recovery::OnRequest,
+                50..70 | 80..90 => Recovery::OnRequest,
                 _ => Recovery::NotNeeded,
             };
             assert_eq!(fault.recovery(), expected, "{fault}");

@@ -1,6 +1,6 @@
 //! Sensors that cannot be believed: which of them, and why.
 //!
-//! [`fault`]: the codes; [`actuator`]: clutches that do not follow; [`coil`]: what their currents say. The room imports `structure`, `control::sensing` and `control::ticks`.
+//! [`fault`]: the codes; [`actuator`]: clutches that do not follow; [`coil`]: what their currents say; [`scale`]: whether rest is 1 g. The room imports `structure`, `control::sensing` and `control::ticks`.
 
 pub mod actuator;
 mod agreement;
@@ -8,6 +8,7 @@ pub mod coil;
 pub mod fault;
 mod parameters;
 mod rest;
+pub(in crate::control) mod scale;
 mod watch;
 
 pub(super) use parameters::duration;

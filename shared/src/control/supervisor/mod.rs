@@ -20,7 +20,8 @@ pub use interface::{Biases, Phase, Requests, SupervisorInput, Verdict};
 pub use parameters::{Parameters, SafeState};
 
 use crate::control::monitor::actuator::{ActuatorMonitor, ActuatorState};
-use crate::control::monitor::fault::{Fault, Recovery, Wheel};
+use crate::control::monitor::fault::{Fault, Place, Recovery, Wheel};
+use crate::control::monitor::scale::Scale;
 use crate::control::monitor::{Context, Findings, Monitor, MonitorState};
 use crate::control::sensing::calibration::{Averaging, Calibration, Plausible};
 use crate::control::sensing::required::Required;
@@ -105,6 +106,7 @@ pub struct SupervisorState {
     following: Following,
     command_rate: CommandRate,
     ladder: Ladder,
+    scale: Scale,
     /// What happened.
     pub log: EventLog<LOG_ENTRIES>,
 }
@@ -138,6 +140,7 @@ impl SupervisorState {
             following,
             command_rate,
             ladder,
+            scale,
         } = self;
         (*phase, *cause, *latched, *active, *any_active) = (Phase::Boot, None, false, [None; SOURCES], false);
         (*sent, *calibration, *calibrated) = ([false; 2], Calibration::default(), false);
@@ -147,7 +150,7 @@ impl SupervisorState {
         (*actuator, *motion) = (ActuatorState::default(), Motion::default());
         (*self_test, *proof, *averaging) = (SelfTest::default(), ProofTest::default(), Averaging::default());
         (*following, *command_rate) = (Following::default(), CommandRate::default());
-        *ladder = Ladder::default();
+        (*ladder, *scale) = (Ladder::default(), Scale::default());
     }
 
     /// A board that measures its coils' currents shall try their switches one by one before it engages.
@@ -219,6 +222,9 @@ impl Supervisor {
     /// One tick.
     pub fn step(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) -> Verdict {
         state.tick = state.tick.wrapping_add(1);
+        if Scale::is_due(state.tick) {
+            self.weigh_gravity(state, input);
+        }
         let at_rest = state.motion.block_still >= self.quiet;
         let context = Context { calibration: &state.calibration, calibrated: state.calibrated, at_rest };
         let findings = self.monitor.step(&mut state.monitor, input.sample, &context);
@@ -290,6 +296,18 @@ impl Supervisor {
 
     fn too_many(&self, input: &SupervisorInput<'_>) -> bool {
         input.wish == [true; 2] && !self.both_allowed && !input.standing
+    }
+
+    /// Has the accelerometers' scale looked at, whatever the phase.
+    // Before all else of a tick, which then need not keep anything for it.
+    #[cold]
+    #[inline(never)]
+    fn weigh_gravity(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) {
+        let at_rest = state.motion.block_still >= self.quiet;
+        let found = state.scale.look(input.sample, at_rest, self.motion.gravity);
+        for (place, _) in Place::ALL.into_iter().zip(found).filter(|(_, found)| *found) {
+            log(state, input, Kind::Warning(Fault::ScaleWrong(place).code()));
+        }
     }
 
     #[inline(never)]

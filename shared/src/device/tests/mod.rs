@@ -49,7 +49,7 @@ impl Bench {
     /// The reply to a request that has one.
     fn ask(&mut self, request: Request) -> Reply {
         match self.answer(request) {
-            Answer::Reply(reply) | Answer::Restarted(reply) => reply,
+            Answer::Reply(reply) | Answer::Restarted(reply) | Answer::SelfTest(reply) => reply,
             answer => panic!("{request:?}: {answer:?}"),
         }
     }
@@ -253,6 +253,21 @@ fn a_self_test_begins_only_where_it_is_armed() {
     assert_eq!(bench.ask(Request::SelfTest), DONE);
     bench.until(Phase::SelfTest, 10);
     bench.until(Phase::Calibrate, 1000);
+    bench.until(Phase::Armed, 5000);
+}
+
+/// Sensors that test themselves say nothing for so long, and what they said before must not count as their first reading.
+#[test]
+fn sensors_that_test_themselves_are_waited_for() {
+    let mut bench = Bench::armed();
+    assert_eq!(bench.answer(Request::SelfTest), Answer::SelfTest(DONE));
+    let silent = (bench.device.patience() / bench.device.period()) as usize - 10;
+    for _ in 0..silent {
+        bench.rig.sample();
+        bench.device.tick(|_| {}, 0.0);
+        assert_eq!((bench.device.decision().phase, bench.device.decision().fault), (Phase::Boot, None));
+    }
+    bench.until(Phase::SelfTest, 10);
     bench.until(Phase::Armed, 5000);
 }
 

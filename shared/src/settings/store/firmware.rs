@@ -54,7 +54,7 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    const SECTOR: usize = 1024;
+    const SECTOR: usize = 2 * super::super::SLOT_BYTES as usize;
 
     /// Flash of some sectors that takes so many words more.
     #[derive(Clone)]

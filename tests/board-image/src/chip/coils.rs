@@ -2,6 +2,7 @@
 
 use super::Chip;
 use crate::model::Model;
+use crate::peripheral::converter::Inputs;
 use crate::time::microseconds;
 
 /// Of the comparators on the board with an F4, A (docs/board.md).
@@ -56,6 +57,11 @@ impl Chip {
         }
         self.broken = asks;
         self.modulation.set_break(asks);
+    }
+
+    /// What is at the converter's pins: both coils have one supply.
+    pub(super) fn converted_from(&self) -> Inputs {
+        Inputs { currents: self.coils.each_ref().map(|coil| coil.current), supply: self.coils[0].supply }
     }
 
     fn let_flow(&mut self, until: u64) {

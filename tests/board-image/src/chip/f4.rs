@@ -31,7 +31,7 @@ impl Chip {
             0x4001_2000 if offset >= 0x300 => self.converters.get(offset),
             0x4001_2000 => {
                 self.advance_coils();
-                let value = self.converter.read(offset, [self.coils[0].current, self.coils[1].current]);
+                let value = self.converter.read(offset, self.converted_from());
                 if let Some(coil) = self.converter.coil(offset) {
                     self.converted[coil] = value;
                 }

@@ -60,7 +60,7 @@ impl Chip {
             0x5000_0000 if offset >= 0x300 => self.converters.get(offset),
             0x5000_0000 => {
                 self.advance_coils();
-                self.converter.read_g4(offset, [self.coils[0].current, self.coils[1].current])
+                self.converter.read_g4(offset, self.converted_from())
             }
             0x5000_1000 => self.comparators.read_source(offset),
             _ => self.nobody(address),

@@ -4,9 +4,11 @@
 
 mod coils;
 mod commissioning;
+mod conditions;
 mod faults;
 mod integrity;
 mod link;
+mod parts;
 mod proof_test;
 mod recorder;
 mod registers;

@@ -1,10 +1,13 @@
-//! The coils' currents: ADC1 converts both for ever by itself, and the latest are there to be read.
+//! The coils' currents and their supply: ADC1 converts all for ever by itself, and the latest are there to be read.
 
 use sprag_shared::device::coil::current;
 use stm32g4::stm32g474 as pac;
 
 /// Channels of the two amplifiers, at PA1 and PC1.
 const CHANNELS: [u8; 2] = [2, 7];
+
+/// Of the supply's divider, at PC2.
+const SUPPLY: u8 = 8;
 
 /// The converter.
 pub struct Currents(());
@@ -31,13 +34,13 @@ impl Currents {
         cortex_m::asm::delay(64);
         converter.cr().modify(|_, w| w.aden().set_bit());
         while converter.isr().read().adrdy().bit_is_clear() {}
-        // Injected conversions have a register each, so no memory needs to be written. They follow every regular one, and the regular one,
-        // which is not read, follows them.
+        // Injected conversions have a register each, so no memory needs to be written. They follow every regular one, the supply's, which
+        // follows them.
         converter.cfgr().modify(|_, w| w.jauto().set_bit().cont().set_bit().ovrmod().set_bit());
-        converter.smpr1().write(|w| w.smp2().cycles640_5().smp7().cycles640_5());
+        converter.smpr1().write(|w| w.smp2().cycles640_5().smp7().cycles640_5().smp8().cycles640_5());
         // SAFETY: these channels exist.
         unsafe {
-            converter.sqr1().write(|w| w.l().set(0).sq1().bits(CHANNELS[0]));
+            converter.sqr1().write(|w| w.l().set(0).sq1().bits(SUPPLY));
             converter.jsqr().write(|w| w.jl().set(1).jsq1().bits(CHANNELS[0]).jsq2().bits(CHANNELS[1]));
         }
         converter.cr().modify(|_, w| w.adstart().set_bit());
@@ -47,5 +50,10 @@ impl Currents {
     /// The latest, A. Both are converted every 47 µs.
     pub fn read(&self) -> [f32; 2] {
         [converter().jdr1().read().jdata().bits(), converter().jdr2().read().jdata().bits()].map(current)
+    }
+
+    /// The latest counts of the supply, of the same age.
+    pub fn supply(&self) -> u16 {
+        converter().dr().read().rdata().bits()
     }
 }

@@ -9,6 +9,7 @@ mod ladder;
 mod proof_test;
 mod recovery;
 mod rig;
+mod scale;
 mod wraps;
 
 #[test]
