@@ -17,10 +17,7 @@ use super::gains::Tracking;
 use crate::scene::controller::EstimatorName;
 use crate::sensor::{Inertial, Sampling, Suite};
 
-/// Share of p²α by which the equation of motion is taken to be wrong (belief about the structure, friction, the other direction), for
-/// [`MODEL_TIME`] at a time.
-const MODEL_ERROR: f64 = 0.1;
-/// s.
+/// How long the equation of motion stays wrong by as much as it may be, s.
 const MODEL_TIME: f64 = 0.05;
 /// Growth of the ground's acceleration that the kinematic filter must follow, g/s, for [`JERK_TIME`] at a time: 0.5 g at 3 Hz.
 const JERK: f64 = 10.0;
@@ -70,7 +67,8 @@ fn two_states(density: f64, period: f64) -> (SMatrix<f64, 2, 2>, SMatrix<f64, 2,
 }
 
 impl SensorDesign {
-    /// For `structure` (loaded), sensors and a control `period` (s); `shock` (s) is how long an impact shakes the sensors.
+    /// For `structure` (loaded), sensors and a control `period` (s); `shock` (s) is how long an impact shakes the sensors, `model_error` the
+    /// share of p²α by which the equation of motion may be wrong.
     ///
     /// # Errors
     /// [`ParameterError`] for what the controller refuses.
@@ -80,6 +78,7 @@ impl SensorDesign {
         name: EstimatorName,
         period: f64,
         shock: f64,
+        model_error: f64,
     ) -> Result<SensorDesign, ParameterError> {
         let block = &structure.block;
         let (size, p) = (block.size(), block.frequency_parameter());
@@ -109,7 +108,7 @@ impl SensorDesign {
             (time / period).ceil() as u16
         };
         let failed = ParameterError { parameter: "estimator gains", value: f64::NAN, range: "solvable" };
-        let model_density = 2.0 * MODEL_TIME * square(MODEL_ERROR * weight);
+        let model_density = 2.0 * MODEL_TIME * square(model_error * weight);
         let jump = |deviation: f64| (0.1 * p * block.slenderness()).max(8.0 * deviation) as f32;
         let standing = |rotation: f64, velocity: f64| Standing {
             rotation: (STANDING_COUNTS * encoder.resolution / size + 4.0 * rotation) as f32,

@@ -141,5 +141,100 @@ pub fn practice(records: &[Motion], progress: &Progress, conditions: &Conditions
         report.section(heading);
         report.table(name, table);
     }
+    if !records.is_empty() {
+        trust(&mut report, records, progress, conditions)?;
+    }
     Ok(report)
+}
+
+/// Shares of p²α by which the equation of motion may be wrong, that are compared.
+const MODEL_ERRORS: [f64; 3] = [0.1, 0.05, 0.02];
+/// Specimens of the sensors with the right belief …
+const SPECIMENS: std::ops::RangeInclusive<u64> = 9..=16;
+/// … and with each wrong one.
+const FEW_SPECIMENS: std::ops::RangeInclusive<u64> = 9..=10;
+
+/// Several specimens' comparisons as cells: 95th percentile of all changes, its range over the specimens, median, and overturned blocks.
+fn pooled(of: &[Comparison]) -> Vec<String> {
+    let mut all = Comparison::default();
+    for comparison in of {
+        all.changes.extend_from_slice(&comparison.changes);
+        all.overturned += comparison.overturned;
+        all.motions += comparison.motions;
+    }
+    let each: Vec<f64> = of.iter().map(|comparison| 100.0 * comparison.size(0.95)).collect();
+    let (least, most) = each
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most): (f64, f64), &size| (least.min(size), most.max(size)));
+    vec![
+        cell(100.0 * all.size(0.5), 3),
+        cell(100.0 * all.size(0.95), 2),
+        format!("{} to {}", cell(least, 2), cell(most, 2)),
+        all.overturned.to_string(),
+        all.motions.to_string(),
+    ]
+}
+
+/// Adds what the trust in the equation of motion does to the peaks under `records`, over specimens of the sensors that nothing was chosen by.
+fn trust(report: &mut Report, records: &[Motion], progress: &Progress, conditions: &Conditions<'_>) -> Result<(), StudyError> {
+    let ideal = |scale: f64| {
+        let motions: Vec<Motion> = records.iter().map(|motion| motion.times(scale)).collect();
+        let run = |motion: &Motion, variant: &Variant| run_ideal(motion, variant, conditions);
+        Ok::<_, StudyError>(each(&motions, &[Variant::new("ideal", &[])], progress, run)?.remove(0))
+    };
+    let all = ideal(1.0)?;
+    let mut table = Table::new(&[
+        "sensors",
+        "belief",
+        "model error",
+        "median size %",
+        "95th percentile %",
+        "of a specimen",
+        "overturned beyond ideal",
+        "runs",
+    ]);
+    let dash = || "-".to_owned();
+    let moved = |scale: f64| {
+        let mut comparison = Comparison { motions: all.len(), ..Comparison::default() };
+        ideal(scale)?.into_iter().zip(&all).for_each(|(run, ideal)| comparison.note(run, *ideal));
+        Ok::<_, StudyError>(comparison)
+    };
+    let chaos = [moved(0.999)?, moved(1.001)?];
+    table.row([vec!["none: the ideal pair, ground times 0.999 and 1.001".to_owned(), dash(), dash()], pooled(&chaos)].concat());
+    let kept = |index: &usize| !all[*index].0.overturned() && all[*index].1 >= ROCKS;
+    let (rocked, ideals): (Vec<Motion>, Vec<_>) =
+        (0..all.len()).filter(kept).map(|index| (records[index].clone(), all[index])).unzip();
+    let mut beliefs = vec![("right".to_owned(), String::new())];
+    for (symbol, key) in [("α", "slenderness"), ("R", "size"), ("σ", "mass_ratio"), ("η", "restitution")] {
+        for factor in [0.95, 1.05] {
+            beliefs.push((format!("{symbol} times {factor}"), format!("controller.belief.{key}_factor={factor:?}")));
+        }
+    }
+    for suite in ["icm-42688-p", "adis16470"] {
+        for (belief, key) in &beliefs {
+            for error in MODEL_ERRORS {
+                let mut base =
+                    variant(suite, suite, "model-aided", 1.0).with(&format!("controller.belief.model_error={error:?}"));
+                base.overrides.extend((!key.is_empty()).then(|| key.clone()));
+                let seeds = if key.is_empty() { SPECIMENS } else { FEW_SPECIMENS };
+                let variants: Vec<Variant> = seeds.map(|seed| Variant { seed, ..base.clone() }).collect();
+                let loops = each(&rocked, &variants, progress, |motion, variant| run_loop(motion, variant, conditions))?;
+                let compared: Vec<Comparison> = loops.iter().map(|loops| Comparison::of(loops, &ideals)).collect();
+                table.row([vec![suite.to_owned(), belief.clone(), error.to_string()], pooled(&compared)].concat());
+            }
+        }
+    }
+    report.section("How far to trust the equation of motion");
+    report.paragraph(&format!(
+        "`belief.model_error` is the share of p²α by which the model-aided estimator takes the equation of motion to be wrong. Over the {} \
+         recorded motions that make the ideal pair rock and leave it standing; specimens {} to {} of the sensors with the right belief, {} \
+         and {} with each wrong one. The first row is what a change of the ground by a thousandth makes of the ideal pair itself.",
+        rocked.len(),
+        SPECIMENS.start(),
+        SPECIMENS.end(),
+        FEW_SPECIMENS.start(),
+        FEW_SPECIMENS.end()
+    ));
+    report.table("practice-trust", table);
+    Ok(())
 }
