@@ -176,7 +176,8 @@ impl<'a> LoopTask<'a> {
         let structure = self.believed()?;
         let table = self.controller;
         let period = 1.0 / table.rate_hz;
-        let design = SensorDesign::new(&structure, self.suite, table.estimator, period, table.shock_s)?;
+        let (shock, model_error) = (table.shock_s, table.belief.model_error);
+        let design = SensorDesign::new(&structure, self.suite, table.estimator, period, shock, model_error)?;
         let supervision = supervision(&structure, self.suite, &design, table, self.actuation());
         let controller = Controller {
             model: Model::new(&structure, &self.drivetrain())?,

@@ -63,6 +63,9 @@ impl Setting {
         [(3.0, true), (20.0, true), (50.0, true), (3.0, false)].map(|(delay, braked)| Setting::clutch(delay, braked)).to_vec()
     }
 
+    /// Which of [`Setting::clutches`] are the typical ones.
+    pub const TYPICAL: std::ops::Range<usize> = 1..3;
+
     /// As a variant.
     pub fn variant(&self) -> Variant {
         let mut variant = Variant::new(&self.name, &[&format!("block.slenderness_deg={:?}", self.slenderness_deg)]);

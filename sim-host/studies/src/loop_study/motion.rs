@@ -45,6 +45,20 @@ pub enum Motion {
 }
 
 impl Motion {
+    /// The same with accelerations `factor` times as large.
+    #[must_use]
+    pub fn times(&self, factor: f64) -> Motion {
+        let mut motion = self.clone();
+        match &mut motion {
+            Motion::Pulse { amplitude: size, .. }
+            | Motion::Wavelet { amplitude: size, .. }
+            | Motion::Record { scale: size, .. } => {
+                *size *= factor;
+            }
+        }
+        motion
+    }
+
     /// `[[ground]]` and `[run]` of a scene with this `block`.
     pub fn tables(&self, block: &Block) -> String {
         let after_pulse = "[run]\nfree_time_ratio = 10.0\n";

@@ -1,7 +1,7 @@
 //! As good as the ideal pair in practice: real sensors, a real rate, a real delay.
 
 use sprag_report::progress::Progress;
-use sprag_sim::scene::controller::EstimatorName;
+use sprag_sim::scene::controller::{EstimatorName, MODEL_ERROR};
 
 use super::bench::{Conditions, EQUATION_10, StudyError, Variant, each, run_ideal, run_loop};
 use super::motion::{Motion, and_records, grid};
@@ -146,5 +146,139 @@ pub fn practice(records: &[Motion], progress: &Progress, conditions: &Conditions
         report.section(heading);
         report.table(name, table);
     }
+    if !records.is_empty() {
+        trust(&mut report, records, progress, conditions)?;
+    }
     Ok(report)
+}
+
+/// Shares of p²α by which the equation of motion may be wrong, that are compared; with wrong beliefs the first and the last.
+const MODEL_ERRORS: [f64; 3] = [0.1, 0.05, 0.02];
+/// Specimens of the sensors with the right belief …
+const SPECIMENS: std::ops::RangeInclusive<u64> = 9..=16;
+/// … and with each wrong one.
+const FEW_SPECIMENS: std::ops::RangeInclusive<u64> = 9..=10;
+
+/// Several specimens' comparisons as cells: 95th percentile of all changes, its range over the specimens, median, and overturned blocks.
+fn pooled(of: &[Comparison]) -> Vec<String> {
+    let mut all = Comparison::default();
+    for comparison in of {
+        all.changes.extend_from_slice(&comparison.changes);
+        all.overturned += comparison.overturned;
+        all.motions += comparison.motions;
+    }
+    let each: Vec<f64> = of.iter().map(|comparison| 100.0 * comparison.size(0.95)).collect();
+    let (least, most) = each
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most): (f64, f64), &size| (least.min(size), most.max(size)));
+    vec![
+        cell(100.0 * all.size(0.5), 3),
+        cell(100.0 * all.size(0.95), 2),
+        format!("{} to {}", cell(least, 2), cell(most, 2)),
+        all.overturned.to_string(),
+        all.motions.to_string(),
+    ]
+}
+
+/// Adds what the trust in the equation of motion does to the peaks under `records`, over specimens of the sensors that nothing was chosen by.
+fn trust(report: &mut Report, records: &[Motion], progress: &Progress, conditions: &Conditions<'_>) -> Result<(), StudyError> {
+    let ideal = |scale: f64| {
+        let motions: Vec<Motion> = records.iter().map(|motion| motion.times(scale)).collect();
+        let run = |motion: &Motion, variant: &Variant| run_ideal(motion, variant, conditions);
+        Ok::<_, StudyError>(each(&motions, &[Variant::new("ideal", &[])], progress, run)?.remove(0))
+    };
+    let all = ideal(1.0)?;
+    let mut table = Table::new(&[
+        "sensors",
+        "belief",
+        "model error",
+        "median size %",
+        "95th percentile %",
+        "of a specimen",
+        "overturned beyond ideal",
+        "runs",
+    ]);
+    let dash = || "-".to_owned();
+    let moved = |scale: f64| {
+        let mut comparison = Comparison { motions: all.len(), ..Comparison::default() };
+        ideal(scale)?.into_iter().zip(&all).for_each(|(run, ideal)| comparison.note(run, *ideal));
+        Ok::<_, StudyError>(comparison)
+    };
+    let chaos = [moved(0.999)?, moved(1.001)?];
+    table.row([vec!["none: the ideal pair, ground times 0.999 and 1.001".to_owned(), dash(), dash()], pooled(&chaos)].concat());
+    let kept = |index: &usize| !all[*index].0.overturned() && all[*index].1 >= ROCKS;
+    let (rocked, ideals): (Vec<Motion>, Vec<_>) =
+        (0..all.len()).filter(kept).map(|index| (records[index].clone(), all[index])).unzip();
+    let slow = SLOW_CLUTCHES[0];
+    let mut beliefs = vec![
+        ("right".to_owned(), String::new()),
+        (format!("right, {slow} ms"), format!("controller.latency_s={:?}", 1e-3 * slow)),
+    ];
+    for (symbol, key) in [("α", "slenderness"), ("R", "size"), ("σ", "mass_ratio"), ("η", "restitution")] {
+        for factor in [0.95, 1.05] {
+            beliefs.push((format!("{symbol} times {factor}"), format!("controller.belief.{key}_factor={factor:?}")));
+        }
+    }
+    for (suite, beliefs) in [("icm-42688-p", &beliefs[..]), ("adis16470", &beliefs[..1])] {
+        for (belief, key) in beliefs {
+            let right = belief.starts_with("right");
+            for error in MODEL_ERRORS.into_iter().filter(|error| right || *error != MODEL_ERRORS[1]) {
+                let mut base =
+                    variant(suite, suite, "model-aided", 1.0).with(&format!("controller.belief.model_error={error:?}"));
+                base.overrides.extend((!key.is_empty()).then(|| key.clone()));
+                let seeds = if right { SPECIMENS } else { FEW_SPECIMENS };
+                let variants: Vec<Variant> = seeds.map(|seed| Variant { seed, ..base.clone() }).collect();
+                let loops = each(&rocked, &variants, progress, |motion, variant| run_loop(motion, variant, conditions))?;
+                let compared: Vec<Comparison> = loops.iter().map(|loops| Comparison::of(loops, &ideals)).collect();
+                table.row([vec![suite.to_owned(), belief.clone(), error.to_string()], pooled(&compared)].concat());
+            }
+        }
+    }
+    report.section("How far to trust the equation of motion");
+    report.paragraph(&format!(
+        "`belief.model_error` is the share of p²α by which the model-aided estimator takes the equation of motion to be wrong. Over the {} \
+         recorded motions that make the ideal pair rock and leave it standing; specimens {} to {} of the sensors with the right belief, {} \
+         and {} with each wrong one. The first row is what a change of the ground by a thousandth makes of the ideal pair itself. The default is {MODEL_ERROR}.",
+        rocked.len(),
+        SPECIMENS.start(),
+        SPECIMENS.end(),
+        FEW_SPECIMENS.start(),
+        FEW_SPECIMENS.end()
+    ));
+    report.table("practice-trust", table);
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use sprag_shared::settings::Settings;
+    use sprag_shared::settings::kind::Description;
+
+    use super::*;
+    use crate::loop_study::bench::with_loop;
+    use sprag_sim::interrupt::Interrupt;
+
+    /// The board's default block is that of the studies, its default sensors those of the parts list.
+    #[test]
+    fn a_boards_default_estimator_is_the_one_that_is_studied() {
+        let interrupt = Interrupt::default();
+        let motion = Motion::Pulse { shape: "sine", frequency: 2.0, amplitude: 2.0 };
+        let parts = variant("parts list", "icm-42688-p", "model-aided", 1.0);
+        let solved = with_loop(&motion, &parts, &Conditions::new(None, &interrupt), |task| Ok(task.settings()?)).unwrap();
+        let differing: Vec<String> = Description::all()
+            .iter()
+            .zip(solved.words().iter().zip(Settings::default().words()))
+            .filter(|(description, (solved, default))| description.name.starts_with("estimator") && solved != default)
+            .map(|(description, (&solved, _))| format!("{} is {}", description.name, description.show(solved)))
+            .collect();
+        assert!(differing.is_empty(), "{differing:#?}");
+    }
+
+    #[test]
+    fn specimens_are_pooled_and_their_range_is_kept() {
+        let specimen = |changes: &[f64], overturned| Comparison { changes: changes.to_vec(), overturned, saved: 0, motions: 3 };
+        let cells = pooled(&[specimen(&[0.01, -0.01], 1), specimen(&[0.03, 0.03], 0)]);
+        assert_eq!([&cells[2], &cells[3], &cells[4]], ["1.00 to 3.00", "1", "6"]);
+        assert_eq!(pooled(&[Comparison::default()])[1..3], ["-", "- to -"]);
+    }
 }

@@ -1,6 +1,6 @@
 //! Overturned runs counted by specimen of the sensors, and how sure their mean is.
 
-use sprag_shared::math::square_root;
+use sprag_shared::math::{exp, ln, square_root};
 
 use super::statistics::cell;
 use crate::statistics::Level;
@@ -71,6 +71,66 @@ impl Tally {
     }
 }
 
+/// Under how many motions one law overturns less or more often than another.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pairs {
+    /// Less often.
+    pub less: usize,
+    /// More often.
+    pub more: usize,
+}
+
+impl Pairs {
+    /// Of a law's tallies beside another's, of which run i is shaken by motion i mod `different`. What one motion does at several
+    /// scales, or in several tallies, counts once: as less or more often in all.
+    pub fn of(beside: &[(&Tally, &Tally)], different: usize) -> Pairs {
+        let mut net = vec![0_i32; different];
+        for (law, other) in beside {
+            for (index, (&own, &other)) in law.overturned.iter().zip(&other.overturned).enumerate() {
+                net[index % different] += i32::from(own) - i32::from(other);
+            }
+        }
+        let count = |sign: i32| net.iter().filter(|net| net.signum() == sign).count();
+        Pairs { less: count(-1), more: count(1) }
+    }
+
+    /// Both together.
+    #[must_use]
+    pub fn plus(self, other: Pairs) -> Pairs {
+        Pairs { less: self.less + other.less, more: self.more + other.more }
+    }
+
+    /// Probability that two equal laws are at least as far apart: two-sided sign test, which of single runs is McNemar's exact one.
+    pub fn chance(&self) -> f64 {
+        let number = self.less + self.more;
+        // ln of the binomial coefficients by their ratios: 2^(−n) itself is no number for n above a thousand.
+        let mut term = -(number as f64) * std::f64::consts::LN_2;
+        let mut sum = 0.0;
+        for few in 0..=self.less.min(self.more) {
+            sum += exp(term);
+            term += ln((number - few) as f64 / (few + 1) as f64);
+        }
+        (2.0 * sum).min(1.0)
+    }
+
+    /// Less often, and equal laws come as far apart with a probability below 0.05.
+    pub fn fewer(&self) -> bool {
+        self.less > self.more && self.chance() < 0.05
+    }
+
+    /// More often, likewise.
+    pub fn greater(&self) -> bool {
+        Pairs { less: self.more, more: self.less }.fewer()
+    }
+
+    /// As a cell of a table.
+    pub fn cell(&self) -> String {
+        let chance = self.chance();
+        let chance = if chance < 0.001 { "< 0.001".to_owned() } else { cell(chance, 3) };
+        format!("{} : {} ({chance})", self.less, self.more)
+    }
+}
+
 /// The tallies with the fewest overturned runs: first the least, then those that specimens do not tell apart from it.
 pub fn fewest(tallies: &[Tally]) -> Vec<usize> {
     let Some(least) = (0..tallies.len()).min_by_key(|&index| tallies[index].count()) else { return Vec::new() };
@@ -100,5 +160,27 @@ mod tests {
         assert_eq!(fewest(&[other, one]), [1, 0], "four specimens are few");
         let none = tally([0; 8]);
         assert_eq!(fewest(&[none.clone(), none, tally([1; 8])]), [0, 1], "every specimen tells them apart");
+    }
+
+    #[test]
+    fn what_one_motion_does_counts_once() {
+        let tally = |bits: &[u8]| Tally { overturned: bits.iter().map(|&bit| bit == 1).collect(), specimens: 1 };
+        // Three motions at two scales: the first is saved at both, the second at one and lost at the other, the third is lost at one.
+        let (law, default) = (tally(&[0, 0, 1, 0, 1, 0]), tally(&[1, 1, 0, 1, 0, 0]));
+        assert_eq!(Pairs::of(&[(&law, &default)], 3), Pairs { less: 1, more: 1 });
+        assert_eq!(Pairs::of(&[(&law, &default)], 6), Pairs { less: 3, more: 2 });
+        assert_eq!(Pairs::of(&[(&law, &default), (&default, &law)], 3), Pairs::default());
+    }
+
+    #[test]
+    fn chances_are_those_of_a_fair_coin() {
+        let chance = |less, more| Pairs { less, more }.chance();
+        assert!((chance(0, 5) - 0.0625).abs() < 1e-12 && (chance(2, 8) - 112.0 / 1024.0).abs() < 1e-12);
+        assert_eq!((chance(0, 0), chance(4, 4), chance(3, 4)), (1.0, 1.0, 1.0));
+        assert_eq!(chance(9, 1), chance(1, 9));
+        assert!((0.0..0.05).contains(&chance(900, 1100)), "more pairs than 2^(−n) has room for");
+        assert!(
+            Pairs { less: 6, more: 0 }.fewer() && !Pairs { less: 5, more: 0 }.fewer() && Pairs { less: 0, more: 6 }.greater()
+        );
     }
 }
