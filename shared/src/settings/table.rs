@@ -105,11 +105,11 @@ parameters! {
     BlockUp "instruments.block_up" real("m", -100.0, 100.0, 0.0);
 
     Estimator "estimator" choice(&["model-aided", "kalman", "complementary"], 0);
-    RotationByEncoder "estimator.rotation_by_encoder" gain("", 0.471_781_28);
-    RotationByGyroscope "estimator.rotation_by_gyroscope" gain("s", 7.034_311e-5).only(MODEL_AIDED_OR_KALMAN);
+    RotationByEncoder "estimator.rotation_by_encoder" gain("", 0.287_661_64);
+    RotationByGyroscope "estimator.rotation_by_gyroscope" gain("s", 2.167_216e-5).only(MODEL_AIDED_OR_KALMAN);
     RotationByAccelerometers "estimator.rotation_by_accelerometers" gain("s²", 0.0).only(KALMAN);
-    VelocityByEncoder "estimator.velocity_by_encoder" gain("1/s", 323.346_56);
-    VelocityByGyroscope "estimator.velocity_by_gyroscope" gain("", 0.143_869_77).only(MODEL_AIDED_OR_KALMAN);
+    VelocityByEncoder "estimator.velocity_by_encoder" gain("1/s", 99.620_54);
+    VelocityByGyroscope "estimator.velocity_by_gyroscope" gain("", 0.017_028_436).only(MODEL_AIDED_OR_KALMAN);
     VelocityByAccelerometers "estimator.velocity_by_accelerometers" gain("s", 0.0).only(KALMAN);
     AccelerationByEncoder "estimator.acceleration_by_encoder" gain("1/s²", 0.0).only(KALMAN);
     AccelerationByGyroscope "estimator.acceleration_by_gyroscope" gain("1/s", 0.0).only(KALMAN);
@@ -120,12 +120,12 @@ parameters! {
     Smoothing "estimator.smoothing" real("", 0.0, 1.0, 1.0).only(COMPLEMENTARY);
     Blank "estimator.blank" whole("ticks", 0, TICKS, 5);
     Jump "estimator.jump" not_negative("rad/s", 0.033_469_82).only(MODEL_AIDED_OR_KALMAN);
-    StandingRotation "estimator.standing.rotation" not_negative("rad", 1.269_828e-4);
-    StandingVelocity "estimator.standing.velocity" not_negative("rad/s", 0.003_521_347_5);
+    StandingRotation "estimator.standing.rotation" not_negative("rad", 1.265_482_9e-4);
+    StandingVelocity "estimator.standing.velocity" not_negative("rad/s", 0.002_215_856);
     StandingTicks "estimator.standing.ticks" whole("ticks", 0, TICKS, 40);
-    DeviationRotation "estimator.deviation.rotation" not_negative("rad", 4.957_009_3e-7);
-    DeviationVelocity "estimator.deviation.velocity" not_negative("rad/s", 0.000_586_891_1);
-    DeviationPush "estimator.deviation.push" not_negative("1/s²", 0.004_892_385_6);
+    DeviationRotation "estimator.deviation.rotation" not_negative("rad", 3.870_707_4e-7);
+    DeviationVelocity "estimator.deviation.velocity" not_negative("rad/s", 0.000_201_911_05);
+    DeviationPush "estimator.deviation.push" not_negative("1/s²", 0.004_891_986);
     DeviationGround "estimator.deviation.ground" not_negative("g", 0.001_329_863);
 
     Law "law" choice(

@@ -51,11 +51,11 @@ fn structure((geometry, kinematics): (Geometry, KinematicsKind), mount: Mount) -
 }
 
 const DEVIATION: Deviation =
-    Deviation { rotation: 4.957_009_3e-7, velocity: 0.000_586_891_1, push: 0.004_892_385_6, ground: 0.001_329_863 };
-const STANDING: Standing = Standing { rotation: 1.269_828e-4, velocity: 0.003_521_347_5, ticks: 40 };
+    Deviation { rotation: 3.870_707_4e-7, velocity: 0.000_201_911_05, push: 0.004_891_986, ground: 0.001_329_863 };
+const STANDING: Standing = Standing { rotation: 1.265_482_9e-4, velocity: 0.002_215_856, ticks: 40 };
 /// What the host solves for 2 kHz with an ICM-42688-P.
 const MODEL_AIDED: ModelAided = ModelAided {
-    gains: [[0.471_781_28, 7.034_311e-5], [323.346_56, 0.143_869_77]],
+    gains: [[0.287_661_64, 2.167_216e-5], [99.620_54, 0.017_028_436]],
     blank: 5,
     jump: 0.033_469_82,
     standing: STANDING,

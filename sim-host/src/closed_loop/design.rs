@@ -17,6 +17,8 @@ use super::gains::Tracking;
 use crate::scene::controller::EstimatorName;
 use crate::sensor::{Inertial, Sampling, Suite};
 
+/// Share of p²α by which the accelerometers' acceleration of the block may be wrong (scale, misalignment), for [`MODEL_TIME`] at a time.
+const ACCELERATION_ERROR: f64 = 0.1;
 /// How long the equation of motion stays wrong by as much as it may be, s.
 const MODEL_TIME: f64 = 0.05;
 /// Growth of the ground's acceleration that the kinematic filter must follow, g/s, for [`JERK_TIME`] at a time: 0.5 g at 3 Hz.
@@ -108,7 +110,7 @@ impl SensorDesign {
             (time / period).ceil() as u16
         };
         let failed = ParameterError { parameter: "estimator gains", value: f64::NAN, range: "solvable" };
-        let model_density = 2.0 * MODEL_TIME * square(model_error * weight);
+        let wrong = |share: f64| 2.0 * MODEL_TIME * square(share * weight);
         let jump = |deviation: f64| (0.1 * p * block.slenderness()).max(8.0 * deviation) as f32;
         let standing = |rotation: f64, velocity: f64| Standing {
             rotation: (STANDING_COUNTS * encoder.resolution / size + 4.0 * rotation) as f32,
@@ -117,16 +119,21 @@ impl SensorDesign {
         };
         let estimator = match name {
             EstimatorName::ModelAided => {
-                let (transition, process) = two_states(model_density, period);
+                let (transition, process) = two_states(wrong(model_error), period);
                 let (measurement, noise) = (SMatrix::identity(), SVector::<f64, 2>::new(of_encoder, of_gyroscope));
                 let (gains, covariance) = Tracking { transition, process, measurement, noise }.steady().ok_or(failed)?;
                 let (rotation, velocity) =
                     (math::square_root(covariance[(0, 0)].max(0.0)), math::square_root(covariance[(1, 1)].max(0.0)));
+                // A block must also be found to stand when its encoder is lost: by what the gyroscope alone leaves of the velocity.
+                let one = SMatrix::<f64, 1, 1>::identity();
+                let (process, noise) = (one * process[(1, 1)], SVector::<f64, 1>::new(of_gyroscope));
+                let alone = Tracking { transition: one, process, measurement: one, noise }.steady().ok_or(failed)?.1;
+                let still = velocity.max(math::square_root(alone[0].max(0.0)));
                 Estimator::ModelAided(ModelAided {
                     gains: [[gains[(0, 0)] as f32, gains[(0, 1)] as f32], [gains[(1, 0)] as f32, gains[(1, 1)] as f32]],
                     blank: blank(delays[0], noisy(gyroscope)),
                     jump: jump(math::square_root(of_gyroscope)),
-                    standing: standing(rotation, velocity),
+                    standing: standing(rotation, still),
                     deviation: Deviation {
                         rotation: rotation as f32,
                         velocity: velocity as f32,
@@ -170,7 +177,7 @@ impl SensorDesign {
                 })
             }
             EstimatorName::Complementary => {
-                let (transition, process) = two_states(model_density + of_forces * period, period);
+                let (transition, process) = two_states(wrong(ACCELERATION_ERROR) + of_forces * period, period);
                 let measurement = SMatrix::<f64, 1, 2>::new(1.0, 0.0);
                 let noise = SVector::<f64, 1>::new(of_encoder);
                 let (gains, covariance) = Tracking { transition, process, measurement, noise }.steady().ok_or(failed)?;

@@ -5,7 +5,7 @@ use super::motion::{Motion, and_records, grid};
 use super::report::{Report, Table};
 use super::statistics::cell;
 use crate::progress::Progress;
-use crate::scene::controller::EstimatorName;
+use crate::scene::controller::{EstimatorName, MODEL_ERROR};
 use crate::statistics::quantile;
 
 /// A hundred pulses of each shape: ω/p 1 to 6, amplitudes 1.2 to 5.2.
@@ -147,7 +147,7 @@ pub fn practice(records: &[Motion], progress: &Progress, conditions: &Conditions
     Ok(report)
 }
 
-/// Shares of p²α by which the equation of motion may be wrong, that are compared.
+/// Shares of p²α by which the equation of motion may be wrong, that are compared; with wrong beliefs the first and the last.
 const MODEL_ERRORS: [f64; 3] = [0.1, 0.05, 0.02];
 /// Specimens of the sensors with the right belief …
 const SPECIMENS: std::ops::RangeInclusive<u64> = 9..=16;
@@ -204,19 +204,24 @@ fn trust(report: &mut Report, records: &[Motion], progress: &Progress, condition
     let kept = |index: &usize| !all[*index].0.overturned() && all[*index].1 >= ROCKS;
     let (rocked, ideals): (Vec<Motion>, Vec<_>) =
         (0..all.len()).filter(kept).map(|index| (records[index].clone(), all[index])).unzip();
-    let mut beliefs = vec![("right".to_owned(), String::new())];
+    let slow = SLOW_CLUTCHES[0];
+    let mut beliefs = vec![
+        ("right".to_owned(), String::new()),
+        (format!("right, {slow} ms"), format!("controller.latency_s={:?}", 1e-3 * slow)),
+    ];
     for (symbol, key) in [("α", "slenderness"), ("R", "size"), ("σ", "mass_ratio"), ("η", "restitution")] {
         for factor in [0.95, 1.05] {
             beliefs.push((format!("{symbol} times {factor}"), format!("controller.belief.{key}_factor={factor:?}")));
         }
     }
-    for suite in ["icm-42688-p", "adis16470"] {
-        for (belief, key) in &beliefs {
-            for error in MODEL_ERRORS {
+    for (suite, beliefs) in [("icm-42688-p", &beliefs[..]), ("adis16470", &beliefs[..1])] {
+        for (belief, key) in beliefs {
+            let right = belief.starts_with("right");
+            for error in MODEL_ERRORS.into_iter().filter(|error| right || *error != MODEL_ERRORS[1]) {
                 let mut base =
                     variant(suite, suite, "model-aided", 1.0).with(&format!("controller.belief.model_error={error:?}"));
                 base.overrides.extend((!key.is_empty()).then(|| key.clone()));
-                let seeds = if key.is_empty() { SPECIMENS } else { FEW_SPECIMENS };
+                let seeds = if right { SPECIMENS } else { FEW_SPECIMENS };
                 let variants: Vec<Variant> = seeds.map(|seed| Variant { seed, ..base.clone() }).collect();
                 let loops = each(&rocked, &variants, progress, |motion, variant| run_loop(motion, variant, conditions))?;
                 let compared: Vec<Comparison> = loops.iter().map(|loops| Comparison::of(loops, &ideals)).collect();
@@ -228,7 +233,7 @@ fn trust(report: &mut Report, records: &[Motion], progress: &Progress, condition
     report.paragraph(&format!(
         "`belief.model_error` is the share of p²α by which the model-aided estimator takes the equation of motion to be wrong. Over the {} \
          recorded motions that make the ideal pair rock and leave it standing; specimens {} to {} of the sensors with the right belief, {} \
-         and {} with each wrong one. The first row is what a change of the ground by a thousandth makes of the ideal pair itself.",
+         and {} with each wrong one. The first row is what a change of the ground by a thousandth makes of the ideal pair itself. The default is {MODEL_ERROR}.",
         rocked.len(),
         SPECIMENS.start(),
         SPECIMENS.end(),
@@ -237,4 +242,38 @@ fn trust(report: &mut Report, records: &[Motion], progress: &Progress, condition
     ));
     report.table("practice-trust", table);
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use sprag_shared::settings::Settings;
+    use sprag_shared::settings::kind::Description;
+
+    use super::*;
+    use crate::interrupt::Interrupt;
+    use crate::loop_study::bench::with_loop;
+
+    /// The board's default block is that of the studies, its default sensors those of the parts list.
+    #[test]
+    fn a_boards_default_estimator_is_the_one_that_is_studied() {
+        let interrupt = Interrupt::default();
+        let motion = Motion::Pulse { shape: "sine", frequency: 2.0, amplitude: 2.0 };
+        let parts = variant("parts list", "icm-42688-p", "model-aided", 1.0);
+        let solved = with_loop(&motion, &parts, &Conditions::new(None, &interrupt), |task| Ok(task.settings()?)).unwrap();
+        let differing: Vec<String> = Description::all()
+            .iter()
+            .zip(solved.words().iter().zip(Settings::default().words()))
+            .filter(|(description, (solved, default))| description.name.starts_with("estimator") && solved != default)
+            .map(|(description, (&solved, _))| format!("{} is {}", description.name, description.show(solved)))
+            .collect();
+        assert!(differing.is_empty(), "{differing:#?}");
+    }
+
+    #[test]
+    fn specimens_are_pooled_and_their_range_is_kept() {
+        let specimen = |changes: &[f64], overturned| Comparison { changes: changes.to_vec(), overturned, saved: 0, motions: 3 };
+        let cells = pooled(&[specimen(&[0.01, -0.01], 1), specimen(&[0.03, 0.03], 0)]);
+        assert_eq!([&cells[2], &cells[3], &cells[4]], ["1.00 to 3.00", "1", "6"]);
+        assert_eq!(pooled(&[Comparison::default()])[1..3], ["-", "- to -"]);
+    }
 }

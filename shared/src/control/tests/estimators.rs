@@ -26,7 +26,7 @@ const STANDING: Standing = Standing { rotation: 5e-6, velocity: 3e-3, ticks: 40 
 fn estimators() -> [(&'static str, Estimator); 3] {
     let standing = STANDING;
     let deviation = DEVIATION;
-    let model_aided = ModelAided { gains: [[0.472, 7.03e-5], [323.0, 0.144]], blank: 5, jump: 0.0335, standing, deviation };
+    let model_aided = ModelAided { gains: [[0.288, 2.17e-5], [99.6, 0.017]], blank: 5, jump: 0.0335, standing, deviation };
     let kalman = Kalman {
         gains: [[0.168, 6.75e-6, 3.44e-8], [31.0, 2.63e-3, 2.5e-4], [15.6, 2.46e-2, 0.991], [-3.04e-3, 8.54e-6, -2.04e-9]],
         blank: 5,

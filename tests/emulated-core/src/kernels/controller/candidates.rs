@@ -37,11 +37,11 @@ pub struct Candidate {
 // What the host's `LoopTask::controller` solves for R = 2 m, α = 10°, σ = 0.5 on an ideal pair with a latency of 5 ms, at 2 kHz with the
 // sensors of the suite icm-42688-p.
 const MODEL_AIDED: Estimator = Estimator::ModelAided(ModelAided {
-    gains: [[0.471_781_28, 7.034_311e-5], [323.346_56, 0.143_869_77]],
+    gains: [[0.287_661_64, 2.167_216e-5], [99.620_54, 0.017_028_436]],
     blank: 5,
     jump: 0.033_469_82,
-    standing: standing(1.269_828e-4, 0.003_521_347_5),
-    deviation: deviation([4.957_009_3e-7, 0.000_586_891_1, 0.004_892_385_6]),
+    standing: standing(1.265_482_9e-4, 0.002_215_856),
+    deviation: deviation([3.870_707_4e-7, 0.000_201_911_05, 0.004_891_986]),
 });
 const KALMAN: Estimator = Estimator::Kalman(Kalman {
     gains: [
