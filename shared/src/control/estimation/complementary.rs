@@ -9,6 +9,7 @@
 
 use super::estimate::{Deviation, Estimate};
 use super::kalman::measured_acceleration;
+use super::reference::ABOVE_NOISE;
 use super::rest_detection::Standing;
 use super::state::EstimatorState;
 use crate::control::model::Model;
@@ -56,7 +57,11 @@ impl Complementary {
             return Standing::estimate(seen, state.side);
         }
         let lost = state.lost;
-        let impact = if lost { state.look_for_impact(model, instruments, seen, self.deviation.velocity) } else { state.hits() };
+        let impact = if lost {
+            state.look_for_impact(model, instruments, seen, ABOVE_NOISE * self.deviation.velocity)
+        } else {
+            state.hits()
+        };
         if impact {
             if !lost {
                 state.impact(model.parameters.restitution, self.blank);

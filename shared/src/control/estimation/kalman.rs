@@ -10,6 +10,7 @@
 //! the other toe.
 
 use super::estimate::{Deviation, Estimate, bounded};
+use super::reference::ABOVE_NOISE;
 use super::rest_detection::Standing;
 use super::state::EstimatorState;
 use crate::control::model::Model;
@@ -87,7 +88,11 @@ impl Kalman {
             return Standing::estimate(seen, state.side);
         }
         let lost = state.lost;
-        let impact = if lost { state.look_for_impact(model, instruments, seen, self.deviation.velocity) } else { state.hits() };
+        let impact = if lost {
+            state.look_for_impact(model, instruments, seen, ABOVE_NOISE * self.deviation.velocity)
+        } else {
+            state.hits()
+        };
         if impact {
             if !lost {
                 state.impact(if self.blank > 0 { model.parameters.restitution } else { 1.0 }, self.blank);

@@ -5,6 +5,7 @@
 //! takes η and the other toe takes over, and the gyroscope is not believed until its own filter has seen the jump.
 
 use super::estimate::{Deviation, Estimate};
+use super::reference::ABOVE_STANDING;
 use super::rest_detection::Standing;
 use super::state::EstimatorState;
 use crate::control::model::Model;
@@ -57,7 +58,7 @@ impl ModelAided {
             return Standing::estimate(seen, state.side);
         }
         if state.lost {
-            state.look_for_impact(model, instruments, seen, self.deviation.velocity);
+            state.look_for_impact(model, instruments, seen, ABOVE_STANDING * self.standing.velocity);
         } else if state.hits() {
             // With a gyroscope that is believed again at once the jump is already in its reading.
             state.impact(if self.blank > 0 { model.parameters.restitution } else { 1.0 }, self.blank);

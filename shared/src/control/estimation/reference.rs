@@ -48,7 +48,10 @@ const SEEN: f32 = 0.25;
 const MOST_SEEN: f32 = 1.6;
 
 /// Deviations of θ̇ that no noise reaches.
-const ABOVE_NOISE: f32 = 8.0;
+pub(super) const ABOVE_NOISE: f32 = 8.0;
+
+/// How many times the velocity that a standing block may seem to have by a gyroscope alone none of its readings reaches by noise.
+pub(super) const ABOVE_STANDING: f32 = 2.0;
 
 /// For how long after a change of a clutch a jump may be its doing, s.
 const ENGAGING: f32 = 0.025;
@@ -123,11 +126,11 @@ impl Reference {
 impl Reference {
     /// The last two readings have lost speed against the two before them, all four by more than noise, as an impact does: the loss of a
     /// single reading is none.
-    fn jumped(&self, bias: f32, restitution: f32, deviation: f32) -> bool {
+    fn jumped(&self, bias: f32, restitution: f32, noise: f32) -> bool {
         let side = Sign::of(self.rates[3], Sign::Positive);
         let [now, then, before, first] = self.rates.map(|rate| side.times(rate - bias));
         let (least, most) = (if before < first { before } else { first }, if now > then { now } else { then });
-        let (lost, jump, noise) = (least - most, (1.0 - restitution) * least, ABOVE_NOISE * deviation);
+        let (lost, jump) = (least - most, (1.0 - restitution) * least);
         self.read >= 4
             && self.unchanged > ENGAGING
             && lost > SEEN * jump
@@ -138,10 +141,10 @@ impl Reference {
 }
 
 impl EstimatorState {
-    /// One tick of a block that rocks while only impacts show where θ = 0 is; `deviation` is that of θ̇ (rad/s). Whether there was an impact:
+    /// One tick of a block that rocks while only impacts show where θ = 0 is; `noise` is what no noise makes of two readings of θ̇ (rad/s). Whether there was an impact:
     /// then the state is that after it.
     #[inline(never)]
-    pub(super) fn look_for_impact(&mut self, model: &Model, instruments: &Instruments, seen: &Measured, deviation: f32) -> bool {
+    pub(super) fn look_for_impact(&mut self, model: &Model, instruments: &Instruments, seen: &Measured, noise: f32) -> bool {
         let reference = &mut self.reference;
         if reference.elapsed <= 0.0 {
             reference.began = self.rotation;
@@ -160,8 +163,7 @@ impl EstimatorState {
             (reference.between, reference.since) = (reference.since, 0.0);
         }
         reference.turned += reference.rates[0] * period;
-        match seen.travel.filter(|_| seen.rate.is_some() && reference.jumped(self.bias, model.parameters.restitution, deviation))
-        {
+        match seen.travel.filter(|_| seen.rate.is_some() && reference.jumped(self.bias, model.parameters.restitution, noise)) {
             Some(travel) => self.fix(model, instruments, travel),
             None => self.passes(model),
         }

@@ -105,7 +105,7 @@ pub enum FeedbackName {
 
 /// Share of p²α by which the model-aided estimator takes the equation of motion to be wrong where a scene does not say. `sprag loop-study
 /// practice` compares it with larger ones over records and specimens of the sensors: trusting the equation this far lets less of the sensors'
-/// noise through to the signs that decide, and costs nothing where α, R, σ or η are off by 5 %.
+/// noise through to the signs that decide, and peaks are closer to the ideal pair's, also where α, R, σ or η are believed 5 % off.
 pub const MODEL_ERROR: f64 = 0.02;
 
 /// What the controller believes of the structure, as factors on the truth, and how far it trusts that.

@@ -223,11 +223,11 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
     Ok(report)
 }
 
-/// A kind of clutch by name, with what each law overturns, by kind of motion and law.
-type Tallied = (String, Vec<Vec<Tally>>);
+/// A clutch's name, and tallies by kind and law.
+type Clutch = (String, Vec<Vec<Tally>>);
 
 /// Why the default law is the one that it is: the others beside it, motion by motion, with the `clutches` by name.
-fn why(report: &mut Report, kinds: &[Kind], clutches: &[Tallied]) {
+fn why(report: &mut Report, kinds: &[Kind], clutches: &[Clutch]) {
     report.section("Why this default");
     let default = LAWS[DEFAULT].name();
     let typical = &clutches[Setting::TYPICAL];
@@ -237,7 +237,7 @@ fn why(report: &mut Report, kinds: &[Kind], clutches: &[Tallied]) {
          overturns less often, under how many more often, and in brackets the probability that two equal laws come as far apart (sign test, \
          two-sided; of single runs McNemar's exact test). A motion counts once, with all of its scales and of the clutches of its row."
     ));
-    let pairs = |clutches: &[Tallied], law: usize| -> Vec<Pairs> {
+    let pairs = |clutches: &[Clutch], law: usize| -> Vec<Pairs> {
         let beside =
             |kind: usize| clutches.iter().map(|(_, tallies)| (&tallies[kind][law], &tallies[kind][DEFAULT])).collect::<Vec<_>>();
         kinds.iter().enumerate().map(|(index, kind)| Pairs::of(&beside(index), kind.different)).collect()
@@ -247,7 +247,7 @@ fn why(report: &mut Report, kinds: &[Kind], clutches: &[Tallied]) {
     let mut table = Table::new(&["clutch", "law"]);
     table.columns.extend(kinds.iter().map(|kind| format!("{} ({})", kind.name, kind.different)));
     table.columns.insert(2 + pulses, "all pulses".to_owned());
-    let mut rows: Vec<(String, &[Tallied])> =
+    let mut rows: Vec<(String, &[Clutch])> =
         clutches.iter().map(|clutch| (clutch.0.clone(), std::slice::from_ref(clutch))).collect();
     rows.push((format!("{names}, typical ones, together"), typical));
     rows.push(("all four together".to_owned(), clutches));
@@ -277,7 +277,7 @@ fn takes_over(pairs: &[Pairs], pulses: usize) -> bool {
 }
 
 /// Which law is best for which motions.
-fn conclude(report: &mut Report, kinds: &[Kind], winners: &[Tallied]) {
+fn conclude(report: &mut Report, kinds: &[Kind], winners: &[Clutch]) {
     report.section("Which law for which motions");
     report.paragraph("The law with the fewest overturned blocks, and those that the specimens do not tell apart from it.");
     let mut table = Table::new(&["motions"]);
