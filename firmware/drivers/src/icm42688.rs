@@ -23,8 +23,8 @@ use registers::{
     ACCELEROMETER_CODES, BANK, CONFIGURATION, FIRST_DATA, GYROSCOPE_CODES, IDENTITY, IDENTITY_OF_PART, READ, RESET, SELF_TEST,
     STATUS_DATA_READY, STATUS_RESERVED, TEMPERATURE,
 };
-pub use self_test::Verdict;
 use self_test::{Order, SelfTest};
+pub use self_test::{Verdict, duration as test_duration};
 
 /// Ticks left to the part after its reset, which takes 1 ms: enough at 10 kHz.
 const RESET_TICKS: u8 = 16;
@@ -95,11 +95,6 @@ pub struct Icm42688<D> {
     /// Asked for, or under way.
     test: Option<SelfTest>,
     verdict: Option<Verdict>,
-}
-
-/// For how long a part that is [tested](Icm42688::test) gives no readings, s, with a tick every `period` s.
-pub fn test_duration(period: f32) -> f32 {
-    self_test::duration(period)
 }
 
 impl<D: SpiDevice<u16>> Icm42688<D> {
@@ -310,40 +305,26 @@ impl<D: SpiDevice<u16>> Icm42688<D> {
         Some(value)
     }
 
-    // Twice: a reading in operation is not to cost a call.
+    // Compiled twice: a reading in operation is not to cost a call.
     #[inline(always)]
     fn read(&mut self) -> Option<Reading> {
-        let mut words = REQUEST;
+        let mut words = [0; LENGTH];
+        words[0] = u16::from_be_bytes([FIRST_DATA | READ, 0]);
         self.device.transfer_in_place(&mut words).ok()?;
-        reading_of(words)
+        let [a, b, c, d, e, f, g, last] = words;
+        // Each value lies across two words.
+        let value = |first: u16, second: u16| (first << 8 | second >> 8) as i16;
+        let reading =
+            Reading { acceleration: [value(a, b), value(b, c), value(c, d)], rate: [value(d, e), value(e, f), value(f, g)] };
+        let [_, status] = last.to_be_bytes();
+        // A line that is stuck high reads as reserved bits, too.
+        let new = status & STATUS_DATA_READY != 0 && status & STATUS_RESERVED == 0;
+        let valid = !reading.acceleration.contains(&INVALID) && !reading.rate.contains(&INVALID);
+        (new && valid).then_some(reading)
     }
 
     #[inline(never)]
     fn read_apart(&mut self) -> Option<Reading> {
-        let mut words = REQUEST;
-        self.device.transfer_in_place(&mut words).ok()?;
-        reading_apart(words)
+        self.read()
     }
-}
-
-/// Asks for a reading.
-const REQUEST: [u16; LENGTH] = [u16::from_be_bytes([FIRST_DATA | READ, 0]), 0, 0, 0, 0, 0, 0, 0];
-
-/// The reading that a burst of words is, if it is a new one.
-#[inline(always)]
-fn reading_of([a, b, c, d, e, f, g, last]: [u16; LENGTH]) -> Option<Reading> {
-    // Each value lies across two words.
-    let value = |first: u16, second: u16| (first << 8 | second >> 8) as i16;
-    let reading =
-        Reading { acceleration: [value(a, b), value(b, c), value(c, d)], rate: [value(d, e), value(e, f), value(f, g)] };
-    let [_, status] = last.to_be_bytes();
-    // A line that is stuck high reads as reserved bits, too.
-    let new = status & STATUS_DATA_READY != 0 && status & STATUS_RESERVED == 0;
-    let valid = !reading.acceleration.contains(&INVALID) && !reading.rate.contains(&INVALID);
-    (new && valid).then_some(reading)
-}
-
-#[inline(never)]
-fn reading_apart(words: [u16; LENGTH]) -> Option<Reading> {
-    reading_of(words)
 }
