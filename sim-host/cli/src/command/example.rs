@@ -1,11 +1,11 @@
 //! `sprag example`: the scenes and studies that ship, which are inside the program.
 
-use std::io::Write;
+use std::io::{BufReader, Read, Write};
 use std::path::PathBuf;
 
 use clap::Args;
 use include_dir::{Dir, File, include_dir};
-use sprag_report::output::{OutputError, Results};
+use sprag_report::output::{OutputError, Results, claim_file};
 
 use super::BAD_INPUT;
 use super::out_arguments::OverwriteArguments;
@@ -33,8 +33,6 @@ pub struct ExampleArguments {
 enum Failure {
     #[error("there is no example {name}; there are {}", names().join(", "))]
     Unknown { name: String },
-    #[error("{} is there already; --overwrite replaces it", path.display())]
-    Exists { path: PathBuf },
     #[error("{}: {error}", path.display())]
     Folder { path: PathBuf, error: std::io::Error },
     #[error("{0}")]
@@ -74,10 +72,11 @@ fn write(name: &str, arguments: &ExampleArguments) -> Result<Vec<PathBuf>, Failu
     let mut paths = Vec::new();
     for file in files {
         let path = folder.join(file.path());
-        let is_new = std::fs::read(&path).map_or(true, |there| there != file.contents());
-        if path.exists() && is_new && !arguments.replace.overwrite {
-            return Err(Failure::Exists { path });
-        }
+        let same = |mut there: BufReader<_>| {
+            let mut bytes = Vec::new();
+            there.read_to_end(&mut bytes).is_ok_and(|_| bytes == file.contents())
+        };
+        claim_file(&path, &[], arguments.replace.overwrite, same)?;
         results.add(&path, |to| to.write_all(file.contents()))?;
         paths.push(path);
     }
