@@ -4,6 +4,7 @@ use std::fmt;
 use std::io::{self, Write};
 
 use serde::Serialize;
+use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::closed_loop::report::LoopSummary;
 
 use super::driver::DeviceTick;
@@ -15,7 +16,7 @@ pub struct DeviceSummary {
     #[serde(flatten)]
     pub closed: LoopSummary,
     /// Outcome of the loop that the host closed.
-    pub host_outcome: sprag_shared::observers::outcome::Outcome,
+    pub host_outcome: Outcome,
     /// Its max |θ|/α.
     pub host_peak_rotation: Option<f64>,
     /// Ticks of the device, with those of the stillness before the motion.

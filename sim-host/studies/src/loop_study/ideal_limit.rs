@@ -2,6 +2,7 @@
 
 use sprag_report::plot::{Chart, ChartPanel, Line, Scale, chart_figure};
 use sprag_report::progress::Progress;
+use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::scene::controller::EstimatorName;
 
 use super::bench::{Conditions, StudyError, Variant, each, run_ideal, run_loop};
@@ -51,7 +52,7 @@ pub fn variant(estimator: EstimatorName, rate: f64) -> Variant {
 }
 
 /// Mean over the motions of |peak/ideal − 1|.
-pub fn error(loops: &[super::bench::LoopResult], ideals: &[(sprag_shared::observers::outcome::Outcome, f64)]) -> f64 {
+pub fn error(loops: &[super::bench::LoopResult], ideals: &[(Outcome, f64)]) -> f64 {
     let total: f64 = loops.iter().zip(ideals).map(|(closed, (_, peak))| (closed.peak / peak - 1.0).abs()).sum();
     total / loops.len().max(1) as f64
 }

@@ -1,6 +1,7 @@
 //! As good as the ideal pair in practice: real sensors, a real rate, a real delay.
 
 use sprag_report::progress::Progress;
+use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::scene::controller::{EstimatorName, MODEL_ERROR};
 
 use super::bench::{Conditions, EQUATION_10, StudyError, Variant, each, run_ideal, run_loop};
@@ -36,20 +37,19 @@ pub struct Comparison {
 
 impl Comparison {
     /// Of loops with the ideal pair.
-    pub fn of(loops: &[super::bench::LoopResult], ideals: &[(sprag_shared::observers::outcome::Outcome, f64)]) -> Comparison {
-        let mut comparison = Comparison { motions: loops.len(), ..Comparison::default() };
-        for (closed, ideal) in loops.iter().zip(ideals) {
-            comparison.note((closed.outcome, closed.peak), *ideal);
-        }
+    pub fn of(loops: &[super::bench::LoopResult], ideals: &[(Outcome, f64)]) -> Comparison {
+        Comparison::beside(loops.iter().map(|closed| (closed.outcome, closed.peak)), ideals)
+    }
+
+    /// Of outcomes and peaks with those of the ideal pair under the same motions.
+    pub fn beside(runs: impl IntoIterator<Item = (Outcome, f64)>, ideals: &[(Outcome, f64)]) -> Comparison {
+        let mut comparison = Comparison { motions: ideals.len(), ..Comparison::default() };
+        runs.into_iter().zip(ideals).for_each(|(run, ideal)| comparison.note(run, *ideal));
         comparison
     }
 
     /// Adds an outcome and peak, beside what they are compared with.
-    pub fn note(
-        &mut self,
-        (outcome, peak): (sprag_shared::observers::outcome::Outcome, f64),
-        (ideal, least): (sprag_shared::observers::outcome::Outcome, f64),
-    ) {
+    pub fn note(&mut self, (outcome, peak): (Outcome, f64), (ideal, least): (Outcome, f64)) {
         match (outcome.overturned(), ideal.overturned()) {
             (true, false) => self.overturned += 1,
             (false, true) => self.saved += 1,
@@ -180,7 +180,7 @@ fn pooled(of: &[Comparison]) -> Vec<String> {
     ]
 }
 
-/// Adds what the trust in the equation of motion does to the peaks under `records`, over specimens of the sensors that nothing was chosen by.
+/// Adds what the trust in the equation of motion does to the peaks under `records`, over specimens of the sensors.
 fn trust(report: &mut Report, records: &[Motion], progress: &Progress, conditions: &Conditions<'_>) -> Result<(), StudyError> {
     let ideal = |scale: f64| {
         let motions: Vec<Motion> = records.iter().map(|motion| motion.times(scale)).collect();
@@ -199,11 +199,7 @@ fn trust(report: &mut Report, records: &[Motion], progress: &Progress, condition
         "runs",
     ]);
     let dash = || "-".to_owned();
-    let moved = |scale: f64| {
-        let mut comparison = Comparison { motions: all.len(), ..Comparison::default() };
-        ideal(scale)?.into_iter().zip(&all).for_each(|(run, ideal)| comparison.note(run, *ideal));
-        Ok::<_, StudyError>(comparison)
-    };
+    let moved = |scale: f64| Ok::<_, StudyError>(Comparison::beside(ideal(scale)?, &all));
     let chaos = [moved(0.999)?, moved(1.001)?];
     table.row([vec!["none: the ideal pair, ground times 0.999 and 1.001".to_owned(), dash(), dash()], pooled(&chaos)].concat());
     let kept = |index: &usize| !all[*index].0.overturned() && all[*index].1 >= ROCKS;

@@ -7,6 +7,7 @@ use sprag_report::plot::{
     Cell, CellMap, CellMaps, Chart, ChartPanel, Class, FigureTitle, Line, PlotError, Scale, band, cell_map_figure, chart_figure,
 };
 use sprag_shared::math;
+use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::scene::map::{AxisTable, ScaleName};
 
 use super::grid::Grid;
@@ -45,7 +46,7 @@ pub fn figures(grid: &Grid, tally: &Tally) -> Result<Vec<(&'static str, String)>
             if result.outcome.overturned() {
                 return overturned;
             }
-            let rocks = result.outcome != sprag_shared::observers::outcome::Outcome::NoRocking;
+            let rocks = result.outcome != Outcome::NoRocking;
             band(&limits, rocks.then(|| peak(result)))
         };
         files.push((file, cell_map_figure(&small_multiples(grid, y, tally, name, classes, class))?));
