@@ -3,17 +3,16 @@
 mod levels;
 mod others;
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-    process::Command,
-};
-
 use crate::{
     firmware,
     process::{cargo, executables, output, run as done},
     stop::Stop,
     tools,
+};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
 };
 
 /// Where everything goes, from the root.

@@ -4,18 +4,17 @@
 //! A run with half the step takes the same motion in twice as many steps; the difference between both, over the added steps, is
 //! the cost of a step without start and output.
 
-use std::{
-    fmt::Write as _,
-    path::{Path, PathBuf},
-    process::Command,
-    time::{Duration, Instant},
-};
-
 use crate::{
     firmware,
     process::{executables, output},
     stop::Stop,
     tools,
+};
+use std::{
+    fmt::Write as _,
+    path::{Path, PathBuf},
+    process::Command,
+    time::{Duration, Instant},
 };
 
 /// Largest relative difference between the loop of the full program and that of one without effects.

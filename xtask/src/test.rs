@@ -1,7 +1,5 @@
 //! Every check of the project, in the order in which they are cheapest to fail.
 
-use std::path::Path;
-
 use crate::{
     board_image,
     firmware::{BOARD, Built, LINTED, TARGET},
@@ -13,6 +11,7 @@ use crate::{
     stop::Stop,
     tools,
 };
+use std::path::Path;
 
 /// The target of programs in a browser.
 const PAGE: &str = "wasm32-unknown-unknown";
