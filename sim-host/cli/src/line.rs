@@ -63,7 +63,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
 
 /// What ends the help.
 const EXIT_CODES: &str = "Exit codes: 0 well; 1 finished, with a decision of the firmware that is not the host's (`hil`); 2 wrong usage or input, \
-    something that cannot be written, a run or record that failed, or no device within the limits (`optimise`); 130 interrupted.\n\n\
+    something that cannot be written, a run or record that failed, or no device within the limits (`optimise`); 130 interrupted; 143 terminated.\n\n\
     `sprag COMMAND --help` describes a command, with examples.";
 
 /// The command as clap has it.
