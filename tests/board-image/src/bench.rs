@@ -23,6 +23,9 @@ const ENTRY: u64 = 24;
 /// FPCA of CONTROL.
 const FLOATING_POINT: u32 = 4;
 
+/// Bits of the status that have what is left of an IT block, of which a handler knows nothing.
+const IF_THEN: u32 = 0x0600_FC00;
+
 /// An exception that runs.
 #[derive(Debug)]
 struct Running {
@@ -293,6 +296,7 @@ impl Bench {
             HARD_FAULT
         };
         let processor = self.engine.processor();
+        processor.set(Register::Status, status & !IF_THEN);
         processor.set(Register::Stack, frame);
         processor.set(Register::Link, if floating { RETURN & !0x10 } else { RETURN });
         processor.set(Register::Control, processor.get(Register::Control) & !FLOATING_POINT);

@@ -4,6 +4,7 @@
 
 mod coils;
 mod commissioning;
+mod conditional;
 mod conditions;
 mod faults;
 mod integrity;
