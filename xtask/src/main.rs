@@ -6,6 +6,7 @@ mod budget;
 #[cfg(test)]
 mod documentation_links;
 mod effects;
+mod exhaustive;
 mod figures;
 mod firmware;
 mod fuzz;
@@ -37,7 +38,8 @@ Usage: cargo xtask <task> [options]
 Tasks:
   test      every check, in order; stops at the first that fails
   ci        the same
-  nightly   the same, and each fuzz target from its seeds on
+  nightly   the same with the exhaustive tests, which otherwise run when what they prove has changed, and each fuzz target from its seeds
+            on
   firmware  build the images for the board, hold their sizes against tests/emulated-core/size.budget and
             firmware/size.budget, and prove that no panic can be reached from the firmware's control tick
   flash [g474]

@@ -1,7 +1,7 @@
 //! Every check of the project, in the order in which they are cheapest to fail.
 
 use crate::{
-    board_image,
+    board_image, exhaustive,
     firmware::{BOARD, Built, LINTED, TARGET},
     fuzz::{self, Inputs},
     hardware, panic_check,
@@ -69,16 +69,16 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     hardware::run(root, &mut steps)?;
     steps.step("tests, board image", || board_image::tests(root, &built))?;
     steps.step("rest of the tests' build", || built_tests.wait())?;
-    steps.step("tests", || tests(root, &built))?;
+    steps.step("tests", || tests(root, &built, fuzz_seconds.is_some()))?;
     match fuzz_seconds {
         Some(seconds) => steps.step("fuzzing", || fuzz::run(root, None, seconds, Inputs::Same)),
         None => steps.step("fuzz targets", || fuzz::check(root)),
     }
 }
 
-/// Runs every test of the workspace but those whose needs this machine cannot meet, which are named. A need that it may not meet is the
-/// name of a module.
-fn tests(root: &Path, built: &Built) -> Result<(), Stop> {
+/// Runs every test of the workspace but those whose needs this machine cannot meet, which are named, and exhaustive ones that have passed
+/// with these sources, unless all are wanted. A need that it may not meet is the name of a module.
+fn tests(root: &Path, built: &Built, all: bool) -> Result<(), Stop> {
     let mut command = cargo(root, &["test", "--workspace", "--", "--include-ignored"]);
     // The emulator is here by now.
     command.envs(built.variables());
@@ -92,10 +92,18 @@ fn tests(root: &Path, built: &Built) -> Result<(), Stop> {
         Ok(python) => _ = command.env("SPRAG_PYTHON", python),
         Err(stop) => lacking.push(("needs_python", stop.to_string())),
     }
+    let sources = exhaustive::checksum(root)?;
+    let passed = !all && exhaustive::passed(root, &sources);
+    if passed {
+        lacking.push((exhaustive::NAME, "passed with the same sources before".to_owned()));
+    }
     for (need, _) in &lacking {
         command.args(["--skip", need]);
     }
     let result = done(&mut command);
+    if result.is_ok() && !passed {
+        exhaustive::keep(root, &sources)?;
+    }
     for (need, why) in lacking {
         println!("-- tests not run: {need}: {why}");
     }
