@@ -1,8 +1,8 @@
 //! The classes of cells that a map shows, their colours and names: outcomes, or bands of a quantity.
 
-use plotters::style::RGBColor;
 use sprag_shared::observers::outcome::Outcome;
 
+use super::palette::Colour;
 use super::ticks::tick_text;
 
 /// How far the pale colours are on the way to white.
@@ -26,12 +26,12 @@ impl Cell {
     const ALL: [Self; 4] = [Self::NoRocking, Self::Stands, Self::OverturnsAfterImpact, Self::Overturns];
 
     /// Its colour: blue and orange for colour-blind readers, from light to dark for grey print.
-    fn colour(self) -> RGBColor {
+    fn colour(self) -> Colour {
         match self {
-            Self::NoRocking => RGBColor(248, 248, 246),
-            Self::Stands => RGBColor(158, 202, 225),
-            Self::OverturnsAfterImpact => RGBColor(213, 94, 0),
-            Self::Overturns => RGBColor(54, 20, 38),
+            Self::NoRocking => Colour(248, 248, 246),
+            Self::Stands => Colour(158, 202, 225),
+            Self::OverturnsAfterImpact => Colour(213, 94, 0),
+            Self::Overturns => Colour(54, 20, 38),
         }
     }
 
@@ -62,11 +62,11 @@ impl From<Outcome> for Cell {
 pub struct Class {
     /// Its name.
     pub name: String,
-    pub(super) colour: RGBColor,
+    pub(super) colour: Colour,
 }
 
 impl Class {
-    fn new(name: &str, colour: RGBColor) -> Class {
+    fn new(name: &str, colour: Colour) -> Class {
         Class { name: name.to_owned(), colour }
     }
 
@@ -78,7 +78,7 @@ impl Class {
     /// The outcomes in pale colours, for curves over them.
     pub fn pale_outcomes() -> Vec<Class> {
         let pale = |part: u8| part + ((255 - part) as f64 * PALENESS) as u8;
-        let class = |Class { name, colour: RGBColor(r, g, b) }| Class { name, colour: RGBColor(pale(r), pale(g), pale(b)) };
+        let class = |Class { name, colour: Colour(r, g, b) }| Class { name, colour: Colour(pale(r), pale(g), pale(b)) };
         Class::outcomes().into_iter().map(class).collect()
     }
 
@@ -115,7 +115,7 @@ pub fn band(limits: &[f64], value: Option<f64>) -> usize {
 
 /// From pale yellow through green to deep blue as `share` goes from 0 to 1: brightness falls all the way, for colour-blind readers and
 /// for grey print.
-fn band_colour(share: f64) -> RGBColor {
+fn band_colour(share: f64) -> Colour {
     const STOPS: [(f64, f64, f64); 5] =
         [(240.0, 246.0, 200.0), (168.0, 218.0, 180.0), (77.0, 180.0, 190.0), (38.0, 120.0, 180.0), (30.0, 50.0, 130.0)];
     let place = share.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
@@ -123,14 +123,14 @@ fn band_colour(share: f64) -> RGBColor {
     let part = place - below as f64;
     let ((r, g, b), (next_r, next_g, next_b)) = (STOPS[below], STOPS[below + 1]);
     let mix = |from: f64, to: f64| (from + part * (to - from)).round() as u8;
-    RGBColor(mix(r, next_r), mix(g, next_g), mix(b, next_b))
+    Colour(mix(r, next_r), mix(g, next_g), mix(b, next_b))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn grey(colour: RGBColor) -> f64 {
+    fn grey(colour: Colour) -> f64 {
         0.299 * f64::from(colour.0) + 0.587 * f64::from(colour.1) + 0.114 * f64::from(colour.2)
     }
 

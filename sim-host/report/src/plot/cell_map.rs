@@ -228,7 +228,7 @@ mod tests {
 
     use super::*;
     use crate::plot::Cell;
-    use crate::plot::synthetic::{assert_texts_apart, assert_well_formed};
+    use crate::plot::synthetic::assert_drawn;
 
     fn map(title: &str, columns: usize, rows: usize) -> CellMap {
         let cell = |index: usize| match (index % columns + index / columns, index % columns) {
@@ -271,7 +271,7 @@ mod tests {
         assert!(!plain.contains("first"));
         maps.maps[1].curves = vec![MapCurve { kind: 1, points: vec![(1.0, 0.2), (2.0, 0.4), (5.5, 1.9)] }; 2];
         let svg = cell_map_figure(&maps).unwrap();
-        assert_well_formed(&svg);
+        assert_drawn(&svg);
         assert!(svg.contains(">second<") && !svg.contains(">first<") && !svg.contains(">third<"));
         maps.maps[1].curves[0].points[1].0 = f64::NAN;
         assert!(matches!(cell_map_figure(&maps), Err(PlotError::NotFiniteValue { .. })));
@@ -281,7 +281,7 @@ mod tests {
     fn maps_are_well_formed_and_repeat_to_the_byte() {
         for (count, columns) in [(1, 0), (1, 3), (5, 3), (12, 6)] {
             let svg = cell_map_figure(&maps(count, columns)).unwrap();
-            assert_well_formed(&svg);
+            assert_drawn(&svg);
             assert!(svg.contains("A &amp; B") && svg.contains("map &lt;0&gt;") && svg.contains("1 of &lt;2&gt;"));
             // Axes on the left of every row only.
             assert_eq!(svg.matches("rotate(-90 ").count(), count.div_ceil(columns.max(1)));
@@ -313,8 +313,7 @@ mod tests {
                         map.note = "26,214 of 40,000 overturn".to_owned();
                     }
                     let svg = cell_map_figure(&figure).unwrap();
-                    assert_well_formed(&svg);
-                    assert_texts_apart(&svg);
+                    assert_drawn(&svg);
                 }
             }
         }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use sprag_shared::math;
 
 use super::curve::write_curve;
-use super::layer::{document, escape, units, write_area};
+use super::layer::{document, escape, write_area};
 use super::legend::{Key, Swatch, write_heading};
 use super::marker::device_marker;
 use super::palette::{INK, Stroke, device_look};
@@ -110,13 +110,11 @@ pub fn cloud_figure(figure: &CloudFigure) -> Result<String, PlotError> {
     let area = (left_px, width_px - left_px - RIGHT_MARGIN_PX);
     let mut top_px = write_heading(&mut body, &figure.title, &figure.keys(), area, MARGIN_PX) + 4.0;
 
-    // plotters cuts off what lies beyond its canvas, so the height comes first.
     let headings: Vec<Heading> =
         figure.panels.iter().map(|panel| Heading::of(&panel.title, &panel.notes, width_of_panel)).collect();
     let heading_px = |row: &[Heading]| row.iter().map(Heading::height_px).fold(0.0, f64::max);
     let rows_px: f64 = headings.chunks(columns).map(|row| heading_px(row) + height_of_panel + TICK_LABELS_PX).sum();
     let height_px = top_px + rows_px - TICK_LABELS_PX + BOTTOM_LABELS_PX + 4.0;
-    let canvas = (units(width_px) as u32, units(height_px) as u32);
 
     for (row, row_headings) in headings.chunks(columns).enumerate() {
         top_px += heading_px(row_headings);
@@ -133,8 +131,8 @@ pub fn cloud_figure(figure: &CloudFigure) -> Result<String, PlotError> {
                 ..Panel::new((left_px, top_px), (width_of_panel, height_of_panel), x.clone(), y)
             };
             let last = index + columns >= figure.panels.len();
-            panel.write_axes(&mut body, canvas, Some(if last { &figure.x_title } else { "" }))?;
-            write_series(&mut body, canvas, &panel, &panels[index], figure.devices.len())?;
+            panel.write_axes(&mut body, Some(if last { &figure.x_title } else { "" }));
+            write_series(&mut body, &panel, &panels[index], figure.devices.len());
         }
         top_px += height_of_panel + TICK_LABELS_PX;
     }
@@ -150,13 +148,7 @@ fn range(values: impl Iterator<Item = f64>, scale: Scale) -> Option<Range<f64>> 
 }
 
 /// Bands below, marks above them, lines on top.
-fn write_series(
-    svg: &mut String,
-    canvas: (u32, u32),
-    panel: &Panel<'_>,
-    all: &[CloudSeries],
-    devices: usize,
-) -> Result<(), PlotError> {
+fn write_series(svg: &mut String, panel: &Panel<'_>, all: &[CloudSeries], devices: usize) {
     for series in all {
         let inside = |value: f64| value.clamp(panel.y.start, panel.y.end);
         let lower = series.band.iter().map(|point| (point.at, inside(point.low)));
@@ -170,12 +162,11 @@ fn write_series(
     }
     for series in all {
         let stroke = Stroke { width_px: LINE_PX, ..device_look(series.device).stroke() };
-        write_curve(svg, canvas, panel, &series.line, stroke)?;
+        write_curve(svg, panel, &series.line, stroke);
         if let Some(rug) = &series.rug {
             rug.write(svg, panel, series.device, devices);
         }
     }
-    Ok(())
 }
 
 /// Opacity of bands.
@@ -261,7 +252,7 @@ impl CloudSeries {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::synthetic::assert_well_formed;
+    use crate::plot::synthetic::assert_drawn;
 
     fn demand() -> CloudFigure {
         let series = |device: usize| CloudSeries {
@@ -312,7 +303,7 @@ mod tests {
     fn figures_are_well_formed_and_repeat_to_the_byte() {
         for figure in [demand(), fragility()] {
             let svg = cloud_figure(&figure).unwrap();
-            assert_well_formed(&svg);
+            assert_drawn(&svg);
             assert!(svg.contains("A &lt;title&gt;") && svg.matches("in &amp; erter").count() == 1);
             assert_eq!(svg, cloud_figure(&figure).unwrap());
         }

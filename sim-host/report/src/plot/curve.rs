@@ -2,43 +2,16 @@
 
 use std::ops::Range;
 
-use plotters::coord::Shift;
-use plotters::coord::types::RangedCoordf64;
-use plotters::prelude::{Cartesian2d, DrawingArea, PathElement, SVGBackend};
-use plotters::style::Color;
-
-use super::PlotError;
 use super::decimate::decimate;
-use super::layer::{plotters_layer, text_of, units};
+use super::layer::{path_through, write_path};
 use super::palette::Stroke;
 use super::panel::Panel;
 
 /// Appends the curve through `points` to `svg`.
-pub(super) fn write_curve(
-    svg: &mut String,
-    canvas: (u32, u32),
-    panel: &Panel<'_>,
-    points: &[(f64, f64)],
-    stroke: Stroke,
-) -> Result<(), PlotError> {
+pub(super) fn write_curve(svg: &mut String, panel: &Panel<'_>, points: &[(f64, f64)], stroke: Stroke) {
     let few = decimate(points, &panel.x, panel.width_px as usize);
-    let pieces = cut(&few, &panel.y);
-    let style = stroke.colour.stroke_width(units(stroke.width_px) as u32);
-    svg.push_str(&format!("<g stroke-dasharray=\"{}\" stroke-linejoin=\"round\">\n", stroke.dashes));
-    svg.push_str(&plotters_layer(canvas, |root: &DrawingArea<SVGBackend<'_>, Shift>| {
-        let scales = Cartesian2d::<RangedCoordf64, RangedCoordf64>::new(
-            panel.x.clone(),
-            panel.y.clone(),
-            (units(panel.left_px)..units(panel.right_px()), units(panel.bottom_px())..units(panel.top_px)),
-        );
-        let area = root.clone().apply_coord_spec(scales);
-        for piece in pieces {
-            area.draw(&PathElement::new(piece, style)).map_err(text_of::<SVGBackend<'_>>)?;
-        }
-        Ok(())
-    })?);
-    svg.push_str("</g>\n");
-    Ok(())
+    let piece = |piece: Vec<(f64, f64)>| path_through(piece.into_iter().map(|point| panel.position_px(point)));
+    write_path(svg, &cut(&few, &panel.y).into_iter().map(piece).collect::<String>(), stroke);
 }
 
 /// The pieces of a polyline that lie within `y`, with end points on the edges where it leaves and enters.

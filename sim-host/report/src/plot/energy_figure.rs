@@ -2,17 +2,14 @@
 
 use std::ops::Range;
 
-use plotters::coord::types::RangedCoordf64;
-use plotters::prelude::{Cartesian2d, Polygon, SVGBackend};
-use plotters::style::{Color, RGBColor};
 use sprag_sim::simulation::DeviceRun;
 use sprag_sim::simulation::energy::Shares;
 
 use super::curve::write_curve;
 use super::decimate::decimate;
-use super::layer::{Anchor, Text, document, escape, plotters_layer, text_of, units, write_rect};
+use super::layer::{Anchor, Text, document, escape, units, write_area, write_rect};
 use super::legend::write_heading;
-use super::palette::{FLYWHEEL_TINTS, GROUND, GUIDE, INK, Stroke, device_look, hex};
+use super::palette::{Colour, FLYWHEEL_TINTS, GROUND, GUIDE, INK, Stroke, device_look, hex};
 use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
 use super::text_width::text_width_px;
 use super::{FigureTitle, PlotError};
@@ -35,7 +32,7 @@ const OWN_SCALE_BELOW: f64 = 0.2;
 /// An area of the stack.
 struct Layer {
     name: &'static str,
-    colour: RGBColor,
+    colour: Colour,
     thickness: fn(&Shares) -> f64,
 }
 
@@ -95,7 +92,6 @@ pub fn energy_figure(title: impl Into<FigureTitle>, runs: &[DeviceRun]) -> Resul
     let mut top_px = write_legend(&mut body, &ledgers, &layers, (left_px, width_px), heading_px - 4.0);
 
     let height_px = top_px + runs.len() as f64 * (NAME_PX + PANEL_PX) + BOTTOM_LABELS_PX + 4.0;
-    let canvas = (units(WIDTH_PX) as u32, units(height_px) as u32);
     let scales = scales(&ledgers);
     for (index, ((run, ledger), scale)) in runs.iter().zip(&ledgers).zip(scales).enumerate() {
         top_px += NAME_PX;
@@ -104,10 +100,10 @@ pub fn energy_figure(title: impl Into<FigureTitle>, runs: &[DeviceRun]) -> Resul
         let panel = Panel { title: Some("share of the barrier"), guides: &[1.0], ..panel };
         let at = (left_px, top_px - 6.0);
         Text { attributes: " font-weight=\"bold\"", ..Text::new(&escape(&name(run)), at, FONT_PX) }.write(&mut body, false);
-        write_areas(&mut body, canvas, &panel, ledger, &layers)?;
-        panel.write_axes(&mut body, canvas, (index + 1 == runs.len()).then_some("time (s)"))?;
+        write_areas(&mut body, &panel, ledger, &layers);
+        panel.write_axes(&mut body, (index + 1 == runs.len()).then_some("time (s)"));
         let line: Vec<(f64, f64)> = ledger.iter().map(|(time, shares)| (*time, supply(shares))).collect();
-        write_curve(&mut body, canvas, &panel, &line, Stroke::solid(INK))?;
+        write_curve(&mut body, &panel, &line, Stroke::solid(INK));
         if run.outcome.overturned()
             && let Some((x, y)) = line.last().map(|point| panel.position_px(*point))
         {
@@ -179,14 +175,7 @@ fn scales(ledgers: &[Vec<(f64, Shares)>]) -> Vec<f64> {
 }
 
 /// Appends the areas: each from zero up to its upper edge, the highest first, so that thinning leaves no gaps between them.
-fn write_areas(
-    svg: &mut String,
-    canvas: (u32, u32),
-    panel: &Panel<'_>,
-    ledger: &[(f64, Shares)],
-    layers: &[Layer],
-) -> Result<(), PlotError> {
-    let pixels = (units(panel.left_px)..units(panel.right_px()), units(panel.bottom_px())..units(panel.top_px));
+fn write_areas(svg: &mut String, panel: &Panel<'_>, ledger: &[(f64, Shares)], layers: &[Layer]) {
     for (index, layer) in layers.iter().enumerate().rev() {
         if ledger.iter().all(|(_, shares)| (layer.thickness)(shares).abs() < NEGLIGIBLE) {
             continue;
@@ -199,13 +188,9 @@ fn write_areas(
             continue;
         };
         outline.extend([(last.0, start), (first.0, start)]);
-        svg.push_str(&plotters_layer(canvas, |root| {
-            let scales = Cartesian2d::<RangedCoordf64, RangedCoordf64>::new(panel.x.clone(), panel.y.clone(), pixels.clone());
-            let area = root.clone().apply_coord_spec(scales);
-            area.draw(&Polygon::new(outline, layer.colour.filled())).map_err(text_of::<SVGBackend<'_>>)
-        })?);
+        let corners: Vec<(f64, f64)> = outline.into_iter().map(|point| panel.position_px(point)).collect();
+        write_area(svg, &corners, layer.colour, 1.0);
     }
-    Ok(())
 }
 
 /// Appends an entry for the line and for every area that some device has; returns the lower edge (px).
@@ -253,7 +238,7 @@ fn write_legend(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::synthetic::assert_well_formed;
+    use crate::plot::synthetic::assert_drawn;
     use sprag_shared::observers::outcome::Outcome;
     use sprag_sim::history::History;
     use sprag_sim::simulation::demand::Impulses;
@@ -317,7 +302,7 @@ mod tests {
             run("rest", Outcome::NoRocking, Vec::new()),
         ];
         let svg = energy_figure("A <title>", &runs).unwrap();
-        assert_well_formed(&svg);
+        assert_drawn(&svg);
         assert_eq!(svg.matches("rotate(-90 ").count(), 3);
         assert_eq!(svg.matches(">overturns<").count(), 1);
         assert_eq!(svg.matches(">never rocks<").count(), 1);
@@ -346,7 +331,7 @@ mod tests {
     fn long_ledgers_stay_small_and_the_bytes_repeat() {
         let runs = [run("long", Outcome::Safe, swinging(200_000, false))];
         let svg = energy_figure("", &runs).unwrap();
-        assert_well_formed(&svg);
+        assert_drawn(&svg);
         assert!(svg.len() < 300_000, "{}", svg.len());
         assert_eq!(svg, energy_figure("", &runs).unwrap());
     }

@@ -1,10 +1,8 @@
 //! Shading of engaged intervals, impact marks, and the notes where blocks overturn.
 
-use plotters::style::RGBColor;
-
 use super::device_trace::DeviceTrace;
 use super::layer::{Anchor, Text, units, write_rect};
-use super::palette::{FLYWHEEL_TINTS, hex};
+use super::palette::{Colour, FLYWHEEL_TINTS, hex};
 use super::panel::Panel;
 use super::text_width::text_width_px;
 
@@ -53,7 +51,7 @@ pub(super) fn write_shading(svg: &mut String, panel: &Panel<'_>, traces: &[Devic
 /// Appends filled bars, each a left edge and a width, between one upper edge and one height; all in drawing units.
 ///
 /// One path is a third of the text that rectangles would be.
-pub(super) fn write_bars(svg: &mut String, bars: &[(i32, i32)], (top, height): (i32, i32), fill: RGBColor) {
+pub(super) fn write_bars(svg: &mut String, bars: &[(i32, i32)], (top, height): (i32, i32), fill: Colour) {
     let path: String = bars.iter().map(|(left, width)| format!("M{left} {top}h{width}v{height}h{}z", -width)).collect();
     if !path.is_empty() {
         svg.push_str(&format!("<path d=\"{path}\" fill=\"{}\"/>\n", hex(fill)));

@@ -6,7 +6,7 @@ use super::curve::write_curve;
 use super::device_trace::{DeviceTrace, check, rotation_limit};
 use super::engagement::{write_impacts, write_overturns, write_shading};
 use super::ground::ground_curve;
-use super::layer::{document, units};
+use super::layer::document;
 use super::legend::{device_keys, write_heading};
 use super::palette::{GROUND, Stroke};
 use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel, scale_around_zero};
@@ -79,30 +79,29 @@ pub fn history_figure(title: impl Into<FigureTitle>, histories: &[History], axes
 
     let last = force_panel.as_ref().unwrap_or(&velocity_panel);
     let height_px = last.bottom_px() + BOTTOM_LABELS_PX + 4.0;
-    let canvas = (units(WIDTH_PX) as u32, units(height_px) as u32);
 
     write_shading(&mut body, &rotation_panel, &traces);
-    ground_panel.write_axes(&mut body, canvas, None)?;
-    write_curve(&mut body, canvas, &ground_panel, &ground, Stroke::solid(GROUND))?;
+    ground_panel.write_axes(&mut body, None);
+    write_curve(&mut body, &ground_panel, &ground, Stroke::solid(GROUND));
 
-    rotation_panel.write_axes(&mut body, canvas, None)?;
+    rotation_panel.write_axes(&mut body, None);
     for trace in &traces {
-        write_curve(&mut body, canvas, &rotation_panel, &trace.rotation, trace.look.stroke())?;
+        write_curve(&mut body, &rotation_panel, &trace.rotation, trace.look.stroke());
     }
     write_impacts(&mut body, &rotation_panel, &traces);
     write_overturns(&mut body, &rotation_panel, &traces);
 
     let velocity_title = force_panel.is_none().then(|| axes.title());
-    velocity_panel.write_axes(&mut body, canvas, velocity_title)?;
+    velocity_panel.write_axes(&mut body, velocity_title);
     for trace in &traces {
-        write_curve(&mut body, canvas, &velocity_panel, &trace.velocity, trace.look.stroke())?;
+        write_curve(&mut body, &velocity_panel, &trace.velocity, trace.look.stroke());
     }
 
     if let Some(panel) = &force_panel {
         write_shading(&mut body, panel, &traces);
-        panel.write_axes(&mut body, canvas, Some(axes.title()))?;
+        panel.write_axes(&mut body, Some(axes.title()));
         for trace in &traces {
-            write_curve(&mut body, canvas, panel, &trace.force, trace.look.stroke())?;
+            write_curve(&mut body, panel, &trace.force, trace.look.stroke());
         }
     }
 
@@ -112,9 +111,7 @@ pub fn history_figure(title: impl Into<FigureTitle>, histories: &[History], axes
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::synthetic::{
-        assert_texts_apart, assert_well_formed, at_rest, overturning, safe, with_clutched_pair, with_inerter,
-    };
+    use crate::plot::synthetic::{assert_drawn, at_rest, overturning, safe, with_clutched_pair, with_inerter};
 
     fn three() -> Vec<History> {
         vec![
@@ -132,8 +129,7 @@ mod tests {
     fn three_devices_fill_four_panels() {
         for axes in [TimeAxis::Seconds, TimeAxis::TimesFrequencyParameter] {
             let svg = history_figure("A <title> & more", &three(), axes).unwrap();
-            assert_texts_apart(&svg);
-            assert_well_formed(&svg);
+            assert_drawn(&svg);
             assert_eq!(panel_titles(&svg), 4);
             assert_eq!(svg.matches(">overturns<").count(), 1);
             assert!(svg.contains("none (overturned)") && svg.contains("A &lt;title&gt; &amp; more"));
@@ -145,7 +141,7 @@ mod tests {
     #[test]
     fn without_inerter_there_is_no_force_panel() {
         let svg = history_figure("", &[safe("none", 0.4, 300)], TimeAxis::Seconds).unwrap();
-        assert_well_formed(&svg);
+        assert_drawn(&svg);
         assert_eq!(panel_titles(&svg), 3);
         assert!(!svg.contains("engaged"));
     }
@@ -153,12 +149,12 @@ mod tests {
     #[test]
     fn rest_two_samples_and_five_devices_draw() {
         let svg = history_figure("rest", &[at_rest("none", 100)], TimeAxis::Seconds).unwrap();
-        assert_well_formed(&svg);
+        assert_drawn(&svg);
         let svg = history_figure("two", &[safe("none", 0.4, 2)], TimeAxis::Seconds).unwrap();
-        assert_well_formed(&svg);
+        assert_drawn(&svg);
         let five: Vec<History> = (0..5).map(|index| with_clutched_pair(overturning(&format!("device {index}"), 900))).collect();
         let svg = history_figure("five", &five, TimeAxis::Seconds).unwrap();
-        assert_well_formed(&svg);
+        assert_drawn(&svg);
         assert_eq!(svg.matches(">overturns<").count(), 5);
     }
 
@@ -167,7 +163,7 @@ mod tests {
         let mut wild = safe("wild", 0.4, 400);
         wild.samples[200].rotation_rad = 1e100;
         wild.samples[201].rotation_rad = -1e100;
-        assert_well_formed(&history_figure("", &[wild], TimeAxis::Seconds).unwrap());
+        assert_drawn(&history_figure("", &[wild], TimeAxis::Seconds).unwrap());
     }
 
     #[test]
@@ -188,7 +184,7 @@ mod tests {
             })
             .collect();
         let svg = history_figure("long", &long, TimeAxis::Seconds).unwrap();
-        assert_well_formed(&svg);
+        assert_drawn(&svg);
         assert!(svg.len() < 1_000_000, "{}", svg.len());
         assert_eq!(svg, history_figure("long", &long, TimeAxis::Seconds).unwrap());
     }

@@ -1,11 +1,9 @@
 //! Bars over time: what the law wants, the command and the clutches of a closed loop.
 
-use plotters::style::RGBColor;
-
 use super::engagement::write_bars;
 use super::layer::{Anchor, Text, units};
 use super::loop_figure::LoopTrace;
-use super::palette::{FLYWHEEL_BARS, GROUND};
+use super::palette::{Colour, FLYWHEEL_BARS, GROUND};
 use super::panel::Panel;
 
 /// Height of a lane, and of the bars in it (px).
@@ -18,7 +16,7 @@ pub(super) const LANES_PX: f64 = LANES.len() as f64 * LANE_PX;
 /// Bars closer than this are one, and none is narrower (drawing units).
 const LEAST_GAP: i32 = 3;
 /// What the law wants: no flywheel in particular.
-pub(super) const LAW: RGBColor = GROUND;
+pub(super) const LAW: Colour = GROUND;
 
 /// Left edges and widths (drawing units) of the times in which `active` holds, each value until the next sample. Times that would
 /// be too narrow to see are widened, and gaps too narrow to see are closed.
@@ -44,7 +42,7 @@ pub(super) fn write_flywheels(
     panel: &Panel<'_>,
     (top_px, height_px): (f64, f64),
     (time, states): (&[f64], &[u8]),
-    colours: [RGBColor; 2],
+    colours: [Colour; 2],
 ) {
     let mut draw = |from_px: f64, to_px: f64, shown: [fn(u8) -> bool; 2]| {
         let extent = (units(from_px), units(to_px) - units(from_px));

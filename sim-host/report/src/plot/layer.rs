@@ -1,34 +1,13 @@
-//! Pieces of SVG: what plotters draws on a fine grid, and the text and rectangles it cannot draw.
+//! Pieces of SVG: lines, areas and texts, on a grid of tenths of a pixel.
 
-use plotters::coord::Shift;
-use plotters::prelude::{DrawingArea, DrawingBackend, IntoDrawingArea, SVGBackend};
-use plotters::style::RGBColor;
+use super::palette::{Colour, INK, Stroke, hex};
 
-use super::PlotError;
-use super::palette::{INK, hex};
-
-/// Drawing units per pixel. plotters rounds coordinates to whole units, and a tenth of a pixel is smooth.
+/// Drawing units per pixel: whole units keep the text short, and a tenth of a pixel is smooth.
 pub(super) const UNIT: f64 = 10.0;
 
 /// Whole drawing units of a length in pixels.
 pub(super) fn units(px: f64) -> i32 {
     (px * UNIT).round() as i32
-}
-
-/// The elements plotters writes for `draw` on a canvas of `size` units, without the document around them.
-pub(super) fn plotters_layer<F>(size: (u32, u32), draw: F) -> Result<String, PlotError>
-where
-    F: for<'a> FnOnce(&DrawingArea<SVGBackend<'a>, Shift>) -> Result<(), String>,
-{
-    let mut document = String::new();
-    {
-        let root = SVGBackend::with_string(&mut document, size).into_drawing_area();
-        draw(&root).map_err(PlotError::Drawing)?;
-        root.present().map_err(|error| PlotError::Drawing(error.to_string()))?;
-    }
-    let start = document.find('>').map_or(0, |end| end + 1);
-    let end = document.rfind("</svg>").unwrap_or(document.len());
-    Ok(document[start..end].trim_start().to_owned())
 }
 
 /// The whole SVG document around `body`, on white.
@@ -42,11 +21,6 @@ pub(super) fn document(title: &str, (width_px, height_px): (f64, f64), body: &st
         units(height_px),
         escape(title),
     )
-}
-
-/// Turns a drawing error into its text.
-pub(super) fn text_of<DB: DrawingBackend>(error: plotters::drawing::DrawingAreaErrorKind<DB::ErrorType>) -> String {
-    error.to_string()
 }
 
 /// `text` as XML character data; characters that XML forbids become spaces.
@@ -89,7 +63,7 @@ pub(super) struct Text<'a> {
     /// What `at` refers to.
     pub anchor: Anchor,
     /// Colour.
-    pub colour: RGBColor,
+    pub colour: Colour,
     /// Further attributes, with a leading space.
     pub attributes: &'a str,
 }
@@ -119,8 +93,29 @@ impl<'a> Text<'a> {
     }
 }
 
+/// The path through positions in pixels, with the elements of SVG's `d`.
+pub(super) fn path_through(positions: impl IntoIterator<Item = (f64, f64)>) -> String {
+    let element = |(index, (x_px, y_px)): (usize, (f64, f64))| {
+        format!("{}{} {}", if index == 0 { "M" } else { "L" }, units(x_px), units(y_px))
+    };
+    positions.into_iter().enumerate().map(element).collect()
+}
+
+/// Appends the lines of `path`; nothing for an empty one.
+pub(super) fn write_path(svg: &mut String, path: &str, stroke: Stroke) {
+    if path.is_empty() {
+        return;
+    }
+    svg.push_str(&format!(
+        "<path d=\"{path}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-dasharray=\"{}\" stroke-linejoin=\"round\"/>\n",
+        hex(stroke.colour),
+        units(stroke.width_px),
+        stroke.dashes,
+    ));
+}
+
 /// Appends a filled rectangle given in drawing units.
-pub(super) fn write_rect(svg: &mut String, corner: (i32, i32), size: (i32, i32), fill: RGBColor) {
+pub(super) fn write_rect(svg: &mut String, corner: (i32, i32), size: (i32, i32), fill: Colour) {
     svg.push_str(&format!(
         "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
         corner.0,
@@ -132,7 +127,7 @@ pub(super) fn write_rect(svg: &mut String, corner: (i32, i32), size: (i32, i32),
 }
 
 /// Appends a filled area with `corners` in pixels; nothing for fewer than three.
-pub(super) fn write_area(svg: &mut String, corners: &[(f64, f64)], fill: RGBColor, opacity: f64) {
+pub(super) fn write_area(svg: &mut String, corners: &[(f64, f64)], fill: Colour, opacity: f64) {
     if corners.len() < 3 {
         return;
     }
@@ -141,7 +136,7 @@ pub(super) fn write_area(svg: &mut String, corners: &[(f64, f64)], fill: RGBColo
 }
 
 /// Appends a disc around a position in pixels; `attributes` have a leading space.
-pub(super) fn write_disc(svg: &mut String, (x_px, y_px): (f64, f64), radius_px: f64, colour: RGBColor, attributes: &str) {
+pub(super) fn write_disc(svg: &mut String, (x_px, y_px): (f64, f64), radius_px: f64, colour: Colour, attributes: &str) {
     svg.push_str(&format!(
         "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\"{attributes}/>\n",
         units(x_px),
@@ -158,11 +153,5 @@ mod tests {
     #[test]
     fn escape_leaves_no_markup() {
         assert_eq!(escape("a<b>&\"c\"\u{1}"), "a&lt;b&gt;&amp;&quot;c&quot; ");
-    }
-
-    #[test]
-    fn a_layer_has_no_document_tags() {
-        let layer = plotters_layer((100, 100), |_| Ok(())).unwrap();
-        assert!(!layer.contains("svg"));
     }
 }

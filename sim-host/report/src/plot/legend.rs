@@ -1,13 +1,11 @@
 //! Title and legend above the panels.
 
-use plotters::style::RGBColor;
-
 use super::FigureTitle;
 use super::device_trace::DeviceTrace;
 use super::formula::{formula, formula_width_px};
 use super::layer::{Text, escape, units, write_area, write_disc, write_rect};
 use super::marker::{Marker, write_chosen};
-use super::palette::{DeviceLook, FLYWHEEL_TINTS, GROUND, INK, Stroke, hex};
+use super::palette::{Colour, DeviceLook, FLYWHEEL_TINTS, GROUND, INK, Stroke, hex};
 use super::text_width::text_width_px;
 
 const TITLE_FONT_PX: f64 = 14.0;
@@ -39,7 +37,7 @@ pub(super) enum Swatch {
     /// A piece of a fitted line on its band, with the mark of what it was fitted to.
     Fitted(DeviceLook, Option<Marker>),
     /// A mark in a colour of no device.
-    Mark(Marker, RGBColor),
+    Mark(Marker, Colour),
     /// The mark of a choice, with its band.
     Chosen,
     /// A band of this opacity.
@@ -49,11 +47,11 @@ pub(super) enum Swatch {
     /// Ticks of a rug.
     Ticks,
     /// A tint.
-    Tint(RGBColor),
+    Tint(Colour),
     /// A tint and the colour that stands for the same where it is alone.
-    Tints(RGBColor, RGBColor),
+    Tints(Colour, Colour),
     /// A colour that needs an edge, since it may be near white.
-    Framed(RGBColor),
+    Framed(Colour),
     /// The triangle of an impact.
     Triangle,
     /// The bar beside a lane of tints.
@@ -149,10 +147,10 @@ fn column_lefts(entries: &[Key], width_px: f64) -> Vec<f64> {
 }
 
 /// Appends the mark of a point of a line: a disc, or a circle if it is `open`.
-pub(super) fn write_mark(svg: &mut String, at_px: (f64, f64), colour: RGBColor, open: bool) {
+pub(super) fn write_mark(svg: &mut String, at_px: (f64, f64), colour: Colour, open: bool) {
     if open {
         let stroke = format!(" stroke=\"{}\" stroke-width=\"{}\"", hex(colour), units(1.1));
-        write_disc(svg, at_px, MARK_PX - 0.3, RGBColor(255, 255, 255), &stroke);
+        write_disc(svg, at_px, MARK_PX - 0.3, Colour(255, 255, 255), &stroke);
     } else {
         write_disc(svg, at_px, MARK_PX, colour, "");
     }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::curve::write_curve;
 use super::fault_mark::{FAULT_ROW_PX, fault_places, fault_stroke, write_faults};
 use super::lane::{LANES_PX, LAW, write_flywheels, write_lanes};
-use super::layer::{document, units};
+use super::layer::document;
 use super::legend::{Key, Swatch, write_heading};
 use super::palette::{FLYWHEEL_BARS, FLYWHEEL_TINTS, GROUND, Stroke, device_look};
 use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel, scale_around_zero};
@@ -107,12 +107,11 @@ pub fn loop_figure(title: impl Into<FigureTitle>, trace: &LoopTrace) -> Result<S
     let push_panel = panel(PANEL_PX, scale_with_estimate(&trace.push, &trace.push_estimated), Some("θ''/(*p*²α)"));
     let lane_panel = Panel { y_ticks: false, ..panel(LANES_PX, 0.0..1.0, None) };
     let height_px = lane_panel.bottom_px() + BOTTOM_LABELS_PX + 4.0;
-    let canvas = (units(WIDTH_PX) as u32, units(height_px) as u32);
 
     let extent = (rotation_panel.top_px, rotation_panel.height_px);
     write_flywheels(&mut body, &rotation_panel, extent, (&trace.time, &trace.engaged), FLYWHEEL_TINTS);
     for panel in [&ground_panel, &rotation_panel, &velocity_panel, &push_panel] {
-        panel.write_axes(&mut body, canvas, None)?;
+        panel.write_axes(&mut body, None);
     }
     write_lanes(&mut body, &lane_panel, trace);
     lane_panel.write_frame(&mut body, Some("time (s)"));
@@ -126,12 +125,12 @@ pub fn loop_figure(title: impl Into<FigureTitle>, trace: &LoopTrace) -> Result<S
         (&push_panel, &trace.push_estimated, estimated_stroke()),
         (&push_panel, &trace.push, true_stroke()),
     ];
-    write_curve(&mut body, canvas, &rotation_panel, &host, host_stroke())?;
+    write_curve(&mut body, &rotation_panel, &host, host_stroke());
     for (panel, values, stroke) in curves {
         let points: Vec<(f64, f64)> = trace.time.iter().copied().zip(values.iter().copied()).collect();
-        write_curve(&mut body, canvas, panel, &points, stroke)?;
+        write_curve(&mut body, panel, &points, stroke);
     }
-    write_curve(&mut body, canvas, &rotation_panel, &ideal, ideal_stroke())?;
+    write_curve(&mut body, &rotation_panel, &ideal, ideal_stroke());
     Ok(document(&title.text, (WIDTH_PX, height_px), &body))
 }
 
@@ -233,7 +232,7 @@ fn scale_with_estimate(values: &[f64], estimated: &[f64]) -> Range<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::synthetic::assert_well_formed;
+    use crate::plot::synthetic::assert_drawn;
 
     /// Two seconds at `count` samples; no dynamics behind them.
     fn trace(count: usize) -> LoopTrace {
@@ -259,7 +258,7 @@ mod tests {
     #[test]
     fn a_loop_is_well_formed_and_repeats_to_the_byte() {
         let svg = loop_figure("A <title> & more", &trace(4000)).unwrap();
-        assert_well_formed(&svg);
+        assert_drawn(&svg);
         assert!(svg.contains("A &lt;title&gt; &amp; more") && svg.contains("no &lt;pulses&gt; &amp; more"));
         for name in ["true motion", "command", "clutches", "ideal pair", "second flywheel", "wanted by the law"] {
             assert!(svg.contains(name), "{name}");
@@ -272,11 +271,11 @@ mod tests {
     #[test]
     fn long_and_short_traces_draw() {
         let long = loop_figure("", &trace(200_000)).unwrap();
-        assert_well_formed(&long);
+        assert_drawn(&long);
         assert!(long.len() < 500_000, "{}", long.len());
         let bare = LoopTrace { rotation_ideal: Vec::new(), faults: Vec::new(), ..trace(2) };
         let svg = loop_figure("", &bare).unwrap();
-        assert_well_formed(&svg);
+        assert_drawn(&svg);
         assert!(!svg.contains("ideal pair") && !svg.contains("fault"));
     }
 

@@ -1,8 +1,8 @@
 //! Curves over a map, such as the boundaries between its regions.
 
-use super::layer::units;
+use super::layer::{path_through, write_path};
 use super::legend::{Key, Swatch};
-use super::palette::{Stroke, device_look, hex};
+use super::palette::{Stroke, device_look};
 use super::panel::Panel;
 
 /// Distance below which points of a curve are drawn as one (px).
@@ -33,15 +33,7 @@ pub(super) fn curve_key(kind: usize, name: &str) -> Key {
 pub(super) fn write_curves(svg: &mut String, panel: &Panel<'_>, curves: &[MapCurve], kinds: usize) {
     for kind in 0..kinds {
         let path: String = curves.iter().filter(|curve| curve.kind == kind).map(|curve| path(panel, &curve.points)).collect();
-        if !path.is_empty() {
-            let stroke = stroke(kind);
-            svg.push_str(&format!(
-                "<path d=\"{path}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-dasharray=\"{}\" stroke-linejoin=\"round\"/>\n",
-                hex(stroke.colour),
-                units(stroke.width_px),
-                stroke.dashes,
-            ));
-        }
+        write_path(svg, &path, stroke(kind));
     }
 }
 
@@ -61,9 +53,7 @@ fn path(panel: &Panel<'_>, points: &[(f64, f64)]) -> String {
     if drawn.len() < 2 {
         return String::new();
     }
-    let text =
-        |(index, (x, y)): (usize, &(f64, f64))| format!("{}{} {}", ["M", "L"][usize::from(index > 0)], units(*x), units(*y));
-    drawn.iter().enumerate().map(text).collect()
+    path_through(drawn)
 }
 
 #[cfg(test)]

@@ -1,9 +1,7 @@
 //! Open marks that tell devices apart without colour.
 
-use plotters::style::RGBColor;
-
 use super::layer::units;
-use super::palette::{INK, hex};
+use super::palette::{Colour, INK, hex};
 
 /// Half of a mark's size (px).
 const HALF_PX: f64 = 2.7;
@@ -27,7 +25,7 @@ pub(super) fn device_marker(index: usize) -> Marker {
 
 impl Marker {
     /// Appends the mark around a position in pixels.
-    pub(super) fn write(self, svg: &mut String, (x_px, y_px): (f64, f64), colour: RGBColor) {
+    pub(super) fn write(self, svg: &mut String, (x_px, y_px): (f64, f64), colour: Colour) {
         let (x, y, half) = (units(x_px), units(y_px), units(HALF_PX));
         let style = format!("fill=\"none\" stroke=\"{}\" stroke-width=\"9\" stroke-opacity=\"0.75\"", hex(colour));
         let (small, high) = (units(0.88 * HALF_PX), units(1.15 * HALF_PX));

@@ -1,6 +1,6 @@
 //! Figures as SVG text: responses, energies, sensitivities, closed loops, recordings of devices, maps of outcomes, clouds of runs, trade-offs, charts of lines.
 //!
-//! plotters draws curves and guide lines; axes, clip, dash patterns, tints and texts are SVG around its output. [`png()`] makes dots of it.
+//! Figures are SVG, written element by element (`layer`). [`png()`] makes dots of it.
 
 mod axis_ticks;
 mod cell;
@@ -10,6 +10,9 @@ mod cloud_figure;
 mod curve;
 mod decimate;
 mod device_trace;
+#[cfg(any(test, feature = "testing"))]
+#[cfg_attr(not(feature = "png"), path = "no_drawn.rs")]
+mod drawn;
 mod energy_figure;
 mod engagement;
 mod fault_mark;
@@ -34,9 +37,6 @@ mod sensitivity_figure;
 #[cfg(any(test, feature = "testing"))]
 pub mod synthetic;
 mod text_width;
-#[cfg(any(test, feature = "testing"))]
-#[cfg_attr(not(feature = "png"), path = "no_texts_apart.rs")]
-mod texts_apart;
 mod ticks;
 mod time_axis;
 mod trade_off_figure;
@@ -118,7 +118,4 @@ pub enum PlotError {
         /// Title of the axis.
         title: String,
     },
-    /// The drawing library refused.
-    #[error("cannot draw the figure: {0}")]
-    Drawing(String),
 }

@@ -1,12 +1,14 @@
 //! Colours and dash patterns: Okabe and Ito's colours for colour-blind readers, dashes for grey print.
 
-use plotters::style::RGBColor;
+/// Red, green and blue.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Colour(pub u8, pub u8, pub u8);
 
 /// How a line is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stroke {
     /// Colour.
-    pub colour: RGBColor,
+    pub colour: Colour,
     /// Dash lengths in tenths of a pixel, as SVG writes them; `none` for a solid line.
     pub dashes: &'static str,
     /// Width (px).
@@ -15,7 +17,7 @@ pub(super) struct Stroke {
 
 impl Stroke {
     /// A solid curve.
-    pub(super) fn solid(colour: RGBColor) -> Self {
+    pub(super) fn solid(colour: Colour) -> Self {
         Self { colour, dashes: "none", width_px: CURVE_PX }
     }
 }
@@ -24,7 +26,7 @@ impl Stroke {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct DeviceLook {
     /// Colour of curves and marks.
-    pub colour: RGBColor,
+    pub colour: Colour,
     /// Dash lengths in tenths of a pixel, as SVG writes them; `none` for a solid curve.
     pub dashes: &'static str,
 }
@@ -40,36 +42,36 @@ impl DeviceLook {
 pub(super) const CURVE_PX: f64 = 1.3;
 
 /// Text and frames.
-pub(super) const INK: RGBColor = RGBColor(34, 34, 34);
+pub(super) const INK: Colour = Colour(34, 34, 34);
 
 /// Reference lines.
-pub(super) const GUIDE: RGBColor = RGBColor(150, 150, 150);
+pub(super) const GUIDE: Colour = Colour(150, 150, 150);
 
 /// A front below lines and marks.
-pub(super) const FRONT: RGBColor = RGBColor(205, 205, 205);
+pub(super) const FRONT: Colour = Colour(205, 205, 205);
 
 /// The ground motion.
-pub(super) const GROUND: RGBColor = RGBColor(90, 90, 90);
+pub(super) const GROUND: Colour = Colour(90, 90, 90);
 
 /// Tints behind the curves while the first or second flywheel is engaged; their greys differ.
-pub(super) const FLYWHEEL_TINTS: [RGBColor; 2] = [RGBColor(205, 226, 243), RGBColor(253, 238, 208)];
+pub(super) const FLYWHEEL_TINTS: [Colour; 2] = [Colour(205, 226, 243), Colour(253, 238, 208)];
 
 // The yellow of the palette is left out: it vanishes on white.
-const COLOURS: [RGBColor; 7] = [
-    RGBColor(0, 0, 0),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 114, 178),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(86, 180, 233),
-    RGBColor(230, 159, 0),
+const COLOURS: [Colour; 7] = [
+    Colour(0, 0, 0),
+    Colour(213, 94, 0),
+    Colour(0, 114, 178),
+    Colour(0, 158, 115),
+    Colour(204, 121, 167),
+    Colour(86, 180, 233),
+    Colour(230, 159, 0),
 ];
 
 /// Bars that show when the first or second flywheel is engaged: the tints, dark enough to stand alone.
-pub(super) const FLYWHEEL_BARS: [RGBColor; 2] = [RGBColor(62, 124, 177), RGBColor(226, 160, 48)];
+pub(super) const FLYWHEEL_BARS: [Colour; 2] = [Colour(62, 124, 177), Colour(226, 160, 48)];
 
 /// Faults.
-pub(super) const FAULT: RGBColor = RGBColor(150, 0, 90);
+pub(super) const FAULT: Colour = Colour(150, 0, 90);
 
 const DASHES: [&str; 5] = ["none", "60 25", "100 25 15 25", "18 18", "140 40"];
 
@@ -90,7 +92,7 @@ pub(super) fn guide_stroke(index: usize) -> Stroke {
 }
 
 /// `#rrggbb`.
-pub(super) fn hex(colour: RGBColor) -> String {
+pub(super) fn hex(colour: Colour) -> String {
     format!("#{:02x}{:02x}{:02x}", colour.0, colour.1, colour.2)
 }
 

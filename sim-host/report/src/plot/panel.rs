@@ -2,14 +2,10 @@
 
 use std::ops::Range;
 
-use plotters::prelude::{PathElement, SVGBackend, ShapeStyle};
-use plotters::style::Color;
-
-use super::PlotError;
 use super::axis_ticks::{Axis, Label, TICK_FONT_PX, Way};
 use super::formula::{formula, formula_width_px};
-use super::layer::{Anchor, Text, plotters_layer, text_of, units};
-use super::palette::{GUIDE, INK, hex};
+use super::layer::{Anchor, Text, path_through, units, write_path};
+use super::palette::{GUIDE, INK, Stroke, guide_stroke, hex};
 use super::ticks::Scale;
 
 /// Space left of a panel for tick labels and the axis title (px).
@@ -32,6 +28,7 @@ const LABEL_GAP_PX: (f64, f64) = (6.0, 8.0);
 const LEFT_LABEL_PX: f64 = 34.0;
 const TITLE_FONT_PX: f64 = 13.0;
 const FRAME_PX: f64 = 0.8;
+const GUIDE_PX: f64 = 0.7;
 
 /// A panel of the figure.
 #[derive(Debug, Clone)]
@@ -87,10 +84,9 @@ impl Panel<'_> {
 
     /// Appends zero line, guide lines, frame, ticks and titles. The shared axis is labelled when it has a title, which may be
     /// empty.
-    pub(super) fn write_axes(&self, svg: &mut String, canvas: (u32, u32), x_title: Option<&str>) -> Result<(), PlotError> {
-        self.write_guides(svg, canvas)?;
+    pub(super) fn write_axes(&self, svg: &mut String, x_title: Option<&str>) {
+        self.write_guides(svg);
         self.write_frame(svg, x_title);
-        Ok(())
     }
 
     /// Appends frame, ticks and titles, as [`Self::write_axes`] does.
@@ -110,27 +106,15 @@ impl Panel<'_> {
         }
     }
 
-    fn write_guides(&self, svg: &mut String, canvas: (u32, u32)) -> Result<(), PlotError> {
-        let (left, right) = (units(self.left_px), units(self.right_px()));
-        let style: ShapeStyle = GUIDE.stroke_width(units(0.7) as u32);
-        let line = |height: f64| {
-            let y = units(self.position_px((self.x.start, height)).1);
-            PathElement::new(vec![(left, y), (right, y)], style)
-        };
+    fn write_guides(&self, svg: &mut String) {
         let inside = |height: &&f64| self.y.contains(*height);
+        let line = |height: &f64| path_through([self.x.start, self.x.end].map(|at| self.position_px((at, *height))));
         // The zero of a logarithmic axis is a one.
         if self.scales.1 == Scale::Linear && inside(&&0.0) {
-            svg.push_str(&plotters_layer(canvas, |root| root.draw(&line(0.0)).map_err(text_of::<SVGBackend<'_>>))?);
+            write_path(svg, &line(&0.0), Stroke { width_px: GUIDE_PX, ..Stroke::solid(GUIDE) });
         }
-        svg.push_str("<g stroke-dasharray=\"40 30\">\n");
-        svg.push_str(&plotters_layer(canvas, |root| {
-            for &height in self.guides.iter().filter(inside) {
-                root.draw(&line(height)).map_err(text_of::<SVGBackend<'_>>)?;
-            }
-            Ok(())
-        })?);
-        svg.push_str("</g>\n");
-        Ok(())
+        let path: String = self.guides.iter().filter(inside).map(line).collect();
+        write_path(svg, &path, Stroke { width_px: GUIDE_PX, ..guide_stroke(0) });
     }
 
     /// Both axes.

@@ -1,10 +1,8 @@
 //! The figure of a study of sensitivity: how much each variant changes the peak rotation of each device.
 
-use plotters::style::RGBColor;
-
 use super::layer::{Anchor, Text, document, escape, units, write_disc, write_rect};
 use super::legend::{BOLD_WIDTH, write_heading};
-use super::palette::{GROUND, GUIDE, INK, device_look, hex};
+use super::palette::{Colour, GROUND, GUIDE, INK, device_look, hex};
 use super::text_width::text_width_px;
 use super::ticks::{round_ticks, tick_text};
 use super::{FigureTitle, PlotError};
@@ -31,7 +29,7 @@ const LIMITS: [f64; 6] = [0.02, 0.05, 0.1, 0.2, 0.5, 1.0];
 /// Part of the changes that the axis should hold.
 const HELD: f64 = 0.93;
 /// Bands behind every other effect.
-const BAND: RGBColor = RGBColor(245, 245, 245);
+const BAND: Colour = Colour(245, 245, 245);
 
 /// One variant.
 #[derive(Clone, Debug)]
@@ -258,7 +256,7 @@ fn write_lane(svg: &mut String, axis: &Axis, lane: &SensitivityLane, middle_px: 
     }
 }
 
-fn write_diamond(svg: &mut String, (x_px, y_px): (f64, f64), colour: RGBColor) {
+fn write_diamond(svg: &mut String, (x_px, y_px): (f64, f64), colour: Colour) {
     let half = units(DIAMOND_PX);
     svg.push_str(&format!(
         "<path d=\"M{} {}l{half} {half}l-{half} {half}l-{half} -{half}z\" fill=\"#ffffff\" stroke=\"{}\" stroke-width=\"16\"/>\n",
@@ -269,12 +267,12 @@ fn write_diamond(svg: &mut String, (x_px, y_px): (f64, f64), colour: RGBColor) {
 }
 
 /// A triangle that points over the edge of the axis.
-fn write_beyond(svg: &mut String, axis: &Axis, change: f64, middle_px: f64, colour: RGBColor) {
+fn write_beyond(svg: &mut String, axis: &Axis, change: f64, middle_px: f64, colour: Colour) {
     let (tip, base) = if change > 0.0 { (axis.right_px() + 6.0, -1) } else { (axis.left_px - 6.0, 1) };
     write_triangle(svg, (tip, middle_px), base, colour);
 }
 
-fn write_triangle(svg: &mut String, (x_px, y_px): (f64, f64), base: i32, colour: RGBColor) {
+fn write_triangle(svg: &mut String, (x_px, y_px): (f64, f64), base: i32, colour: Colour) {
     let (length, half) = (base * units(6.0), units(3.2));
     svg.push_str(&format!(
         "<path d=\"M{} {}l{length} -{half}v{}z\" fill=\"{}\" fill-opacity=\"0.6\"/>\n",
@@ -322,7 +320,7 @@ fn write_legend(svg: &mut String, devices: &[String], used: &[usize], (left_px, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::synthetic::assert_texts_apart;
+    use crate::plot::synthetic::assert_drawn;
 
     fn rows() -> Vec<SensitivityRow> {
         let lane = |device: usize, change: f64| SensitivityLane {
@@ -360,7 +358,7 @@ mod tests {
         let devices = ["none", "pair"].map(str::to_owned);
         let width = |rows: &[SensitivityRow]| {
             let svg = sensitivity_figure("A study", &devices, rows).unwrap();
-            assert_texts_apart(&svg);
+            assert_drawn(&svg);
             svg.split("<svg ")
                 .nth(1)
                 .unwrap()

@@ -1,6 +1,6 @@
 //! For the tests of the figures: checks of SVG text, and responses that are half waves of growing or shrinking height.
 
-pub use super::texts_apart::assert_texts_apart;
+pub use super::drawn::assert_drawn;
 use sprag_sim::history::{History, Sample};
 
 const ALPHA_RAD: f64 = 0.15;
@@ -112,33 +112,4 @@ pub fn at_rest(device: &str, count: usize) -> History {
         sample.ground_m_s2 *= 0.1;
     }
     history
-}
-
-/// Every element is closed in order, attributes are quoted, and all coordinates are plain numbers on the canvas.
-pub fn assert_well_formed(svg: &str) {
-    let mut open: Vec<&str> = Vec::new();
-    for tag in svg.split('<').skip(1) {
-        let (tag, text) = tag.split_once('>').expect("a tag ends");
-        assert!(!text.contains('>'));
-        assert_eq!(tag.matches('"').count() % 2, 0, "{tag}");
-        if let Some(name) = tag.strip_prefix('/') {
-            assert_eq!(open.pop(), Some(name));
-        } else if !tag.ends_with('/') && !tag.starts_with('?') {
-            open.push(tag.split_whitespace().next().expect("a tag has a name"));
-        }
-    }
-    assert!(open.is_empty(), "{open:?}");
-    for bad in ["NaN", "inf", "2147483647", "-2147483648"] {
-        assert!(!svg.contains(bad), "{bad}");
-    }
-    let size = svg.split("viewBox=\"0 0 ").nth(1).and_then(|rest| rest.split('"').next()).expect("a view box");
-    let (width, height) = size.split_once(' ').expect("a pair");
-    let (width, height): (i32, i32) = (width.parse().unwrap(), height.parse().unwrap());
-    for points in svg.split("points=\"").skip(1) {
-        for pair in points.split('"').next().unwrap_or("").split_whitespace() {
-            let (x, y) = pair.split_once(',').expect("a pair");
-            let (x, y): (i32, i32) = (x.parse().unwrap(), y.parse().unwrap());
-            assert!((0..=width).contains(&x) && (0..=height).contains(&y), "{pair}");
-        }
-    }
 }

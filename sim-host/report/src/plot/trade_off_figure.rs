@@ -1,7 +1,7 @@
 //! Panels of a probability against what it costs: a line of designs for each series, the Pareto front below them, and the limit.
 
 use super::curve::write_curve;
-use super::layer::{document, units, write_area, write_disc};
+use super::layer::{document, write_area, write_disc};
 use super::legend::{Key, Swatch, write_heading};
 use super::marker::{device_marker, write_chosen};
 use super::palette::{FRONT, GUIDE, INK, Stroke, device_look, guide_stroke};
@@ -96,7 +96,6 @@ pub fn trade_off_figure(figure: &TradeOffFigure) -> Result<String, PlotError> {
     let area = (left_px, width_px - left_px - RIGHT_MARGIN_PX);
     let top_px = write_heading(&mut body, &figure.title, &figure.keys(), area, MARGIN_PX) + 4.0;
     let height_px = top_px + panel_height_px + BOTTOM_LABELS_PX + 4.0;
-    let canvas = (units(width_px) as u32, units(height_px) as u32);
     // Probabilities of all panels are those of the same designs.
     let highest = figure.panels.iter().map(TradeOffPanel::highest).fold(LEAST_SHARE, f64::max);
     for (column, source) in figure.panels.iter().enumerate() {
@@ -111,7 +110,7 @@ pub fn trade_off_figure(figure: &TradeOffFigure) -> Result<String, PlotError> {
                 -AIR * highest..(1.0 + AIR) * highest,
             )
         };
-        source.write(&mut body, canvas, &panel)?;
+        source.write(&mut body, &panel);
     }
     Ok(document(&figure.title.text, (width_px, height_px), &body))
 }
@@ -161,22 +160,22 @@ impl TradeOffPanel {
     }
 
     /// What is below first: the reference, the front, the limit, the lines, their marks, the choice.
-    fn write(&self, svg: &mut String, canvas: (u32, u32), panel: &Panel<'_>) -> Result<(), PlotError> {
+    fn write(&self, svg: &mut String, panel: &Panel<'_>) {
         let (left, right) = (panel.x.start, panel.x.end);
         let Band { low, high } = self.reference.band;
         let corners = [(left, low), (right, low), (right, high), (left, high)].map(|corner| panel.position_px(corner));
         write_area(svg, &corners, INK, BAND_OPACITY);
         let level = self.reference.at.1;
-        write_curve(svg, canvas, panel, &[(left, level), (right, level)], guide_stroke(0))?;
-        write_curve(svg, canvas, panel, &self.stairs(right), FRONT_STROKE)?;
+        write_curve(svg, panel, &[(left, level), (right, level)], guide_stroke(0));
+        write_curve(svg, panel, &self.stairs(right), FRONT_STROKE);
         if let Some(limit) = self.limit {
-            write_curve(svg, canvas, panel, &[(limit, panel.y.start), (limit, panel.y.end)], LIMIT_STROKE)?;
+            write_curve(svg, panel, &[(limit, panel.y.start), (limit, panel.y.end)], LIMIT_STROKE);
         }
-        panel.write_axes(svg, canvas, Some(&self.x_title))?;
+        panel.write_axes(svg, Some(&self.x_title));
         for (index, points) in self.series.iter().enumerate() {
             let (look, place) = (device_look(index), |point: &TradeOffPoint| panel.position_px(point.at));
             let line: Vec<(f64, f64)> = points.iter().filter(|point| point.marked).map(|point| point.at).collect();
-            write_curve(svg, canvas, panel, &line, look.stroke())?;
+            write_curve(svg, panel, &line, look.stroke());
             for point in points {
                 let colour = if point.counts { look.colour } else { GUIDE };
                 if point.marked {
@@ -190,7 +189,6 @@ impl TradeOffPanel {
             let end = |share: f64| panel.position_px((at.0, share)).1;
             write_chosen(svg, panel.position_px(at), (end(band.low), end(band.high)));
         }
-        Ok(())
     }
 
     /// The front as what is to be had up to each cost, as far as `right`.
@@ -212,7 +210,7 @@ impl TradeOffPanel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::synthetic::assert_well_formed;
+    use crate::plot::synthetic::assert_drawn;
 
     fn figure(panels: usize) -> TradeOffFigure {
         let point = |k: u32| TradeOffPoint {
@@ -241,7 +239,7 @@ mod tests {
     fn figures_are_well_formed_and_repeat_to_the_byte() {
         for panels in [1, 2, 3] {
             let svg = trade_off_figure(&figure(panels)).unwrap();
-            assert_well_formed(&svg);
+            assert_drawn(&svg);
             assert!(svg.contains("A &lt;title&gt;") && svg.matches("in &amp; erter").count() == 1);
             assert_eq!(svg, trade_off_figure(&figure(panels)).unwrap());
         }

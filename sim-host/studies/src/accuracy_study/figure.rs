@@ -191,7 +191,7 @@ mod tests {
     use super::*;
     use crate::accuracy_study::board::BoardCost;
     use crate::accuracy_study::variant::{Variant, variants};
-    use sprag_report::plot::synthetic::{assert_texts_apart, assert_well_formed};
+    use sprag_report::plot::synthetic::assert_drawn;
 
     /// The rows of a table that `sprag accuracy` has written, and the names of its devices.
     fn read(table: &Path) -> (Vec<Row>, Vec<String>) {
@@ -234,8 +234,7 @@ mod tests {
         let figures = figures("A study", &rows, &devices).unwrap();
         assert_eq!(figures.len(), 5);
         for (name, svg) in figures {
-            assert_well_formed(&svg);
-            assert_texts_apart(&svg);
+            assert_drawn(&svg);
             assert!(name == "order" || svg.contains(">f64<") && svg.contains(">f32<"), "{name}");
         }
     }
