@@ -19,8 +19,6 @@ fn main() {
     }
     // Without page alignment the sections lie in flash as they will be written.
     println!("cargo:rustc-link-arg-bins=--nmagic");
-    // What refers to what, for the check that the control path cannot panic. Not loaded.
-    println!("cargo:rustc-link-arg-bins=--emit-relocs");
     let build = Command::new("git").args(["rev-parse", "--short=8", "HEAD"]).output();
     let build = build.ok().filter(|build| build.status.success()).and_then(|build| String::from_utf8(build.stdout).ok());
     println!("cargo:rustc-env=SPRAG_BUILD={}", build.as_deref().map_or("unknown", str::trim));

@@ -86,24 +86,12 @@ fn by_table(x: u32) -> u32 {
     LAWS[(x % 3) as usize](x)
 }
 
-/// Too far from the rest for a branch: the linker puts a detour between.
-#[unsafe(link_section = ".data.far")]
-#[inline(never)]
-fn by_detour(x: u32) -> u32 {
-    indexed(x) ^ 2
-}
-
-#[inline(never)]
-fn again(x: u32) -> u32 {
-    if x < 2 { x } else { again(x - 1).wrapping_add(again(x >> 1)) }
-}
-
 #[unsafe(no_mangle)]
 extern "C" fn start() -> ! {
     loop {
         // SAFETY: nobody runs this.
         let x = unsafe { REGISTER.read_volatile() };
-        for law in [calm, two_hops, sliced, by_virtual_call, by_table, by_detour, again] {
+        for law in [calm, two_hops, sliced, by_virtual_call, by_table] {
             let y = law(x);
             // SAFETY: nobody runs this.
             unsafe { REGISTER.write_volatile(y) };

@@ -1,9 +1,7 @@
 //! Figures of the code itself: lines, test executables, event loops and their size.
 
-use crate::{
-    process::{cargo, output},
-    stop::Stop,
-};
+use crate::stop::Stop;
+use cargo_metadata::MetadataCommand;
 use object::{Object as _, ObjectSymbol as _, SymbolKind};
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -39,12 +37,11 @@ pub fn run(root: &Path, program: Option<&str>) -> Result<(), Stop> {
         println!("{count:>10}  {folder}");
         total += count;
     }
-    let about = output(&mut cargo(root, &["metadata", "--format-version", "1", "--no-deps"]))?;
-    println!("{total:>10}  total\n{:>10}  test executables", about.matches(r#""test":true"#).count());
-    let target = about.split_once(r#""target_directory":""#).and_then(|(_, rest)| rest.split_once('"'));
-    let (target, _) = target.ok_or_else(|| Stop::failed("cargo does not tell its target folder"))?;
+    let about = MetadataCommand::new().current_dir(root).no_deps().exec().map_err(|error| Stop::failed(error.to_string()))?;
+    let tests = about.packages.iter().flat_map(|package| &package.targets).filter(|target| target.test).count();
+    println!("{total:>10}  total\n{tests:>10}  test executables");
     for (name, built_by) in PROGRAMS {
-        let path = Path::new(target).join(name);
+        let path = about.target_directory.as_std_path().join(name);
         if path.is_file() { show(name, &path)? } else { println!("{name} is not built: `{built_by}`") }
     }
     Ok(())

@@ -1,7 +1,7 @@
 //! The images for the board: what there is, and how they are built.
 
 use crate::{
-    process::{cargo_in, executables, run as done},
+    process::{MESSAGES, cargo_in, executables, run as done},
     seal::seal,
     stop::Stop,
     tools,
@@ -112,14 +112,27 @@ impl Image {
         command
     }
 
+    /// The object that an image of the firmware is linked from, after all optimisation, once it is built.
+    pub fn object(&self, root: &Path) -> PathBuf {
+        root.join(self.workspace).join("target/images").join(self.name).with_extension("o")
+    }
+
     /// Builds it with optimisation and gives the path of its ELF file, which other features do not overwrite.
     ///
     /// # Errors
     /// If the build fails.
     pub fn build(&self, root: &Path) -> Result<PathBuf, Stop> {
-        let built = executables(self.cargo(root, "build").args(["--profile", self.profile]))?
-            .pop()
-            .ok_or_else(|| Stop::failed(format!("cargo built {} but named no executable", self.package)))?;
+        let is_firmware = self.workspace == BOARD.workspace;
+        let mut command = self.cargo(root, if is_firmware { "rustc" } else { "build" });
+        command.args([MESSAGES, "--profile", self.profile]);
+        if is_firmware {
+            let object = self.object(root);
+            let folder = object.parent().unwrap_or(root);
+            fs::create_dir_all(folder).map_err(|error| Stop::failed(format!("{}: {error}", folder.display())))?;
+            command.arg("--").arg(format!("--emit=link,obj={}", object.display()));
+        }
+        let named = executables(&mut command)?.pop();
+        let built = named.ok_or_else(|| Stop::failed(format!("cargo built {} but named no executable", self.package)))?;
         // Below the target folder: the target's name, the profile, the file.
         let target = built.ancestors().nth(3).ok_or_else(|| Stop::failed(format!("{}: too short a path", built.display())))?;
         let folder = target.join("images");
@@ -156,15 +169,6 @@ impl Built {
     /// If a build fails.
     pub fn all(root: &Path) -> Result<Self, Stop> {
         IMAGES.iter().map(|image| Ok((image, image.build(root)?))).collect::<Result<_, Stop>>().map(Self)
-    }
-
-    /// The file of an image.
-    ///
-    /// # Errors
-    /// If it is none of those built.
-    pub fn elf(&self, image: &Image) -> Result<&Path, Stop> {
-        let found = self.0.iter().find(|(built, _)| built.name == image.name);
-        found.map(|(_, elf)| elf.as_path()).ok_or_else(|| Stop::failed(format!("the image {} is not built", image.name)))
     }
 
     /// The images with a budget, and that.

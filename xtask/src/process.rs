@@ -1,6 +1,7 @@
 //! Starting other programs.
 
 use crate::stop::Stop;
+use cargo_metadata::Message;
 use std::{
     ffi::OsString,
     io::{self, BufRead as _, BufReader, Read as _, Write as _},
@@ -147,19 +148,18 @@ pub fn captured(command: &mut Command) -> Result<String, Stop> {
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// Runs a `cargo build` and gives the paths of the executables that it names; where they lie depends on settings of the
-/// user.
+/// The argument by which cargo reports to programs what it builds.
+pub const MESSAGES: &str = "--message-format=json-render-diagnostics";
+
+/// Runs a build of cargo with [`MESSAGES`] and gives the paths of the executables that it names; where they lie depends on settings of
+/// the user.
 ///
 /// # Errors
 /// If the build fails.
 pub fn executables(build: &mut Command) -> Result<Vec<PathBuf>, Stop> {
-    let messages = output(build.arg("--message-format=json-render-diagnostics"))?;
-    Ok(messages
-        .lines()
-        .filter_map(|line| line.split_once(r#""executable":""#))
-        .filter_map(|(_, rest)| rest.split_once('"'))
-        .map(|(path, _)| PathBuf::from(path.replace(r"\\", r"\")))
-        .collect())
+    let messages = output(build)?;
+    let executable = |message| if let Ok(Message::CompilerArtifact(built)) = message { built.executable } else { None };
+    Ok(Message::parse_stream(messages.as_bytes()).filter_map(executable).map(PathBuf::from).collect())
 }
 
 /// Whether a program is there and answers.

@@ -122,6 +122,6 @@ pub fn images(root: &Path, steps: &mut Steps, overwrite: bool) -> Result<Built, 
             size::check(elf, &root.join(budget), overwrite)
         })
     })?;
-    steps.step("panic check", || panic_check::run(root, &built))?;
+    steps.step("panic check", || panic_check::run(root))?;
     Ok(built)
 }

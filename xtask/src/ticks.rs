@@ -6,6 +6,7 @@ use crate::{
     stop::Stop,
     tools,
 };
+use serde_json::Value;
 use std::{fmt::Write as _, fs, path::Path};
 
 /// The table, from the root.
@@ -70,11 +71,10 @@ fn measure(root: &Path, elf: &Path, log: Option<&str>, set: &[&str]) -> Result<(
     }
     output(&mut command)?;
     let summary = folder.join("summary.json");
-    let summary = fs::read_to_string(&summary).map_err(|error| Stop::failed(format!("{}: {error}", summary.display())))?;
-    let number = |key: &str| {
-        let (_, rest) = summary.split_once(&format!("\"{key}\":"))?;
-        rest.split(['\n', ',', '}']).next()?.trim().parse().ok()
-    };
+    let cannot = |error: &dyn std::fmt::Display| Stop::failed(format!("{}: {error}", summary.display()));
+    let text = fs::read_to_string(&summary).map_err(|error| cannot(&error))?;
+    let read: Value = serde_json::from_str(&text).map_err(|error| cannot(&error))?;
+    let number = |key: &str| read["runs"][0][key].as_u64().and_then(|number| u32::try_from(number).ok());
     number("instructions_per_tick")
         .zip(number("instructions_per_tick_worst"))
         .ok_or_else(|| Stop::failed("the summary has no instructions_per_tick"))
