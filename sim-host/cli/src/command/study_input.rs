@@ -1,6 +1,5 @@
 //! What commands that run a study over records have in common: the study, its records, and what is said of them on the command line.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -12,9 +11,9 @@ use sprag_sim::scene::SceneError;
 use sprag_studies::cloud::records::{StudyRecord, StudyRecords};
 use sprag_studies::cloud::study::{Study, StudyError};
 
+use super::context::Context;
 use super::out_arguments::file_of;
 use super::record_arguments::ReadArguments;
-use super::warned;
 
 /// A study and its records.
 #[derive(Args, Clone, Debug)]
@@ -28,7 +27,7 @@ pub struct StudyArguments {
     /// How they are read.
     #[command(flatten)]
     pub reading: ReadArguments,
-    /// Change one value of the study's scene, such as block.size_m=2 or device.1.mass_ratio=0.5.
+    /// Change one value of the study's scene, such as block.size_m=2 or device.1.mass_ratio=0.5; may be given more than once.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
 }
@@ -37,10 +36,10 @@ pub struct StudyArguments {
 #[derive(Debug, thiserror::Error)]
 pub enum StudyInputError {
     /// The study, or its scene.
-    #[error("{0}")]
+    #[error(transparent)]
     Study(#[from] StudyError),
     /// What the study says of a record.
-    #[error("{0}")]
+    #[error(transparent)]
     Record(#[from] SceneError),
     /// There is no record at all.
     #[error("{}: no record could be read{}", study.display(), first.as_ref().map_or_else(String::new, |line| format!("; {line}")))]
@@ -65,7 +64,7 @@ impl StudyArguments {
         Ok(study)
     }
 
-    /// The records of `study`, one at least, and the warnings of both; `err` gets these and what cannot be read.
+    /// The records of `study`, one at least, and the warnings of both, which are reported with what cannot be read.
     ///
     /// # Errors
     /// [`StudyInputError`] for what the study says of its records, and where none can be read.
@@ -73,7 +72,7 @@ impl StudyArguments {
         &self,
         study: &Study,
         pool: &ThreadPool,
-        err: &mut impl Write,
+        context: &mut Context<'_>,
     ) -> Result<(StudyRecords, Vec<String>), StudyInputError> {
         let reading = Progress::uncounted("reading records");
         let records = pool.install(|| StudyRecords::read(study))?;
@@ -83,9 +82,9 @@ impl StudyArguments {
             return Err(StudyInputError::NoRecord { study: self.study.clone(), first });
         }
         for line in &records.unreadable {
-            let _ = writeln!(err, "sprag: {line}");
+            context.note(line);
         }
-        let warnings = warned(study.warnings().into_iter().chain(records.warnings()), err);
+        let warnings = context.warned(study.warnings().into_iter().chain(records.warnings()));
         Ok((records, warnings))
     }
 

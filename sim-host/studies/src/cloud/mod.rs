@@ -20,7 +20,6 @@ pub mod runs;
 pub mod structures;
 pub mod study;
 pub mod study_file;
-pub mod table;
 pub mod typed_tables;
 
 #[cfg(test)]

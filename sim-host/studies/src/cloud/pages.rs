@@ -5,12 +5,12 @@ use super::findings::Findings;
 use super::measure::Measure;
 use super::overturning::DeviceFragility;
 use super::study::Study;
-use super::table::{Table, change, number};
 use super::typed_tables::ratio_of;
 use crate::statistics::{Band, Fragility};
+use sprag_report::text_table::{self, TextTable, change, true_minus};
 
 /// The power laws, as a table.
-pub fn demand_table(findings: &Findings) -> Table {
+pub fn demand_table(findings: &Findings) -> TextTable {
     let titles = [
         "structure",
         "demand",
@@ -26,7 +26,7 @@ pub fn demand_table(findings: &Findings) -> Table {
         "change, pairs",
         "pairs",
     ];
-    let mut table = Table::new(3, &titles);
+    let mut table = TextTable::new(3, titles);
     for model in &findings.demand {
         let law = model.law.as_ref();
         let ratio = ratio_of(findings, model);
@@ -41,8 +41,8 @@ pub fn demand_table(findings: &Findings) -> Table {
             number(law.map(|law| law.b), 3),
             number(law.and_then(|law| law.r_squared), 3),
             number(law.map(|law| law.dispersion), 3),
-            change(ratio.and_then(|ratio| ratio.medians).map(|medians| medians.middle)),
-            change(ratio.and_then(|ratio| ratio.pairs).map(|pairs| pairs.median)),
+            change(ratio.and_then(|ratio| ratio.medians).map(|medians| medians.middle - 1.0)),
+            change(ratio.and_then(|ratio| ratio.pairs).map(|pairs| pairs.median - 1.0)),
             ratio.map_or_else(|| "-".to_owned(), |ratio| ratio.number_of_pairs.to_string()),
         ]);
     }
@@ -50,7 +50,7 @@ pub fn demand_table(findings: &Findings) -> Table {
 }
 
 /// The fragilities, as a table.
-pub fn fragility_table(findings: &Findings) -> Table {
+pub fn fragility_table(findings: &Findings) -> TextTable {
     let titles = [
         "structure",
         "device",
@@ -71,7 +71,7 @@ pub fn fragility_table(findings: &Findings) -> Table {
             *title = title.replace("95 %", &percent(level));
         }
     }
-    let mut table = Table::new(2, &titles.each_ref().map(String::as_str));
+    let mut table = TextTable::new(2, titles);
     for found in &findings.fragility {
         let curve = found.fragility.curve();
         let with_error = |value: Option<f64>, error: Option<f64>| match (value, error) {
@@ -91,12 +91,17 @@ pub fn fragility_table(findings: &Findings) -> Table {
             with_error(curve.map(|curve| curve.beta), curve.map(|curve| curve.beta_standard_error)),
             band(found.bands.as_ref().and_then(|bands| bands.beta)),
             number(curve.map(|curve| curve.median), 2),
-            change(found.median_ratio),
+            change(found.median_ratio.map(|ratio| ratio - 1.0)),
             number(found.at_first.map(|at| at[0]), 4),
             number(found.at_first.map(|at| at[1]), 4),
         ]);
     }
     table
+}
+
+/// A number of a page; a dash for none.
+pub fn number(value: Option<f64>, digits: usize) -> String {
+    true_minus(&text_table::number(value, digits))
 }
 
 /// A share in percent without needless decimals.
@@ -177,7 +182,7 @@ pub fn ranking_page(study: &Study, findings: &Findings) -> String {
              rocks and stands; the smaller, the better. ζ = β/|b| is the proficiency.\n";
     for demand in Demand::ALL {
         page += &format!("\n## {}\n\n", demand.name());
-        let mut table = Table::new(3, &["structure", "device", "measure", "rank", "β", "R²", "b", "ζ", "runs"]);
+        let mut table = TextTable::new(3, ["structure", "device", "measure", "rank", "β", "R²", "b", "ζ", "runs"]);
         for ranking in findings.ranking.iter().filter(|ranking| ranking.demand == demand) {
             for measure in &ranking.efficiency.ranked {
                 let formula = Measure::ALL.into_iter().find(|other| other.name() == measure.name).map(Measure::formula);

@@ -4,8 +4,8 @@ use super::findings::{Findings, Row};
 use super::limit::Quantity;
 use super::notes::{device, share, short};
 use super::problem::{Choices, Problem};
-use crate::cloud::pages::percent;
-use crate::cloud::table::{Table, number};
+use crate::cloud::pages::{number, percent};
+use sprag_report::text_table::TextTable;
 
 /// The heading of an optimisation.
 pub fn heading<'a>(choices: &'a Choices<'_>) -> &'a str {
@@ -14,7 +14,7 @@ pub fn heading<'a>(choices: &'a Choices<'_>) -> &'a str {
 }
 
 /// The bare block, the choice, and what would be chosen without limits if that is another.
-pub fn choice_table(findings: &Findings) -> Table {
+pub fn choice_table(findings: &Findings) -> TextTable {
     let mut rows = vec![("bare block", &findings.reference)];
     rows.extend(findings.best.as_ref().map(|row| ("best", row)));
     rows.extend(findings.nearest.as_ref().map(|nearest| ("nearest to the limits", &nearest.design)));
@@ -25,12 +25,12 @@ pub fn choice_table(findings: &Findings) -> Table {
 }
 
 /// Rows, each under what it is.
-fn table(findings: &Findings, rows: &[(&str, &Row)]) -> Table {
+fn table(findings: &Findings, rows: &[(&str, &Row)]) -> TextTable {
     let band = format!("{} band", percent(findings.level.value()));
     let titles = ["", "device", "overturned", "share", &band, "saved", "newly", "F/(mg)", "stroke (m)", "median θ/α"];
     // Without the first column where it says nothing.
     let first = usize::from(rows.iter().all(|(what, _)| what.is_empty()));
-    let mut table = Table::new(2 - first, &titles[first..]);
+    let mut table = TextTable::new(2 - first, titles.into_iter().skip(first));
     for (what, row) in rows {
         let band = row.probability_band;
         let of_device = |value: Option<f64>, digits: usize| number(value.filter(|_| row.candidate.is_some()), digits);
@@ -135,12 +135,13 @@ fn price(choices: &Choices<'_>, findings: &Findings) -> String {
         };
     }
     if !findings.limits_reached.is_empty() {
-        page += "\n| limit | law, mount | within at σ | beyond at σ |\n| --- | --- | ---: | ---: |\n";
+        let mut table = TextTable::new(2, ["limit", "law, mount", "within at σ", "beyond at σ"]);
         for found in &findings.limits_reached {
             let name = if found.limit == Quantity::Force { "force" } else { "stroke" };
             let [within, beyond] = [found.mass_ratio_within, found.mass_ratio_beyond].map(short);
-            page += &format!("| {name} | {}, {} | {within} | {beyond} |\n", found.law, found.mount);
+            table.row(vec![name.to_owned(), format!("{}, {}", found.law, found.mount), within, beyond]);
         }
+        page += &format!("\n{}", table.markdown());
     }
     let stroke = choices.limits.stroke.map(|_| ("stroke", &findings.fronts.stroke));
     for (name, front) in std::iter::once(("force", &findings.fronts.force)).chain(stroke) {

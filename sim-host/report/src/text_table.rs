@@ -1,0 +1,151 @@
+//! Tables for people: aligned columns for a terminal, or Markdown that is aligned as well.
+
+use console::measure_text_width;
+
+use crate::columns::{Column, RowWriter, Table, TableError, Value};
+
+/// A table whose first columns are words, to the left, and the others numbers, to the right.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TextTable {
+    /// Number of columns of words.
+    words: usize,
+    /// The headings, then the rows, all of the same number of cells.
+    rows: Vec<Vec<String>>,
+}
+
+/// Space between two columns of a terminal.
+const GAP: &str = "  ";
+
+impl TextTable {
+    /// A table without rows, with these headings, the first `words` of which are above words.
+    pub fn new<H: Into<String>>(words: usize, headings: impl IntoIterator<Item = H>) -> TextTable {
+        TextTable { words, rows: vec![headings.into_iter().map(Into::into).collect()] }
+    }
+
+    /// Adds a row.
+    pub fn row(&mut self, cells: Vec<String>) {
+        self.rows.push(cells);
+    }
+
+    /// Markdown.
+    pub fn markdown(&self) -> String {
+        let escaped: Vec<Vec<String>> =
+            self.rows.iter().map(|row| row.iter().map(|cell| cell.replace('|', "\\|")).collect()).collect();
+        let widths: Vec<usize> = widths(&escaped).into_iter().map(|width| width.max(3)).collect();
+        let line = |row: &Vec<String>| format!("| {} |\n", self.aligned(row, &widths).join(" | "));
+        let rule = widths.iter().enumerate().map(|(column, width)| {
+            let dashes = "-".repeat(width + 1);
+            format!("|{dashes}{}", if column < self.words { '-' } else { ':' })
+        });
+        let rule = rule.collect::<String>() + "|\n";
+        escaped.iter().take(1).map(line).chain([rule]).chain(escaped.iter().skip(1).map(line)).collect()
+    }
+
+    /// Columns that are aligned by spaces.
+    pub fn plain(&self) -> String {
+        let widths = widths(&self.rows);
+        let line = |row: &Vec<String>| self.aligned(row, &widths).join(GAP).trim_end().to_owned() + "\n";
+        self.rows.iter().map(line).collect()
+    }
+
+    fn aligned(&self, row: &[String], widths: &[usize]) -> Vec<String> {
+        let cell = |(column, (cell, width)): (usize, (&String, &usize))| {
+            let space = " ".repeat(width.saturating_sub(measure_text_width(cell)));
+            if column < self.words { format!("{cell}{space}") } else { format!("{space}{cell}") }
+        };
+        row.iter().zip(widths).enumerate().map(cell).collect()
+    }
+}
+
+impl Table for TextTable {
+    fn columns(&self) -> Vec<Column> {
+        self.rows.iter().take(1).flatten().map(Column::text).collect()
+    }
+
+    fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
+        let mut values = self.rows.iter().skip(1).map(|row| row.iter().map(Value::from).collect::<Vec<_>>());
+        values.try_for_each(|row| writer.row(&row))
+    }
+}
+
+/// Width of every column in a terminal.
+fn widths(rows: &[Vec<String>]) -> Vec<usize> {
+    let columns = rows.first().map_or(0, Vec::len);
+    let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(|cell| measure_text_width(cell)).max();
+    (0..columns).map(|column| width(column).unwrap_or(0)).collect()
+}
+
+/// A number with `digits` decimals; a dash for none and for one that is not finite.
+pub fn number(value: impl Into<Option<f64>>, digits: usize) -> String {
+    match value.into() {
+        Some(value) if value.is_finite() => format!("{value:.digits$}"),
+        _ => "-".to_owned(),
+    }
+}
+
+/// A relative change in percent with a sign and no decimals; a dash for none.
+pub fn change(change: impl Into<Option<f64>>) -> String {
+    percent(change.into().map(|change| (100.0 * change).round()), 0)
+}
+
+/// A relative change in percent with a sign and one decimal; a dash for none.
+pub fn change_in_tenths(change: impl Into<Option<f64>>) -> String {
+    percent(change.into().map(|change| (1000.0 * change).round() / 10.0), 1)
+}
+
+/// Rounded percent, without a sign where it is nothing.
+fn percent(percent: Option<f64>, digits: usize) -> String {
+    match percent {
+        Some(0.0) => "0 %".to_owned(),
+        Some(percent) if percent.is_finite() => true_minus(&format!("{percent:+.digits$} %")),
+        _ => "-".to_owned(),
+    }
+}
+
+/// The number with a true minus sign, for pages.
+pub fn true_minus(number: &str) -> String {
+    match number {
+        "-" => number.to_owned(),
+        _ => number.replace('-', "\u{2212}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table() -> TextTable {
+        let mut table = TextTable::new(1, ["device", "|θ\u{307}|"]);
+        table.row(vec!["a|b".to_owned(), number(-0.25, 1)]);
+        table.row(vec!["\u{5730}\u{9707}".to_owned(), number(None, 1)]);
+        table
+    }
+
+    #[test]
+    fn rows_are_as_wide_as_a_terminal_shows_them() {
+        for text in [table().markdown(), table().plain()] {
+            let width = measure_text_width(text.lines().next().unwrap());
+            assert!(text.lines().all(|line| measure_text_width(line) == width), "{text}");
+        }
+        assert_eq!((table().markdown().lines().count(), table().plain().lines().count()), (4, 3));
+    }
+
+    #[test]
+    fn markdown_escapes_bars_and_aligns_numbers_to_the_right() {
+        let text = table().markdown();
+        assert!(text.contains("a\\|b") && text.lines().nth(1).unwrap().ends_with("-:|"), "{text}");
+    }
+
+    #[test]
+    fn what_is_no_number_is_a_dash() {
+        assert_eq!([number(1.25, 1), number(Some(-2.0), 2)], ["1.2", "-2.00"]);
+        assert_eq!([number(None, 1), number(f64::NAN, 1), number(f64::INFINITY, 1)], ["-", "-", "-"]);
+    }
+
+    #[test]
+    fn changes_have_a_sign_and_no_negative_zero() {
+        assert_eq!([-0.3, 0.004, 0.25, -0.004].map(change), ["\u{2212}30 %", "0 %", "+25 %", "0 %"]);
+        assert_eq!([0.1234, -0.5, -0.0001].map(change_in_tenths), ["+12.3 %", "\u{2212}50.0 %", "0 %"]);
+        assert_eq!([change(None), change(f64::INFINITY), change_in_tenths(f64::NAN)], ["-", "-", "-"]);
+    }
+}
