@@ -155,6 +155,18 @@ mod tests {
     }
 
     #[test]
+    fn every_option_says_what_it_does() {
+        fn terse(command: &clap::Command) -> Vec<String> {
+            let own = command.get_arguments().filter(|argument| !["help", "version"].contains(&argument.get_id().as_str()));
+            let help = |argument: &clap::Arg| argument.get_help().map(ToString::to_string).unwrap_or_default();
+            let short = own.filter(|argument| help(argument).split_whitespace().count() < 3);
+            let named = short.map(|argument| format!("{} {}", command.get_name(), argument.get_id()));
+            named.chain(command.get_subcommands().flat_map(terse)).collect()
+        }
+        assert_eq!(terse(&definition()), [""; 0]);
+    }
+
+    #[test]
     fn the_definition_has_no_contradiction() {
         definition().debug_assert();
     }

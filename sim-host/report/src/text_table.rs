@@ -2,13 +2,15 @@
 
 use console::measure_text_width;
 
-use crate::columns::{Column, RowWriter, Table, TableError, Value};
+use crate::columns::{Column, Kind, RowWriter, Shown, Table, TableError, Value};
 
 /// A table whose first columns are words, to the left, and the others numbers, to the right.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextTable {
     /// Number of columns of words.
     words: usize,
+    /// Whether the last column has words too.
+    ends_in_words: bool,
     /// The headings, then the rows, all of the same number of cells.
     rows: Vec<Vec<String>>,
 }
@@ -19,7 +21,26 @@ const GAP: &str = "  ";
 impl TextTable {
     /// A table without rows, with these headings, the first `words` of which are above words.
     pub fn new<H: Into<String>>(words: usize, headings: impl IntoIterator<Item = H>) -> TextTable {
-        TextTable { words, rows: vec![headings.into_iter().map(Into::into).collect()] }
+        TextTable { words, ends_in_words: false, rows: vec![headings.into_iter().map(Into::into).collect()] }
+    }
+
+    /// The table, whose last column has words too.
+    #[must_use]
+    pub fn ending_in_words(self) -> TextTable {
+        TextTable { ends_in_words: true, ..self }
+    }
+
+    /// The columns of `table` that people see, with its rows: words first.
+    ///
+    /// # Errors
+    /// [`TableError`] of a table that cannot be written either.
+    pub fn of(table: &dyn Table) -> Result<TextTable, TableError> {
+        let columns = table.columns();
+        let words = columns.iter().filter(|column| column.shown.is_some()).take_while(|column| column.kind == Kind::Text).count();
+        let headings = columns.iter().filter_map(|column| column.shown.map(|(heading, _)| heading));
+        let mut text = TextTable::new(words, headings);
+        table.rows(&mut Cells { columns: &columns, text: &mut text })?;
+        Ok(text)
     }
 
     /// Adds a row.
@@ -35,7 +56,7 @@ impl TextTable {
         let line = |row: &Vec<String>| format!("| {} |\n", self.aligned(row, &widths).join(" | "));
         let rule = widths.iter().enumerate().map(|(column, width)| {
             let dashes = "-".repeat(width + 1);
-            format!("|{dashes}{}", if column < self.words { '-' } else { ':' })
+            format!("|{dashes}{}", if self.has_words(column) { '-' } else { ':' })
         });
         let rule = rule.collect::<String>() + "|\n";
         escaped.iter().take(1).map(line).chain([rule]).chain(escaped.iter().skip(1).map(line)).collect()
@@ -48,10 +69,14 @@ impl TextTable {
         self.rows.iter().map(line).collect()
     }
 
+    fn has_words(&self, column: usize) -> bool {
+        column < self.words || (self.ends_in_words && self.rows.first().is_some_and(|row| column + 1 == row.len()))
+    }
+
     fn aligned(&self, row: &[String], widths: &[usize]) -> Vec<String> {
         let cell = |(column, (cell, width)): (usize, (&String, &usize))| {
             let space = " ".repeat(width.saturating_sub(measure_text_width(cell)));
-            if column < self.words { format!("{cell}{space}") } else { format!("{space}{cell}") }
+            if self.has_words(column) { format!("{cell}{space}") } else { format!("{space}{cell}") }
         };
         row.iter().zip(widths).enumerate().map(cell).collect()
     }
@@ -65,6 +90,28 @@ impl Table for TextTable {
     fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
         let mut values = self.rows.iter().skip(1).map(|row| row.iter().map(Value::from).collect::<Vec<_>>());
         values.try_for_each(|row| writer.row(&row))
+    }
+}
+
+/// Takes rows as their cells.
+struct Cells<'t> {
+    columns: &'t [Column],
+    text: &'t mut TextTable,
+}
+
+impl RowWriter for Cells<'_> {
+    fn row(&mut self, values: &[Value<'_>]) -> Result<(), TableError> {
+        let cell = |(column, value): (&Column, &Value<'_>)| {
+            Some(match (column.shown?.1, value) {
+                (_, Value::Nothing) => "-".to_owned(),
+                (_, Value::Text(text)) => (*text).to_owned(),
+                (_, Value::Count(count)) => count.to_string(),
+                (Shown::Digits(digits), Value::Number(value)) => true_minus(&number(*value, digits)),
+                (Shown::Change, Value::Number(ratio)) => change(ratio - 1.0),
+            })
+        };
+        self.text.row(self.columns.iter().zip(values).filter_map(cell).collect());
+        Ok(())
     }
 }
 
@@ -128,6 +175,30 @@ mod tests {
             assert!(text.lines().all(|line| measure_text_width(line) == width), "{text}");
         }
         assert_eq!((table().markdown().lines().count(), table().plain().lines().count()), (4, 3));
+    }
+
+    #[test]
+    fn people_see_the_columns_that_have_a_heading() {
+        struct Two;
+        impl Table for Two {
+            fn columns(&self) -> Vec<Column> {
+                vec![
+                    Column::text("device").shown("device", Shown::Digits(0)),
+                    Column::number("hidden"),
+                    Column::number("ratio").or_nothing().shown("change", Shown::Change),
+                    Column::number("b").shown("β", Shown::Digits(2)),
+                ]
+            }
+            fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
+                writer.row(&["pair".into(), 7.0.into(), 0.7.into(), (-0.128).into()])?;
+                writer.row(&["none".into(), 7.0.into(), Value::Nothing, f64::NAN.into()])
+            }
+        }
+        let text = TextTable::of(&Two).unwrap().plain();
+        let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split("  ").map(str::trim).collect()).collect();
+        let rows: Vec<Vec<&str>> =
+            rows.into_iter().map(|row| row.into_iter().filter(|cell| !cell.is_empty()).collect()).collect();
+        assert_eq!(rows, [["device", "change", "β"], ["pair", "\u{2212}30 %", "\u{2212}0.13"], ["none", "-", "-"]]);
     }
 
     #[test]

@@ -18,7 +18,7 @@ use sprag_studies::optimise::findings::{Findings, Row};
 use sprag_studies::optimise::page::{choice_table, page};
 use sprag_studies::optimise::problem::{Choices, Problem, Solution};
 use sprag_studies::optimise::tried::{MOST_ROWS, Tried, TriedError};
-use sprag_studies::optimise::typed_tables::{DesignTable, MotionTable};
+use sprag_studies::optimise::typed_tables::{design_table, motion_table};
 use sprag_studies::statistics::quantile;
 use sprag_tests::pulse_records::sine_pulses;
 use sprag_tests::scene_text::runs;
@@ -56,7 +56,7 @@ struct Designs {
 impl Designs {
     fn of(findings: &Findings) -> Designs {
         let mut bytes = Vec::new();
-        write_csv(&DesignTable(findings), &mut bytes).unwrap();
+        write_csv(&design_table(findings), &mut bytes).unwrap();
         let text = String::from_utf8(bytes).unwrap();
         // Names of mounts with a pulley hold a comma.
         let fields = |line: &str| -> Vec<String> {
@@ -189,9 +189,9 @@ fn results_have_the_same_bytes_for_every_number_of_threads() {
         pool.install(|| {
             answered(&study, |problem, solution, findings| {
                 let mut bytes = Vec::new();
-                write_csv(&DesignTable(findings), &mut bytes).unwrap();
+                write_csv(&design_table(findings), &mut bytes).unwrap();
                 let chosen = findings.best.as_ref();
-                write_csv(&MotionTable { problem, solution, chosen }, &mut bytes).unwrap();
+                write_csv(&motion_table(problem, solution, chosen), &mut bytes).unwrap();
                 bytes.extend(page(problem, findings).into_bytes());
                 bytes.extend(choice_table(findings).markdown().into_bytes());
                 bytes.extend(trade_off_picture(problem, findings).unwrap().into_bytes());

@@ -7,7 +7,7 @@ use serde::Serialize;
 use sprag_report::progress::Progress;
 use sprag_sim::record::warning_lines;
 use sprag_studies::accuracy_study::figure::figures;
-use sprag_studies::accuracy_study::report::{RowTable, page};
+use sprag_studies::accuracy_study::report::{page, row_table};
 use sprag_studies::accuracy_study::row::RowText;
 use sprag_studies::accuracy_study::study::{Extent, study};
 
@@ -22,7 +22,7 @@ use crate::board::step_cost::measure;
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag accuracy scenes/figure10.toml\n  \
     sprag accuracy scenes/near_fault.toml --smallest-step 1e-3 --qemu\n\n\
-    Writes accuracy.csv, accuracy.md, summary.json and the pictures work_precision.svg, order.svg, sines.svg, wrong_outcomes.svg and, \
+    The scene must have ideal devices over horizontal ground. Writes accuracy.csv, accuracy.md, summary.json and the pictures work_precision.svg, order.svg, sines.svg, wrong_outcomes.svg and, \
     with --qemu, board.svg; with --png as .png too. Times are of this machine; everything else is the same on any.")]
 pub struct AccuracyCommandArguments {
     /// The scene.
@@ -95,7 +95,7 @@ impl Run for AccuracyCommandArguments {
         let input = SceneInput { scene: &scene.file };
         let mut report = Report::new("accuracy", &folder, &self.output)?;
         report.summary("summary.json", &summary("accuracy", input, &ground.records, &warnings, &claim.subject, answer))?;
-        report.table("accuracy", &RowTable(&runs))?;
+        report.table("accuracy", &row_table(&runs))?;
         let page = page(title, &rows, &devices);
         report.page("accuracy.md", &page)?;
         for (name, figure) in figures(title, &rows, &devices)? {

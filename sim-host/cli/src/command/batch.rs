@@ -26,10 +26,10 @@ use super::thread_arguments::ThreadArguments;
     and the result file\n  {RESULT_COLUMNS}\nwith times in 1/p from the pulse's start; with --accuracy or --time-budget also\n  {ERROR_COLUMNS}\n\
     Rows keep their order, whatever the number of threads."))]
 pub struct BatchArguments {
-    /// Case file.
+    /// Case file: a block and a pulse in each row.
     #[arg(value_name = "CASES.csv")]
     pub cases: PathBuf,
-    /// Result file.
+    /// File for the results, a row for each case.
     #[arg(long, value_name = "RESULTS.csv")]
     pub out: PathBuf,
     /// What may be replaced.

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Error, anyhow};
 use clap::{Args, Subcommand};
+use sprag_report::columns::write_csv;
 use sprag_report::output::{Results, claim_file, is_standard_output};
 use sprag_shared::control::monitor::fault::{Fault, Recovery};
 use sprag_shared::control::supervisor::Phase;
@@ -19,7 +20,7 @@ use super::context::{Completion, Context, Interrupted, Run};
 use super::loop_scene::LoopScene;
 use super::out_arguments::OverwriteArguments;
 use super::record_arguments::SceneRecordArguments;
-use crate::board::event_table::{what, write_csv, write_table};
+use crate::board::event_table::{rows, table, what};
 use crate::board::line::{DeviceError, Line};
 use crate::board::session::Session;
 use crate::board::strip_chart::StripChart;
@@ -385,13 +386,13 @@ fn log(session: &mut Talk, given: &LogArguments, out: &mut impl Write) -> anyhow
     let (entries, total) = session.log()?;
     if let Some(path) = &given.csv {
         let mut results = Results::default();
-        results.add(path, |file| write_csv(&entries, period, file))?;
+        results.add(path, |file| Ok(write_csv(&rows(&entries, period), file)?))?;
         results.commit()?;
         if !is_standard_output(path) {
             writeln!(out, "{} of {total} entries in {}", entries.len(), path.display())?;
         }
     } else {
-        write_table(&entries, total, period, out)?;
+        writeln!(out, "{}{} of {total} entries", table(&entries, period).plain(), entries.len())?;
     }
     Ok(())
 }

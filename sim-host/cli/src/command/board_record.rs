@@ -6,8 +6,10 @@ use std::time::{Duration, Instant};
 
 use anyhow::anyhow;
 use clap::Args;
+use sprag_report::columns::write_csv;
 use sprag_report::output::{Results, claim_file, is_standard_output};
 use sprag_report::plot::{FigureTitle, RecordingTrace, recording_figure};
+use sprag_report::text_table::TextTable;
 use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::device::recorder::CAPACITY;
@@ -103,9 +105,7 @@ fn chosen<'a>(given: &RecordArguments, parts: &'a Parts) -> anyhow::Result<Vec<(
 }
 
 fn show(state: &RecorderState, parts: &Parts, period: f64, out: &mut impl Write) -> anyhow::Result<()> {
-    if !parts.is_empty() {
-        writeln!(out, "{:>10} {:>5} {:>9} {:>10} {:>8}  what", "earthquake", "part", "ticks", "time s", "pages")?;
-    }
+    let mut table = TextTable::new(0, ["earthquake", "part", "ticks", "time s", "pages", "what"]).ending_in_words();
     for ((number, part), Part { pages, ticks, unfinished, ends }) in parts {
         let Some((_, header)) = pages.first() else { continue };
         let mut notes = Vec::new();
@@ -119,7 +119,11 @@ fn show(state: &RecorderState, parts: &Parts, period: f64, out: &mut impl Write)
             notes.push("no end: a reset, no more room, or it goes on".to_owned());
         }
         let seconds = f64::from(*ticks) * f64::from(header.period);
-        writeln!(out, "{number:>10} {part:>5} {ticks:>9} {seconds:>10.3} {:>8}  {}", pages.len(), notes.join(", "))?;
+        let numbers = [number.to_string(), part.to_string(), ticks.to_string(), format!("{seconds:.3}")];
+        table.row(numbers.into_iter().chain([pages.len().to_string(), notes.join(", ")]).collect());
+    }
+    if !parts.is_empty() {
+        write!(out, "{}", table.plain())?;
     }
     writeln!(out, "{}", room(state, period))?;
     Ok(())
@@ -153,7 +157,7 @@ pub fn room(state: &RecorderState, period: f64) -> String {
 fn save(given: &RecordArguments, recordings: &[Recording], out: &mut impl Write) -> anyhow::Result<()> {
     let mut results = Results::default();
     if let Some(path) = &given.out {
-        results.add(path, |file| recordings::write_csv(recordings, file))?;
+        results.add(path, |file| Ok(write_csv(&recordings::table(recordings), file)?))?;
     }
     if let (Some(path), [recording]) = (&given.svg, recordings) {
         let name = format!("earthquake {}, part {}", recording.number, recording.part);

@@ -11,6 +11,7 @@ use sprag_report::heading::of_scene;
 use sprag_report::output::{ResultFolder, Subject};
 use sprag_report::plot::{FigureTitle, loop_figure};
 use sprag_report::progress::Progress;
+use sprag_report::text_table::TextTable;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::accuracy::budget;
 use sprag_sim::closed_loop::LoopFailure;
@@ -38,7 +39,7 @@ use super::thread_arguments::ThreadArguments;
 #[command(after_help = "Examples:\n  sprag loop scenes/controller.toml\n  \
     sprag loop scenes/controller.toml --set controller.law=gated-table --out out/gated\n  \
     sprag loop scenes/controller.toml --monte-carlo 200\n\n\
-    Writes summary.json, history.csv and loop.svg; with --monte-carlo also monte_carlo.csv; with --png loop.png.")]
+    The scene needs a device of kind clutched-pair; without a [controller] table it has the default controller. Writes summary.json, history.csv and loop.svg; with --monte-carlo also monte_carlo.csv; with --png loop.png.")]
 pub struct LoopArguments {
     /// The scene.
     #[command(flatten)]
@@ -99,7 +100,7 @@ impl Run for LoopArguments {
         let specimens = self.monte_carlo.map(|count| monte_carlo(&pool, &desk, &mut reports, count, interrupt)).transpose()?;
         let mut report = Report::new("loop", &folder, &self.output)?;
         if let Some(table) = specimens {
-            report.page("monte_carlo.csv", &table)?;
+            report.table("monte_carlo", &table)?;
         }
         let runs: Vec<LoopSummary> = reports.iter().map(|report| report.summary.clone()).collect();
         let (file, answer) = (desk.resolved(), Answer { monte_carlo: self.monte_carlo, runs: &runs });
@@ -220,11 +221,12 @@ fn monte_carlo(
     reports: &mut [LoopReport],
     count: NonZeroUsize,
     interrupt: &Interrupt,
-) -> anyhow::Result<String> {
+) -> anyhow::Result<TextTable> {
     let pairs = &desk.pairs;
     let progress = Progress::new("specimens");
     progress.begin((count.get() * pairs.len()) as u64);
-    let mut table = String::from("device,seed,outcome,peak_rotation,wrong_share,switches,chatter,faults\n");
+    let mut table =
+        TextTable::new(1, ["device", "seed", "outcome", "peak_rotation", "wrong_share", "switches", "chatter", "faults"]);
     for (report, &index) in reports.iter_mut().zip(pairs) {
         let runs = specimens(pool, desk, index, count.get(), interrupt, || progress.step())?;
         let (mut peaks, mut overturned) = (Vec::new(), 0);
@@ -235,14 +237,16 @@ fn monte_carlo(
                 peaks.push(peak);
             }
             let decisions = &ending.decisions;
-            table.push_str(&format!(
-                "\"{}\",{seed},{outcome},{peak},{},{},{},{}\n",
-                report.summary.device.replace('"', "\"\""),
-                decisions.wrong_share,
-                decisions.switches,
-                decisions.chatter,
-                ending.faults.len()
-            ));
+            table.row(vec![
+                report.summary.device.clone(),
+                seed.to_string(),
+                outcome.to_string(),
+                peak.to_string(),
+                decisions.wrong_share.to_string(),
+                decisions.switches.to_string(),
+                decisions.chatter.to_string(),
+                ending.faults.len().to_string(),
+            ]);
         }
         let at = |share: f64| quantile(&peaks, share).filter(|value| value.is_finite());
         report.summary.monte_carlo = Some(sprag_sim::closed_loop::report::Scatter {

@@ -11,17 +11,18 @@ use sprag_report::long_run::rows::{Plan, Rows};
 use sprag_report::long_run::shard::Shard;
 use sprag_report::output::{Claim, ResultFolder, Subject};
 use sprag_report::progress::Progress;
+use sprag_report::text_table::TextTable;
 use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
 use sprag_studies::cloud::figures::{demand_picture, fragility_picture};
 use sprag_studies::cloud::findings::Findings;
-use sprag_studies::cloud::pages::{demand_page, demand_table, fragility_notes, fragility_page, fragility_table, ranking_page};
+use sprag_studies::cloud::pages::{demand_page, fragility_notes, fragility_page, fragility_text, ranking_page};
 use sprag_studies::cloud::records::StudyRecords;
 use sprag_studies::cloud::runs::{RunList, Runs};
 use sprag_studies::cloud::structures::StudyStructure;
 use sprag_studies::cloud::study::Study;
 use sprag_studies::cloud::study_file::StudyFile;
-use sprag_studies::cloud::typed_tables::{DemandTable, FragilityTable, RankingTable, RunsTable};
+use sprag_studies::cloud::typed_tables::{demand_table, fragility_table, ranking_table, runs_table};
 
 use super::accuracy_arguments::AccuracyArguments;
 use super::context::{Completion, Context, Run};
@@ -39,7 +40,7 @@ use crate::command::long_run_arguments::LongRunArguments;
     Runs every structure of the study under every record, scaled as it says, with every device. Writes the tables runs, demand, \
     fragility and ranking as .csv and .parquet, the last three as .md too, the pictures demand and fragility as .svg and .png, \
     and summary.json. A record that cannot be read and a run that fails are named, the others are still done, and the exit \
-    code is 2. Runs go to the disk as they are made, runs.run.json says what they come from, and Ctrl-C leaves them there for \
+    code is 1. Runs go to the disk as they are made, runs.run.json says what they come from, and Ctrl-C leaves them there for \
     --resume.")]
 pub struct CloudArguments {
     /// The study.
@@ -179,7 +180,7 @@ fn fill(report: &mut Report, studied: &Studied<'_>, findings: &Findings, warning
     report.made_by("cloud", MadeOf { input, seed: study.bootstrap.seed })?;
     let answer = Answer { unreadable: &records.unreadable, findings, left_out: &runs.left_out, accuracy: runs.worst };
     report.summary("summary.json", &summary("cloud", input, &records.summaries(), warnings, subject, answer))?;
-    let of_runs = RunsTable { study, records: &records.records, runs: &runs.all };
+    let of_runs = runs_table(study, &records.records, &runs.all);
     match rows {
         None => {
             report.table("runs", &of_runs)?;
@@ -188,20 +189,20 @@ fn fill(report: &mut Report, studied: &Studied<'_>, findings: &Findings, warning
         }
         Some(rows) => report.rows(rows, &of_runs.columns())?,
     }
-    report.table("demand", &DemandTable(findings))?;
-    report.table("fragility", &FragilityTable(findings))?;
-    report.table("ranking", &RankingTable(findings))?;
-    report.page("demand.md", &demand_page(study, findings))?;
+    report.table("demand", &demand_table(findings))?;
+    report.table("fragility", &fragility_table(findings))?;
+    report.table("ranking", &ranking_table(findings))?;
+    report.page("demand.md", &demand_page(study, findings)?)?;
     report.page("fragility.md", &fragility_page(study, findings))?;
-    report.page("ranking.md", &ranking_page(study, findings))?;
+    report.page("ranking.md", &ranking_page(study, findings)?)?;
     for (name, picture) in [("demand", demand_picture(study, findings)), ("fragility", fragility_picture(study, findings))] {
         match picture.transpose() {
             Some(picture) => _ = report.picture(name, picture)?,
             None => report.note(format_args!("there is no picture of the {name}: there are no points for it")),
         }
     }
-    report.print(demand_table(findings).markdown());
-    report.print(format_args!("\n{}\n", fragility_table(findings).markdown()));
+    report.print(TextTable::of(&demand_table(findings))?.markdown());
+    report.print(format_args!("\n{}\n", fragility_text(findings).markdown()));
     fragility_notes(&findings.fragility).iter().for_each(|line| report.print(line));
     report.left_out(&runs.left_out);
     report.accuracy(runs.worst);

@@ -10,7 +10,7 @@ use super::context::{Completion, Context, Run};
 #[command(after_help = "Examples:\n  sprag completions bash > ~/.local/share/bash-completion/completions/sprag\n  \
     sprag completions fish > ~/.config/fish/completions/sprag.fish")]
 pub struct CompletionsArguments {
-    /// The shell.
+    /// Shell that the completions are for.
     #[arg(value_name = "SHELL")]
     pub shell: Shell,
 }

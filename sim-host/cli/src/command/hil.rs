@@ -28,7 +28,7 @@ use super::record_arguments::SceneRecordArguments;
 use super::report::{Report, Runs, SceneInput, summary};
 use super::scene_arguments::SceneArguments;
 use crate::board::driver::{DeviceDriver, DeviceTick, Farewell};
-use crate::board::report::{DeviceSummary, costs, write_device_ticks};
+use crate::board::report::{DeviceSummary, costs, device_ticks};
 use crate::board::session::Session;
 
 /// The same with the firmware, in an emulator or on a board.
@@ -37,7 +37,7 @@ use crate::board::session::Session;
     sprag hil scenes/controller.toml --qemu --log info --set controller.law=sign-table\n  \
     sprag hil scenes/controller.toml --board-image\n  \
     sprag hil scenes/controller.toml --port /dev/ttyUSB0\n\n\
-    --qemu builds the firmware and starts the emulator itself; --board-image builds the firmware as it goes to the board and runs it between \
+    The scene is one for `sprag loop`. --qemu builds the firmware and starts the emulator itself; --board-image builds the firmware as it goes to the board and runs it between \
     models of the board's parts, in some minutes. The device gets its settings from the scene. Writes what `sprag loop` \
     writes, the host's own loop as the thick line (the dashed one is the ideal pair), and device.csv with every tick of the device. However \
     it ends, the device is detached: a board goes on with its own sensors and the settings in its flash. Exit code 1 where a decision is \
@@ -94,7 +94,7 @@ impl Run for HilArguments {
         let input = SceneInput { scene: &file };
         report.summary("summary.json", &summary("hil", input, records, &warnings, &subject, Runs { runs: &summaries }))?;
         report.file("history.csv", |file| write_history(&reports, file).map_err(std::io::Error::other))?;
-        report.file("device.csv", |file| write_device_ticks(&ticks, file))?;
+        report.table("device", &device_ticks(&ticks))?;
         summaries.iter().for_each(|summary| report.print(summary));
         let differing: usize = summaries.iter().map(|summary| summary.ticks_differing).sum();
         if differing > 0 && !self.allow_different {

@@ -45,7 +45,7 @@ pub enum Study {
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag loop-study practice --out out/practice\n  \
     sprag loop-study laws --records records/*.AT2 --out out/laws\n\n\
-    Writes a page NAME.md, its tables as CSV and its pictures as SVG, with --png as PNG too, and NAME.run.json, which says what they
+    Writes a page NAME.md, its tables as CSV and its pictures as SVG, with --png as PNG too, and NAME.run.json, which says what they \
     are of and has the records that were read. The studies ideal-limit and faults take no records.")]
 pub struct LoopStudyArguments {
     /// Study to make.

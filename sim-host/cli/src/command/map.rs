@@ -16,7 +16,7 @@ use sprag_sim::scene::schema::SceneFile;
 use sprag_sim::scene::{Scene, SceneError, document, text_of};
 use sprag_studies::map::boundaries::{Boundaries, EVALUATIONS};
 use sprag_studies::map::boundary_figure;
-use sprag_studies::map::boundary_table::BoundaryTable;
+use sprag_studies::map::boundary_table::boundary_table;
 use sprag_studies::map::figures::figures;
 use sprag_studies::map::grid::Grid;
 use sprag_studies::map::study::{MapError, study_to};
@@ -51,7 +51,7 @@ pub struct MapArguments {
     /// Axis across, in the place of the scene's: any numeric key; with :log in equal factors.
     #[arg(long, value_name = "KEY=FROM:TO:CELLS")]
     pub x: Option<AxisTable>,
-    /// Axis up.
+    /// Axis up the map, in the place of the scene's, as --x has it.
     #[arg(long, value_name = "KEY=FROM:TO:CELLS")]
     pub y: Option<AxisTable>,
     /// Leave out the axis up: a cut along x.
@@ -61,7 +61,7 @@ pub struct MapArguments {
     /// long as the map, a minute and more for 512 x 512 cells.
     #[arg(long)]
     pub refine: bool,
-    /// Most blocks that --refine follows for one device; what that leaves coarser is told.
+    /// Most blocks that --refine follows for one device; what stays coarser is reported.
     #[arg(long, value_name = "N", requires = "refine", default_value_t = EVALUATIONS, value_parser = evaluations)]
     pub evaluations: usize,
     /// Records.
@@ -155,7 +155,7 @@ impl Run for MapArguments {
         }
         report.print(outcome_table(&tally.maps));
         if self.refine {
-            report.table("boundaries", &BoundaryTable { grid: &grid, all: &boundaries })?;
+            report.table("boundaries", &boundary_table(&grid, &boundaries))?;
             if let Some(picture) = boundary_figure::figure(&grid, &tally, &boundaries).transpose() {
                 report.picture("boundaries", picture)?;
             }

@@ -22,7 +22,7 @@ use sprag_studies::optimise::page::{choice_table, heading, limits, page};
 use sprag_studies::optimise::problem::{Choices, Problem, Solution};
 use sprag_studies::optimise::table::OptimiseTable;
 use sprag_studies::optimise::tried::{MOST_ROWS, Tried, TriedError};
-use sprag_studies::optimise::typed_tables::{DesignTable, MotionTable};
+use sprag_studies::optimise::typed_tables::{design_table, motion_table};
 
 use super::accuracy_arguments::AccuracyArguments;
 use super::context::{Completion, Context, Run};
@@ -40,7 +40,7 @@ use crate::command::long_run_arguments::ResumeArguments;
     Tries devices on a grid of mass ratios, for every law and mount of the study's [optimise] table, under every record, scaled \
     as the study says; then more where a limit is reached and around the best. Writes the tables designs and motions as .csv and \
     .parquet, the picture trade_off as .svg and .png, optimise.md and summary.json. Runs go to the disk as they are made, and Ctrl-C leaves \
-    them there for --resume. The exit code is 2 when no device respects the limits, and when a record cannot be read or \
+    them there for --resume. The exit code is 1 when no device respects the limits, and when a record cannot be read or \
     a run fails; results are written all the same.")]
 pub struct OptimiseArguments {
     /// The study.
@@ -222,8 +222,8 @@ fn fill(
     let candidates = Candidates { input, curves: &choices.curves };
     let answer = Answer { unreadable: &records.unreadable, findings, left_out, accuracy: solution.worst };
     report.summary("summary.json", &summary("optimise", candidates, &records.summaries(), warnings, subject, answer))?;
-    report.table("designs", &DesignTable(findings))?;
-    report.table("motions", &MotionTable { problem, solution, chosen: findings.best.as_ref() })?;
+    report.table("designs", &design_table(findings))?;
+    report.table("motions", &motion_table(problem, solution, findings.best.as_ref()))?;
     report.page("optimise.md", &page(problem, findings))?;
     report.picture("trade_off", trade_off_picture(problem, findings))?;
     let Findings { motions, designs, runs, notes, .. } = findings;

@@ -8,7 +8,7 @@ use sprag_sim::scene::{Scene, SceneError};
 /// A scene, and values of its keys.
 #[derive(Args, Clone, Debug)]
 pub struct SceneArguments {
-    /// Scene file.
+    /// Scene file: a block, its devices and the ground motion.
     #[arg(value_name = "SCENE.toml", value_hint = clap::ValueHint::FilePath)]
     pub scene: PathBuf,
     /// Change one value of the scene, such as block.size_m=2 or device.1.mass_ratio=0.5; may be given more than once.

@@ -15,7 +15,7 @@ use sprag_sim::scene::error::Key;
 use sprag_sim::scene::ground::{GroundError, Motion};
 use sprag_sim::scene::{Scene, SceneError};
 use sprag_studies::sensitivity::motion::{RecordFiles, StudyMotion};
-use sprag_studies::sensitivity::report::{ComparisonTable, page, table};
+use sprag_studies::sensitivity::report::{comparison_table, page, table};
 use sprag_studies::sensitivity::statistics::{Summary, summaries};
 use sprag_studies::sensitivity::study::{Findings, Flip, Study};
 
@@ -33,7 +33,7 @@ use super::thread_arguments::ThreadArguments;
     sprag sensitivity scenes/near_fault.toml --records records/*.AT2 --out out/sensitivity\n\n\
     Runs every device under the scene's ground motion and under each record in its place, as it is and with each variant. \
     Writes sensitivity.csv, sensitivity.md, sensitivity.svg (with --png sensitivity.png) and summary.json. A record that cannot be read and a run that \
-    fails are named, the others are still done, and the exit code is 2.")]
+    fails are named, the others are still done, and the exit code is 1.")]
 pub struct SensitivityArguments {
     /// The scene.
     #[command(flatten)]
@@ -180,7 +180,7 @@ fn fill(report: &mut Report, studied: &Studied, records: &[RecordSummary], warni
     let answer = Answer { runs: &runs, left_out: &left_out, accuracy: findings.worst };
     let input = SceneInput { scene: &scene.file };
     report.summary("summary.json", &summary("sensitivity", input, records, warnings, subject, answer))?;
-    report.table("sensitivity", &ComparisonTable { findings, motions, devices: &study.devices })?;
+    report.table("sensitivity", &comparison_table(findings, motions, &study.devices))?;
     report.page("sensitivity.md", &page(title, &runs, in_place, &left_out))?;
     let heading = FigureTitle { text: title.clone(), conditions };
     report.picture("sensitivity", sensitivity_figure(heading, &study.devices, &figure_rows(&runs)))?;

@@ -18,7 +18,7 @@ use super::record_arguments::ReadArguments;
 /// A study and its records.
 #[derive(Args, Clone, Debug)]
 pub struct StudyArguments {
-    /// Study file.
+    /// Study file: records, structures, devices, and what is asked of them.
     #[arg(value_name = "STUDY.toml")]
     pub study: PathBuf,
     /// Records and folders of them, in the place of the study's.

@@ -2,19 +2,21 @@
 
 use std::fmt::Write as _;
 
-use sprag_report::columns::{Column, Fields, RowWriter, Table, TableError};
+use sprag_report::columns::{Column, FieldTable, Fields, Table};
 use sprag_report::text_table::TextTable;
 
 use super::row::{Row, RowText, order};
 use super::variant::{Family, Number, Setting};
 
 /// `accuracy`: one device, followed in one way, a row.
-pub struct RowTable<'s>(pub &'s [RowText<'s>]);
+pub fn row_table<'s>(rows: &'s [RowText<'s>]) -> impl Table {
+    FieldTable { fields: fields(), rows: rows.iter().collect() }
+}
 
-fn fields<'s>() -> Fields<RowText<'s>> {
+fn fields<'s>() -> Fields<&'s RowText<'s>> {
     let number = |name: &str| Column::number(name).or_nothing();
     let truth = |truth: bool| if truth { "true" } else { "false" };
-    Fields::<RowText<'s>>::default()
+    Fields::<&'s RowText<'s>>::default()
         .with(Column::text("device"), |row| row.device.into())
         .with(Column::text("method"), |row| row.method.into())
         .with(Column::text("events"), |row| row.events.into())
@@ -31,17 +33,6 @@ fn fields<'s>() -> Fields<RowText<'s>> {
         .with(Column::count("board_instructions_per_step").or_nothing(), |row| row.board_instructions_per_step.into())
         .with(number("board_cycles_per_step"), |row| row.board_cycles_per_step.into())
         .with(Column::text("on_pareto_front"), move |row| truth(row.on_pareto_front).into())
-}
-
-impl Table for RowTable<'_> {
-    fn columns(&self) -> Vec<Column> {
-        fields().columns()
-    }
-
-    fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
-        let fields = fields();
-        self.0.iter().try_for_each(|row| fields.row(row, writer))
-    }
 }
 
 /// Errors from which an order is read: above rounding.

@@ -1,56 +1,16 @@
 //! The tables of a study as Markdown, for people.
 
-use super::demand::Demand;
 use super::findings::Findings;
 use super::measure::Measure;
 use super::overturning::DeviceFragility;
 use super::study::Study;
-use super::typed_tables::ratio_of;
+use super::typed_tables::{demand_table, fitted_table};
 use crate::statistics::{Band, Fragility};
+use sprag_report::columns::TableError;
 use sprag_report::text_table::{self, TextTable, change, true_minus};
 
-/// The power laws, as a table.
-pub fn demand_table(findings: &Findings) -> TextTable {
-    let titles = [
-        "structure",
-        "demand",
-        "device",
-        "in the law",
-        "no rocking",
-        "overturned",
-        "a",
-        "b",
-        "R²",
-        "β",
-        "change, medians",
-        "change, pairs",
-        "pairs",
-    ];
-    let mut table = TextTable::new(3, titles);
-    for model in &findings.demand {
-        let law = model.law.as_ref();
-        let ratio = ratio_of(findings, model);
-        table.row(vec![
-            model.structure.clone(),
-            model.demand.name().to_owned(),
-            model.device.clone(),
-            model.points.len().to_string(),
-            model.left_out.no_rocking.to_string(),
-            model.left_out.overturned.to_string(),
-            number(law.map(|law| law.a), 3),
-            number(law.map(|law| law.b), 3),
-            number(law.and_then(|law| law.r_squared), 3),
-            number(law.map(|law| law.dispersion), 3),
-            change(ratio.and_then(|ratio| ratio.medians).map(|medians| medians.middle - 1.0)),
-            change(ratio.and_then(|ratio| ratio.pairs).map(|pairs| pairs.median - 1.0)),
-            ratio.map_or_else(|| "-".to_owned(), |ratio| ratio.number_of_pairs.to_string()),
-        ]);
-    }
-    table
-}
-
 /// The fragilities, as a table.
-pub fn fragility_table(findings: &Findings) -> TextTable {
+pub fn fragility_text(findings: &Findings) -> TextTable {
     let titles = [
         "structure",
         "device",
@@ -111,7 +71,7 @@ pub fn percent(share: f64) -> String {
 }
 
 /// `demand.md`.
-pub fn demand_page(study: &Study, findings: &Findings) -> String {
+pub fn demand_page(study: &Study, findings: &Findings) -> Result<String, TableError> {
     let formula = study.file.demand.measure.formula();
     let mut page = format!("# {}: demand\n\n", heading(study));
     page += &format!(
@@ -121,13 +81,13 @@ pub fn demand_page(study: &Study, findings: &Findings) -> String {
          that range; and the median over single motions under which both blocks rock and stand.\n\n",
         study.devices[0]
     );
-    page += &demand_table(findings).markdown();
+    page += &TextTable::of(&demand_table(findings))?.markdown();
     for model in &findings.demand {
         if let Some(reason) = &model.reason {
             page += &format!("\n{}, {}, {}: no law, {reason}\n", model.structure, model.demand.name(), model.device);
         }
     }
-    page
+    Ok(page)
 }
 
 /// `fragility.md`.
@@ -140,7 +100,7 @@ pub fn fragility_page(study: &Study, findings: &Findings) -> String {
          where that of the first device is 0.1 and 0.5.\n\n",
         study.bootstrap.resamples, study.devices[0]
     );
-    page += &fragility_table(findings).markdown();
+    page += &fragility_text(findings).markdown();
     for line in fragility_notes(&findings.fragility) {
         page += &format!("\n{line}\n");
     }
@@ -176,37 +136,21 @@ pub fn short_reason(fragility: &Fragility) -> Option<&'static str> {
 }
 
 /// `ranking.md`.
-pub fn ranking_page(study: &Study, findings: &Findings) -> String {
+pub fn ranking_page(study: &Study, findings: &Findings) -> Result<String, TableError> {
     let mut page = format!("# {}: intensity measures\n\n", heading(study));
     page += "Measures by efficiency: the standard deviation β of ln demand about the power law of each, over the runs in which the block\n\
-             rocks and stands; the smaller, the better. ζ = β/|b| is the proficiency.\n";
-    for demand in Demand::ALL {
-        page += &format!("\n## {}\n\n", demand.name());
-        let mut table = TextTable::new(3, ["structure", "device", "measure", "rank", "β", "R²", "b", "ζ", "runs"]);
-        for ranking in findings.ranking.iter().filter(|ranking| ranking.demand == demand) {
-            for measure in &ranking.efficiency.ranked {
-                let formula = Measure::ALL.into_iter().find(|other| other.name() == measure.name).map(Measure::formula);
-                table.row(vec![
-                    ranking.structure.clone(),
-                    ranking.device.clone(),
-                    format!("{}: {}", measure.name, formula.unwrap_or_default()),
-                    measure.rank.to_string(),
-                    number(Some(measure.law.dispersion), 3),
-                    number(measure.law.r_squared, 3),
-                    number(Some(measure.law.b), 3),
-                    number(measure.proficiency, 3),
-                    ranking.runs.to_string(),
-                ]);
-            }
-        }
-        page += &table.markdown();
-        for ranking in findings.ranking.iter().filter(|ranking| ranking.demand == demand) {
-            for measure in &ranking.efficiency.unfitted {
-                page += &format!("\n{}, {}, {}: {}\n", ranking.structure, ranking.device, measure.name, measure.reason);
-            }
+             rocks and stands; the smaller, the better. ζ = β/|b| is the proficiency.\n\n";
+    for measure in Measure::ALL {
+        page += &format!("- {}: {}\n", measure.name(), measure.formula());
+    }
+    page += &format!("\n{}", TextTable::of(&fitted_table(findings))?.markdown());
+    for ranking in &findings.ranking {
+        for measure in &ranking.efficiency.unfitted {
+            let (demand, name) = (ranking.demand.name(), &measure.name);
+            page += &format!("\n{}, {demand}, {}, {name}: {}\n", ranking.structure, ranking.device, measure.reason);
         }
     }
-    page
+    Ok(page)
 }
 
 /// The title of pages and pictures.

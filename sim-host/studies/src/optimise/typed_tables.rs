@@ -1,6 +1,6 @@
 //! The tables of an optimisation for programs, as CSV and Parquet: one row a design, and one row a motion.
 
-use sprag_report::columns::{Column, Fields, RowWriter, Table, TableError};
+use sprag_report::columns::{Column, FieldTable, Fields, Table};
 use sprag_report::long_run::row_fields::FAILED;
 
 use super::design::Design;
@@ -9,16 +9,18 @@ use super::motion::Motion;
 use super::problem::{Problem, Solution};
 use super::response::Response;
 
-/// `designs`: the bare block, then every device that was tried, by law, mount and mass ratio.
-pub struct DesignTable<'s>(pub &'s Findings);
-
 fn yes_or_no(yes: bool) -> &'static str {
     if yes { "true" } else { "false" }
 }
 
-fn design_fields() -> Fields<Row> {
+/// `designs`: the bare block, then every device that was tried, by law, mount and mass ratio.
+pub fn design_table(findings: &Findings) -> impl Table {
+    FieldTable { fields: design_fields(), rows: std::iter::once(&findings.reference).chain(&findings.rows).collect() }
+}
+
+fn design_fields<'s>() -> Fields<&'s Row> {
     let number = |name: &str| Column::number(name).or_nothing();
-    Fields::<Row>::default()
+    Fields::<&'s Row>::default()
         .with(Column::text("law"), |row| (&row.law).into())
         .with(Column::text("mount").or_nothing(), |row| row.mount.as_ref().into())
         .with(number("mass_ratio"), |row| row.mass_ratio.into())
@@ -38,28 +40,6 @@ fn design_fields() -> Fields<Row> {
         .with(Column::text("on_stroke_front"), |row| yes_or_no(row.on_stroke_front).into())
 }
 
-impl Table for DesignTable<'_> {
-    fn columns(&self) -> Vec<Column> {
-        design_fields().columns()
-    }
-
-    fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
-        let fields = design_fields();
-        std::iter::once(&self.0.reference).chain(&self.0.rows).try_for_each(|row| fields.row(row, writer))
-    }
-}
-
-/// `motions`: every motion under the bare block and under the chosen device, if there is one. Peaks are max |θ|/α, empty when overturned;
-/// forces and strokes are those of this one motion.
-pub struct MotionTable<'s> {
-    /// The motions.
-    pub problem: &'s Problem<'s>,
-    /// What they do.
-    pub solution: &'s Solution,
-    /// The chosen device.
-    pub chosen: Option<&'s Row>,
-}
-
 /// A motion under a design.
 struct MotionRow<'s> {
     motion: &'s Motion<'s>,
@@ -71,6 +51,20 @@ impl MotionRow<'_> {
     fn answer(&self) -> Option<&Response> {
         self.response.as_ref().ok()
     }
+}
+
+/// `motions`: every motion under the bare block and under the chosen device, if there is one. Peaks are max |θ|/α, empty when overturned;
+/// forces and strokes are those of this one motion.
+pub fn motion_table<'s>(problem: &'s Problem<'s>, solution: &'s Solution, chosen: Option<&Row>) -> impl Table + use<'s> {
+    let of_chosen = |design: &&Design| chosen.is_some_and(|row| row.candidate == design.candidate);
+    let chosen = solution.designs.iter().find(of_chosen);
+    let designs: Vec<&Design> = std::iter::once(&solution.bare).chain(chosen).collect();
+    let row = |motion, design: &'s Design, index: usize| MotionRow { motion, design, response: &design.responses[index] };
+    let mut rows = Vec::new();
+    for (index, motion) in problem.motions.iter().enumerate() {
+        rows.extend(designs.iter().map(|design| row(motion, design, index)));
+    }
+    FieldTable { fields: motion_fields(), rows }
 }
 
 fn motion_fields<'s>() -> Fields<MotionRow<'s>> {
@@ -87,22 +81,4 @@ fn motion_fields<'s>() -> Fields<MotionRow<'s>> {
             row.answer().filter(|_| row.design.candidate.is_some()).map(|response| response.stroke_m).into()
         })
         .with(Column::text("failure").or_nothing(), |row| row.response.as_ref().err().into())
-}
-
-impl Table for MotionTable<'_> {
-    fn columns(&self) -> Vec<Column> {
-        motion_fields().columns()
-    }
-
-    fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
-        let fields = motion_fields();
-        let of_chosen = |design: &&Design| self.chosen.is_some_and(|row| row.candidate == design.candidate);
-        let chosen = self.solution.designs.iter().find(of_chosen);
-        for (index, motion) in self.problem.motions.iter().enumerate() {
-            for design in std::iter::once(&self.solution.bare).chain(chosen) {
-                fields.row(&MotionRow { motion, design, response: &design.responses[index] }, writer)?;
-            }
-        }
-        Ok(())
-    }
 }

@@ -1,6 +1,6 @@
 //! A study as a table of every comparison, and as a page of what they have in common.
 
-use sprag_report::columns::{Column, Fields, RowWriter, Table, TableError};
+use sprag_report::columns::{Column, FieldTable, Fields, Table};
 use sprag_report::text_table::{TextTable, change_in_tenths};
 
 use super::motion::StudyMotion;
@@ -8,21 +8,20 @@ use super::statistics::{OwnMotion, Quantiles, Summary};
 use super::study::{Comparison, Findings, Flip, ROCKS_FROM};
 use super::variants::{VARIANTS, Variant};
 
-/// `sensitivity`: one comparison a row; peaks are max |θ|/α, empty when overturned.
-pub struct ComparisonTable<'s> {
-    /// What was compared.
-    pub findings: &'s Findings,
-    /// Names of motions.
-    pub motions: &'s [StudyMotion],
-    /// Names of devices.
-    pub devices: &'s [String],
-}
-
 /// A comparison with its names.
 struct ComparisonRow<'s> {
     motion: &'s str,
     device: &'s str,
     comparison: &'s Comparison,
+}
+
+/// `sensitivity`: one comparison a row, with the names of motions and devices; peaks are max |θ|/α, empty when overturned.
+pub fn comparison_table<'s>(findings: &'s Findings, motions: &'s [StudyMotion], devices: &'s [String]) -> impl Table + 's {
+    let row = |comparison: &'s Comparison| {
+        let Comparison { motion, device, .. } = *comparison;
+        ComparisonRow { motion: &motions[motion].name, device: &devices[device], comparison }
+    };
+    FieldTable { fields: fields(), rows: findings.comparisons.iter().map(row).collect() }
 }
 
 fn fields<'s>() -> Fields<ComparisonRow<'s>> {
@@ -37,20 +36,6 @@ fn fields<'s>() -> Fields<ComparisonRow<'s>> {
         .with(number("peak_rotation_base"), |row| row.comparison.base.peak.into())
         .with(number("peak_rotation_variant"), |row| row.comparison.answer.peak.into())
         .with(number("relative_change"), |row| row.comparison.change().into())
-}
-
-impl Table for ComparisonTable<'_> {
-    fn columns(&self) -> Vec<Column> {
-        fields().columns()
-    }
-
-    fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
-        let fields = fields();
-        self.findings.comparisons.iter().try_for_each(|comparison| {
-            let (motion, device) = (&self.motions[comparison.motion].name, &self.devices[comparison.device]);
-            fields.row(&ComparisonRow { motion, device, comparison }, writer)
-        })
-    }
 }
 
 /// The page, as Markdown: what was asked, a table, and what was left out.
