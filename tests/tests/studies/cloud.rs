@@ -35,9 +35,8 @@ fn written(study: &Study, (records, runs, findings): &(StudyRecords, Runs, Findi
     for table in tables {
         write_csv(table, &mut bytes).unwrap();
     }
-    let [demand, ranking] = [demand_page, ranking_page].map(|page| page(study, findings).unwrap());
-    for page in [demand, fragility_page(study, findings), ranking] {
-        bytes.extend(page.into_bytes());
+    for page in [demand_page, fragility_page, ranking_page] {
+        bytes.extend(page(study, findings).unwrap().into_bytes());
     }
     for picture in [demand_picture(study, findings).unwrap(), fragility_picture(study, findings).unwrap()] {
         bytes.extend(picture.unwrap_or_default().into_bytes());
@@ -88,7 +87,7 @@ fn a_set_in_which_nothing_overturns_says_so() {
     let study = study("title = 'Weak pulses'", folder.path());
     let results = run(&study);
     assert!(results.2.fragility.iter().all(|found| matches!(found.fragility, Fragility::NeverOverturned { number: 6, .. })));
-    let page = fragility_page(&study, &results.2);
+    let page = fragility_page(&study, &results.2).unwrap();
     assert!(page.contains("no curve; none of 6 runs overturned"), "{page}");
     let picture = fragility_picture(&study, &results.2).unwrap().unwrap();
     assert!(picture.contains("clutched pair: never overturned"));

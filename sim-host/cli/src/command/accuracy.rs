@@ -14,7 +14,7 @@ use sprag_studies::accuracy_study::study::{Extent, study};
 use super::context::{Completion, Context, Run};
 use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
-use super::report::{Report, SceneInput, summary};
+use super::report::{Report, SceneInput};
 use super::scene_arguments::SceneArguments;
 use crate::board::step_cost::measure;
 
@@ -94,7 +94,7 @@ impl Run for AccuracyCommandArguments {
         let answer = Answer { cells, smallest_step: self.smallest_step, runs: &runs };
         let input = SceneInput { scene: &scene.file };
         let mut report = Report::new("accuracy", &folder, &self.output)?;
-        report.summary("summary.json", &summary("accuracy", input, &ground.records, &warnings, &claim.subject, answer))?;
+        report.summary(input, &ground.records, &warnings, &claim.subject, answer)?;
         report.table("accuracy", &row_table(&runs))?;
         let page = page(title, &rows, &devices);
         report.page("accuracy.md", &page)?;

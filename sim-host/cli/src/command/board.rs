@@ -148,7 +148,7 @@ impl Run for BoardArguments {
         interrupt.keep("what was changed in the device stays as it is");
         let out = &mut context.out;
         let ended = match &self.command {
-            DeviceCommand::Info(info) => with_device(&info.line, out, |session, out| show(session, out)),
+            DeviceCommand::Info(info) => with_device(&info.line, out, show),
             DeviceCommand::Parameters(given) => change(given, context),
             DeviceCommand::SelfTest(info) => with_device(&info.line, out, |session, out| self_test(session, out, interrupt)),
             DeviceCommand::Log(given) => log_to(given, out),

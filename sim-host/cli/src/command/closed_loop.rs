@@ -30,7 +30,7 @@ use super::loop_scene::LoopScene;
 use super::loop_trace::loop_trace;
 use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
-use super::report::{Report, SceneInput, summary};
+use super::report::{Report, SceneInput};
 use super::scene_arguments::SceneArguments;
 use super::thread_arguments::ThreadArguments;
 
@@ -105,7 +105,7 @@ impl Run for LoopArguments {
         let runs: Vec<LoopSummary> = reports.iter().map(|report| report.summary.clone()).collect();
         let (file, answer) = (desk.resolved(), Answer { monte_carlo: self.monte_carlo, runs: &runs });
         let input = SceneInput { scene: &file };
-        report.summary("summary.json", &summary("loop", input, &desk.ground.records, &warnings, &subject, answer))?;
+        report.summary(input, &desk.ground.records, &warnings, &subject, answer)?;
         report.file("history.csv", |file| write_history(&reports, file).map_err(std::io::Error::other))?;
         for (number, closed) in reports.iter().enumerate() {
             let picture = loop_figure(heading(&desk.scene, closed), &loop_trace(closed, &desk.scene.block));

@@ -16,7 +16,7 @@ use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
 use sprag_studies::cloud::figures::{demand_picture, fragility_picture};
 use sprag_studies::cloud::findings::Findings;
-use sprag_studies::cloud::pages::{demand_page, fragility_notes, fragility_page, fragility_text, ranking_page};
+use sprag_studies::cloud::pages::{demand_page, fragility_notes, fragility_page, ranking_page};
 use sprag_studies::cloud::records::StudyRecords;
 use sprag_studies::cloud::runs::{RunList, Runs};
 use sprag_studies::cloud::structures::StudyStructure;
@@ -27,7 +27,7 @@ use sprag_studies::cloud::typed_tables::{demand_table, fragility_table, ranking_
 use super::accuracy_arguments::AccuracyArguments;
 use super::context::{Completion, Context, Run};
 use super::out_arguments::OutputArguments;
-use super::report::{Report, summary};
+use super::report::Report;
 use super::resumable;
 use super::study_input::{StudyArguments, study_subject};
 use super::thread_arguments::ThreadArguments;
@@ -177,9 +177,9 @@ fn studied<'a>(
 fn fill(report: &mut Report, studied: &Studied<'_>, findings: &Findings, warnings: &[String]) -> anyhow::Result<()> {
     let Studied { study, records, subject, runs, rows } = studied;
     let input = Input { study: &study.file, structures: &study.structures };
-    report.made_by("cloud", MadeOf { input, seed: study.bootstrap.seed })?;
+    report.made_by(MadeOf { input, seed: study.bootstrap.seed })?;
     let answer = Answer { unreadable: &records.unreadable, findings, left_out: &runs.left_out, accuracy: runs.worst };
-    report.summary("summary.json", &summary("cloud", input, &records.summaries(), warnings, subject, answer))?;
+    report.summary(input, &records.summaries(), warnings, subject, answer)?;
     let of_runs = runs_table(study, &records.records, &runs.all);
     match rows {
         None => {
@@ -193,7 +193,7 @@ fn fill(report: &mut Report, studied: &Studied<'_>, findings: &Findings, warning
     report.table("fragility", &fragility_table(findings))?;
     report.table("ranking", &ranking_table(findings))?;
     report.page("demand.md", &demand_page(study, findings)?)?;
-    report.page("fragility.md", &fragility_page(study, findings))?;
+    report.page("fragility.md", &fragility_page(study, findings)?)?;
     report.page("ranking.md", &ranking_page(study, findings)?)?;
     for (name, picture) in [("demand", demand_picture(study, findings)), ("fragility", fragility_picture(study, findings))] {
         match picture.transpose() {
@@ -202,7 +202,7 @@ fn fill(report: &mut Report, studied: &Studied<'_>, findings: &Findings, warning
         }
     }
     report.print(TextTable::of(&demand_table(findings))?.markdown());
-    report.print(format_args!("\n{}\n", fragility_text(findings).markdown()));
+    report.print(format_args!("\n{}\n", TextTable::of(&fragility_table(findings))?.markdown()));
     fragility_notes(&findings.fragility).iter().for_each(|line| report.print(line));
     report.left_out(&runs.left_out);
     report.accuracy(runs.worst);

@@ -2,6 +2,7 @@
 
 use clap::Args;
 use serde::Serialize;
+use sprag_report::output::Versioned;
 use sprag_sim::effect::measured::{Cost, cost};
 use sprag_sim::effect::{EFFECTS, Effect, find};
 
@@ -53,9 +54,9 @@ impl Run for EffectsArguments {
             find(name).ok_or_else(|| anyhow::anyhow!("no effect \"{name}\"; there are: {}", names()))
         });
         match (found.transpose()?, self.json) {
-            (None, true) => context.print_json(&EFFECTS.map(Entry::of)),
+            (None, true) => context.print_json(&EFFECTS.map(|effect| Versioned::new(Entry::of(&effect)))),
             (None, false) => context.print(table()),
-            (Some(effect), true) => context.print_json(&Entry::of(effect)),
+            (Some(effect), true) => context.print_json(&Versioned::new(Entry::of(effect))),
             (Some(effect), false) => context.print(in_full(effect)),
         }
         Ok(Completion::Complete)

@@ -25,7 +25,7 @@ use super::loop_scene::LoopScene;
 use super::loop_trace::loop_trace;
 use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
-use super::report::{Report, Runs, SceneInput, summary};
+use super::report::{Report, Runs, SceneInput};
 use super::scene_arguments::SceneArguments;
 use crate::board::driver::{DeviceDriver, DeviceTick, Farewell};
 use crate::board::report::{DeviceSummary, costs, device_ticks};
@@ -92,7 +92,7 @@ impl Run for HilArguments {
         }
         let (file, records) = (desk.resolved(), &desk.ground.records);
         let input = SceneInput { scene: &file };
-        report.summary("summary.json", &summary("hil", input, records, &warnings, &subject, Runs { runs: &summaries }))?;
+        report.summary(input, records, &warnings, &subject, Runs { runs: &summaries })?;
         report.file("history.csv", |file| write_history(&reports, file).map_err(std::io::Error::other))?;
         report.table("device", &device_ticks(&ticks))?;
         summaries.iter().for_each(|summary| report.print(summary));

@@ -118,7 +118,7 @@ impl Run for LoopStudyArguments {
         }
         let mut report = Report::new("loop-study", &folder, &self.output)?;
         let (version, schema_version) = (VERSION, SCHEMA_VERSION);
-        report.summary(&page, &Page { subject: &subject, version, schema_version, records: &read, warnings: &warnings })?;
+        report.document(&page, &Page { subject: &subject, version, schema_version, records: &read, warnings: &warnings })?;
         report.page(&format!("{name}.md"), &made.text)?;
         for (name, table) in &made.tables {
             report.table(name, table)?;

@@ -27,7 +27,7 @@ use super::context::{Completion, Context, Run};
 use super::map_boundaries::{BoundarySummary, print_boundaries, trace};
 use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
-use super::report::{Report, Runs, SceneInput, summary};
+use super::report::{Report, Runs, SceneInput};
 use super::resumable;
 use super::scene_arguments::SceneArguments;
 use super::thread_arguments::ThreadArguments;
@@ -147,8 +147,8 @@ impl Run for MapArguments {
         let maps = tally.maps.iter().enumerate();
         let runs: Vec<_> = maps.map(|(device, map)| DeviceSummary::of(map, boundaries.get(device))).collect();
         let input = SceneInput { scene: &file };
-        report.made_by("map", input)?;
-        report.summary("summary.json", &summary("map", input, &records, &warnings, &subject, Runs { runs: &runs }))?;
+        report.made_by(input)?;
+        report.summary(input, &records, &warnings, &subject, Runs { runs: &runs })?;
         report.rows(&path, &columns)?;
         for (name, picture) in figures(&grid, &tally)? {
             report.picture(name, Ok(picture))?;

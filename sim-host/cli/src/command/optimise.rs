@@ -27,7 +27,7 @@ use sprag_studies::optimise::typed_tables::{design_table, motion_table};
 use super::accuracy_arguments::AccuracyArguments;
 use super::context::{Completion, Context, Run};
 use super::out_arguments::OutputArguments;
-use super::report::{Report, summary};
+use super::report::Report;
 use super::resumable;
 use super::study_input::{StudyArguments, study_subject};
 use super::thread_arguments::ThreadArguments;
@@ -218,10 +218,10 @@ fn fill(
 ) -> anyhow::Result<()> {
     let choices = &problem.choices;
     let input = Input { study: &Resolved::of(study, choices), structure: choices.structure };
-    report.made_by("optimise", input)?;
+    report.made_by(input)?;
     let candidates = Candidates { input, curves: &choices.curves };
     let answer = Answer { unreadable: &records.unreadable, findings, left_out, accuracy: solution.worst };
-    report.summary("summary.json", &summary("optimise", candidates, &records.summaries(), warnings, subject, answer))?;
+    report.summary(candidates, &records.summaries(), warnings, subject, answer)?;
     report.table("designs", &design_table(findings))?;
     report.table("motions", &motion_table(problem, solution, findings.best.as_ref()))?;
     report.page("optimise.md", &page(problem, findings))?;

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
+use sprag_report::output::Versioned;
 use sprag_report::progress::Progress;
 use sprag_report::text_table::{TextTable, number};
 use sprag_shared::math;
@@ -98,7 +99,7 @@ impl Run for RecordArguments {
         progress.finish();
         let described: Vec<&Description> = entries.iter().filter_map(Entry::description).collect();
         if self.json {
-            context.print_json(&entries);
+            context.print_json(&entries.iter().map(Versioned::new).collect::<Vec<_>>());
         } else {
             if !described.is_empty() {
                 context.print(table(&described).plain());
@@ -183,6 +184,7 @@ mod tests {
         // |a| > u during 1.5 (1 − u/4) s, with u = g tan 10°.
         assert!((number("t_uni_s") - 1.5 * (1.0 - 9.80665 * 0.176_326_980_708 / 4.0)).abs() < 1e-9);
         assert!((number("arias_m_s") - std::f64::consts::PI / (2.0 * 9.80665) * 16.0).abs() < 1e-9);
+        assert!(entries.as_array().unwrap().iter().all(|entry| entry["schema_version"] == 1), "{out}");
         for key in ["pgv_m_s", "pgd_m", "d5_95_s"] {
             assert!(number(key) > 0.0, "{key}");
         }

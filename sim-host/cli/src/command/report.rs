@@ -17,6 +17,7 @@ use super::out_arguments::OutputArguments;
 
 /// Results that are made from finished runs.
 pub struct Report {
+    command: &'static str,
     folder: PathBuf,
     formats: Formats,
     json: bool,
@@ -35,8 +36,9 @@ impl Report {
     ///
     /// # Errors
     /// Formats that cannot be written.
-    pub fn new(command: &str, folder: &Path, output: &OutputArguments) -> anyhow::Result<Report> {
+    pub fn new(command: &'static str, folder: &Path, output: &OutputArguments) -> anyhow::Result<Report> {
         Ok(Report {
+            command,
             folder: folder.to_owned(),
             formats: output.formats(command)?,
             json: output.json,
@@ -54,16 +56,33 @@ impl Report {
     ///
     /// # Errors
     /// An input that has no JSON.
-    pub fn made_by(&mut self, command: &str, input: impl Serialize) -> anyhow::Result<()> {
-        self.made_by = metadata_of(&Maker::new(command, input))?;
+    pub fn made_by(&mut self, input: impl Serialize) -> anyhow::Result<()> {
+        self.made_by = metadata_of(&Maker::new(self.command, input))?;
         Ok(())
+    }
+
+    /// Writes `summary.json`: `input` is the scene or study as resolved, `subject` has the files that were read.
+    ///
+    /// # Errors
+    /// [`OutputError`].
+    pub fn summary(
+        &mut self,
+        input: impl Serialize,
+        records: &[RecordSummary],
+        warnings: &[String],
+        subject: &Subject,
+        findings: impl Serialize,
+    ) -> Result<(), OutputError> {
+        let (command, files) = (self.command, &subject.files);
+        let (version, schema_version) = (VERSION, SCHEMA_VERSION);
+        self.document("summary.json", &Summary { command, version, schema_version, input, records, warnings, files, findings })
     }
 
     /// Writes the document `name`, which `--json` prints.
     ///
     /// # Errors
     /// [`OutputError`].
-    pub fn summary(&mut self, name: &str, document: &impl Serialize) -> Result<(), OutputError> {
+    pub fn document(&mut self, name: &str, document: &impl Serialize) -> Result<(), OutputError> {
         let failed = |error| OutputError { path: self.folder.join(name), reason: format!("cannot be written: {error}") };
         self.summary = serde_json::to_string_pretty(document).map_err(failed)? + "\n";
         self.results.add(&self.folder.join(name), |file| file.write_all(self.summary.as_bytes()))
@@ -168,27 +187,6 @@ impl Report {
         }
         self.notes.iter().for_each(|line| context.note(line));
         Ok(self.ending)
-    }
-}
-
-/// The document of `summary.json`: `input` is the scene or study as resolved, `subject` has the files that were read.
-pub fn summary<'a, I, F>(
-    command: &'a str,
-    input: I,
-    records: &'a [RecordSummary],
-    warnings: &'a [String],
-    subject: &'a Subject,
-    findings: F,
-) -> Summary<'a, I, F> {
-    Summary {
-        command,
-        version: VERSION,
-        schema_version: SCHEMA_VERSION,
-        input,
-        records,
-        warnings,
-        files: &subject.files,
-        findings,
     }
 }
 

@@ -23,7 +23,7 @@ use super::accuracy_arguments::AccuracyArguments;
 use super::context::{Completion, Context, Run};
 use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::ReadArguments;
-use super::report::{Report, SceneInput, summary};
+use super::report::{Report, SceneInput};
 use super::scene_arguments::SceneArguments;
 use super::thread_arguments::ThreadArguments;
 
@@ -179,7 +179,7 @@ fn fill(report: &mut Report, studied: &Studied, records: &[RecordSummary], warni
     }
     let answer = Answer { runs: &runs, left_out: &left_out, accuracy: findings.worst };
     let input = SceneInput { scene: &scene.file };
-    report.summary("summary.json", &summary("sensitivity", input, records, warnings, subject, answer))?;
+    report.summary(input, records, warnings, subject, answer)?;
     report.table("sensitivity", &comparison_table(findings, motions, &study.devices))?;
     report.page("sensitivity.md", &page(title, &runs, in_place, &left_out))?;
     let heading = FigureTitle { text: title.clone(), conditions };

@@ -19,7 +19,7 @@ use sprag_studies::similarity::groups::{Group, groups};
 use super::context::{Completion, Context, Run};
 use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
-use super::report::{Report, SceneInput, summary};
+use super::report::{Report, SceneInput};
 use super::scene_arguments::SceneArguments;
 
 /// Compare blocks of equal dimensionless groups.
@@ -120,7 +120,7 @@ impl Run for SimilarArguments {
         let answer = Answer { with: &self.with, blocks: summaries.collect() };
         let input = SceneInput { scene: &first.scene.file };
         let mut report = Report::new("similar", &folder, &self.output)?;
-        report.summary("summary.json", &summary("similar", input, &records, &warnings, &claim.subject, answer))?;
+        report.summary(input, &records, &warnings, &claim.subject, answer)?;
         report.file("similar.csv", |file| write_csv(&blocks, file))?;
         report.picture("similar", figure(&blocks))?;
         report.print("largest departure of θ/α from the first block");

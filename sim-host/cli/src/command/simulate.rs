@@ -18,7 +18,7 @@ use super::accuracy_arguments::AccuracyArguments;
 use super::context::{Completion, Context, Run};
 use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
-use super::report::{Report, Runs, SceneInput, summary};
+use super::report::{Report, Runs, SceneInput};
 use super::scene_arguments::SceneArguments;
 
 /// Simulate a scene: every device under the same ground motion.
@@ -61,7 +61,7 @@ impl Run for SimulateArguments {
         };
         let histories: Vec<History> = runs.iter_mut().map(|run| std::mem::take(&mut run.history)).collect();
         let input = SceneInput { scene: &scene.file };
-        report.summary("summary.json", &summary("simulate", input, &records, &warnings, &subject, Runs { runs: &runs }))?;
+        report.summary(input, &records, &warnings, &subject, Runs { runs: &runs })?;
         report.file("history.csv", |file| write_csv(&histories, file).map_err(std::io::Error::other))?;
         let picture = report.picture("history", history_figure(title(&scene), &histories, axis))?;
         if scene.file.output.energy {

@@ -7,7 +7,6 @@ use rayon::ThreadPool;
 use sprag_report::output::{Digest, Subject};
 use sprag_report::progress::Progress;
 use sprag_sim::record::Record;
-use sprag_sim::scene::SceneError;
 use sprag_studies::cloud::records::{StudyRecord, StudyRecords};
 use sprag_studies::cloud::study::{Study, StudyError};
 
@@ -32,31 +31,12 @@ pub struct StudyArguments {
     pub set: Vec<String>,
 }
 
-/// A study or records that cannot be read.
-#[derive(Debug, thiserror::Error)]
-pub enum StudyInputError {
-    /// The study, or its scene.
-    #[error(transparent)]
-    Study(#[from] StudyError),
-    /// What the study says of a record.
-    #[error(transparent)]
-    Record(#[from] SceneError),
-    /// There is no record at all.
-    #[error("{}: no record could be read{}", study.display(), first.as_ref().map_or_else(String::new, |line| format!("; {line}")))]
-    NoRecord {
-        /// The study.
-        study: PathBuf,
-        /// Why the first could not be read.
-        first: Option<String>,
-    },
-}
-
 impl StudyArguments {
     /// The study, with one more `change` of its scene.
     ///
     /// # Errors
-    /// [`StudyInputError::Study`].
-    pub fn load(&self, change: Option<String>) -> Result<Study, StudyInputError> {
+    /// [`StudyError`].
+    pub fn load(&self, change: Option<String>) -> Result<Study, StudyError> {
         let mut changes = self.set.clone();
         changes.extend(change);
         let mut study = Study::load(&self.study, &changes, &self.records)?;
@@ -67,19 +47,19 @@ impl StudyArguments {
     /// The records of `study`, one at least, and the warnings of both, which are reported with what cannot be read.
     ///
     /// # Errors
-    /// [`StudyInputError`] for what the study says of its records, and where none can be read.
+    /// What the study says of its records and cannot be, and where none can be read.
     pub(super) fn read(
         &self,
         study: &Study,
         pool: &ThreadPool,
         context: &mut Context<'_>,
-    ) -> Result<(StudyRecords, Vec<String>), StudyInputError> {
+    ) -> anyhow::Result<(StudyRecords, Vec<String>)> {
         let reading = Progress::uncounted("reading records");
         let records = pool.install(|| StudyRecords::read(study))?;
         reading.finish();
         if records.records.is_empty() {
-            let first = records.unreadable.first().cloned();
-            return Err(StudyInputError::NoRecord { study: self.study.clone(), first });
+            let first = records.unreadable.first().map_or_else(String::new, |line| format!("; {line}"));
+            anyhow::bail!("{}: no record could be read{first}", self.study.display());
         }
         for line in &records.unreadable {
             context.note(line);

@@ -52,3 +52,18 @@ pub struct Summary<'a, I, F> {
     #[serde(flatten)]
     pub findings: F,
 }
+
+/// An object that `--json` prints, with [`SCHEMA_VERSION`].
+#[derive(Clone, Debug, Serialize)]
+pub struct Versioned<T> {
+    schema_version: u32,
+    #[serde(flatten)]
+    object: T,
+}
+
+impl<T> Versioned<T> {
+    /// The object in this version of its layout.
+    pub fn new(object: T) -> Versioned<T> {
+        Versioned { schema_version: SCHEMA_VERSION, object }
+    }
+}

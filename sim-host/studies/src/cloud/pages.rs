@@ -1,63 +1,14 @@
 //! The tables of a study as Markdown, for people.
 
+use sprag_report::columns::TableError;
+use sprag_report::text_table::{self, TextTable, true_minus};
+
 use super::findings::Findings;
 use super::measure::Measure;
 use super::overturning::DeviceFragility;
 use super::study::Study;
-use super::typed_tables::{demand_table, fitted_table};
-use crate::statistics::{Band, Fragility};
-use sprag_report::columns::TableError;
-use sprag_report::text_table::{self, TextTable, change, true_minus};
-
-/// The fragilities, as a table.
-pub fn fragility_text(findings: &Findings) -> TextTable {
-    let titles = [
-        "structure",
-        "device",
-        "runs",
-        "overturned",
-        "μ",
-        "95 % of μ",
-        "β",
-        "95 % of β",
-        "median",
-        "change",
-        "P at 10 %",
-        "P at 50 %",
-    ];
-    let mut titles = titles.map(str::to_owned);
-    if let Some(level) = findings.fragility.iter().find_map(|found| Some(found.bands.as_ref()?.bootstrap.level.value())) {
-        for title in &mut titles {
-            *title = title.replace("95 %", &percent(level));
-        }
-    }
-    let mut table = TextTable::new(2, titles);
-    for found in &findings.fragility {
-        let curve = found.fragility.curve();
-        let with_error = |value: Option<f64>, error: Option<f64>| match (value, error) {
-            (Some(_), Some(_)) => format!("{} ± {}", number(value, 3), number(error, 3)),
-            _ => "-".to_owned(),
-        };
-        let band = |band: Option<Band>| {
-            band.map_or_else(|| "-".to_owned(), |band| format!("{} to {}", number(Some(band.low), 2), number(Some(band.high), 2)))
-        };
-        table.row(vec![
-            found.structure.clone(),
-            found.device.clone(),
-            found.runs.to_string(),
-            found.overturned.to_string(),
-            with_error(curve.map(|curve| curve.mu), curve.map(|curve| curve.mu_standard_error)),
-            band(found.bands.as_ref().and_then(|bands| bands.mu)),
-            with_error(curve.map(|curve| curve.beta), curve.map(|curve| curve.beta_standard_error)),
-            band(found.bands.as_ref().and_then(|bands| bands.beta)),
-            number(curve.map(|curve| curve.median), 2),
-            change(found.median_ratio.map(|ratio| ratio - 1.0)),
-            number(found.at_first.map(|at| at[0]), 4),
-            number(found.at_first.map(|at| at[1]), 4),
-        ]);
-    }
-    table
-}
+use super::typed_tables::{demand_table, fitted_table, fragility_table};
+use crate::statistics::Fragility;
 
 /// A number of a page; a dash for none.
 pub fn number(value: Option<f64>, digits: usize) -> String {
@@ -91,20 +42,22 @@ pub fn demand_page(study: &Study, findings: &Findings) -> Result<String, TableEr
 }
 
 /// `fragility.md`.
-pub fn fragility_page(study: &Study, findings: &Findings) -> String {
+pub fn fragility_page(study: &Study, findings: &Findings) -> Result<String, TableError> {
     let formula = study.file.fragility.measure.formula();
     let mut page = format!("# {}: fragility\n\n", heading(study));
+    let bands = findings.fragility.iter().find_map(|found| found.bands.as_ref());
+    let level = bands.map_or_else(String::new, |bands| format!(" of {}", percent(bands.bootstrap.level.value())));
     page += &format!(
         "Probability of overturning Φ((ln IM − μ)/β) with IM = {formula}, by maximum likelihood over all runs. ±: standard error;\n\
-         bands by {} resamples; median: e^μ. Change: of the median against the first device ({}). P at 10 % and 50 %: probability\n\
-         where that of the first device is 0.1 and 0.5.\n\n",
+         from, to: ends of the bands{level} by {} resamples; median: e^μ. Change: of the median against the first device ({}). P at 10 %\n\
+         and 50 %: probability where that of the first device is 0.1 and 0.5.\n\n",
         study.bootstrap.resamples, study.devices[0]
     );
-    page += &fragility_text(findings).markdown();
+    page += &TextTable::of(&fragility_table(findings))?.markdown();
     for line in fragility_notes(&findings.fragility) {
         page += &format!("\n{line}\n");
     }
-    page
+    Ok(page)
 }
 
 /// What curves cannot say, in a line each.

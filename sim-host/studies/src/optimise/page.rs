@@ -1,11 +1,12 @@
 //! The choice as a page of tables, and the table for the terminal.
 
+use sprag_report::text_table::TextTable;
+
 use super::findings::{Findings, Row};
 use super::limit::Quantity;
 use super::notes::{device, share, short};
 use super::problem::{Choices, Problem};
 use crate::cloud::pages::{number, percent};
-use sprag_report::text_table::TextTable;
 
 /// The heading of an optimisation.
 pub fn heading<'a>(choices: &'a Choices<'_>) -> &'a str {
