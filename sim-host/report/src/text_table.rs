@@ -107,6 +107,7 @@ impl RowWriter for Cells<'_> {
                 (_, Value::Text(text)) => (*text).to_owned(),
                 (_, Value::Count(count)) => count.to_string(),
                 (Shown::Digits(digits), Value::Number(value)) => true_minus(&number(*value, digits)),
+                (Shown::Percent, Value::Number(share)) => format!("{} %", number(100.0 * share, 1)),
                 (Shown::Change, Value::Number(ratio)) => change(ratio - 1.0),
             })
         };
@@ -150,7 +151,7 @@ fn percent(percent: Option<f64>, digits: usize) -> String {
 }
 
 /// The number with a true minus sign, for pages.
-pub fn true_minus(number: &str) -> String {
+fn true_minus(number: &str) -> String {
     match number {
         "-" => number.to_owned(),
         _ => number.replace('-', "\u{2212}"),

@@ -192,8 +192,8 @@ fn results_have_the_same_bytes_for_every_number_of_threads() {
                 write_csv(&design_table(findings), &mut bytes).unwrap();
                 let chosen = findings.best.as_ref();
                 write_csv(&motion_table(problem, solution, chosen), &mut bytes).unwrap();
-                bytes.extend(page(problem, findings).into_bytes());
-                bytes.extend(choice_table(findings).markdown().into_bytes());
+                bytes.extend(page(problem, findings).unwrap().into_bytes());
+                bytes.extend(choice_table(findings).unwrap().markdown().into_bytes());
                 bytes.extend(trade_off_picture(problem, findings).unwrap().into_bytes());
                 bytes
             })
@@ -212,7 +212,7 @@ fn no_design_within_the_limits_is_said_with_the_nearest() {
         let least = findings.rows.iter().map(|row| row.peak_force_ratio).fold(f64::INFINITY, f64::min);
         assert_eq!(nearest.design.peak_force_ratio, least);
         assert!((nearest.demand_over_limit - least / 0.001).abs() < 1e-9 && nearest.demand_over_limit > 1.0);
-        assert!(page(problem, findings).contains("No device respects the limits."));
+        assert!(page(problem, findings).unwrap().contains("No device respects the limits."));
         trade_off_picture(problem, findings).unwrap();
     });
 }
@@ -316,7 +316,7 @@ pub fn simulated_again(study: &Study, path_of: impl Fn(&str) -> PathBuf) {
         let stroke = standing.map(|run| run.checks.as_ref().unwrap().stroke_m.unwrap_or(0.0)).fold(0.0, f64::max);
         assert_eq!(best.stroke_m, Some(stroke));
         assert!(runs.iter().any(|run| run.outcome == Outcome::Safe));
-        eprintln!("{}", choice_table(findings).markdown());
+        eprintln!("{}", choice_table(findings).unwrap().markdown());
     });
 }
 

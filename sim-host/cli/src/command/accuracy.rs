@@ -94,6 +94,7 @@ impl Run for AccuracyCommandArguments {
         let answer = Answer { cells, smallest_step: self.smallest_step, runs: &runs };
         let input = SceneInput { scene: &scene.file };
         let mut report = Report::new("accuracy", &folder, &self.output)?;
+        report.made_by(input)?;
         report.summary(input, &ground.records, &warnings, &claim.subject, answer)?;
         report.table("accuracy", &row_table(&runs))?;
         let page = page(title, &rows, &devices);

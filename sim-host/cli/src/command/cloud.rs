@@ -122,7 +122,7 @@ impl Run for CloudArguments {
         let findings = pool.install(|| Findings::of(&studied.study, &studied.runs))?;
         context.check_interrupt()?;
         fill(&mut report, &studied, &findings, &warnings)?;
-        report.ends(complete);
+        report.complete(complete);
         report.finish(context)
     }
 }

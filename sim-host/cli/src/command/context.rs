@@ -46,7 +46,7 @@ pub struct Interrupted;
 
 /// Output, errors and interrupt of a subcommand.
 pub struct Context<'a> {
-    /// Standard output, for tables and other text; nothing is written where the user wants none.
+    /// Standard output; [`Context::print`] writes text there, unless the user wants none.
     pub out: &'a mut dyn Write,
     /// Standard error, for messages.
     pub err: &'a mut dyn Write,

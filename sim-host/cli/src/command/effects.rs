@@ -54,7 +54,7 @@ impl Run for EffectsArguments {
             find(name).ok_or_else(|| anyhow::anyhow!("no effect \"{name}\"; there are: {}", names()))
         });
         match (found.transpose()?, self.json) {
-            (None, true) => context.print_json(&EFFECTS.map(|effect| Versioned::new(Entry::of(&effect)))),
+            (None, true) => context.print_json(&EFFECTS.map(|effect| Versioned::new(Entry::of(effect)))),
             (None, false) => context.print(table()),
             (Some(effect), true) => context.print_json(&Versioned::new(Entry::of(effect))),
             (Some(effect), false) => context.print(in_full(effect)),

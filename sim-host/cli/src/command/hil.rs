@@ -99,7 +99,7 @@ impl Run for HilArguments {
         let differing: usize = summaries.iter().map(|summary| summary.ticks_differing).sum();
         if differing > 0 && !self.allow_different {
             report.note(format_args!("at {differing} ticks the device decided otherwise than the host, or reported nothing"));
-            report.ends(false);
+            report.complete(false);
         }
         report.finish(context)
     }

@@ -153,7 +153,7 @@ impl Run for OptimiseArguments {
             };
             report.note(format_args!("{}: {why}; results are written", self.input.study.display()));
         }
-        report.ends(findings.best.is_some() && records.unreadable.is_empty() && solution.failures.is_empty());
+        report.complete(findings.best.is_some() && records.unreadable.is_empty() && solution.failures.is_empty());
         let ending = report.finish(context)?;
         answered.tried.map_or(Ok(()), Tried::discard)?;
         Ok(ending)
@@ -224,11 +224,11 @@ fn fill(
     report.summary(candidates, &records.summaries(), warnings, subject, answer)?;
     report.table("designs", &design_table(findings))?;
     report.table("motions", &motion_table(problem, solution, findings.best.as_ref()))?;
-    report.page("optimise.md", &page(problem, findings))?;
+    report.page("optimise.md", &page(problem, findings)?)?;
     report.picture("trade_off", trade_off_picture(problem, findings))?;
     let Findings { motions, designs, runs, notes, .. } = findings;
     report.print(format_args!("{}: {motions} motions, {}", heading(choices), limits(choices)));
-    report.print(format_args!("{designs} devices tried in {runs} runs\n\n{}\n", choice_table(findings).markdown()));
+    report.print(format_args!("{designs} devices tried in {runs} runs\n\n{}\n", choice_table(findings)?.markdown()));
     notes.iter().for_each(|note| report.print(note));
     report.left_out(left_out);
     report.accuracy(solution.worst);

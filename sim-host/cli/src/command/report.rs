@@ -27,7 +27,7 @@ pub struct Report {
     summary: String,
     text: String,
     notes: Vec<String>,
-    ending: Completion,
+    completion: Completion,
     drawing: Progress,
 }
 
@@ -47,7 +47,7 @@ impl Report {
             summary: String::new(),
             text: String::new(),
             notes: Vec::new(),
-            ending: Completion::Complete,
+            completion: Completion::Complete,
             drawing: Progress::uncounted("drawing and writing results"),
         })
     }
@@ -163,9 +163,9 @@ impl Report {
         lines.iter().for_each(|line| self.note(format_args!("left out: {line}")));
     }
 
-    /// Says that the answer is negative or partial unless `complete`.
-    pub fn ends(&mut self, complete: bool) {
-        self.ending = Completion::of(complete);
+    /// Whether all that was asked for is there: the answer is negative or partial otherwise.
+    pub fn complete(&mut self, complete: bool) {
+        self.completion = Completion::of(complete);
     }
 
     /// Puts all files in their places and prints the text, or with `--json` the summary, and the text on standard error.
@@ -186,7 +186,7 @@ impl Report {
             context.print(text);
         }
         self.notes.iter().for_each(|line| context.note(line));
-        Ok(self.ending)
+        Ok(self.completion)
     }
 }
 

@@ -179,6 +179,7 @@ fn fill(report: &mut Report, studied: &Studied, records: &[RecordSummary], warni
     }
     let answer = Answer { runs: &runs, left_out: &left_out, accuracy: findings.worst };
     let input = SceneInput { scene: &scene.file };
+    report.made_by(input)?;
     report.summary(input, records, warnings, subject, answer)?;
     report.table("sensitivity", &comparison_table(findings, motions, &study.devices))?;
     report.page("sensitivity.md", &page(title, &runs, in_place, &left_out))?;
@@ -188,7 +189,7 @@ fn fill(report: &mut Report, studied: &Studied, records: &[RecordSummary], warni
     left_out.iter().for_each(|line| report.print(format_args!("left out: {line}")));
     report.accuracy(findings.worst);
     findings.failed.iter().for_each(|error| report.note(error));
-    report.ends(errors.is_empty() && findings.failed.is_empty());
+    report.complete(errors.is_empty() && findings.failed.is_empty());
     Ok(())
 }
 

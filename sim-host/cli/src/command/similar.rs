@@ -1,9 +1,8 @@
 //! `sprag similar`: responses of blocks with equal dimensionless groups, overlaid.
 
-use std::io::Write;
-
 use clap::Args;
 use serde::Serialize;
+use sprag_report::columns::{Column, RowWriter, Table, TableError, Value};
 use sprag_report::heading::of_scenes;
 use sprag_report::plot::{Chart, ChartPanel, FigureTitle, Line, PlotError, Scale, chart_figure};
 use sprag_report::progress::Progress;
@@ -120,8 +119,9 @@ impl Run for SimilarArguments {
         let answer = Answer { with: &self.with, blocks: summaries.collect() };
         let input = SceneInput { scene: &first.scene.file };
         let mut report = Report::new("similar", &folder, &self.output)?;
+        report.made_by(input)?;
         report.summary(input, &records, &warnings, &claim.subject, answer)?;
-        report.file("similar.csv", |file| write_csv(&blocks, file))?;
+        report.table("similar", &Overlay(&blocks))?;
         report.picture("similar", figure(&blocks))?;
         report.print("largest departure of θ/α from the first block");
         for block in &blocks[1..] {
@@ -206,21 +206,26 @@ fn figure(blocks: &[Block]) -> Result<String, PlotError> {
     })
 }
 
-/// `device,frequency_parameter_time` and θ/α of every block; empty where a block has overturned.
-fn write_csv(blocks: &[Block], out: &mut impl Write) -> std::io::Result<()> {
-    let mut table = csv::Writer::from_writer(out);
-    let names = ["device", "frequency_parameter_time"].into_iter().chain(blocks.iter().map(|block| block.name.as_str()));
-    table.write_record(names)?;
-    for (device, run) in blocks[0].runs.iter().enumerate() {
-        for instant in 0..INSTANTS {
-            let time = instant as f64 * blocks[0].responses[device].step;
-            let mut row = vec![run.device.clone(), format!("{time:?}")];
-            let rotation = |block: &Block| block.responses[device].rotations.get(instant).map(|rotation| format!("{rotation:?}"));
-            row.extend(blocks.iter().map(|block| rotation(block).unwrap_or_default()));
-            table.write_record(row)?;
-        }
+/// `device`, `frequency_parameter_time` and θ/α of every block; empty where a block has overturned.
+struct Overlay<'a>(&'a [Block]);
+
+impl Table for Overlay<'_> {
+    fn columns(&self) -> Vec<Column> {
+        let blocks = self.0.iter().map(|block| Column::number(&block.name).or_nothing());
+        [Column::text("device"), Column::number("frequency_parameter_time")].into_iter().chain(blocks).collect()
     }
-    table.flush()
+
+    fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
+        let first = &self.0[0];
+        for (device, (run, response)) in first.runs.iter().zip(&first.responses).enumerate() {
+            for instant in 0..INSTANTS {
+                let rotation = |block: &Block| block.responses[device].rotations.get(instant).copied().into();
+                let place = [(&run.device).into(), (instant as f64 * response.step).into()];
+                writer.row(&place.into_iter().chain(self.0.iter().map(rotation)).collect::<Vec<Value<'_>>>())?;
+            }
+        }
+        Ok(())
+    }
 }
 
 #[cfg(test)]

@@ -26,7 +26,8 @@ fn lines(folder: &Path) -> Vec<Vec<String>> {
 
 fn run(folder: &Path, line: &[String], more: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
-    command.current_dir(folder).args(line).args(["--out", "out", "--overwrite", "--formats", "csv"]).args(more).output().unwrap()
+    let formats: &[&str] = if more.contains(&"--formats") { &[] } else { &["--formats", "csv"] };
+    command.current_dir(folder).args(line).args(["--out", "out", "--overwrite"]).args(formats).args(more).output().unwrap()
 }
 
 #[test]
@@ -69,6 +70,14 @@ fn every_command_takes_the_same_options() {
     let short = folder.path().join("short.toml");
     let refused = sprag(&["simulate", short.to_str().unwrap(), "--formats", "csv,parquet"]);
     assert!(refused.status.code() == Some(2) && said(&refused).contains("--formats"), "{}", said(&refused));
+    for line in lines(folder.path()).iter().filter(|line| ["sensitivity", "similar"].contains(&line[0].as_str())) {
+        let output = run(folder.path(), line, &["--formats", "csv,parquet"]);
+        assert!(
+            output.status.success() && folder.path().join("out").join(format!("{}.parquet", line[0])).exists(),
+            "{}",
+            said(&output)
+        );
+    }
 }
 
 #[test]

@@ -10,6 +10,7 @@ use sprag_shared::observers::peaks::Peaks;
 use super::LoopTask;
 use super::decisions::DecisionReport;
 use super::run::{Ending, Tick};
+use crate::csv_field::quoted;
 use crate::simulation::{DeviceRun, ErrorReport};
 
 /// A fault as a summary has it.
@@ -167,55 +168,41 @@ pub fn clutches(engaged: [bool; 2]) -> u8 {
 }
 
 /// Columns of the history.
-const COLUMNS: [&str; 16] = [
-    "device",
-    "time_s",
-    "ground_m_s2",
-    "rotation_rad",
-    "velocity_rad_s",
-    "push_1_s2",
-    "rotation_estimated_rad",
-    "velocity_estimated_rad_s",
-    "push_estimated_1_s2",
-    "standing_estimated",
-    "wish",
-    "command",
-    "engaged",
-    "ideal",
-    "state",
-    "fault",
-];
+const COLUMNS: &str = "device,time_s,ground_m_s2,rotation_rad,velocity_rad_s,push_1_s2,rotation_estimated_rad,velocity_estimated_rad_s,\
+    push_estimated_1_s2,standing_estimated,wish,command,engaged,ideal,state,fault";
 
 /// Writes one row a tick: truth, estimates, commands and clutches (0 none, 1 first, 2 second, 3 both).
 ///
 /// # Errors
 /// As the writer.
-pub fn write_history(reports: &[LoopReport], out: impl Write) -> Result<(), csv::Error> {
-    let mut table = csv::Writer::from_writer(out);
-    table.write_record(COLUMNS)?;
+pub fn write_history(reports: &[LoopReport], mut out: impl Write) -> Result<(), csv::Error> {
+    writeln!(out, "{COLUMNS}")?;
     for report in reports {
+        // Nothing else needs quotes, and there are many ticks.
+        let device = quoted(&report.summary.device)?;
         for tick in &report.ticks {
             let (plant, decision) = (&tick.plant, &tick.decision);
             let estimate = &decision.estimate;
-            table.write_record([
-                &report.summary.device,
-                &plant.time.to_string(),
-                &(plant.ground[0] * sprag_shared::structure::block::GRAVITY).to_string(),
-                &plant.motion.rotation.to_string(),
-                &plant.motion.velocity.to_string(),
-                &plant.push.to_string(),
-                &estimate.rotation.to_string(),
-                &estimate.velocity.to_string(),
-                &estimate.push.to_string(),
-                &u8::from(estimate.standing).to_string(),
-                &format!("{:?}", decision.wish).to_lowercase(),
-                &clutches(decision.command).to_string(),
-                &clutches(plant.engaged).to_string(),
-                &u8::from(tick.ideal).to_string(),
-                &format!("{:?}", decision.phase).to_lowercase(),
-                &decision.fault.map_or(0, |fault| fault.code()).to_string(),
-            ])?;
+            writeln!(
+                out,
+                "{device},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
+                plant.time,
+                plant.ground[0] * sprag_shared::structure::block::GRAVITY,
+                plant.motion.rotation,
+                plant.motion.velocity,
+                plant.push,
+                estimate.rotation,
+                estimate.velocity,
+                estimate.push,
+                u8::from(estimate.standing),
+                format!("{:?}", decision.wish).to_lowercase(),
+                clutches(decision.command),
+                clutches(plant.engaged),
+                u8::from(tick.ideal),
+                format!("{:?}", decision.phase).to_lowercase(),
+                decision.fault.map_or(0, |fault| fault.code()),
+            )?;
         }
     }
-    Ok(table.flush()?)
+    Ok(())
 }

@@ -1,7 +1,7 @@
 //! The tables of a study as Markdown, for people.
 
 use sprag_report::columns::TableError;
-use sprag_report::text_table::{self, TextTable, true_minus};
+use sprag_report::text_table::TextTable;
 
 use super::findings::Findings;
 use super::measure::Measure;
@@ -9,11 +9,6 @@ use super::overturning::DeviceFragility;
 use super::study::Study;
 use super::typed_tables::{demand_table, fitted_table, fragility_table};
 use crate::statistics::Fragility;
-
-/// A number of a page; a dash for none.
-pub fn number(value: Option<f64>, digits: usize) -> String {
-    true_minus(&text_table::number(value, digits))
-}
 
 /// A share in percent without needless decimals.
 pub fn percent(share: f64) -> String {

@@ -1,6 +1,6 @@
 //! The tables of an optimisation for programs, as CSV and Parquet: one row a design, and one row a motion.
 
-use sprag_report::columns::{Column, FieldTable, Fields, Table};
+use sprag_report::columns::{Column, FieldTable, Fields, Shown, Table};
 use sprag_report::long_run::row_fields::FAILED;
 
 use super::design::Design;
@@ -13,31 +13,49 @@ fn yes_or_no(yes: bool) -> &'static str {
     if yes { "true" } else { "false" }
 }
 
-/// `designs`: the bare block, then every device that was tried, by law, mount and mass ratio.
-pub fn design_table(findings: &Findings) -> impl Table {
-    FieldTable { fields: design_fields(), rows: std::iter::once(&findings.reference).chain(&findings.rows).collect() }
+/// A design, and what it is among those of its table.
+struct NamedRow<'s> {
+    name: &'s str,
+    design: &'s Row,
 }
 
-fn design_fields<'s>() -> Fields<&'s Row> {
-    let number = |name: &str| Column::number(name).or_nothing();
-    Fields::<&'s Row>::default()
-        .with(Column::text("law"), |row| (&row.law).into())
-        .with(Column::text("mount").or_nothing(), |row| row.mount.as_ref().into())
-        .with(number("mass_ratio"), |row| row.mass_ratio.into())
-        .with(Column::count("motions"), |row| row.motions.into())
-        .with(Column::count("overturned"), |row| row.overturned.into())
-        .with(Column::count("failed"), |row| row.failed.into())
-        .with(Column::number("probability"), |row| row.probability.into())
-        .with(Column::number("probability_low"), |row| row.probability_band.low.into())
-        .with(Column::number("probability_high"), |row| row.probability_band.high.into())
-        .with(Column::count("saved"), |row| row.saved.into())
-        .with(Column::count("newly_overturned"), |row| row.newly_overturned.into())
-        .with(Column::number("peak_force_ratio"), |row| row.peak_force_ratio.into())
-        .with(number("stroke_m"), |row| row.stroke_m.into())
-        .with(number("median_peak_rotation"), |row| row.median_peak_rotation.into())
-        .with(Column::text("feasible"), |row| yes_or_no(row.feasible).into())
-        .with(Column::text("on_force_front"), |row| yes_or_no(row.on_force_front).into())
-        .with(Column::text("on_stroke_front"), |row| yes_or_no(row.on_stroke_front).into())
+/// `designs`: the bare block, then every device that was tried, by law, mount and mass ratio.
+pub fn design_table(findings: &Findings) -> impl Table {
+    let rows = std::iter::once(&findings.reference).chain(&findings.rows).map(|design| NamedRow { name: "", design });
+    FieldTable { rows: rows.collect(), fields: design_fields(Fields::default()) }
+}
+
+/// Designs for people, each below its name where any has one.
+pub(super) fn named_table<'s>(rows: Vec<(&'s str, &'s Row)>) -> impl Table + 's {
+    let rows: Vec<NamedRow<'s>> = rows.into_iter().map(|(name, design)| NamedRow { name, design }).collect();
+    let mut first = Fields::<NamedRow<'s>>::default();
+    if rows.iter().any(|row| !row.name.is_empty()) {
+        first = first.with(Column::text("name").shown("", Shown::Digits(0)), |row| row.name.into());
+    }
+    FieldTable { fields: design_fields(first), rows }
+}
+
+/// The columns of designs, after those of `first`.
+fn design_fields<'s>(first: Fields<NamedRow<'s>>) -> Fields<NamedRow<'s>> {
+    let (number, digits) = (|name: &str| Column::number(name).or_nothing(), Shown::Digits);
+    first
+        .with(Column::text("law").shown("law", digits(0)), |row| (&row.design.law).into())
+        .with(Column::text("mount").or_nothing().shown("mount", digits(0)), |row| row.design.mount.as_ref().into())
+        .with(number("mass_ratio").shown("σ", digits(4)), |row| row.design.mass_ratio.into())
+        .with(Column::count("motions"), |row| row.design.motions.into())
+        .with(Column::count("overturned").shown("overturned", digits(0)), |row| row.design.overturned.into())
+        .with(Column::count("failed"), |row| row.design.failed.into())
+        .with(Column::number("probability").shown("share", Shown::Percent), |row| row.design.probability.into())
+        .with(Column::number("probability_low").shown("from", Shown::Percent), |row| row.design.probability_band.low.into())
+        .with(Column::number("probability_high").shown("to", Shown::Percent), |row| row.design.probability_band.high.into())
+        .with(Column::count("saved").shown("saved", digits(0)), |row| row.design.saved.into())
+        .with(Column::count("newly_overturned").shown("newly", digits(0)), |row| row.design.newly_overturned.into())
+        .with(Column::number("peak_force_ratio").shown("F/(mg)", digits(4)), |row| row.design.peak_force_ratio.into())
+        .with(number("stroke_m").shown("stroke (m)", digits(4)), |row| row.design.stroke_m.into())
+        .with(number("median_peak_rotation").shown("median θ/α", digits(3)), |row| row.design.median_peak_rotation.into())
+        .with(Column::text("feasible"), |row| yes_or_no(row.design.feasible).into())
+        .with(Column::text("on_force_front"), |row| yes_or_no(row.design.on_force_front).into())
+        .with(Column::text("on_stroke_front"), |row| yes_or_no(row.design.on_stroke_front).into())
 }
 
 /// A motion under a design.
