@@ -3,7 +3,9 @@
 use std::io::{self, Write};
 
 use clap::Args;
-use sprag_sim::effect::explanation::{Effects, Explanation};
+use serde_json::{Value, json};
+use sprag_report::output::Versioned;
+use sprag_sim::effect::explanation::{Effects, Explanation, Section, Setting};
 use sprag_sim::scene::Scene;
 
 use super::context::{Completion, Context, Run};
@@ -21,17 +23,40 @@ pub struct ExplainArguments {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
+    /// Print effects and equations as JSON instead of text.
+    #[arg(long)]
+    pub json: bool,
 }
 
 impl Run for ExplainArguments {
     fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
         let scene = self.scene.load(None)?;
         context.warned(scene.warnings());
+        if self.json {
+            context.print_json(&Versioned::new(document(&scene)));
+            return Ok(Completion::Complete);
+        }
         let mut text = Vec::new();
         write_scene(&scene, &mut text)?;
         context.print(String::from_utf8_lossy(&text));
         Ok(Completion::Complete)
     }
+}
+
+/// What the text says, for programs.
+fn document(scene: &Scene) -> Value {
+    let effects = |effects: &Effects| {
+        let because = |setting: &Setting| json!({ "effect": setting.effect.name, "because": setting.keys });
+        json!({ "on": effects.on.iter().map(because).collect::<Vec<_>>(), "off": effects.off })
+    };
+    let device = |index: usize| {
+        let of = Explanation::of(scene, index);
+        let section = |section: &Section| json!({ "title": section.title, "lines": section.lines });
+        let sections: Vec<Value> = of.sections.iter().map(section).collect();
+        json!({ "device": of.device, "kind": of.kind, "effects": effects(&of.effects), "sections": sections })
+    };
+    let devices: Vec<Value> = (0..scene.devices.len()).map(device).collect();
+    json!({ "scene": scene.origin, "title": scene.file.title, "effects": effects(&Effects::of_scene(scene)), "devices": devices })
 }
 
 fn write_scene(scene: &Scene, out: &mut impl Write) -> io::Result<()> {
