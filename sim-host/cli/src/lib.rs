@@ -14,9 +14,10 @@ use std::ffi::OsString;
 use std::io::Write;
 
 use clap::error::ErrorKind;
-use sprag_report::signals;
 use sprag_report::streams::{BAD_INPUT, Errors, Output};
+use sprag_report::{progress, signals};
 
+use crate::command::context::Context;
 use crate::command::wrong_line::{command_named, wrong_line};
 
 /// Runs the command with the words of a command line, the first of which is the name of the program, and gives its exit code. Results go to
@@ -30,7 +31,13 @@ where
     let interrupt = signals::interrupt();
     let (mut out, mut err) = (Output::default(), Errors::default());
     let code = match line::read(&words) {
-        Ok(command) => command.run(&mut out, &mut err, &interrupt),
+        Ok(line) => {
+            if line.quiet {
+                progress::hide();
+            }
+            let mut context = Context { out: &mut out, err: &mut err, interrupt: &interrupt, quiet: line.quiet };
+            context.run(line.command.arguments())
+        }
         Err(error) if !error.use_stderr() || error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             let _ = out.noted(error.print());
             error.exit_code()

@@ -4,9 +4,8 @@ use std::ffi::OsString;
 use std::fmt::Write as _;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
-use sprag_report::streams::{Errors, Output};
-use sprag_sim::interrupt::Interrupt;
 
+use crate::command::context::Run;
 #[cfg(feature = "effects")]
 use crate::command::{accuracy, board, closed_loop, hil, loop_study};
 use crate::command::{
@@ -17,9 +16,13 @@ use crate::command::{
 /// Rocking structures with inerters and clutches: simulate, and get the numbers to decide with.
 #[derive(Parser)]
 #[command(name = "sprag", version, propagate_version = true, disable_help_subcommand = true)]
-struct Line {
+pub struct Line {
+    /// Print nothing but results as JSON, warnings and errors; show no progress.
+    #[arg(long, short, global = true)]
+    pub quiet: bool,
+    /// The subcommand.
     #[command(subcommand)]
-    command: Command,
+    pub command: Command,
 }
 
 /// A subcommand with its arguments.
@@ -62,8 +65,9 @@ const GROUPS: [(&str, &[&str]); 5] = [
 ];
 
 /// What ends the help.
-const EXIT_CODES: &str = "Exit codes: 0 well; 1 finished, with a decision of the firmware that is not the host's (`hil`); 2 wrong usage or input, \
-    something that cannot be written, a run or record that failed, or no device within the limits (`optimise`); 130 interrupted; 143 terminated.\n\n\
+const EXIT_CODES: &str = "Exit codes: 0 well; 1 finished and results written, with a negative or partial answer: a record that cannot be read or a run \
+    that failed among others, no device within the limits (`optimise`), decisions of the firmware that are not the host's (`hil`); 2 wrong usage or \
+    input, or something that cannot be written; 130 interrupted; 143 terminated.\n\n\
     `sprag COMMAND --help` describes a command, with examples.";
 
 /// The command as clap has it.
@@ -86,8 +90,8 @@ pub fn definition() -> clap::Command {
 ///
 /// # Errors
 /// What is wrong with the line, or the help that it asks for.
-pub fn read(words: &[OsString]) -> Result<Command, clap::Error> {
-    Line::from_arg_matches(&definition().try_get_matches_from(words)?).map(|line| line.command)
+pub fn read(words: &[OsString]) -> Result<Line, clap::Error> {
+    Line::from_arg_matches(&definition().try_get_matches_from(words)?)
 }
 
 /// A negative number is a value, of which its option says whether it is allowed.
@@ -100,33 +104,33 @@ fn with_negative_numbers(command: clap::Command) -> clap::Command {
 }
 
 impl Command {
-    /// Runs it and gives its exit code.
-    pub fn run(&self, out: &mut Output, err: &mut Errors, interrupt: &Interrupt) -> i32 {
+    /// The subcommand's arguments, which run it.
+    pub fn arguments(&self) -> &dyn Run {
         match self {
-            Command::Simulate(arguments) => simulate::run(arguments, out, err, interrupt),
-            Command::Batch(arguments) => batch::run(arguments, err, interrupt),
-            Command::Similar(arguments) => similar::run(arguments, out, err, interrupt),
-            Command::Cloud(arguments) => cloud::run(arguments, out, err, interrupt),
-            Command::Optimise(arguments) => optimise::run(arguments, out, err, interrupt),
-            Command::Map(arguments) => map::run(arguments, out, err, interrupt),
-            Command::Sensitivity(arguments) => sensitivity::run(arguments, out, err, interrupt),
+            Command::Simulate(arguments) => arguments,
+            Command::Batch(arguments) => arguments,
+            Command::Similar(arguments) => arguments,
+            Command::Cloud(arguments) => arguments,
+            Command::Optimise(arguments) => arguments,
+            Command::Map(arguments) => arguments,
+            Command::Sensitivity(arguments) => arguments,
             #[cfg(feature = "effects")]
-            Command::Accuracy(arguments) => accuracy::run(arguments, out, err, interrupt),
+            Command::Accuracy(arguments) => arguments,
             #[cfg(feature = "effects")]
-            Command::Loop(arguments) => closed_loop::run(arguments, out, err, interrupt),
+            Command::Loop(arguments) => arguments,
             #[cfg(feature = "effects")]
-            Command::Hil(arguments) => hil::run(arguments, out, err, interrupt),
+            Command::Hil(arguments) => arguments,
             #[cfg(feature = "effects")]
-            Command::Board(arguments) => board::run(arguments, out, err, interrupt),
+            Command::Board(arguments) => arguments,
             #[cfg(feature = "effects")]
-            Command::LoopStudy(arguments) => loop_study::run(arguments, out, err, interrupt),
-            Command::Record(arguments) => record::run(arguments, out, err),
-            Command::Synthesize(arguments) => synthesize::run(arguments, out, err),
-            Command::Effects(arguments) => effects::run(arguments, out, err),
-            Command::Explain(arguments) => explain::run(arguments, out, err),
-            Command::Example(arguments) => example::run(arguments, out, err),
-            Command::Completions(arguments) => completions::run(arguments, out),
-            Command::Manual(arguments) => manual::run(arguments, out, err),
+            Command::LoopStudy(arguments) => arguments,
+            Command::Record(arguments) => arguments,
+            Command::Synthesize(arguments) => arguments,
+            Command::Effects(arguments) => arguments,
+            Command::Explain(arguments) => arguments,
+            Command::Example(arguments) => arguments,
+            Command::Completions(arguments) => arguments,
+            Command::Manual(arguments) => arguments,
         }
     }
 }
@@ -148,6 +152,18 @@ mod tests {
             let about = command.get_about().unwrap().to_string();
             assert!(about.chars().count() <= 64, "{}: {about}", command.get_name());
         }
+    }
+
+    #[test]
+    fn every_option_says_what_it_does() {
+        fn terse(command: &clap::Command) -> Vec<String> {
+            let own = command.get_arguments().filter(|argument| !["help", "version"].contains(&argument.get_id().as_str()));
+            let help = |argument: &clap::Arg| argument.get_help().map(ToString::to_string).unwrap_or_default();
+            let short = own.filter(|argument| help(argument).split_whitespace().count() < 3);
+            let named = short.map(|argument| format!("{} {}", command.get_name(), argument.get_id()));
+            named.chain(command.get_subcommands().flat_map(terse)).collect()
+        }
+        assert_eq!(terse(&definition()), [""; 0]);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! How results reach people and programs: tables, figures, files, and what a user sees of a run.
 //!
-//! - [`columns`], [`summary_table`]: tables for programs and for the terminal.
+//! - [`columns`], [`text_table`]: tables for programs and for people.
 //! - [`plot`], [`heading`], [`band`]: figures, and what they say of a scene.
 //! - [`output`]: files, whole or not at all; [`long_run`]: work that is split, interrupted and resumed.
 //! - [`progress`], [`streams`], [`signals`]: what a user sees of a command while it runs, and how it is stopped.
@@ -16,4 +16,4 @@ pub mod plot;
 pub mod progress;
 pub mod signals;
 pub mod streams;
-pub mod summary_table;
+pub mod text_table;

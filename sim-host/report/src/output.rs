@@ -18,6 +18,7 @@ mod formats;
 mod picture;
 mod same_file;
 mod subject;
+mod summary;
 mod table;
 mod target;
 
@@ -28,6 +29,7 @@ pub use folder::{Claim, ResultFolder, remove_empty_folders};
 pub use formats::{Formats, FormatsError};
 pub use same_file::{is_at, is_standard_output};
 pub use subject::{Digest, Subject, difference};
+pub use summary::{Maker, SCHEMA_VERSION, Summary, VERSION, Versioned};
 use target::Written;
 pub use target::claim_file;
 

@@ -1,7 +1,7 @@
 //! Signs of life of long work, on standard error only: a bar on a terminal, and sparse lines where none can be drawn.
 
 use std::io::Write;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, LazyLock};
 use std::thread::{Builder, JoinHandle};
@@ -18,6 +18,14 @@ static DRAWN: LazyLock<MultiProgress> = LazyLock::new(MultiProgress::new);
 /// Does `work` while no bar is drawn, so that whatever it writes to the terminal has lines of its own.
 pub fn without_bar<R>(work: impl FnOnce() -> R) -> R {
     if DRAWN.is_hidden() { work() } else { DRAWN.suspend(work) }
+}
+
+/// Whether nothing is shown of any work.
+static HIDDEN: AtomicBool = AtomicBool::new(false);
+
+/// Shows nothing of any work that begins from here on.
+pub fn hide() {
+    HIDDEN.store(true, Ordering::Relaxed);
 }
 
 /// Time between two drawings of a bar, and before work of unknown length is worth one.
@@ -59,7 +67,8 @@ impl Progress {
         let (end, ended) = channel();
         let seen = work.clone();
         // Without a thread the work is done unseen.
-        let shown = Builder::new().spawn(move || seen.show(&ended)).ok().map(|thread| (end, thread));
+        let show = || Builder::new().spawn(move || seen.show(&ended)).ok().map(|thread| (end, thread));
+        let shown = if HIDDEN.load(Ordering::Relaxed) { None } else { show() };
         Progress { work, shown }
     }
 

@@ -4,8 +4,10 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use sprag_cli::command::accuracy_arguments::AccuracyArguments;
-use sprag_cli::command::batch::{BatchArguments, run};
+use sprag_cli::command::batch::BatchArguments;
+use sprag_cli::command::context::Context;
 use sprag_cli::command::out_arguments::OverwriteArguments;
+use sprag_cli::command::thread_arguments::ThreadArguments;
 use sprag_sim::batch::case::TIGHT;
 use sprag_sim::batch::table::{CASE_COLUMNS, RESULT_COLUMNS};
 use sprag_sim::interrupt::Interrupt;
@@ -44,13 +46,15 @@ fn results(folder: &Path, rows: &[String], threads: Option<u16>) -> Vec<u8> {
             cases,
             out: out.clone(),
             replace: OverwriteArguments { overwrite: true },
-            threads,
+            threads: ThreadArguments { threads },
             tolerance: TIGHT,
             accuracy: AccuracyArguments::default(),
         },
         Vec::new(),
     );
-    assert_eq!(run(&arguments, &mut errors, &Interrupt::default()), 0, "{}", String::from_utf8_lossy(&errors));
+    let (mut out_text, interrupt) = (Vec::new(), Interrupt::default());
+    let code = Context { out: &mut out_text, err: &mut errors, interrupt: &interrupt, quiet: false }.run(&arguments);
+    assert_eq!(code, 0, "{}", String::from_utf8_lossy(&errors));
     let bytes = std::fs::read(out).unwrap();
     bytes.strip_prefix(format!("{RESULT_COLUMNS}\n").as_bytes()).unwrap().to_vec()
 }

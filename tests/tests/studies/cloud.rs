@@ -11,7 +11,7 @@ use sprag_studies::cloud::pages::{demand_page, fragility_page, ranking_page};
 use sprag_studies::cloud::records::StudyRecords;
 use sprag_studies::cloud::runs::Runs;
 use sprag_studies::cloud::study::Study;
-use sprag_studies::cloud::typed_tables::{DemandTable, FragilityTable, RankingTable, RunsTable};
+use sprag_studies::cloud::typed_tables::{demand_table, fragility_table, ranking_table, runs_table};
 use sprag_studies::statistics::Fragility;
 use sprag_tests::pulse_records::sine_pulses;
 
@@ -30,13 +30,13 @@ pub fn run(study: &Study) -> (StudyRecords, Runs, Findings) {
 /// Everything that a study writes.
 fn written(study: &Study, (records, runs, findings): &(StudyRecords, Runs, Findings)) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let runs = RunsTable { study, records: &records.records, runs: &runs.all };
-    let tables: [&dyn Table; 4] = [&runs, &DemandTable(findings), &FragilityTable(findings), &RankingTable(findings)];
+    let runs = runs_table(study, &records.records, &runs.all);
+    let tables: [&dyn Table; 4] = [&runs, &demand_table(findings), &fragility_table(findings), &ranking_table(findings)];
     for table in tables {
         write_csv(table, &mut bytes).unwrap();
     }
-    for page in [demand_page(study, findings), fragility_page(study, findings), ranking_page(study, findings)] {
-        bytes.extend(page.into_bytes());
+    for page in [demand_page, fragility_page, ranking_page] {
+        bytes.extend(page(study, findings).unwrap().into_bytes());
     }
     for picture in [demand_picture(study, findings).unwrap(), fragility_picture(study, findings).unwrap()] {
         bytes.extend(picture.unwrap_or_default().into_bytes());
@@ -87,7 +87,7 @@ fn a_set_in_which_nothing_overturns_says_so() {
     let study = study("title = 'Weak pulses'", folder.path());
     let results = run(&study);
     assert!(results.2.fragility.iter().all(|found| matches!(found.fragility, Fragility::NeverOverturned { number: 6, .. })));
-    let page = fragility_page(&study, &results.2);
+    let page = fragility_page(&study, &results.2).unwrap();
     assert!(page.contains("no curve; none of 6 runs overturned"), "{page}");
     let picture = fragility_picture(&study, &results.2).unwrap().unwrap();
     assert!(picture.contains("clutched pair: never overturned"));

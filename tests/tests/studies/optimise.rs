@@ -18,7 +18,7 @@ use sprag_studies::optimise::findings::{Findings, Row};
 use sprag_studies::optimise::page::{choice_table, page};
 use sprag_studies::optimise::problem::{Choices, Problem, Solution};
 use sprag_studies::optimise::tried::{MOST_ROWS, Tried, TriedError};
-use sprag_studies::optimise::typed_tables::{DesignTable, MotionTable};
+use sprag_studies::optimise::typed_tables::{design_table, motion_table};
 use sprag_studies::statistics::quantile;
 use sprag_tests::pulse_records::sine_pulses;
 use sprag_tests::scene_text::runs;
@@ -56,7 +56,7 @@ struct Designs {
 impl Designs {
     fn of(findings: &Findings) -> Designs {
         let mut bytes = Vec::new();
-        write_csv(&DesignTable(findings), &mut bytes).unwrap();
+        write_csv(&design_table(findings), &mut bytes).unwrap();
         let text = String::from_utf8(bytes).unwrap();
         // Names of mounts with a pulley hold a comma.
         let fields = |line: &str| -> Vec<String> {
@@ -189,11 +189,11 @@ fn results_have_the_same_bytes_for_every_number_of_threads() {
         pool.install(|| {
             answered(&study, |problem, solution, findings| {
                 let mut bytes = Vec::new();
-                write_csv(&DesignTable(findings), &mut bytes).unwrap();
+                write_csv(&design_table(findings), &mut bytes).unwrap();
                 let chosen = findings.best.as_ref();
-                write_csv(&MotionTable { problem, solution, chosen }, &mut bytes).unwrap();
-                bytes.extend(page(problem, findings).into_bytes());
-                bytes.extend(choice_table(findings).markdown().into_bytes());
+                write_csv(&motion_table(problem, solution, chosen), &mut bytes).unwrap();
+                bytes.extend(page(problem, findings).unwrap().into_bytes());
+                bytes.extend(choice_table(findings).unwrap().markdown().into_bytes());
                 bytes.extend(trade_off_picture(problem, findings).unwrap().into_bytes());
                 bytes
             })
@@ -212,7 +212,7 @@ fn no_design_within_the_limits_is_said_with_the_nearest() {
         let least = findings.rows.iter().map(|row| row.peak_force_ratio).fold(f64::INFINITY, f64::min);
         assert_eq!(nearest.design.peak_force_ratio, least);
         assert!((nearest.demand_over_limit - least / 0.001).abs() < 1e-9 && nearest.demand_over_limit > 1.0);
-        assert!(page(problem, findings).contains("No device respects the limits."));
+        assert!(page(problem, findings).unwrap().contains("No device respects the limits."));
         trade_off_picture(problem, findings).unwrap();
     });
 }
@@ -316,7 +316,7 @@ pub fn simulated_again(study: &Study, path_of: impl Fn(&str) -> PathBuf) {
         let stroke = standing.map(|run| run.checks.as_ref().unwrap().stroke_m.unwrap_or(0.0)).fold(0.0, f64::max);
         assert_eq!(best.stroke_m, Some(stroke));
         assert!(runs.iter().any(|run| run.outcome == Outcome::Safe));
-        eprintln!("{}", choice_table(findings).markdown());
+        eprintln!("{}", choice_table(findings).unwrap().markdown());
     });
 }
 

@@ -9,7 +9,7 @@ use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::map::{AxisTable, ScaleName};
 use sprag_studies::map::boundaries::{Boundaries, Boundary, EVALUATIONS, TOLERANCE, refine};
-use sprag_studies::map::boundary_table::BoundaryTable;
+use sprag_studies::map::boundary_table::boundary_table;
 use sprag_studies::map::grid::{Grid, Values};
 use sprag_studies::map::study::{results_at, study};
 use sprag_tests::boundary;
@@ -186,7 +186,7 @@ fn csv(grid: &Grid, threads: usize) -> (Vec<u8>, Vec<Boundaries>) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     let all = pool.install(|| traced(grid, 3000));
     let mut bytes = Vec::new();
-    write_csv(&BoundaryTable { grid, all: &all }, &mut bytes).expect("memory");
+    write_csv(&boundary_table(grid, &all), &mut bytes).expect("memory");
     (bytes, all)
 }
 

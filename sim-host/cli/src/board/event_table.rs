@@ -1,7 +1,6 @@
 //! A device's event log in words.
 
-use std::io::{self, Write};
-
+use sprag_report::text_table::TextTable;
 use sprag_shared::control::supervisor::event_log::{Entry, Kind};
 use sprag_shared::link::reset_cause::Cause;
 
@@ -26,47 +25,43 @@ pub fn what(kind: Kind) -> String {
     }
 }
 
-/// As a table; `period` is from tick to tick, s.
-///
-/// # Errors
-/// As the writer.
-pub fn write_table(entries: &[Entry], total: u32, period: f32, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "{:>10} {:>12} {:>12} {:>12}  what", "tick", "time s", "θ rad", "θ̇ rad/s")?;
+/// As a table for people; `period` is from tick to tick, s.
+pub fn table(entries: &[Entry], period: f32) -> TextTable {
+    let mut table = TextTable::new(0, ["tick", "time s", "θ rad", "θ̇ rad/s", "what"]).ending_in_words();
     for entry in entries {
-        let seconds = f64::from(entry.tick) * f64::from(period);
-        writeln!(
-            out,
-            "{:>10} {seconds:>12.4} {:>12.6} {:>12.6}  {}",
-            entry.tick,
-            entry.rotation,
-            entry.velocity,
-            what(entry.kind)
-        )?;
+        table.row(vec![
+            entry.tick.to_string(),
+            format!("{:.4}", time(entry, period)),
+            format!("{:.6}", entry.rotation),
+            format!("{:.6}", entry.velocity),
+            what(entry.kind),
+        ]);
     }
-    writeln!(out, "{} of {total} entries", entries.len())
+    table
 }
 
-/// As CSV.
-///
-/// # Errors
-/// As the writer.
-pub fn write_csv(entries: &[Entry], period: f32, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "tick,time_s,rotation_rad,velocity_rad_s,what,fault_code")?;
+/// As a table for programs.
+pub fn rows(entries: &[Entry], period: f32) -> TextTable {
+    let mut table = TextTable::new(0, ["tick", "time_s", "rotation_rad", "velocity_rad_s", "what", "fault_code"]);
     for entry in entries {
         let code = match entry.kind {
             Kind::Fault(code) | Kind::Warning(code) => code.to_string(),
             _ => String::new(),
         };
-        let seconds = f64::from(entry.tick) * f64::from(period);
-        let what = what(entry.kind).replace('"', "\"\"");
-        writeln!(out, "{},{seconds},{},{},\"{what}\",{code}", entry.tick, entry.rotation, entry.velocity)?;
+        let numbers = [time(entry, period).to_string(), entry.rotation.to_string(), entry.velocity.to_string()];
+        table.row([&[entry.tick.to_string()][..], &numbers, &[what(entry.kind), code]].concat());
     }
-    Ok(())
+    table
+}
+
+fn time(entry: &Entry, period: f32) -> f64 {
+    f64::from(entry.tick) * f64::from(period)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use sprag_report::columns::write_csv;
     use sprag_shared::control::monitor::fault::{Fault, Wheel};
 
     #[test]
@@ -77,11 +72,10 @@ mod tests {
             entry(2000, Kind::Fault(Fault::Overrun.code())),
             entry(u32::MAX, Kind::Warning(999)),
         ];
-        let (mut table, mut csv) = (Vec::new(), Vec::new());
-        write_table(&entries, 70, 0.0005, &mut table).unwrap();
-        write_csv(&entries, 0.0005, &mut csv).unwrap();
-        let (table, csv) = (String::from_utf8(table).unwrap(), String::from_utf8(csv).unwrap());
-        assert!(table.contains("engage second") && table.contains(&Fault::Overrun.to_string()) && table.contains("3 of 70"));
+        let mut csv = Vec::new();
+        write_csv(&rows(&entries, 0.0005), &mut csv).unwrap();
+        let (table, csv) = (table(&entries, 0.0005).plain(), String::from_utf8(csv).unwrap());
+        assert!(table.contains("engage second") && table.contains(&Fault::Overrun.to_string()) && table.lines().count() == 4);
         let times: Vec<f64> = csv.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse().unwrap()).collect();
         assert!((times[1] - 1.0).abs() < 1e-6, "{times:?}");
         assert!(csv.lines().count() == 4 && csv.lines().nth(2).unwrap().ends_with(",61"));

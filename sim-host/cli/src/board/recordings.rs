@@ -1,8 +1,8 @@
 //! What a device's flight recorder holds: which recordings, and every tick of one.
 
 use std::collections::BTreeMap;
-use std::io::{self, Write};
 
+use sprag_report::text_table::TextTable;
 use sprag_shared::device::recorder::page::{HEADER_BYTES, TRAILER_BYTES, words};
 use sprag_shared::device::recorder::{CAPACITY, Header, Moment, PAGE_BYTES, Page, PageError};
 use sprag_shared::link::{RecorderState, Reply, Request};
@@ -124,30 +124,38 @@ pub fn read<L: Line>(
     Ok(recording)
 }
 
-/// As CSV, a row a tick.
-///
-/// # Errors
-/// As the writer.
-pub fn write_csv(recordings: &[Recording], out: &mut dyn Write) -> io::Result<()> {
-    writeln!(
-        out,
-        "earthquake,part,tick,time_s,rotation_rad,velocity_rad_s,ground_g,engage_first,engage_second,engaged_first,engaged_second,standing,state,fault_code"
-    )?;
+/// Columns of a recording.
+const COLUMNS: [&str; 14] = [
+    "earthquake",
+    "part",
+    "tick",
+    "time_s",
+    "rotation_rad",
+    "velocity_rad_s",
+    "ground_g",
+    "engage_first",
+    "engage_second",
+    "engaged_first",
+    "engaged_second",
+    "standing",
+    "state",
+    "fault_code",
+];
+
+/// A row a tick.
+pub fn table(recordings: &[Recording]) -> TextTable {
+    let mut table = TextTable::new(0, COLUMNS);
     for recording in recordings {
         for (tick, moment) in &recording.moments {
             let Moment { rotation, velocity, ground, command, engaged, phase, standing, fault } = moment;
-            let ([engage_first, engage_second], [first, second]) = (command.map(u8::from), engaged.map(u8::from));
-            writeln!(
-                out,
-                "{},{},{tick},{},{rotation},{velocity},{ground},{engage_first},{engage_second},{first},{second},{},{},{}",
-                recording.number,
-                recording.part,
-                f64::from(*tick) * recording.period,
-                u8::from(*standing),
-                format!("{phase:?}").to_lowercase(),
-                fault.unwrap_or(0),
-            )?;
+            let clutches = [*command, *engaged].concat().into_iter().map(|clutch| u8::from(clutch).to_string());
+            let before = [recording.number.to_string(), recording.part.to_string(), tick.to_string()];
+            let time = (f64::from(*tick) * recording.period).to_string();
+            let motion = [time, rotation.to_string(), velocity.to_string(), ground.to_string()];
+            let state = format!("{phase:?}").to_lowercase();
+            let after = [u8::from(*standing).to_string(), state, fault.unwrap_or(0).to_string()];
+            table.row(before.into_iter().chain(motion).chain(clutches).chain(after).collect());
         }
     }
-    Ok(())
+    table
 }

@@ -1,11 +1,12 @@
 //! What a closed loop with a device comes to, beyond what one without a device does.
 
 use std::fmt;
-use std::io::{self, Write};
 
 use serde::Serialize;
+use sprag_report::text_table::TextTable;
+use sprag_shared::link::TickReport;
 use sprag_shared::observers::outcome::Outcome;
-use sprag_sim::closed_loop::report::LoopSummary;
+use sprag_sim::closed_loop::report::{LoopSummary, clutches};
 
 use super::driver::DeviceTick;
 
@@ -82,34 +83,25 @@ impl fmt::Display for DeviceSummary {
     }
 }
 
-/// Writes one row a tick of the device, from the first one of the stillness before the motion.
-///
-/// # Errors
-/// As the writer.
-pub fn write_device_ticks(runs: &[(String, Vec<DeviceTick>)], out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "device,tick,device_tick,counts,late_counts,differs,command,state,fault")?;
+/// One row a tick of the device, from the first one of the stillness before the motion.
+pub fn device_ticks(runs: &[(String, Vec<DeviceTick>)]) -> TextTable {
+    let columns = ["device", "tick", "device_tick", "counts", "late_counts", "differs", "command", "state", "fault"];
+    let mut table = TextTable::new(1, columns);
     for (device, ticks) in runs {
-        let device = format!("\"{}\"", device.replace('"', "\"\""));
         for (number, tick) in ticks.iter().enumerate() {
-            let differs = u8::from(tick.differs);
-            match &tick.report {
-                None => writeln!(out, "{device},{},,,,{differs},,,", number + 1)?,
-                Some(report) => {
-                    let decision = &report.decision;
-                    writeln!(
-                        out,
-                        "{device},{},{},{},{},{differs},{},{},{}",
-                        number + 1,
-                        report.tick,
-                        report.cost,
-                        report.lateness,
-                        u8::from(decision.command[0]) + 2 * u8::from(decision.command[1]),
-                        format!("{:?}", decision.phase).to_lowercase(),
-                        decision.fault.map_or(0, |fault| fault.code()),
-                    )?;
-                }
-            }
+            let of_report = |value: &dyn Fn(&TickReport) -> String| tick.report.as_ref().map_or_else(String::new, value);
+            table.row(vec![
+                device.clone(),
+                (number + 1).to_string(),
+                of_report(&|report| report.tick.to_string()),
+                of_report(&|report| report.cost.to_string()),
+                of_report(&|report| report.lateness.to_string()),
+                u8::from(tick.differs).to_string(),
+                of_report(&|report| clutches(report.decision.command).to_string()),
+                of_report(&|report| format!("{:?}", report.decision.phase).to_lowercase()),
+                of_report(&|report| report.decision.fault.map_or(0, |fault| fault.code()).to_string()),
+            ]);
         }
     }
-    Ok(())
+    table
 }

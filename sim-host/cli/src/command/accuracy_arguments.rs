@@ -5,6 +5,8 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use sprag_sim::accuracy::{Accuracy, budget};
 
+use super::context::Context;
+
 /// How accurate, and how long it may take.
 #[derive(Args, Clone, Debug, Default)]
 pub struct AccuracyArguments {
@@ -26,29 +28,37 @@ impl AccuracyArguments {
         }
     }
 
-    /// Runs `command` with the changes of a scene that these options ask for, as [`AccuracyArguments::levels`].
+    /// Runs `work` with the changes of a scene that these options ask for, as [`AccuracyArguments::levels`].
     ///
     /// # Errors
-    /// Those of `command`.
-    pub fn run<R, F>(&self, mut command: impl FnMut(Option<String>) -> Result<R, F>, tell: impl FnOnce(&str)) -> Result<R, F> {
-        self.levels(|accuracy| command(accuracy.map(AccuracyArguments::change)), tell)
+    /// Those of `work`.
+    pub fn run<R>(
+        &self,
+        context: &mut Context<'_>,
+        mut work: impl FnMut(Option<String>) -> anyhow::Result<R>,
+    ) -> anyhow::Result<R> {
+        self.levels(context, |accuracy| work(accuracy.map(AccuracyArguments::change)))
     }
 
-    /// Runs `command` as accurately as these options ask, if they do; within a time budget as accurately as that affords, which is told to
-    /// `tell`.
+    /// Runs `work` as accurately as these options ask, if they do; within a time budget as accurately as that affords, which is reported.
     ///
     /// # Errors
-    /// Those of `command`.
-    pub fn levels<R, F>(
+    /// Those of `work`.
+    pub fn levels<R>(
         &self,
-        mut command: impl FnMut(Option<Accuracy>) -> Result<R, F>,
-        tell: impl FnOnce(&str),
-    ) -> Result<R, F> {
-        let Some(seconds) = self.time_budget else { return command(self.accuracy) };
+        context: &mut Context<'_>,
+        mut work: impl FnMut(Option<Accuracy>) -> anyhow::Result<R>,
+    ) -> anyhow::Result<R> {
+        let Some(seconds) = self.time_budget else { return work(self.accuracy) };
         let start = Instant::now();
-        let found = budget::within(seconds, self.accuracy, |accuracy| command(Some(accuracy)), || start.elapsed())?;
-        tell(&found.words(seconds));
+        let found = budget::within(seconds, self.accuracy, |accuracy| work(Some(accuracy)), || start.elapsed())?;
+        context.note(found.words(seconds));
         Ok(found.result)
+    }
+
+    /// Whether the accuracy may be another every time.
+    pub fn is_chosen(&self) -> bool {
+        self.time_budget.is_some()
     }
 }
 

@@ -4,20 +4,21 @@ use std::io::{BufReader, Read, Write};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use anyhow::anyhow;
 use clap::Args;
 use rayon::prelude::*;
 use sprag_loops::{Method, Precision};
-use sprag_report::output::{OutputError, Results, claim_file};
+use sprag_report::output::{Results, claim_file};
 use sprag_report::progress::Progress;
 use sprag_sim::accuracy::answer::Comparable;
 use sprag_sim::accuracy::{Accuracy, ErrorEstimate, budget};
 use sprag_sim::batch::case::{Case, CaseError, CaseResult};
-use sprag_sim::batch::table::{CASE_COLUMNS, ERROR_COLUMNS, RESULT_COLUMNS, TableError, read_cases, shown, write_result};
-use sprag_sim::interrupt::Interrupt;
+use sprag_sim::batch::table::{CASE_COLUMNS, ERROR_COLUMNS, RESULT_COLUMNS, read_cases, shown, write_result};
 
 use super::accuracy_arguments::AccuracyArguments;
-use super::ended;
+use super::context::{Completion, Context, Run};
 use super::out_arguments::OverwriteArguments;
+use super::thread_arguments::ThreadArguments;
 
 /// Run many dimensionless blocks under one-cycle pulses.
 #[derive(Args, Clone, Debug)]
@@ -25,18 +26,18 @@ use super::out_arguments::OverwriteArguments;
     and the result file\n  {RESULT_COLUMNS}\nwith times in 1/p from the pulse's start; with --accuracy or --time-budget also\n  {ERROR_COLUMNS}\n\
     Rows keep their order, whatever the number of threads."))]
 pub struct BatchArguments {
-    /// Case file.
+    /// Case file: a block and a pulse in each row.
     #[arg(value_name = "CASES.csv")]
     pub cases: PathBuf,
-    /// Result file.
+    /// File for the results, a row for each case.
     #[arg(long, value_name = "RESULTS.csv")]
     pub out: PathBuf,
     /// What may be replaced.
     #[command(flatten)]
     pub replace: OverwriteArguments,
-    /// Threads; all cores by default. The result does not depend on it.
-    #[arg(long, value_name = "N", value_parser = super::threads)]
-    pub threads: Option<u16>,
+    /// Threads.
+    #[command(flatten)]
+    pub threads: ThreadArguments,
     /// Size of the last terms of the series over the rotation that matters, 1e-20 to 0.01; without errors.
     #[arg(long, value_name = "T", default_value = "1e-15", value_parser = tolerance, conflicts_with_all = ["accuracy", "time_budget"])]
     pub tolerance: f64,
@@ -50,26 +51,6 @@ fn tolerance(text: &str) -> Result<f64, String> {
         Ok(value) if (1e-20..=1e-2).contains(&value) => Ok(value),
         _ => Err("must be a number from 1e-20 to 0.01".to_owned()),
     }
-}
-
-#[derive(Debug, thiserror::Error)]
-enum Failure {
-    #[error("{}: {error}", path.display())]
-    Unreadable { path: PathBuf, error: std::io::Error },
-    #[error("{}: too large; case files of at most 1 GiB are read", path.display())]
-    TooLarge { path: PathBuf },
-    #[error("{}: {error}", path.display())]
-    Table { path: PathBuf, error: TableError },
-    #[error("{}: case `{}`: {error}", path.display(), shown(.id))]
-    Case { path: PathBuf, id: String, error: CaseError },
-    #[error("{0}")]
-    Output(#[from] OutputError),
-    #[error("{0}")]
-    Budget(#[from] budget::TooLittleTime),
-    #[error("the threads cannot be started: {0}")]
-    Threads(#[from] rayon::ThreadPoolBuildError),
-    #[error("interrupted")]
-    Interrupted,
 }
 
 /// Largest case file that is read, bytes: some ten million cases.
@@ -106,10 +87,10 @@ fn plan(seconds: Duration, accuracy: Option<Accuracy>, cases: &[(String, Case)])
     budget::plan(seconds, accuracy, sample, || start.elapsed())
 }
 
-/// Runs the command; errors go to `err`.
-pub fn run(arguments: &BatchArguments, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    let result = run_or_fail(arguments, err, interrupt);
-    ended(result.map(|()| true), interrupt, err)
+impl Run for BatchArguments {
+    fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+        run(self, context).map(|()| Completion::Complete)
+    }
 }
 
 /// The first line of a result file.
@@ -124,25 +105,27 @@ fn results_of(file: impl Read, heading: &str, cases: &[(String, Case)]) -> bool 
     same && reader.records().map(|row| row.ok()?.get(0).map(str::to_owned)).eq(cases.iter().map(|(id, _)| Some(id.clone())))
 }
 
-fn run_or_fail(arguments: &BatchArguments, err: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+fn run(arguments: &BatchArguments, context: &mut Context<'_>) -> anyhow::Result<()> {
+    let interrupt = context.interrupt;
+    let name = arguments.cases.display();
     let path = &arguments.cases;
-    let file = std::fs::File::open(path).map_err(|error| Failure::Unreadable { path: path.clone(), error })?;
+    let file = std::fs::File::open(path).map_err(|error| anyhow!("{name}: {error}"))?;
     if !file.metadata().is_ok_and(|data| data.len() <= LARGEST_FILE) {
-        return Err(Failure::TooLarge { path: path.clone() });
+        anyhow::bail!("{name}: too large; case files of at most 1 GiB are read");
     }
     let reading = Progress::uncounted("reading cases");
-    let cases = read_cases(BufReader::new(file)).map_err(|error| Failure::Table { path: path.clone(), error })?;
+    let cases = read_cases(BufReader::new(file)).map_err(|error| anyhow!("{name}: {error}"))?;
     reading.finish();
     // Where the results go is tried before the work, not after it.
     let heading = heading(arguments.accuracy.accuracy.is_some() || arguments.accuracy.time_budget.is_some());
     let same = |file| results_of(file, &heading, &cases);
     claim_file(&arguments.out, &[path], arguments.replace.overwrite, same)?;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
+    let pool = arguments.threads.pool()?;
     let AccuracyArguments { mut accuracy, time_budget } = arguments.accuracy;
     if let Some(seconds) = time_budget {
         let _trying = Progress::uncounted(super::TRYING);
         let plan = pool.install(|| plan(seconds, accuracy, &cases))?;
-        let _ = writeln!(err, "sprag: {plan}");
+        context.note(plan);
         accuracy = Some(plan.accuracy);
     }
     let progress = Progress::new("cases");
@@ -164,11 +147,9 @@ fn run_or_fail(arguments: &BatchArguments, err: &mut impl Write, interrupt: &Int
             .collect()
     });
     progress.finish();
-    if interrupt.is_set() {
-        return Err(Failure::Interrupted);
-    }
+    context.check_interrupt()?;
     if let Some((id, error)) = cases.iter().zip(&answers).find_map(|((id, _), answer)| answer.as_ref().err().map(|e| (id, *e))) {
-        return Err(Failure::Case { path: path.clone(), id: id.clone(), error });
+        anyhow::bail!("{name}: case `{}`: {error}", shown(id));
     }
     let _writing = Progress::uncounted("writing results");
     let mut results = Results::default();

@@ -4,8 +4,10 @@ use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use anyhow::{Error, anyhow};
 use clap::{Args, Subcommand};
-use sprag_report::output::{OutputError, Results, claim_file, is_standard_output};
+use sprag_report::columns::write_csv;
+use sprag_report::output::{Results, claim_file, is_standard_output};
 use sprag_shared::control::monitor::fault::{Fault, Recovery};
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::link::{Identity, Request, State};
@@ -14,12 +16,11 @@ use sprag_sim::interrupt::Interrupt;
 
 use super::board_line::{Connected, LineArguments, connect, firmware};
 use super::board_record::{self, RecordArguments};
-use super::ended;
-use super::loop_scene::{LoopScene, LoopSceneError};
+use super::context::{Completion, Context, Interrupted, Run};
+use super::loop_scene::LoopScene;
 use super::out_arguments::OverwriteArguments;
 use super::record_arguments::SceneRecordArguments;
-use super::warned;
-use crate::board::event_table::{what, write_csv, write_table};
+use crate::board::event_table::{rows, table, what};
 use crate::board::line::{DeviceError, Line};
 use crate::board::session::Session;
 use crate::board::strip_chart::StripChart;
@@ -139,46 +140,33 @@ struct WatchArguments {
     seconds: Option<f32>,
 }
 
-/// Why a command on a device has not ended well.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum Failure {
-    #[error("{0}")]
-    Device(#[from] DeviceError),
-    #[error("{0}")]
-    Scene(#[from] LoopSceneError),
-    #[error("{0}")]
-    Input(String),
-    #[error("{0}")]
-    Output(#[from] OutputError),
-    #[error("the output cannot be written: {0}")]
-    Stream(#[from] std::io::Error),
-    #[error("interrupted")]
-    Interrupted,
-}
-
 pub(super) type Talk = Session<Box<dyn Line>>;
 
-/// Runs the command; what the device says goes to `out`, errors go to `err`.
-pub fn run(arguments: &BoardArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    interrupt.keep("what was changed in the device stays as it is");
-    let outcome = match &arguments.command {
-        DeviceCommand::Info(info) => with_device(&info.line, out, |session, out| show(session, out)),
-        DeviceCommand::Parameters(given) => change(given, out, err, interrupt),
-        DeviceCommand::SelfTest(info) => with_device(&info.line, out, |session, out| self_test(session, out, interrupt)),
-        DeviceCommand::Log(given) => log_to(given, out),
-        DeviceCommand::Record(given) => board_record::run(given, out, interrupt),
-        DeviceCommand::Clear(info) => with_device(&info.line, out, clear),
-        DeviceCommand::Protect(info) => with_device(&info.line, out, protect),
-        DeviceCommand::Detach(info) => with_device(&info.line, out, detach),
-        DeviceCommand::Watch(given) => with_device(&given.line, out, |session, out| watch(session, given, out, interrupt)),
-    };
-    match outcome {
-        Ok(()) => 0,
-        // Reported where standard output is.
-        Err(Failure::Stream(_)) => 0,
-        // Watching ends so.
-        Err(Failure::Interrupted) if matches!(arguments.command, DeviceCommand::Watch(_)) => interrupt.exit_code(),
-        outcome => ended(outcome.map(|()| true), interrupt, err),
+impl Run for BoardArguments {
+    fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+        let interrupt = context.interrupt;
+        interrupt.keep("what was changed in the device stays as it is");
+        let out = &mut context.out;
+        let ended = match &self.command {
+            DeviceCommand::Info(info) => with_device(&info.line, out, show),
+            DeviceCommand::Parameters(given) => change(given, context),
+            DeviceCommand::SelfTest(info) => with_device(&info.line, out, |session, out| self_test(session, out, interrupt)),
+            DeviceCommand::Log(given) => log_to(given, out),
+            DeviceCommand::Record(given) => board_record::run(given, out, interrupt),
+            DeviceCommand::Clear(info) => with_device(&info.line, out, clear),
+            DeviceCommand::Protect(info) => with_device(&info.line, out, protect),
+            DeviceCommand::Detach(info) => with_device(&info.line, out, detach),
+            DeviceCommand::Watch(given) => with_device(&given.line, out, |session, out| watch(session, given, out, interrupt)),
+        };
+        match ended {
+            // Reported where standard output is.
+            Err(error) if error.is::<std::io::Error>() => Ok(Completion::Complete),
+            // Watching ends so.
+            Err(error) if error.is::<Interrupted>() && matches!(self.command, DeviceCommand::Watch(_)) => {
+                Ok(Completion::Interrupted)
+            }
+            ended => ended.map(|()| Completion::Complete),
+        }
     }
 }
 
@@ -186,8 +174,8 @@ pub fn run(arguments: &BoardArguments, out: &mut impl Write, err: &mut impl Writ
 pub(super) fn with_device<W: Write>(
     line: &LineArguments,
     out: &mut W,
-    talk: impl FnOnce(&mut Talk, &mut W) -> Result<(), Failure>,
-) -> Result<(), Failure> {
+    talk: impl FnOnce(&mut Talk, &mut W) -> anyhow::Result<()>,
+) -> anyhow::Result<()> {
     let Connected { line, log } = connect(line)?;
     let mut session = Session::new(line);
     let outcome = talk(&mut session, out);
@@ -200,7 +188,7 @@ pub(super) fn with_device<W: Write>(
     outcome
 }
 
-fn show(session: &mut Talk, out: &mut impl Write) -> Result<(), Failure> {
+fn show(session: &mut Talk, out: &mut impl Write) -> anyhow::Result<()> {
     let identity = session.identify()?;
     let state = session.state()?;
     let State { calibration, .. } = state;
@@ -269,19 +257,19 @@ fn duration(counts: u32, identity: &Identity) -> String {
     format!("{counts} counts, {microseconds:.1} µs")
 }
 
-fn change(given: &ParameterArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+fn change(given: &ParameterArguments, context: &mut Context<'_>) -> anyhow::Result<()> {
     // Whatever can be wrong here is found before the device is looked for.
     for name in &given.get {
-        setting_text::value(&Settings::default(), name).map_err(Failure::Input)?;
+        setting_text::value(&Settings::default(), name).map_err(Error::msg)?;
     }
     let set: Vec<(&str, &str)> =
-        given.set.iter().map(|text| setting_text::assignment(text)).collect::<Result<_, _>>().map_err(Failure::Input)?;
-    let scene = given.scene.as_ref().map(|path| of_scene(path, err, interrupt)).transpose()?;
+        given.set.iter().map(|text| setting_text::assignment(text)).collect::<Result<_, _>>().map_err(Error::msg)?;
+    let scene = given.scene.as_ref().map(|path| of_scene(path, context)).transpose()?;
     let file = given.file.as_ref().map(|path| {
         let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|error| Failure::Input(format!("{name}: {error}")))?;
-        let assignments = setting_text::of_toml(&name, &text).map_err(Failure::Input)?;
-        Ok::<_, Failure>((name, assignments))
+        let text = std::fs::read_to_string(path).map_err(|error| anyhow!("{name}: {error}"))?;
+        let assignments = setting_text::of_toml(&name, &text).map_err(Error::msg)?;
+        anyhow::Ok((name, assignments))
     });
     let file = file.transpose()?;
     if let Some(path) = &given.out {
@@ -289,17 +277,17 @@ fn change(given: &ParameterArguments, out: &mut impl Write, err: &mut impl Write
         // What another device or another time had is not made again by the same command.
         claim_file(path, &inputs, given.replace.overwrite, |_| false)?;
     }
-    with_device(&given.line, out, |session, out| {
+    with_device(&given.line, &mut context.out, |session, out| {
         let before = parameters::read(session)?;
         let mut wanted = scene.map_or(before, |scene| setting_text::with_board_of(&scene, &before));
         if let Some((name, assignments)) = &file {
             let each = assignments.iter().map(|(name, text)| (name.as_str(), text.as_str()));
-            setting_text::assign(&mut wanted, each).map_err(|error| Failure::Input(format!("{name}: {error}")))?;
+            setting_text::assign(&mut wanted, each).map_err(|error| anyhow!("{name}: {error}"))?;
         }
-        setting_text::assign(&mut wanted, set).map_err(Failure::Input)?;
+        setting_text::assign(&mut wanted, set).map_err(Error::msg)?;
         let changes = given.store || wanted != before;
         if changes {
-            setting_text::check(&wanted).map_err(Failure::Input)?;
+            setting_text::check(&wanted).map_err(Error::msg)?;
         }
         // A file that cannot be written is found out before the device is another.
         let mut results = Results::default();
@@ -341,18 +329,18 @@ fn report(given: &ParameterArguments, before: &Settings, now: &Settings, out: &m
     Ok(())
 }
 
-fn of_scene(path: &Path, err: &mut impl Write, interrupt: &Interrupt) -> Result<Settings, Failure> {
+fn of_scene(path: &Path, context: &mut Context<'_>) -> anyhow::Result<Settings> {
     let desk = LoopScene::load(path, &[], &SceneRecordArguments::default())?;
-    warned(desk.scene.warnings(), err);
-    let Some(&index) = desk.pairs.first() else { return Err(Failure::Input(format!("{}: no clutched pair", path.display()))) };
-    let settings = desk.task(index, desk.controller.sensors.seed(), interrupt).settings();
-    settings.map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
+    context.warned(desk.scene.warnings());
+    let Some(&index) = desk.pairs.first() else { return Err(anyhow!("{}: no clutched pair", path.display())) };
+    let settings = desk.task(index, desk.controller.sensors.seed(), context.interrupt).settings();
+    settings.map_err(|error| anyhow!("{}: {error}", path.display()))
 }
 
 /// For how long the outcome of a request is waited for between two questions.
 const PAUSE: Duration = Duration::from_millis(50);
 
-fn self_test(session: &mut Talk, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+fn self_test(session: &mut Talk, out: &mut impl Write, interrupt: &Interrupt) -> anyhow::Result<()> {
     let settings = parameters::read(session)?;
     let before = session.state()?.log_count;
     session.order(&Request::SelfTest)?;
@@ -366,10 +354,10 @@ fn self_test(session: &mut Talk, out: &mut impl Write, interrupt: &Interrupt) ->
             break state;
         }
         if interrupt.is_set() {
-            return Err(Failure::Interrupted);
+            return Err(Interrupted.into());
         }
         if begun.elapsed().as_secs_f32() > patience {
-            return Err(Failure::Input(format!("the self-test has not ended after {patience:.0} s: {:?}", state.phase)));
+            return Err(anyhow!("the self-test has not ended after {patience:.0} s: {:?}", state.phase));
         }
         std::thread::sleep(PAUSE);
     };
@@ -380,12 +368,12 @@ fn self_test(session: &mut Talk, out: &mut impl Write, interrupt: &Interrupt) ->
     }
     show(session, out)?;
     match state.fault {
-        Some(fault) => Err(Failure::Input(format!("the self-test failed: {fault}"))),
+        Some(fault) => Err(anyhow!("the self-test failed: {fault}")),
         None => Ok(()),
     }
 }
 
-fn log_to(given: &LogArguments, out: &mut impl Write) -> Result<(), Failure> {
+fn log_to(given: &LogArguments, out: &mut impl Write) -> anyhow::Result<()> {
     if let Some(path) = &given.csv {
         // A log is of its time: the same command makes another.
         claim_file(path, &[], given.replace.overwrite, |_| false)?;
@@ -393,36 +381,36 @@ fn log_to(given: &LogArguments, out: &mut impl Write) -> Result<(), Failure> {
     with_device(&given.line, out, |session, out| log(session, given, out))
 }
 
-fn log(session: &mut Talk, given: &LogArguments, out: &mut impl Write) -> Result<(), Failure> {
+fn log(session: &mut Talk, given: &LogArguments, out: &mut impl Write) -> anyhow::Result<()> {
     let period = parameters::read(session)?.period();
     let (entries, total) = session.log()?;
     if let Some(path) = &given.csv {
         let mut results = Results::default();
-        results.add(path, |file| write_csv(&entries, period, file))?;
+        results.add(path, |file| Ok(write_csv(&rows(&entries, period), file)?))?;
         results.commit()?;
         if !is_standard_output(path) {
             writeln!(out, "{} of {total} entries in {}", entries.len(), path.display())?;
         }
     } else {
-        write_table(&entries, total, period, out)?;
+        writeln!(out, "{}{} of {total} entries", table(&entries, period).plain(), entries.len())?;
     }
     Ok(())
 }
 
-fn detach<W: Write>(session: &mut Talk, out: &mut W) -> Result<(), Failure> {
+fn detach<W: Write>(session: &mut Talk, out: &mut W) -> anyhow::Result<()> {
     let attached = session.state()?.attached.is_some();
     session.order(&Request::Detach)?;
     writeln!(out, "{}", if attached { "detached; it starts anew with its own sensors" } else { "it was not attached" })?;
     Ok(())
 }
 
-fn protect<W: Write>(session: &mut Talk, out: &mut W) -> Result<(), Failure> {
+fn protect<W: Write>(session: &mut Talk, out: &mut W) -> anyhow::Result<()> {
     session.order(&Request::Protect)?;
     writeln!(out, "protected from the next power-on on; only erasing the whole chip with a probe undoes it")?;
     Ok(())
 }
 
-fn clear<W: Write>(session: &mut Talk, out: &mut W) -> Result<(), Failure> {
+fn clear<W: Write>(session: &mut Talk, out: &mut W) -> anyhow::Result<()> {
     let before = session.state()?;
     if before.phase != Phase::Fault {
         writeln!(out, "it is not in Fault: {:?}", before.phase)?;
@@ -435,11 +423,9 @@ fn clear<W: Write>(session: &mut Talk, out: &mut W) -> Result<(), Failure> {
     writeln!(out, "{} -> {}", phase_text(before.phase, before.fault), phase_text(after.phase, after.fault))?;
     match after.fault {
         Some(fault) if fault.recovery() == Recovery::ByStoring => {
-            Err(Failure::Input(format!("it stays in Fault: {fault}: sprag board parameters --scene SCENE.toml --store")))
+            Err(anyhow!("it stays in Fault: {fault}: sprag board parameters --scene SCENE.toml --store"))
         }
-        Some(fault) => {
-            Err(Failure::Input(format!("it stays in Fault: {fault}; it leaves only at rest, and while nothing is wrong")))
-        }
+        Some(fault) => Err(anyhow!("it stays in Fault: {fault}; it leaves only at rest, and while nothing is wrong")),
         None => Ok(()),
     }
 }
@@ -450,7 +436,7 @@ const REDRAW: Duration = Duration::from_millis(200);
 /// A device that reports nothing for so long has gone.
 const SILENCE: Duration = Duration::from_secs(5);
 
-fn watch(session: &mut Talk, given: &WatchArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+fn watch(session: &mut Talk, given: &WatchArguments, out: &mut impl Write, interrupt: &Interrupt) -> anyhow::Result<()> {
     let period = parameters::read(session)?.period();
     let every = (FINE / period).round().clamp(1.0, f32::from(u16::MAX)) as u16;
     session.order(&Request::Stream { every })?;
@@ -484,7 +470,7 @@ fn watch(session: &mut Talk, given: &WatchArguments, out: &mut impl Write, inter
     // Not answered, if it has gone meanwhile.
     let _ = session.send(&Request::Stream { every: 0 });
     let _ = session.receive(PAUSE);
-    if interrupt.is_set() { Err(Failure::Interrupted) } else { Ok(()) }
+    if interrupt.is_set() { Err(Interrupted.into()) } else { Ok(()) }
 }
 
 /// Draws over a picture of so many lines; gives the lines of the new one.

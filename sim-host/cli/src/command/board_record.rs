@@ -4,17 +4,21 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use anyhow::anyhow;
 use clap::Args;
+use sprag_report::columns::write_csv;
 use sprag_report::output::{Results, claim_file, is_standard_output};
 use sprag_report::plot::{FigureTitle, RecordingTrace, recording_figure};
+use sprag_report::text_table::TextTable;
 use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::device::recorder::CAPACITY;
 use sprag_shared::link::{RecorderActivity, RecorderState, Request};
 use sprag_sim::interrupt::Interrupt;
 
-use super::board::{Failure, Talk, with_device};
+use super::board::{Talk, with_device};
 use super::board_line::LineArguments;
+use super::context::Interrupted;
 use super::out_arguments::OverwriteArguments;
 use crate::board::line::DeviceError;
 use crate::board::parameters;
@@ -50,7 +54,7 @@ pub struct RecordArguments {
 }
 
 /// Lists, saves, draws or erases.
-pub fn run(given: &RecordArguments, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+pub fn run(given: &RecordArguments, out: &mut impl Write, interrupt: &Interrupt) -> anyhow::Result<()> {
     let files: Vec<&Path> = given.out.iter().chain(&given.svg).map(PathBuf::as_path).collect();
     for (place, path) in files.iter().enumerate() {
         // What a device had at another time is not made again by the same command.
@@ -69,41 +73,39 @@ pub fn run(given: &RecordArguments, out: &mut impl Write, interrupt: &Interrupt)
             .into_iter()
             .map(|(key, part)| {
                 recordings::read(session, key, &part.pages, |_| {})
-                    .map_err(Failure::from)
-                    .and_then(|recording| if interrupt.is_set() { Err(Failure::Interrupted) } else { Ok(recording) })
+                    .map_err(anyhow::Error::from)
+                    .and_then(|recording| if interrupt.is_set() { Err(Interrupted.into()) } else { Ok(recording) })
             })
-            .collect::<Result<Vec<Recording>, Failure>>()?;
+            .collect::<anyhow::Result<Vec<Recording>>>()?;
         save(given, &recordings, out)
     })
 }
 
 /// Those that are asked for.
-fn chosen<'a>(given: &RecordArguments, parts: &'a Parts) -> Result<Vec<(Key, &'a Part)>, Failure> {
+fn chosen<'a>(given: &RecordArguments, parts: &'a Parts) -> anyhow::Result<Vec<(Key, &'a Part)>> {
     let Some(newest) = parts.iter().max_by_key(|(_, part)| part.pages.last().map(|(_, header)| header.sequence)) else {
-        return Err(Failure::Input("it has recorded no earthquake".to_owned()));
+        return Err(anyhow!("it has recorded no earthquake"));
     };
     let number = given.earthquake.unwrap_or(newest.0.0);
     let of_number: Vec<_> = parts.iter().filter(|((of, _), _)| *of == number).map(|(key, part)| (*key, part)).collect();
     if of_number.is_empty() {
         let mut numbers: Vec<String> = parts.keys().map(|(number, _)| number.to_string()).collect();
         numbers.dedup();
-        return Err(Failure::Input(format!("it has no recording of an earthquake {number}; it has {}", numbers.join(", "))));
+        return Err(anyhow!("it has no recording of an earthquake {number}; it has {}", numbers.join(", ")));
     }
     let count = of_number.len();
     let chosen: Vec<_> = of_number.into_iter().filter(|((_, part), _)| given.part.is_none_or(|wanted| wanted == *part)).collect();
     match (chosen.len(), given.part) {
-        (0, Some(part)) => Err(Failure::Input(format!("the recording of earthquake {number} has no part {part}"))),
+        (0, Some(part)) => Err(anyhow!("the recording of earthquake {number} has no part {part}")),
         (2.., _) if given.svg.is_some() => {
-            Err(Failure::Input(format!("the recording of earthquake {number} has {count} parts: --part says which one to draw")))
+            Err(anyhow!("the recording of earthquake {number} has {count} parts: --part says which one to draw"))
         }
         _ => Ok(chosen),
     }
 }
 
-fn show(state: &RecorderState, parts: &Parts, period: f64, out: &mut impl Write) -> Result<(), Failure> {
-    if !parts.is_empty() {
-        writeln!(out, "{:>10} {:>5} {:>9} {:>10} {:>8}  what", "earthquake", "part", "ticks", "time s", "pages")?;
-    }
+fn show(state: &RecorderState, parts: &Parts, period: f64, out: &mut impl Write) -> anyhow::Result<()> {
+    let mut table = TextTable::new(0, ["earthquake", "part", "ticks", "time s", "pages", "what"]).ending_in_words();
     for ((number, part), Part { pages, ticks, unfinished, ends }) in parts {
         let Some((_, header)) = pages.first() else { continue };
         let mut notes = Vec::new();
@@ -117,7 +119,11 @@ fn show(state: &RecorderState, parts: &Parts, period: f64, out: &mut impl Write)
             notes.push("no end: a reset, no more room, or it goes on".to_owned());
         }
         let seconds = f64::from(*ticks) * f64::from(header.period);
-        writeln!(out, "{number:>10} {part:>5} {ticks:>9} {seconds:>10.3} {:>8}  {}", pages.len(), notes.join(", "))?;
+        let numbers = [number.to_string(), part.to_string(), ticks.to_string(), format!("{seconds:.3}")];
+        table.row(numbers.into_iter().chain([pages.len().to_string(), notes.join(", ")]).collect());
+    }
+    if !parts.is_empty() {
+        write!(out, "{}", table.plain())?;
     }
     writeln!(out, "{}", room(state, period))?;
     Ok(())
@@ -148,15 +154,15 @@ pub fn room(state: &RecorderState, period: f64) -> String {
     text
 }
 
-fn save(given: &RecordArguments, recordings: &[Recording], out: &mut impl Write) -> Result<(), Failure> {
+fn save(given: &RecordArguments, recordings: &[Recording], out: &mut impl Write) -> anyhow::Result<()> {
     let mut results = Results::default();
     if let Some(path) = &given.out {
-        results.add(path, |file| recordings::write_csv(recordings, file))?;
+        results.add(path, |file| Ok(write_csv(&recordings::table(recordings), file)?))?;
     }
     if let (Some(path), [recording]) = (&given.svg, recordings) {
         let name = format!("earthquake {}, part {}", recording.number, recording.part);
         let figure = recording_figure(FigureTitle::from(name.as_str()), &trace(recording))
-            .map_err(|error| Failure::Input(format!("{name} cannot be drawn: {error}")))?;
+            .map_err(|error| anyhow!("{name} cannot be drawn: {error}"))?;
         results.add(path, |file| file.write_all(figure.as_bytes()))?;
     }
     results.commit()?;
@@ -203,7 +209,7 @@ fn trace(recording: &Recording) -> RecordingTrace {
 const PAUSE: Duration = Duration::from_millis(50);
 const SILENCE: Duration = Duration::from_secs(10);
 
-fn erase(session: &mut Talk, out: &mut impl Write, interrupt: &Interrupt) -> Result<(), Failure> {
+fn erase(session: &mut Talk, out: &mut impl Write, interrupt: &Interrupt) -> anyhow::Result<()> {
     session.order(&Request::EraseRecordings)?;
     let mut heard = Instant::now();
     loop {
@@ -214,13 +220,13 @@ fn erase(session: &mut Talk, out: &mut impl Write, interrupt: &Interrupt) -> Res
             Err(error) => return Err(error.into()),
         }
         if interrupt.is_set() {
-            return Err(Failure::Interrupted);
+            return Err(Interrupted.into());
         }
         std::thread::sleep(PAUSE);
     }
     match recordings::list(session)?.len() {
         0 => writeln!(out, "erased")?,
-        _ => return Err(Failure::Input("not all is erased: something began to move; ask again at rest".to_owned())),
+        _ => return Err(anyhow!("not all is erased: something began to move; ask again at rest")),
     }
     Ok(())
 }

@@ -1,39 +1,36 @@
 //! `sprag cloud`: demand regressions and fragilities over many records.
 
-use std::collections::BTreeMap;
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
-use sprag_report::columns::{Table, TableError, metadata_of};
+use sprag_report::columns::Table;
 use sprag_report::long_run::error::LongRunError;
 use sprag_report::long_run::origin::Origin;
 use sprag_report::long_run::rows::{Plan, Rows};
 use sprag_report::long_run::shard::Shard;
-use sprag_report::output::{Claim, Digest, Formats, OutputError, ResultFolder, Results, Subject};
-use sprag_report::plot::PlotError;
+use sprag_report::output::{Claim, ResultFolder, Subject};
 use sprag_report::progress::Progress;
+use sprag_report::text_table::TextTable;
 use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
-use sprag_sim::record::RecordSummary;
-use sprag_sim::simulation::RunError;
 use sprag_studies::cloud::figures::{demand_picture, fragility_picture};
 use sprag_studies::cloud::findings::Findings;
-use sprag_studies::cloud::overturning::OverturningError;
-use sprag_studies::cloud::pages::{demand_page, demand_table, fragility_notes, fragility_page, fragility_table, ranking_page};
+use sprag_studies::cloud::pages::{demand_page, fragility_notes, fragility_page, ranking_page};
 use sprag_studies::cloud::records::StudyRecords;
 use sprag_studies::cloud::runs::{RunList, Runs};
 use sprag_studies::cloud::structures::StudyStructure;
 use sprag_studies::cloud::study::Study;
 use sprag_studies::cloud::study_file::StudyFile;
-use sprag_studies::cloud::typed_tables::{DemandTable, FragilityTable, RankingTable, RunsTable};
+use sprag_studies::cloud::typed_tables::{demand_table, fragility_table, ranking_table, runs_table};
 
 use super::accuracy_arguments::AccuracyArguments;
-use super::format_arguments::FormatArguments;
-use super::out_arguments::FolderArguments;
-use super::study_input::{StudyArguments, StudyInputError, study_subject};
-use super::{DRAWING, ended, resumable};
+use super::context::{Completion, Context, Run};
+use super::out_arguments::OutputArguments;
+use super::report::Report;
+use super::resumable;
+use super::study_input::{StudyArguments, study_subject};
+use super::thread_arguments::ThreadArguments;
 use crate::command::long_run_arguments::LongRunArguments;
 
 /// Demands and fragilities over many records.
@@ -43,7 +40,7 @@ use crate::command::long_run_arguments::LongRunArguments;
     Runs every structure of the study under every record, scaled as it says, with every device. Writes the tables runs, demand, \
     fragility and ranking as .csv and .parquet, the last three as .md too, the pictures demand and fragility as .svg and .png, \
     and summary.json. A record that cannot be read and a run that fails are named, the others are still done, and the exit \
-    code is 2. Runs go to the disk as they are made, runs.run.json says what they come from, and Ctrl-C leaves them there for \
+    code is 1. Runs go to the disk as they are made, runs.run.json says what they come from, and Ctrl-C leaves them there for \
     --resume.")]
 pub struct CloudArguments {
     /// The study.
@@ -51,13 +48,10 @@ pub struct CloudArguments {
     pub input: StudyArguments,
     /// Where results go.
     #[command(flatten)]
-    pub folder: FolderArguments,
-    /// Threads; all cores by default. The result does not depend on it.
-    #[arg(long, value_name = "N", value_parser = super::threads)]
-    pub threads: Option<u16>,
-    /// What is written.
+    pub output: OutputArguments,
+    /// Threads.
     #[command(flatten)]
-    pub formats: FormatArguments,
+    pub threads: ThreadArguments,
     /// How accurate.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
@@ -66,36 +60,24 @@ pub struct CloudArguments {
     pub long_run: LongRunArguments,
 }
 
-#[derive(Debug, thiserror::Error)]
-enum Failure {
-    #[error("{0}")]
-    Input(#[from] StudyInputError),
-    #[error("{0}")]
-    Run(#[from] RunError),
-    #[error("{0}")]
-    Rows(#[from] LongRunError),
-    #[error("{0}")]
-    Fragility(#[from] OverturningError),
-    #[error("the picture cannot be drawn: {0}")]
-    Plot(#[from] PlotError),
-    #[error("{0}")]
-    Output(#[from] OutputError),
-    #[error("{0}")]
-    Table(#[from] TableError),
-    #[error("the threads cannot be started: {0}")]
-    Threads(#[from] rayon::ThreadPoolBuildError),
-}
-
-/// `summary.json`.
-#[derive(Serialize)]
-struct Document<'a> {
-    command: &'static str,
-    version: &'static str,
+/// Study and structures as resolved.
+#[derive(Clone, Copy, Serialize)]
+struct Input<'a> {
     study: &'a StudyFile,
     structures: &'a [StudyStructure],
-    records: Vec<RecordSummary>,
-    warnings: &'a [String],
-    files: &'a BTreeMap<String, Digest>,
+}
+
+/// What the Parquet files say of the study.
+#[derive(Serialize)]
+struct MadeOf<'a> {
+    #[serde(flatten)]
+    input: Input<'a>,
+    seed: u64,
+}
+
+/// What `summary.json` says of the runs.
+#[derive(Serialize)]
+struct Answer<'a> {
     unreadable: &'a [String],
     #[serde(flatten)]
     findings: &'a Findings,
@@ -104,24 +86,8 @@ struct Document<'a> {
     accuracy: Option<Worst>,
 }
 
-/// What the Parquet files say of themselves.
-#[derive(Serialize)]
-struct MadeBy<'a> {
-    command: &'static str,
-    version: &'static str,
-    study: &'a StudyFile,
-    structures: &'a [StudyStructure],
-    seed: u64,
-}
-
 /// Names of what is written beside the summary.
 const NAMES: [&str; 4] = ["runs", "demand", "fragility", "ranking"];
-
-/// Runs the command; tables go to `out`, errors go to `err`.
-pub fn run(arguments: &CloudArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    let result = run_or_fail(arguments, out, err, interrupt);
-    ended(result, interrupt, err)
-}
 
 /// A study that was run.
 struct Studied<'a> {
@@ -133,39 +99,32 @@ struct Studied<'a> {
     rows: Option<PathBuf>,
 }
 
-/// Whether everything could be read and run.
-fn run_or_fail(
-    arguments: &CloudArguments,
-    out: &mut impl Write,
-    err: &mut impl Write,
-    interrupt: &Interrupt,
-) -> Result<bool, Failure> {
-    if let (Some(_), Some(option)) = (arguments.accuracy.time_budget, arguments.long_run.given()) {
-        return Err(LongRunError::NoRows { option }.into());
+impl Run for CloudArguments {
+    fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+        if let (true, Some(option)) = (self.accuracy.is_chosen(), self.long_run.given()) {
+            return Err(LongRunError::NoRows { option }.into());
+        }
+        let mut folder = self.output.folder(&self.input.study, "cloud")?.of_any_accuracy(self.accuracy.is_chosen());
+        let study = self.input.load(None)?;
+        let pool = self.threads.pool()?;
+        // Records do not depend on how accurately they are followed.
+        let (records, warnings) = self.input.read(&study, &pool, context)?;
+        let interrupt = context.interrupt;
+        let once = |change| pool.install(|| studied(self, change, &records, &mut folder, interrupt));
+        let studied = self.accuracy.run(context, once)?;
+        let complete = studied.records.unreadable.is_empty() && !studied.runs.failed;
+        let shard = self.long_run.shard();
+        if let (true, Some(rows)) = (shard != Shard::WHOLE, &studied.rows) {
+            context.print(format_args!("shard {shard}: {}\n", rows.display()));
+            return Ok(Completion::of(complete));
+        }
+        let mut report = Report::new("cloud", &folder, &self.output)?;
+        let findings = pool.install(|| Findings::of(&studied.study, &studied.runs))?;
+        context.check_interrupt()?;
+        fill(&mut report, &studied, &findings, &warnings)?;
+        report.complete(complete);
+        report.finish(context)
     }
-    let any_accuracy = arguments.accuracy.time_budget.is_some();
-    let mut folder = arguments.folder.folder(&arguments.input.study, "cloud").of_any_accuracy(any_accuracy);
-    let study = arguments.input.load(None)?;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
-    // Records do not depend on how accurately they are followed.
-    let (records, warnings) = arguments.input.read(&study, &pool, err)?;
-    let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
-    let once = |change| pool.install(|| studied(arguments, change, &records, &mut folder, interrupt));
-    let studied = arguments.accuracy.run(once, tell)?;
-    let shard = arguments.long_run.shard();
-    if let (true, Some(rows)) = (shard != Shard::WHOLE, &studied.rows) {
-        let _ = writeln!(out, "shard {shard}: {}", rows.display());
-        return Ok(studied.records.unreadable.is_empty() && !studied.runs.failed);
-    }
-    let drawing = Progress::uncounted(DRAWING);
-    let findings = pool.install(|| Findings::of(&studied.study, &studied.runs))?;
-    if interrupt.is_set() {
-        return Err(RunError::Interrupted.into());
-    }
-    let complete = write(&studied, &findings, &warnings, (&folder, arguments.formats.formats), out, err)?;
-    drawing.finish();
-    let _ = writeln!(out, "results of {} in {}", arguments.input.study.display(), folder.display());
-    Ok(complete)
 }
 
 fn studied<'a>(
@@ -174,7 +133,7 @@ fn studied<'a>(
     records: &'a StudyRecords,
     folder: &mut ResultFolder,
     interrupt: &Interrupt,
-) -> Result<Studied<'a>, Failure> {
+) -> anyhow::Result<Studied<'a>> {
     let study = arguments.input.load(change)?;
     let progress = Progress::new("runs");
     // Where the results go is tried before the work, not after it.
@@ -202,7 +161,7 @@ fn studied<'a>(
     let whole = list.work_through(rows.left(), interrupt, &|| progress.step(), |runs| {
         rows.append(&list.text(&runs)?, runs.len())?;
         all.extend(runs);
-        Ok::<(), Failure>(())
+        anyhow::Ok(())
     })?;
     if !whole {
         interrupt.keep(rows.interrupted());
@@ -214,74 +173,38 @@ fn studied<'a>(
     Ok(Studied { study, records, subject, runs, rows: Some(rows) })
 }
 
-/// Writes the results; returns whether everything was read and run.
-fn write(
-    studied: &Studied<'_>,
-    findings: &Findings,
-    warnings: &[String],
-    (folder, formats): (&Path, Formats),
-    out: &mut impl Write,
-    err: &mut impl Write,
-) -> Result<bool, Failure> {
+/// Puts files, tables and notes into the report.
+fn fill(report: &mut Report, studied: &Studied<'_>, findings: &Findings, warnings: &[String]) -> anyhow::Result<()> {
     let Studied { study, records, subject, runs, rows } = studied;
-    let (command, version) = ("cloud", env!("CARGO_PKG_VERSION"));
-    let (file, structures) = (&study.file, &study.structures[..]);
-    let document = Document {
-        command,
-        version,
-        study: file,
-        structures,
-        warnings,
-        records: records.summaries(),
-        files: &subject.files,
-        unreadable: &records.unreadable,
-        findings,
-        left_out: &runs.left_out,
-        accuracy: runs.worst,
-    };
-    let mut results = Results::default();
-    results.add_json(&folder.join("summary.json"), &document)?;
-    let made_by = metadata_of(&MadeBy { command, version, study: file, structures, seed: study.bootstrap.seed })?;
-    let of_runs = RunsTable { study, records: &records.records, runs: &runs.all };
+    let input = Input { study: &study.file, structures: &study.structures };
+    report.made_by(MadeOf { input, seed: study.bootstrap.seed })?;
+    let answer = Answer { unreadable: &records.unreadable, findings, left_out: &runs.left_out, accuracy: runs.worst };
+    report.summary(input, &records.summaries(), warnings, subject, answer)?;
+    let of_runs = runs_table(study, &records.records, &runs.all);
     match rows {
         None => {
-            results.add_table(folder, "runs", &of_runs, &made_by, formats)?;
+            report.table("runs", &of_runs)?;
             // What a run without a time budget says of its own runs.csv.
-            results.remove(folder.join("runs.run.json"));
+            report.remove("runs.run.json");
         }
-        Some(rows) if formats.parquet => results.add_parquet_of(rows, &of_runs.columns(), &made_by)?,
-        Some(_) => {}
+        Some(rows) => report.rows(rows, &of_runs.columns())?,
     }
-    let tables: [(&str, &dyn Table); 3] =
-        [("demand", &DemandTable(findings)), ("fragility", &FragilityTable(findings)), ("ranking", &RankingTable(findings))];
-    for (name, table) in tables {
-        results.add_table(folder, name, table, &made_by, formats)?;
-    }
-    let pages = [
-        ("demand.md", demand_page(study, findings)),
-        ("fragility.md", fragility_page(study, findings)),
-        ("ranking.md", ranking_page(study, findings)),
-    ];
-    for (name, page) in pages {
-        results.add(&folder.join(name), |file| file.write_all(page.as_bytes()))?;
-    }
-    let pictures = [("demand", demand_picture(study, findings)?), ("fragility", fragility_picture(study, findings)?)];
-    for (name, picture) in pictures {
-        match picture {
-            Some(picture) => _ = results.add_picture(folder, name, &picture, formats)?,
-            None => _ = writeln!(err, "sprag: there is no picture of the {name}: there are no points for it"),
+    report.table("demand", &demand_table(findings))?;
+    report.table("fragility", &fragility_table(findings))?;
+    report.table("ranking", &ranking_table(findings))?;
+    report.page("demand.md", &demand_page(study, findings)?)?;
+    report.page("fragility.md", &fragility_page(study, findings)?)?;
+    report.page("ranking.md", &ranking_page(study, findings)?)?;
+    for (name, picture) in [("demand", demand_picture(study, findings)), ("fragility", fragility_picture(study, findings))] {
+        match picture.transpose() {
+            Some(picture) => _ = report.picture(name, picture)?,
+            None => report.note(format_args!("there is no picture of the {name}: there are no points for it")),
         }
     }
-    results.commit_telling(err)?;
-    let _ = writeln!(out, "{}\n{}", demand_table(findings).markdown(), fragility_table(findings).markdown());
-    for line in fragility_notes(&findings.fragility) {
-        let _ = writeln!(out, "{line}");
-    }
-    for line in &runs.left_out {
-        let _ = writeln!(err, "sprag: left out: {line}");
-    }
-    if let Some(worst) = runs.worst {
-        let _ = writeln!(out, "accuracy: {worst}");
-    }
-    Ok(records.unreadable.is_empty() && !runs.failed)
+    report.print(TextTable::of(&demand_table(findings))?.markdown());
+    report.print(format_args!("\n{}\n", TextTable::of(&fragility_table(findings))?.markdown()));
+    fragility_notes(&findings.fragility).iter().for_each(|line| report.print(line));
+    report.left_out(&runs.left_out);
+    report.accuracy(runs.worst);
+    Ok(())
 }

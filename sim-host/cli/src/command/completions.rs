@@ -1,25 +1,25 @@
 //! `sprag completions`: completions of commands and options for a shell.
 
-use std::io::Write;
-
 use clap::Args;
 use clap_complete::Shell;
+
+use super::context::{Completion, Context, Run};
 
 /// Print completions of commands and options for a shell.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag completions bash > ~/.local/share/bash-completion/completions/sprag\n  \
     sprag completions fish > ~/.config/fish/completions/sprag.fish")]
 pub struct CompletionsArguments {
-    /// The shell.
+    /// Shell that the completions are for.
     #[arg(value_name = "SHELL")]
     pub shell: Shell,
 }
 
-/// Runs the command and gives its exit code.
-pub fn run(arguments: &CompletionsArguments, out: &mut impl Write) -> i32 {
-    let mut text = Vec::new();
-    clap_complete::generate(arguments.shell, &mut crate::line::definition(), "sprag", &mut text);
-    // What cannot be written is reported where standard output ends.
-    let _ = out.write_all(&text);
-    0
+impl Run for CompletionsArguments {
+    fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+        let mut text = Vec::new();
+        clap_complete::generate(self.shell, &mut crate::line::definition(), "sprag", &mut text);
+        context.print(String::from_utf8_lossy(&text));
+        Ok(Completion::Complete)
+    }
 }

@@ -1,13 +1,12 @@
 //! `sprag effects`: which effects there are, their keys, equations and cost.
 
-use std::io::{self, Write};
-
 use clap::Args;
 use serde::Serialize;
+use sprag_report::output::Versioned;
 use sprag_sim::effect::measured::{Cost, cost};
 use sprag_sim::effect::{EFFECTS, Effect, find};
 
-use super::BAD_INPUT;
+use super::context::{Completion, Context, Run};
 
 /// List the effects that a scene may ask for, or show one.
 #[derive(Args, Clone, Debug)]
@@ -48,29 +47,20 @@ impl Entry {
     }
 }
 
-/// Runs the command and returns its exit status: 0, or 2 after one line on `err`.
-pub fn run(arguments: &EffectsArguments, out: &mut impl Write, err: &mut impl Write) -> i32 {
-    let written = match &arguments.name {
-        None if arguments.json => write_json(&EFFECTS.map(Entry::of), out),
-        None => write!(out, "{}", table()),
-        Some(name) => match find(name) {
-            Some(effect) if arguments.json => write_json(&Entry::of(effect), out),
-            Some(effect) => write!(out, "{}", in_full(effect)),
-            None => {
-                let names = EFFECTS.map(|effect| effect.name).join(", ");
-                let _ = writeln!(err, "sprag: no effect \"{name}\"; there are: {names}");
-                return BAD_INPUT;
-            }
-        },
-    };
-    // Reported where standard output is.
-    let _ = written;
-    0
-}
-
-fn write_json(value: &impl Serialize, out: &mut impl Write) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, value)?;
-    writeln!(out)
+impl Run for EffectsArguments {
+    fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+        let found = self.name.as_ref().map(|name| {
+            let names = || EFFECTS.map(|effect| effect.name).join(", ");
+            find(name).ok_or_else(|| anyhow::anyhow!("no effect \"{name}\"; there are: {}", names()))
+        });
+        match (found.transpose()?, self.json) {
+            (None, true) => context.print_json(&EFFECTS.map(|effect| Versioned::new(Entry::of(effect)))),
+            (None, false) => context.print(table()),
+            (Some(effect), true) => context.print_json(&Versioned::new(Entry::of(effect))),
+            (Some(effect), false) => context.print(in_full(effect)),
+        }
+        Ok(Completion::Complete)
+    }
 }
 
 /// What an effect costs, in words.

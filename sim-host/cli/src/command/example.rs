@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use include_dir::{Dir, File, include_dir};
-use sprag_report::output::{OutputError, Results, claim_file};
+use sprag_report::output::{Results, claim_file};
 
-use super::BAD_INPUT;
+use super::context::{Completion, Context, Run};
 use super::out_arguments::OverwriteArguments;
 
 /// The scenes of the repository.
@@ -29,45 +29,24 @@ pub struct ExampleArguments {
     pub replace: OverwriteArguments,
 }
 
-#[derive(Debug, thiserror::Error)]
-enum Failure {
-    #[error("there is no example {name}; there are {}", names().join(", "))]
-    Unknown { name: String },
-    #[error("{}: {error}", path.display())]
-    Folder { path: PathBuf, error: std::io::Error },
-    #[error("{0}")]
-    Output(#[from] OutputError),
-}
-
-/// Runs the command and gives its exit code.
-pub fn run(arguments: &ExampleArguments, out: &mut impl Write, err: &mut impl Write) -> i32 {
-    let Some(name) = &arguments.name else {
-        for file in scenes() {
-            let _ = writeln!(out, "{:<14}{}", stem(file), title(file));
+impl Run for ExampleArguments {
+    fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+        match &self.name {
+            None => scenes().for_each(|file| context.print(format_args!("{:<14}{}\n", stem(file), title(file)))),
+            Some(name) => write(name, self)?.iter().for_each(|path| context.print(format_args!("{}\n", path.display()))),
         }
-        return 0;
-    };
-    match write(name, arguments) {
-        Ok(paths) => {
-            for path in paths {
-                let _ = writeln!(out, "{}", path.display());
-            }
-            0
-        }
-        Err(failure) => {
-            let _ = writeln!(err, "sprag: {failure}");
-            BAD_INPUT
-        }
+        Ok(Completion::Complete)
     }
 }
 
-fn write(name: &str, arguments: &ExampleArguments) -> Result<Vec<PathBuf>, Failure> {
+fn write(name: &str, arguments: &ExampleArguments) -> anyhow::Result<Vec<PathBuf>> {
     let name = name.strip_suffix(".toml").unwrap_or(name);
-    let scene = scenes().find(|file| stem(file) == name).ok_or_else(|| Failure::Unknown { name: name.to_owned() })?;
+    let unknown = || anyhow::anyhow!("there is no example {name}; there are {}", names().join(", "));
+    let scene = scenes().find(|file| stem(file) == name).ok_or_else(unknown)?;
     let named = |file: &&File<'_>| file.path() == scene.path() || text(scene).contains(&format!("\"{}\"", file.path().display()));
     let files: Vec<&File<'_>> = SCENES.files().filter(named).collect();
     let folder = &arguments.out;
-    std::fs::create_dir_all(folder).map_err(|error| Failure::Folder { path: folder.clone(), error })?;
+    std::fs::create_dir_all(folder).map_err(|error| anyhow::anyhow!("{}: {error}", folder.display()))?;
     let mut results = Results::default();
     let mut paths = Vec::new();
     for file in files {
@@ -111,13 +90,16 @@ fn title(file: &'static File<'static>) -> String {
 mod tests {
     use std::path::Path;
 
+    use sprag_report::streams::BAD_INPUT;
+    use sprag_sim::interrupt::Interrupt;
+
     use super::*;
 
     fn example(name: &str, folder: &Path) -> (i32, String) {
         let arguments =
             ExampleArguments { name: Some(name.to_owned()), out: folder.to_owned(), replace: OverwriteArguments::default() };
-        let mut err = Vec::new();
-        let code = run(&arguments, &mut Vec::new(), &mut err);
+        let (mut out, mut err, interrupt) = (Vec::new(), Vec::new(), Interrupt::default());
+        let code = Context { out: &mut out, err: &mut err, interrupt: &interrupt, quiet: false }.run(&arguments);
         (code, String::from_utf8(err).unwrap())
     }
 

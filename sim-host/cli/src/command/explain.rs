@@ -1,13 +1,15 @@
 //! `sprag explain`: which effects a scene turns on, why, and which equations result.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
 
 use clap::Args;
-use sprag_sim::effect::explanation::{Effects, Explanation};
+use serde_json::{Value, json};
+use sprag_report::output::Versioned;
+use sprag_sim::effect::explanation::{Effects, Explanation, Section, Setting};
 use sprag_sim::scene::Scene;
 
-use super::{BAD_INPUT, warned};
+use super::context::{Completion, Context, Run};
+use super::scene_arguments::SceneArguments;
 
 /// Columns that a line takes, unless a word is longer.
 const WIDTH: usize = 120;
@@ -18,27 +20,43 @@ const WIDTH: usize = 120;
     sprag explain scenes/figure05.toml --set device.1.kinematics=consistent\n\n\
     Nothing is simulated and no record is read.")]
 pub struct ExplainArguments {
-    /// Scene file.
-    #[arg(value_name = "SCENE.toml")]
-    pub scene: PathBuf,
-    /// Change one value of the scene, such as block.size_m=2 or device.1.mass_ratio=0.5.
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set: Vec<String>,
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Print effects and equations as JSON instead of text.
+    #[arg(long)]
+    pub json: bool,
 }
 
-/// Runs the command and returns its exit status: 0, or 2 after one line on `err`.
-pub fn run(arguments: &ExplainArguments, out: &mut impl Write, err: &mut impl Write) -> i32 {
-    let scene = match Scene::load(&arguments.scene, &arguments.set) {
-        Ok(scene) => scene,
-        Err(error) => {
-            let _ = writeln!(err, "sprag: {error}");
-            return BAD_INPUT;
+impl Run for ExplainArguments {
+    fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+        let scene = self.scene.load(None)?;
+        context.warned(scene.warnings());
+        if self.json {
+            context.print_json(&Versioned::new(document(&scene)));
+            return Ok(Completion::Complete);
         }
+        let mut text = Vec::new();
+        write_scene(&scene, &mut text)?;
+        context.print(String::from_utf8_lossy(&text));
+        Ok(Completion::Complete)
+    }
+}
+
+/// What the text says, for programs.
+fn document(scene: &Scene) -> Value {
+    let effects = |effects: &Effects| {
+        let because = |setting: &Setting| json!({ "effect": setting.effect.name, "because": setting.keys });
+        json!({ "on": effects.on.iter().map(because).collect::<Vec<_>>(), "off": effects.off })
     };
-    warned(scene.warnings(), err);
-    // What keeps it from being written is reported where standard output is.
-    let _ = write_scene(&scene, out);
-    0
+    let device = |index: usize| {
+        let of = Explanation::of(scene, index);
+        let section = |section: &Section| json!({ "title": section.title, "lines": section.lines });
+        let sections: Vec<Value> = of.sections.iter().map(section).collect();
+        json!({ "device": of.device, "kind": of.kind, "effects": effects(&of.effects), "sections": sections })
+    };
+    let devices: Vec<Value> = (0..scene.devices.len()).map(device).collect();
+    json!({ "scene": scene.origin, "title": scene.file.title, "effects": effects(&Effects::of_scene(scene)), "devices": devices })
 }
 
 fn write_scene(scene: &Scene, out: &mut impl Write) -> io::Result<()> {

@@ -7,10 +7,10 @@ use sprag_report::long_run::start::Start;
 /// What to do with the rows of an interrupted run.
 #[derive(Args, Clone, Debug, Default)]
 pub struct ResumeArguments {
-    /// Go on where an interrupted run has ended.
+    /// Resume an interrupted run: its rows are kept.
     #[arg(long, help_heading = "Long runs")]
     pub resume: bool,
-    /// Throw away what an interrupted run has left.
+    /// Throw away the rows of an interrupted run, and begin again.
     #[arg(long, conflicts_with = "resume", help_heading = "Long runs")]
     pub restart: bool,
 }

@@ -2,51 +2,18 @@
 
 use std::path::Path;
 
+use anyhow::ensure;
 use sprag_shared::structure::device::DeviceKind;
 use sprag_shared::structure::drivetrain::Engagement;
 use sprag_sim::closed_loop::LoopTask;
 use sprag_sim::interrupt::Interrupt;
+use sprag_sim::scene::Scene;
 use sprag_sim::scene::controller::ControllerTable;
-use sprag_sim::scene::ground::GroundError;
 use sprag_sim::scene::motions::GroundMotions;
 use sprag_sim::scene::schema::SceneFile;
-use sprag_sim::scene::{Scene, SceneError};
 use sprag_sim::sensor::Suite;
 
 use super::record_arguments::SceneRecordArguments;
-
-/// Why a loop cannot be closed over a scene.
-#[derive(Debug, thiserror::Error)]
-pub enum LoopSceneError {
-    /// The scene.
-    #[error("{0}")]
-    Scene(#[from] SceneError),
-    /// Its ground motion.
-    #[error("{0}")]
-    Ground(#[from] GroundError),
-    /// Nothing to be commanded.
-    #[error("{scene}: a closed loop needs a [[device]] of kind \"clutched-pair\"")]
-    NoPair {
-        /// The scene.
-        scene: String,
-    },
-    /// It begins in motion.
-    #[error(
-        "{scene}: block.initial_rotation_ratio and block.initial_velocity_ratio must be 0: the controller calibrates itself at rest"
-    )]
-    NotAtRest {
-        /// The scene.
-        scene: String,
-    },
-    /// A clutch without a coil.
-    #[error("{scene}: device {device}: an overrunning clutch takes no commands")]
-    Uncommanded {
-        /// The scene.
-        scene: String,
-        /// The device.
-        device: String,
-    },
-}
 
 /// A scene over which loops can be closed.
 pub struct LoopScene {
@@ -66,23 +33,22 @@ impl LoopScene {
     /// Reads a scene with changes, and with other records where there are some.
     ///
     /// # Errors
-    /// [`LoopSceneError`].
-    pub fn load(path: &Path, set: &[String], records: &SceneRecordArguments) -> Result<LoopScene, LoopSceneError> {
+    /// A scene that cannot be read, without a pair that takes commands, or that begins in motion.
+    pub fn load(path: &Path, set: &[String], records: &SceneRecordArguments) -> anyhow::Result<LoopScene> {
         let mut scene = Scene::load(path, set)?;
         records.apply(&mut scene)?;
-        let name = || path.display().to_string();
+        let name = path.display();
         let pairs: Vec<usize> =
             (0..scene.devices.len()).filter(|&index| scene.devices[index].device.kind == DeviceKind::ClutchedPair).collect();
-        if pairs.is_empty() {
-            return Err(LoopSceneError::NoPair { scene: name() });
-        }
-        if scene.file.block.initial_rotation_ratio != 0.0 || scene.file.block.initial_velocity_ratio != 0.0 {
-            return Err(LoopSceneError::NotAtRest { scene: name() });
-        }
-        for &index in &pairs {
-            if scene.devices[index].drivetrain.engagement == Engagement::Overrunning {
-                return Err(LoopSceneError::Uncommanded { scene: name(), device: scene.devices[index].name.clone() });
-            }
+        ensure!(!pairs.is_empty(), "{name}: a closed loop needs a [[device]] of kind \"clutched-pair\"");
+        let block = &scene.file.block;
+        ensure!(
+            block.initial_rotation_ratio == 0.0 && block.initial_velocity_ratio == 0.0,
+            "{name}: block.initial_rotation_ratio and block.initial_velocity_ratio must be 0: the controller calibrates itself at rest"
+        );
+        for device in pairs.iter().map(|&index| &scene.devices[index]) {
+            let commanded = device.drivetrain.engagement != Engagement::Overrunning;
+            ensure!(commanded, "{name}: device {}: an overrunning clutch takes no commands", device.name);
         }
         let ground = scene.ground_motions()?;
         let controller = scene.file.controller.clone().unwrap_or_default();

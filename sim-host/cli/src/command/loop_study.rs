@@ -1,30 +1,27 @@
 //! `sprag loop-study`: the studies of the controller, made again.
 
-use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use serde::Serialize;
-use sprag_report::output::{Claim, OutputError, ResultFolder, Results, Subject};
+use sprag_report::output::{Claim, SCHEMA_VERSION, Subject, VERSION};
 use sprag_report::progress::Progress;
-use sprag_sim::accuracy::Accuracy;
-use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::{RecordSummary, warning_lines};
-use sprag_studies::loop_study::bench::{Conditions, StudyError, records_of};
+use sprag_studies::loop_study::bench::{Conditions, records_of};
 use sprag_studies::loop_study::decisions::decisions;
 use sprag_studies::loop_study::faults::faults;
 use sprag_studies::loop_study::ideal_limit::ideal_limit;
 use sprag_studies::loop_study::laws::laws;
 use sprag_studies::loop_study::motion::Motion;
 use sprag_studies::loop_study::practice::practice;
-use sprag_studies::loop_study::report::Report;
 use sprag_studies::loop_study::robustness::robustness;
 
 use super::accuracy_arguments::AccuracyArguments;
-use super::format_arguments::PictureArguments;
-use super::out_arguments::{OverwriteArguments, digests, file_of};
+use super::context::{Completion, Context, Run};
+use super::out_arguments::{OutputArguments, digests, file_of};
 use super::record_arguments::ReadArguments;
-use super::{ended, warned};
+use super::report::Report;
+use super::thread_arguments::ThreadArguments;
 
 /// Which study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize)]
@@ -48,10 +45,10 @@ pub enum Study {
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag loop-study practice --out out/practice\n  \
     sprag loop-study laws --records records/*.AT2 --out out/laws\n\n\
-    Writes a page NAME.md, its tables as CSV and its pictures as SVG, with --png as PNG too, and NAME.run.json, which says what they
+    Writes a page NAME.md, its tables as CSV and its pictures as SVG, with --png as PNG too, and NAME.run.json, which says what they \
     are of and has the records that were read. The studies ideal-limit and faults take no records.")]
 pub struct LoopStudyArguments {
-    /// Which.
+    /// Study to make.
     #[arg(value_enum)]
     pub study: Study,
     /// Recorded ground motions to study beside the pulses.
@@ -60,21 +57,15 @@ pub struct LoopStudyArguments {
     /// How records are read.
     #[command(flatten)]
     pub reading: ReadArguments,
-    /// Folder for the results.
-    #[arg(long, value_name = "DIR")]
-    pub out: PathBuf,
-    /// What may be replaced in it.
+    /// Where results go.
     #[command(flatten)]
-    pub replace: OverwriteArguments,
-    /// Threads; all processors by default. Results do not depend on it.
-    #[arg(long, value_name = "N", value_parser = super::threads)]
-    pub threads: Option<u16>,
+    pub output: OutputArguments,
+    /// Threads.
+    #[command(flatten)]
+    pub threads: ThreadArguments,
     /// How accurate.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
-    /// Pictures.
-    #[command(flatten)]
-    pub pictures: PictureArguments,
 }
 
 /// `NAME.run.json`.
@@ -83,101 +74,60 @@ struct Page<'a> {
     #[serde(flatten)]
     subject: &'a Subject,
     version: &'static str,
+    schema_version: u32,
     records: &'a [RecordSummary],
     warnings: &'a [String],
 }
 
-#[derive(Debug, thiserror::Error)]
-enum Failure {
-    #[error("--records: the study {} takes no records", study.to_possible_value().map_or_else(String::new, |name| name.get_name().to_owned()))]
-    NoRecords { study: Study },
-    #[error("{0}")]
-    Study(#[from] StudyError),
-    #[error("{0}")]
-    Output(#[from] OutputError),
-    #[error("no threads: {0}")]
-    Threads(#[from] rayon::ThreadPoolBuildError),
-}
-
-/// Runs the command; the page goes to `out`, errors go to `err`.
-pub fn run(arguments: &LoopStudyArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    let result = run_or_fail(arguments, out, err, interrupt);
-    ended(result.map(|()| true), interrupt, err)
-}
-
-fn run_or_fail(
-    arguments: &LoopStudyArguments,
-    out: &mut impl Write,
-    err: &mut impl Write,
-    interrupt: &Interrupt,
-) -> Result<(), Failure> {
-    if matches!(arguments.study, Study::IdealLimit | Study::Faults) && !arguments.records.is_empty() {
-        return Err(Failure::NoRecords { study: arguments.study });
+impl Run for LoopStudyArguments {
+    fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+        let name = self.study.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
+        if matches!(self.study, Study::IdealLimit | Study::Faults) && !self.records.is_empty() {
+            anyhow::bail!("--records: the study {name} takes no records");
+        }
+        let mut folder = self.output.folder(Path::new(&name), "loop-study")?.of_any_accuracy(self.accuracy.is_chosen());
+        let files: Vec<(PathBuf, PathBuf)> = self.records.iter().map(|file| (file.clone(), file.clone())).collect();
+        let accuracy = self.accuracy.accuracy.map(|accuracy| accuracy.to_string());
+        let subject = Subject::new("loop-study", digests(&files)).with("study", &name)?.with("accuracy", &accuracy)?;
+        let record = |file: &PathBuf| Motion::Record { file: file.clone(), reading: self.reading.table(), scale: 1.0 };
+        let records: Vec<Motion> = self.records.iter().map(record).collect();
+        // Before hours of work, not after them.
+        let read = records_of(&records)?;
+        let (page, inputs) = (format!("{name}.run.json"), self.records.iter().map(|file| file_of(file)).collect());
+        folder.open(&Claim { subject: subject.clone(), page: &page, names: &[&name], inputs })?;
+        let warnings = context.warned(warning_lines(&read));
+        let (pool, interrupt) = (self.threads.pool()?, context.interrupt);
+        let progress = Progress::new("runs");
+        let found = self.accuracy.levels(context, |accuracy| {
+            let conditions = Conditions::new(accuracy, interrupt);
+            let made = pool.install(|| match self.study {
+                Study::IdealLimit => ideal_limit(&progress, &conditions),
+                Study::Practice => practice(&records, &progress, &conditions),
+                Study::Laws => laws(&records, &progress, &conditions),
+                Study::Decisions => decisions(&records, &progress, &conditions),
+                Study::Robustness => robustness(&records, &progress, &conditions),
+                Study::Faults => faults(&progress, &conditions),
+            })?;
+            Ok((made, accuracy.map(|_| conditions.worst())))
+        });
+        progress.finish();
+        let (made, worst) = found?;
+        let names = made.tables.iter().map(|(name, _)| name).chain(made.figures.iter().map(|(name, _)| name));
+        for (inner, _) in names.filter_map(|name| name.rsplit_once('/')) {
+            folder.make(inner)?;
+        }
+        let mut report = Report::new("loop-study", &folder, &self.output)?;
+        let (version, schema_version) = (VERSION, SCHEMA_VERSION);
+        report.document(&page, &Page { subject: &subject, version, schema_version, records: &read, warnings: &warnings })?;
+        report.page(&format!("{name}.md"), &made.text)?;
+        for (name, table) in &made.tables {
+            report.table(name, table)?;
+        }
+        for (name, svg) in made.figures {
+            report.picture(&name, Ok(svg))?;
+        }
+        report.print(made.text);
+        report.accuracy(worst);
+        report.finish(context)
     }
-    let any_accuracy = arguments.accuracy.time_budget.is_some();
-    let mut folder = ResultFolder::new(arguments.out.clone(), arguments.replace.overwrite).of_any_accuracy(any_accuracy);
-    let name = arguments.study.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
-    let files: Vec<(PathBuf, PathBuf)> = arguments.records.iter().map(|file| (file.clone(), file.clone())).collect();
-    let accuracy = arguments.accuracy.accuracy.map(|accuracy| accuracy.to_string());
-    let subject = Subject::new("loop-study", digests(&files)).with("study", &name)?.with("accuracy", &accuracy)?;
-    let record = |file: &PathBuf| Motion::Record { file: file.clone(), reading: arguments.reading.table(), scale: 1.0 };
-    let records: Vec<Motion> = arguments.records.iter().map(record).collect();
-    // Before hours of work, not after them.
-    let read = records_of(&records)?;
-    let (page, inputs) = (format!("{name}.run.json"), arguments.records.iter().map(|file| file_of(file)).collect());
-    folder.open(&Claim { subject: subject.clone(), page: &page, names: &[&name], inputs })?;
-    let warnings = warned(warning_lines(&read), err);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
-    let progress = Progress::new("runs");
-    let study = |accuracy: Option<Accuracy>| {
-        let conditions = Conditions::new(accuracy, interrupt);
-        let report = pool.install(|| match arguments.study {
-            Study::IdealLimit => ideal_limit(&progress, &conditions),
-            Study::Practice => practice(&records, &progress, &conditions),
-            Study::Laws => laws(&records, &progress, &conditions),
-            Study::Decisions => decisions(&records, &progress, &conditions),
-            Study::Robustness => robustness(&records, &progress, &conditions),
-            Study::Faults => faults(&progress, &conditions),
-        })?;
-        Ok::<_, StudyError>((report, accuracy.map(|_| conditions.worst())))
-    };
-    let tell = |line: &str| _ = writeln!(err, "sprag: {line}");
-    let found = arguments.accuracy.levels(study, tell);
-    progress.finish();
-    let (report, worst) = found?;
-    let page = Page { subject: &subject, version: env!("CARGO_PKG_VERSION"), records: &read, warnings: &warnings };
-    write(&report, &page, arguments, &mut folder, out, err)?;
-    if let Some(worst) = worst {
-        let _ = writeln!(out, "accuracy: {worst}");
-    }
-    Ok(())
-}
-
-fn write(
-    report: &Report,
-    page: &Page<'_>,
-    arguments: &LoopStudyArguments,
-    folder: &mut ResultFolder,
-    out: &mut impl Write,
-    err: &mut impl Write,
-) -> Result<(), OutputError> {
-    let names = report.tables.iter().map(|(name, _)| name).chain(report.figures.iter().map(|(name, _)| name));
-    for (inner, _) in names.filter_map(|name| name.rsplit_once('/')) {
-        folder.make(inner)?;
-    }
-    let drawing = Progress::uncounted(super::DRAWING);
-    let mut results = Results::default();
-    results.add_json(&folder.join(format!("{}.run.json", report.name)), page)?;
-    results.add(&folder.join(format!("{}.md", report.name)), |file| file.write_all(report.text.as_bytes()))?;
-    for (name, table) in &report.tables {
-        results.add(&folder.join(format!("{name}.csv")), |file| file.write_all(table.csv().as_bytes()))?;
-    }
-    for (name, svg) in &report.figures {
-        results.add_picture(folder, name, svg, arguments.pictures.formats)?;
-    }
-    results.commit_telling(err)?;
-    drawing.finish();
-    let _ = write!(out, "{}", report.text);
-    let _ = writeln!(out, "results in {}", folder.display());
-    Ok(())
 }

@@ -1,11 +1,10 @@
 //! `sprag manual`: pages for `man`.
 
-use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
 
-use super::BAD_INPUT;
+use super::context::{Completion, Context, Run};
 
 /// Write pages for `man`, one for each command.
 #[derive(Args, Clone, Debug)]
@@ -16,18 +15,12 @@ pub struct ManualArguments {
     pub folder: PathBuf,
 }
 
-/// Runs the command and gives its exit code.
-pub fn run(arguments: &ManualArguments, out: &mut impl Write, err: &mut impl Write) -> i32 {
-    let folder = &arguments.folder;
-    let written = std::fs::create_dir_all(folder).and_then(|()| clap_mangen::generate_to(crate::line::definition(), folder));
-    match written {
-        Ok(()) => {
-            let _ = writeln!(out, "pages in {}", folder.display());
-            0
-        }
-        Err(error) => {
-            let _ = writeln!(err, "sprag: {}: {error}", folder.display());
-            BAD_INPUT
-        }
+impl Run for ManualArguments {
+    fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+        let folder = &self.folder;
+        let written = std::fs::create_dir_all(folder).and_then(|()| clap_mangen::generate_to(crate::line::definition(), folder));
+        written.map_err(|error| anyhow::anyhow!("{}: {error}", folder.display()))?;
+        context.print(format_args!("pages in {}\n", folder.display()));
+        Ok(Completion::Complete)
     }
 }

@@ -1,20 +1,14 @@
 //! `sprag map`: overturning maps and rocking spectra over two keys of a scene.
 
-use std::collections::BTreeMap;
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::Args;
 use serde::Serialize;
-use sprag_report::columns::{TableError, metadata_of};
-use sprag_report::long_run::error::LongRunError;
 use sprag_report::long_run::origin::Origin;
 use sprag_report::long_run::rows::{Plan, Rows};
 use sprag_report::long_run::shard::Shard;
-use sprag_report::output::{Digest, OutputError, Results};
-use sprag_report::plot::PlotError;
 use sprag_report::progress::Progress;
-use sprag_sim::interrupt::Interrupt;
+use sprag_report::text_table::{TextTable, number};
 use sprag_sim::record::{RecordSummary, warning_lines};
 use sprag_sim::scene::ground::GroundTable;
 use sprag_sim::scene::map::AxisTable;
@@ -22,18 +16,21 @@ use sprag_sim::scene::schema::SceneFile;
 use sprag_sim::scene::{Scene, SceneError, document, text_of};
 use sprag_studies::map::boundaries::{Boundaries, EVALUATIONS};
 use sprag_studies::map::boundary_figure;
-use sprag_studies::map::boundary_table::BoundaryTable;
+use sprag_studies::map::boundary_table::boundary_table;
 use sprag_studies::map::figures::figures;
 use sprag_studies::map::grid::Grid;
 use sprag_studies::map::study::{MapError, study_to};
 use sprag_studies::map::table::{Labels, columns};
 use sprag_studies::map::tally::{Counts, DeviceMap, Tally};
 
-use super::format_arguments::FormatArguments;
-use super::map_boundaries::{BoundarySummary, trace, write_boundary_table};
-use super::out_arguments::{FolderArguments, claim_of_scene};
+use super::context::{Completion, Context, Run};
+use super::map_boundaries::{BoundarySummary, print_boundaries, trace};
+use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
-use super::{DRAWING, ended, resumable, warned};
+use super::report::{Report, Runs, SceneInput};
+use super::resumable;
+use super::scene_arguments::SceneArguments;
+use super::thread_arguments::ThreadArguments;
 use crate::command::long_run_arguments::LongRunArguments;
 
 /// Map outcomes and peaks over two keys of a scene.
@@ -48,16 +45,13 @@ use crate::command::long_run_arguments::LongRunArguments;
     boundaries. Rows go to the disk as they are made, map.run.json says what they come from, and Ctrl-C leaves them there for \
     --resume.")]
 pub struct MapArguments {
-    /// Scene file.
-    #[arg(value_name = "SCENE.toml")]
-    pub scene: PathBuf,
-    /// Change one value of the scene, such as block.restitution=0.9 or map.x.cells=256.
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set: Vec<String>,
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArguments,
     /// Axis across, in the place of the scene's: any numeric key; with :log in equal factors.
     #[arg(long, value_name = "KEY=FROM:TO:CELLS")]
     pub x: Option<AxisTable>,
-    /// Axis up.
+    /// Axis up the map, in the place of the scene's, as --x has it.
     #[arg(long, value_name = "KEY=FROM:TO:CELLS")]
     pub y: Option<AxisTable>,
     /// Leave out the axis up: a cut along x.
@@ -67,7 +61,7 @@ pub struct MapArguments {
     /// long as the map, a minute and more for 512 x 512 cells.
     #[arg(long)]
     pub refine: bool,
-    /// Most blocks that --refine follows for one device; what that leaves coarser is told.
+    /// Most blocks that --refine follows for one device; what stays coarser is reported.
     #[arg(long, value_name = "N", requires = "refine", default_value_t = EVALUATIONS, value_parser = evaluations)]
     pub evaluations: usize,
     /// Records.
@@ -75,13 +69,10 @@ pub struct MapArguments {
     pub records: SceneRecordArguments,
     /// Where results go.
     #[command(flatten)]
-    pub folder: FolderArguments,
-    /// Threads; as many as the machine has by default.
-    #[arg(long, value_name = "N", value_parser = super::threads)]
-    pub threads: Option<u16>,
-    /// What is written.
+    pub output: OutputArguments,
+    /// Threads.
     #[command(flatten)]
-    pub formats: FormatArguments,
+    pub threads: ThreadArguments,
     /// Which of the cells, and whether some are there.
     #[command(flatten)]
     pub long_run: LongRunArguments,
@@ -89,55 +80,6 @@ pub struct MapArguments {
 
 fn evaluations(text: &str) -> Result<usize, String> {
     super::whole_number(text, 0, u32::MAX.into()).map(|evaluations| evaluations as usize)
-}
-
-#[derive(Debug, thiserror::Error)]
-enum Failure {
-    #[error("{0}")]
-    Map(#[from] MapError),
-    #[error("the picture cannot be drawn: {0}")]
-    Plot(#[from] PlotError),
-    #[error("{0}")]
-    Output(#[from] OutputError),
-    #[error("{0}")]
-    Table(#[from] TableError),
-    #[error("the threads cannot be started: {0}")]
-    Threads(#[from] rayon::ThreadPoolBuildError),
-    #[error("--refine divides squares where boundaries are, and takes maps of at most 1024 x 1024 cells")]
-    TooManyCells,
-}
-
-impl From<LongRunError> for Failure {
-    fn from(error: LongRunError) -> Failure {
-        Failure::Map(MapError::Rows(error))
-    }
-}
-
-impl From<SceneError> for Failure {
-    fn from(error: SceneError) -> Failure {
-        Failure::Map(MapError::Scene(error))
-    }
-}
-
-/// What `map.parquet` says of itself.
-#[derive(Serialize)]
-struct MadeBy<'a> {
-    command: &'static str,
-    version: &'static str,
-    scene: &'a SceneFile,
-}
-
-/// `summary.json`.
-#[derive(Serialize)]
-struct Summary<'a> {
-    command: &'static str,
-    version: &'static str,
-    scene: &'a SceneFile,
-    records: &'a [RecordSummary],
-    warnings: &'a [String],
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    files: &'a BTreeMap<String, Digest>,
-    runs: Vec<DeviceSummary<'a>>,
 }
 
 #[derive(Serialize)]
@@ -161,90 +103,66 @@ impl<'a> DeviceSummary<'a> {
 /// Names of what is written beside the summary.
 const NAMES: [&str; 5] = ["map", "cut", "rotation", "acceleration", "boundaries"];
 
-/// Runs the command; a table goes to `out`, errors go to `err`.
-pub fn run(arguments: &MapArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    let result = run_or_fail(arguments, out, err, interrupt);
-    ended(result.map(|()| true), interrupt, err)
-}
-
-fn run_or_fail(
-    arguments: &MapArguments,
-    out: &mut impl Write,
-    err: &mut impl Write,
-    interrupt: &Interrupt,
-) -> Result<(), Failure> {
-    let (grid, file) = grid(arguments)?;
-    let records = records(&grid, &file)?;
-    let warnings = warned(grid.scene.warnings().into_iter().chain(warning_lines(&records)), err);
-    let (labels, mut tally) = (Labels::new(&grid)?, Tally::new(&grid));
-    if arguments.refine && tally.maps.iter().any(|map| map.shown.len() != grid.columns() * grid.rows()) {
-        return Err(Failure::TooManyCells);
+impl Run for MapArguments {
+    fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+        let mut folder = self.output.folder(&self.scene.scene, "map")?;
+        let (grid, file) = grid(self)?;
+        let records = records(&grid, &file)?;
+        let warnings = context.warned(grid.scene.warnings().into_iter().chain(warning_lines(&records)));
+        let (labels, mut tally) = (Labels::new(&grid)?, Tally::new(&grid));
+        if self.refine && tally.maps.iter().any(|map| map.shown.len() != grid.columns() * grid.rows()) {
+            anyhow::bail!("--refine divides squares where boundaries are, and takes maps of at most 1024 x 1024 cells");
+        }
+        let claim = claim_of_scene("map", &self.scene.scene, &grid.scene, &file, &NAMES, &[])?;
+        folder.open(&claim)?;
+        let subject = claim.subject;
+        let origin = Origin::new(subject.clone(), grid.table_rows());
+        let shard = self.long_run.shard();
+        let columns = columns(&grid);
+        let titles = columns.iter().map(|column| column.name.clone()).collect();
+        let plan = Plan { folder: &folder, name: "map", columns: titles, together: 1, shard, origin };
+        let mut rows = Rows::begin(&plan, self.long_run.start(), |row, record| {
+            tally.add(row, labels.read(row, record)?);
+            Ok(())
+        })?;
+        let pool = self.threads.pool()?;
+        let interrupt = context.interrupt;
+        interrupt.keep(resumable("finished rows", &folder));
+        let progress = Progress::new("cells");
+        let whole = pool.install(|| study_to(&mut rows, &grid, &labels, &mut tally, &progress, interrupt));
+        progress.finish();
+        if !whole? {
+            interrupt.keep(rows.interrupted());
+            return Err(rows.interrupted().into());
+        }
+        let path = rows.finish()?;
+        interrupt.keep(resumable("all rows", &path));
+        if shard != Shard::WHOLE {
+            context.print(format_args!("shard {shard}: {}\n", path.display()));
+            return Ok(Completion::Complete);
+        }
+        let trace = || trace(&grid, &tally.maps, self.evaluations, interrupt);
+        let boundaries = if self.refine { pool.install(trace)? } else { Vec::new() };
+        let mut report = Report::new("map", &folder, &self.output)?;
+        let maps = tally.maps.iter().enumerate();
+        let runs: Vec<_> = maps.map(|(device, map)| DeviceSummary::of(map, boundaries.get(device))).collect();
+        let input = SceneInput { scene: &file };
+        report.made_by(input)?;
+        report.summary(input, &records, &warnings, &subject, Runs { runs: &runs })?;
+        report.rows(&path, &columns)?;
+        for (name, picture) in figures(&grid, &tally)? {
+            report.picture(name, Ok(picture))?;
+        }
+        report.print(outcome_table(&tally.maps));
+        if self.refine {
+            report.table("boundaries", &boundary_table(&grid, &boundaries))?;
+            if let Some(picture) = boundary_figure::figure(&grid, &tally, &boundaries).transpose() {
+                report.picture("boundaries", picture)?;
+            }
+            print_boundaries(&mut report, &boundaries);
+        }
+        report.finish(context)
     }
-    let mut folder = arguments.folder.folder(&arguments.scene, "map");
-    let claim = claim_of_scene("map", &arguments.scene, &grid.scene, &file, &NAMES, &[])?;
-    folder.open(&claim)?;
-    let subject = claim.subject;
-    let origin = Origin::new(subject.clone(), grid.table_rows());
-    let shard = arguments.long_run.shard();
-    let columns = columns(&grid);
-    let titles = columns.iter().map(|column| column.name.clone()).collect();
-    let plan = Plan { folder: &folder, name: "map", columns: titles, together: 1, shard, origin };
-    let mut rows = Rows::begin(&plan, arguments.long_run.start(), |row, record| {
-        tally.add(row, labels.read(row, record)?);
-        Ok(())
-    })?;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, usize::from)).build()?;
-    interrupt.keep(resumable("finished rows", &folder));
-    let progress = Progress::new("cells");
-    let whole = pool.install(|| study_to(&mut rows, &grid, &labels, &mut tally, &progress, interrupt));
-    progress.finish();
-    if !whole? {
-        interrupt.keep(rows.interrupted());
-        return Err(rows.interrupted().into());
-    }
-    let path = rows.finish()?;
-    interrupt.keep(resumable("all rows", &path));
-    if shard != Shard::WHOLE {
-        let _ = writeln!(out, "shard {shard}: {}", path.display());
-        return Ok(());
-    }
-    let boundaries =
-        if arguments.refine { pool.install(|| trace(&grid, &tally.maps, arguments.evaluations, interrupt))? } else { Vec::new() };
-    let drawing = Progress::uncounted(DRAWING);
-    let mut pictures = figures(&grid, &tally)?;
-    if arguments.refine {
-        pictures.extend(boundary_figure::figure(&grid, &tally, &boundaries)?.map(|picture| ("boundaries", picture)));
-    }
-    let runs = tally.maps.iter().enumerate().map(|(device, map)| DeviceSummary::of(map, boundaries.get(device))).collect();
-    let (command, version) = ("map", env!("CARGO_PKG_VERSION"));
-    let (records, files) = (&records, &subject.files);
-    let summary = Summary { command, version, scene: &file, records, warnings: &warnings, files, runs };
-    let made_by = metadata_of(&MadeBy { command, version, scene: &file })?;
-    let formats = arguments.formats.formats;
-    let mut results = Results::default();
-    results.add_json(&folder.join("summary.json"), &summary)?;
-    if formats.parquet {
-        results.add_parquet_of(&path, &columns, &made_by)?;
-    }
-    if arguments.refine {
-        results.add_table(&folder, "boundaries", &BoundaryTable { grid: &grid, all: &boundaries }, &made_by, formats)?;
-    }
-    let mut first = None;
-    for (name, picture) in &pictures {
-        let added = results.add_picture(&folder, name, picture, formats)?;
-        first = first.or(added);
-    }
-    if interrupt.is_set() {
-        return Err(MapError::Interrupted.into());
-    }
-    results.commit_telling(err)?;
-    drawing.finish();
-    let _ = write_table(out, &tally.maps);
-    if arguments.refine {
-        let _ = write_boundary_table(out, &boundaries);
-    }
-    let _ = writeln!(out, "\n{}", first.unwrap_or(path).display());
-    Ok(())
 }
 
 /// The records of the first cell, by the names that `file` has for them.
@@ -263,10 +181,10 @@ fn records(grid: &Grid, file: &SceneFile) -> Result<Vec<RecordSummary>, MapError
 /// The scene with its overrides, records and axes, and what it says with its records named as the user wrote them, so that
 /// summaries do not depend on where they were made.
 fn grid(arguments: &MapArguments) -> Result<(Grid, SceneFile), SceneError> {
-    let origin = arguments.scene.display().to_string();
-    let text = text_of(&arguments.scene)?;
+    let origin = arguments.scene.scene.display().to_string();
+    let text = text_of(&arguments.scene.scene)?;
     let mut table = document::table(&text, &origin)?;
-    let mut changes = arguments.set.clone();
+    let mut changes = arguments.scene.set.clone();
     let axes = [("x", &arguments.x), ("y", &arguments.y)];
     for (name, axis) in axes {
         if let Some(axis) = axis {
@@ -299,7 +217,7 @@ fn grid(arguments: &MapArguments) -> Result<(Grid, SceneFile), SceneError> {
     } else {
         Scene::of_table(table.clone(), &origin, &[])?
     };
-    scene.folder = arguments.scene.parent().map(Path::to_path_buf).unwrap_or_default();
+    scene.folder = arguments.scene.scene.parent().map(Path::to_path_buf).unwrap_or_default();
     let mut file = scene.file.clone();
     if let Some((ground, vertical)) = written {
         (file.ground, file.vertical) = (ground, vertical);
@@ -321,26 +239,22 @@ fn put(table: &mut toml::Table, name: &str, tables: &[GroundTable]) {
     }
 }
 
-fn write_table(out: &mut impl Write, maps: &[DeviceMap]) -> std::io::Result<()> {
-    let width = maps.iter().map(|map| map.device.chars().count()).max().unwrap_or(0).max(6);
-    writeln!(
-        out,
-        "{:width$} {:>10} {:>10} {:>10} {:>16} {:>14} {:>12}",
-        "device", "cells", "no rocking", "safe", "over, no impact", "over, impact", "cells/s"
-    )?;
+/// Outcomes of every device, for people.
+fn outcome_table(maps: &[DeviceMap]) -> String {
+    let headings = ["device", "cells", "no rocking", "safe", "over, no impact", "over, impact", "cells/s"];
+    let mut table = TextTable::new(1, headings);
     for map in maps {
         let counts = &map.counts;
-        let speed = if map.worked_out > 0 { format!("{:.0}", map.worked_out as f64 / map.seconds) } else { "-".to_owned() };
-        writeln!(
-            out,
-            "{:width$} {:>10} {:>10} {:>10} {:>16} {:>14} {speed:>12}",
-            map.device,
-            counts.cells(),
-            counts.no_rocking,
-            counts.safe,
-            counts.overturned_without_impact,
-            counts.overturned_after_impact,
-        )?;
+        let speed = (map.worked_out > 0).then(|| map.worked_out as f64 / map.seconds);
+        table.row(vec![
+            map.device.clone(),
+            counts.cells().to_string(),
+            counts.no_rocking.to_string(),
+            counts.safe.to_string(),
+            counts.overturned_without_impact.to_string(),
+            counts.overturned_after_impact.to_string(),
+            number(speed, 0),
+        ]);
     }
-    Ok(())
+    table.plain()
 }

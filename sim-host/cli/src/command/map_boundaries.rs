@@ -1,16 +1,17 @@
 //! What `sprag map --refine` adds: the boundaries of every device, and what is said about them.
 
-use std::io::Write;
-
 use indicatif::HumanCount;
 use serde::Serialize;
 use sprag_report::progress::Progress;
+use sprag_report::text_table::{TextTable, number};
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::interrupt::Interrupt;
 use sprag_studies::map::boundaries::{Boundaries, refine};
 use sprag_studies::map::grid::Grid;
 use sprag_studies::map::study::MapError;
 use sprag_studies::map::tally::DeviceMap;
+
+use super::report::Report;
 
 /// The boundaries of a device in `summary.json`.
 #[derive(Serialize)]
@@ -54,27 +55,23 @@ pub(super) fn trace(
     all
 }
 
-/// Writes a row a device, and what was left coarser.
-pub(super) fn write_boundary_table(out: &mut impl Write, all: &[Boundaries]) -> std::io::Result<()> {
-    let width = all.iter().map(|boundaries| boundaries.device.chars().count()).max().unwrap_or(0).max(6);
-    writeln!(out, "\n{:width$} {:>10} {:>10} {:>12} {:>10}", "device", "boundaries", "vertices", "evaluations", "seconds")?;
+/// Prints a row a device, and what was left coarser.
+pub(super) fn print_boundaries(report: &mut Report, all: &[Boundaries]) {
+    let mut table = TextTable::new(1, ["device", "boundaries", "vertices", "evaluations", "seconds"]);
     for of_device in all {
-        writeln!(
-            out,
-            "{:width$} {:>10} {:>10} {:>12} {:>10.1}",
-            of_device.device,
-            of_device.boundaries.len(),
-            of_device.vertices(),
-            of_device.evaluations,
-            of_device.seconds,
-        )?;
+        table.row(vec![
+            of_device.device.clone(),
+            of_device.boundaries.len().to_string(),
+            of_device.vertices().to_string(),
+            of_device.evaluations.to_string(),
+            number(of_device.seconds, 1),
+        ]);
     }
+    report.print(format_args!("\n{}", table.plain()));
     for Boundaries { device, unresolved, unresolved_width, evaluations, .. } in all.iter().filter(|all| all.unresolved > 0) {
-        writeln!(
-            out,
+        report.print(format_args!(
             "{device}: {unresolved} squares on boundaries are left coarser, up to a relative {unresolved_width:.1e} wide, after \
              {evaluations} evaluations; --evaluations allows more",
-        )?;
+        ));
     }
-    Ok(())
 }

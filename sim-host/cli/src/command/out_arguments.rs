@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use sprag_report::output::{Claim, Digest, OutputError, ResultFolder, Subject};
+use sprag_report::output::{Claim, Digest, Formats, OutputError, ResultFolder, Subject};
+use sprag_report::part::Part;
 use sprag_sim::scene::Scene;
 use sprag_sim::scene::schema::SceneFile;
 
@@ -16,25 +17,52 @@ pub struct OverwriteArguments {
     pub overwrite: bool,
 }
 
-/// Where a folder of results is.
+/// Where results go, in which formats, and how they are printed.
 #[derive(Args, Clone, Debug, Default)]
-pub struct FolderArguments {
+pub struct OutputArguments {
     /// Folder for the results; by default out/NAME-COMMAND, of `simulate` out/NAME, with the name of the scene or study.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// What may be replaced in it.
     #[command(flatten)]
     pub replace: OverwriteArguments,
+    /// Formats of tables (csv, parquet) and pictures (svg, png), separated by commas; csv is always among them. By default csv,svg, and all four
+    /// of `map`, `cloud` and `optimise`.
+    #[arg(long, value_name = "LIST")]
+    pub formats: Option<Formats>,
+    /// Write pictures as PNG too.
+    #[arg(long)]
+    pub png: bool,
+    /// Print the summary as JSON, and the tables on standard error.
+    #[arg(long)]
+    pub json: bool,
 }
 
-impl FolderArguments {
-    /// The folder for results of `command` on `input`, a scene or study.
-    pub(super) fn folder(&self, input: &Path, command: &str) -> ResultFolder {
+impl OutputArguments {
+    /// The folder for results of `command` on `input`, a scene or study; all that is asked of them is possible.
+    ///
+    /// # Errors
+    /// As [`OutputArguments::formats`].
+    pub(super) fn folder(&self, input: &Path, command: &str) -> anyhow::Result<ResultFolder> {
+        self.formats(command)?;
         let path = self.out.clone().unwrap_or_else(|| {
             let stem = input.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
             Path::new("out").join(if command == "simulate" { stem.into_owned() } else { format!("{stem}-{command}") })
         });
-        ResultFolder::new(path, self.replace.overwrite)
+        Ok(ResultFolder::new(path, self.replace.overwrite))
+    }
+
+    /// The formats of the results of `command`.
+    ///
+    /// # Errors
+    /// A format that the program was built without, and Parquet of a command whose tables have no types.
+    pub(super) fn formats(&self, command: &str) -> anyhow::Result<Formats> {
+        let default = if matches!(command, "map" | "cloud" | "optimise") { Formats::ALL } else { Formats::PLAIN };
+        let formats = self.formats.unwrap_or(default);
+        let typed = default.parquet || matches!(command, "sensitivity" | "similar" | "accuracy");
+        anyhow::ensure!(typed || !formats.parquet, "--formats: `sprag {command}` writes its tables as csv only");
+        let png = if self.png { Part::PNG.allow(true)? } else { formats.png };
+        Ok(Formats { png, ..formats })
     }
 }
 

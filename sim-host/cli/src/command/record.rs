@@ -1,16 +1,17 @@
 //! `sprag record`: reads, checks and describes ground motion records.
 
-use std::io::{self, Write};
 use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
+use sprag_report::output::Versioned;
 use sprag_report::progress::Progress;
+use sprag_report::text_table::{TextTable, number};
 use sprag_shared::math;
 use sprag_sim::record::intensity::uniform_duration_s;
 use sprag_sim::record::{Intensity, Record, RecordSummary, STANDARD_GRAVITY_M_S2};
 
-use super::BAD_INPUT;
+use super::context::{Completion, Context, Run};
 use super::record_arguments::ReadArguments;
 
 /// Read, check and describe ground motion records.
@@ -49,6 +50,12 @@ enum Entry {
     Failure { file: String, error: String },
 }
 
+impl Entry {
+    fn description(&self) -> Option<&Description> {
+        if let Entry::Description(description) = self { Some(description) } else { None }
+    }
+}
+
 /// A record in numbers; the fields are those of the JSON output.
 #[derive(Serialize)]
 struct Description {
@@ -78,83 +85,69 @@ impl Description {
     }
 }
 
-/// Runs the command and returns its exit status: 0, or 2 if a file could not be read. In text output the reasons go
-/// to `err`, in JSON output into the file's object.
-pub fn run(arguments: &RecordArguments, out: &mut impl Write, err: &mut impl Write) -> i32 {
-    let options = arguments.reading.options();
-    let progress = Progress::new("files");
-    progress.begin(arguments.files.len() as u64);
-    let entries: Vec<Entry> = arguments
-        .files
-        .iter()
-        .map(|file| match Record::read(file, &options) {
-            Ok(record) => Entry::Description(Description::of(&record, arguments.slenderness_deg)),
+impl Run for RecordArguments {
+    /// In JSON the reason why a file cannot be read is in its object.
+    fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+        let options = self.reading.options();
+        let progress = Progress::new("files");
+        progress.begin(self.files.len() as u64);
+        let read = |file: &PathBuf| match Record::read(file, &options) {
+            Ok(record) => Entry::Description(Description::of(&record, self.slenderness_deg)),
             Err(error) => Entry::Failure { file: file.to_string_lossy().into_owned(), error: error.to_string() },
+        };
+        let entries: Vec<Entry> = self.files.iter().map(read).inspect(|_| progress.step()).collect();
+        progress.finish();
+        let described: Vec<&Description> = entries.iter().filter_map(Entry::description).collect();
+        if self.json {
+            context.print_json(&entries.iter().map(Versioned::new).collect::<Vec<_>>());
+        } else {
+            if !described.is_empty() {
+                context.print(table(&described).plain());
+            }
+            for description in &described {
+                for warning in &description.read.warnings {
+                    context.note(format_args!("warning: {}: {warning}", description.read.file));
+                }
+            }
+            for entry in &entries {
+                if let Entry::Failure { error, .. } = entry {
+                    context.note(error);
+                }
+            }
+        }
+        Ok(match described.len() {
+            0 => Completion::Refused,
+            count => Completion::of(count == entries.len()),
         })
-        .inspect(|_| progress.step())
-        .collect();
-    progress.finish();
-    // What keeps it from being written is reported where standard output is.
-    let _ = if arguments.json { write_json(&entries, out) } else { write_text(&entries, out, err) };
-    if entries.iter().any(|entry| matches!(entry, Entry::Failure { .. })) { BAD_INPUT } else { 0 }
+    }
 }
 
-fn write_json(entries: &[Entry], out: &mut impl Write) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, entries)?;
-    writeln!(out)
-}
-
-fn write_text(entries: &[Entry], out: &mut impl Write, err: &mut impl Write) -> io::Result<()> {
-    let described: Vec<&Description> = entries
-        .iter()
-        .filter_map(|entry| if let Entry::Description(description) = entry { Some(description) } else { None })
-        .collect();
-    let with_duration = described.iter().any(|description| description.t_uni_s.is_some());
-    let mut titles = vec!["file", "dt (s)", "samples", "PGA (g)", "PGV (m/s)", "PGD (m)", "Arias (m/s)", "D5-95 (s)"];
-    titles.extend(with_duration.then_some("t_uni (s)"));
-    let mut table = vec![titles.into_iter().map(str::to_owned).collect::<Vec<String>>()];
-    for description in &described {
+fn table(described: &[&Description]) -> TextTable {
+    let mut headings = vec!["file", "dt (s)", "samples", "PGA (g)", "PGV (m/s)", "PGD (m)", "Arias (m/s)", "D5-95 (s)"];
+    headings.extend(described.iter().any(|description| description.t_uni_s.is_some()).then_some("t_uni (s)"));
+    let mut table = TextTable::new(1, headings);
+    for description in described {
         let mut row = vec![
             description.read.file.clone(),
             description.read.dt_s.to_string(),
             description.read.samples.to_string(),
-            format!("{:.4}", description.read.pga_m_s2 / STANDARD_GRAVITY_M_S2),
-            format!("{:.3}", description.pgv_m_s),
-            format!("{:.3}", description.pgd_m),
-            format!("{:.3}", description.arias_m_s),
-            format!("{:.2}", description.d5_95_s),
+            number(description.read.pga_m_s2 / STANDARD_GRAVITY_M_S2, 4),
+            number(description.pgv_m_s, 3),
+            number(description.pgd_m, 3),
+            number(description.arias_m_s, 3),
+            number(description.d5_95_s, 2),
         ];
-        row.extend(description.t_uni_s.map(|seconds| format!("{seconds:.3}")));
-        table.push(row);
+        row.extend(description.t_uni_s.map(|seconds| number(seconds, 3)));
+        table.row(row);
     }
-    let mut written = Ok(());
-    if !described.is_empty() {
-        let columns = table[0].len();
-        let widths: Vec<usize> =
-            (0..columns).map(|column| table.iter().map(|row| row[column].chars().count()).max().unwrap_or(0)).collect();
-        written = table.iter().try_for_each(|row| {
-            let (name, numbers) = row.split_at(1);
-            let numbers: String = numbers.iter().zip(&widths[1..]).map(|(cell, width)| format!("  {cell:>width$}")).collect();
-            writeln!(out, "{:<width$}{numbers}", name[0], width = widths[0])
-        });
-    }
-    for description in &described {
-        for warning in &description.read.warnings {
-            let _ = writeln!(err, "sprag: warning: {}: {warning}", description.read.file);
-        }
-    }
-    for entry in entries {
-        if let Entry::Failure { error, .. } = entry {
-            let _ = writeln!(err, "sprag: {error}");
-        }
-    }
-    written
+    table
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use clap::Parser;
+    use sprag_sim::interrupt::Interrupt;
 
     #[derive(Parser)]
     struct Line {
@@ -164,8 +157,8 @@ mod tests {
 
     fn run_line(line: &[&str]) -> (i32, String, String) {
         let parsed = Line::try_parse_from([&["record"], line].concat()).unwrap_or_else(|error| panic!("{error}"));
-        let (mut out, mut err) = (Vec::new(), Vec::new());
-        let status = run(&parsed.arguments, &mut out, &mut err);
+        let (mut out, mut err, interrupt) = (Vec::new(), Vec::new(), Interrupt::default());
+        let status = Context { out: &mut out, err: &mut err, interrupt: &interrupt, quiet: false }.run(&parsed.arguments);
         (status, String::from_utf8(out).unwrap(), String::from_utf8(err).unwrap())
     }
 
@@ -182,7 +175,7 @@ mod tests {
     fn json_has_the_contract_fields_and_an_error_beside_good_files() {
         let (_folder, good, bad) = folder();
         let (status, out, err) = run_line(&["--json", "--slenderness-deg", "10", &bad, &good]);
-        assert_eq!((status, err.as_str()), (2, ""));
+        assert_eq!((status, err.as_str()), (1, ""));
         let entries: serde_json::Value = serde_json::from_str(&out).unwrap();
         assert_eq!(entries[0]["error"], format!("{bad}: line 3: `oops` where a number is due"));
         assert_eq!(entries[0]["file"], bad);
@@ -191,6 +184,7 @@ mod tests {
         // |a| > u during 1.5 (1 − u/4) s, with u = g tan 10°.
         assert!((number("t_uni_s") - 1.5 * (1.0 - 9.80665 * 0.176_326_980_708 / 4.0)).abs() < 1e-9);
         assert!((number("arias_m_s") - std::f64::consts::PI / (2.0 * 9.80665) * 16.0).abs() < 1e-9);
+        assert!(entries.as_array().unwrap().iter().all(|entry| entry["schema_version"] == 1), "{out}");
         for key in ["pgv_m_s", "pgd_m", "d5_95_s"] {
             assert!(number(key) > 0.0, "{key}");
         }
@@ -205,9 +199,11 @@ mod tests {
         let (status, out, err) = run_line(&[&good, &bad, &good]);
         let rows: Vec<&str> = out.lines().collect();
         let errors: Vec<&str> = err.lines().filter(|line| !line.starts_with("sprag: warning: ")).collect();
-        assert_eq!((status, rows.len(), errors.len()), (2, 3, 1));
+        assert_eq!((status, rows.len(), errors.len()), (1, 3, 1));
         assert!(rows.iter().all(|row| row.chars().count() == rows[0].chars().count()), "{out}");
         assert!(errors[0].starts_with(&format!("sprag: {bad}: line 3")), "{err}");
+        // Nothing is left to describe.
+        assert_eq!(run_line(&[&bad]).0, 2);
     }
 
     #[test]

@@ -1,31 +1,25 @@
 //! `sprag similar`: responses of blocks with equal dimensionless groups, overlaid.
 
-use std::collections::BTreeMap;
-use std::io::Write;
-use std::path::PathBuf;
-
 use clap::Args;
 use serde::Serialize;
+use sprag_report::columns::{Column, RowWriter, Table, TableError, Value};
 use sprag_report::heading::of_scenes;
-use sprag_report::output::{Digest, OutputError, Results};
 use sprag_report::plot::{Chart, ChartPanel, FigureTitle, Line, PlotError, Scale, chart_figure};
 use sprag_report::progress::Progress;
-use sprag_shared::structure::error::ParameterError;
 use sprag_sim::effect::number::number;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::{RecordSummary, warning_lines};
-use sprag_sim::scene::ground::GroundError;
+use sprag_sim::scene::Scene;
 use sprag_sim::scene::overrides::items;
-use sprag_sim::scene::schema::SceneFile;
-use sprag_sim::scene::{Scene, SceneError};
-use sprag_sim::simulation::{DeviceRun, RunError, simulate};
+use sprag_sim::simulation::{DeviceRun, simulate};
 use sprag_studies::similarity::compare::{Departure, INSTANTS, Response};
 use sprag_studies::similarity::groups::{Group, groups};
 
-use super::format_arguments::PictureArguments;
-use super::out_arguments::{FolderArguments, claim_of_scene};
+use super::context::{Completion, Context, Run};
+use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
-use super::{ended, warned};
+use super::report::{Report, SceneInput};
+use super::scene_arguments::SceneArguments;
 
 /// Compare blocks of equal dimensionless groups.
 #[derive(Args, Clone, Debug)]
@@ -34,44 +28,18 @@ use super::{ended, warned};
     Writes summary.json, similar.csv and similar.svg, with --png similar.png too. Groups that are not equal are named: amplitudes and frequencies \
     should be ratios (amplitude_ratio, frequency_ratio).")]
 pub struct SimilarArguments {
-    /// Scene file: the first block.
-    #[arg(value_name = "SCENE.toml")]
-    pub scene: PathBuf,
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArguments,
     /// Another block: the scene with these values changed, separated by commas.
     #[arg(long, value_name = "KEY=VALUE,…", required = true)]
     pub with: Vec<String>,
-    /// Change one value of the scene for all blocks.
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set: Vec<String>,
     /// Records.
     #[command(flatten)]
     pub records: SceneRecordArguments,
     /// Where results go.
     #[command(flatten)]
-    pub folder: FolderArguments,
-    /// Pictures.
-    #[command(flatten)]
-    pub pictures: PictureArguments,
-}
-
-#[derive(Debug, thiserror::Error)]
-enum Failure {
-    #[error("{0}")]
-    Scene(#[from] SceneError),
-    #[error("{0}")]
-    Ground(#[from] GroundError),
-    #[error("{0}")]
-    Parameter(#[from] ParameterError),
-    #[error("{0}")]
-    Run(#[from] RunError),
-    #[error("--with: names nothing that differs; give KEY=VALUE, such as block.size_m=2")]
-    Same,
-    #[error("--with {0}: the block has another number of devices than the first")]
-    Devices(String),
-    #[error("the picture cannot be drawn: {0}")]
-    Plot(#[from] PlotError),
-    #[error("{0}")]
-    Output(#[from] OutputError),
+    pub output: OutputArguments,
 }
 
 /// A block with its responses.
@@ -84,16 +52,9 @@ struct Block {
     responses: Vec<Response>,
 }
 
-/// `summary.json`.
+/// What `summary.json` says of the blocks.
 #[derive(Serialize)]
-struct Summary<'a> {
-    command: &'static str,
-    version: &'static str,
-    scene: &'a SceneFile,
-    records: &'a [RecordSummary],
-    warnings: &'a [String],
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    files: &'a BTreeMap<String, Digest>,
+struct Answer<'a> {
     with: &'a [String],
     blocks: Vec<BlockSummary<'a>>,
 }
@@ -114,81 +75,64 @@ struct RunSummary<'a> {
     departure: Option<Departure>,
 }
 
-/// Runs the command; a table goes to `out`, errors go to `err`.
-pub fn run(arguments: &SimilarArguments, out: &mut impl Write, err: &mut impl Write, interrupt: &Interrupt) -> i32 {
-    let result = run_or_fail(arguments, out, err, interrupt);
-    ended(result.map(|()| true), interrupt, err)
-}
-
-fn run_or_fail(
-    arguments: &SimilarArguments,
-    out: &mut impl Write,
-    err: &mut impl Write,
-    interrupt: &Interrupt,
-) -> Result<(), Failure> {
-    if arguments.with.iter().any(|changes| items(changes).next().is_none()) {
-        return Err(Failure::Same);
-    }
-    let mut folder = arguments.folder.folder(&arguments.scene, "similar");
-    let progress = Progress::new("blocks");
-    progress.begin(1 + arguments.with.len() as u64);
-    let mut blocks = vec![block(arguments, "", None, interrupt)?];
-    progress.step();
-    let first = &blocks[0].scene;
-    let mut claim = claim_of_scene("similar", &arguments.scene, first, &first.file, &["similar"], &[])?;
-    claim.subject = claim.subject.with("with", &arguments.with)?;
-    folder.open(&claim)?;
-    for changes in &arguments.with {
-        let other = block(arguments, changes, Some(&blocks[0]), interrupt)?;
-        for name in unequal(&blocks[0], &other) {
-            let _ = writeln!(err, "sprag: --with {changes}: {name} is not that of the first block");
+impl Run for SimilarArguments {
+    fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+        if self.with.iter().any(|changes| items(changes).next().is_none()) {
+            anyhow::bail!("--with: names nothing that differs; give KEY=VALUE, such as block.size_m=2");
         }
-        blocks.push(other);
+        let mut folder = self.output.folder(&self.scene.scene, "similar")?;
+        let progress = Progress::new("blocks");
+        progress.begin(1 + self.with.len() as u64);
+        let mut blocks = vec![block(self, "", None, context.interrupt)?];
         progress.step();
-    }
-    progress.finish();
-    let mut records: Vec<RecordSummary> = Vec::new();
-    for record in blocks.iter().flat_map(|block| &block.records) {
-        if !records.contains(record) {
-            records.push(record.clone());
+        let first = &blocks[0].scene;
+        let mut claim = claim_of_scene("similar", &self.scene.scene, first, &first.file, &["similar"], &[])?;
+        claim.subject = claim.subject.with("with", &self.with)?;
+        folder.open(&claim)?;
+        for changes in &self.with {
+            let other = block(self, changes, Some(&blocks[0]), context.interrupt)?;
+            for name in unequal(&blocks[0], &other) {
+                context.note(format_args!("--with {changes}: {name} is not that of the first block"));
+            }
+            blocks.push(other);
+            progress.step();
         }
-    }
-    let of_blocks = blocks.iter().flat_map(|block| block.scene.warnings());
-    let warnings = warned(of_blocks.chain(warning_lines(&records)), err);
-    let figure = figure(&blocks)?;
-    let first = &blocks[0];
-    let of = |block: &'_ Block, device: usize| {
-        (!std::ptr::eq(block, first)).then(|| Departure::between(&first.responses[device], &block.responses[device]))
-    };
-    let summaries = blocks.iter().map(|block| BlockSummary {
-        block: &block.name,
-        groups: &block.groups,
-        unequal_groups: unequal(first, block),
-        runs: block.runs.iter().enumerate().map(|(device, run)| RunSummary { run, departure: of(block, device) }).collect(),
-    });
-    let (command, version, with) = ("similar", env!("CARGO_PKG_VERSION"), &arguments.with[..]);
-    let (scene, files, summaries) = (&first.scene.file, &claim.subject.files, summaries.collect());
-    let summary = Summary { command, version, scene, records: &records, warnings: &warnings, files, with, blocks: summaries };
-    let mut results = Results::default();
-    results.add_json(&folder.join("summary.json"), &summary)?;
-    results.add(&folder.join("similar.csv"), |file| write_csv(&blocks, file))?;
-    let picture = results.add_picture(&folder, "similar", &figure, arguments.pictures.formats)?;
-    if interrupt.is_set() {
-        return Err(RunError::Interrupted.into());
-    }
-    results.commit_telling(err)?;
-    let _ = writeln!(out, "largest departure of θ/α from the first block");
-    for block in &blocks[1..] {
-        for (device, run) in block.runs.iter().enumerate() {
-            let departure = Departure::between(&first.responses[device], &block.responses[device]);
-            let overturned = [&first.runs[device], run].map(|run| run.outcome.overturned());
-            let _ = writeln!(out, "{}, {}: {}", block.name, run.device, in_words(&departure, overturned));
+        progress.finish();
+        let mut records: Vec<RecordSummary> = Vec::new();
+        for record in blocks.iter().flat_map(|block| &block.records) {
+            if !records.contains(record) {
+                records.push(record.clone());
+            }
         }
+        let of_blocks = blocks.iter().flat_map(|block| block.scene.warnings());
+        let warnings = context.warned(of_blocks.chain(warning_lines(&records)));
+        let first = &blocks[0];
+        let of = |block: &'_ Block, device: usize| {
+            (!std::ptr::eq(block, first)).then(|| Departure::between(&first.responses[device], &block.responses[device]))
+        };
+        let summaries = blocks.iter().map(|block| BlockSummary {
+            block: &block.name,
+            groups: &block.groups,
+            unequal_groups: unequal(first, block),
+            runs: block.runs.iter().enumerate().map(|(device, run)| RunSummary { run, departure: of(block, device) }).collect(),
+        });
+        let answer = Answer { with: &self.with, blocks: summaries.collect() };
+        let input = SceneInput { scene: &first.scene.file };
+        let mut report = Report::new("similar", &folder, &self.output)?;
+        report.made_by(input)?;
+        report.summary(input, &records, &warnings, &claim.subject, answer)?;
+        report.table("similar", &Overlay(&blocks))?;
+        report.picture("similar", figure(&blocks))?;
+        report.print("largest departure of θ/α from the first block");
+        for block in &blocks[1..] {
+            for (device, run) in block.runs.iter().enumerate() {
+                let departure = Departure::between(&first.responses[device], &block.responses[device]);
+                let overturned = [&first.runs[device], run].map(|run| run.outcome.overturned());
+                report.print(format_args!("{}, {}: {}", block.name, run.device, in_words(&departure, overturned)));
+            }
+        }
+        report.finish(context)
     }
-    if let Some(picture) = picture {
-        let _ = writeln!(out, "{}", picture.display());
-    }
-    Ok(())
 }
 
 /// How far a block departs from the first, and which of the two overturns.
@@ -210,13 +154,13 @@ fn in_words(departure: &Departure, overturned: [bool; 2]) -> String {
 }
 
 /// The scene with `changes`, simulated; `first` is the block that it is compared with.
-fn block(arguments: &SimilarArguments, changes: &str, first: Option<&Block>, interrupt: &Interrupt) -> Result<Block, Failure> {
-    let mut overrides = arguments.set.clone();
+fn block(arguments: &SimilarArguments, changes: &str, first: Option<&Block>, interrupt: &Interrupt) -> anyhow::Result<Block> {
+    let mut overrides = arguments.scene.set.clone();
     overrides.extend(items(changes).map(str::to_owned));
-    let mut scene = Scene::load(&arguments.scene, &overrides)?;
+    let mut scene = Scene::load(&arguments.scene.scene, &overrides)?;
     arguments.records.apply(&mut scene)?;
     if first.is_some_and(|first| first.scene.devices.len() != scene.devices.len()) {
-        return Err(Failure::Devices(changes.to_owned()));
+        anyhow::bail!("--with {changes}: the block has another number of devices than the first");
     }
     let ground = scene.ground_motions()?;
     let p = scene.block.frequency_parameter();
@@ -262,21 +206,26 @@ fn figure(blocks: &[Block]) -> Result<String, PlotError> {
     })
 }
 
-/// `device,frequency_parameter_time` and θ/α of every block; empty where a block has overturned.
-fn write_csv(blocks: &[Block], out: &mut impl Write) -> std::io::Result<()> {
-    let mut table = csv::Writer::from_writer(out);
-    let names = ["device", "frequency_parameter_time"].into_iter().chain(blocks.iter().map(|block| block.name.as_str()));
-    table.write_record(names)?;
-    for (device, run) in blocks[0].runs.iter().enumerate() {
-        for instant in 0..INSTANTS {
-            let time = instant as f64 * blocks[0].responses[device].step;
-            let mut row = vec![run.device.clone(), format!("{time:?}")];
-            let rotation = |block: &Block| block.responses[device].rotations.get(instant).map(|rotation| format!("{rotation:?}"));
-            row.extend(blocks.iter().map(|block| rotation(block).unwrap_or_default()));
-            table.write_record(row)?;
-        }
+/// `device`, `frequency_parameter_time` and θ/α of every block; empty where a block has overturned.
+struct Overlay<'a>(&'a [Block]);
+
+impl Table for Overlay<'_> {
+    fn columns(&self) -> Vec<Column> {
+        let blocks = self.0.iter().map(|block| Column::number(&block.name).or_nothing());
+        [Column::text("device"), Column::number("frequency_parameter_time")].into_iter().chain(blocks).collect()
     }
-    table.flush()
+
+    fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
+        let first = &self.0[0];
+        for (device, (run, response)) in first.runs.iter().zip(&first.responses).enumerate() {
+            for instant in 0..INSTANTS {
+                let rotation = |block: &Block| block.responses[device].rotations.get(instant).copied().into();
+                let place = [(&run.device).into(), (instant as f64 * response.step).into()];
+                writer.row(&place.into_iter().chain(self.0.iter().map(rotation)).collect::<Vec<Value<'_>>>())?;
+            }
+        }
+        Ok(())
+    }
 }
 
 #[cfg(test)]

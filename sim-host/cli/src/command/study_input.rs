@@ -1,6 +1,5 @@
 //! What commands that run a study over records have in common: the study, its records, and what is said of them on the command line.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -8,18 +7,17 @@ use rayon::ThreadPool;
 use sprag_report::output::{Digest, Subject};
 use sprag_report::progress::Progress;
 use sprag_sim::record::Record;
-use sprag_sim::scene::SceneError;
 use sprag_studies::cloud::records::{StudyRecord, StudyRecords};
 use sprag_studies::cloud::study::{Study, StudyError};
 
+use super::context::Context;
 use super::out_arguments::file_of;
 use super::record_arguments::ReadArguments;
-use super::warned;
 
 /// A study and its records.
 #[derive(Args, Clone, Debug)]
 pub struct StudyArguments {
-    /// Study file.
+    /// Study file: records, structures, devices, and what is asked of them.
     #[arg(value_name = "STUDY.toml")]
     pub study: PathBuf,
     /// Records and folders of them, in the place of the study's.
@@ -28,36 +26,17 @@ pub struct StudyArguments {
     /// How they are read.
     #[command(flatten)]
     pub reading: ReadArguments,
-    /// Change one value of the study's scene, such as block.size_m=2 or device.1.mass_ratio=0.5.
+    /// Change one value of the study's scene, such as block.size_m=2 or device.1.mass_ratio=0.5; may be given more than once.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-}
-
-/// A study or records that cannot be read.
-#[derive(Debug, thiserror::Error)]
-pub enum StudyInputError {
-    /// The study, or its scene.
-    #[error("{0}")]
-    Study(#[from] StudyError),
-    /// What the study says of a record.
-    #[error("{0}")]
-    Record(#[from] SceneError),
-    /// There is no record at all.
-    #[error("{}: no record could be read{}", study.display(), first.as_ref().map_or_else(String::new, |line| format!("; {line}")))]
-    NoRecord {
-        /// The study.
-        study: PathBuf,
-        /// Why the first could not be read.
-        first: Option<String>,
-    },
 }
 
 impl StudyArguments {
     /// The study, with one more `change` of its scene.
     ///
     /// # Errors
-    /// [`StudyInputError::Study`].
-    pub fn load(&self, change: Option<String>) -> Result<Study, StudyInputError> {
+    /// [`StudyError`].
+    pub fn load(&self, change: Option<String>) -> Result<Study, StudyError> {
         let mut changes = self.set.clone();
         changes.extend(change);
         let mut study = Study::load(&self.study, &changes, &self.records)?;
@@ -65,27 +44,27 @@ impl StudyArguments {
         Ok(study)
     }
 
-    /// The records of `study`, one at least, and the warnings of both; `err` gets these and what cannot be read.
+    /// The records of `study`, one at least, and the warnings of both, which are reported with what cannot be read.
     ///
     /// # Errors
-    /// [`StudyInputError`] for what the study says of its records, and where none can be read.
+    /// What the study says of its records and cannot be, and where none can be read.
     pub(super) fn read(
         &self,
         study: &Study,
         pool: &ThreadPool,
-        err: &mut impl Write,
-    ) -> Result<(StudyRecords, Vec<String>), StudyInputError> {
+        context: &mut Context<'_>,
+    ) -> anyhow::Result<(StudyRecords, Vec<String>)> {
         let reading = Progress::uncounted("reading records");
         let records = pool.install(|| StudyRecords::read(study))?;
         reading.finish();
         if records.records.is_empty() {
-            let first = records.unreadable.first().cloned();
-            return Err(StudyInputError::NoRecord { study: self.study.clone(), first });
+            let first = records.unreadable.first().map_or_else(String::new, |line| format!("; {line}"));
+            anyhow::bail!("{}: no record could be read{first}", self.study.display());
         }
         for line in &records.unreadable {
-            let _ = writeln!(err, "sprag: {line}");
+            context.note(line);
         }
-        let warnings = warned(study.warnings().into_iter().chain(records.warnings()), err);
+        let warnings = context.warned(study.warnings().into_iter().chain(records.warnings()));
         Ok((records, warnings))
     }
 

@@ -8,6 +8,7 @@ use sprag_report::output::{Results, claim_file, is_standard_output};
 use sprag_sim::record::{Intensity, ReadOptions, Record, STANDARD_GRAVITY_M_S2};
 use sprag_sim::synthesis::NearFaultMotion;
 
+use super::context::{Completion, Context, Run};
 use super::out_arguments::OverwriteArguments;
 
 const DEFAULT: NearFaultMotion = NearFaultMotion::DEFAULT;
@@ -77,45 +78,40 @@ impl SynthesizeArguments {
     }
 }
 
-/// Runs the command and returns its exit status: 0, or 2 after one line on `err`.
-pub fn run(arguments: &SynthesizeArguments, out: &mut impl Write, err: &mut impl Write) -> i32 {
-    match synthesize(arguments) {
-        Ok(line) => {
-            // Nobody may be listening, which is no failure of the synthesis.
-            let _ = if is_standard_output(&arguments.out) { writeln!(err, "{line}") } else { writeln!(out, "{line}") };
-            0
+impl Run for SynthesizeArguments {
+    fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+        let csv = self.motion().csv()?;
+        let name = self.out.display().to_string();
+        // The first line is the command that makes the same bytes.
+        let same =
+            |file| BufReader::lines(file).next().is_some_and(|line| line.is_ok_and(|line| csv.lines().next() == Some(&line)));
+        claim_file(&self.out, &[], self.replace.overwrite, same)?;
+        let mut results = Results::default();
+        results.add(&self.out, |file| file.write_all(csv.as_bytes()))?;
+        results.commit()?;
+        let record = Record::parse(&name, csv.as_bytes(), &ReadOptions::default())?;
+        let intensity = Intensity::of(&record);
+        let line = format!(
+            "{name}: {} samples at {} s, PGA {:.3} g, PGV {:.3} m/s",
+            record.acceleration_m_s2.len(),
+            record.time_step_s,
+            intensity.pga_m_s2 / STANDARD_GRAVITY_M_S2,
+            intensity.pgv_m_s
+        );
+        if is_standard_output(&self.out) {
+            context.note(line)
+        } else {
+            context.print(line + "\n")
         }
-        Err(message) => {
-            let _ = writeln!(err, "sprag: {message}");
-            2
-        }
+        Ok(Completion::Complete)
     }
-}
-
-fn synthesize(arguments: &SynthesizeArguments) -> Result<String, String> {
-    let csv = arguments.motion().csv().map_err(|error| error.to_string())?;
-    let name = arguments.out.display().to_string();
-    // The first line is the command that makes the same bytes.
-    let same = |file| BufReader::lines(file).next().is_some_and(|line| line.is_ok_and(|line| csv.lines().next() == Some(&line)));
-    claim_file(&arguments.out, &[], arguments.replace.overwrite, same).map_err(|error| error.to_string())?;
-    let mut results = Results::default();
-    results.add(&arguments.out, |file| file.write_all(csv.as_bytes())).map_err(|error| error.to_string())?;
-    results.commit().map_err(|error| error.to_string())?;
-    let record = Record::parse(&name, csv.as_bytes(), &ReadOptions::default()).map_err(|error| error.to_string())?;
-    let intensity = Intensity::of(&record);
-    Ok(format!(
-        "{name}: {} samples at {} s, PGA {:.3} g, PGV {:.3} m/s",
-        record.acceleration_m_s2.len(),
-        record.time_step_s,
-        intensity.pga_m_s2 / STANDARD_GRAVITY_M_S2,
-        intensity.pgv_m_s
-    ))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use clap::Parser;
+    use sprag_sim::interrupt::Interrupt;
 
     #[derive(Parser)]
     struct Line {
@@ -125,8 +121,8 @@ mod tests {
 
     fn run_line(line: &[&str]) -> (i32, String, String) {
         let parsed = Line::try_parse_from([&["synthesize"], line].concat()).unwrap_or_else(|error| panic!("{error}"));
-        let (mut out, mut err) = (Vec::new(), Vec::new());
-        let status = run(&parsed.arguments, &mut out, &mut err);
+        let (mut out, mut err, interrupt) = (Vec::new(), Vec::new(), Interrupt::default());
+        let status = Context { out: &mut out, err: &mut err, interrupt: &interrupt, quiet: false }.run(&parsed.arguments);
         (status, String::from_utf8(out).unwrap(), String::from_utf8(err).unwrap())
     }
 

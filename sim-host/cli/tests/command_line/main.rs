@@ -8,6 +8,7 @@ mod needs_python;
 mod outputs;
 mod records;
 mod runs;
+mod shared_options;
 mod studies;
 #[cfg(unix)]
 mod terminal;

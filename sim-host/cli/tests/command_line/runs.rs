@@ -162,6 +162,13 @@ fn explain_says_what_is_on_why_and_which_equation_results() {
         assert!(text.contains(words), "must say `{words}`: {text}");
     }
     assert!(text.lines().all(|line| line.chars().count() <= 130) && !text.contains('\u{1b}'), "{text}");
+    let output = sprag(&["explain", seed, "--json"]);
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(json["schema_version"], 1);
+    let devices = json["devices"].as_array().unwrap();
+    let explained =
+        |device: &serde_json::Value| device["sections"][0]["lines"][0].is_string() && device["effects"]["on"].is_array();
+    assert!(!devices.is_empty() && devices.iter().all(explained), "{json}");
     // No record is read, so that a scene may be explained before there is one.
     let output = sprag(&["explain", &scene("record")]);
     assert!(output.status.success() && String::from_utf8_lossy(&output.stdout).contains("effects on: none"));

@@ -26,6 +26,17 @@ impl fmt::Display for Kind {
     }
 }
 
+/// How people read the values of a column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shown {
+    /// As they are; numbers with so many decimals.
+    Digits(usize),
+    /// A share, in percent with one decimal.
+    Percent,
+    /// A ratio, as the change in percent that it is.
+    Change,
+}
+
 /// A column of a table. Names differ within a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
@@ -35,12 +46,14 @@ pub struct Column {
     pub kind: Kind,
     /// Whether there may be no value: an empty field in CSV, null in Parquet. An empty text is none then.
     pub nullable: bool,
+    /// The heading above it and how it is shown, in tables for people that have it.
+    pub shown: Option<(&'static str, Shown)>,
 }
 
 impl Column {
     /// A column with a number in every row.
     pub fn number(name: impl Into<String>) -> Column {
-        Column { name: name.into(), kind: Kind::Number, nullable: false }
+        Column { name: name.into(), kind: Kind::Number, nullable: false, shown: None }
     }
 
     /// A column with a whole number from 0 in every row.
@@ -57,6 +70,12 @@ impl Column {
     #[must_use]
     pub fn or_nothing(self) -> Column {
         Column { nullable: true, ..self }
+    }
+
+    /// The column, which tables for people have under `heading`.
+    #[must_use]
+    pub fn shown(self, heading: &'static str, shown: Shown) -> Column {
+        Column { shown: Some((heading, shown)), ..self }
     }
 
     /// `value` as every format has it: no empty texts where there may be nothing, and one NaN, since CSV knows no other.

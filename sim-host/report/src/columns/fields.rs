@@ -2,7 +2,7 @@
 
 use super::column::Column;
 use super::error::TableError;
-use super::table::RowWriter;
+use super::table::{RowWriter, Table};
 use super::value::Value;
 
 /// The value of a column in the row of a subject.
@@ -39,5 +39,23 @@ impl<R> Fields<R> {
     pub fn row(&self, subject: &R, writer: &mut dyn RowWriter) -> Result<(), TableError> {
         let values: Vec<Value<'_>> = self.fields.iter().map(|(_, value)| value(subject)).collect();
         writer.row(&values)
+    }
+}
+
+/// A table of its columns and the subjects of its rows.
+pub struct FieldTable<R> {
+    /// The columns, each with its value.
+    pub fields: Fields<R>,
+    /// The subjects.
+    pub rows: Vec<R>,
+}
+
+impl<R> Table for FieldTable<R> {
+    fn columns(&self) -> Vec<Column> {
+        self.fields.columns()
+    }
+
+    fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
+        self.rows.iter().try_for_each(|row| self.fields.row(row, writer))
     }
 }

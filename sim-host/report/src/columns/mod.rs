@@ -17,11 +17,11 @@ mod table;
 mod tests;
 mod value;
 
-pub use column::{Column, Kind};
+pub use column::{Column, Kind, Shown};
 pub use csv_reader::{parquet_of_csv, read_csv};
 pub use csv_writer::CsvWriter;
 pub use error::TableError;
-pub use fields::Fields;
+pub use fields::{FieldTable, Fields};
 pub use metadata::{Metadata, metadata_of};
 pub use parquet_writer::ParquetWriter;
 pub use table::{RowWriter, Table, write_csv, write_parquet};

@@ -1,7 +1,7 @@
 //! What a closed loop leaves: its figures, its history and its picture.
 
 use std::fmt;
-use std::io::{self, Write};
+use std::io::Write;
 
 use serde::Serialize;
 use sprag_shared::observers::outcome::Outcome;
@@ -10,6 +10,7 @@ use sprag_shared::observers::peaks::Peaks;
 use super::LoopTask;
 use super::decisions::DecisionReport;
 use super::run::{Ending, Tick};
+use crate::csv_field::quoted;
 use crate::simulation::{DeviceRun, ErrorReport};
 
 /// A fault as a summary has it.
@@ -166,18 +167,19 @@ pub fn clutches(engaged: [bool; 2]) -> u8 {
     u8::from(engaged[0]) + 2 * u8::from(engaged[1])
 }
 
+/// Columns of the history.
+const COLUMNS: &str = "device,time_s,ground_m_s2,rotation_rad,velocity_rad_s,push_1_s2,rotation_estimated_rad,velocity_estimated_rad_s,\
+    push_estimated_1_s2,standing_estimated,wish,command,engaged,ideal,state,fault";
+
 /// Writes one row a tick: truth, estimates, commands and clutches (0 none, 1 first, 2 second, 3 both).
 ///
 /// # Errors
 /// As the writer.
-pub fn write_history(reports: &[LoopReport], out: &mut dyn Write) -> io::Result<()> {
-    writeln!(
-        out,
-        "device,time_s,ground_m_s2,rotation_rad,velocity_rad_s,push_1_s2,rotation_estimated_rad,velocity_estimated_rad_s,\
-         push_estimated_1_s2,standing_estimated,wish,command,engaged,ideal,state,fault"
-    )?;
+pub fn write_history(reports: &[LoopReport], mut out: impl Write) -> Result<(), csv::Error> {
+    writeln!(out, "{COLUMNS}")?;
     for report in reports {
-        let device = format!("\"{}\"", report.summary.device.replace('"', "\"\""));
+        // Nothing else needs quotes, and there are many ticks.
+        let device = quoted(&report.summary.device)?;
         for tick in &report.ticks {
             let (plant, decision) = (&tick.plant, &tick.decision);
             let estimate = &decision.estimate;

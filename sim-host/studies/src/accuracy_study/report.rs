@@ -1,21 +1,38 @@
 //! The tables of a study.
 
 use std::fmt::Write as _;
-use std::io::{self, Write};
 
-use super::row::{Row, order};
+use sprag_report::columns::{Column, FieldTable, Fields, Table};
+use sprag_report::text_table::TextTable;
+
+use super::row::{Row, RowText, order};
 use super::variant::{Family, Number, Setting};
 
-/// Writes every row as CSV.
-///
-/// # Errors
-/// Those of `out`.
-pub fn write_csv(rows: &[Row], devices: &[String], out: impl Write) -> io::Result<()> {
-    let mut table = csv::Writer::from_writer(out);
-    for row in rows {
-        table.serialize(row.text(&devices[row.device])).map_err(io::Error::other)?;
-    }
-    table.flush()
+/// `accuracy`: one device, followed in one way, a row.
+pub fn row_table<'s>(rows: &'s [RowText<'s>]) -> impl Table {
+    FieldTable { fields: fields(), rows: rows.iter().collect() }
+}
+
+fn fields<'s>() -> Fields<&'s RowText<'s>> {
+    let number = |name: &str| Column::number(name).or_nothing();
+    let truth = |truth: bool| if truth { "true" } else { "false" };
+    Fields::<&'s RowText<'s>>::default()
+        .with(Column::text("device"), |row| row.device.into())
+        .with(Column::text("method"), |row| row.method.into())
+        .with(Column::text("events"), |row| row.events.into())
+        .with(Column::text("precision"), |row| row.precision.into())
+        .with(Column::text("math"), |row| row.math.into())
+        .with(Column::text("setting"), |row| row.setting.into())
+        .with(Column::number("value"), |row| row.value.into())
+        .with(Column::text("outcome_right"), move |row| truth(row.outcome_right).into())
+        .with(number("peak_rotation_error"), |row| row.peak_rotation_error.into())
+        .with(number("history_error"), |row| row.history_error.into())
+        .with(number("wrong_outcome_share"), |row| row.wrong_outcome_share.into())
+        .with(Column::number("steps_per_s"), |row| row.steps_per_s.into())
+        .with(Column::number("nanoseconds_per_s"), |row| row.nanoseconds_per_s.into())
+        .with(Column::count("board_instructions_per_step").or_nothing(), |row| row.board_instructions_per_step.into())
+        .with(number("board_cycles_per_step"), |row| row.board_cycles_per_step.into())
+        .with(Column::text("on_pareto_front"), move |row| truth(row.on_pareto_front).into())
 }
 
 /// Errors from which an order is read: above rounding.
@@ -39,9 +56,8 @@ pub fn page(title: &str, rows: &[Row], devices: &[String]) -> String {
         }
         let fastest = of_device.iter().map(|row| row.nanoseconds).fold(f64::INFINITY, f64::min);
         let _ = writeln!(page, "\n## {device}\n");
-        let _ =
-            writeln!(page, "| method | order | 1e-2 | 1e-4 | 1e-6 | 1e-9 | smallest error | wrong outcomes | cycles a step |");
-        let _ = writeln!(page, "| --- | --- | --- | --- | --- | --- | --- | --- | --- |");
+        let headings = ["method", "order", "1e-2", "1e-4", "1e-6", "1e-9", "smallest error", "wrong outcomes", "cycles a step"];
+        let mut table = TextTable::new(1, headings);
         for family in families {
             let own: Vec<&Row> = of_device.iter().copied().filter(|row| row.variant.family() == family).collect();
             let points = own.iter().filter_map(|row| match row.variant.setting {
@@ -67,15 +83,10 @@ pub fn page(title: &str, rows: &[Row], devices: &[String]) -> String {
                 wrong.map_or_else(|| "-".to_owned(), |(low, high)| format!("{:.1} to {:.1} %", 100.0 * low, 100.0 * high));
             let cycles =
                 own.iter().find_map(|row| row.board).map_or_else(|| "-".to_owned(), |cost| format!("{:.0}", cost.cycles()));
-            let _ = writeln!(
-                page,
-                "| {family} | {order} | {} | {} | {} | {} | {smallest} | {wrong} | {cycles} |",
-                cost(1e-2),
-                cost(1e-4),
-                cost(1e-6),
-                cost(1e-9),
-            );
+            let costs = [1e-2, 1e-4, 1e-6, 1e-9].map(cost);
+            table.row([&[family.to_string(), order][..], &costs, &[smallest, wrong, cycles]].concat());
         }
+        page += &table.markdown();
         let _ = writeln!(page, "\nTimes are multiples of the fastest run, {fastest:.0} ns to a simulated second.");
     }
     page

@@ -33,22 +33,22 @@ pub struct Row {
 /// As `accuracy.csv` and `summary.json` have it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RowText<'a> {
-    device: &'a str,
-    method: &'static str,
-    events: &'static str,
-    precision: &'static str,
-    math: &'static str,
-    setting: &'static str,
-    value: f64,
-    outcome_right: bool,
-    peak_rotation_error: Option<f64>,
-    history_error: Option<f64>,
-    wrong_outcome_share: Option<f64>,
-    steps_per_s: f64,
-    nanoseconds_per_s: f64,
-    board_instructions_per_step: Option<u32>,
-    board_cycles_per_step: Option<f64>,
-    on_pareto_front: bool,
+    pub(super) device: &'a str,
+    pub(super) method: &'static str,
+    pub(super) events: &'static str,
+    pub(super) precision: &'static str,
+    pub(super) math: &'static str,
+    pub(super) setting: &'static str,
+    pub(super) value: f64,
+    pub(super) outcome_right: bool,
+    pub(super) peak_rotation_error: Option<f64>,
+    pub(super) history_error: Option<f64>,
+    pub(super) wrong_outcome_share: Option<f64>,
+    pub(super) steps_per_s: f64,
+    pub(super) nanoseconds_per_s: f64,
+    pub(super) board_instructions_per_step: Option<u32>,
+    pub(super) board_cycles_per_step: Option<f64>,
+    pub(super) on_pareto_front: bool,
 }
 
 impl Row {

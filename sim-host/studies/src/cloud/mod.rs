@@ -3,7 +3,7 @@
 //! - [`study_file`], [`study`], [`structures`]: what a study asks for; [`records`]: its ground motions; [`measure`]: how intense they are.
 //! - [`runs`]: what the blocks do; [`run_rows`]: kept row by row.
 //! - [`demand`], [`comparison`], [`overturning`], [`ranking`], [`findings`]: what the runs say.
-//! - [`typed_tables`], [`table`], [`pages`], [`figures`]: tables and pictures of it.
+//! - [`typed_tables`], [`pages`], [`figures`]: tables and pictures of it.
 
 pub mod comparison;
 pub mod demand;
@@ -20,7 +20,6 @@ pub mod runs;
 pub mod structures;
 pub mod study;
 pub mod study_file;
-pub mod table;
 pub mod typed_tables;
 
 #[cfg(test)]

@@ -1,103 +1,14 @@
 //! The tables of a study as Markdown, for people.
 
-use super::demand::Demand;
+use sprag_report::columns::TableError;
+use sprag_report::text_table::TextTable;
+
 use super::findings::Findings;
 use super::measure::Measure;
 use super::overturning::DeviceFragility;
 use super::study::Study;
-use super::table::{Table, change, number};
-use super::typed_tables::ratio_of;
-use crate::statistics::{Band, Fragility};
-
-/// The power laws, as a table.
-pub fn demand_table(findings: &Findings) -> Table {
-    let titles = [
-        "structure",
-        "demand",
-        "device",
-        "in the law",
-        "no rocking",
-        "overturned",
-        "a",
-        "b",
-        "R²",
-        "β",
-        "change, medians",
-        "change, pairs",
-        "pairs",
-    ];
-    let mut table = Table::new(3, &titles);
-    for model in &findings.demand {
-        let law = model.law.as_ref();
-        let ratio = ratio_of(findings, model);
-        table.row(vec![
-            model.structure.clone(),
-            model.demand.name().to_owned(),
-            model.device.clone(),
-            model.points.len().to_string(),
-            model.left_out.no_rocking.to_string(),
-            model.left_out.overturned.to_string(),
-            number(law.map(|law| law.a), 3),
-            number(law.map(|law| law.b), 3),
-            number(law.and_then(|law| law.r_squared), 3),
-            number(law.map(|law| law.dispersion), 3),
-            change(ratio.and_then(|ratio| ratio.medians).map(|medians| medians.middle)),
-            change(ratio.and_then(|ratio| ratio.pairs).map(|pairs| pairs.median)),
-            ratio.map_or_else(|| "-".to_owned(), |ratio| ratio.number_of_pairs.to_string()),
-        ]);
-    }
-    table
-}
-
-/// The fragilities, as a table.
-pub fn fragility_table(findings: &Findings) -> Table {
-    let titles = [
-        "structure",
-        "device",
-        "runs",
-        "overturned",
-        "μ",
-        "95 % of μ",
-        "β",
-        "95 % of β",
-        "median",
-        "change",
-        "P at 10 %",
-        "P at 50 %",
-    ];
-    let mut titles = titles.map(str::to_owned);
-    if let Some(level) = findings.fragility.iter().find_map(|found| Some(found.bands.as_ref()?.bootstrap.level.value())) {
-        for title in &mut titles {
-            *title = title.replace("95 %", &percent(level));
-        }
-    }
-    let mut table = Table::new(2, &titles.each_ref().map(String::as_str));
-    for found in &findings.fragility {
-        let curve = found.fragility.curve();
-        let with_error = |value: Option<f64>, error: Option<f64>| match (value, error) {
-            (Some(_), Some(_)) => format!("{} ± {}", number(value, 3), number(error, 3)),
-            _ => "-".to_owned(),
-        };
-        let band = |band: Option<Band>| {
-            band.map_or_else(|| "-".to_owned(), |band| format!("{} to {}", number(Some(band.low), 2), number(Some(band.high), 2)))
-        };
-        table.row(vec![
-            found.structure.clone(),
-            found.device.clone(),
-            found.runs.to_string(),
-            found.overturned.to_string(),
-            with_error(curve.map(|curve| curve.mu), curve.map(|curve| curve.mu_standard_error)),
-            band(found.bands.as_ref().and_then(|bands| bands.mu)),
-            with_error(curve.map(|curve| curve.beta), curve.map(|curve| curve.beta_standard_error)),
-            band(found.bands.as_ref().and_then(|bands| bands.beta)),
-            number(curve.map(|curve| curve.median), 2),
-            change(found.median_ratio),
-            number(found.at_first.map(|at| at[0]), 4),
-            number(found.at_first.map(|at| at[1]), 4),
-        ]);
-    }
-    table
-}
+use super::typed_tables::{demand_table, fitted_table, fragility_table};
+use crate::statistics::Fragility;
 
 /// A share in percent without needless decimals.
 pub fn percent(share: f64) -> String {
@@ -106,7 +17,7 @@ pub fn percent(share: f64) -> String {
 }
 
 /// `demand.md`.
-pub fn demand_page(study: &Study, findings: &Findings) -> String {
+pub fn demand_page(study: &Study, findings: &Findings) -> Result<String, TableError> {
     let formula = study.file.demand.measure.formula();
     let mut page = format!("# {}: demand\n\n", heading(study));
     page += &format!(
@@ -116,30 +27,32 @@ pub fn demand_page(study: &Study, findings: &Findings) -> String {
          that range; and the median over single motions under which both blocks rock and stand.\n\n",
         study.devices[0]
     );
-    page += &demand_table(findings).markdown();
+    page += &TextTable::of(&demand_table(findings))?.markdown();
     for model in &findings.demand {
         if let Some(reason) = &model.reason {
             page += &format!("\n{}, {}, {}: no law, {reason}\n", model.structure, model.demand.name(), model.device);
         }
     }
-    page
+    Ok(page)
 }
 
 /// `fragility.md`.
-pub fn fragility_page(study: &Study, findings: &Findings) -> String {
+pub fn fragility_page(study: &Study, findings: &Findings) -> Result<String, TableError> {
     let formula = study.file.fragility.measure.formula();
     let mut page = format!("# {}: fragility\n\n", heading(study));
+    let bands = findings.fragility.iter().find_map(|found| found.bands.as_ref());
+    let level = bands.map_or_else(String::new, |bands| format!(" of {}", percent(bands.bootstrap.level.value())));
     page += &format!(
         "Probability of overturning Φ((ln IM − μ)/β) with IM = {formula}, by maximum likelihood over all runs. ±: standard error;\n\
-         bands by {} resamples; median: e^μ. Change: of the median against the first device ({}). P at 10 % and 50 %: probability\n\
-         where that of the first device is 0.1 and 0.5.\n\n",
+         from, to: ends of the bands{level} by {} resamples; median: e^μ. Change: of the median against the first device ({}). P at 10 %\n\
+         and 50 %: probability where that of the first device is 0.1 and 0.5.\n\n",
         study.bootstrap.resamples, study.devices[0]
     );
-    page += &fragility_table(findings).markdown();
+    page += &TextTable::of(&fragility_table(findings))?.markdown();
     for line in fragility_notes(&findings.fragility) {
         page += &format!("\n{line}\n");
     }
-    page
+    Ok(page)
 }
 
 /// What curves cannot say, in a line each.
@@ -171,37 +84,21 @@ pub fn short_reason(fragility: &Fragility) -> Option<&'static str> {
 }
 
 /// `ranking.md`.
-pub fn ranking_page(study: &Study, findings: &Findings) -> String {
+pub fn ranking_page(study: &Study, findings: &Findings) -> Result<String, TableError> {
     let mut page = format!("# {}: intensity measures\n\n", heading(study));
     page += "Measures by efficiency: the standard deviation β of ln demand about the power law of each, over the runs in which the block\n\
-             rocks and stands; the smaller, the better. ζ = β/|b| is the proficiency.\n";
-    for demand in Demand::ALL {
-        page += &format!("\n## {}\n\n", demand.name());
-        let mut table = Table::new(3, &["structure", "device", "measure", "rank", "β", "R²", "b", "ζ", "runs"]);
-        for ranking in findings.ranking.iter().filter(|ranking| ranking.demand == demand) {
-            for measure in &ranking.efficiency.ranked {
-                let formula = Measure::ALL.into_iter().find(|other| other.name() == measure.name).map(Measure::formula);
-                table.row(vec![
-                    ranking.structure.clone(),
-                    ranking.device.clone(),
-                    format!("{}: {}", measure.name, formula.unwrap_or_default()),
-                    measure.rank.to_string(),
-                    number(Some(measure.law.dispersion), 3),
-                    number(measure.law.r_squared, 3),
-                    number(Some(measure.law.b), 3),
-                    number(measure.proficiency, 3),
-                    ranking.runs.to_string(),
-                ]);
-            }
-        }
-        page += &table.markdown();
-        for ranking in findings.ranking.iter().filter(|ranking| ranking.demand == demand) {
-            for measure in &ranking.efficiency.unfitted {
-                page += &format!("\n{}, {}, {}: {}\n", ranking.structure, ranking.device, measure.name, measure.reason);
-            }
+             rocks and stands; the smaller, the better. ζ = β/|b| is the proficiency.\n\n";
+    for measure in Measure::ALL {
+        page += &format!("- {}: {}\n", measure.name(), measure.formula());
+    }
+    page += &format!("\n{}", TextTable::of(&fitted_table(findings))?.markdown());
+    for ranking in &findings.ranking {
+        for measure in &ranking.efficiency.unfitted {
+            let (demand, name) = (ranking.demand.name(), &measure.name);
+            page += &format!("\n{}, {demand}, {}, {name}: {}\n", ranking.structure, ranking.device, measure.reason);
         }
     }
-    page
+    Ok(page)
 }
 
 /// The title of pages and pictures.

@@ -6,11 +6,11 @@ use sprag_report::long_run::row_fields::RowFields;
 
 use super::measure::Measure;
 use super::runs::{Answer, Run, RunList};
-use super::typed_tables::RunsTable;
+use super::typed_tables::runs_table;
 
 impl RunList<'_> {
-    fn table<'s>(&'s self, runs: &'s [Run]) -> RunsTable<'s> {
-        RunsTable { study: self.study, records: self.records, runs }
+    fn table<'s>(&'s self, runs: &'s [Run]) -> impl Table {
+        runs_table(self.study, self.records, runs)
     }
 
     /// The columns of its rows.

@@ -1,12 +1,12 @@
 //! Decision quality: estimators by sensors by delays.
 
 use sprag_report::progress::Progress;
+use sprag_report::text_table::{TextTable, number};
 use sprag_sim::scene::controller::EstimatorName;
 
 use super::bench::{Conditions, EQUATION_10, StudyError, Variant, each, run_loop};
 use super::motion::{Motion, and_records, grid};
-use super::report::{Report, Table};
-use super::statistics::cell;
+use super::report::Report;
 use crate::statistics::quantile;
 
 /// From sample to clutch, ms.
@@ -47,17 +47,20 @@ pub fn decisions(records: &[Motion], progress: &Progress, conditions: &Condition
         motions.len() - records.len(),
         and_records(records.len(), ", as recorded")
     ));
-    let mut table = Table::new(&[
-        "estimator",
-        "sensors",
-        "delay ms",
-        "wrong %",
-        "late: median ms",
-        "95th percentile ms",
-        "chatter a run",
-        "switches a run",
-        "ideal switches a run",
-    ]);
+    let mut table = TextTable::new(
+        2,
+        [
+            "estimator",
+            "sensors",
+            "delay ms",
+            "wrong %",
+            "late: median ms",
+            "95th percentile ms",
+            "chatter a run",
+            "switches a run",
+            "ideal switches a run",
+        ],
+    );
     for (label, results) in labels.into_iter().zip(&results) {
         // A block that falls over is decided on by nobody.
         let results: Vec<_> = results.iter().filter(|result| !result.outcome.overturned()).collect();
@@ -66,12 +69,12 @@ pub fn decisions(records: &[Motion], progress: &Progress, conditions: &Condition
             |pick: &dyn Fn(&super::bench::LoopResult) -> f64| results.iter().map(|result| pick(result)).sum::<f64>() / count;
         let delays: Vec<f64> = results.iter().flat_map(|result| result.ending.delays.iter().map(|delay| 1e3 * delay)).collect();
         let mut row = label.to_vec();
-        row.push(cell(100.0 * mean(&|result| result.ending.decisions.wrong_share), 2));
-        row.push(cell(quantile(&delays, 0.5), 2));
-        row.push(cell(quantile(&delays, 0.95), 2));
-        row.push(cell(mean(&|result| f64::from(result.ending.decisions.chatter)), 2));
-        row.push(cell(mean(&|result| f64::from(result.ending.decisions.switches)), 1));
-        row.push(cell(mean(&|result| f64::from(result.ending.decisions.ideal_switches)), 1));
+        row.push(number(100.0 * mean(&|result| result.ending.decisions.wrong_share), 2));
+        row.push(number(quantile(&delays, 0.5), 2));
+        row.push(number(quantile(&delays, 0.95), 2));
+        row.push(number(mean(&|result| f64::from(result.ending.decisions.chatter)), 2));
+        row.push(number(mean(&|result| f64::from(result.ending.decisions.switches)), 1));
+        row.push(number(mean(&|result| f64::from(result.ending.decisions.ideal_switches)), 1));
         table.row(row);
     }
     report.table("decisions", table);

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use sprag_report::progress::Progress;
+use sprag_report::text_table::{TextTable, number};
 use sprag_shared::control::controller::Circumstances;
 use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::sensing::sample::Sample;
@@ -14,8 +15,7 @@ use sprag_sim::closed_loop::run::{Tick, TickObserver};
 
 use super::bench::{Conditions, StudyError, Variant, each, with_loop};
 use super::motion::Motion;
-use super::report::{Report, Table};
-use super::statistics::cell;
+use super::report::Report;
 
 /// What goes wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -278,20 +278,23 @@ pub fn faults(progress: &Progress, conditions: &Conditions<'_>) -> Result<Report
         "Motion: one one-cycle sine pulse (ω/p 4, a peak of 3 uplift thresholds).\n\nR = 2 m, α = 10°, σ = 0.5, ICM-42688-P, 2 kHz, model-aided, safe state: the first clutch engaged. Time from the beginning of the fault \
          to the fault code, ms, and the code's words where it begins in mid-swing. A dash: not detected in the run.",
     );
-    let mut table = Table::new(&[
-        "fault",
-        "at rest",
-        "at uplift",
-        "mid-swing",
-        "at impact",
-        "in words",
-        "both engaged in motion",
-        "not a number",
-        "engaged where that is the fault",
-    ]);
+    let mut table = TextTable::new(
+        9,
+        [
+            "fault",
+            "at rest",
+            "at uplift",
+            "mid-swing",
+            "at impact",
+            "in words",
+            "both engaged in motion",
+            "not a number",
+            "engaged where that is the fault",
+        ],
+    );
     for (failing, row) in ALL.iter().zip(&results) {
         let time =
-            |result: &FaultResult| result.detected.as_ref().map_or_else(|| "-".to_owned(), |(time, _)| cell(1e3 * time, 1));
+            |result: &FaultResult| result.detected.as_ref().map_or_else(|| "-".to_owned(), |(time, _)| number(1e3 * time, 1));
         let mut cells = vec![failing.to_string()];
         cells.extend(row.iter().map(time));
         cells.push(row[2].detected.as_ref().map_or_else(String::new, |(_, words)| words.clone()));

@@ -2,12 +2,13 @@
 
 use sprag_report::plot::{Chart, ChartPanel, Line, Scale, chart_figure};
 use sprag_report::progress::Progress;
+use sprag_report::text_table::TextTable;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::scene::controller::EstimatorName;
 
 use super::bench::{Conditions, StudyError, Variant, each, run_ideal, run_loop};
 use super::motion::Motion;
-use super::report::{Report, Table};
+use super::report::Report;
 
 /// Control rates, Hz.
 pub const RATES: [f64; 6] = [500.0, 1000.0, 2000.0, 4000.0, 8000.0, 16_000.0];
@@ -85,10 +86,8 @@ pub fn ideal_limit(progress: &Progress, conditions: &Conditions<'_>) -> Result<R
          logarithms over the control period.",
         motions.len()
     ));
-    let mut table = Table::new(
-        &[&["estimator"], &RATES.map(|rate| format!("{rate:.0} Hz")).each_ref().map(|text| text.as_str())[..], &["order"]]
-            .concat(),
-    );
+    let rates = RATES.map(|rate| format!("{rate:.0} Hz"));
+    let mut table = TextTable::new(1, ["estimator".to_owned()].into_iter().chain(rates).chain(["order".to_owned()]));
     let mut panel =
         ChartPanel { title: String::new(), y_title: "mean error of the peak".to_owned(), y: Scale::Logarithmic, lines: vec![] };
     for estimator in EstimatorName::ALL {

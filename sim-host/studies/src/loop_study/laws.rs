@@ -2,13 +2,14 @@
 
 use sprag_report::plot::{Cell, CellMap, CellMaps, Class, Scale, cell_map_figure};
 use sprag_report::progress::Progress;
+use sprag_report::text_table::TextTable;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::scene::controller::LawName;
 
 use super::bench::{Conditions, StudyError, all, run_ideal, run_loop};
 use super::law_settings::{IDEAL, SLENDERNESS_DEG, Setting};
 use super::motion::{Family, Motion, Records, and_records};
-use super::report::{Report, Table};
+use super::report::Report;
 use super::tally::{Pairs, Tally, fewest};
 
 /// Laws in the order of the tables: without decisions, Eq. 10, and beyond.
@@ -109,14 +110,13 @@ impl Bench<'_> {
     }
 }
 
-fn headings(first: &[&str], kinds: &[Kind]) -> Table {
-    let mut table = Table::new(first);
-    table.columns.extend(kinds.iter().map(|kind| format!("{} ({})", kind.name, kind.motions.len())));
-    table
+fn headings(first: &[&str], kinds: &[Kind]) -> TextTable {
+    let of_kind = |kind: &Kind| format!("{} ({})", kind.name, kind.motions.len());
+    TextTable::new(first.len(), first.iter().map(|&text| text.to_owned()).chain(kinds.iter().map(of_kind)))
 }
 
 /// A row a law: what `cell` says of each kind's tallies and the law's index among them.
-fn by_law(kinds: &[Kind], tallies: &[Vec<Tally>], cell: impl Fn(&[Tally], usize) -> String) -> Table {
+fn by_law(kinds: &[Kind], tallies: &[Vec<Tally>], cell: impl Fn(&[Tally], usize) -> String) -> TextTable {
     let mut table = headings(&["law"], kinds);
     for (index, law) in LAWS.iter().enumerate() {
         table.row(std::iter::once(law.name().to_owned()).chain(tallies.iter().map(|laws| cell(laws, index))).collect());
@@ -244,9 +244,9 @@ fn why(report: &mut Report, kinds: &[Kind], clutches: &[Clutch]) {
     };
     let others = || (1..LAWS.len()).filter(|&law| law != DEFAULT);
     let pulses = Family::ALL.len();
-    let mut table = Table::new(&["clutch", "law"]);
-    table.columns.extend(kinds.iter().map(|kind| format!("{} ({})", kind.name, kind.different)));
-    table.columns.insert(2 + pulses, "all pulses".to_owned());
+    let mut headings: Vec<String> = kinds.iter().map(|kind| format!("{} ({})", kind.name, kind.different)).collect();
+    headings.insert(pulses, "all pulses".to_owned());
+    let mut table = TextTable::new(2, ["clutch", "law"].map(str::to_owned).into_iter().chain(headings));
     let mut rows: Vec<(String, &[Clutch])> =
         clutches.iter().map(|clutch| (clutch.0.clone(), std::slice::from_ref(clutch))).collect();
     rows.push((format!("{names}, typical ones, together"), typical));
@@ -280,8 +280,8 @@ fn takes_over(pairs: &[Pairs], pulses: usize) -> bool {
 fn conclude(report: &mut Report, kinds: &[Kind], winners: &[Clutch]) {
     report.section("Which law for which motions");
     report.paragraph("The law with the fewest overturned blocks, and those that the specimens do not tell apart from it.");
-    let mut table = Table::new(&["motions"]);
-    table.columns.extend(winners.iter().map(|(name, _)| name.clone()));
+    let headings = std::iter::once("motions".to_owned()).chain(winners.iter().map(|(name, _)| name.clone()));
+    let mut table = TextTable::new(1 + winners.len(), headings);
     for (index, kind) in kinds.iter().enumerate() {
         let cells = winners.iter().map(|(_, tallies)| best(&tallies[index]));
         table.row(std::iter::once(kind.name.clone()).chain(cells).collect());

@@ -1,6 +1,7 @@
 //! What a sensor that is lost in mid-swing costs, and what the rungs of the safe state below cost.
 
 use sprag_report::progress::Progress;
+use sprag_report::text_table::TextTable;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::closed_loop::plant::Extremes;
 
@@ -8,7 +9,7 @@ use super::bench::{Conditions, StudyError, Variant, each, with_loop};
 use super::faults::{Failing, Injected, Part, instants};
 use super::motion::{Motion, grid};
 use super::practice::{COLUMNS, Comparison};
-use super::report::{Report, Table};
+use super::report::Report;
 
 /// What is lost, and with which safe state.
 pub const LOSSES: [(&str, Failing, &str); 8] = [
@@ -87,7 +88,7 @@ pub fn section(report: &mut Report, progress: &Progress, conditions: &Conditions
          5.2 uplift thresholds); \"ideal\" in the headings is that loop. The loss begins at the largest velocity of the first swing and lasts.",
         motions.len()
     ));
-    let mut table = Table::new(&[&["loss"], &COLUMNS[..]].concat());
+    let mut table = TextTable::new(1, [&["loss"], &COLUMNS[..]].concat());
     for ((name, _, _), comparison) in LOSSES.iter().zip(&compared) {
         table.row([vec![(*name).to_owned()], comparison.cells()].concat());
     }

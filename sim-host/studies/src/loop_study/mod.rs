@@ -11,5 +11,4 @@ pub mod motion;
 pub mod practice;
 pub mod report;
 pub mod robustness;
-pub mod statistics;
 pub mod tally;

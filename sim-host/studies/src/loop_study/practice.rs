@@ -1,13 +1,13 @@
 //! As good as the ideal pair in practice: real sensors, a real rate, a real delay.
 
 use sprag_report::progress::Progress;
+use sprag_report::text_table::{TextTable, number};
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::scene::controller::{EstimatorName, MODEL_ERROR};
 
 use super::bench::{Conditions, EQUATION_10, StudyError, Variant, each, run_ideal, run_loop};
 use super::motion::{Motion, and_records, grid};
-use super::report::{Report, Table};
-use super::statistics::cell;
+use super::report::Report;
 use crate::statistics::quantile;
 
 /// A hundred pulses of each shape: ω/p 1 to 6, amplitudes 1.2 to 5.2.
@@ -66,9 +66,9 @@ impl Comparison {
     /// As cells of a table.
     pub fn cells(&self) -> Vec<String> {
         vec![
-            cell(quantile(&self.changes, 0.5).map(|change| 100.0 * change), 3),
-            cell(100.0 * self.size(0.5), 3),
-            cell(100.0 * self.size(0.95), 2),
+            number(quantile(&self.changes, 0.5).map(|change| 100.0 * change), 3),
+            number(100.0 * self.size(0.5), 3),
+            number(100.0 * self.size(0.95), 2),
             self.overturned.to_string(),
             self.saved.to_string(),
             self.changes.len().to_string(),
@@ -137,7 +137,7 @@ pub fn practice(records: &[Motion], progress: &Progress, conditions: &Conditions
         let ideals =
             each(motions, &[Variant::new("ideal", &[])], progress, |motion, variant| run_ideal(motion, variant, conditions))?;
         let loops = each(motions, &variants, progress, |motion, variant| run_loop(motion, variant, conditions))?;
-        let mut table = Table::new(&[&["sensors, estimator"], &COLUMNS[..], &["faults among blocks that stand"]].concat());
+        let mut table = TextTable::new(1, [&["sensors, estimator"], &COLUMNS[..], &["faults among blocks that stand"]].concat());
         for (variant, loops) in variants.iter().zip(&loops) {
             let comparison = Comparison::of(loops, &ideals[0]);
             let faults = loops.iter().filter(|closed| !closed.outcome.overturned() && !closed.ending.faults.is_empty()).count();
@@ -172,9 +172,9 @@ fn pooled(of: &[Comparison]) -> Vec<String> {
         .iter()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most): (f64, f64), &size| (least.min(size), most.max(size)));
     vec![
-        cell(100.0 * all.size(0.5), 3),
-        cell(100.0 * all.size(0.95), 2),
-        format!("{} to {}", cell(least, 2), cell(most, 2)),
+        number(100.0 * all.size(0.5), 3),
+        number(100.0 * all.size(0.95), 2),
+        format!("{} to {}", number(least, 2), number(most, 2)),
         all.overturned.to_string(),
         all.motions.to_string(),
     ]
@@ -188,16 +188,19 @@ fn trust(report: &mut Report, records: &[Motion], progress: &Progress, condition
         Ok::<_, StudyError>(each(&motions, &[Variant::new("ideal", &[])], progress, run)?.remove(0))
     };
     let all = ideal(1.0)?;
-    let mut table = Table::new(&[
-        "sensors",
-        "belief",
-        "model error",
-        "median size %",
-        "95th percentile %",
-        "of a specimen",
-        "overturned beyond ideal",
-        "runs",
-    ]);
+    let mut table = TextTable::new(
+        3,
+        [
+            "sensors",
+            "belief",
+            "model error",
+            "median size %",
+            "95th percentile %",
+            "of a specimen",
+            "overturned beyond ideal",
+            "runs",
+        ],
+    );
     let dash = || "-".to_owned();
     let moved = |scale: f64| Ok::<_, StudyError>(Comparison::beside(ideal(scale)?, &all));
     let chaos = [moved(0.999)?, moved(1.001)?];

@@ -2,13 +2,13 @@
 
 use sprag_report::plot::{Chart, ChartPanel, Line, Scale, chart_figure};
 use sprag_report::progress::Progress;
+use sprag_report::text_table::{self, TextTable};
 use sprag_shared::observers::outcome::Outcome;
 
 use super::bench::{Conditions, EQUATION_10, StudyError, Variant, all, block_of, each, run_ideal, run_loop};
 use super::motion::{Motion, Records, and_records, grid};
 use super::practice::{COLUMNS, Comparison, ROCKS};
-use super::report::{Report, Table};
-use super::statistics::cell;
+use super::report::Report;
 
 /// A sweep: heading, unit, values, and the override that sets one.
 struct Sweep {
@@ -100,7 +100,7 @@ struct Kind {
 /// Where the 95th percentile leaves 5 %, in words.
 fn breaking(sweep: &Sweep, name: &str, high: &[(f64, f64)]) -> String {
     let beyond: Vec<String> =
-        high.iter().filter(|(_, size)| *size > 5.0 || size.is_nan()).map(|(value, _)| cell(*value, 2)).collect();
+        high.iter().filter(|(_, size)| *size > 5.0 || size.is_nan()).map(|(value, _)| text_table::number(*value, 2)).collect();
     if beyond.is_empty() {
         format!("Under {name} the 95th percentile stays within 5 % over the whole range.")
     } else {
@@ -141,7 +141,7 @@ pub fn robustness(records: &[Motion], progress: &Progress, conditions: &Conditio
         "A fault leaves the safe state: both clutches open (passive), or one flywheel engaged for good, which needs no sensor and is the \
          default. Both are opened only where an engaged clutch is the fault. Against the ideal pair:",
     );
-    let mut table = Table::new(&[&["motions", "safe state"], &COLUMNS[..]].concat());
+    let mut table = TextTable::new(2, [&["motions", "safe state"], &COLUMNS[..]].concat());
     for kind in &kinds {
         let results = each(&kind.motions, &plain, progress, |motion, variant| run_loop(motion, variant, conditions))?;
         for (variant, results) in plain.iter().zip(&results) {
@@ -172,7 +172,7 @@ fn add(
     };
     let variants: Vec<Variant> = sweep.values.iter().map(variant).collect();
     let mut columns = vec![sweep.axis.to_owned()];
-    let mut rows: Vec<Vec<String>> = sweep.values.iter().map(|&value| vec![cell(value, 2)]).collect();
+    let mut rows: Vec<Vec<String>> = sweep.values.iter().map(|&value| vec![text_table::number(value, 2)]).collect();
     let (mut panels, mut words) = (Vec::new(), Vec::new());
     for kind in kinds {
         let results = each(&kind.motions, &variants, progress, |motion, variant| run_loop(motion, variant, conditions))?;
@@ -198,7 +198,9 @@ fn add(
     report.section(sweep.heading);
     report.paragraph(&words.join(" "));
     let name = format!("robustness/{}", number + 1);
-    report.table(&name, Table { columns, rows });
+    let mut table = TextTable::new(0, columns);
+    rows.into_iter().for_each(|row| table.row(row));
+    report.table(&name, table);
     let (title, x_title, x) = (sweep.heading.to_owned(), sweep.axis.to_owned(), sweep.scale);
     let chart = Chart { title: title.into(), x_title, x, columns: panels.len(), panels, keys: Vec::new() };
     report.figure(&name, sweep.heading, chart_figure(&chart)?);

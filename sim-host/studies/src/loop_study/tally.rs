@@ -1,8 +1,8 @@
 //! Overturned runs counted by specimen of the sensors, and how sure their mean is.
 
+use sprag_report::text_table::number;
 use sprag_shared::math::{exp, ln, square_root};
 
-use super::statistics::cell;
 use crate::statistics::Level;
 
 /// A mean over specimens.
@@ -32,9 +32,9 @@ impl Mean {
 
     /// In percent, with its half-width where there is one.
     pub fn percent(&self, sign: bool) -> String {
-        let value = cell(100.0 * self.value, 1);
+        let value = number(100.0 * self.value, 1);
         let value = if sign && self.value > 0.0 { format!("+{value}") } else { value };
-        if self.half > 0.0 { format!("{value} ± {}", cell(100.0 * self.half, 1)) } else { value }
+        if self.half > 0.0 { format!("{value} ± {}", number(100.0 * self.half, 1)) } else { value }
     }
 }
 
@@ -126,7 +126,7 @@ impl Pairs {
     /// As a cell of a table.
     pub fn cell(&self) -> String {
         let chance = self.chance();
-        let chance = if chance < 0.001 { "< 0.001".to_owned() } else { cell(chance, 3) };
+        let chance = if chance < 0.001 { "< 0.001".to_owned() } else { number(chance, 3) };
         format!("{} : {} ({chance})", self.less, self.more)
     }
 }

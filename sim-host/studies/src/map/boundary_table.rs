@@ -1,20 +1,10 @@
 //! Boundaries as a table: one row a vertex.
 
-use sprag_report::columns::{Column, Fields, RowWriter, Table, TableError};
+use sprag_report::columns::{Column, FieldTable, Fields, Table};
 use sprag_sim::scene::map::MapTable;
 
 use super::boundaries::{Boundaries, Boundary};
 use super::grid::{Grid, Values};
-
-/// `device`, `boundary` (numbered from 1 for each device), `left` and `right` (the outcomes on either side of a walk from vertex to vertex) and
-/// the keys of the axes.
-#[derive(Clone, Copy)]
-pub struct BoundaryTable<'m> {
-    /// The axes.
-    pub grid: &'m Grid,
-    /// The boundaries of every device.
-    pub all: &'m [Boundaries],
-}
 
 /// A vertex of a boundary.
 struct VertexRow<'m> {
@@ -37,20 +27,13 @@ fn fields<'m>(map: &MapTable) -> Fields<VertexRow<'m>> {
     }
 }
 
-impl Table for BoundaryTable<'_> {
-    fn columns(&self) -> Vec<Column> {
-        fields(&self.grid.map).columns()
-    }
-
-    fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
-        let fields = fields(&self.grid.map);
-        for of_device in self.all {
-            for (index, boundary) in of_device.boundaries.iter().enumerate() {
-                for &vertex in &boundary.vertices {
-                    fields.row(&VertexRow { device: &of_device.device, number: index + 1, boundary, vertex }, writer)?;
-                }
-            }
-        }
-        Ok(())
-    }
+/// `device`, `boundary` (numbered from 1 for each device), `left` and `right` (the outcomes on either side of a walk from vertex to vertex) and
+/// the keys of the axes.
+pub fn boundary_table<'m>(grid: &'m Grid, all: &'m [Boundaries]) -> impl Table {
+    let vertices = |(of_device, (index, boundary)): (&'m Boundaries, (usize, &'m Boundary))| {
+        let row = move |&vertex| VertexRow { device: &of_device.device, number: index + 1, boundary, vertex };
+        boundary.vertices.iter().map(row)
+    };
+    let of_device = |of_device: &'m Boundaries| of_device.boundaries.iter().enumerate().map(move |of| (of_device, of));
+    FieldTable { fields: fields(&grid.map), rows: all.iter().flat_map(of_device).flat_map(vertices).collect() }
 }

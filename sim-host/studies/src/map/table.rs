@@ -4,6 +4,7 @@ use csv::StringRecord;
 use sprag_ensemble::pulsed::PulseResult;
 use sprag_report::columns::{Column, TableError};
 use sprag_shared::observers::outcome::Outcome;
+use sprag_sim::csv_field::quoted;
 
 use super::grid::Grid;
 
@@ -22,7 +23,7 @@ pub fn columns(grid: &Grid) -> Vec<Column> {
 pub struct Labels {
     devices: Vec<String>,
     /// Their fields in a CSV file.
-    quoted: Vec<Vec<u8>>,
+    quoted: Vec<String>,
     x: Vec<String>,
     /// Empty in a cut.
     y: Vec<String>,
@@ -53,7 +54,7 @@ impl Labels {
     /// Writes row number `row` to the end of `out`.
     pub fn write(&self, row: usize, result: &PulseResult, out: &mut Vec<u8>) {
         let (device, x, y) = self.of(row);
-        out.extend_from_slice(&self.quoted[device]);
+        out.extend_from_slice(self.quoted[device].as_bytes());
         for label in [Some(x), y, Some(result.outcome.name())].into_iter().flatten() {
             out.push(b',');
             out.extend_from_slice(label.as_bytes());
@@ -87,26 +88,5 @@ impl Labels {
             text => text.parse().map_err(|_| format!("`{text}` is no peak of a block with the outcome {outcome}")),
         };
         Ok(PulseResult { outcome, peak_rotation: peak()?, peak_acceleration: peak()? })
-    }
-}
-
-/// A field of a CSV file.
-fn quoted(text: &str) -> Result<Vec<u8>, csv::Error> {
-    let mut line = csv::Writer::from_writer(Vec::new());
-    line.write_record([text])?;
-    let mut field = line.into_inner().map_err(|error| error.into_error())?;
-    // The end of the line.
-    field.pop();
-    Ok(field)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn fields_with_commas_are_quoted() {
-        assert_eq!(quoted("pair (σ = 0.5)").unwrap(), "pair (σ = 0.5)".as_bytes());
-        assert_eq!(quoted("a, \"b\"").unwrap(), b"\"a, \"\"b\"\"\"");
     }
 }

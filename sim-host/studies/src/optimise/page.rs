@@ -1,11 +1,14 @@
 //! The choice as a page of tables, and the table for the terminal.
 
+use sprag_report::columns::TableError;
+use sprag_report::text_table::TextTable;
+
 use super::findings::{Findings, Row};
 use super::limit::Quantity;
 use super::notes::{device, share, short};
 use super::problem::{Choices, Problem};
+use super::typed_tables::named_table;
 use crate::cloud::pages::percent;
-use crate::cloud::table::{Table, number};
 
 /// The heading of an optimisation.
 pub fn heading<'a>(choices: &'a Choices<'_>) -> &'a str {
@@ -14,46 +17,14 @@ pub fn heading<'a>(choices: &'a Choices<'_>) -> &'a str {
 }
 
 /// The bare block, the choice, and what would be chosen without limits if that is another.
-pub fn choice_table(findings: &Findings) -> Table {
+pub fn choice_table(findings: &Findings) -> Result<TextTable, TableError> {
     let mut rows = vec![("bare block", &findings.reference)];
     rows.extend(findings.best.as_ref().map(|row| ("best", row)));
     rows.extend(findings.nearest.as_ref().map(|nearest| ("nearest to the limits", &nearest.design)));
     let chosen = findings.best.as_ref().and_then(|row| row.candidate);
     let unlimited = findings.best_without_limits.as_ref().filter(|row| row.candidate != chosen);
     rows.extend(unlimited.map(|row| ("best without limits", row)));
-    table(findings, &rows)
-}
-
-/// Rows, each under what it is.
-fn table(findings: &Findings, rows: &[(&str, &Row)]) -> Table {
-    let band = format!("{} band", percent(findings.level.value()));
-    let titles = ["", "device", "overturned", "share", &band, "saved", "newly", "F/(mg)", "stroke (m)", "median θ/α"];
-    // Without the first column where it says nothing.
-    let first = usize::from(rows.iter().all(|(what, _)| what.is_empty()));
-    let mut table = Table::new(2 - first, &titles[first..]);
-    for (what, row) in rows {
-        let band = row.probability_band;
-        let of_device = |value: Option<f64>, digits: usize| number(value.filter(|_| row.candidate.is_some()), digits);
-        let cells = [
-            (*what).to_owned(),
-            device(row),
-            format!("{} of {}", row.overturned, row.motions),
-            tenths(row.probability),
-            format!("{} to {}", tenths(band.low), tenths(band.high)),
-            of_device(Some(row.saved as f64), 0),
-            of_device(Some(row.newly_overturned as f64), 0),
-            of_device(Some(row.peak_force_ratio), 4),
-            number(row.stroke_m, 4),
-            row.median_peak_rotation.map_or_else(|| "overturned".to_owned(), |rotation| number(Some(rotation), 3)),
-        ];
-        table.row(cells[first..].to_vec());
-    }
-    table
-}
-
-/// A share in percent with one decimal.
-fn tenths(share: f64) -> String {
-    format!("{:.1} %", 100.0 * share)
+    TextTable::of(&named_table(rows))
 }
 
 /// What is limited, in words; "no limit" where nothing is.
@@ -70,7 +41,7 @@ fn motions_held(quantile: f64) -> String {
 }
 
 /// `optimise.md`.
-pub fn page(problem: &Problem<'_>, findings: &Findings) -> String {
+pub fn page(problem: &Problem<'_>, findings: &Findings) -> Result<String, TableError> {
     let choices = &problem.choices;
     let mut page = format!("# {}\n\n", heading(choices));
     page += &format!(
@@ -79,17 +50,18 @@ pub fn page(problem: &Problem<'_>, findings: &Findings) -> String {
         findings.motions,
         limits(choices)
     );
-    page += &choice_table(findings).markdown();
+    page += &choice_table(findings)?.markdown();
     let force = if choices.limits.force_of_overturned {
         "over all motions, until the block lies down where they overturn it"
     } else {
         "over the motions in which the block stands"
     };
     page += &format!(
-        "\nBand: Wilson's, of the probability behind the share, as if motions were independent; those of one record at several scales\n\
-         are not. Saved and newly: motions that overturn the bare block and not this one, and this one and not the bare block.\n\
+        "\nFrom, to: Wilson's band of {}, of the probability behind the share, as if motions were independent; those of one record at\n\
+         several scales are not. Saved and newly: motions that overturn the bare block and not this one, and this one and not the bare block.\n\
          F/(mg): {force}; stroke: over the motions in which the\n\
-         block stands. Median θ/α: over the motions that rock the bare block, where overturning counts as infinite.\n"
+         block stands. Median θ/α: over the motions that rock the bare block, where overturning counts as infinite (a dash).\n",
+        percent(findings.level.value())
     );
     for note in &findings.notes {
         page += &format!("\n{note}\n");
@@ -105,20 +77,20 @@ pub fn page(problem: &Problem<'_>, findings: &Findings) -> String {
             (false, false, true) => "larger",
             (false, false, false) => "larger, beyond the limit",
         };
-        let rows: Vec<(&str, &Row)> = findings.neighbours.iter().map(|row| (what(row), row)).collect();
-        page += &table(findings, &rows).markdown();
+        let rows = findings.neighbours.iter().map(|row| (what(row), row)).collect();
+        page += &TextTable::of(&named_table(rows))?.markdown();
     }
     if choices.curves.len() > 1 && !findings.best_of_each.is_empty() {
         page += "\n## The best of each law and mount\n\n";
-        let rows: Vec<(&str, &Row)> = findings.best_of_each.iter().map(|row| ("", row)).collect();
-        page += &table(findings, &rows).markdown();
+        let rows = findings.best_of_each.iter().map(|row| ("", row)).collect();
+        page += &TextTable::of(&named_table(rows))?.markdown();
     }
-    page += &price(choices, findings);
-    page
+    page += &price(choices, findings)?;
+    Ok(page)
 }
 
 /// What limits cost: where they are reached, and the fronts.
-fn price(choices: &Choices<'_>, findings: &Findings) -> String {
+fn price(choices: &Choices<'_>, findings: &Findings) -> Result<String, TableError> {
     let mut page = String::new();
     if let (Some(best), Some(without), true) = (&findings.best, &findings.best_without_limits, choices.limits.any()) {
         page += "\n## What the limit costs\n\n";
@@ -135,12 +107,13 @@ fn price(choices: &Choices<'_>, findings: &Findings) -> String {
         };
     }
     if !findings.limits_reached.is_empty() {
-        page += "\n| limit | law, mount | within at σ | beyond at σ |\n| --- | --- | ---: | ---: |\n";
+        let mut table = TextTable::new(2, ["limit", "law, mount", "within at σ", "beyond at σ"]);
         for found in &findings.limits_reached {
             let name = if found.limit == Quantity::Force { "force" } else { "stroke" };
             let [within, beyond] = [found.mass_ratio_within, found.mass_ratio_beyond].map(short);
-            page += &format!("| {name} | {}, {} | {within} | {beyond} |\n", found.law, found.mount);
+            table.row(vec![name.to_owned(), format!("{}, {}", found.law, found.mount), within, beyond]);
         }
+        page += &format!("\n{}", table.markdown());
     }
     let stroke = choices.limits.stroke.map(|_| ("stroke", &findings.fronts.stroke));
     for (name, front) in std::iter::once(("force", &findings.fronts.force)).chain(stroke) {
@@ -150,8 +123,8 @@ fn price(choices: &Choices<'_>, findings: &Findings) -> String {
         } else {
             ".\n\n"
         };
-        let rows: Vec<(&str, &Row)> = front.iter().map(|row| (if row.feasible { "" } else { "beyond the limit" }, row)).collect();
-        page += &table(findings, &rows).markdown();
+        let rows = front.iter().map(|row| (if row.feasible { "" } else { "beyond the limit" }, row)).collect();
+        page += &TextTable::of(&named_table(rows))?.markdown();
     }
-    page
+    Ok(page)
 }

@@ -1,6 +1,6 @@
 //! The tables of an optimisation for programs, as CSV and Parquet: one row a design, and one row a motion.
 
-use sprag_report::columns::{Column, Fields, RowWriter, Table, TableError};
+use sprag_report::columns::{Column, FieldTable, Fields, Shown, Table};
 use sprag_report::long_run::row_fields::FAILED;
 
 use super::design::Design;
@@ -9,55 +9,53 @@ use super::motion::Motion;
 use super::problem::{Problem, Solution};
 use super::response::Response;
 
-/// `designs`: the bare block, then every device that was tried, by law, mount and mass ratio.
-pub struct DesignTable<'s>(pub &'s Findings);
-
 fn yes_or_no(yes: bool) -> &'static str {
     if yes { "true" } else { "false" }
 }
 
-fn design_fields() -> Fields<Row> {
-    let number = |name: &str| Column::number(name).or_nothing();
-    Fields::<Row>::default()
-        .with(Column::text("law"), |row| (&row.law).into())
-        .with(Column::text("mount").or_nothing(), |row| row.mount.as_ref().into())
-        .with(number("mass_ratio"), |row| row.mass_ratio.into())
-        .with(Column::count("motions"), |row| row.motions.into())
-        .with(Column::count("overturned"), |row| row.overturned.into())
-        .with(Column::count("failed"), |row| row.failed.into())
-        .with(Column::number("probability"), |row| row.probability.into())
-        .with(Column::number("probability_low"), |row| row.probability_band.low.into())
-        .with(Column::number("probability_high"), |row| row.probability_band.high.into())
-        .with(Column::count("saved"), |row| row.saved.into())
-        .with(Column::count("newly_overturned"), |row| row.newly_overturned.into())
-        .with(Column::number("peak_force_ratio"), |row| row.peak_force_ratio.into())
-        .with(number("stroke_m"), |row| row.stroke_m.into())
-        .with(number("median_peak_rotation"), |row| row.median_peak_rotation.into())
-        .with(Column::text("feasible"), |row| yes_or_no(row.feasible).into())
-        .with(Column::text("on_force_front"), |row| yes_or_no(row.on_force_front).into())
-        .with(Column::text("on_stroke_front"), |row| yes_or_no(row.on_stroke_front).into())
+/// A design, and what it is among those of its table.
+struct NamedRow<'s> {
+    name: &'s str,
+    design: &'s Row,
 }
 
-impl Table for DesignTable<'_> {
-    fn columns(&self) -> Vec<Column> {
-        design_fields().columns()
-    }
-
-    fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
-        let fields = design_fields();
-        std::iter::once(&self.0.reference).chain(&self.0.rows).try_for_each(|row| fields.row(row, writer))
-    }
+/// `designs`: the bare block, then every device that was tried, by law, mount and mass ratio.
+pub fn design_table(findings: &Findings) -> impl Table {
+    let rows = std::iter::once(&findings.reference).chain(&findings.rows).map(|design| NamedRow { name: "", design });
+    FieldTable { rows: rows.collect(), fields: design_fields(Fields::default()) }
 }
 
-/// `motions`: every motion under the bare block and under the chosen device, if there is one. Peaks are max |θ|/α, empty when overturned;
-/// forces and strokes are those of this one motion.
-pub struct MotionTable<'s> {
-    /// The motions.
-    pub problem: &'s Problem<'s>,
-    /// What they do.
-    pub solution: &'s Solution,
-    /// The chosen device.
-    pub chosen: Option<&'s Row>,
+/// Designs for people, each below its name where any has one.
+pub(super) fn named_table<'s>(rows: Vec<(&'s str, &'s Row)>) -> impl Table + 's {
+    let rows: Vec<NamedRow<'s>> = rows.into_iter().map(|(name, design)| NamedRow { name, design }).collect();
+    let mut first = Fields::<NamedRow<'s>>::default();
+    if rows.iter().any(|row| !row.name.is_empty()) {
+        first = first.with(Column::text("name").shown("", Shown::Digits(0)), |row| row.name.into());
+    }
+    FieldTable { fields: design_fields(first), rows }
+}
+
+/// The columns of designs, after those of `first`.
+fn design_fields<'s>(first: Fields<NamedRow<'s>>) -> Fields<NamedRow<'s>> {
+    let (number, digits) = (|name: &str| Column::number(name).or_nothing(), Shown::Digits);
+    first
+        .with(Column::text("law").shown("law", digits(0)), |row| (&row.design.law).into())
+        .with(Column::text("mount").or_nothing().shown("mount", digits(0)), |row| row.design.mount.as_ref().into())
+        .with(number("mass_ratio").shown("σ", digits(4)), |row| row.design.mass_ratio.into())
+        .with(Column::count("motions"), |row| row.design.motions.into())
+        .with(Column::count("overturned").shown("overturned", digits(0)), |row| row.design.overturned.into())
+        .with(Column::count("failed"), |row| row.design.failed.into())
+        .with(Column::number("probability").shown("share", Shown::Percent), |row| row.design.probability.into())
+        .with(Column::number("probability_low").shown("from", Shown::Percent), |row| row.design.probability_band.low.into())
+        .with(Column::number("probability_high").shown("to", Shown::Percent), |row| row.design.probability_band.high.into())
+        .with(Column::count("saved").shown("saved", digits(0)), |row| row.design.saved.into())
+        .with(Column::count("newly_overturned").shown("newly", digits(0)), |row| row.design.newly_overturned.into())
+        .with(Column::number("peak_force_ratio").shown("F/(mg)", digits(4)), |row| row.design.peak_force_ratio.into())
+        .with(number("stroke_m").shown("stroke (m)", digits(4)), |row| row.design.stroke_m.into())
+        .with(number("median_peak_rotation").shown("median θ/α", digits(3)), |row| row.design.median_peak_rotation.into())
+        .with(Column::text("feasible"), |row| yes_or_no(row.design.feasible).into())
+        .with(Column::text("on_force_front"), |row| yes_or_no(row.design.on_force_front).into())
+        .with(Column::text("on_stroke_front"), |row| yes_or_no(row.design.on_stroke_front).into())
 }
 
 /// A motion under a design.
@@ -71,6 +69,20 @@ impl MotionRow<'_> {
     fn answer(&self) -> Option<&Response> {
         self.response.as_ref().ok()
     }
+}
+
+/// `motions`: every motion under the bare block and under the chosen device, if there is one. Peaks are max |θ|/α, empty when overturned;
+/// forces and strokes are those of this one motion.
+pub fn motion_table<'s>(problem: &'s Problem<'s>, solution: &'s Solution, chosen: Option<&Row>) -> impl Table + use<'s> {
+    let of_chosen = |design: &&Design| chosen.is_some_and(|row| row.candidate == design.candidate);
+    let chosen = solution.designs.iter().find(of_chosen);
+    let designs: Vec<&Design> = std::iter::once(&solution.bare).chain(chosen).collect();
+    let row = |motion, design: &'s Design, index: usize| MotionRow { motion, design, response: &design.responses[index] };
+    let mut rows = Vec::new();
+    for (index, motion) in problem.motions.iter().enumerate() {
+        rows.extend(designs.iter().map(|design| row(motion, design, index)));
+    }
+    FieldTable { fields: motion_fields(), rows }
 }
 
 fn motion_fields<'s>() -> Fields<MotionRow<'s>> {
@@ -87,22 +99,4 @@ fn motion_fields<'s>() -> Fields<MotionRow<'s>> {
             row.answer().filter(|_| row.design.candidate.is_some()).map(|response| response.stroke_m).into()
         })
         .with(Column::text("failure").or_nothing(), |row| row.response.as_ref().err().into())
-}
-
-impl Table for MotionTable<'_> {
-    fn columns(&self) -> Vec<Column> {
-        motion_fields().columns()
-    }
-
-    fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
-        let fields = motion_fields();
-        let of_chosen = |design: &&Design| self.chosen.is_some_and(|row| row.candidate == design.candidate);
-        let chosen = self.solution.designs.iter().find(of_chosen);
-        for (index, motion) in self.problem.motions.iter().enumerate() {
-            for design in std::iter::once(&self.solution.bare).chain(chosen) {
-                fields.row(&MotionRow { motion, design, response: &design.responses[index] }, writer)?;
-            }
-        }
-        Ok(())
-    }
 }

@@ -1,0 +1,205 @@
+//! Results of a subcommand: files that appear together in its folder, and the text that is printed once they have.
+
+use std::fmt::{Display, Write as _};
+use std::io::{self, BufWriter, Write as _};
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use sprag_report::columns::{Column, Table, metadata_of};
+use sprag_report::output::{Formats, Maker, OutputError, Results, SCHEMA_VERSION, Subject, Summary, VERSION};
+use sprag_report::plot::PlotError;
+use sprag_report::progress::Progress;
+use sprag_sim::record::RecordSummary;
+use sprag_sim::scene::schema::SceneFile;
+
+use super::context::{Completion, Context};
+use super::out_arguments::OutputArguments;
+
+/// Results that are made from finished runs.
+pub struct Report {
+    command: &'static str,
+    folder: PathBuf,
+    formats: Formats,
+    json: bool,
+    results: Results,
+    /// What every Parquet file says of itself.
+    made_by: Vec<(String, String)>,
+    summary: String,
+    text: String,
+    notes: Vec<String>,
+    completion: Completion,
+    drawing: Progress,
+}
+
+impl Report {
+    /// No results of `command` yet, for `folder`.
+    ///
+    /// # Errors
+    /// Formats that cannot be written.
+    pub fn new(command: &'static str, folder: &Path, output: &OutputArguments) -> anyhow::Result<Report> {
+        Ok(Report {
+            command,
+            folder: folder.to_owned(),
+            formats: output.formats(command)?,
+            json: output.json,
+            results: Results::default(),
+            made_by: Vec::new(),
+            summary: String::new(),
+            text: String::new(),
+            notes: Vec::new(),
+            completion: Completion::Complete,
+            drawing: Progress::uncounted("drawing and writing results"),
+        })
+    }
+
+    /// Says in Parquet files what made them.
+    ///
+    /// # Errors
+    /// An input that has no JSON.
+    pub fn made_by(&mut self, input: impl Serialize) -> anyhow::Result<()> {
+        self.made_by = metadata_of(&Maker::new(self.command, input))?;
+        Ok(())
+    }
+
+    /// Writes `summary.json`: `input` is the scene or study as resolved, `subject` has the files that were read.
+    ///
+    /// # Errors
+    /// [`OutputError`].
+    pub fn summary(
+        &mut self,
+        input: impl Serialize,
+        records: &[RecordSummary],
+        warnings: &[String],
+        subject: &Subject,
+        findings: impl Serialize,
+    ) -> Result<(), OutputError> {
+        let (command, files) = (self.command, &subject.files);
+        let (version, schema_version) = (VERSION, SCHEMA_VERSION);
+        self.document("summary.json", &Summary { command, version, schema_version, input, records, warnings, files, findings })
+    }
+
+    /// Writes the document `name`, which `--json` prints.
+    ///
+    /// # Errors
+    /// [`OutputError`].
+    pub fn document(&mut self, name: &str, document: &impl Serialize) -> Result<(), OutputError> {
+        let failed = |error| OutputError { path: self.folder.join(name), reason: format!("cannot be written: {error}") };
+        self.summary = serde_json::to_string_pretty(document).map_err(failed)? + "\n";
+        self.results.add(&self.folder.join(name), |file| file.write_all(self.summary.as_bytes()))
+    }
+
+    /// Writes a file through `fill`.
+    ///
+    /// # Errors
+    /// [`OutputError`].
+    pub fn file(
+        &mut self,
+        name: &str,
+        fill: impl FnOnce(&mut BufWriter<&mut std::fs::File>) -> io::Result<()>,
+    ) -> Result<(), OutputError> {
+        self.results.add(&self.folder.join(name), fill)
+    }
+
+    /// Writes a page of text.
+    ///
+    /// # Errors
+    /// [`OutputError`].
+    pub fn page(&mut self, name: &str, text: &str) -> Result<(), OutputError> {
+        self.file(name, |file| file.write_all(text.as_bytes()))
+    }
+
+    /// Writes a table in all formats.
+    ///
+    /// # Errors
+    /// [`OutputError`].
+    pub fn table(&mut self, name: &str, table: &dyn Table) -> Result<(), OutputError> {
+        self.results.add_table(&self.folder, name, table, &self.made_by, self.formats)
+    }
+
+    /// Writes a table whose rows are at `csv` in the other formats.
+    ///
+    /// # Errors
+    /// [`OutputError`].
+    pub fn rows(&mut self, csv: &Path, columns: &[Column]) -> Result<(), OutputError> {
+        if self.formats.parquet { self.results.add_parquet_of(csv, columns, &self.made_by) } else { Ok(()) }
+    }
+
+    /// Removes a file that earlier results have left.
+    pub fn remove(&mut self, name: &str) {
+        self.results.remove(self.folder.join(name));
+    }
+
+    /// Writes a picture; gives the file to look at first, if any.
+    ///
+    /// # Errors
+    /// A picture that cannot be drawn, and [`OutputError`].
+    pub fn picture(&mut self, name: &str, svg: Result<String, PlotError>) -> anyhow::Result<Option<PathBuf>> {
+        let svg = svg.map_err(|error| anyhow::anyhow!("the picture cannot be drawn: {error}"))?;
+        Ok(self.results.add_picture(&self.folder, name, &svg, self.formats)?)
+    }
+
+    /// Prints a line, or text that ends with a line break of its own.
+    pub fn print(&mut self, text: impl Display) {
+        let _ = write!(self.text, "{text}");
+        if !self.text.is_empty() && !self.text.ends_with('\n') {
+            self.text.push('\n');
+        }
+    }
+
+    /// Prints how accurate the runs are, where that was asked for.
+    pub fn accuracy(&mut self, worst: Option<impl Display>) {
+        if let Some(worst) = worst {
+            self.print(format_args!("accuracy: {worst}"));
+        }
+    }
+
+    /// Writes a line to standard error.
+    pub fn note(&mut self, line: impl Display) {
+        self.notes.push(line.to_string());
+    }
+
+    /// Names what was left out.
+    pub fn left_out(&mut self, lines: &[String]) {
+        lines.iter().for_each(|line| self.note(format_args!("left out: {line}")));
+    }
+
+    /// Whether all that was asked for is there: the answer is negative or partial otherwise.
+    pub fn complete(&mut self, complete: bool) {
+        self.completion = Completion::of(complete);
+    }
+
+    /// Puts all files in their places and prints the text, or with `--json` the summary, and the text on standard error.
+    ///
+    /// # Errors
+    /// An interrupt, and [`OutputError`].
+    pub fn finish(self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+        context.check_interrupt()?;
+        self.results.commit_telling(&mut context.err)?;
+        drop(self.drawing);
+        let text = format!("{}results in {}\n", self.text, self.folder.display());
+        if self.json {
+            let _ = context.out.write_all(self.summary.as_bytes());
+            if !context.quiet {
+                let _ = context.err.write_all(text.as_bytes());
+            }
+        } else {
+            context.print(text);
+        }
+        self.notes.iter().for_each(|line| context.note(line));
+        Ok(self.completion)
+    }
+}
+
+/// A scene as resolved.
+#[derive(Clone, Copy, Serialize)]
+pub struct SceneInput<'a> {
+    /// Its keys, with defaults filled in.
+    pub scene: &'a SceneFile,
+}
+
+/// The runs of a scene.
+#[derive(Clone, Copy, Serialize)]
+pub struct Runs<'a, R> {
+    /// One object for each device.
+    pub runs: &'a [R],
+}

@@ -1,0 +1,223 @@
+//! Tables for people: aligned columns for a terminal, or Markdown that is aligned as well.
+
+use console::measure_text_width;
+
+use crate::columns::{Column, Kind, RowWriter, Shown, Table, TableError, Value};
+
+/// A table whose first columns are words, to the left, and the others numbers, to the right.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TextTable {
+    /// Number of columns of words.
+    words: usize,
+    /// Whether the last column has words too.
+    ends_in_words: bool,
+    /// The headings, then the rows, all of the same number of cells.
+    rows: Vec<Vec<String>>,
+}
+
+/// Space between two columns of a terminal.
+const GAP: &str = "  ";
+
+impl TextTable {
+    /// A table without rows, with these headings, the first `words` of which are above words.
+    pub fn new<H: Into<String>>(words: usize, headings: impl IntoIterator<Item = H>) -> TextTable {
+        TextTable { words, ends_in_words: false, rows: vec![headings.into_iter().map(Into::into).collect()] }
+    }
+
+    /// The table, whose last column has words too.
+    #[must_use]
+    pub fn ending_in_words(self) -> TextTable {
+        TextTable { ends_in_words: true, ..self }
+    }
+
+    /// The columns of `table` that people see, with its rows: words first.
+    ///
+    /// # Errors
+    /// [`TableError`] of a table that cannot be written either.
+    pub fn of(table: &dyn Table) -> Result<TextTable, TableError> {
+        let columns = table.columns();
+        let words = columns.iter().filter(|column| column.shown.is_some()).take_while(|column| column.kind == Kind::Text).count();
+        let headings = columns.iter().filter_map(|column| column.shown.map(|(heading, _)| heading));
+        let mut text = TextTable::new(words, headings);
+        table.rows(&mut Cells { columns: &columns, text: &mut text })?;
+        Ok(text)
+    }
+
+    /// Adds a row.
+    pub fn row(&mut self, cells: Vec<String>) {
+        self.rows.push(cells);
+    }
+
+    /// Markdown.
+    pub fn markdown(&self) -> String {
+        let escaped: Vec<Vec<String>> =
+            self.rows.iter().map(|row| row.iter().map(|cell| cell.replace('|', "\\|")).collect()).collect();
+        let widths: Vec<usize> = widths(&escaped).into_iter().map(|width| width.max(3)).collect();
+        let line = |row: &Vec<String>| format!("| {} |\n", self.aligned(row, &widths).join(" | "));
+        let rule = widths.iter().enumerate().map(|(column, width)| {
+            let dashes = "-".repeat(width + 1);
+            format!("|{dashes}{}", if self.has_words(column) { '-' } else { ':' })
+        });
+        let rule = rule.collect::<String>() + "|\n";
+        escaped.iter().take(1).map(line).chain([rule]).chain(escaped.iter().skip(1).map(line)).collect()
+    }
+
+    /// Columns that are aligned by spaces.
+    pub fn plain(&self) -> String {
+        let widths = widths(&self.rows);
+        let line = |row: &Vec<String>| self.aligned(row, &widths).join(GAP).trim_end().to_owned() + "\n";
+        self.rows.iter().map(line).collect()
+    }
+
+    fn has_words(&self, column: usize) -> bool {
+        column < self.words || (self.ends_in_words && self.rows.first().is_some_and(|row| column + 1 == row.len()))
+    }
+
+    fn aligned(&self, row: &[String], widths: &[usize]) -> Vec<String> {
+        let cell = |(column, (cell, width)): (usize, (&String, &usize))| {
+            let space = " ".repeat(width.saturating_sub(measure_text_width(cell)));
+            if self.has_words(column) { format!("{cell}{space}") } else { format!("{space}{cell}") }
+        };
+        row.iter().zip(widths).enumerate().map(cell).collect()
+    }
+}
+
+impl Table for TextTable {
+    fn columns(&self) -> Vec<Column> {
+        self.rows.iter().take(1).flatten().map(Column::text).collect()
+    }
+
+    fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
+        let mut values = self.rows.iter().skip(1).map(|row| row.iter().map(Value::from).collect::<Vec<_>>());
+        values.try_for_each(|row| writer.row(&row))
+    }
+}
+
+/// Takes rows as their cells.
+struct Cells<'t> {
+    columns: &'t [Column],
+    text: &'t mut TextTable,
+}
+
+impl RowWriter for Cells<'_> {
+    fn row(&mut self, values: &[Value<'_>]) -> Result<(), TableError> {
+        let cell = |(column, value): (&Column, &Value<'_>)| {
+            Some(match (column.shown?.1, value) {
+                (_, Value::Nothing) => "-".to_owned(),
+                (_, Value::Text(text)) => (*text).to_owned(),
+                (_, Value::Count(count)) => count.to_string(),
+                (Shown::Digits(digits), Value::Number(value)) => true_minus(&number(*value, digits)),
+                (Shown::Percent, Value::Number(share)) => format!("{} %", number(100.0 * share, 1)),
+                (Shown::Change, Value::Number(ratio)) => change(ratio - 1.0),
+            })
+        };
+        self.text.row(self.columns.iter().zip(values).filter_map(cell).collect());
+        Ok(())
+    }
+}
+
+/// Width of every column in a terminal.
+fn widths(rows: &[Vec<String>]) -> Vec<usize> {
+    let columns = rows.first().map_or(0, Vec::len);
+    let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(|cell| measure_text_width(cell)).max();
+    (0..columns).map(|column| width(column).unwrap_or(0)).collect()
+}
+
+/// A number with `digits` decimals; a dash for none and for one that is not finite.
+pub fn number(value: impl Into<Option<f64>>, digits: usize) -> String {
+    match value.into() {
+        Some(value) if value.is_finite() => format!("{value:.digits$}"),
+        _ => "-".to_owned(),
+    }
+}
+
+/// A relative change in percent with a sign and no decimals; a dash for none.
+pub fn change(change: impl Into<Option<f64>>) -> String {
+    percent(change.into().map(|change| (100.0 * change).round()), 0)
+}
+
+/// A relative change in percent with a sign and one decimal; a dash for none.
+pub fn change_in_tenths(change: impl Into<Option<f64>>) -> String {
+    percent(change.into().map(|change| (1000.0 * change).round() / 10.0), 1)
+}
+
+/// Rounded percent, without a sign where it is nothing.
+fn percent(percent: Option<f64>, digits: usize) -> String {
+    match percent {
+        Some(0.0) => "0 %".to_owned(),
+        Some(percent) if percent.is_finite() => true_minus(&format!("{percent:+.digits$} %")),
+        _ => "-".to_owned(),
+    }
+}
+
+/// The number with a true minus sign, for pages.
+fn true_minus(number: &str) -> String {
+    match number {
+        "-" => number.to_owned(),
+        _ => number.replace('-', "\u{2212}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table() -> TextTable {
+        let mut table = TextTable::new(1, ["device", "|θ\u{307}|"]);
+        table.row(vec!["a|b".to_owned(), number(-0.25, 1)]);
+        table.row(vec!["\u{5730}\u{9707}".to_owned(), number(None, 1)]);
+        table
+    }
+
+    #[test]
+    fn rows_are_as_wide_as_a_terminal_shows_them() {
+        for text in [table().markdown(), table().plain()] {
+            let width = measure_text_width(text.lines().next().unwrap());
+            assert!(text.lines().all(|line| measure_text_width(line) == width), "{text}");
+        }
+        assert_eq!((table().markdown().lines().count(), table().plain().lines().count()), (4, 3));
+    }
+
+    #[test]
+    fn people_see_the_columns_that_have_a_heading() {
+        struct Two;
+        impl Table for Two {
+            fn columns(&self) -> Vec<Column> {
+                vec![
+                    Column::text("device").shown("device", Shown::Digits(0)),
+                    Column::number("hidden"),
+                    Column::number("ratio").or_nothing().shown("change", Shown::Change),
+                    Column::number("b").shown("β", Shown::Digits(2)),
+                ]
+            }
+            fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
+                writer.row(&["pair".into(), 7.0.into(), 0.7.into(), (-0.128).into()])?;
+                writer.row(&["none".into(), 7.0.into(), Value::Nothing, f64::NAN.into()])
+            }
+        }
+        let text = TextTable::of(&Two).unwrap().plain();
+        let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split("  ").map(str::trim).collect()).collect();
+        let rows: Vec<Vec<&str>> =
+            rows.into_iter().map(|row| row.into_iter().filter(|cell| !cell.is_empty()).collect()).collect();
+        assert_eq!(rows, [["device", "change", "β"], ["pair", "\u{2212}30 %", "\u{2212}0.13"], ["none", "-", "-"]]);
+    }
+
+    #[test]
+    fn markdown_escapes_bars_and_aligns_numbers_to_the_right() {
+        let text = table().markdown();
+        assert!(text.contains("a\\|b") && text.lines().nth(1).unwrap().ends_with("-:|"), "{text}");
+    }
+
+    #[test]
+    fn what_is_no_number_is_a_dash() {
+        assert_eq!([number(1.25, 1), number(Some(-2.0), 2)], ["1.2", "-2.00"]);
+        assert_eq!([number(None, 1), number(f64::NAN, 1), number(f64::INFINITY, 1)], ["-", "-", "-"]);
+    }
+
+    #[test]
+    fn changes_have_a_sign_and_no_negative_zero() {
+        assert_eq!([-0.3, 0.004, 0.25, -0.004].map(change), ["\u{2212}30 %", "0 %", "+25 %", "0 %"]);
+        assert_eq!([0.1234, -0.5, -0.0001].map(change_in_tenths), ["+12.3 %", "\u{2212}50.0 %", "0 %"]);
+        assert_eq!([change(None), change(f64::INFINITY), change_in_tenths(f64::NAN)], ["-", "-", "-"]);
+    }
+}
