@@ -66,7 +66,30 @@ fn unknown_keys_and_wrong_kinds_are_refused() {
     }
     let message =
         Scene::parse(&SCENE.replace("size_m = 2.0", "size_m = 2.0\nsize_ft = 6"), "scene.toml").unwrap_err().to_string();
-    assert!(message.starts_with("scene.toml:5: block") && message.contains("unknown field `size_ft`"), "{message}");
+    assert!(
+        message.starts_with("scene.toml:5: block") && message.contains("block.size_ft is not a key; did you mean `size_m`?"),
+        "{message}"
+    );
+}
+
+#[test]
+fn the_key_or_the_word_that_was_probably_meant_is_named() {
+    for (item, words) in [
+        ("blok.size_m=3", "scene.toml: blok is not a key; did you mean `block`?"),
+        ("device.1.mas_ratio=3", "device.1.mas_ratio is not a key; did you mean `mass_ratio`?"),
+        ("device.1.clutch={capacity_ration=1}", "device.1.clutch.capacity_ration is not a key; did you mean `capacity_ratio`?"),
+        ("checks={gear={modul_mm=1}}", "checks.gear.modul_mm is not a key; did you mean `module_mm`?"),
+        (
+            "controller.sensors.gyroscope={bias_degs=1}",
+            "controller.sensors.gyroscope.bias_degs is not a key; did you mean `bias_deg_s`?",
+        ),
+        ("device.1.kind=inertr", "device.1.kind is \"inertr\"; did you mean \"inerter\"?"),
+        ("device.1.kind=damper", "device.1.kind: unknown variant `damper`, expected one of `none`"),
+        ("block.colour=3", "unknown field `colour`, expected one of `size_m`"),
+    ] {
+        let message = refused(&[item]);
+        assert!(message.contains(words), "{item}: {message}");
+    }
 }
 
 #[test]
