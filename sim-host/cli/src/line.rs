@@ -10,8 +10,8 @@ use sprag_sim::interrupt::Interrupt;
 #[cfg(feature = "effects")]
 use crate::command::{accuracy, board, closed_loop, hil, loop_study};
 use crate::command::{
-    batch, cloud, completions, effects, example, explain, manual, map, optimise, record, sensitivity, similar, simulate,
-    synthesize,
+    batch, cloud, completions, effects, example, explain, manual, map, new, optimise, record, schema, sensitivity, similar,
+    simulate, synthesize,
 };
 
 /// Rocking structures with inerters and clutches: simulate, and get the numbers to decide with.
@@ -48,13 +48,15 @@ pub enum Command {
     Effects(effects::EffectsArguments),
     Explain(explain::ExplainArguments),
     Example(example::ExampleArguments),
+    New(new::NewArguments),
+    Schema(schema::SchemaArguments),
     Completions(completions::CompletionsArguments),
     Manual(manual::ManualArguments),
 }
 
 /// The subcommands as the help groups them.
 const GROUPS: [(&str, &[&str]); 5] = [
-    ("Simulate", &["example", "simulate", "explain", "effects", "batch"]),
+    ("Simulate", &["example", "new", "schema", "simulate", "explain", "effects", "batch"]),
     ("Study", &["map", "cloud", "optimise", "sensitivity", "similar", "accuracy"]),
     ("Control", &["loop", "loop-study", "hil", "board"]),
     ("Ground motions", &["record", "synthesize"]),
@@ -125,6 +127,8 @@ impl Command {
             Command::Effects(arguments) => effects::run(arguments, out, err),
             Command::Explain(arguments) => explain::run(arguments, out, err),
             Command::Example(arguments) => example::run(arguments, out, err),
+            Command::New(arguments) => new::run(arguments, out, err),
+            Command::Schema(arguments) => schema::run(arguments, out),
             Command::Completions(arguments) => completions::run(arguments, out),
             Command::Manual(arguments) => manual::run(arguments, out, err),
         }
