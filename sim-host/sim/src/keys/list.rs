@@ -15,6 +15,8 @@ pub struct Key {
     pub meaning: String,
     /// What it may be.
     pub range: String,
+    /// The words that it may be, with what they mean where that is described.
+    pub words: Vec<(String, String)>,
     /// Value when absent, as TOML has it.
     pub default: Option<toml::Value>,
     /// A value to show where there is no default; tables have none.
@@ -64,6 +66,7 @@ fn collect(schema: &Schema, prefix: &str, of_list_below: bool, keys: &mut Vec<Ke
         keys.push(Key {
             meaning: schema["description"].as_str().unwrap_or_default().to_owned(),
             range: range(schema, name),
+            words: words(schema),
             default: schema.get("default").and_then(as_toml),
             example: [&schema["examples"][0], &of_table["default"][name]]
                 .into_iter()
@@ -99,6 +102,12 @@ pub(super) fn range(schema: &Schema, name: &str) -> String {
         Some((last, [])) => format!("{first} or {last}"),
         Some((last, between)) => format!("{first}, {} or {last}", between.join(", ")),
     }
+}
+
+/// The words among the choices of `schema` that are described.
+fn words(schema: &Schema) -> Vec<(String, String)> {
+    let text = |value: &Schema| value.as_str().map(str::to_owned);
+    choices(schema).filter_map(|choice| Some((text(&choice["const"])?, text(&choice["description"])?))).collect()
 }
 
 /// [`range`] of a value of one kind.

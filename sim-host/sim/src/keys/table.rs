@@ -25,6 +25,10 @@ fn row(key: &Key, name: &str) -> String {
         Some(toml::Value::Table(_)) | None => String::new(),
         Some(_) => format!("`{}`", key.default_text()),
     };
-    let [meaning, range] = [&key.meaning, &key.range].map(|text| text.replace('|', "\\|"));
+    let words: Vec<String> =
+        key.words.iter().map(|(word, meaning)| format!("`{word}`: {}", meaning.trim_end_matches('.'))).collect();
+    // A number or a word has its range, which names the words; of many words there is a table of their own.
+    let range = if key.range.starts_with('"') && (1..=4).contains(&words.len()) { words.join("; ") } else { key.range.clone() };
+    let [meaning, range] = [&key.meaning, &range].map(|text| text.replace('|', "\\|"));
     format!("| `{name}` | {} | {range} | {default} |\n", meaning.trim_end_matches('.'))
 }

@@ -138,11 +138,11 @@ fn with_what_is_meant(message: &str) -> Option<String> {
     Some(if is_key { format!("is not a key; did you mean `{meant}`?") } else { format!("is {given:?}; did you mean {meant:?}?") })
 }
 
-/// The one of `known` that was probably meant by `given`: at most a third of its letters are other ones.
+/// The one of `known` that was probably meant by `given`: about a third of its letters, at most, are other ones.
 pub fn nearest<'a>(given: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let distance = |word: &str| strsim::osa_distance(&given.to_lowercase(), word);
     let nearest = known.min_by_key(|word| distance(word))?;
-    (3 * distance(nearest) <= nearest.chars().count().max(3)).then_some(nearest)
+    (3 * distance(nearest) <= nearest.chars().count() + 2).then_some(nearest)
 }
 
 /// A complaint about the kind of a value, `invalid type: integer `5`, expected f64`, in the words of a person; `None` for any other.

@@ -158,7 +158,10 @@ fn what_is_wrong_is_named_with_what_is_allowed() {
 #[test]
 fn keys_that_do_not_exist_are_refused_by_name() {
     let message = table("gyroscope = { bias_mg = 1 }").unwrap_err();
-    assert!(message.contains("gyroscope") && message.contains("unknown field `bias_mg`"), "{message}");
+    assert!(
+        message.contains("gyroscope") && message.contains("gyroscope.bias_mg is not a key; did you mean `bias_deg_s`?"),
+        "{message}"
+    );
     let message = table("gyroscope = 3").unwrap_err();
     assert!(message.contains("the name of a preset or a table"), "{message}");
     assert!(table("seed = -1").is_err());
