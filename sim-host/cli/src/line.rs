@@ -9,8 +9,8 @@ use crate::command::context::Run;
 #[cfg(feature = "effects")]
 use crate::command::{accuracy, board, closed_loop, hil, loop_study};
 use crate::command::{
-    batch, cloud, completions, effects, example, explain, manual, map, optimise, record, sensitivity, similar, simulate,
-    synthesize,
+    batch, cloud, completions, effects, example, explain, manual, map, new, optimise, record, schema, sensitivity, similar,
+    simulate, synthesize,
 };
 
 /// Rocking structures with inerters and clutches: simulate, and get the numbers to decide with.
@@ -51,13 +51,15 @@ pub enum Command {
     Effects(effects::EffectsArguments),
     Explain(explain::ExplainArguments),
     Example(example::ExampleArguments),
+    New(new::NewArguments),
+    Schema(schema::SchemaArguments),
     Completions(completions::CompletionsArguments),
     Manual(manual::ManualArguments),
 }
 
 /// The subcommands as the help groups them.
 const GROUPS: [(&str, &[&str]); 5] = [
-    ("Simulate", &["example", "simulate", "explain", "effects", "batch"]),
+    ("Simulate", &["example", "new", "schema", "simulate", "explain", "effects", "batch"]),
     ("Study", &["map", "cloud", "optimise", "sensitivity", "similar", "accuracy"]),
     ("Control", &["loop", "loop-study", "hil", "board"]),
     ("Ground motions", &["record", "synthesize"]),
@@ -129,6 +131,8 @@ impl Command {
             Command::Effects(arguments) => arguments,
             Command::Explain(arguments) => arguments,
             Command::Example(arguments) => arguments,
+            Command::New(arguments) => arguments,
+            Command::Schema(arguments) => arguments,
             Command::Completions(arguments) => arguments,
             Command::Manual(arguments) => arguments,
         }

@@ -16,6 +16,7 @@ pub mod effect;
 pub mod ground_motion;
 pub mod history;
 pub mod interrupt;
+pub mod keys;
 pub mod record;
 pub mod scene;
 pub mod sensor;

@@ -5,6 +5,7 @@ use serde::Serialize;
 use sprag_report::output::Versioned;
 use sprag_sim::effect::measured::{Cost, cost};
 use sprag_sim::effect::{EFFECTS, Effect, find};
+use sprag_sim::keys::Key;
 
 use super::context::{Completion, Context, Run};
 
@@ -35,13 +36,20 @@ struct Entry {
 #[derive(Serialize)]
 struct KeyEntry {
     key: &'static str,
-    default: &'static str,
+    meaning: &'static str,
+    default: String,
     range: &'static str,
+}
+
+impl KeyEntry {
+    fn of(key: &'static Key) -> KeyEntry {
+        KeyEntry { key: &key.path, meaning: &key.meaning, default: key.default_text(), range: &key.range }
+    }
 }
 
 impl Entry {
     fn of(effect: &Effect) -> Entry {
-        let keys = effect.keys.iter().map(|key| KeyEntry { key: key.key, default: key.default, range: key.range }).collect();
+        let keys = effect.described_keys().map(KeyEntry::of).collect();
         let Effect { name, summary, equation, source, .. } = *effect;
         Entry { name, summary, equation, source, keys, cost: cost(name) }
     }
@@ -77,10 +85,10 @@ fn cost_in_words(name: &str) -> String {
 /// Every effect with its keys, their defaults and its cost.
 fn table() -> String {
     let widest = |texts: &mut dyn Iterator<Item = usize>| texts.max().unwrap_or(0);
-    let keys = || EFFECTS.into_iter().flat_map(|effect| effect.keys);
+    let keys = || EFFECTS.into_iter().flat_map(Effect::described_keys);
     let name_width = widest(&mut EFFECTS.into_iter().map(|effect| effect.name.len()));
-    let key_width = widest(&mut keys().map(|key| key.key.len()));
-    let default_width = widest(&mut keys().map(|key| key.default.len()));
+    let key_width = widest(&mut keys().map(|key| key.path.len()));
+    let default_width = widest(&mut keys().map(|key| key.default_text().len()));
     let row = |name: &str, key: &str, default: &str, allowed: &str| {
         let row = format!("{name:name_width$}  {key:key_width$}  {default:default_width$}  {allowed}");
         format!("{}\n", row.trim_end())
@@ -88,8 +96,8 @@ fn table() -> String {
     let mut text = row("effect", "key", "default", "allowed");
     for effect in EFFECTS {
         text += &format!("\n{:name_width$}  {}\n", effect.name, effect.summary);
-        for key in effect.keys {
-            text += &row("", key.key, key.default, key.range);
+        for key in effect.described_keys() {
+            text += &row("", &key.path, &key.default_text(), &key.range);
         }
         text += &row("", &format!("cost: {}", cost_in_words(effect.name)), "", "");
     }
@@ -104,8 +112,8 @@ fn in_full(effect: &Effect) -> String {
         text += &format!("  {line}\n");
     }
     text += &format!("\nsource\n  {}\n\nkeys\n", effect.source);
-    for key in effect.keys {
-        text += &format!("  {}\n      default {}; {}\n", key.key, key.default, key.range);
+    for key in effect.described_keys() {
+        text += &format!("  {}\n      {}\n      default {}; {}\n", key.path, key.meaning, key.default_text(), key.range);
     }
     text + &format!("\ncost\n  {}\n", cost_in_words(effect.name))
 }

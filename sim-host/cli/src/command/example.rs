@@ -16,7 +16,7 @@ static SCENES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/../../scenes");
 /// Write a scene or study that ships with the program, or list them.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag example\n  sprag example near_fault && sprag simulate near_fault.toml\n\n\
-    Writes NAME.toml, and the record that it names where there is one.")]
+    Writes NAME.toml, the schema by which editors check it, and the record that it names where there is one.")]
 pub struct ExampleArguments {
     /// The scene or study to write; all are listed without it.
     #[arg(value_name = "NAME")]
@@ -43,7 +43,12 @@ fn write(name: &str, arguments: &ExampleArguments) -> anyhow::Result<Vec<PathBuf
     let name = name.strip_suffix(".toml").unwrap_or(name);
     let unknown = || anyhow::anyhow!("there is no example {name}; there are {}", names().join(", "));
     let scene = scenes().find(|file| stem(file) == name).ok_or_else(unknown)?;
-    let named = |file: &&File<'_>| file.path() == scene.path() || text(scene).contains(&format!("\"{}\"", file.path().display()));
+    let named = |file: &&File<'_>| {
+        let name = file.path().display();
+        file.path() == scene.path()
+            || text(scene).contains(&format!("\"{name}\""))
+            || text(scene).starts_with(&format!("#:schema {name}\n"))
+    };
     let files: Vec<&File<'_>> = SCENES.files().filter(named).collect();
     let folder = &arguments.out;
     std::fs::create_dir_all(folder).map_err(|error| anyhow::anyhow!("{}: {error}", folder.display()))?;
@@ -55,7 +60,9 @@ fn write(name: &str, arguments: &ExampleArguments) -> anyhow::Result<Vec<PathBuf
             let mut bytes = Vec::new();
             there.read_to_end(&mut bytes).is_ok_and(|_| bytes == file.contents())
         };
-        claim_file(&path, &[], arguments.replace.overwrite, same)?;
+        // A schema is the program's own, and of another version perhaps.
+        let is_schema = file.path().extension().is_some_and(|extension| extension == "json");
+        claim_file(&path, &[], arguments.replace.overwrite || is_schema, same)?;
         results.add(&path, |to| to.write_all(file.contents()))?;
         paths.push(path);
     }
@@ -112,6 +119,8 @@ mod tests {
             assert!(!title(scene).is_empty(), "{name}");
             let needs_record = text(scene).contains("near_fault.csv\"");
             assert_eq!(folder.path().join("near_fault.csv").exists(), needs_record, "{name}");
+            let schema = text(scene).lines().next().and_then(|line| line.strip_prefix("#:schema "));
+            assert!(folder.path().join(schema.unwrap()).exists(), "{name}");
         }
     }
 

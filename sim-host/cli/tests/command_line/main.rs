@@ -3,6 +3,7 @@
 mod accuracy_options;
 mod bad_input;
 mod formats;
+mod keys;
 mod long_runs;
 mod needs_python;
 mod outputs;

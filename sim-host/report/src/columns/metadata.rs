@@ -8,7 +8,7 @@ use super::error::TableError;
 /// What a file says of itself: names and texts, such as the command that made it.
 pub type Metadata = [(String, String)];
 
-/// The fields of `maker` by their names: texts as they are, anything else as JSON.
+/// The fields of `maker`, sorted by name: texts as they are, anything else as JSON.
 ///
 /// # Errors
 /// [`TableError::Metadata`] when `maker` has no JSON.
@@ -17,7 +17,9 @@ pub fn metadata_of(maker: &impl Serialize) -> Result<Vec<(String, String)>, Tabl
         Value::String(text) => text,
         other => other.to_string(),
     };
-    Ok(match serde_json::to_value(maker).map_err(TableError::Metadata)? {
+    let mut maker = serde_json::to_value(maker).map_err(TableError::Metadata)?;
+    maker.sort_all_objects();
+    Ok(match maker {
         Value::Object(fields) => fields.into_iter().map(|(name, value)| (name, text(value))).collect(),
         _ => Vec::new(),
     })

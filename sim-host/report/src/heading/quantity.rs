@@ -191,8 +191,10 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
-    use sprag_sim::effect::EFFECTS;
+    use sprag_sim::keys::Described;
+    use sprag_sim::keys::list::keys;
     use sprag_sim::scene::SceneError;
+    use sprag_sim::scene::schema::SceneFile;
 
     const SCENE: &str = "
         block = { size_m = 2.0, slenderness_deg = 10.0, mass_kg = 100.0 }
@@ -216,14 +218,6 @@ mod tests {
         assert_eq!(title("checks.gear.allowable_stress_mpa"), "gear allowable stress (MPa)");
     }
 
-    /// Names after the key's prefix in every page that lists keys.
-    fn documented() -> BTreeSet<String> {
-        let pages = [include_str!("../../../../docs/scenes.md"), include_str!("../../../../docs/controller.md")];
-        let quoted = pages.iter().flat_map(|page| page.split('`').skip(1).step_by(2)).map(str::trim);
-        let is_key = |text: &&str| text.chars().all(|character| character.is_ascii_alphanumeric() || "._".contains(character));
-        quoted.filter(|text| !text.is_empty()).filter(is_key).map(str::to_owned).collect()
-    }
-
     /// Whether an axis may set `key`: a scene takes a number there, if perhaps another one, or not together with others.
     fn takes_a_number(key: &str) -> bool {
         let text = SCENE.replace("kind = 'inerter'", "kind = 'clutched-pair'") + "\nchecks = {}\n";
@@ -238,16 +232,10 @@ mod tests {
 
     #[test]
     fn every_numeric_key_has_a_title_without_stray_underscores() {
-        let sections = ["block", "device.1", "ground.0", "vertical.0", "run", "accuracy", "output", "controller", "checks"];
-        let mut keys: BTreeSet<String> = EFFECTS
-            .iter()
-            .flat_map(|effect| effect.keys.iter().map(|key| key.key.replace(".N.", ".1.")))
-            .chain(QUANTITIES.iter().map(|quantity| quantity.key.replace('N', "0")))
-            .collect();
-        for name in documented() {
-            keys.extend(sections.iter().map(|section| format!("{section}.{name}")));
-            keys.insert(name);
-        }
+        let numbered = |path: &str| path.replace("device.N.", "device.1.").replace('N', "0");
+        let of_scene =
+            keys(SceneFile::schema()).into_iter().map(|key| numbered(&key.path)).filter(|key| !key.starts_with("map."));
+        let keys: BTreeSet<String> = of_scene.chain(QUANTITIES.iter().map(|quantity| numbered(quantity.key))).collect();
         let numeric: Vec<&String> = keys.iter().filter(|key| takes_a_number(key)).collect();
         assert!(numeric.len() > 70, "{numeric:?}");
         for key in numeric {

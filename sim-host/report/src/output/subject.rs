@@ -56,7 +56,10 @@ impl Subject {
     /// [`OutputError`] when `value` cannot be written as JSON: a path that is not Unicode.
     pub fn with(mut self, name: &str, value: &impl Serialize) -> Result<Subject, OutputError> {
         // Through text, as `summary.json` is written and read.
-        let value = serde_json::to_string(value).and_then(|text| serde_json::from_str(&text));
+        let value = serde_json::to_string(value).and_then(|text| serde_json::from_str(&text)).map(|mut value: Value| {
+            value.sort_all_objects();
+            value
+        });
         let failed = |error: serde_json::Error| OutputError {
             path: PathBuf::from("summary.json"),
             reason: format!("cannot be written: {name}: {error}"),

@@ -2,7 +2,7 @@
 
 use sprag_shared::structure::block::Geometry;
 
-use super::{Effect, EffectKey, settings};
+use super::{Effect, settings};
 
 /// Which equation of the block.
 pub const GEOMETRY: Effect = Effect {
@@ -13,7 +13,7 @@ pub const GEOMETRY: Effect = Effect {
         "slender: λ θ̈ = −(g/R) [ δ + ü_g/g ],  ℓ constant",
     ],
     source: "Thiers-Moggia and Málaga-Chuquitaype 2019, Eq. 2 and 15-18; Housner 1963",
-    keys: &[EffectKey { key: "block.geometry", default: "\"full\"", range: "\"full\" or \"slender\"" }],
+    keys: &["block.geometry"],
     of_device: false,
     is_on: |scene, index| (scene.geometry() == Geometry::Slender).then(|| settings(scene, index, GEOMETRY.keys)),
 };
@@ -24,7 +24,7 @@ pub const VERTICAL: Effect = Effect {
     summary: "a vertical ground acceleration, positive upwards, that makes the block heavier and lighter",
     equation: &["g sin δ becomes (g + v̈_g) sin δ; uplift from rest when |ü_g| > (g + v̈_g) tan α; refused unless 1 + v̈_g/g > 0"],
     source: "Yim, Chopra and Penzien 1980",
-    keys: &[EffectKey { key: "vertical", default: "-", range: "tables with the keys of [[ground]] but amplitude_ratio" }],
+    keys: &["vertical"],
     of_device: false,
     is_on: |scene, _| match scene.file.vertical.len() {
         0 => None,
@@ -45,7 +45,7 @@ pub const IMPACT: Effect = Effect {
         "                  0.46 for η = 0.85 and α = 10°, 0.69 with σ = 0.5 engaged at the centre of mass",
     ],
     source: "Eq. 3 of the paper; Housner 1963; moment of momentum about the new toe with the inerter's impulse, derived here",
-    keys: &[EffectKey { key: "block.restitution", default: "0.85", range: "from 0 to 1, \"geometric\" or \"momentum-balance\"" }],
+    keys: &["block.restitution"],
     of_device: false,
     is_on: |scene, index| Some(settings(scene, index, IMPACT.keys)).filter(|setting| !setting.is_empty()),
 };

@@ -2,7 +2,7 @@
 
 use sprag_shared::structure::drivetrain::{Actuation, Engagement, FlywheelLosses};
 
-use super::{Effect, EffectKey, settings};
+use super::{Effect, settings};
 
 /// Clutches without properties of their own.
 pub const ENGAGEMENT: Effect = Effect {
@@ -13,11 +13,7 @@ pub const ENGAGEMENT: Effect = Effect {
         "overrunning: locked while the flywheel of this direction resists; lets go when it would drive; locks again at w = ẋ",
     ],
     source: "Makris and Kampas 2016 for the pair; conservation of angular momentum; kinematics of one-way clutches",
-    keys: &[EffectKey {
-        key: "device.N.engagement",
-        default: "\"ideal\"",
-        range: "\"ideal\", \"rigid\" or \"overrunning\"; clutched pair",
-    }],
+    keys: &["device.N.engagement"],
     of_device: true,
     is_on: |scene, index| {
         let on = match scene.devices[index].drivetrain.engagement {
@@ -38,13 +34,13 @@ pub const CLUTCH: Effect = Effect {
     ],
     source: "Coulomb friction; Nordin and Gutman 2002 for the dead zone of a backlash",
     keys: &[
-        EffectKey { key: "device.N.clutch.capacity_ratio", default: "-", range: "above 0, to 1e6, of the block's weight" },
-        EffectKey { key: "device.N.clutch.capacity_n", default: "-", range: "the same in N; needs block.mass_kg" },
-        EffectKey { key: "device.N.clutch.stiffness_ratio", default: "-", range: "K/(m p²), above 0; K/m to 1e12 1/s²" },
-        EffectKey { key: "device.N.clutch.stiffness_n_m", default: "-", range: "K in N/m; needs block.mass_kg" },
-        EffectKey { key: "device.N.clutch.damping_ratio", default: "-", range: "C/(2 √(K m_r)), 0 or more; C/m to 1e6 1/s" },
-        EffectKey { key: "device.N.clutch.damping_n_s_m", default: "-", range: "C in N s/m; needs block.mass_kg" },
-        EffectKey { key: "device.N.clutch.backlash_m", default: "-", range: "from 0 to 1 m, from contact to contact" },
+        "device.N.clutch.capacity_ratio",
+        "device.N.clutch.capacity_n",
+        "device.N.clutch.stiffness_ratio",
+        "device.N.clutch.stiffness_n_m",
+        "device.N.clutch.damping_ratio",
+        "device.N.clutch.damping_n_s_m",
+        "device.N.clutch.backlash_m",
     ],
     of_device: true,
     is_on: |scene, index| {
@@ -67,13 +63,13 @@ pub const ACTUATION: Effect = Effect {
     ],
     source: "inertial: the current of a coil must build up before the armature moves; misses drawn from the seed",
     keys: &[
-        EffectKey { key: "device.N.actuation.engagement_delay_s", default: "0", range: "from 0 to 10 s" },
-        EffectKey { key: "device.N.actuation.release_delay_s", default: "0", range: "from 0 to 10 s" },
-        EffectKey { key: "device.N.actuation.delay", default: "\"inertial\"", range: "\"inertial\" or \"transport\"" },
-        EffectKey { key: "device.N.actuation.rise_time_s", default: "0", range: "from 0 to 10 s; needs a capacity" },
-        EffectKey { key: "device.N.actuation.dwell_s", default: "0", range: "from 0 to 10 s" },
-        EffectKey { key: "device.N.actuation.miss_probability", default: "0", range: "from 0 to 1" },
-        EffectKey { key: "device.N.actuation.miss_seed", default: "0", range: "an integer, 0 or more" },
+        "device.N.actuation.engagement_delay_s",
+        "device.N.actuation.release_delay_s",
+        "device.N.actuation.delay",
+        "device.N.actuation.rise_time_s",
+        "device.N.actuation.dwell_s",
+        "device.N.actuation.miss_probability",
+        "device.N.actuation.miss_seed",
     ],
     of_device: true,
     is_on: |scene, index| {
@@ -89,13 +85,9 @@ pub const FLYWHEEL: Effect = Effect {
     equation: &["ẇ = F/m_r − c w − (d + b) sgn w,  w the speed of a rack that moves with it; b only while released"],
     source: "Newton's law of a flywheel with viscous and Coulomb friction; the paper asks for a means to slow it down (Eq. 10)",
     keys: &[
-        EffectKey { key: "device.N.flywheel.viscous_rate_1_s", default: "0", range: "from 0 to 1e6 1/s" },
-        EffectKey { key: "device.N.flywheel.dry_deceleration_m_s2", default: "0", range: "from 0 to 1e6 m/s²" },
-        EffectKey {
-            key: "device.N.flywheel.brake_deceleration_m_s2",
-            default: "0",
-            range: "from 0 to 1e9 m/s² or \"instant\"; not if ideal",
-        },
+        "device.N.flywheel.viscous_rate_1_s",
+        "device.N.flywheel.dry_deceleration_m_s2",
+        "device.N.flywheel.brake_deceleration_m_s2",
     ],
     of_device: true,
     is_on: |scene, index| {

@@ -4,7 +4,7 @@ use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
 use sprag_shared::structure::mount::Mount;
 
-use super::{Effect, EffectKey, settings};
+use super::{Effect, settings};
 
 /// Where the inerter is tied.
 pub const MOUNT: Effect = Effect {
@@ -16,15 +16,7 @@ pub const MOUNT: Effect = Effect {
         "others:         ℓ = A cos δ + s B sin δ, A and B from height, corner and pulley ratio n",
     ],
     source: "Figures 3 and 4 of the paper, Eq. 11; other points by the same derivative",
-    keys: &[
-        EffectKey {
-            key: "device.N.mount",
-            default: "\"centre-of-mass\"",
-            range: "\"centre-of-mass\", \"tying-point\" or \"base-corners\"",
-        },
-        EffectKey { key: "device.N.mount_height_m", default: "-", range: "above 0 m; tying point only" },
-        EffectKey { key: "device.N.pulley_ratio", default: "1", range: "above 0; tying point and base corners" },
-    ],
+    keys: &["device.N.mount", "device.N.mount_height_m", "device.N.pulley_ratio"],
     of_device: true,
     is_on: |scene, index| {
         let mount = scene.devices[index].device.mount;
@@ -38,7 +30,7 @@ pub const KINEMATICS: Effect = Effect {
     summary: "the acceleration of the terminals with its θ̇² term, which conserves energy",
     equation: &["paper:      ü = R ℓ θ̈", "consistent: ü = R (ℓ θ̈ + ℓ′ θ̇²)"],
     source: "Eq. 11 of the paper leaves the θ̇² term out; with it, by differentiating the travel twice",
-    keys: &[EffectKey { key: "device.N.kinematics", default: "\"paper\"", range: "\"paper\" or \"consistent\"" }],
+    keys: &["device.N.kinematics"],
     of_device: true,
     is_on: |scene, index| {
         let kinematics = scene.devices[index].device.kinematics;
@@ -57,12 +49,12 @@ pub const WEIGHT: Effect = Effect {
     ],
     source: "composition of centres of mass and parallel-axis theorem",
     keys: &[
-        EffectKey { key: "device.N.weight.flywheels_ratio", default: "-", range: "from 0 to 10, of the block's mass" },
-        EffectKey { key: "device.N.weight.flywheels_kg", default: "-", range: "the same in kg; needs block.mass_kg" },
-        EffectKey { key: "device.N.weight.flywheels_on", default: "\"support\"", range: "\"support\" or \"block\"" },
-        EffectKey { key: "device.N.weight.rack_ratio", default: "-", range: "from 0 to 10, of the block's mass" },
-        EffectKey { key: "device.N.weight.rack_kg", default: "-", range: "the same in kg; needs block.mass_kg" },
-        EffectKey { key: "device.N.weight.rack_on", default: "\"support\"", range: "\"support\" or \"block\", not both there" },
+        "device.N.weight.flywheels_ratio",
+        "device.N.weight.flywheels_kg",
+        "device.N.weight.flywheels_on",
+        "device.N.weight.rack_ratio",
+        "device.N.weight.rack_kg",
+        "device.N.weight.rack_on",
     ],
     of_device: true,
     is_on: |scene, index| {
@@ -79,10 +71,10 @@ pub const RACK: Effect = Effect {
     equation: &["F_r = m (c_r ẋ + μ_r g sgn ẋ),  ẋ = R ℓ θ̇"],
     source: "Coulomb and viscous friction",
     keys: &[
-        EffectKey { key: "device.N.rack.viscous_1_s", default: "-", range: "from 0 to 1000 1/s, per block mass" },
-        EffectKey { key: "device.N.rack.viscous_n_s_m", default: "-", range: "the same in N s/m; needs block.mass_kg" },
-        EffectKey { key: "device.N.rack.dry_friction_ratio", default: "-", range: "from 0 to 10, of the block's weight" },
-        EffectKey { key: "device.N.rack.dry_friction_n", default: "-", range: "the same in N; needs block.mass_kg" },
+        "device.N.rack.viscous_1_s",
+        "device.N.rack.viscous_n_s_m",
+        "device.N.rack.dry_friction_ratio",
+        "device.N.rack.dry_friction_n",
     ],
     of_device: true,
     is_on: |scene, index| {

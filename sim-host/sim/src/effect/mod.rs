@@ -10,18 +10,12 @@ pub mod number;
 pub mod output;
 pub mod rules;
 
-use crate::scene::Scene;
+use std::sync::LazyLock;
 
-/// A key that belongs to an effect.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct EffectKey {
-    /// From the root of a scene, with dots; `N` is the number of a table.
-    pub key: &'static str,
-    /// Value when absent, as a scene spells it; "-" for none.
-    pub default: &'static str,
-    /// What it may be.
-    pub range: &'static str,
-}
+use crate::keys::list::keys;
+use crate::keys::{Described, Key};
+use crate::scene::Scene;
+use crate::scene::schema::SceneFile;
 
 /// An effect.
 #[derive(Clone, Copy, Debug)]
@@ -34,8 +28,8 @@ pub struct Effect {
     pub equation: &'static [&'static str],
     /// Where that comes from.
     pub source: &'static str,
-    /// Its keys.
-    pub keys: &'static [EffectKey],
+    /// The paths of its keys in a scene; `N` is the number of a table.
+    pub keys: &'static [&'static str],
     /// Each device has its own; otherwise it is the whole scene's.
     pub of_device: bool,
     /// The keys and values by which a scene turns it on for device number n, which the scene has; `None` while it is off.
@@ -64,18 +58,31 @@ pub fn find(name: &str) -> Option<&'static Effect> {
     EFFECTS.into_iter().find(|effect| effect.name == name)
 }
 
+impl Effect {
+    /// Its keys, described.
+    pub fn described_keys(&self) -> impl Iterator<Item = &'static Key> {
+        described(self.keys)
+    }
+}
+
+/// `paths` of a scene, described.
+fn described(paths: &'static [&'static str]) -> impl Iterator<Item = &'static Key> {
+    static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| keys(SceneFile::schema()));
+    paths.iter().filter_map(|path| KEYS.iter().find(|key| key.path == *path))
+}
+
 /// Those of `keys` that `scene` sets to something else than their defaults, for device number `index`: `key = value, …`.
-fn settings(scene: &Scene, index: usize, keys: &[EffectKey]) -> String {
+fn settings(scene: &Scene, index: usize, keys: &'static [&'static str]) -> String {
     let Ok(file) = serde_json::to_value(&scene.file) else {
         return String::new();
     };
-    let set = keys.iter().filter_map(|key| {
-        let name = key.key.replacen('N', &index.to_string(), 1);
+    let set = described(keys).filter_map(|key| {
+        let name = key.path.replacen('N', &index.to_string(), 1);
         let value = name.split('.').try_fold(&file, |value, part| match part.parse::<usize>() {
             Ok(index) => value.get(index),
             Err(_) => value.get(part),
         })?;
-        (!is_default(value, key.default)).then(|| format!("{name} = {value}"))
+        (!is_default(value, &key.default_text())).then(|| format!("{name} = {value}"))
     });
     set.collect::<Vec<_>>().join(", ")
 }

@@ -1,6 +1,6 @@
 //! Effects on what is reported: checks of demands, and the energy ledger. The motion stays as it is.
 
-use super::{Effect, EffectKey, settings};
+use super::{Effect, settings};
 
 /// Demands on support and gears.
 pub const CHECKS: Effect = Effect {
@@ -15,13 +15,13 @@ pub const CHECKS: Effect = Effect {
     ],
     source: "equilibrium and momentum of the block; Lewis 1893 for the bending stress of teeth",
     keys: &[
-        EffectKey { key: "checks.friction_coefficient", default: "-", range: "above 0, to 10; without, only reported" },
-        EffectKey { key: "checks.gear.module_mm", default: "-", range: "above 0, to 100 mm; needs block.mass_kg" },
-        EffectKey { key: "checks.gear.face_width_mm", default: "-", range: "above 0, to 10000 mm" },
-        EffectKey { key: "checks.gear.teeth", default: "-", range: "from 12 to 10000" },
-        EffectKey { key: "checks.gear.allowable_stress_mpa", default: "-", range: "above 0, to 100000 MPa" },
-        EffectKey { key: "checks.largest_force_ratio", default: "-", range: "above 0, to 1e6, of the block's weight" },
-        EffectKey { key: "checks.largest_stroke_m", default: "-", range: "above 0, to 10000 m" },
+        "checks.friction_coefficient",
+        "checks.gear.module_mm",
+        "checks.gear.face_width_mm",
+        "checks.gear.teeth",
+        "checks.gear.allowable_stress_mpa",
+        "checks.largest_force_ratio",
+        "checks.largest_stroke_m",
     ],
     of_device: false,
     is_on: |scene, index| {
@@ -37,7 +37,7 @@ pub const ENERGY: Effect = Effect {
     summary: "an energy ledger: kinetic, potential, stored, given by the ground, lost at impacts and in the device; plotted",
     equation: &["initial + input of the ground + created = kinetic + potential + stored + Σ dissipated"],
     source: "energy balance of block and device",
-    keys: &[EffectKey { key: "output.energy", default: "false", range: "true or false" }],
+    keys: &["output.energy"],
     of_device: false,
     is_on: |scene, index| scene.file.output.energy.then(|| settings(scene, index, ENERGY.keys)),
 };

@@ -1,5 +1,6 @@
 //! `[accuracy]`: how a scene is integrated.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sprag_loops::Method;
 use sprag_shared::method::fixed::FixedStep;
@@ -9,18 +10,18 @@ use super::schema::KeyOf;
 use crate::accuracy::{Accuracy, Closeness};
 
 /// How a scene is integrated.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MethodName {
-    /// Taylor series, steps of its own choice unless `step_s` is given.
+    /// Taylor series, in steps of its own choice without a fixed step.
     #[default]
     Taylor,
-    /// Order 4, fixed steps.
+    /// Runge-Kutta, order 4, fixed steps.
     #[serde(rename = "runge-kutta-4")]
     RungeKutta4,
-    /// Order 1, fixed steps; ideal devices only.
+    /// Semi-implicit Euler, order 1, fixed steps; ideal devices only.
     SemiImplicitEuler,
-    /// Order 2, fixed steps, for stiff elastic clutches; devices without one are integrated by Runge-Kutta 4 at the same step.
+    /// Exponential midpoint, order 2, fixed steps, for stiff elastic clutches; other devices by Runge-Kutta 4.
     ExponentialMidpoint,
 }
 
@@ -52,38 +53,39 @@ impl MethodName {
 }
 
 /// f32 or f64.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Precision {
-    /// As on the host.
+    /// 64 bits, as on the host.
     #[default]
     F64,
-    /// As on the microcontroller.
+    /// 32 bits, as on the microcontroller; needs a fixed step.
     F32,
 }
 
 /// Located inside the step, or noticed at its end.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum EventTreatment {
     /// Impacts and clutch switches take place where they are.
     #[default]
     Located,
-    /// Impacts and the clutch are looked at once a step, as in the paper.
+    /// Impacts and clutch switches are noticed at ends of steps, as in the paper; ideal devices only.
     StepEnd,
 }
 
 /// `[accuracy]`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AccuracyTable {
-    /// How accurate, in place of a method and its parameters; then errors are reported.
+    /// Accuracy in place of all other keys of the table: a word, or a relative error of the peak rotation; errors are reported.
     #[serde(default, skip_serializing_if = "Option::is_none", with = "level")]
+    #[schemars(with = "level::Written")]
     pub level: Option<Accuracy>,
-    /// The method.
+    /// Method of integration.
     #[serde(default)]
     pub method: MethodName,
-    /// f64 or f32.
+    /// Floating-point numbers that are used.
     #[serde(default)]
     pub precision: Precision,
     /// Where events take place.
@@ -91,12 +93,15 @@ pub struct AccuracyTable {
     pub events: EventTreatment,
     /// Size of the last terms of the series over the rotation that matters.
     #[serde(default = "tight")]
+    #[schemars(range(min = 1e-20, max = 1e-2))]
     pub tolerance: f64,
-    /// Fixed step, s.
+    /// Fixed step; or give `step_ratio`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-7, max = 1.0))]
     pub step_s: Option<f64>,
-    /// Fixed step, in 1/p.
+    /// Fixed step, in 1/p; or give `step_s`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-7, max = 1.0))]
     pub step_ratio: Option<f64>,
 }
 
@@ -106,15 +111,19 @@ fn tight() -> f64 {
 
 /// A level is a word or a number.
 mod level {
+    use schemars::JsonSchema;
     use serde::{Deserialize, Deserializer, Serializer, de::Error};
 
     use crate::accuracy::Accuracy;
 
-    #[derive(Deserialize)]
+    #[derive(Deserialize, JsonSchema)]
     #[serde(untagged)]
-    enum Written {
+    pub enum Written {
+        /// "tight" is the most accurate.
+        #[schemars(extend("enum" = ["fast", "normal", "tight"]))]
         Word(String),
-        Number(f64),
+        /// Relative error of the peak rotation.
+        Number(#[schemars(range(min = 1e-15, max = 0.1))] f64),
     }
 
     pub fn serialize<S: Serializer>(level: &Option<Accuracy>, serializer: S) -> Result<S::Ok, S::Error> {
@@ -156,15 +165,8 @@ impl AccuracyTable {
         if self.level.is_some() && own != AccuracyTable::default() {
             return Err(key("accuracy.level").conflict("give a level, or a method and its parameters"));
         }
-        key("accuracy.tolerance").require(self.tolerance, (1e-20..=1e-2).contains(&self.tolerance), "from 1e-20 to 0.01")?;
         if self.step_s.is_some() && self.step_ratio.is_some() {
             return Err(key("accuracy.step_s").conflict("give only one of step_s and step_ratio"));
-        }
-        if let Some(step) = self.step_s {
-            key("accuracy.step_s").require(step, (1e-7..=1.0).contains(&step), "from 1e-7 to 1 s")?;
-        }
-        if let Some(step) = self.step_ratio {
-            key("accuracy.step_ratio").require(step, (1e-7..=1.0).contains(&step), "from 1e-7 to 1")?;
         }
         let fixed = self.step_s.is_some() || self.step_ratio.is_some();
         if !fixed && self.method != MethodName::Taylor {

@@ -1,5 +1,6 @@
 //! `[controller]`: what drives the clutches in a closed loop.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::error::{Key, SceneError};
@@ -8,7 +9,7 @@ use super::sensors::SensorsTable;
 use crate::sensor::Suite;
 
 /// Estimators.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum EstimatorName {
     /// The equation of motion, corrected by gyroscope and encoder.
@@ -16,7 +17,7 @@ pub enum EstimatorName {
     ModelAided,
     /// Kinematic Kalman filter of gyroscope, accelerometers and encoder.
     Kalman,
-    /// Encoder and accelerometers, without a gyroscope.
+    /// Complementary filter of encoder and accelerometers, without a gyroscope.
     Complementary,
 }
 
@@ -35,7 +36,7 @@ impl EstimatorName {
 }
 
 /// Clutch laws.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum LawName {
     /// Never engaged.
@@ -82,24 +83,24 @@ impl LawName {
 }
 
 /// What the clutches do after a fault.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SafeStateName {
-    /// Both are open: the block alone.
+    /// Both open: the block alone.
     Released,
-    /// The first stays engaged: a plain inerter.
+    /// The first engaged: a plain inerter.
     #[default]
     Engaged,
 }
 
 /// What tells the controller which clutches are engaged.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum FeedbackName {
-    /// A switch at each armature.
+    /// Switches at the armatures.
     #[default]
     Position,
-    /// The current through each coil, which goes before the armature.
+    /// Currents through the coils, which go before the armatures.
     Current,
 }
 
@@ -109,21 +110,26 @@ pub enum FeedbackName {
 pub const MODEL_ERROR: f64 = 0.02;
 
 /// What the controller believes of the structure, as factors on the truth, and how far it trusts that.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BeliefTable {
-    /// On α.
+    /// Believed over true slenderness α.
+    #[schemars(range(min = 0.1, max = 3.0))]
     pub slenderness_factor: f64,
-    /// On R.
+    /// Believed over true size R.
+    #[schemars(range(min = 0.1, max = 3.0))]
     pub size_factor: f64,
-    /// On σ.
+    /// Believed over true mass ratio σ.
+    #[schemars(range(min = 0.1, max = 3.0))]
     pub mass_ratio_factor: f64,
-    /// On η.
+    /// Believed over true restitution η.
+    #[schemars(range(min = 0.1, max = 3.0))]
     pub restitution_factor: f64,
-    /// On the clutches' lags behind their currents.
+    /// Believed over true lags of the clutches behind their currents.
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub lag_factor: f64,
-    /// Share of p²α by which the equation of motion may be wrong (α and R, friction, the other direction): the process noise of the
-    /// model-aided estimator.
+    /// Share of p²α by which the equation of motion may be wrong: process noise of the model-aided estimator.
+    #[schemars(range(min = 1e-4, max = 10.0))]
     pub model_error: f64,
 }
 
@@ -141,43 +147,53 @@ impl Default for BeliefTable {
 }
 
 /// `[controller]`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ControllerTable {
-    /// Control ticks a second, Hz.
+    /// Control ticks a second.
+    #[schemars(range(min = 100.0, max = 1e5))]
     pub rate_hz: f64,
-    /// Estimator.
+    /// Estimator of the motion.
     pub estimator: EstimatorName,
-    /// Law.
+    /// Clutch law.
     pub law: LawName,
-    /// The table of the sign-table law: bit 4 [θ·v > 0] + 2 [a·v > 0] + [ü_g·v > 0].
+    /// Table of the law "sign-table": bit 4 [θ·v > 0] + 2 [a·v > 0] + [ü_g·v > 0] says whether to engage; 102 without the key.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(example = 102)]
     pub sign_table: Option<u8>,
-    /// Computation and transport, from a sample to the command at the clutch, s. The clutch's own delays are the device's.
+    /// Time from a sample to the command at the clutch, without the clutch's own delays.
+    #[schemars(range(min = 0.0, max = 0.1))]
     pub latency_s: f64,
     /// Width of the hysteresis of signs, in standard deviations of the estimate.
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub hysteresis: f64,
-    /// Minimum dwell of a command, s.
+    /// Least time between two commands.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub dwell_s: f64,
-    /// Both clutches are engaged while the block stands, so that a flywheel resists from the start of uplift to either side.
+    /// Whether both clutches are engaged while the block stands, so that a flywheel resists from the start of uplift.
     pub engaged_at_rest: bool,
-    /// What the clutches do after a fault.
+    /// State of the clutches after a fault.
     pub safe_state: SafeStateName,
-    /// What tells which clutches are engaged.
+    /// What tells the controller which clutches are engaged.
     pub feedback: FeedbackName,
-    /// From a current that engages to a clutch that has closed, s.
+    /// Time from a current that engages to a closed clutch, with feedback by current.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub closing_lag_s: f64,
-    /// From a current that has died to a clutch that has opened, s.
+    /// Time from a current that has died to an open clutch, with feedback by current.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub opening_lag_s: f64,
-    /// Pieces of a tick at whose ends the sensors see the plant.
+    /// Parts of a tick at whose ends the sensors see the motion.
+    #[schemars(range(min = 1, max = 64))]
     pub substeps: u32,
-    /// Duration of the shock that sensors see at an impact, s.
+    /// Duration of an impact as sensors see it.
+    #[schemars(range(min = 0.0, max = 0.1))]
     pub shock_s: f64,
-    /// Stillness before the motion, for self-test and calibration, s.
+    /// Stillness before the motion, for self-test and calibration.
+    #[schemars(range(min = 0.0, max = 60.0))]
     pub prelude_s: f64,
-    /// Belief about the structure.
+    /// Belief of the controller about the structure, as factors on the truth.
     pub belief: BeliefTable,
-    /// Sensors.
+    /// Sensors of the controller; ideal without a key.
     pub sensors: SensorsTable,
 }
 
@@ -219,27 +235,6 @@ impl ControllerTable {
     /// # Errors
     /// [`SceneError`] names the key.
     pub fn check(&self, key: &KeyOf<'_>) -> Result<Suite, SceneError> {
-        let within = |name: &str, value: f64, lowest: f64, highest: f64, range: &str| {
-            key(&format!("controller.{name}")).require(value, (lowest..=highest).contains(&value), range)
-        };
-        within("rate_hz", self.rate_hz, 100.0, 100_000.0, "from 100 to 100000 Hz")?;
-        within("latency_s", self.latency_s, 0.0, 0.1, "from 0 to 0.1 s")?;
-        within("hysteresis", self.hysteresis, 0.0, 10.0, "from 0 to 10")?;
-        within("dwell_s", self.dwell_s, 0.0, 1.0, "from 0 to 1 s")?;
-        within("closing_lag_s", self.closing_lag_s, 0.0, 1.0, "from 0 to 1 s")?;
-        within("opening_lag_s", self.opening_lag_s, 0.0, 1.0, "from 0 to 1 s")?;
-        within("substeps", f64::from(self.substeps), 1.0, 64.0, "from 1 to 64")?;
-        within("shock_s", self.shock_s, 0.0, 0.1, "from 0 to 0.1 s")?;
-        within("prelude_s", self.prelude_s, 0.0, 60.0, "from 0 to 60 s")?;
-        for (name, factor) in [
-            ("slenderness_factor", self.belief.slenderness_factor),
-            ("size_factor", self.belief.size_factor),
-            ("mass_ratio_factor", self.belief.mass_ratio_factor),
-            ("restitution_factor", self.belief.restitution_factor),
-        ] {
-            within(&format!("belief.{name}"), factor, 0.1, 3.0, "from 0.1 to 3")?;
-        }
-        within("belief.model_error", self.belief.model_error, 1e-4, 10.0, "from 0.0001 to 10")?;
         if self.sign_table.is_some() && self.law != LawName::SignTable {
             return Err(key("controller.sign_table").conflict("only the law \"sign-table\" has a table"));
         }

@@ -1,5 +1,6 @@
 //! `[[device]]`: which device, where, and what is real about it.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::Block;
@@ -66,51 +67,60 @@ impl SceneDevice {
 }
 
 /// `[[device]]`.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DeviceTable {
-    /// None, inerter or clutched pair.
+    /// Kind of device.
     pub kind: Kind,
-    /// Its name in tables and legends.
+    /// Name in tables and legends; its kind without the key.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"pair")]
     pub name: Option<String>,
-    /// σ.
+    /// Mass ratio σ of inertance and block; or give `inertance_kg` or `flywheels`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e4))]
     pub mass_ratio: Option<f64>,
-    /// m_r, kg.
+    /// Inertance m_r; or give `mass_ratio` or `flywheels`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub inertance_kg: Option<f64>,
-    /// A flywheel train (Eq. 9), the first on the rack.
+    /// Flywheel train (Eq. 9), the first on the rack; or give `mass_ratio` or `inertance_kg`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(example = EXAMPLE_TRAIN)]
     pub flywheels: Option<Vec<FlywheelTable>>,
-    /// Where it is attached.
+    /// Where the device is attached (Figure 3).
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = MountName::default()))]
     pub mount: Option<MountName>,
-    /// Height of a tying point above the base, m.
+    /// Height of a tying point above the base.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub mount_height_m: Option<f64>,
-    /// Travel of the terminal over that of the point.
+    /// Travel of the terminal over that of the tying point or corner; of "tying-point" and "base-corners".
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0, "default" = 1.0))]
     pub pulley_ratio: Option<f64>,
-    /// Paper or consistent.
+    /// Acceleration of the terminals; always "consistent" where flywheels have a speed of their own.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = KinematicsName::Paper))]
     pub kinematics: Option<KinematicsName>,
-    /// How its flywheels are coupled, without a clutch's properties.
+    /// How the flywheels of a clutched pair are coupled, in the place of `clutch`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = EngagementName::default()))]
     pub engagement: Option<EngagementName>,
-    /// What slows its flywheels down.
+    /// Losses of the flywheels, as deceleration of a rack that moves with them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flywheel: Option<FlywheelLossesTable>,
-    /// Its clutches' properties.
+    /// Properties of the clutches of a clutched pair: a capacity makes plates that slip, a stiffness a spring.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clutch: Option<ClutchTable>,
-    /// What its rack meets.
+    /// Friction that the rack meets, whatever the clutch does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rack: Option<RackTable>,
-    /// What delays its clutches.
+    /// Delays between a command and a clutch that has obeyed it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub actuation: Option<ActuationTable>,
-    /// What it weighs, and where.
+    /// Gravitational mass of the device, and what it rides on.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weight: Option<WeightTable>,
 }
@@ -139,14 +149,14 @@ impl DeviceTable {
 }
 
 /// Kinds of devices.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
     /// No device.
     None,
     /// One inerter.
     Inerter,
-    /// Two clutched inerters.
+    /// Two clutched inerters (Eq. 10).
     ClutchedPair,
 }
 
@@ -171,15 +181,21 @@ impl From<Kind> for DeviceKind {
     }
 }
 
+/// A train of one flywheel.
+const EXAMPLE_TRAIN: [FlywheelTable; 1] = [FlywheelTable { mass_kg: 3.0, radius_m: 0.4, pinion_radius_m: 0.1 }];
+
 /// A flywheel and its pinion.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FlywheelTable {
-    /// kg.
+    /// Mass of the flywheel.
+    #[schemars(range(min = 0.0))]
     pub mass_kg: f64,
-    /// m.
+    /// Radius of the flywheel.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub radius_m: f64,
-    /// m.
+    /// Radius of its pinion.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub pinion_radius_m: f64,
 }
 
@@ -191,15 +207,15 @@ impl FlywheelTable {
 }
 
 /// Mounts of Figure 3.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MountName {
-    /// Horizontal at the centre of mass.
+    /// Horizontal, at the centre of mass.
     #[default]
     CentreOfMass,
-    /// Horizontal at a height on the centre line.
+    /// Horizontal, at `mount_height_m` on the centre line.
     TyingPoint,
-    /// Vertical at both base corners.
+    /// Vertical, at both base corners.
     BaseCorners,
 }
 
@@ -215,12 +231,12 @@ impl MountName {
 }
 
 /// Paper or consistent.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum KinematicsName {
-    /// Eq. 11.
+    /// ü = R ℓ θ̈ (Eq. 11).
     Paper,
-    /// With the θ̇² term.
+    /// With the θ̇² term, which conserves energy.
     Consistent,
 }
 
@@ -281,12 +297,7 @@ fn resolve_inerter(table: &DeviceTable, block_mass: Option<f64>, key: &KeyOf<'_>
     let mass = || block_mass.ok_or_else(|| key("inertance_kg").conflict("an inertance in kg needs block.mass_kg"));
     let mass_ratio = match (table.mass_ratio, table.inertance_kg, &table.flywheels) {
         (Some(ratio), None, None) => ratio,
-        (None, Some(inertance), None) => {
-            if inertance.is_nan() || inertance < 0.0 {
-                return Err(key("inertance_kg").range(inertance, "0 kg or more"));
-            }
-            inertance / mass()?
-        }
+        (None, Some(inertance), None) => inertance / mass()?,
         (None, None, Some(wheels)) => {
             let train: Vec<Flywheel> = wheels.iter().map(FlywheelTable::wheel).collect();
             inertance_of_train(&train).map_err(|error| key("flywheels").parameter(&error))? / mass()?

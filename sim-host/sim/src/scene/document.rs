@@ -1,24 +1,25 @@
 //! TOML documents as the types of a scene or a study.
 
-use serde::de::DeserializeOwned;
 use serde_path_to_error::{Path, Segment, Track};
 use toml::de::{DeArray, DeTable};
 
-use super::error::SceneError;
+use super::error::{Key, SceneError};
+use crate::keys::Described;
+use crate::keys::bounds::{Outside, outside};
 
 /// Reads `T` from the TOML `text` of a file called `origin`.
 ///
 /// # Errors
-/// [`SceneError::Syntax`] with the line and the key.
-pub fn from_text<T: DeserializeOwned>(text: &str, origin: &str) -> Result<T, SceneError> {
+/// [`SceneError::Syntax`] with the line and the key, [`SceneError::Range`] with the key.
+pub fn from_text<T: Described>(text: &str, origin: &str) -> Result<T, SceneError> {
     read(table(text, origin)?, origin, |path| line_of(text, path))
 }
 
 /// Reads `T` from a table that is no longer what the file `origin` says, so that only keys are named.
 ///
 /// # Errors
-/// [`SceneError::Syntax`] with the key.
-pub fn from_table<T: DeserializeOwned>(table: toml::Table, origin: &str) -> Result<T, SceneError> {
+/// [`SceneError::Syntax`] and [`SceneError::Range`] with the key.
+pub fn from_table<T: Described>(table: toml::Table, origin: &str) -> Result<T, SceneError> {
     read(table, origin, |_| None)
 }
 
@@ -33,24 +34,25 @@ pub fn table(text: &str, origin: &str) -> Result<toml::Table, SceneError> {
     })
 }
 
-fn read<T: DeserializeOwned>(
-    table: toml::Table,
-    origin: &str,
-    line: impl FnOnce(&Path) -> Option<usize>,
-) -> Result<T, SceneError> {
+fn read<T: Described>(table: toml::Table, origin: &str, line: impl FnOnce(&Path) -> Option<usize>) -> Result<T, SceneError> {
+    let outside = outside(&table, T::schema());
     let mut track = Track::new();
     let tracked = serde_path_to_error::Deserializer::new(toml::Value::Table(table), &mut track);
     // The types are compiled for one deserializer, whatever is below it: for toml's and the tracker's they are two thirds of this package.
     let mut document = <dyn erased_serde::Deserializer<'_>>::erase(tracked);
     let read = erased_serde::deserialize(&mut document);
     drop(document);
-    read.map_err(|error| {
+    let document = read.map_err(|error| {
         let path = track.path();
         // Where toml knows no line it says below the message in which key.
         let message = error.to_string();
         let message = message.split_once("\nin `").map_or(message.as_str(), |(message, _)| message);
         SceneError::syntax(origin, line(&path), &path.to_string(), message)
-    })
+    })?;
+    match outside {
+        None => Ok(document),
+        Some(Outside { path, value, range }) => Err(Key { origin: origin.to_owned(), key: path.join(".") }.range(value, &range)),
+    }
 }
 
 /// The line of `text`, from 1, with the last key of `path` that it has.

@@ -1,5 +1,6 @@
 //! The tables of a `[[device]]` that take it beyond the ideal device: `engagement`, `flywheel`, `clutch`, `rack`, `actuation`.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sprag_shared::math;
 use sprag_shared::structure::block::{Block, GRAVITY};
@@ -12,45 +13,47 @@ use super::error::SceneError;
 use super::schema::KeyOf;
 
 /// How flywheels are coupled by a clutch without properties of its own.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum EngagementName {
-    /// The paper's.
+    /// The paper's: a released flywheel stops at once.
     #[default]
     Ideal,
-    /// Obeys Eq. 10, with an exchange of momentum.
+    /// By Eq. 10, with an exchange of momentum.
     Rigid,
-    /// Holds one way, by itself.
+    /// One-way (sprag) clutch, which holds by itself and obeys nobody.
     Overrunning,
 }
 
 /// `flywheel`: what slows it down, as deceleration of a rack that moves with it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FlywheelLossesTable {
-    /// 1/s.
+    /// Rate at which an idle flywheel slows down, as e^(−rate t).
     #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e6))]
     pub viscous_rate_1_s: f64,
-    /// m/s².
+    /// Deceleration by dry friction of the bearings.
     #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e6))]
     pub dry_deceleration_m_s2: f64,
-    /// m/s², or "instant".
+    /// Deceleration by a brake on released flywheels; not of an inerter, an ideal or an overrunning clutch.
     #[serde(default)]
     pub brake_deceleration_m_s2: BrakeValue,
 }
 
 /// A number or a word.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "brake_deceleration_m_s2 must be a number in m/s² or \"instant\"")]
 pub enum BrakeValue {
-    /// m/s².
-    Number(f64),
+    /// Deceleration, m/s².
+    Number(#[schemars(range(min = 0.0, max = 1e9))] f64),
     /// "instant".
     Word(BrakeWord),
 }
 
 /// The word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum BrakeWord {
     /// Stopped at once.
@@ -74,58 +77,69 @@ impl BrakeValue {
 }
 
 /// `clutch`: a capacity makes plates that slip, a stiffness a spring.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ClutchTable {
-    /// Largest force at the rack over the block's weight.
+    /// Largest force at the rack over the block's weight; or give `capacity_n`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e6))]
     pub capacity_ratio: Option<f64>,
-    /// The same in N.
+    /// Largest force at the rack; or give `capacity_ratio`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub capacity_n: Option<f64>,
-    /// K/(mp²), K the stiffness at the rack.
+    /// Stiffness K at the rack, K/(mp²); or give `stiffness_n_m`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub stiffness_ratio: Option<f64>,
-    /// K, N/m.
+    /// Stiffness K at the rack; or give `stiffness_ratio`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub stiffness_n_m: Option<f64>,
-    /// ζ = C/(2 √(K m_r)), C the damping at the rack.
+    /// Damping C at the rack, ζ = C/(2 √(K m_r)); or give `damping_n_s_m`. With a stiffness.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub damping_ratio: Option<f64>,
-    /// C, N s/m.
+    /// Damping C at the rack; or give `damping_ratio`. With a stiffness.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub damping_n_s_m: Option<f64>,
-    /// Play at the rack from contact to contact, m.
+    /// Play at the rack from contact to contact. With a stiffness.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub backlash_m: Option<f64>,
 }
 
 /// `rack`: friction that the rack meets, whatever the clutch does.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RackTable {
-    /// Viscous force over the block's mass and the velocity, 1/s.
+    /// Viscous force over the block's mass and the velocity; or give `viscous_n_s_m`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e3))]
     pub viscous_1_s: Option<f64>,
-    /// Viscous force over the velocity, N s/m.
+    /// Viscous force over the velocity; or give `viscous_1_s`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub viscous_n_s_m: Option<f64>,
-    /// Dry friction over the block's weight.
+    /// Dry friction over the block's weight; or give `dry_friction_n`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub dry_friction_ratio: Option<f64>,
-    /// Dry friction, N.
+    /// Dry friction; or give `dry_friction_ratio`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub dry_friction_n: Option<f64>,
 }
 
 /// Of a clutch's delays.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum DelayName {
-    /// A command shorter than the delay is lost.
+    /// A command that does not last as long as its delay is lost.
     #[default]
     Inertial,
-    /// Every command takes effect after its delay.
+    /// Every command takes effect after its delay, in order; up to 8 are under way.
     Transport,
 }
 
@@ -139,22 +153,27 @@ impl From<DelayName> for Delay {
 }
 
 /// `actuation`: what lies between a command and a clutch that has obeyed it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ActuationTable {
-    /// From the command to engagement, s.
+    /// Time from the command to engagement.
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub engagement_delay_s: f64,
-    /// From the command to release, s.
+    /// Time from the command to release.
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub release_delay_s: f64,
-    /// Whether these two are inertial.
+    /// Kind of these two delays.
     pub delay: DelayName,
-    /// From first contact to full capacity, s.
+    /// Time from first contact to full capacity; needs a capacity.
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub rise_time_s: f64,
-    /// A clutch that has just moved stays so for this long, s.
+    /// Time for which a clutch that has just moved stays so.
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub dwell_s: f64,
     /// Probability that an engagement is missed.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub miss_probability: f64,
-    /// Which engagements those are.
+    /// Seed of which engagements are missed.
     pub miss_seed: u64,
 }
 

@@ -111,7 +111,8 @@ impl SceneError {
     pub fn syntax(origin: &str, line: Option<usize>, path: &str, message: &str) -> SceneError {
         let message = one_line(message);
         let path = dotted(path);
-        let message = match (in_words(&message), path.as_str()) {
+        let words = in_words(&message).or_else(|| with_what_is_meant(&message));
+        let message = match (words, path.as_str()) {
             (None, "" | ".") => message,
             (None, path) => format!("{path}: {message}"),
             (Some(words), "" | ".") => format!("the scene {words}"),
@@ -124,6 +125,24 @@ impl SceneError {
 /// `device.1.kind` for `device[1].kind`, as `--set` and every other message have it.
 fn dotted(path: &str) -> String {
     path.replace('[', ".").replace(']', "")
+}
+
+/// A complaint about a key or a word that does not exist, with the one that may be meant; `None` where none is near, and for any other.
+fn with_what_is_meant(message: &str) -> Option<String> {
+    let (is_key, rest) = match message.strip_prefix("unknown field `") {
+        Some(rest) => (true, rest),
+        None => (false, message.strip_prefix("unknown variant `")?),
+    };
+    let (given, expected) = rest.split_once('`')?;
+    let meant = nearest(given, expected.split('`').skip(1).step_by(2))?;
+    Some(if is_key { format!("is not a key; did you mean `{meant}`?") } else { format!("is {given:?}; did you mean {meant:?}?") })
+}
+
+/// The one of `known` that was probably meant by `given`: about a third of its letters, at most, are other ones.
+pub fn nearest<'a>(given: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let distance = |word: &str| strsim::osa_distance(&given.to_lowercase(), word);
+    let nearest = known.min_by_key(|word| distance(word))?;
+    (3 * distance(nearest) <= nearest.chars().count() + 2).then_some(nearest)
 }
 
 /// A complaint about the kind of a value, `invalid type: integer `5`, expected f64`, in the words of a person; `None` for any other.

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sprag_shared::ground::harmonic::MavroeidisPapageorgiou;
 use sprag_shared::ground::{AnySegment, Harmonics, Linear, Ricker};
@@ -13,64 +14,81 @@ use crate::ground_motion::Component;
 use crate::record::{Component as RecordComponent, ReadOptions, Record, RecordError, RecordSummary, TIME_STEP_RANGE_S, Units};
 
 /// One `[[ground]]` or `[[vertical]]` table.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GroundTable {
-    /// Which motion.
+    /// Kind of motion.
     pub motion: Motion,
-    /// a_g/(g tan α), or a_g/(gα) for the slender model.
+    /// Amplitude a_g/(g tan α), or a_g/(gα) for the slender model; of horizontal motions.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -1e6, max = 1e6))]
     pub amplitude_ratio: Option<f64>,
-    /// a_g, g.
+    /// Amplitude a_g.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -1e3, max = 1e3))]
     pub amplitude_g: Option<f64>,
-    /// a_g, m/s².
+    /// Amplitude a_g.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -1e4, max = 1e4))]
     pub amplitude_m_s2: Option<f64>,
-    /// A of the Mavroeidis-Papageorgiou pulse, m/s.
+    /// Velocity amplitude A of a Mavroeidis-Papageorgiou pulse.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -100.0, max = 100.0))]
     pub velocity_amplitude_m_s: Option<f64>,
-    /// ω_g/p.
+    /// Frequency ω_g/p; or give `frequency_hz`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-3, max = 1e4))]
     pub frequency_ratio: Option<f64>,
-    /// Hz.
+    /// Frequency; or give `frequency_ratio`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-3, max = 1e3))]
     pub frequency_hz: Option<f64>,
-    /// Length of a rectangular pulse, s.
+    /// Length of a rectangular pulse; or give `duration_ratio`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-6, max = 1e4))]
     pub duration_s: Option<f64>,
-    /// The same in 1/p.
+    /// Length of a rectangular pulse, in 1/p; or give `duration_s`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-6, max = 1e4))]
     pub duration_ratio: Option<f64>,
-    /// γ of the Mavroeidis-Papageorgiou pulse.
+    /// Oscillations γ of a Mavroeidis-Papageorgiou pulse.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 1.0), range(max = 100.0), example = 2.0)]
     pub oscillations: Option<f64>,
-    /// ν of the Mavroeidis-Papageorgiou pulse, degrees.
+    /// Phase ν of a Mavroeidis-Papageorgiou pulse.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -360.0, max = 360.0))]
     pub phase_deg: Option<f64>,
-    /// Record file, relative to the scene.
+    /// File of a record, relative to the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"near_fault.csv")]
     pub file: Option<PathBuf>,
     /// Whether the file is one of the command line, whose paths are relative to where the user stands.
     #[serde(skip)]
     pub of_command_line: bool,
-    /// Units of a record that does not state its own.
+    /// Units of a record that does not state its own: g, m/s2, cm/s2 (gal), mm/s2, in/s2 or ft/s2.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"g")]
     pub units: Option<String>,
-    /// Time step of a record that does not state its own, s.
+    /// Time step of a record that does not state its own.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-6, max = 10.0))]
     pub time_step_s: Option<f64>,
     /// Component of a record file with several.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"NS")]
     pub component: Option<String>,
-    /// Time step to which a record is resampled linearly, s.
+    /// Time step to which a record is resampled linearly.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = TIME_STEP_RANGE_S.0, max = TIME_STEP_RANGE_S.1))]
     pub resample_to_s: Option<f64>,
     /// Factor on the whole motion.
     #[serde(default = "one")]
+    #[schemars(range(min = -1e3, max = 1e3))]
     pub scale: f64,
-    /// Start, s.
+    /// Start.
     #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e4))]
     pub start_s: f64,
 }
 
@@ -79,22 +97,22 @@ fn one() -> f64 {
 }
 
 /// The motions of DESIGN section 3.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Motion {
-    /// One cycle of a sine.
+    /// One cycle of a sine: an amplitude and a frequency.
     Sine,
-    /// One cycle of a cosine.
+    /// One cycle of a cosine: an amplitude and a frequency.
     Cosine,
-    /// Half a cycle of a sine.
+    /// Half a cycle of a sine: an amplitude and a frequency.
     HalfSine,
-    /// Constant for a while.
+    /// Constant for a while: an amplitude and a duration.
     Rectangular,
-    /// Symmetric Ricker wavelet.
+    /// Symmetric Ricker wavelet: an amplitude and a frequency.
     Ricker,
-    /// Near-fault velocity pulse.
+    /// Near-fault velocity pulse: a velocity amplitude, a frequency, `oscillations`, `phase_deg`.
     MavroeidisPapageorgiou,
-    /// A recorded motion.
+    /// Recorded motion: `file`, or `--record FILE`.
     Record,
 }
 
@@ -175,25 +193,6 @@ impl GroundTable {
                 return Err(key(group[0]).conflict(&format!("give only one of {}", group.join(", "))));
             }
         }
-        let within = |name: &str, value: Option<f64>, low: f64, high: f64, range: &str| match value {
-            Some(value) => key(name).require(value, (low..=high).contains(&value), range).map(|_| ()),
-            None => Ok(()),
-        };
-        within("amplitude_ratio", self.amplitude_ratio, -1e6, 1e6, "from -1e6 to 1e6")?;
-        within("amplitude_g", self.amplitude_g, -1e3, 1e3, "from -1000 to 1000 g")?;
-        within("amplitude_m_s2", self.amplitude_m_s2, -1e4, 1e4, "from -10000 to 10000 m/s²")?;
-        within("velocity_amplitude_m_s", self.velocity_amplitude_m_s, -100.0, 100.0, "from -100 to 100 m/s")?;
-        within("frequency_ratio", self.frequency_ratio, 1e-3, 1e4, "from 0.001 to 10000")?;
-        within("frequency_hz", self.frequency_hz, 1e-3, 1e3, "from 0.001 to 1000 Hz")?;
-        within("duration_s", self.duration_s, 1e-6, 1e4, "from 1e-6 to 10000 s")?;
-        within("duration_ratio", self.duration_ratio, 1e-6, 1e4, "from 1e-6 to 10000")?;
-        within("oscillations", self.oscillations, 1.0 + 1e-9, 100.0, "above 1 and at most 100")?;
-        within("phase_deg", self.phase_deg, -360.0, 360.0, "from -360 to 360 degrees")?;
-        within("time_step_s", self.time_step_s, 1e-6, 10.0, "from 1e-6 to 10 s")?;
-        let (shortest, longest) = TIME_STEP_RANGE_S;
-        within("resample_to_s", self.resample_to_s, shortest, longest, &format!("from {shortest} to {longest} s"))?;
-        within("scale", Some(self.scale), -1e3, 1e3, "from -1000 to 1000")?;
-        within("start_s", Some(self.start_s), 0.0, 1e4, "from 0 to 10000 s")?;
         if let Some(units) = &self.units
             && units.parse::<Units>().is_err()
         {

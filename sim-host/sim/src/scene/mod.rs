@@ -134,7 +134,6 @@ impl Scene {
         if let Some(map) = &file.map {
             map.check(&key)?;
         }
-        file.output.check(&key)?;
         if file.ground.is_empty() && file.block.initial_rotation_ratio == 0.0 && file.block.initial_velocity_ratio == 0.0 {
             return Err(key("ground").missing("a [[ground]] table, or block.initial_rotation_ratio for free rocking"));
         }

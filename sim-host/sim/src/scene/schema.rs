@@ -1,5 +1,8 @@
 //! The keys of a scene file, as TOML has them.
 
+use std::sync::LazyLock;
+
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sprag_shared::structure::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::{REST_SPEED, Restitution};
@@ -11,6 +14,7 @@ pub use super::device::{DeviceTable, Kind, KinematicsName, MountName};
 use super::error::{Key, SceneError};
 use super::ground::GroundTable;
 use super::map::MapTable;
+use crate::keys::{Described, schema_of};
 
 /// Default of `run.free_time_ratio`, in 1/p.
 pub const FREE_TIME_RATIO: f64 = 20.0;
@@ -19,72 +23,88 @@ pub const FREE_TIME_RATIO: f64 = 20.0;
 pub type KeyOf<'a> = dyn Fn(&str) -> Key + 'a;
 
 /// A scene file.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(title = "Sprag scene")]
 pub struct SceneFile {
-    /// Heading of pictures.
+    /// Title of pictures and tables.
     #[serde(default)]
     pub title: String,
-    /// `[block]`.
+    /// The block that rocks.
     pub block: BlockTable,
-    /// `[[device]]`, one run each.
+    /// Devices, one run each.
     #[serde(default)]
+    #[schemars(length(min = 1, max = super::MOST_DEVICES))]
     pub device: Vec<DeviceTable>,
-    /// `[[ground]]`, summed.
+    /// Horizontal ground motions, which are summed.
     #[serde(default)]
     pub ground: Vec<GroundTable>,
-    /// `[[vertical]]`, summed.
+    /// Vertical ground motions, positive upwards, which are summed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub vertical: Vec<GroundTable>,
-    /// `[run]`.
+    /// How long the motion is followed.
     #[serde(default)]
     pub run: RunTable,
-    /// `[accuracy]`.
+    /// How accurately the motion is followed.
     #[serde(default)]
     pub accuracy: AccuracyTable,
-    /// `[checks]`.
+    /// Checks of what a device demands of its support and gears; the table turns them on.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub checks: Option<ChecksTable>,
-    /// `[controller]`, for closed loops.
+    /// Controller of the clutches, for `sprag loop`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub controller: Option<ControllerTable>,
-    /// `[map]`, for overturning maps.
+    /// Axes of an overturning map, for `sprag map`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub map: Option<MapTable>,
-    /// `[output]`.
+    /// What is written.
     #[serde(default)]
     pub output: OutputTable,
 }
 
+impl Described for SceneFile {
+    fn schema() -> &'static serde_json::Value {
+        static SCHEMA: LazyLock<serde_json::Value> = LazyLock::new(schema_of::<SceneFile>);
+        &SCHEMA
+    }
+}
+
 /// `[block]`.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BlockTable {
-    /// R, m; or give `frequency_parameter_1_s`.
+    /// Size R, from a toe to the centre of mass; or give `frequency_parameter_1_s`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-3, max = 1e4))]
     pub size_m: Option<f64>,
-    /// p, 1/s.
+    /// Frequency parameter p = √(g/(λR)); or give `size_m`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-2, max = 1e3))]
     pub frequency_parameter_1_s: Option<f64>,
-    /// α, degrees.
+    /// Slenderness α, the angle between the vertical and the line from a toe to the centre of mass.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 90.0))]
     pub slenderness_deg: f64,
-    /// λ = I_O/(mR²).
+    /// Moment of inertia about a toe, λ = I_O/(mR²); 4/3 of a rectangle.
     #[serde(default = "rectangle")]
+    #[schemars(range(min = 1.0, max = 4.0))]
     pub inertia_ratio: f64,
-    /// m, kg; needed by inertances in kg.
+    /// Mass m; needed by values in kg, N, N/m and N s/m.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub mass_kg: Option<f64>,
-    /// Full or slender.
+    /// Equation of motion.
     #[serde(default)]
     pub geometry: GeometryName,
-    /// η, "geometric" or "momentum-balance".
+    /// Ratio η of the angular velocities after and before an impact, or where it comes from.
     #[serde(default = "paper_restitution")]
     pub restitution: RestitutionValue,
-    /// θ(0)/α.
+    /// Rotation at the start, θ/α.
     #[serde(default)]
+    #[schemars(range(min = -10.0, max = 10.0))]
     pub initial_rotation_ratio: f64,
-    /// θ̇(0)/(pα).
+    /// Angular velocity at the start, θ̇/(pα).
     #[serde(default)]
+    #[schemars(range(min = -100.0, max = 100.0))]
     pub initial_velocity_ratio: f64,
 }
 
@@ -98,13 +118,13 @@ fn paper_restitution() -> RestitutionValue {
 }
 
 /// Full or slender.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum GeometryName {
-    /// Eq. 15-16.
+    /// The exact block, Eq. 15-16.
     #[default]
     Full,
-    /// Eq. 17-18.
+    /// Its linearisation for small angles, Eq. 17-18.
     Slender,
 }
 
@@ -118,12 +138,13 @@ impl From<GeometryName> for Geometry {
 }
 
 /// A number or a word.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "restitution must be a number from 0 to 1, \"geometric\" or \"momentum-balance\"")]
 pub enum RestitutionValue {
     /// η.
-    Number(f64),
-    /// "geometric" or "momentum-balance".
+    Number(#[schemars(range(min = 0.0, max = 1.0))] f64),
+    /// By the geometry of the block, 1 − 2 sin²α/λ, or by the moment of momentum with what stays engaged.
+    #[schemars(extend("enum" = ["geometric", "momentum-balance"]))]
     Word(String),
 }
 
@@ -133,41 +154,26 @@ impl BlockTable {
     /// # Errors
     /// [`SceneError`] names the key.
     pub fn block(&self, key: &KeyOf<'_>) -> Result<Block, SceneError> {
-        let degrees = self.slenderness_deg;
-        key("block.slenderness_deg").require(degrees, degrees > 0.0 && degrees < 90.0, "above 0 and below 90 degrees")?;
-        let ratio =
-            key("block.inertia_ratio").require(self.inertia_ratio, (1.0..=4.0).contains(&self.inertia_ratio), "from 1 to 4")?;
+        let ratio = self.inertia_ratio;
         let size = match (self.size_m, self.frequency_parameter_1_s) {
-            (Some(size), None) => key("block.size_m").require(size, (1e-3..=1e4).contains(&size), "from 0.001 to 10000 m")?,
-            (None, Some(p)) => {
-                key("block.frequency_parameter_1_s").require(p, (1e-2..=1e3).contains(&p), "from 0.01 to 1000 1/s")?;
-                GRAVITY / (ratio * p * p)
-            }
+            (Some(size), None) => size,
+            (None, Some(p)) => GRAVITY / (ratio * p * p),
             (None, None) => return Err(key("block.size_m").missing("size_m or frequency_parameter_1_s")),
             _ => {
                 return Err(key("block.size_m")
                     .conflict("give only one of size_m and frequency_parameter_1_s; --set KEY= leaves a key out"));
             }
         };
-        if let Some(mass) = self.mass_kg {
-            key("block.mass_kg").require(mass, mass > 0.0, "above 0 kg")?;
-        }
-        let (rotation, velocity) = (self.initial_rotation_ratio, self.initial_velocity_ratio);
-        key("block.initial_rotation_ratio").require(rotation, rotation.abs() <= 10.0, "from -10 to 10")?;
-        key("block.initial_velocity_ratio").require(velocity, velocity.abs() <= 100.0, "from -100 to 100")?;
-        Block::new(size, degrees.to_radians(), ratio).map_err(|error| key("block").parameter(&error))
+        Block::new(size, self.slenderness_deg.to_radians(), ratio).map_err(|error| key("block").parameter(&error))
     }
 
     /// How it takes impacts.
     ///
     /// # Errors
-    /// [`SceneError`] for a number outside 0 to 1 or an unknown word.
+    /// [`SceneError`] for an unknown word.
     pub fn restitution(&self, key: &KeyOf<'_>) -> Result<Restitution, SceneError> {
         match &self.restitution {
-            RestitutionValue::Number(eta) => {
-                key("block.restitution").require(*eta, (0.0..=1.0).contains(eta), "from 0 to 1")?;
-                Ok(Restitution::Constant(*eta))
-            }
+            RestitutionValue::Number(eta) => Ok(Restitution::Constant(*eta)),
             RestitutionValue::Word(word) if word == "geometric" => Ok(Restitution::Geometric),
             RestitutionValue::Word(word) if word == "momentum-balance" => Ok(Restitution::MomentumBalance),
             RestitutionValue::Word(word) => Err(SceneError::Range {
@@ -181,17 +187,20 @@ impl BlockTable {
 }
 
 /// `[run]`.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RunTable {
-    /// Time after the ground motion, s.
+    /// Time after the ground motion; or give `free_time_ratio`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e5))]
     pub free_time_s: Option<f64>,
-    /// The same in 1/p.
+    /// Time after the ground motion, in 1/p; or give `free_time_s`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e5), extend("default" = FREE_TIME_RATIO))]
     pub free_time_ratio: Option<f64>,
-    /// θ̇/(pα) below which an impact may end in rest.
+    /// Angular velocity θ̇/(pα) below which an impact may end in rest.
     #[serde(default = "rest_speed")]
+    #[schemars(range(min = 1e-12, max = 1e-2))]
     pub rest_speed_ratio: f64,
 }
 
@@ -212,20 +221,15 @@ impl RunTable {
         if self.free_time_s.is_some() && self.free_time_ratio.is_some() {
             return Err(key("run.free_time_s").conflict("give only one of free_time_s and free_time_ratio"));
         }
-        for (name, value) in [("run.free_time_s", self.free_time_s), ("run.free_time_ratio", self.free_time_ratio)] {
-            if let Some(time) = value {
-                key(name).require(time, (0.0..=1e5).contains(&time), "from 0 to 100000")?;
-            }
-        }
         Ok(())
     }
 }
 
 /// The time axis of pictures.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum TimeAxisName {
-    /// s.
+    /// t, s.
     #[default]
     Seconds,
     /// p t.
@@ -233,27 +237,17 @@ pub enum TimeAxisName {
 }
 
 /// `[output]`.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OutputTable {
-    /// Time between samples of the history, s; by default 1/2000 of the run.
+    /// Time between samples of the history; 1/2000 of the run without the key.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-6, max = 10.0))]
     pub interval_s: Option<f64>,
-    /// Seconds or p t.
+    /// Time axis of pictures.
     #[serde(default)]
     pub time_axis: TimeAxisName,
-    /// The energy ledger, plotted.
+    /// Whether the energy ledger is kept and plotted.
     #[serde(default)]
     pub energy: bool,
-}
-
-impl OutputTable {
-    /// # Errors
-    /// [`SceneError`] names the key.
-    pub(super) fn check(&self, key: &KeyOf<'_>) -> Result<(), SceneError> {
-        if let Some(interval) = self.interval_s {
-            key("output.interval_s").require(interval, (1e-6..=10.0).contains(&interval), "from 1e-6 to 10 s")?;
-        }
-        Ok(())
-    }
 }

@@ -7,6 +7,7 @@ mod sampling;
 #[cfg(test)]
 mod tests;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::error::{Key, SceneError};
@@ -22,26 +23,28 @@ pub use name_or::NameOr;
 const SEED: u64 = 1;
 
 /// `sensors`. Without any key all sensors are ideal.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SensorsTable {
     /// All sensors by one name; each can be replaced by the keys below.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"icm-42688-p")]
     pub suite: Option<String>,
-    /// On the block.
+    /// Gyroscope on the block, by name or by table.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gyroscope: Option<NameOr<GyroscopeTable>>,
-    /// On the block.
+    /// Accelerometers on the block, by name or by table.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub block_accelerometer: Option<NameOr<AccelerometerTable>>,
-    /// On the ground.
+    /// Accelerometer on the ground, by name or by table.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ground_accelerometer: Option<NameOr<AccelerometerTable>>,
-    /// On the rack.
+    /// Encoder on the rack, by name or by table.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub encoder: Option<NameOr<EncoderTable>>,
-    /// Of everything drawn: the specimens and their noise.
+    /// Seed of errors and noise.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = SEED))]
     pub seed: Option<u64>,
 }
 

@@ -2,6 +2,7 @@ use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::device::KinematicsKind;
 use sprag_shared::structure::mount::Mount;
 
+use super::drivetrain::{ActuationTable, FlywheelLossesTable};
 use super::*;
 
 const SCENE: &str = r#"
@@ -66,7 +67,79 @@ fn unknown_keys_and_wrong_kinds_are_refused() {
     }
     let message =
         Scene::parse(&SCENE.replace("size_m = 2.0", "size_m = 2.0\nsize_ft = 6"), "scene.toml").unwrap_err().to_string();
-    assert!(message.starts_with("scene.toml:5: block") && message.contains("unknown field `size_ft`"), "{message}");
+    assert!(
+        message.starts_with("scene.toml:5: block") && message.contains("block.size_ft is not a key; did you mean `size_m`?"),
+        "{message}"
+    );
+}
+
+#[test]
+fn the_key_or_the_word_that_was_probably_meant_is_named() {
+    for (item, words) in [
+        ("blok.size_m=3", "scene.toml: blok is not a key; did you mean `block`?"),
+        ("device.1.mas_ratio=3", "device.1.mas_ratio is not a key; did you mean `mass_ratio`?"),
+        ("device.1.clutch={capacity_ration=1}", "device.1.clutch.capacity_ration is not a key; did you mean `capacity_ratio`?"),
+        ("checks={gear={modul_mm=1}}", "checks.gear.modul_mm is not a key; did you mean `module_mm`?"),
+        (
+            "controller.sensors.gyroscope={bias_degs=1}",
+            "controller.sensors.gyroscope.bias_degs is not a key; did you mean `bias_deg_s`?",
+        ),
+        ("device.1.kind=inertr", "device.1.kind is \"inertr\"; did you mean \"inerter\"?"),
+        ("ground.0.motion=sinus", "ground.0.motion is \"sinus\"; did you mean \"sine\"?"),
+        ("device.1.kind=damper", "device.1.kind: unknown variant `damper`, expected one of `none`"),
+        ("block.colour=3", "unknown field `colour`, expected one of `size_m`"),
+    ] {
+        let message = refused(&[item]);
+        assert!(message.contains(words), "{item}: {message}");
+    }
+}
+
+/// The core holds the ranges of devices too, for whoever calls it without a scene.
+#[test]
+fn ranges_of_a_device_are_those_of_the_core() {
+    use crate::keys::Described;
+    let scene = Scene::parse(SCENE, "scene.toml").unwrap();
+    let schema = &SceneFile::schema()["properties"]["device"]["items"]["properties"];
+    let of_actuation = |change: &dyn Fn(&mut ActuationTable)| {
+        let mut table = scene.file.device[1].clone();
+        let mut actuation = ActuationTable::default();
+        change(&mut actuation);
+        table.actuation = Some(actuation);
+        scene.with_device(table).map(|_| ()).map_err(|error| error.to_string())
+    };
+    let of_flywheel = |change: &dyn Fn(&mut FlywheelLossesTable)| {
+        let mut table = scene.file.device[1].clone();
+        let mut losses = FlywheelLossesTable::default();
+        change(&mut losses);
+        table.flywheel = Some(losses);
+        scene.with_device(table).map(|_| ()).map_err(|error| error.to_string())
+    };
+    let of_device = |change: &dyn Fn(&mut DeviceTable)| {
+        let mut table = scene.file.device[1].clone();
+        change(&mut table);
+        scene.with_device(table).map(|_| ()).map_err(|error| error.to_string())
+    };
+    type Try<'a> = &'a dyn Fn(f64) -> Result<(), String>;
+    let tries: [(&serde_json::Value, Try<'_>); 6] = [
+        (&schema["mass_ratio"], &|value| of_device(&|device| device.mass_ratio = Some(value))),
+        (&schema["actuation"]["properties"]["engagement_delay_s"], &|value| {
+            of_actuation(&|actuation| actuation.engagement_delay_s = value)
+        }),
+        (&schema["actuation"]["properties"]["release_delay_s"], &|value| {
+            of_actuation(&|actuation| actuation.release_delay_s = value)
+        }),
+        (&schema["actuation"]["properties"]["dwell_s"], &|value| of_actuation(&|actuation| actuation.dwell_s = value)),
+        (&schema["actuation"]["properties"]["miss_probability"], &|value| {
+            of_actuation(&|actuation| actuation.miss_probability = value)
+        }),
+        (&schema["flywheel"]["properties"]["viscous_rate_1_s"], &|value| of_flywheel(&|losses| losses.viscous_rate_1_s = value)),
+    ];
+    for (schema, within) in tries {
+        let [low, high] = ["minimum", "maximum"].map(|name| schema[name].as_f64().unwrap());
+        for (value, allowed) in [(low, true), (high, true), (low - 0.1, false), (high * 1.01, false)] {
+            assert_eq!(within(value).is_ok(), allowed, "{value} of {schema}: {:?}", within(value));
+        }
+    }
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! `weight` of a `[[device]]`: the gravitational mass of flywheels and rack, and what it rides on.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sprag_shared::math;
 use sprag_shared::structure::added_mass::AddedMass;
@@ -18,7 +19,7 @@ const FLYWHEELS: [&str; 2] = ["weight.flywheels_ratio", "weight.flywheels_kg"];
 const RACK: [&str; 2] = ["weight.rack_ratio", "weight.rack_kg"];
 
 /// What something rides on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Seat {
     /// The ground, or whatever the device leans on.
@@ -29,25 +30,29 @@ pub enum Seat {
 }
 
 /// `weight`. Masses are those of all flywheels, with gears and housing, and of the rack.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WeightTable {
-    /// Over the block's mass.
+    /// Mass of all flywheels, gears and housing over the block's; or give `flywheels_kg`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub flywheels_ratio: Option<f64>,
-    /// kg.
+    /// Mass of all flywheels, gears and housing; or give `flywheels_ratio`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub flywheels_kg: Option<f64>,
-    /// What they ride on.
+    /// What flywheels, gears and housing ride on.
     #[serde(default)]
     pub flywheels_on: Seat,
-    /// Over the block's mass.
+    /// Mass of the rack over the block's; or give `rack_kg`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub rack_ratio: Option<f64>,
-    /// kg.
+    /// Mass of the rack; or give `rack_ratio`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub rack_kg: Option<f64>,
-    /// What it rides on.
+    /// What the rack rides on.
     #[serde(default)]
     pub rack_on: Seat,
 }

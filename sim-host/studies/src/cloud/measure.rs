@@ -1,5 +1,6 @@
 //! Intensity measures of a ground motion, made dimensionless by the block that it shakes.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sprag_shared::math;
 use sprag_shared::structure::block::GRAVITY;
@@ -49,7 +50,7 @@ impl From<Record> for MeasuredRecord {
 }
 
 /// A dimensionless intensity measure, with p, g and α of the bare block; the slender model has gα for g tan α.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Measure {
     /// p t_uni: the time during which |ü_g| exceeds g tan α (Thiers-Moggia and Málaga-Chuquitaype 2019, Figure 14 and

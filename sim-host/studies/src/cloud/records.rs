@@ -12,7 +12,7 @@ use sprag_sim::scene::motions::GroundMotions;
 
 use super::folder;
 use super::measure::MeasuredRecord;
-use super::study::{Study, check_record};
+use super::study::{Study, check_units};
 use super::study_file::{DescribedRecord, RecordEntry};
 
 /// A record of a study.
@@ -119,7 +119,7 @@ fn sources(study: &Study, found: &mut StudyRecords) -> Result<Vec<Source>, Scene
             RecordEntry::Path(path) => path,
             RecordEntry::Described(DescribedRecord { file, units, time_step_s, component }) => {
                 let key = |key: &str| Key { origin: study.origin.clone(), key: key.to_owned() };
-                check_record(units.as_deref(), *time_step_s, &format!("records.{index}"), &key)?;
+                check_units(units.as_deref(), &format!("records.{index}"), &key)?;
                 options.units = units.as_ref().and_then(|units| units.parse().ok()).or(options.units);
                 options.time_step_s = time_step_s.or(options.time_step_s);
                 options.component = component.as_deref().map(Component::from).or(options.component);

@@ -2,14 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use sprag_sim::record::{Component, ReadOptions, TIME_STEP_RANGE_S, Units};
+use sprag_sim::record::{Component, ReadOptions, Units};
 use sprag_sim::scene::error::Key;
 use sprag_sim::scene::{Scene, SceneError, document, text_of};
 
-use super::measure::{LARGEST_FACTOR, Measure};
+use super::measure::Measure;
 use super::structures::{StudyStructure, structures};
 use super::study_file::{RecordEntry, RecordTable, StudyFile};
-use crate::statistics::bootstrap::MOST_RESAMPLES;
 use crate::statistics::{Bootstrap, Level};
 
 /// Most factors or levels of a study.
@@ -170,24 +169,19 @@ fn names(scene: &Scene) -> Vec<String> {
 }
 
 fn scaling(file: &StudyFile, key: &dyn Fn(&str) -> Key) -> Result<Scaling, SceneError> {
-    let check = |name: &str, values: &[f64], most: f64, range: &str| {
-        if values.is_empty() || values.len() > MOST_SCALES {
-            return Err(key(name).range(values.len() as f64, "a list of 1 to 1000 numbers"));
-        }
-        for (index, &value) in values.iter().enumerate() {
-            key(&format!("{name}.{index}")).require(value, value > 0.0 && value <= most, range)?;
-        }
-        Ok(())
+    let check = |name: &str, values: &[f64]| match values.len() {
+        1..=MOST_SCALES => Ok(()),
+        count => Err(key(name).range(count as f64, "a list of 1 to 1000 numbers")),
     };
     match (&file.scale, &file.stripes) {
         (Some(_), Some(_)) => Err(key("scale").conflict("give only one of scale and [stripes]")),
         (None, None) => Ok(Scaling::Factors(vec![1.0])),
         (Some(factors), None) => {
-            check("scale", factors, LARGEST_FACTOR, "above 0, to 1000")?;
+            check("scale", factors)?;
             Ok(Scaling::Factors(factors.clone()))
         }
         (None, Some(stripes)) => {
-            check("stripes.levels", &stripes.levels, 1e6, "above 0, to 1e6")?;
+            check("stripes.levels", &stripes.levels)?;
             if !stripes.measure.scales() {
                 let reason = format!("{} does not change when a record is scaled", stripes.measure.name());
                 return Err(key("stripes.measure").conflict(&reason));
@@ -212,8 +206,6 @@ fn check_names(asked: &[String], structures: &[StudyStructure], key: Key) -> Res
 
 fn bootstrap(file: &StudyFile, key: &dyn Fn(&str) -> Key) -> Result<Bootstrap, SceneError> {
     let table = file.bootstrap;
-    let allowed = (1..=MOST_RESAMPLES).contains(&table.resamples);
-    key("bootstrap.resamples").require(f64::from(table.resamples), allowed, "from 1 to 1000000")?;
     let level = Level::new(table.level).map_err(|_| key("bootstrap.level").range(table.level, "above 0 and below 1"))?;
     Ok(Bootstrap { resamples: table.resamples, seed: table.seed, level })
 }
@@ -223,8 +215,7 @@ fn bootstrap(file: &StudyFile, key: &dyn Fn(&str) -> Key) -> Result<Bootstrap, S
 /// # Errors
 /// [`SceneError`] for units or a time step outside their range.
 fn reading(table: &RecordTable, scene: &Scene, key: &dyn Fn(&str) -> Key) -> Result<ReadOptions, SceneError> {
-    check_record(table.units.as_deref(), table.time_step_s, "record", key)?;
-    check_record(None, table.resample_to_s, "record", &|_| key("record.resample_to_s"))?;
+    check_units(table.units.as_deref(), "record", key)?;
     Ok(read_options(table, scene))
 }
 
@@ -238,22 +229,12 @@ fn read_options(table: &RecordTable, scene: &Scene) -> ReadOptions {
     }
 }
 
-/// Units and time step of `table`, if they can be meant.
-pub(super) fn check_record(
-    units: Option<&str>,
-    step: Option<f64>,
-    table: &str,
-    key: &dyn Fn(&str) -> Key,
-) -> Result<(), SceneError> {
+/// Units of `table`, if they can be meant.
+pub(super) fn check_units(units: Option<&str>, table: &str, key: &dyn Fn(&str) -> Key) -> Result<(), SceneError> {
     if let Some(units) = units.filter(|units| units.parse::<Units>().is_err()) {
         let Key { origin, key } = key(&format!("{table}.units"));
         let range = Units::ALLOWED.to_owned();
         return Err(SceneError::Range { origin, key, value: format!("{units:?}"), range });
-    }
-    if let Some(step) = step {
-        let (lowest, highest) = TIME_STEP_RANGE_S;
-        let range = format!("from {lowest} to {highest} s");
-        key(&format!("{table}.time_step_s")).require(step, (lowest..=highest).contains(&step), &range)?;
     }
     Ok(())
 }

@@ -2,52 +2,86 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::measure::Measure;
+use sprag_sim::keys::{Described, schema_of};
+use sprag_sim::record::TIME_STEP_RANGE_S;
+
+use super::measure::{LARGEST_FACTOR, Measure};
 use crate::optimise::table::OptimiseTable;
+use crate::statistics::bootstrap::MOST_RESAMPLES;
+
+/// The one that [`StructureTable`] has as its example.
+const EXAMPLE_STRUCTURES: [&str; 1] = ["taller"];
+
+/// Two factors, or two levels.
+const EXAMPLE_SCALES: [f64; 2] = [0.5, 1.0];
+
+fn example_changes() -> BTreeMap<&'static str, f64> {
+    BTreeMap::from([("block.size_m", 3.0)])
+}
+
+/// Has the elements of a list above 0.
+fn each_above_zero(schema: &mut schemars::Schema) {
+    if let Some(items) = schema.get_mut("items").and_then(serde_json::Value::as_object_mut) {
+        items.insert("exclusiveMinimum".to_owned(), 0.0.into());
+    }
+}
 
 /// A study file.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(title = "Sprag study")]
 pub struct StudyFile {
-    /// Heading of tables and pictures.
+    /// Title of tables and pictures.
     #[serde(default)]
     pub title: String,
-    /// Scene file with block, devices and restitution, relative to the study; without one the pier of the paper's Section 6.2.
+    /// Scene file with block, devices and restitution, relative to the study; the pier of the paper's Section 6.2 without the key.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"record.toml")]
     pub scene: Option<PathBuf>,
-    /// Record files and folders of them, relative to the study.
+    /// Record files and folders of them, relative to the study; `--records PATH` takes their place.
     #[serde(default)]
     pub records: Vec<RecordEntry>,
-    /// `[record]`: what record files do not say themselves.
+    /// What record files do not say themselves.
     #[serde(default)]
     pub record: RecordTable,
-    /// `[[structure]]`: changes of the scene, each a structure of its own.
+    /// Changes of the scene, each a structure of its own; the scene as it is without any.
     #[serde(default)]
     pub structure: Vec<StructureTable>,
-    /// Factors on every record.
+    /// Factors on every record; 1 without `scale` and `stripes`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(range(max = LARGEST_FACTOR)), transform = each_above_zero, length(min = 1, max = super::study::MOST_SCALES), example = EXAMPLE_SCALES)]
     pub scale: Option<Vec<f64>>,
-    /// `[stripes]`: levels that every record is scaled to, in the place of factors.
+    /// Levels that every record is scaled to, in the place of `scale`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stripes: Option<StripesTable>,
     /// Measures that are ranked.
     #[serde(default = "all_measures")]
+    #[schemars(length(min = 1))]
     pub measures: Vec<Measure>,
-    /// `[demand]`.
+    /// Power laws of the demand.
     #[serde(default)]
     pub demand: DemandTable,
-    /// `[fragility]`.
+    /// Fragility curves.
     #[serde(default)]
     pub fragility: FragilityTable,
-    /// `[bootstrap]`.
+    /// Confidence bands.
     #[serde(default)]
     pub bootstrap: BootstrapTable,
-    /// `[optimise]`, for `sprag optimise`.
+    /// Choice of a device, for `sprag optimise`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub optimise: Option<OptimiseTable>,
+}
+
+impl Described for StudyFile {
+    fn schema() -> &'static serde_json::Value {
+        static SCHEMA: LazyLock<serde_json::Value> = LazyLock::new(schema_of::<StudyFile>);
+        &SCHEMA
+    }
 }
 
 fn all_measures() -> Vec<Measure> {
@@ -55,7 +89,7 @@ fn all_measures() -> Vec<Measure> {
 }
 
 /// An entry of `records`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "a record is a path, or { file = \"…\" } with units, time_step_s or component")]
 pub enum RecordEntry {
     /// A file or a folder.
@@ -65,70 +99,81 @@ pub enum RecordEntry {
 }
 
 /// A file or folder of which more is known than of the others.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DescribedRecord {
-    /// The file or folder.
+    /// File or folder.
     pub file: PathBuf,
-    /// As in [`RecordTable`].
+    /// Units of files that do not state theirs: g, m/s2, cm/s2 (gal), mm/s2, in/s2 or ft/s2.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"g")]
     pub units: Option<String>,
-    /// As in [`RecordTable`].
+    /// Time step of files that do not state theirs.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = TIME_STEP_RANGE_S.0, max = TIME_STEP_RANGE_S.1))]
     pub time_step_s: Option<f64>,
-    /// As in [`RecordTable`].
+    /// Component of files with several.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"NS")]
     pub component: Option<String>,
 }
 
 /// `[record]`: as the options of `sprag record`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RecordTable {
     /// Units of files that do not state theirs: g, m/s2, cm/s2 (gal), mm/s2, in/s2 or ft/s2.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"g")]
     pub units: Option<String>,
-    /// Time step of files that do not state theirs, s.
+    /// Time step of files that do not state theirs.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = TIME_STEP_RANGE_S.0, max = TIME_STEP_RANGE_S.1))]
     pub time_step_s: Option<f64>,
     /// Component of files with several.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"NS")]
     pub component: Option<String>,
-    /// Time step to resample to, s.
+    /// Time step to resample to.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = TIME_STEP_RANGE_S.0, max = TIME_STEP_RANGE_S.1))]
     pub resample_to_s: Option<f64>,
 }
 
 /// `[[structure]]`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StructureTable {
-    /// In tables and above pictures.
+    /// Name in tables and above pictures.
+    #[schemars(example = &"taller")]
     pub name: String,
     /// Keys of the scene and their values, as of `--set`.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, serde_json::Value>", example = example_changes())]
     pub set: BTreeMap<String, toml::Value>,
 }
 
 /// `[stripes]`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StripesTable {
-    /// What the levels are of.
+    /// Measure of the levels.
     pub measure: Measure,
-    /// Its levels.
+    /// Levels of the measure.
+    #[schemars(inner(range(max = 1e6)), transform = each_above_zero, length(min = 1, max = super::study::MOST_SCALES), example = EXAMPLE_SCALES)]
     pub levels: Vec<f64>,
 }
 
 /// `[demand]`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DemandTable {
-    /// IM of the power laws.
+    /// Intensity measure of the power laws.
     #[serde(default = "uniform_duration")]
     pub measure: Measure,
-    /// Structures whose demands are fitted; all by default.
+    /// Structures whose demands are fitted, by name; all without the key.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(example = EXAMPLE_STRUCTURES)]
     pub structures: Vec<String>,
 }
 
@@ -143,14 +188,15 @@ impl Default for DemandTable {
 }
 
 /// `[fragility]`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FragilityTable {
-    /// IM of the curves.
+    /// Intensity measure of the fragilities.
     #[serde(default = "pgv")]
     pub measure: Measure,
-    /// Structures whose fragilities are fitted; all by default.
+    /// Structures whose fragilities are fitted, by name; all without the key.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(example = EXAMPLE_STRUCTURES)]
     pub structures: Vec<String>,
 }
 
@@ -165,14 +211,16 @@ impl Default for FragilityTable {
 }
 
 /// `[bootstrap]`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BootstrapTable {
     /// Resamples of every fragility.
+    #[schemars(range(min = 1, max = MOST_RESAMPLES))]
     pub resamples: u32,
     /// Seed of the random numbers.
     pub seed: u64,
     /// Level of all bands, of the power laws too.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
     pub level: f64,
 }
 

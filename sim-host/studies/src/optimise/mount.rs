@@ -1,5 +1,6 @@
 //! Where a device may be attached (Figure 3 of the paper).
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sprag_shared::structure::block::Block;
 use sprag_shared::structure::error::ParameterError;
@@ -8,7 +9,7 @@ use sprag_sim::scene::device::{DeviceTable, MountName, resolve_mount};
 use sprag_sim::scene::schema::KeyOf;
 
 /// An entry of `optimise.mounts`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     untagged,
     expecting = "a mount is \"centre-of-mass\", \"base-corners\", or { mount = \"tying-point\", mount_height_m = 2.0 }, with \
@@ -22,16 +23,18 @@ pub enum MountEntry {
 }
 
 /// A mount, in the keys of a `[[device]]`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DescribedMount {
-    /// Which.
+    /// Where the device is attached (Figure 3).
     pub mount: MountName,
-    /// Height of a tying point above the base, m.
+    /// Height of a tying point above the base.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub mount_height_m: Option<f64>,
-    /// Travel of the terminal over that of the point.
+    /// Travel of the terminal over that of the tying point or corner; 1 without the key.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub pulley_ratio: Option<f64>,
 }
 

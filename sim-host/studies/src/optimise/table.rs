@@ -1,5 +1,6 @@
 //! `[optimise]`: the keys of a study file for the choice of a device.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sprag_sim::scene::SceneError;
 use sprag_sim::scene::map::{AxisTable, ScaleName};
@@ -16,45 +17,57 @@ pub const MOST_CHOICES: usize = 32;
 /// Largest mass ratio, as for any device.
 pub const LARGEST_MASS_RATIO: f64 = 10_000.0;
 
+/// Two laws without a device of the scene.
+const EXAMPLE_LAWS: [&str; 2] = ["inerter", "clutched-pair"];
+
 /// `[optimise]`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct OptimiseTable {
-    /// The structure of the study that gets the device; needed where there are several.
+    /// Structure of the study that gets the device, by name; needed where there are several.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"taller")]
     pub structure: Option<String>,
-    /// Mass ratios to choose from.
+    /// Mass ratios to choose from, in equal factors.
     pub mass_ratio: MassRatioTable,
-    /// Clutch laws: devices of the scene by name, or "inerter", "clutched-pair", "rigid", "overrunning". All devices of the scene
-    /// that have an inerter by default.
+    /// Clutch laws: devices of the scene by name, or "inerter", "clutched-pair", "rigid", "overrunning"; all devices of the scene with an
+    /// inerter without the key.
     #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = MOST_CHOICES), example = EXAMPLE_LAWS)]
     pub laws: Vec<String>,
-    /// Mounts; those that the laws have in the scene by default.
+    /// Mounts to choose from; those that the laws have in the scene without the key.
     #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = MOST_CHOICES))]
     pub mounts: Vec<MountEntry>,
-    /// Largest |F|/(mg) of the device; that of the scene's `[checks]` by default.
+    /// Largest |F|/(mg) of the device on its support; that of the scene's `[checks]` without the key.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e6))]
     pub largest_force_ratio: Option<f64>,
-    /// Largest travel of the terminals to one side (m), over the motions in which the block stands; that of the scene's `[checks]` by
-    /// default.
+    /// Largest travel of the terminals to one side, over the motions in which the block stands; that of the scene's `[checks]` without the
+    /// key.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e4))]
     pub largest_stroke_m: Option<f64>,
     /// Share of the motions that must respect a limit.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub limit_quantile: f64,
     /// Whether the force counts under motions that overturn the block, until it lies down.
     pub force_of_overturned: bool,
 }
 
 /// `mass_ratio = { from, to, cells }`, in equal factors.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MassRatioTable {
-    /// The least.
+    /// Least mass ratio.
+    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = LARGEST_MASS_RATIO))]
     pub from: f64,
-    /// The largest.
+    /// Largest mass ratio, above `from`.
+    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = LARGEST_MASS_RATIO))]
     pub to: f64,
-    /// How many at first, with both ends.
+    /// Mass ratios of the first grid, both ends included.
     #[serde(default = "cells")]
+    #[schemars(range(min = 2, max = MOST_CELLS))]
     pub cells: usize,
 }
 
@@ -90,27 +103,13 @@ impl OptimiseTable {
     /// # Errors
     /// [`SceneError`] names the key, its value and its range.
     pub(super) fn check(&self, key: &KeyOf<'_>) -> Result<(), SceneError> {
-        let MassRatioTable { from, to, cells } = self.mass_ratio;
-        let allowed = from > 0.0 && from <= LARGEST_MASS_RATIO;
-        key("mass_ratio.from").require(from, allowed, "above 0, to 10000")?;
-        key("mass_ratio.to").require(to, to > from && to <= LARGEST_MASS_RATIO, "above `from`, to 10000")?;
-        key("mass_ratio.cells").require(cells as f64, (2..=MOST_CELLS).contains(&cells), "from 2 to 1000")?;
+        let MassRatioTable { from, to, .. } = self.mass_ratio;
+        key("mass_ratio.to").require(to, to > from, "above `from`, to 10000")?;
         for (name, count) in [("laws", self.laws.len()), ("mounts", self.mounts.len())] {
             if count > MOST_CHOICES {
                 return Err(key(name).range(count as f64, "a list of at most 32"));
             }
         }
-        let limits = [
-            ("largest_force_ratio", self.largest_force_ratio, 1e6, "above 0, to 1e6"),
-            ("largest_stroke_m", self.largest_stroke_m, 1e4, "above 0, to 10000 m"),
-        ];
-        for (name, limit, most, range) in limits {
-            if let Some(limit) = limit {
-                key(name).require(limit, limit > 0.0 && limit <= most, range)?;
-            }
-        }
-        let share = self.limit_quantile;
-        key("limit_quantile").require(share, (0.0..=1.0).contains(&share), "from 0 to 1")?;
         Ok(())
     }
 }

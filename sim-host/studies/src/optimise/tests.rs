@@ -6,14 +6,21 @@ use sprag_sim::scene::device::{Kind, MountName};
 use sprag_sim::scene::drivetrain::EngagementName;
 
 use super::problem::Choices;
-use crate::cloud::study::Study;
+use crate::cloud::study::{Study, StudyError};
+
+fn parsed(text: &str) -> Result<Study, StudyError> {
+    Study::parse(&format!("records = ['a.csv']\n{text}"), "study.toml", Path::new(""), &[], &[])
+}
 
 fn study(text: &str) -> Study {
-    Study::parse(&format!("records = ['a.csv']\n{text}"), "study.toml", Path::new(""), &[], &[]).unwrap()
+    parsed(text).unwrap()
 }
 
 fn refusal(text: &str) -> String {
-    Choices::of(&study(text)).map(|_| ()).expect_err(text).to_string()
+    match parsed(text) {
+        Err(error) => error.to_string(),
+        Ok(study) => Choices::of(&study).map(|_| ()).expect_err(text).to_string(),
+    }
 }
 
 #[test]
@@ -85,7 +92,7 @@ fn what_is_wrong_is_named_with_its_key_its_value_and_its_range() {
     for (keys, expected) in [
         ("mass_ratio = { from = 0, to = 1 }", "optimise.mass_ratio.from is 0, but must be above 0, to 10000"),
         ("mass_ratio = { from = 1, to = 1 }", "optimise.mass_ratio.to is 1, but must be above `from`, to 10000"),
-        ("mass_ratio = { from = 1, to = nan }", "optimise.mass_ratio.to is NaN, but must be above `from`"),
+        ("mass_ratio = { from = 1, to = nan }", "optimise.mass_ratio.to is NaN, but must be above 0, to 10000"),
         ("mass_ratio = { from = 1, to = 2, cells = 1 }", "optimise.mass_ratio.cells is 1, but must be from 2 to 1000"),
         ("largest_force_ratio = 0", "optimise.largest_force_ratio is 0, but must be above 0, to 1e6"),
         ("largest_stroke_m = -1", "optimise.largest_stroke_m is -1, but must be above 0, to 10000 m"),
@@ -107,14 +114,12 @@ fn what_is_wrong_is_named_with_its_key_its_value_and_its_range() {
         assert!(message.starts_with("study.toml: ") && message.contains(expected), "{keys}: {message}");
         assert!(!message.contains('\n'), "{message}");
     }
-    let syntax = |keys: &str| {
-        let text = format!("records = ['a.csv']\n[optimise]\n{keys}");
-        Study::parse(&text, "study.toml", Path::new(""), &[], &[]).unwrap_err().to_string()
-    };
+    let syntax = |keys: &str| parsed(&format!("[optimise]\n{keys}")).unwrap_err().to_string();
     for (keys, expected) in [
         ("mounts = ['roof']", "optimise.mounts.0: a mount is \"centre-of-mass\", \"base-corners\", or"),
         ("mass_ratio = 1", "optimise.mass_ratio"),
         ("limits = 1", "unknown field `limits`"),
+        ("law = 1", "optimise.law is not a key; did you mean `laws`?"),
     ] {
         let message = syntax(keys);
         assert!(message.starts_with("study.toml") && message.contains(expected), "{message}");

@@ -1,5 +1,6 @@
 //! The table of the encoder.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::super::error::SceneError;
@@ -9,35 +10,43 @@ use super::sampling::{SamplingKeys, change_sampling};
 use crate::sensor::{Encoder, preset};
 
 /// `encoder`: a preset and what differs from it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EncoderTable {
-    /// What the other keys change: the suite's encoder if absent.
+    /// Encoder that the other keys change; the suite's without the key.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"amt102-v")]
     pub preset: Option<String>,
-    /// Travel per count, m; 1e-9 to 0.01.
+    /// Travel per count; or give `counts_per_revolution` and `pinion_radius_m`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-9, max = 0.01))]
     pub resolution_m: Option<f64>,
-    /// After quadrature, of an encoder on a pinion; 4 to 1e8.
+    /// Counts a revolution after quadrature, of an encoder on a pinion.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 4.0, max = 1e8), example = 4096.0)]
     pub counts_per_revolution: Option<f64>,
-    /// Of that pinion, m; 0.001 to 10.
+    /// Radius of that pinion.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-3, max = 10.0))]
     pub pinion_radius_m: Option<f64>,
-    /// That a count is missed; 0 to 0.5.
+    /// Probability that a count is missed.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 0.5))]
     pub miss_probability: Option<f64>,
-    /// How often it is read, Hz; 0 (continuously), or 1 to 100,000.
+    /// How often it is read; 0 (continuously), or from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e5))]
     pub rate_hz: Option<f64>,
-    /// Is read at whole periods instead of on a clock of its own.
+    /// Whether it is read at whole periods instead of on a clock of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub synchronous: Option<bool>,
-    /// Of the instant at which it is read, s; up to a tenth of the period.
+    /// Jitter of the instant at which it is read; up to a tenth of the period.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 0.1))]
     pub jitter_s: Option<f64>,
-    /// From then until the count is known, s; up to 0.1, and to 32 periods.
+    /// Time until a reading is known; up to 32 periods.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 0.1))]
     pub latency_s: Option<f64>,
 }
 
@@ -50,19 +59,12 @@ impl Change<Encoder> for EncoderTable {
         let of = |name: &str| key(&format!("{place}.{name}"));
         let mut encoder = start;
         let radius = self.pinion_radius_m;
-        if let Some(radius) = radius {
-            of("pinion_radius_m").require(radius, (1e-3..=10.0).contains(&radius), "from 0.001 to 10")?;
-        }
-        if let Some(counts) = self.counts_per_revolution {
-            of("counts_per_revolution").require(counts, (4.0..=1e8).contains(&counts), "from 4 to 100000000")?;
-        }
         if let Some(resolution) = self.resolution_m {
             if radius.is_some() || self.counts_per_revolution.is_some() {
                 let reason = "counts_per_revolution and pinion_radius_m already say it: give one or the other";
                 return Err(of("resolution_m").conflict(reason));
             }
-            let allowed = (1e-9..=0.01).contains(&resolution);
-            encoder.resolution = of("resolution_m").require(resolution, allowed, "from 0.000000001 to 0.01")?;
+            encoder.resolution = resolution;
         }
         match (self.counts_per_revolution, radius) {
             (Some(counts), Some(radius)) => encoder.resolution = Encoder::rotary_resolution(counts, radius),
@@ -73,10 +75,7 @@ impl Change<Encoder> for EncoderTable {
             (None, Some(_)) => return Err(of("counts_per_revolution").missing("the encoder is not one that a pinion turns")),
             (None, None) => {}
         }
-        if let Some(probability) = self.miss_probability {
-            let allowed = (0.0..=0.5).contains(&probability);
-            encoder.miss_probability = of("miss_probability").require(probability, allowed, "from 0 to 0.5")?;
-        }
+        encoder.miss_probability = self.miss_probability.unwrap_or(encoder.miss_probability);
         let &EncoderTable { rate_hz, synchronous, jitter_s, latency_s, .. } = self;
         let keys = SamplingKeys { rate_hz, synchronous, jitter_s, latency_s };
         encoder.sampling = change_sampling(encoder.sampling, &keys, place, key)?;

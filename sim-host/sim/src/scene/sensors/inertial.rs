@@ -1,5 +1,6 @@
 //! Tables of gyroscopes and accelerometers.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sprag_shared::structure::block::GRAVITY;
 
@@ -11,109 +12,137 @@ use crate::sensor::Inertial;
 use crate::sensor::preset::{DEGREE, MILLI_G};
 
 /// `gyroscope`: a preset and what differs from it. Bias, scale error and misalignment are standard deviations over specimens.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct GyroscopeTable {
-    /// What the other keys change: the suite's gyroscope if absent.
+    /// Gyroscope that the other keys change; the suite's without the key.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"icm-42688-p")]
     pub preset: Option<String>,
-    /// One-sided, °/s/√Hz; up to 10.
+    /// Noise density, one-sided.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub noise_density_deg_s_rthz: Option<f64>,
-    /// At turn-on, °/s; up to 100.
+    /// Bias at turn-on, standard deviation over specimens.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 100.0))]
     pub bias_deg_s: Option<f64>,
-    /// Bias instability as a Gauss-Markov process, °/s; up to 100.
+    /// Bias instability as a Gauss-Markov process.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 100.0))]
     pub drift_deg_s: Option<f64>,
-    /// Of the bias instability, s; 0.001 to 1e6.
+    /// Correlation time of the bias instability.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-3, max = 1e6))]
     pub drift_correlation_time_s: Option<f64>,
-    /// Rate random walk, °/s/√s; up to 10.
+    /// Random walk of the bias.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub random_walk_deg_s_rts: Option<f64>,
-    /// Fraction; up to 0.5.
+    /// Scale error as a fraction, standard deviation over specimens.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 0.5))]
     pub scale_error_ratio: Option<f64>,
-    /// Degrees; up to 45.
+    /// Misalignment of an axis, standard deviation over specimens.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 45.0))]
     pub misalignment_deg: Option<f64>,
-    /// −3 dB corner, Hz; 0 (none), or 0.1 to 100,000.
+    /// −3 dB corner; 0 (none), or from 0.1.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e5))]
     pub bandwidth_hz: Option<f64>,
-    /// Per count, °/s; up to 100.
+    /// Reading per count.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 100.0))]
     pub resolution_deg_s: Option<f64>,
-    /// Either way, °/s; 0 (no limit) up to 100,000.
+    /// Full scale either way; 0 (no limit).
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e5))]
     pub full_scale_deg_s: Option<f64>,
-    /// Output data rate, Hz; 0 (continuous), or 1 to 100,000.
+    /// How often it is read; 0 (continuously), or from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e5))]
     pub rate_hz: Option<f64>,
-    /// Samples at whole periods instead of on a clock of its own.
+    /// Whether it is read at whole periods instead of on a clock of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub synchronous: Option<bool>,
-    /// Of the instant of sampling, s; up to a tenth of the period.
+    /// Jitter of the instant at which it is read; up to a tenth of the period.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 0.1))]
     pub jitter_s: Option<f64>,
-    /// From sampling to reading, s; up to 0.1, and to 32 periods.
+    /// Time until a reading is known; up to 32 periods.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 0.1))]
     pub latency_s: Option<f64>,
 }
 
 /// `block_accelerometer` and `ground_accelerometer`, as [`GyroscopeTable`].
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AccelerometerTable {
-    /// What the other keys change: the suite's accelerometer if absent.
+    /// Accelerometer that the other keys change; the suite's without the key.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"icm-42688-p")]
     pub preset: Option<String>,
-    /// One-sided, µg/√Hz; up to 1e6.
+    /// Noise density, one-sided.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e6))]
     pub noise_density_ug_rthz: Option<f64>,
-    /// At turn-on, mg; up to 1000.
+    /// Bias at turn-on, standard deviation over specimens.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e3))]
     pub bias_mg: Option<f64>,
-    /// Bias instability as a Gauss-Markov process, mg; up to 1000.
+    /// Bias instability as a Gauss-Markov process.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e3))]
     pub drift_mg: Option<f64>,
-    /// Of the bias instability, s; 0.001 to 1e6.
+    /// Correlation time of the bias instability.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1e-3, max = 1e6))]
     pub drift_correlation_time_s: Option<f64>,
-    /// Acceleration random walk, mg/√s; up to 1000.
+    /// Random walk of the bias.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e3))]
     pub random_walk_mg_rts: Option<f64>,
-    /// Fraction; up to 0.5.
+    /// Scale error as a fraction, standard deviation over specimens.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 0.5))]
     pub scale_error_ratio: Option<f64>,
-    /// Of each axis, degrees; up to 45.
+    /// Misalignment of an axis, standard deviation over specimens.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 45.0))]
     pub misalignment_deg: Option<f64>,
-    /// −3 dB corner, Hz; 0 (none), or 0.1 to 100,000.
+    /// −3 dB corner; 0 (none), or from 0.1.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e5))]
     pub bandwidth_hz: Option<f64>,
-    /// Per count, mg; up to 1000.
+    /// Reading per count.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e3))]
     pub resolution_mg: Option<f64>,
-    /// Either way, g; 0 (no limit) up to 10,000.
+    /// Full scale either way; 0 (no limit).
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e4))]
     pub full_scale_g: Option<f64>,
-    /// Output data rate, Hz; 0 (continuous), or 1 to 100,000.
+    /// How often it is read; 0 (continuously), or from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e5))]
     pub rate_hz: Option<f64>,
-    /// Samples at whole periods instead of on a clock of its own.
+    /// Whether it is read at whole periods instead of on a clock of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub synchronous: Option<bool>,
-    /// Of the instant of sampling, s; up to a tenth of the period.
+    /// Jitter of the instant at which it is read; up to a tenth of the period.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 0.1))]
     pub jitter_s: Option<f64>,
-    /// From sampling to reading, s; up to 0.1, and to 32 periods.
+    /// Time until a reading is known; up to 32 periods.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 0.1))]
     pub latency_s: Option<f64>,
 }
 
-/// A number of a table: its key, its value, its unit in SI, the largest allowed and the range in words, where it goes.
-type Number = (&'static str, Option<f64>, f64, f64, &'static str, fn(&mut Inertial) -> &mut f64);
+/// A number of a table: its key, its value, its unit in SI, where it goes.
+type Number = (&'static str, Option<f64>, f64, fn(&mut Inertial) -> &mut f64);
 
 /// What both kinds of inertial sensor have in common, once units are known.
 fn change_inertial(
@@ -123,15 +152,10 @@ fn change_inertial(
     place: &str,
     key: &KeyOf<'_>,
 ) -> Result<Inertial, SceneError> {
-    for &(name, value, unit, highest, range, field) in numbers {
+    for &(name, value, unit, field) in numbers {
         if let Some(value) = value {
-            // A correlation time or a bandwidth cannot be as small as one likes.
-            let lowest = match name {
-                "drift_correlation_time_s" => 1e-3,
-                "bandwidth_hz" if value != 0.0 => 0.1,
-                _ => 0.0,
-            };
-            let value = key(&format!("{place}.{name}")).require(value, (lowest..=highest).contains(&value), range)?;
+            let allowed = name != "bandwidth_hz" || value == 0.0 || value >= 0.1;
+            let value = key(&format!("{place}.{name}")).require(value, allowed, "0 (none), or from 0.1 to 100000")?;
             *field(&mut sensor) = value * unit;
         }
     }
@@ -158,16 +182,16 @@ impl Change<Inertial> for GyroscopeTable {
 
     fn change(&self, start: Inertial, place: &str, key: &KeyOf<'_>) -> Result<Inertial, SceneError> {
         let numbers: [Number; 10] = [
-            ("noise_density_deg_s_rthz", self.noise_density_deg_s_rthz, DEGREE, 10.0, "from 0 to 10", |s| &mut s.noise_density),
-            ("bias_deg_s", self.bias_deg_s, DEGREE, 100.0, "from 0 to 100", |s| &mut s.bias),
-            ("drift_deg_s", self.drift_deg_s, DEGREE, 100.0, "from 0 to 100", |s| &mut s.drift.deviation),
+            ("noise_density_deg_s_rthz", self.noise_density_deg_s_rthz, DEGREE, |s| &mut s.noise_density),
+            ("bias_deg_s", self.bias_deg_s, DEGREE, |s| &mut s.bias),
+            ("drift_deg_s", self.drift_deg_s, DEGREE, |s| &mut s.drift.deviation),
             correlation_time(self.drift_correlation_time_s),
-            ("random_walk_deg_s_rts", self.random_walk_deg_s_rts, DEGREE, 10.0, "from 0 to 10", |s| &mut s.drift.random_walk),
+            ("random_walk_deg_s_rts", self.random_walk_deg_s_rts, DEGREE, |s| &mut s.drift.random_walk),
             scale_error(self.scale_error_ratio),
             misalignment(self.misalignment_deg),
             bandwidth(self.bandwidth_hz),
-            ("resolution_deg_s", self.resolution_deg_s, DEGREE, 100.0, "from 0 to 100", |s| &mut s.resolution),
-            ("full_scale_deg_s", self.full_scale_deg_s, DEGREE, 1e5, "0 (no limit) to 100000", |s| &mut s.full_scale),
+            ("resolution_deg_s", self.resolution_deg_s, DEGREE, |s| &mut s.resolution),
+            ("full_scale_deg_s", self.full_scale_deg_s, DEGREE, |s| &mut s.full_scale),
         ];
         let &GyroscopeTable { rate_hz, synchronous, jitter_s, latency_s, .. } = self;
         change_inertial(start, &numbers, &SamplingKeys { rate_hz, synchronous, jitter_s, latency_s }, place, key)
@@ -182,16 +206,16 @@ impl Change<Inertial> for AccelerometerTable {
     fn change(&self, start: Inertial, place: &str, key: &KeyOf<'_>) -> Result<Inertial, SceneError> {
         let micro_g = 1e-3 * MILLI_G;
         let numbers: [Number; 10] = [
-            ("noise_density_ug_rthz", self.noise_density_ug_rthz, micro_g, 1e6, "from 0 to 1000000", |s| &mut s.noise_density),
-            ("bias_mg", self.bias_mg, MILLI_G, 1e3, "from 0 to 1000", |s| &mut s.bias),
-            ("drift_mg", self.drift_mg, MILLI_G, 1e3, "from 0 to 1000", |s| &mut s.drift.deviation),
+            ("noise_density_ug_rthz", self.noise_density_ug_rthz, micro_g, |s| &mut s.noise_density),
+            ("bias_mg", self.bias_mg, MILLI_G, |s| &mut s.bias),
+            ("drift_mg", self.drift_mg, MILLI_G, |s| &mut s.drift.deviation),
             correlation_time(self.drift_correlation_time_s),
-            ("random_walk_mg_rts", self.random_walk_mg_rts, MILLI_G, 1e3, "from 0 to 1000", |s| &mut s.drift.random_walk),
+            ("random_walk_mg_rts", self.random_walk_mg_rts, MILLI_G, |s| &mut s.drift.random_walk),
             scale_error(self.scale_error_ratio),
             misalignment(self.misalignment_deg),
             bandwidth(self.bandwidth_hz),
-            ("resolution_mg", self.resolution_mg, MILLI_G, 1e3, "from 0 to 1000", |s| &mut s.resolution),
-            ("full_scale_g", self.full_scale_g, GRAVITY, 1e4, "0 (no limit) to 10000", |s| &mut s.full_scale),
+            ("resolution_mg", self.resolution_mg, MILLI_G, |s| &mut s.resolution),
+            ("full_scale_g", self.full_scale_g, GRAVITY, |s| &mut s.full_scale),
         ];
         let &AccelerometerTable { rate_hz, synchronous, jitter_s, latency_s, .. } = self;
         change_inertial(start, &numbers, &SamplingKeys { rate_hz, synchronous, jitter_s, latency_s }, place, key)
@@ -199,17 +223,17 @@ impl Change<Inertial> for AccelerometerTable {
 }
 
 fn correlation_time(value: Option<f64>) -> Number {
-    ("drift_correlation_time_s", value, 1.0, 1e6, "from 0.001 to 1000000", |s| &mut s.drift.correlation_time)
+    ("drift_correlation_time_s", value, 1.0, |s| &mut s.drift.correlation_time)
 }
 
 fn scale_error(value: Option<f64>) -> Number {
-    ("scale_error_ratio", value, 1.0, 0.5, "from 0 to 0.5", |s| &mut s.scale_error)
+    ("scale_error_ratio", value, 1.0, |s| &mut s.scale_error)
 }
 
 fn misalignment(value: Option<f64>) -> Number {
-    ("misalignment_deg", value, DEGREE, 45.0, "from 0 to 45", |s| &mut s.misalignment)
+    ("misalignment_deg", value, DEGREE, |s| &mut s.misalignment)
 }
 
 fn bandwidth(value: Option<f64>) -> Number {
-    ("bandwidth_hz", value, 1.0, 1e5, "0 (none), or from 0.1 to 100000", |s| &mut s.bandwidth)
+    ("bandwidth_hz", value, 1.0, |s| &mut s.bandwidth)
 }

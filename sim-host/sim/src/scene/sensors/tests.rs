@@ -1,13 +1,26 @@
 use super::*;
+use crate::scene::Scene;
 use crate::sensor::preset::DEGREE;
 
+const SCENE: &str = r#"
+block = { size_m = 2.0, slenderness_deg = 10.0, initial_rotation_ratio = 0.5 }
+device = [{ kind = "none" }]
+"#;
+
+/// The scene with `text` as its sensors.
+fn scene(text: &str) -> Result<Scene, String> {
+    let mut scene: toml::Table = SCENE.parse().unwrap();
+    let controller = toml::Table::from_iter([("sensors".to_owned(), text.parse::<toml::Table>().unwrap().into())]);
+    scene.insert("controller".to_owned(), controller.into());
+    Scene::of_table(scene, "scene", &[]).map_err(|error| error.to_string())
+}
+
 fn table(text: &str) -> Result<SensorsTable, String> {
-    crate::scene::document::from_text(text, "scene").map_err(|error| error.to_string())
+    scene(text).map(|scene| scene.file.controller.unwrap().sensors)
 }
 
 fn resolved(text: &str) -> Result<Suite, String> {
-    let key = |key: &str| Key { origin: "scene".to_owned(), key: format!("controller.{key}") };
-    table(text)?.resolve(&key).map_err(|error| error.to_string())
+    scene(text).map(|scene| scene.file.controller.unwrap().suite("scene").unwrap())
 }
 
 #[test]
@@ -80,8 +93,14 @@ fn what_is_wrong_is_named_with_what_is_allowed() {
             "scene: controller.sensors.encoder.preset is \"lm11\", but must be one of \"ideal\", \"lm10\", \"lm10-1um\", \
              \"lm10-10um\", \"amt102-v\"",
         ),
-        ("gyroscope = { bias_deg_s = -1 }", "scene: controller.sensors.gyroscope.bias_deg_s is -1, but must be from 0 to 100"),
-        ("gyroscope = { bias_deg_s = nan }", "scene: controller.sensors.gyroscope.bias_deg_s is NaN, but must be from 0 to 100"),
+        (
+            "gyroscope = { bias_deg_s = -1 }",
+            "scene: controller.sensors.gyroscope.bias_deg_s is -1, but must be from 0 to 100 °/s",
+        ),
+        (
+            "gyroscope = { bias_deg_s = nan }",
+            "scene: controller.sensors.gyroscope.bias_deg_s is NaN, but must be from 0 to 100 °/s",
+        ),
         (
             "ground_accelerometer = { bandwidth_hz = 0.01 }",
             "scene: controller.sensors.ground_accelerometer.bandwidth_hz is 0.01, but must be 0 (none), or from 0.1 to 100000",
@@ -116,7 +135,7 @@ fn what_is_wrong_is_named_with_what_is_allowed() {
         ),
         (
             "encoder = { resolution_m = 0 }",
-            "scene: controller.sensors.encoder.resolution_m is 0, but must be from 0.000000001 to 0.01",
+            "scene: controller.sensors.encoder.resolution_m is 0, but must be from 1e-9 to 0.01 m",
         ),
         (
             "encoder = { resolution_m = 1e-5, pinion_radius_m = 0.1 }",
@@ -139,7 +158,10 @@ fn what_is_wrong_is_named_with_what_is_allowed() {
 #[test]
 fn keys_that_do_not_exist_are_refused_by_name() {
     let message = table("gyroscope = { bias_mg = 1 }").unwrap_err();
-    assert!(message.contains("gyroscope") && message.contains("unknown field `bias_mg`"), "{message}");
+    assert!(
+        message.contains("gyroscope") && message.contains("gyroscope.bias_mg is not a key; did you mean `bias_deg_s`?"),
+        "{message}"
+    );
     let message = table("gyroscope = 3").unwrap_err();
     assert!(message.contains("the name of a preset or a table"), "{message}");
     assert!(table("seed = -1").is_err());
