@@ -61,7 +61,7 @@ fn what_is_wrong_is_named_with_its_key_and_range() {
         ("[record]\nunits = 'ell'", "record.units is \"ell\", but must be g, m/s2, cm/s2 (gal), mm/s2, in/s2, ft/s2"),
         ("[demand]\nstructures = ['tall']", "demand.structures is \"tall\", but must be among the structures"),
         ("[[structure]]\nname = 'a'\nset = { 'block.size_m' = -1 }", "block.size_m is -1, but must be from 0.001 to 10000 m"),
-        ("[[structure]]\nname = 'a'\nset = { 'block.sise_m' = 1 }", "unknown field `sise_m`"),
+        ("[[structure]]\nname = 'a'\nset = { 'block.sise_m' = 1 }", "block.sise_m is not a key; did you mean `size_m`?"),
         ("[[structure]]\nname = 'a'\n[[structure]]\nname = 'a'", "structure.1.name: each structure needs a name of its own"),
         ("[[structure]]\nname = 'a'\n[[structure]]\nname = 'b'\nset = { 'device.0.name' = 'x' }", "give them the same names"),
         ("[[structure]]\nname = 'a'\nset = { 'ground.0.scale' = 2 }", "factors on records belong into the study"),
