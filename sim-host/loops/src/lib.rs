@@ -25,7 +25,7 @@ pub trait IdealLoop<S: Real> {
     /// [`IdealSystem::advance`].
     ///
     /// # Errors
-    /// As there.
+    /// Why the motion cannot be followed further.
     fn advance(
         &self,
         system: &IdealSystem<S>,
@@ -56,7 +56,7 @@ pub trait HybridLoop<S: Real> {
     /// [`HybridSystem::advance`].
     ///
     /// # Errors
-    /// As there.
+    /// Why the motion cannot be followed further.
     fn advance(
         &self,
         system: &HybridSystem<S>,

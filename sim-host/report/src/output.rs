@@ -46,7 +46,7 @@ fn is_input(input: &Path) -> String {
 pub struct OutputError {
     /// The file or folder.
     pub path: PathBuf,
-    /// Why.
+    /// Reason, in words.
     pub reason: String,
 }
 
@@ -88,7 +88,7 @@ impl Results {
     /// Writes `value` to `path` as JSON for people, as [`Results::add`] does.
     ///
     /// # Errors
-    /// As there.
+    /// A value that has no JSON, and those of [`Results::add`].
     pub fn add_json(&mut self, path: &Path, value: &impl Serialize) -> Result<(), OutputError> {
         self.add(path, |file| {
             serde_json::to_writer_pretty(&mut *file, value).map_err(io::Error::other)?;
@@ -119,7 +119,7 @@ impl Results {
     ///
     /// # Errors
     /// As [`Results::commit`].
-    pub fn commit_telling(mut self, err: &mut impl Write) -> Result<(), OutputError> {
+    pub fn commit_with_notes(mut self, err: &mut impl Write) -> Result<(), OutputError> {
         let notes = std::mem::take(&mut self.notes);
         self.commit()?;
         for note in notes {

@@ -42,7 +42,7 @@ pub struct Segment {
     pub start: f64,
     /// s.
     pub duration: f64,
-    /// What shakes.
+    /// Ground acceleration over the segment.
     pub shape: SumSegment<f64>,
     /// Bound of |ü_g/g| from here to the end of the motion.
     pub bound: f64,

@@ -70,7 +70,7 @@ pub enum SynthesisError {
     Range {
         /// Flag of the parameter.
         flag: &'static str,
-        /// Its value.
+        /// Value that was given.
         value: f64,
         /// Smallest value allowed.
         lowest: f64,

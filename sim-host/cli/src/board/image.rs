@@ -80,7 +80,7 @@ pub fn build_bench() -> Result<PathBuf, DeviceError> {
 /// Builds a program for the emulator in the workspace at `folder`, by `cargo build` with `arguments`; else as [`build`].
 ///
 /// # Errors
-/// As there.
+/// The build fails.
 pub fn build_in(folder: &Path, arguments: &[&str], log: Option<&str>) -> Result<PathBuf, DeviceError> {
     let failed = |reason: String| DeviceError::Build(reason);
     if !folder.join("Cargo.toml").is_file() {

@@ -17,17 +17,17 @@ pub enum DeviceError {
     /// It cannot be run in the emulator.
     #[error("{}: {reason}", path.display())]
     Image {
-        /// Its file.
+        /// File of the image.
         path: PathBuf,
-        /// Why.
+        /// Reason, in words.
         reason: String,
     },
     /// There is no such port.
     #[error("port {port}: {reason}")]
     Port {
-        /// Its name.
+        /// Name of the port.
         port: String,
-        /// Why.
+        /// Reason, in words.
         reason: String,
     },
     /// It says nothing.

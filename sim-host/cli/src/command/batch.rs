@@ -41,7 +41,7 @@ pub struct BatchArguments {
     /// Size of the last terms of the series over the rotation that matters, 1e-20 to 0.01; without errors.
     #[arg(long, value_name = "T", default_value = "1e-15", value_parser = tolerance, conflicts_with_all = ["accuracy", "time_budget"])]
     pub tolerance: f64,
-    /// How accurate.
+    /// Accuracy of the runs.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
 }

@@ -56,7 +56,7 @@ pub struct LoopArguments {
     /// Where results go.
     #[command(flatten)]
     pub output: OutputArguments,
-    /// How accurate.
+    /// Accuracy of the runs.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
 }

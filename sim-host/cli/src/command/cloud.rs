@@ -52,7 +52,7 @@ pub struct CloudArguments {
     /// Threads.
     #[command(flatten)]
     pub threads: ThreadArguments,
-    /// How accurate.
+    /// Accuracy of the runs.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
     /// Which of the runs, and whether some are there.

@@ -58,7 +58,7 @@ impl LongRunArguments {
         self.merge.map_or_else(|| self.rows.start(), Start::Merge)
     }
 
-    /// Which rows.
+    /// Rows that this process makes.
     pub fn shard(&self) -> Shard {
         self.shard.unwrap_or(Shard::WHOLE)
     }

@@ -23,7 +23,7 @@ pub struct LoopScene {
     pub ground: GroundMotions,
     /// Its controller, the default one where it has none.
     pub controller: ControllerTable,
-    /// Its sensors.
+    /// Sensors of the controller.
     pub suite: Suite,
     /// Devices that can be commanded, by their index.
     pub pairs: Vec<usize>,

@@ -23,7 +23,7 @@ use super::record_arguments::ReadArguments;
 use super::report::Report;
 use super::thread_arguments::ThreadArguments;
 
-/// Which study.
+/// Study of the controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Study {
@@ -63,7 +63,7 @@ pub struct LoopStudyArguments {
     /// Threads.
     #[command(flatten)]
     pub threads: ThreadArguments,
-    /// How accurate.
+    /// Accuracy of the runs.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
 }

@@ -52,7 +52,7 @@ pub struct OptimiseArguments {
     /// Threads.
     #[command(flatten)]
     pub threads: ThreadArguments,
-    /// How accurate.
+    /// Accuracy of the runs.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
     /// Whether some runs are there.

@@ -174,9 +174,9 @@ impl Report {
     /// An interrupt, and [`OutputError`].
     pub fn finish(self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
         context.check_interrupt()?;
-        self.results.commit_telling(&mut context.err)?;
+        self.results.commit_with_notes(&mut context.err)?;
         drop(self.drawing);
-        let text = format!("{}results in {}\n", self.text, self.folder.display());
+        let text = format!("{}results written to {}\n", self.text, self.folder.display());
         if self.json {
             let _ = context.out.write_all(self.summary.as_bytes());
             if !context.quiet {

@@ -54,7 +54,7 @@ pub struct SensitivityArguments {
     /// Threads.
     #[command(flatten)]
     pub threads: ThreadArguments,
-    /// How accurate.
+    /// Accuracy of the runs.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
 }

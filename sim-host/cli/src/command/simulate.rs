@@ -38,7 +38,7 @@ pub struct SimulateArguments {
     /// Where results go.
     #[command(flatten)]
     pub output: OutputArguments,
-    /// How accurate.
+    /// Accuracy of the runs.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
     /// Show the picture.

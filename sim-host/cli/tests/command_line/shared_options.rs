@@ -45,7 +45,7 @@ fn json_is_the_summary_and_nothing_else_and_quiet_is_silent() {
         let table = String::from_utf8(plain.stdout).unwrap();
         let moved = table.lines().next().is_some_and(|heading| said(&json).contains(heading));
         assert!(
-            moved && table.ends_with("results in out\n") && said(&json).ends_with("results in out\n"),
+            moved && table.ends_with("results written to out\n") && said(&json).ends_with("results written to out\n"),
             "{line:?}: {}",
             said(&json)
         );

@@ -1,10 +1,10 @@
-//! Why rows cannot be kept or gone on with.
+//! Why rows cannot be kept or resumed.
 
 use std::path::{Path, PathBuf};
 
 use super::shard::Shard;
 
-/// Why rows cannot be kept or gone on with.
+/// Why rows cannot be kept or resumed.
 #[derive(Debug, thiserror::Error)]
 pub enum LongRunError {
     /// A file that cannot be read or written.
@@ -12,13 +12,13 @@ pub enum LongRunError {
     File {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// Reason, in words.
         reason: String,
     },
     /// Rows of an interrupted run that a new one would overwrite.
-    #[error("{}: an interrupted run is there; --resume goes on with it, --restart throws it away", path.display())]
+    #[error("{}: an interrupted run is there; --resume continues it, --restart discards it", path.display())]
     Unfinished {
-        /// Its rows.
+        /// File with the rows.
         path: PathBuf,
     },
     /// Rows of another scene, study, version or record.
@@ -64,13 +64,13 @@ pub enum LongRunError {
         path: PathBuf,
         /// Which, from 1, without the heading.
         row: usize,
-        /// Why.
+        /// Reason, in words.
         reason: String,
     },
     /// A shard that is not there, or not whole.
     #[error("shard {shard} is not finished: {} has {have} of {rows} rows", path.display())]
     Missing {
-        /// Which.
+        /// Shard that is missing.
         shard: Shard,
         /// Where it should be.
         path: PathBuf,

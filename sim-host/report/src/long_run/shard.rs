@@ -15,7 +15,7 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// All rows.
+    /// The only shard: all rows.
     pub const WHOLE: Shard = Shard { index: 1, of: 1 };
 
     /// All shards of a run of `of`.

@@ -9,7 +9,7 @@ use crate::plot::png;
 impl Results {
     /// Writes the figure `svg` to `folder` as NAME.svg and NAME.png, as `formats` say; returns the one to look at first, if any.
     ///
-    /// Characters that the font of PNG pictures does not have are told by [`Results::commit_telling`].
+    /// Characters that the font of PNG pictures does not have are told by [`Results::commit_with_notes`].
     ///
     /// # Errors
     /// Those of [`Results::add`], and a figure that cannot be drawn.
@@ -54,7 +54,7 @@ mod tests {
         assert_eq!(first("dots.of", png, &mut results).unwrap(), Some(folder.path().join("dots.of.png")));
         assert_eq!(first("none", Formats { png: false, ..png }, &mut results).unwrap(), None);
         let mut told = Vec::new();
-        results.commit_telling(&mut told).unwrap();
+        results.commit_with_notes(&mut told).unwrap();
         let told = String::from_utf8(told).unwrap();
         assert!(told.lines().count() == 2 && told.ends_with("dots.of.png: the font has no `\u{5730}`\n"), "{told}");
         let mut names: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();

@@ -66,7 +66,7 @@ pub(super) struct AxisTicks {
 }
 
 impl Axis {
-    /// Its ticks.
+    /// Ticks of the axis.
     pub(super) fn ticks(&self) -> AxisTicks {
         let mut ticks = AxisTicks::default();
         for target in (1..=self.target.max(1)).rev() {

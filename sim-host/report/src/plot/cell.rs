@@ -60,7 +60,7 @@ impl From<Outcome> for Cell {
 /// A class of cells: an entry of the legend.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Class {
-    /// Its name.
+    /// Name of the class.
     pub name: String,
     pub(super) colour: Colour,
 }

@@ -78,7 +78,7 @@ pub struct CloudSeries {
 /// A place of a band.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BandPoint {
-    /// Where.
+    /// Place on the horizontal axis.
     pub at: f64,
     /// Its lower edge.
     pub low: f64,

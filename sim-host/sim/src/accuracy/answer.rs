@@ -34,7 +34,7 @@ pub trait Comparable {
 pub struct Answer<R> {
     /// The result.
     pub result: R,
-    /// Its error.
+    /// Error of the result.
     pub error: ErrorEstimate,
     /// How closely it was followed.
     pub closeness: Closeness,

@@ -15,7 +15,7 @@ const GROWTH: f64 = 2.5;
 pub struct Afforded<R> {
     /// The level.
     pub accuracy: Accuracy,
-    /// Its result.
+    /// Result of the attempt.
     pub result: R,
     /// How long it took.
     pub took: Duration,

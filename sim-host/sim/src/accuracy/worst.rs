@@ -11,7 +11,7 @@ pub struct Worst {
     pub peak_rotation_relative: f64,
     /// Results whose outcome is in doubt.
     pub outcomes_in_doubt: u64,
-    /// All results.
+    /// Number of all results.
     pub results: u64,
 }
 

@@ -26,13 +26,13 @@ pub enum TableError {
     /// A column is missing from the header.
     #[error("column `{column}` is missing; the header must be {CASE_COLUMNS}")]
     MissingColumn {
-        /// Its name.
+        /// Name of the column.
         column: &'static str,
     },
     /// A column nobody knows.
     #[error("unknown column `{}`; the header must be {CASE_COLUMNS}", shown(.column))]
     UnknownColumn {
-        /// Its name.
+        /// Name of the column.
         column: String,
     },
     /// A value that is not of the column's kind or not in its range.

@@ -66,7 +66,7 @@ pub struct LoopTask<'a> {
     pub index: usize,
     /// What drives it.
     pub controller: &'a ControllerTable,
-    /// Its sensors.
+    /// Sensors of the controller.
     pub suite: &'a Suite,
     /// Of the sensors' specimens and noise.
     pub seed: u64,

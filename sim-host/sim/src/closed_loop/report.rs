@@ -18,7 +18,7 @@ use crate::simulation::{DeviceRun, ErrorReport};
 pub struct FaultEntry {
     /// When it was entered, s.
     pub time_s: f64,
-    /// Its code.
+    /// Code of the fault.
     pub code: u16,
     /// In words.
     pub fault: String,
@@ -81,9 +81,9 @@ pub struct LoopSummary {
 /// A loop with everything that was seen of it.
 #[derive(Clone, Debug)]
 pub struct LoopReport {
-    /// Its figures.
+    /// Figures of the run.
     pub summary: LoopSummary,
-    /// Its ticks.
+    /// Ticks of the controller.
     pub ticks: Vec<Tick>,
     /// The ideal pair without a controller.
     pub ideal: DeviceRun,

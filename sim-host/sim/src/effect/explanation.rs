@@ -63,7 +63,7 @@ impl Effects {
 /// One device, explained.
 #[derive(Clone, Debug)]
 pub struct Explanation {
-    /// Its name.
+    /// Name of the device.
     pub device: String,
     /// Its kind, as scenes spell it.
     pub kind: &'static str,

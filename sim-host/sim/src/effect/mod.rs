@@ -20,7 +20,7 @@ use crate::scene::schema::SceneFile;
 /// An effect.
 #[derive(Clone, Copy, Debug)]
 pub struct Effect {
-    /// Its name.
+    /// Name of the effect.
     pub name: &'static str,
     /// What it adds, in one line.
     pub summary: &'static str,

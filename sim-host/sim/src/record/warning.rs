@@ -35,7 +35,7 @@ pub enum Warning {
     },
     /// Single samples that stand out from both neighbours.
     Spike {
-        /// How many.
+        /// Number of such samples.
         count: usize,
         /// Time of the largest (s).
         time_s: f64,
@@ -44,7 +44,7 @@ pub enum Warning {
     },
     /// Jumps between two neighbouring samples that do not come back.
     Step {
-        /// How many.
+        /// Number of such samples.
         count: usize,
         /// Time of the largest (s).
         time_s: f64,

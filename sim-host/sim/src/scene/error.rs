@@ -10,7 +10,7 @@ pub enum SceneError {
     Unreadable {
         /// File.
         origin: String,
-        /// Why.
+        /// Message of the parser.
         message: String,
     },
     /// The file is too large to be a scene.
@@ -18,7 +18,7 @@ pub enum SceneError {
     TooLarge {
         /// File.
         origin: String,
-        /// Its size.
+        /// Size of the file, bytes.
         bytes: u64,
     },
     /// Not TOML, an unknown key, or a value of another kind.
@@ -60,7 +60,7 @@ pub enum SceneError {
         origin: String,
         /// Key.
         key: String,
-        /// Why.
+        /// Reason, in words.
         reason: String,
     },
 }

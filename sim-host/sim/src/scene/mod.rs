@@ -40,11 +40,11 @@ pub const MOST_DEVICES: usize = 16;
 pub struct Scene {
     /// As written, with defaults filled in.
     pub file: SceneFile,
-    /// Its devices.
+    /// Devices of the scene, one run each.
     pub devices: Vec<SceneDevice>,
     /// The block.
     pub block: Block,
-    /// Its impacts.
+    /// Restitution of the block.
     pub restitution: Restitution,
     /// Where it was read from, for messages.
     pub origin: String,

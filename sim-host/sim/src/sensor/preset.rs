@@ -39,7 +39,7 @@ pub struct Preset<T> {
     pub name: &'static str,
     /// In one line.
     pub summary: &'static str,
-    /// Its parameters.
+    /// Parameters of the part.
     pub part: T,
 }
 

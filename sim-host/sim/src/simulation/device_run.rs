@@ -18,9 +18,9 @@ use crate::history::{History, Sample};
 /// One device's run. The fields that serialize are the objects in `runs` of `summary.json`; times in s.
 #[derive(Clone, Debug, Serialize)]
 pub struct DeviceRun {
-    /// Its name.
+    /// Name of the device.
     pub device: String,
-    /// Its outcome.
+    /// Outcome of the run.
     pub outcome: Outcome,
     /// max |θ|/α; null when overturned.
     pub peak_rotation: Option<f64>,

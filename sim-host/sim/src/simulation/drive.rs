@@ -135,7 +135,7 @@ impl<'a> Course<'a> {
     /// Follows a device with a memory as [`Course::follow`] an ideal one, and tells `observer` of every swing.
     ///
     /// # Errors
-    /// As there.
+    /// Those of [`Course::follow`].
     pub fn follow_machine<S, O>(
         &self,
         machine: &HybridSystem<S>,

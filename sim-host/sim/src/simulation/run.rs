@@ -55,7 +55,7 @@ pub enum RunError {
     Stopped {
         /// Device.
         device: String,
-        /// Why.
+        /// Reason why the motion could not be followed.
         error: Stopped,
     },
     /// The history would be too long.
@@ -88,7 +88,7 @@ pub fn simulate(scene: &Scene, ground: &GroundMotions, interrupt: &Interrupt) ->
 /// As [`simulate`], for studies, which report no forces and impulses: they are looked at where the scene has `[checks]` only.
 ///
 /// # Errors
-/// As there.
+/// Those of [`simulate`].
 pub fn simulate_for_study(scene: &Scene, ground: &GroundMotions, interrupt: &Interrupt) -> Result<Vec<DeviceRun>, RunError> {
     runs(scene, ground, false, interrupt)
 }
@@ -150,7 +150,7 @@ impl<'a> Task<'a> {
         self.device().is_ideal() && self.ground.vertical.is_none()
     }
 
-    /// Its run.
+    /// Run of the device.
     pub fn run(&self) -> Result<DeviceRun, Failure> {
         if self.is_ideal() { ideal::run(self) } else { machine::run(self) }
     }

@@ -79,7 +79,7 @@ pub struct DemandModel {
     pub demand: Demand,
     /// IM.
     pub measure: Measure,
-    /// All runs.
+    /// Number of all runs.
     pub runs: usize,
     /// Those that are not in the law.
     pub left_out: LeftOut,

@@ -17,7 +17,7 @@ pub struct Outcomes {
     pub structure: String,
     /// The device.
     pub device: String,
-    /// All runs.
+    /// Number of all runs.
     pub runs: usize,
     /// Those in which the block never uplifts.
     pub no_rocking: usize,

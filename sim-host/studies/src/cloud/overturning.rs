@@ -60,17 +60,17 @@ pub enum OverturningError {
         structure: String,
         /// Device.
         device: String,
-        /// Why.
+        /// Reason why there is no fragility.
         error: Box<FragilityError>,
     },
-    /// Its bands.
+    /// Confidence bands that cannot be made.
     #[error("fragility of {structure}, {device}: {error}")]
     Bands {
         /// Structure.
         structure: String,
         /// Device.
         device: String,
-        /// Why.
+        /// Reason why there are no bands.
         error: Box<BootstrapError>,
     },
 }
