@@ -5,7 +5,7 @@ mod others;
 
 use crate::{
     firmware,
-    process::{MESSAGES, cargo, executables, output, run as done},
+    process::{cargo, executables, output, run as done},
     stop::Stop,
     tools,
 };
@@ -31,7 +31,7 @@ const SCENES: [(&str, &str); 3] = [("figure05", "3e-5"), ("figure10", "3e-5"), (
 pub fn run(root: &Path) -> Result<(), Stop> {
     tools::need_emulator()?;
     let image = firmware::CORE.build(root)?;
-    let built = executables(&mut cargo(root, &["build", MESSAGES, "--release", "--package", "sprag-cli"]))?;
+    let built = executables(&mut cargo(root, &["build", "--release", "--package", "sprag-cli"]), &[])?;
     let sprag = built.into_iter().next_back().ok_or_else(|| Stop::failed("cargo named no program"))?;
     let mut parts = vec![("levels", levels::table(root, &sprag)?), ("others", others::table(root, &sprag)?)];
     for (scene, step) in SCENES {

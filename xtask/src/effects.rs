@@ -6,11 +6,11 @@
 
 use crate::{
     firmware,
-    process::{MESSAGES, executables, output},
+    process::{executables, output},
     stop::Stop,
+    summary::first_run,
     tools,
 };
-use serde_json::Value;
 use std::{
     fmt::Write as _,
     path::{Path, PathBuf},
@@ -193,9 +193,9 @@ pub fn off_costs_nothing(root: &Path) -> Result<String, Stop> {
 /// The program, built for speed in a folder of its own for each set of features.
 fn sprag(root: &Path, features: &[&str]) -> Result<PathBuf, Stop> {
     let folder = if features.is_empty() { "target" } else { "target/without-effects" };
-    let mut build = crate::process::cargo(root, &["build", MESSAGES, "--release", "--package", "sprag-cli", "--bin", "sprag"]);
+    let mut build = crate::process::cargo(root, &["build", "--release", "--package", "sprag-cli", "--bin", "sprag"]);
     build.args(features).arg("--target-dir").arg(root.join(folder));
-    executables(&mut build)?.pop().ok_or_else(|| Stop::failed("cargo names no program"))
+    executables(&mut build, &[])?.pop().ok_or_else(|| Stop::failed("cargo names no program"))
 }
 
 /// The scene's settings for one run.
@@ -212,10 +212,7 @@ fn arguments(root: &Path, set: &[&str], step: f64, out: &Path) -> Vec<String> {
 
 /// Time for which the block rocks, s.
 fn rocking_time(folder: &Path) -> Result<f64, Stop> {
-    let path = folder.join("summary.json");
-    let text = std::fs::read_to_string(&path).map_err(|error| Stop::usage(format!("{}: {error}", path.display())))?;
-    let summary: Value = serde_json::from_str(&text).map_err(|error| Stop::failed(format!("{}: {error}", path.display())))?;
-    summary["runs"][0]["end_time_s"].as_f64().ok_or_else(|| Stop::failed("a summary without end_time_s"))
+    first_run(folder)?["end_time_s"].as_f64().ok_or_else(|| Stop::failed("a summary without end_time_s"))
 }
 
 fn added_steps(folder: &Path) -> Result<f64, Stop> {

@@ -1,7 +1,7 @@
 //! The images for the board: what there is, and how they are built.
 
 use crate::{
-    process::{MESSAGES, cargo_in, executables, run as done},
+    process::{cargo_in, executables, run as done},
     seal::seal,
     stop::Stop,
     tools,
@@ -124,14 +124,15 @@ impl Image {
     pub fn build(&self, root: &Path) -> Result<PathBuf, Stop> {
         let is_firmware = self.workspace == BOARD.workspace;
         let mut command = self.cargo(root, if is_firmware { "rustc" } else { "build" });
-        command.args([MESSAGES, "--profile", self.profile]);
+        command.args(["--profile", self.profile]);
+        let mut to_compiler = Vec::new();
         if is_firmware {
             let object = self.object(root);
             let folder = object.parent().unwrap_or(root);
             fs::create_dir_all(folder).map_err(|error| Stop::failed(format!("{}: {error}", folder.display())))?;
-            command.arg("--").arg(format!("--emit=link,obj={}", object.display()));
+            to_compiler.push(format!("--emit=link,obj={}", object.display()));
         }
-        let named = executables(&mut command)?.pop();
+        let named = executables(&mut command, &to_compiler)?.pop();
         let built = named.ok_or_else(|| Stop::failed(format!("cargo built {} but named no executable", self.package)))?;
         // Below the target folder: the target's name, the profile, the file.
         let target = built.ancestors().nth(3).ok_or_else(|| Stop::failed(format!("{}: too short a path", built.display())))?;

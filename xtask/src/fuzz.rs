@@ -2,7 +2,7 @@
 //! flags that cargo-fuzz uses without a sanitizer, so that nothing but a C++ compiler needs installing.
 
 use crate::{
-    process::{MESSAGES, cargo_in, executables, filtered, host, run as done},
+    process::{cargo_in, executables, filtered, host, run as done},
     stop::Stop,
     tools,
 };
@@ -74,9 +74,9 @@ pub fn check(root: &Path) -> Result<(), Stop> {
 fn build(root: &Path) -> Result<Vec<(String, PathBuf)>, Stop> {
     let host = host(root)?;
     // Naming the target keeps the flags away from build scripts, which could not be linked with them.
-    let mut command = cargo_in(root, WORKSPACE, &["build", MESSAGES, "--release", "--target", &host]);
+    let mut command = cargo_in(root, WORKSPACE, &["build", "--release", "--target", &host]);
     command.env("CARGO_ENCODED_RUSTFLAGS", INSTRUMENTATION.join("\u{1f}"));
-    let mut targets: Vec<_> = executables(&mut command)?
+    let mut targets: Vec<_> = executables(&mut command, &[])?
         .into_iter()
         .filter_map(|program| Some((program.file_stem()?.to_str()?.to_owned(), program)))
         .collect();

@@ -17,6 +17,7 @@ mod seal;
 mod size;
 mod steps;
 mod stop;
+mod summary;
 mod test;
 mod ticks;
 mod tools;

@@ -17,7 +17,7 @@ use std::{
 const TICK: &str = "control_tick";
 
 /// Names of functions that panic: the handler in which all end, and those before it, into which it may have gone.
-const PANICS: [&str; 4] = ["*rust_begin_unwind*", "*panicking*", "*_failed*", "*_fail*"];
+const PANICS: [&str; 3] = ["*rust_begin_unwind*", "*panicking*", "*_fail*"];
 
 /// The function that the feature `deliberate-panic` adds below the tick.
 const DELIBERATE: &str = "deliberate_panic";

@@ -148,15 +148,16 @@ pub fn captured(command: &mut Command) -> Result<String, Stop> {
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// The argument by which cargo reports to programs what it builds.
-pub const MESSAGES: &str = "--message-format=json-render-diagnostics";
-
-/// Runs a build of cargo with [`MESSAGES`] and gives the paths of the executables that it names; where they lie depends on settings of
-/// the user.
+/// Runs a build of cargo, with arguments for the compiler where it takes some, and gives the paths of the executables that it names; where
+/// they lie depends on settings of the user.
 ///
 /// # Errors
 /// If the build fails.
-pub fn executables(build: &mut Command) -> Result<Vec<PathBuf>, Stop> {
+pub fn executables(build: &mut Command, to_compiler: &[String]) -> Result<Vec<PathBuf>, Stop> {
+    build.arg("--message-format=json-render-diagnostics");
+    if !to_compiler.is_empty() {
+        build.arg("--").args(to_compiler);
+    }
     let messages = output(build)?;
     let executable = |message| if let Ok(Message::CompilerArtifact(built)) = message { built.executable } else { None };
     Ok(Message::parse_stream(messages.as_bytes()).filter_map(executable).map(PathBuf::from).collect())

@@ -4,9 +4,9 @@ use crate::{
     firmware::{BOARD, Image},
     process::{cargo, output},
     stop::Stop,
+    summary::first_run,
     tools,
 };
-use serde_json::Value;
 use std::{fmt::Write as _, fs, path::Path};
 
 /// The table, from the root.
@@ -70,11 +70,8 @@ fn measure(root: &Path, elf: &Path, log: Option<&str>, set: &[&str]) -> Result<(
         command.args(["--set", set]);
     }
     output(&mut command)?;
-    let summary = folder.join("summary.json");
-    let cannot = |error: &dyn std::fmt::Display| Stop::failed(format!("{}: {error}", summary.display()));
-    let text = fs::read_to_string(&summary).map_err(|error| cannot(&error))?;
-    let read: Value = serde_json::from_str(&text).map_err(|error| cannot(&error))?;
-    let number = |key: &str| read["runs"][0][key].as_u64().and_then(|number| u32::try_from(number).ok());
+    let run = first_run(&folder)?;
+    let number = |key: &str| run[key].as_u64().and_then(|number| u32::try_from(number).ok());
     number("instructions_per_tick")
         .zip(number("instructions_per_tick_worst"))
         .ok_or_else(|| Stop::failed("the summary has no instructions_per_tick"))
