@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use clap::Args;
+use sprag_report::long_run::error::LongRunError;
 use sprag_sim::accuracy::{Accuracy, budget};
 
 use super::context::Context;
@@ -59,6 +60,14 @@ impl AccuracyArguments {
     /// Whether the accuracy may be another every time.
     pub fn is_chosen(&self) -> bool {
         self.time_budget.is_some()
+    }
+
+    /// Whether finished rows can be kept, as the `option` of a long run that is given needs.
+    ///
+    /// # Errors
+    /// [`LongRunError::NoRows`] where the accuracy may be another every time.
+    pub fn keeps_rows(&self, option: Option<&'static str>) -> Result<(), LongRunError> {
+        option.filter(|_| self.is_chosen()).map_or(Ok(()), |option| Err(LongRunError::NoRows { option }))
     }
 }
 

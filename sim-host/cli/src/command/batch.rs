@@ -117,7 +117,7 @@ fn run(arguments: &BatchArguments, context: &mut Context<'_>) -> anyhow::Result<
     let cases = read_cases(BufReader::new(file)).map_err(|error| anyhow!("{name}: {error}"))?;
     reading.finish();
     // Where the results go is tried before the work, not after it.
-    let heading = heading(arguments.accuracy.accuracy.is_some() || arguments.accuracy.time_budget.is_some());
+    let heading = heading(arguments.accuracy.accuracy.is_some() || arguments.accuracy.is_chosen());
     let same = |file| results_of(file, &heading, &cases);
     claim_file(&arguments.out, &[path], arguments.replace.overwrite, same)?;
     let pool = arguments.threads.pool()?;

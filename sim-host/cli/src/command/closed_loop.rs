@@ -79,7 +79,7 @@ struct Answer<'a> {
 
 impl Run for LoopArguments {
     fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
-        let mut folder = self.output.folder(&self.scene.scene, "loop")?.of_any_accuracy(self.accuracy.is_chosen());
+        let mut folder = self.output.folder_at(&self.scene.scene, "loop", &self.accuracy)?;
         let (pool, interrupt) = (self.threads.pool()?, context.interrupt);
         let mut run = |change| looped(self, change, &mut folder, interrupt);
         let (desk, subject, mut reports) = match (self.monte_carlo, self.accuracy.time_budget) {

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 use sprag_report::columns::Table;
-use sprag_report::long_run::error::LongRunError;
 use sprag_report::long_run::origin::Origin;
 use sprag_report::long_run::rows::{Plan, Rows};
 use sprag_report::long_run::shard::Shard;
@@ -101,10 +100,8 @@ struct Studied<'a> {
 
 impl Run for CloudArguments {
     fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
-        if let (true, Some(option)) = (self.accuracy.is_chosen(), self.long_run.given()) {
-            return Err(LongRunError::NoRows { option }.into());
-        }
-        let mut folder = self.output.folder(&self.input.study, "cloud")?.of_any_accuracy(self.accuracy.is_chosen());
+        self.accuracy.keeps_rows(self.long_run.given())?;
+        let mut folder = self.output.folder_at(&self.input.study, "cloud", &self.accuracy)?;
         let study = self.input.load(None)?;
         let pool = self.threads.pool()?;
         // Records do not depend on how accurately they are followed.
@@ -140,7 +137,7 @@ fn studied<'a>(
     let subject = study_subject("cloud", &records.records).with("study", &study.file)?.with("structures", &study.structures)?;
     let inputs = arguments.input.files(&study, records);
     folder.open(&Claim { subject: subject.clone(), page: "summary.json", names: &NAMES, inputs })?;
-    if arguments.accuracy.time_budget.is_some() {
+    if arguments.accuracy.is_chosen() {
         // Runs of several accuracies are tried; only the last are worth keeping.
         let runs = Runs::of(&study, &records.records, interrupt, |runs| progress.begin(runs), &|| progress.step())?;
         return Ok(Studied { study, records, subject, runs, rows: None });

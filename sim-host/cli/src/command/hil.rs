@@ -65,7 +65,7 @@ pub struct HilArguments {
 
 impl Run for HilArguments {
     fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
-        let mut folder = self.output.folder(&self.scene.scene, "hil")?.of_any_accuracy(self.accuracy.is_chosen());
+        let mut folder = self.output.folder_at(&self.scene.scene, "hil", &self.accuracy)?;
         let interrupt = context.interrupt;
         let (desk, subject, hosts) = self.accuracy.run(context, |change| on_host(self, change, &mut folder, interrupt))?;
         let warnings = context.warned(desk.scene.warnings().into_iter().chain(warning_lines(&desk.ground.records)));

@@ -85,7 +85,7 @@ impl Run for LoopStudyArguments {
         if matches!(self.study, Study::IdealLimit | Study::Faults) && !self.records.is_empty() {
             anyhow::bail!("--records: the study {name} takes no records");
         }
-        let mut folder = self.output.folder(Path::new(&name), "loop-study")?.of_any_accuracy(self.accuracy.is_chosen());
+        let mut folder = self.output.folder_at(Path::new(&name), "loop-study", &self.accuracy)?;
         let files: Vec<(PathBuf, PathBuf)> = self.records.iter().map(|file| (file.clone(), file.clone())).collect();
         let accuracy = self.accuracy.accuracy.map(|accuracy| accuracy.to_string());
         let subject = Subject::new("loop-study", digests(&files)).with("study", &name)?.with("accuracy", &accuracy)?;

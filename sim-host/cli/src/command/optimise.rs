@@ -4,7 +4,6 @@ use std::path::Path;
 
 use clap::Args;
 use serde::Serialize;
-use sprag_report::long_run::error::LongRunError;
 use sprag_report::long_run::origin::Origin;
 use sprag_report::output::{Claim, ResultFolder, Subject};
 use sprag_report::progress::Progress;
@@ -127,10 +126,8 @@ struct Answered<'a> {
 
 impl Run for OptimiseArguments {
     fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
-        if let (true, Some(option)) = (self.accuracy.is_chosen(), self.rows.given()) {
-            return Err(LongRunError::NoRows { option }.into());
-        }
-        let mut folder = self.output.folder(&self.input.study, "optimise")?.of_any_accuracy(self.accuracy.is_chosen());
+        self.accuracy.keeps_rows(self.rows.given())?;
+        let mut folder = self.output.folder_at(&self.input.study, "optimise", &self.accuracy)?;
         let study = self.input.load(None)?;
         let pool = self.threads.pool()?;
         Choices::of(&study)?;
@@ -185,7 +182,7 @@ fn answered<'a>(
     let names = &["designs", "motions", "optimise", "trade_off"];
     folder.open(&Claim { subject: subject.clone(), page: "summary.json", names, inputs })?;
     let (begin, done) = (|runs| progress.begin(runs), || progress.step());
-    let (solution, tried) = if arguments.accuracy.time_budget.is_some() {
+    let (solution, tried) = if arguments.accuracy.is_chosen() {
         (problem.solve(&mut (), interrupt, &begin, &done)?, None)
     } else {
         let origin = Origin::new(subject.clone(), MOST_ROWS);

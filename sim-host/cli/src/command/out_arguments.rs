@@ -9,6 +9,8 @@ use sprag_report::part::Part;
 use sprag_sim::scene::Scene;
 use sprag_sim::scene::schema::SceneFile;
 
+use super::accuracy_arguments::AccuracyArguments;
+
 /// What may be replaced.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub struct OverwriteArguments {
@@ -50,6 +52,14 @@ impl OutputArguments {
             Path::new("out").join(if command == "simulate" { stem.into_owned() } else { format!("{stem}-{command}") })
         });
         Ok(ResultFolder::new(path, self.replace.overwrite))
+    }
+
+    /// The same for a command that runs as accurately as `accuracy` asks.
+    ///
+    /// # Errors
+    /// As [`OutputArguments::formats`].
+    pub(super) fn folder_at(&self, input: &Path, command: &str, accuracy: &AccuracyArguments) -> anyhow::Result<ResultFolder> {
+        Ok(self.folder(input, command)?.of_any_accuracy(accuracy.is_chosen()))
     }
 
     /// The formats of the results of `command`.

@@ -70,7 +70,7 @@ struct Answer<'a> {
 
 impl Run for SensitivityArguments {
     fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
-        let mut folder = self.output.folder(&self.scene.scene, "sensitivity")?.of_any_accuracy(self.accuracy.is_chosen());
+        let mut folder = self.output.folder_at(&self.scene.scene, "sensitivity", &self.accuracy)?;
         let mut warnings = context.warned(self.scene.load(None)?.warnings());
         let interrupt = context.interrupt;
         let studied = self.accuracy.run(context, |change| studied(self, change, &mut folder, interrupt))?;

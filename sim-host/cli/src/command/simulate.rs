@@ -48,7 +48,7 @@ pub struct SimulateArguments {
 
 impl Run for SimulateArguments {
     fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
-        let mut folder = self.output.folder(&self.scene.scene, "simulate")?.of_any_accuracy(self.accuracy.is_chosen());
+        let mut folder = self.output.folder_at(&self.scene.scene, "simulate", &self.accuracy)?;
         let mut warnings = context.warned(self.scene.load(None)?.warnings());
         let interrupt = context.interrupt;
         let Simulated { scene, subject, records, mut runs } =

@@ -8,7 +8,7 @@ use super::value::Value;
 /// The value of a column in the row of a subject.
 type Taken<R> = Box<dyn for<'a> Fn(&'a R) -> Value<'a>>;
 
-/// The columns of a table whose rows tell of an `R` each: every column is described once, with its value.
+/// The columns of a table whose rows have an `R` each as their subject: every column is described once, with its value.
 pub struct Fields<R> {
     fields: Vec<(Column, Taken<R>)>,
 }

@@ -100,24 +100,15 @@ fn ranges_of_a_device_are_those_of_the_core() {
     use crate::keys::Described;
     let scene = Scene::parse(SCENE, "scene.toml").unwrap();
     let schema = &SceneFile::schema()["properties"]["device"]["items"]["properties"];
-    let of_actuation = |change: &dyn Fn(&mut ActuationTable)| {
-        let mut table = scene.file.device[1].clone();
-        let mut actuation = ActuationTable::default();
-        change(&mut actuation);
-        table.actuation = Some(actuation);
-        scene.with_device(table).map(|_| ()).map_err(|error| error.to_string())
-    };
-    let of_flywheel = |change: &dyn Fn(&mut FlywheelLossesTable)| {
-        let mut table = scene.file.device[1].clone();
-        let mut losses = FlywheelLossesTable::default();
-        change(&mut losses);
-        table.flywheel = Some(losses);
-        scene.with_device(table).map(|_| ()).map_err(|error| error.to_string())
-    };
     let of_device = |change: &dyn Fn(&mut DeviceTable)| {
         let mut table = scene.file.device[1].clone();
         change(&mut table);
         scene.with_device(table).map(|_| ()).map_err(|error| error.to_string())
+    };
+    let of_actuation =
+        |change: &dyn Fn(&mut ActuationTable)| of_device(&|device| change(device.actuation.insert(ActuationTable::default())));
+    let of_flywheel = |change: &dyn Fn(&mut FlywheelLossesTable)| {
+        of_device(&|device| change(device.flywheel.insert(FlywheelLossesTable::default())))
     };
     type Try<'a> = &'a dyn Fn(f64) -> Result<(), String>;
     let tries: [(&serde_json::Value, Try<'_>); 6] = [
