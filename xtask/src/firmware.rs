@@ -53,7 +53,7 @@ pub const CORE: Image = Image {
     name: "core",
     workspace: "",
     package: "sprag-emulated-core",
-    profile: "dist",
+    profile: "image",
     features: &[],
     budget: Some("tests/emulated-core/size.budget"),
     variable: Some("SPRAG_EMULATED_CORE_ELF"),

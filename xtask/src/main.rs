@@ -11,6 +11,7 @@ mod figures;
 mod firmware;
 mod fuzz;
 mod hardware;
+mod package;
 mod panic_check;
 mod process;
 mod seal;
@@ -89,6 +90,10 @@ enum Task {
         /// An ELF file with symbols, in place of the sources and programs
         program: Option<String>,
     },
+    /// Build the Debian package of the program, with its pages for `man` and its completions; needs cargo-deb
+    Deb,
+    /// Install the program below target/installed and run the README's commands with it in an empty folder, without cargo
+    Installed,
     /// Feed random input to the fuzz targets
     Fuzz {
         /// One of them; without, each in turn
@@ -139,6 +144,8 @@ fn run(task: Task) -> Result<(), Stop> {
         Task::BoardImage { what: Counted::Profile } => board_image::measure(root, "profile"),
         Task::Hardware => hardware::run(root, &mut Steps::default()),
         Task::Figures { program } => figures::run(root, program.as_deref()),
+        Task::Deb => package::deb(root),
+        Task::Installed => package::try_installed(root),
         Task::Fuzz { target, seconds } => fuzz::run(root, target.as_deref(), seconds, Inputs::New),
     }
 }

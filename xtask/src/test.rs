@@ -4,7 +4,7 @@ use crate::{
     board_image, exhaustive,
     firmware::{BOARD, Built, LINTED, TARGET},
     fuzz::{self, Inputs},
-    hardware, panic_check,
+    hardware, package, panic_check,
     process::{Beside, cargo, cargo_in, host, run as done},
     size,
     steps::Steps,
@@ -16,7 +16,7 @@ use std::path::Path;
 /// The target of programs in a browser.
 const PAGE: &str = "wasm32-unknown-unknown";
 
-/// Runs every check; where `fuzz_seconds` are given, each fuzz target too, for so long.
+/// Runs every check; where `fuzz_seconds` are given, the installed program too, and each fuzz target for so long.
 ///
 /// # Errors
 /// At the first check that fails.
@@ -71,7 +71,10 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     steps.step("rest of the tests' build", || built_tests.wait())?;
     steps.step("tests", || tests(root, &built, fuzz_seconds.is_some()))?;
     match fuzz_seconds {
-        Some(seconds) => steps.step("fuzzing", || fuzz::run(root, None, seconds, Inputs::Same)),
+        Some(seconds) => {
+            steps.step("installed program", || package::try_installed(root))?;
+            steps.step("fuzzing", || fuzz::run(root, None, seconds, Inputs::Same))
+        }
         None => steps.step("fuzz targets", || fuzz::check(root)),
     }
 }

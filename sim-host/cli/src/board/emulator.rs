@@ -9,6 +9,7 @@ use std::time::Duration;
 
 use sprag_shared::link::Pace;
 
+use super::image::Image;
 use super::line::{DeviceError, Line};
 
 /// The emulator's program.
@@ -37,6 +38,8 @@ pub struct Emulator {
     asked: bool,
     /// What has come of a chunk that is not whole yet.
     pending: Vec<u8>,
+    /// What it runs, as long as it runs.
+    _image: Option<Image>,
 }
 
 impl Emulator {
@@ -44,7 +47,7 @@ impl Emulator {
     ///
     /// # Errors
     /// [`DeviceError::Emulator`].
-    pub fn start(image: &Path, way: Way, log: Option<&Path>) -> Result<Emulator, DeviceError> {
+    pub fn start(image: Image, way: Way, log: Option<&Path>) -> Result<Emulator, DeviceError> {
         let failed = |error: std::io::Error| {
             DeviceError::Emulator(format!("{PROGRAM}: {error}; on Debian: sudo apt-get install qemu-system-arm"))
         };
@@ -62,8 +65,8 @@ impl Emulator {
             Way::Streams => command.args(["-serial", "none", "-icount", "shift=0,sleep=off"]),
             Way::Usart => command.args(["-serial", "stdio", "-icount", "shift=0"]),
         };
-        command.args(["-semihosting-config", &semihosting, "-kernel"]).arg(image);
-        Emulator::spawn(command, way, failed)
+        command.args(["-semihosting-config", &semihosting, "-kernel"]).arg(image.path());
+        Emulator::spawn(command, way, Some(image), failed)
     }
 
     /// Starts the board's own `image` in `bench`, the program that has models of the board's parts.
@@ -73,10 +76,15 @@ impl Emulator {
     pub fn between_models(bench: &Path, image: &Path) -> Result<Emulator, DeviceError> {
         let mut command = Command::new(bench);
         command.arg("serve").arg(image);
-        Emulator::spawn(command, Way::Streams, |error| DeviceError::Emulator(format!("{}: {error}", bench.display())))
+        Emulator::spawn(command, Way::Streams, None, |error| DeviceError::Emulator(format!("{}: {error}", bench.display())))
     }
 
-    fn spawn(mut command: Command, way: Way, failed: impl Fn(std::io::Error) -> DeviceError) -> Result<Emulator, DeviceError> {
+    fn spawn(
+        mut command: Command,
+        way: Way,
+        image: Option<Image>,
+        failed: impl Fn(std::io::Error) -> DeviceError,
+    ) -> Result<Emulator, DeviceError> {
         let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().map_err(failed)?;
         let (Some(input), Some(mut stdout), Some(mut stderr)) = (child.stdin.take(), child.stdout.take(), child.stderr.take())
         else {
@@ -97,7 +105,7 @@ impl Emulator {
             let _ = stderr.read_to_string(&mut text);
             let _ = to_errors.send(text);
         });
-        Ok(Emulator { child, input, output, errors, way, out: Vec::new(), asked: false, pending: Vec::new() })
+        Ok(Emulator { child, input, output, errors, way, out: Vec::new(), asked: false, pending: Vec::new(), _image: image })
     }
 
     /// Why it has gone, as far as it says.

@@ -1,9 +1,11 @@
-//! Building the firmware for the emulator.
+//! The firmware for the emulator: inside this program, or built.
 
 use std::fs::File;
-use std::io::{ErrorKind, Read};
+use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+
+use tempfile::TempPath;
 
 use super::line::DeviceError;
 
@@ -41,20 +43,44 @@ const ELF_32_LITTLE_ENDIAN: &[u8] = b"\x7fELF\x01\x01";
 const MACHINE: usize = 18;
 const ARM: [u8; 2] = [40, 0];
 
-/// Builds the firmware for the emulator, with logs from `log` (`trace`, `debug`, `info`, `warn`, `error`) on if there is one, and gives the
-/// path of its ELF file. Cargo's own progress goes to the standard error stream.
+/// The firmware for the emulator: the one inside this program, or one that is built, as it is where logs from `log` on are asked for (`trace`,
+/// `debug`, `info`, `warn`, `error`). Cargo's own progress goes to the standard error stream.
 ///
 /// # Errors
-/// [`DeviceError::Build`] where there is no source, no cargo, or the build fails.
-pub fn build(log: Option<&str>) -> Result<PathBuf, DeviceError> {
+/// [`DeviceError::Build`] where there is no source, no cargo, or the build fails; [`DeviceError::Emulator`] where no file can be written.
+pub fn for_emulator(log: Option<&str>) -> Result<Image, DeviceError> {
+    if log.is_none() && !sprag_images::EMULATOR.is_empty() {
+        let failed = |error: std::io::Error| DeviceError::Emulator(format!("no file for the firmware: {error}"));
+        let mut file = tempfile::Builder::new().prefix("sprag-").suffix(".elf").tempfile().map_err(failed)?;
+        file.write_all(sprag_images::EMULATOR).map_err(failed)?;
+        return Ok(Image::Inside(file.into_temp_path()));
+    }
     let features = if log.is_some() { "board-qemu,log" } else { "board-qemu" };
-    build_in(&folder(), &["--release", "--no-default-features", "--features", features], log)
+    build_in(&folder(), &["--release", "--no-default-features", "--features", features], log).map(Image::File)
+}
+
+/// A firmware's ELF file.
+pub enum Image {
+    /// A user's, or one that has been built.
+    File(PathBuf),
+    /// Of the firmware inside this program; it is gone with this value.
+    Inside(TempPath),
+}
+
+impl Image {
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        match self {
+            Image::File(path) => path,
+            Image::Inside(path) => path,
+        }
+    }
 }
 
 /// Builds the firmware for the board and gives the path of its ELF file.
 ///
 /// # Errors
-/// As [`build`].
+/// As [`for_emulator`].
 pub fn build_board() -> Result<PathBuf, DeviceError> {
     build_in(&folder(), &["--release"], None)
 }
@@ -69,7 +95,7 @@ fn has_unicorn() -> bool {
 /// Builds the program that runs the board's image between models of the board's parts, and gives its path.
 ///
 /// # Errors
-/// As [`build`]; [`DeviceError::Emulator`] where Unicorn is not installed.
+/// As [`for_emulator`]; [`DeviceError::Emulator`] where Unicorn is not installed.
 pub fn build_bench() -> Result<PathBuf, DeviceError> {
     if !has_unicorn() {
         return Err(DeviceError::Emulator("Unicorn is not installed; on Debian: sudo apt-get install libunicorn-dev".to_owned()));
@@ -77,7 +103,7 @@ pub fn build_bench() -> Result<PathBuf, DeviceError> {
     build_in(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/board-image"), &["--bins"], None)
 }
 
-/// Builds a program for the emulator in the workspace at `folder`, by `cargo build` with `arguments`; else as [`build`].
+/// Builds a program for the emulator in the workspace at `folder`, by `cargo build` with `arguments`; else as [`for_emulator`].
 ///
 /// # Errors
 /// The build fails.
@@ -86,16 +112,9 @@ pub fn build_in(folder: &Path, arguments: &[&str], log: Option<&str>) -> Result<
     if !folder.join("Cargo.toml").is_file() {
         return Err(failed(format!("{} is not there; name an image by --firmware", folder.display())));
     }
-    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.current_dir(folder).arg("build").args(arguments);
+    let mut cargo = sprag_images::cargo_build(folder);
+    cargo.args(arguments);
     cargo.arg("--message-format=json-render-diagnostics").stdin(Stdio::null()).stderr(Stdio::inherit());
-    // What is set for the build of the host is not meant for the target.
-    for (name, _) in std::env::vars_os() {
-        let name = name.to_string_lossy().into_owned();
-        if name.starts_with("CARGO_PROFILE_") || name.starts_with("CARGO_BUILD_") || name.contains("RUSTFLAGS") {
-            cargo.env_remove(name);
-        }
-    }
     if let Some(target) = std::env::var_os("CARGO_TARGET_DIR") {
         let name = if folder.ends_with("board-image") { "tests/board-image" } else { "firmware" };
         cargo.env("CARGO_TARGET_DIR", PathBuf::from(target).join(name));

@@ -41,6 +41,6 @@ pub fn measure(image: Option<&Path>) -> Result<Board, BoardError> {
 /// Builds the image from the sources that this program was built from.
 fn build() -> Result<PathBuf, BoardError> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let arguments = ["--profile", "dist", "--package", "sprag-emulated-core", "--target", "thumbv7em-none-eabihf"];
+    let arguments = ["--profile", "image", "--package", "sprag-emulated-core", "--target", "thumbv7em-none-eabihf"];
     super::image::build_in(&root, &arguments, None).map_err(|error| BoardError::Build(error.to_string()))
 }

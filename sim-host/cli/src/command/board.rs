@@ -33,7 +33,7 @@ use crate::board::{parameters, recordings, setting_text};
     sprag board log --port /dev/ttyUSB0 --csv events.csv\n  \
     sprag board record --port /dev/ttyUSB0 --out earthquake.csv\n  \
     sprag board watch --port /dev/ttyUSB0\n\n\
-    With --qemu a new device is started for each command, so nothing is left of what was told to the one before; and since it has no \
+    With --qemu a new device is started for each command, so nothing is left of what the one before was given; and since it has no \
     settings of its own it is in Fault: not commissioned.")]
 pub struct BoardArguments {
     #[command(subcommand)]

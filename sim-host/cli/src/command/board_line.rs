@@ -7,7 +7,7 @@ use clap::{ArgGroup, Args};
 use sprag_shared::link::Identity;
 
 use crate::board::emulator::{Emulator, Way};
-use crate::board::image;
+use crate::board::image::{self, Image};
 use crate::board::line::{DeviceError, Line};
 use crate::board::log::Log;
 use crate::board::serial;
@@ -20,7 +20,7 @@ pub struct LineArguments {
     /// On a serial port.
     #[arg(long, value_name = "DEV", value_parser = |port: &str| SERIAL.allow(port.to_owned()))]
     pub port: Option<String>,
-    /// In the emulator: builds the firmware and runs it in QEMU.
+    /// In the emulator: runs the firmware in QEMU.
     #[arg(long)]
     pub qemu: bool,
     /// The board's own image, unmodified, between models of the board's parts: builds both. Needs libunicorn-dev.
@@ -32,7 +32,7 @@ pub struct LineArguments {
     /// How bytes get into the emulator; by usart a loop takes some 20 times as long as by streams.
     #[arg(long, value_enum, default_value_t, requires = "qemu")]
     pub way: Way,
-    /// Build the firmware with logs from this level on, and show them.
+    /// Build the firmware with logs from this level on, from the clone that this program was built from, and show them.
     #[arg(long, value_name = "LEVEL", value_parser = level(), requires = "qemu")]
     pub log: Option<String>,
 }
@@ -69,12 +69,12 @@ pub fn connect(arguments: &LineArguments) -> Result<Connected, DeviceError> {
     let image = match &arguments.firmware {
         Some(image) => {
             image::check(image)?;
-            image.clone()
+            Image::File(image.clone())
         }
-        None => image::build(arguments.log.as_deref())?,
+        None => image::for_emulator(arguments.log.as_deref())?,
     };
-    let log = arguments.log.as_ref().map(|_| Log::new(&image)).transpose()?;
-    let emulator = Emulator::start(&image, arguments.way, log.as_ref().map(Log::path).as_deref())?;
+    let log = arguments.log.as_ref().map(|_| Log::new(image.path())).transpose()?;
+    let emulator = Emulator::start(image, arguments.way, log.as_ref().map(Log::path).as_deref())?;
     Ok(Connected { line: Box::new(emulator), log })
 }
 
