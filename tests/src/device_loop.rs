@@ -7,6 +7,7 @@ use std::rc::Rc;
 use sprag_cli::board::driver::{DeviceDriver, DeviceTick, Farewell};
 use sprag_cli::board::emulator::{Emulator, Way};
 use sprag_cli::board::faulty::{Direction, Fate, FaultyLine};
+use sprag_cli::board::image::Image;
 use sprag_cli::board::parameters;
 use sprag_cli::board::session::Session;
 use sprag_cli::command::loop_scene::LoopScene;
@@ -131,7 +132,7 @@ impl<'a> Trial<'a> {
         let own = task.driver(task.controller.clutch_law()).unwrap();
         let emulator = match self.bench {
             Some(bench) => Emulator::between_models(bench, self.image),
-            None => Emulator::start(self.image, self.way, None),
+            None => Emulator::start(Image::File(self.image.to_owned()), self.way, None),
         };
         let line = FaultyLine::new(emulator.unwrap(), fate);
         let mut session = Session::new(line);

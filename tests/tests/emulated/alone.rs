@@ -6,6 +6,7 @@
 use std::time::Duration;
 
 use sprag_cli::board::emulator::{Emulator, Way};
+use sprag_cli::board::image::Image;
 use sprag_cli::board::parameters;
 use sprag_cli::board::session::Session;
 use sprag_shared::control::monitor::fault::Fault;
@@ -21,7 +22,7 @@ use sprag_tests::emulation::controller_firmware;
 const PATIENCE: Duration = Duration::from_secs(20);
 
 fn start() -> Session<Emulator> {
-    Session::new(Emulator::start(&controller_firmware(), Way::Streams, None).unwrap())
+    Session::new(Emulator::start(Image::File(controller_firmware()), Way::Streams, None).unwrap())
 }
 
 /// So many control periods.

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use sprag_cli::board::driver::{DeviceDriver, DeviceTick};
 use sprag_cli::board::emulator::{Emulator, Way};
+use sprag_cli::board::image::Image;
 use sprag_cli::board::line::{DeviceError, Line};
 use sprag_cli::board::parameters;
 use sprag_cli::board::recordings::{self, Parts, Recording};
@@ -51,7 +52,7 @@ impl Flight {
     /// Closes the loop of a pulse, with a reset at a time of the motion, s, and downloads what the device recorded.
     fn new(reset: Option<f64>) -> Flight {
         let scene = pulse(&["run.free_time_s=0.6"]);
-        let line = Kept(Rc::new(RefCell::new(Emulator::start(&controller_firmware(), Way::Streams, None).unwrap())));
+        let line = Kept(Rc::new(RefCell::new(Emulator::start(Image::File(controller_firmware()), Way::Streams, None).unwrap())));
         let interrupt = Interrupt::default();
         let task = scene.task(scene.pairs[0], scene.controller.sensors.seed(), &interrupt);
         let clock = task.clock();

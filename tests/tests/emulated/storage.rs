@@ -7,6 +7,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use sprag_cli::board::emulator::{Emulator, Way};
+use sprag_cli::board::image::Image;
 use sprag_cli::board::line::Line as _;
 use sprag_cli::board::parameters;
 use sprag_cli::board::session::Session;
@@ -23,7 +24,7 @@ use sprag_tests::emulation::controller_firmware;
 const PATIENCE: Duration = Duration::from_secs(20);
 
 fn start(image: &Path) -> Session<Emulator> {
-    Session::new(Emulator::start(image, Way::Streams, None).unwrap())
+    Session::new(Emulator::start(Image::File(image.to_owned()), Way::Streams, None).unwrap())
 }
 
 /// Writes the draft, orders it to be stored with the supply about to fail, and says what came of it.

@@ -1,5 +1,6 @@
 //! A device's event log in words.
 
+use serde::Serialize;
 use sprag_report::text_table::TextTable;
 use sprag_shared::control::supervisor::event_log::{Entry, Kind};
 use sprag_shared::link::reset_cause::Cause;
@@ -40,14 +41,43 @@ pub fn table(entries: &[Entry], period: f32) -> TextTable {
     table
 }
 
+/// An entry, for JSON.
+#[derive(Debug, Serialize)]
+pub struct LogRow {
+    tick: u32,
+    time_s: f64,
+    rotation_rad: f32,
+    velocity_rad_s: f32,
+    what: String,
+    fault_code: Option<u16>,
+}
+
+/// Every entry, for JSON; `period` is from tick to tick, s.
+pub fn described(entries: &[Entry], period: f32) -> Vec<LogRow> {
+    let row = |entry: &Entry| LogRow {
+        tick: entry.tick,
+        time_s: time(entry, period),
+        rotation_rad: entry.rotation,
+        velocity_rad_s: entry.velocity,
+        what: what(entry.kind),
+        fault_code: fault_code(entry.kind),
+    };
+    entries.iter().map(row).collect()
+}
+
+/// The code of a fault or warning.
+fn fault_code(kind: Kind) -> Option<u16> {
+    match kind {
+        Kind::Fault(code) | Kind::Warning(code) => Some(code),
+        _ => None,
+    }
+}
+
 /// As a table for programs.
 pub fn rows(entries: &[Entry], period: f32) -> TextTable {
     let mut table = TextTable::new(0, ["tick", "time_s", "rotation_rad", "velocity_rad_s", "what", "fault_code"]);
     for entry in entries {
-        let code = match entry.kind {
-            Kind::Fault(code) | Kind::Warning(code) => code.to_string(),
-            _ => String::new(),
-        };
+        let code = fault_code(entry.kind).map_or_else(String::new, |code| code.to_string());
         let numbers = [time(entry, period).to_string(), entry.rotation.to_string(), entry.velocity.to_string()];
         table.row([&[entry.tick.to_string()][..], &numbers, &[what(entry.kind), code]].concat());
     }

@@ -1,7 +1,7 @@
 //! A device with the firmware on it: in the emulator or on a serial port, as a controller for closed loops or to talk to.
 //!
 //! - [`mod@line`]: bytes to and from it; [`emulator`], [`serial`]: the two kinds; [`faulty`]: one that loses and damages frames;
-//! - [`image`]: building what runs in it; [`log`]: what it logs;
+//! - [`image`]: what runs in it; [`info`]: who it is and how it is; [`log`]: what it logs;
 //! - [`session`]: requests and replies; [`parameters`]: its settings, [`setting_text`]: as text, [`derived`]: those that follow
 //!   from others; [`event_table`]: its event log; [`recordings`]: its flight recorder;
 //! - [`strip_chart`]: its last seconds, drawn in the terminal;
@@ -13,6 +13,7 @@ pub mod emulator;
 pub mod event_table;
 pub mod faulty;
 pub mod image;
+pub mod info;
 pub mod line;
 #[cfg_attr(not(feature = "defmt"), path = "no_log.rs")]
 pub mod log;

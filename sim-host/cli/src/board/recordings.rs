@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sprag_report::text_table::TextTable;
 use sprag_shared::device::recorder::page::{HEADER_BYTES, TRAILER_BYTES, words};
 use sprag_shared::device::recorder::{CAPACITY, Header, Moment, PAGE_BYTES, Page, PageError};
-use sprag_shared::link::{RecorderState, Reply, Request};
+use sprag_shared::link::{RecorderActivity, RecorderState, Reply, Request};
 
 use super::line::{DeviceError, Line, RefusalText};
 use super::session::Session;
@@ -158,4 +158,28 @@ pub fn table(recordings: &[Recording]) -> TextTable {
         }
     }
     table
+}
+/// What room there is, in words.
+pub fn room(state: &RecorderState, period: f64) -> String {
+    let seconds = |pages: u16| f64::from(pages) * CAPACITY as f64 * period;
+    let left = state.pages.saturating_sub(state.next);
+    let mut text = match (state.goes_round, state.activity) {
+        (_, RecorderActivity::Looking) => "it has just started, and looks for its last page".to_owned(),
+        (_, RecorderActivity::Erasing) => "it is being erased".to_owned(),
+        (true, _) => format!("room for the last {:.1} s", seconds(state.pages)),
+        (false, _) if left == 0 => {
+            "full: what is there is kept, and nothing new recorded (sprag board record --erase)".to_owned()
+        }
+        (false, _) => format!("room for another {:.1} s of {:.1}", seconds(left), seconds(state.pages)),
+    };
+    if state.activity == RecorderActivity::Writing {
+        text += ", an earthquake is being recorded";
+    }
+    if state.lost > 0 {
+        text += &format!(", {} ticks found no room since the start", state.lost);
+    }
+    if state.refused > 0 {
+        text += &format!(", {} pages were refused by the flash", state.refused);
+    }
+    text
 }

@@ -1,5 +1,7 @@
 //! Settings as text: `NAME=VALUE` on a command line, and TOML files.
 
+use serde::Serialize;
+use serde_json::Value;
 use sprag_shared::control::controller::Controller;
 use sprag_shared::settings::Settings;
 use sprag_shared::settings::kind::{Description, Kind, Use};
@@ -64,6 +66,36 @@ fn alone(name: &str, value: &str) -> Result<(), String> {
     } else {
         set(&mut Settings::default(), name, value)
     }
+}
+
+/// A parameter, for JSON.
+#[derive(Debug, Serialize)]
+pub struct ParameterRow {
+    name: &'static str,
+    value: Value,
+    unit: &'static str,
+    default: Value,
+    range: String,
+}
+
+/// All parameters, for JSON.
+#[derive(Debug, Serialize)]
+pub struct ParameterDocument {
+    parameters: Vec<ParameterRow>,
+}
+
+/// Every parameter, for JSON.
+pub fn described(settings: &Settings) -> ParameterDocument {
+    // A number where it is one, otherwise a word.
+    let value = |text: String| serde_json::from_str(&text).unwrap_or(Value::String(text));
+    let row = |(description, &word): (&'static Description, &u32)| ParameterRow {
+        name: description.name,
+        value: value(description.show(word).to_string()),
+        unit: description.unit,
+        default: value(description.show(description.default).to_string()),
+        range: description.range().to_string(),
+    };
+    ParameterDocument { parameters: Description::all().iter().zip(settings.words()).map(row).collect() }
 }
 
 /// The value of the parameter called `name`, or of a quantity that follows from several.

@@ -6,25 +6,27 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Error, anyhow};
 use clap::{Args, Subcommand};
+use serde::Serialize;
 use sprag_report::columns::write_csv;
-use sprag_report::output::{Results, claim_file, is_standard_output};
+use sprag_report::output::{Results, Versioned, claim_file, is_standard_output};
 use sprag_shared::control::monitor::fault::{Fault, Recovery};
 use sprag_shared::control::supervisor::Phase;
-use sprag_shared::link::{Identity, Request, State};
+use sprag_shared::link::Request;
 use sprag_shared::settings::{Item, Settings};
 use sprag_sim::interrupt::Interrupt;
 
-use super::board_line::{Connected, LineArguments, connect, firmware};
+use super::board_line::{Connected, LineArguments, connect};
 use super::board_record::{self, RecordArguments};
 use super::context::{Completion, Context, Interrupted, Run};
 use super::loop_scene::LoopScene;
 use super::out_arguments::OverwriteArguments;
 use super::record_arguments::SceneRecordArguments;
-use crate::board::event_table::{rows, table, what};
+use crate::board::event_table::{LogRow, described, rows, table, what};
+use crate::board::info::{DeviceInfo, phase_text};
 use crate::board::line::{DeviceError, Line};
 use crate::board::session::Session;
 use crate::board::strip_chart::StripChart;
-use crate::board::{parameters, recordings, setting_text};
+use crate::board::{parameters, setting_text};
 
 /// Talk to a board: settings, self-test, logs, recordings.
 #[derive(Args, Clone, Debug)]
@@ -59,15 +61,15 @@ enum DeviceCommand {
     Record(RecordArguments),
     /// Make it leave Fault, once what was wrong has been seen to; it must be at rest.
     #[command(after_help = "Example:\n  sprag board clear --port /dev/ttyUSB0")]
-    Clear(InfoArguments),
+    Clear(OrderArguments),
     /// Protect its flash, from the next power-on on: the program against writing, and all of it against being read out by a probe.
     ///
     /// Its jumper JP1 must be closed. Only erasing the whole chip with a probe undoes it, and that takes program and settings with it.
     #[command(after_help = "Example:\n  sprag board protect --port /dev/ttyUSB0")]
-    Protect(InfoArguments),
+    Protect(OrderArguments),
     /// Make it use its own sensors again, with the settings in its flash, after a loop that ended without letting go of it.
     #[command(after_help = "Example:\n  sprag board detach --port /dev/ttyUSB0")]
-    Detach(InfoArguments),
+    Detach(OrderArguments),
     /// Plot rotation, velocity and commands as they come; CSV lines where the output is not a terminal. Ends with Ctrl-C.
     ///
     /// The emulated device has no settings of its own: with --qemu there is a device in Fault to be seen.
@@ -81,6 +83,21 @@ enum DeviceCommand {
 struct InfoArguments {
     #[command(flatten)]
     line: LineArguments,
+    #[command(flatten)]
+    json: JsonArguments,
+}
+
+#[derive(Args, Clone, Debug)]
+struct OrderArguments {
+    #[command(flatten)]
+    line: LineArguments,
+}
+
+#[derive(Args, Clone, Copy, Debug)]
+pub(super) struct JsonArguments {
+    /// Print results as JSON.
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 #[derive(Args, Clone, Debug)]
@@ -118,6 +135,8 @@ struct ParameterArguments {
     out: Option<PathBuf>,
     #[command(flatten)]
     replace: OverwriteArguments,
+    #[command(flatten)]
+    json: JsonArguments,
 }
 
 #[derive(Args, Clone, Debug)]
@@ -127,6 +146,8 @@ struct LogArguments {
     /// Write it to this file, as CSV.
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArguments,
     #[command(flatten)]
     replace: OverwriteArguments,
 }
@@ -148,9 +169,11 @@ impl Run for BoardArguments {
         interrupt.keep("what was changed in the device stays as it is");
         let out = &mut context.out;
         let ended = match &self.command {
-            DeviceCommand::Info(info) => with_device(&info.line, out, show),
+            DeviceCommand::Info(info) => with_device(&info.line, out, |session, out| show(session, info.json.json, out)),
             DeviceCommand::Parameters(given) => change(given, context),
-            DeviceCommand::SelfTest(info) => with_device(&info.line, out, |session, out| self_test(session, out, interrupt)),
+            DeviceCommand::SelfTest(info) => {
+                with_device(&info.line, out, |session, out| self_test(session, info.json.json, out, interrupt))
+            }
             DeviceCommand::Log(given) => log_to(given, out),
             DeviceCommand::Record(given) => board_record::run(given, out, interrupt),
             DeviceCommand::Clear(info) => with_device(&info.line, out, clear),
@@ -188,73 +211,15 @@ pub(super) fn with_device<W: Write>(
     outcome
 }
 
-fn show(session: &mut Talk, out: &mut impl Write) -> anyhow::Result<()> {
-    let identity = session.identify()?;
-    let state = session.state()?;
-    let State { calibration, .. } = state;
-    writeln!(
-        out,
-        "device        {}{}",
-        firmware(&identity),
-        if identity.rehearsal { ", a test build that takes orders to fail on purpose" } else { "" }
-    )?;
-    writeln!(out, "state         {}, {} ticks after its start", phase_text(state.phase, state.fault), state.ticks)?;
-    writeln!(
-        out,
-        "sensors       {}",
-        match state.attached {
-            None => "its own",
-            Some(_) => "those of a host: it does not protect the structure (sprag board detach)",
-        }
-    )?;
-    writeln!(out, "start         {:?}", state.cause)?;
-    writeln!(out, "program       {}", program_text(&identity))?;
-    writeln!(out, "jumper        {}", if identity.jumper { "closed: it may be changed; open it when done" } else { "open" })?;
-    writeln!(out, "parameters    {}, check {:08x}", identity.settings, identity.check)?;
-    writeln!(out, "calibration   gyroscope {:+.6} rad/s", calibration.gyroscope)?;
-    let [along, up] = calibration.block;
-    writeln!(out, "              block accelerometer {along:+.4}, {up:+.4} m/s²")?;
-    let [along, up] = calibration.ground;
-    writeln!(out, "              ground accelerometer {along:+.4}, {up:+.4} m/s²")?;
-    writeln!(out, "              encoder {} counts", calibration.encoder_zero)?;
-    writeln!(out, "worst tick    {}", duration(state.worst_cost, &identity))?;
-    writeln!(out, "worst delay   {}", duration(state.worst_lateness, &identity))?;
-    writeln!(out, "stack         {} bytes at most", state.stack)?;
-    writeln!(out, "link          {} bad frames, {} reports lost", state.bad_frames, state.lost_reports)?;
-    writeln!(out, "event log     {} entries", state.log_count)?;
-    let period = f64::from(parameters::read(session)?.period());
-    writeln!(out, "recordings    {}", board_record::room(&recordings::state(session)?, period))?;
-    Ok(())
+fn show(session: &mut Talk, json: bool, out: &mut impl Write) -> anyhow::Result<()> {
+    let info = DeviceInfo::of(session)?;
+    if json { print_json(&info, out) } else { Ok(write!(out, "{info}")?) }
 }
 
-/// Whether the program is whole, protected and the newest.
-fn program_text(identity: &Identity) -> String {
-    let seal = if identity.sealed { "sealed" } else { "without a seal: damage to it would not be found" };
-    let protection = match (identity.protection.reading, identity.protection.writing) {
-        (true, true) => "protected against reading and writing",
-        (true, false) => "protected against reading only",
-        (false, true) => "protected against writing only",
-        (false, false) => "not protected",
-    };
-    let [major, minor, patch] = identity.highest;
-    let older = if identity.highest > identity.version {
-        format!("; version {major}.{minor}.{patch} has run before")
-    } else {
-        String::new()
-    };
-    format!("{seal}, {protection}{older}")
-}
-
-fn phase_text(phase: Phase, fault: Option<Fault>) -> String {
-    match fault {
-        Some(fault) => format!("{phase:?} ({}, {fault})", fault.code()),
-        None => format!("{phase:?}"),
-    }
-}
-
-fn duration(counts: u32, identity: &Identity) -> String {
-    let microseconds = f64::from(counts) * 1e6 / f64::from(identity.counter_hz.max(1));
-    format!("{counts} counts, {microseconds:.1} µs")
+/// Prints results as JSON.
+pub(super) fn print_json(results: &impl Serialize, out: &mut impl Write) -> anyhow::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, &Versioned::new(results)).map_err(std::io::Error::from)?;
+    Ok(writeln!(out)?)
 }
 
 fn change(given: &ParameterArguments, context: &mut Context<'_>) -> anyhow::Result<()> {
@@ -304,14 +269,17 @@ fn change(given: &ParameterArguments, context: &mut Context<'_>) -> anyhow::Resu
 }
 
 /// What was asked for, or what has changed, or where neither is the case everything.
-fn report(given: &ParameterArguments, before: &Settings, now: &Settings, out: &mut impl Write) -> std::io::Result<()> {
+fn report(given: &ParameterArguments, before: &Settings, now: &Settings, out: &mut impl Write) -> anyhow::Result<()> {
+    if given.json.json {
+        return print_json(&setting_text::described(now), out);
+    }
     for name in &given.get {
         if let Ok(value) = setting_text::value(now, name) {
             writeln!(out, "{value}")?;
         }
     }
-    let told = given.store || given.scene.is_some() || given.file.is_some() || !given.set.is_empty();
-    if told {
+    let changed = given.store || given.scene.is_some() || given.file.is_some() || !given.set.is_empty();
+    if changed {
         let differing = before.words().iter().zip(now.words()).filter(|(before, now)| before != now).count();
         let until = if given.store { "and kept in flash" } else { "until the next start; --store keeps them" };
         let parameters = if differing == 1 { "parameter" } else { "parameters" };
@@ -323,7 +291,7 @@ fn report(given: &ParameterArguments, before: &Settings, now: &Settings, out: &m
             writeln!(out, "saved in {}", path.display())?;
         }
     }
-    if !told && given.get.is_empty() && given.out.is_none() {
+    if !changed && given.get.is_empty() && given.out.is_none() {
         write!(out, "{}", setting_text::table(now))?;
     }
     Ok(())
@@ -340,7 +308,7 @@ fn of_scene(path: &Path, context: &mut Context<'_>) -> anyhow::Result<Settings> 
 /// For how long the outcome of a request is waited for between two questions.
 const PAUSE: Duration = Duration::from_millis(50);
 
-fn self_test(session: &mut Talk, out: &mut impl Write, interrupt: &Interrupt) -> anyhow::Result<()> {
+fn self_test(session: &mut Talk, json: bool, out: &mut impl Write, interrupt: &Interrupt) -> anyhow::Result<()> {
     let settings = parameters::read(session)?;
     let before = session.state()?.log_count;
     session.order(&Request::SelfTest)?;
@@ -363,10 +331,10 @@ fn self_test(session: &mut Talk, out: &mut impl Write, interrupt: &Interrupt) ->
     };
     let (entries, total) = session.log()?;
     let new = entries.len().min(total.saturating_sub(before) as usize);
-    for entry in &entries[entries.len() - new..] {
+    for entry in entries[entries.len() - new..].iter().filter(|_| !json) {
         writeln!(out, "{:9.3} s  {}", f64::from(entry.tick) * f64::from(settings.period()), what(entry.kind))?;
     }
-    show(session, out)?;
+    show(session, json, out)?;
     match state.fault {
         Some(fault) => Err(anyhow!("the self-test failed: {fault}")),
         None => Ok(()),
@@ -391,10 +359,19 @@ fn log(session: &mut Talk, given: &LogArguments, out: &mut impl Write) -> anyhow
         if !is_standard_output(path) {
             writeln!(out, "{} of {total} entries in {}", entries.len(), path.display())?;
         }
+    } else if given.json.json {
+        print_json(&LogDocument { total, entries: described(&entries, period) }, out)?;
     } else {
         writeln!(out, "{}{} of {total} entries", table(&entries, period).plain(), entries.len())?;
     }
     Ok(())
+}
+
+/// The newest entries of a device's event log, of all that it has ever had.
+#[derive(Serialize)]
+struct LogDocument {
+    total: u32,
+    entries: Vec<LogRow>,
 }
 
 fn detach<W: Write>(session: &mut Talk, out: &mut W) -> anyhow::Result<()> {

@@ -6,17 +6,17 @@ use std::time::{Duration, Instant};
 
 use anyhow::anyhow;
 use clap::Args;
+use serde::Serialize;
 use sprag_report::columns::write_csv;
 use sprag_report::output::{Results, claim_file, is_standard_output};
 use sprag_report::plot::{FigureTitle, RecordingTrace, recording_figure};
 use sprag_report::text_table::TextTable;
 use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::supervisor::Phase;
-use sprag_shared::device::recorder::CAPACITY;
 use sprag_shared::link::{RecorderActivity, RecorderState, Request};
 use sprag_sim::interrupt::Interrupt;
 
-use super::board::{Talk, with_device};
+use super::board::{JsonArguments, Talk, print_json, with_device};
 use super::board_line::LineArguments;
 use super::context::Interrupted;
 use super::out_arguments::OverwriteArguments;
@@ -51,6 +51,49 @@ pub struct RecordArguments {
     erase: bool,
     #[command(flatten)]
     replace: OverwriteArguments,
+    #[command(flatten)]
+    json: JsonArguments,
+}
+
+/// The parts of recordings that a device has, and its room.
+#[derive(Serialize)]
+struct RecordingsDocument {
+    recordings: Vec<RecordingRow>,
+    /// In words.
+    room: String,
+}
+
+/// A part of a recording.
+#[derive(Serialize)]
+struct RecordingRow {
+    earthquake: u16,
+    part: u8,
+    ticks: u32,
+    time_s: f64,
+    pages: usize,
+    unfinished_pages: usize,
+    /// A host said what the sensors read.
+    attached: bool,
+    ended: bool,
+}
+
+impl RecordingsDocument {
+    fn new(state: &RecorderState, parts: &Parts, period: f64) -> RecordingsDocument {
+        let row = |(&(earthquake, part), of): (&Key, &Part)| {
+            let (_, header) = of.pages.first()?;
+            Some(RecordingRow {
+                earthquake,
+                part,
+                ticks: of.ticks,
+                time_s: f64::from(of.ticks) * f64::from(header.period),
+                pages: of.pages.len(),
+                unfinished_pages: of.unfinished,
+                attached: header.attached,
+                ended: of.ends,
+            })
+        };
+        RecordingsDocument { recordings: parts.iter().filter_map(row).collect(), room: recordings::room(state, period) }
+    }
 }
 
 /// Lists, saves, draws or erases.
@@ -67,7 +110,12 @@ pub fn run(given: &RecordArguments, out: &mut impl Write, interrupt: &Interrupt)
         let parts = recordings::list(session)?;
         if files.is_empty() {
             let period = f64::from(parameters::read(session)?.period());
-            return show(&recordings::state(session)?, &parts, period, out);
+            let state = recordings::state(session)?;
+            return if given.json.json {
+                print_json(&RecordingsDocument::new(&state, &parts, period), out)
+            } else {
+                show(&state, &parts, period, out)
+            };
         }
         let recordings = chosen(given, &parts)?
             .into_iter()
@@ -125,33 +173,8 @@ fn show(state: &RecorderState, parts: &Parts, period: f64, out: &mut impl Write)
     if !parts.is_empty() {
         write!(out, "{}", table.plain())?;
     }
-    writeln!(out, "{}", room(state, period))?;
+    writeln!(out, "{}", recordings::room(state, period))?;
     Ok(())
-}
-
-/// What room there is, in words.
-pub fn room(state: &RecorderState, period: f64) -> String {
-    let seconds = |pages: u16| f64::from(pages) * CAPACITY as f64 * period;
-    let left = state.pages.saturating_sub(state.next);
-    let mut text = match (state.goes_round, state.activity) {
-        (_, RecorderActivity::Looking) => "it has just started, and looks for its last page".to_owned(),
-        (_, RecorderActivity::Erasing) => "it is being erased".to_owned(),
-        (true, _) => format!("room for the last {:.1} s", seconds(state.pages)),
-        (false, _) if left == 0 => {
-            "full: what is there is kept, and nothing new recorded (sprag board record --erase)".to_owned()
-        }
-        (false, _) => format!("room for another {:.1} s of {:.1}", seconds(left), seconds(state.pages)),
-    };
-    if state.activity == RecorderActivity::Writing {
-        text += ", an earthquake is being recorded";
-    }
-    if state.lost > 0 {
-        text += &format!(", {} ticks found no room since the start", state.lost);
-    }
-    if state.refused > 0 {
-        text += &format!(", {} pages were refused by the flash", state.refused);
-    }
-    text
 }
 
 fn save(given: &RecordArguments, recordings: &[Recording], out: &mut impl Write) -> anyhow::Result<()> {

@@ -179,7 +179,7 @@ fn one(arguments: &HilArguments, desk: &LoopScene, index: usize, host: Host, int
         instructions_per_tick: cost.map(|cost| cost.0),
         instructions_per_tick_worst: cost.map(|cost| cost.1),
         stack_bytes: state.stack,
-        firmware: super::board_line::firmware(&identity),
+        firmware: crate::board::info::firmware(&identity),
     };
     let log = device.log.map(|log| log.read()).transpose()?;
     Ok(DeviceRun { report, summary, ticks, host: looped.ticks, log })
