@@ -219,16 +219,9 @@ impl Rows {
 
 /// Opens the file at `path` for this process alone, and makes it if it may.
 fn lock(path: &Path, make: bool) -> Result<File, LongRunError> {
-    let failed = |error: io::Error| LongRunError::file(path, &error);
     loop {
-        let file = OpenOptions::new().read(true).write(true).create(make).truncate(false).open(path).map_err(failed)?;
-        match file.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => return Err(LongRunError::file(path, &"another process works on it")),
-            Err(TryLockError::Error(error)) => return Err(failed(error)),
-        }
-        // A process that ended in between has put the file that was opened elsewhere.
-        if is_at(&file, path) {
+        let file = OpenOptions::new().read(true).write(true).create(make).truncate(false).open(path);
+        if let Some(file) = locked(file.map_err(|error| LongRunError::file(path, &error))?, path)? {
             return Ok(file);
         }
     }
@@ -236,13 +229,30 @@ fn lock(path: &Path, make: bool) -> Result<File, LongRunError> {
 
 /// Makes the file at `path`, where none may be, for this process alone.
 fn new(path: &Path) -> Result<File, LongRunError> {
-    match OpenOptions::new().write(true).create_new(true).open(path) {
-        Ok(_) => lock(path, false),
-        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-            lock(path, false)?;
-            Err(LongRunError::Unfinished { path: path.to_owned() })
+    let mut options = OpenOptions::new();
+    options.read(true).write(true);
+    loop {
+        let made = options.clone().create_new(true).open(path);
+        let there = matches!(&made, Err(error) if error.kind() == io::ErrorKind::AlreadyExists);
+        let file = match if there { options.open(path) } else { made } {
+            // The process that worked on it has ended in between.
+            Err(error) if there && error.kind() == io::ErrorKind::NotFound => continue,
+            file => file.map_err(|error| LongRunError::file(path, &error))?,
+        };
+        match locked(file, path)? {
+            Some(_) if there => return Err(LongRunError::Unfinished { path: path.to_owned() }),
+            Some(file) => return Ok(file),
+            None => {}
         }
-        Err(error) => Err(LongRunError::file(path, &error)),
+    }
+}
+
+/// The `file` that was opened at `path`, for this process alone; none where a process that ended in between has put it elsewhere.
+fn locked(file: File, path: &Path) -> Result<Option<File>, LongRunError> {
+    match file.try_lock() {
+        Ok(()) => Ok(is_at(&file, path).then_some(file)),
+        Err(TryLockError::WouldBlock) => Err(LongRunError::file(path, &"another process works on it")),
+        Err(TryLockError::Error(error)) => Err(LongRunError::file(path, &error)),
     }
 }
 

@@ -146,13 +146,13 @@ fn runs_that_begin_and_end_together_do_not_mix() {
         let finished = rows.finish()?;
         Ok::<_, LongRunError>(std::fs::read(finished).unwrap())
     };
+    let mut finished = 0;
     for _ in 0..40 {
         let runs = std::thread::scope(|scope| {
-            [Start::Restart, Start::Restart, Start::New]
+            [Start::Restart, Start::New, Start::New, Start::New]
                 .map(|start| scope.spawn(move || run(start)))
                 .map(|run| run.join().unwrap())
         });
-        let mut finished = 0;
         for run in runs {
             match run {
                 Ok(bytes) => {
@@ -165,8 +165,9 @@ fn runs_that_begin_and_end_together_do_not_mix() {
                 }
             }
         }
-        assert!(finished > 0);
     }
+    // Each may find that another has just begun, so that none of a round ends.
+    assert!(finished > 20, "{finished}");
 }
 
 #[test]
