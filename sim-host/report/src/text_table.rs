@@ -1,6 +1,6 @@
 //! Tables for people: aligned columns for a terminal, or Markdown that is aligned as well.
 
-use console::measure_text_width;
+use console::{Term, measure_text_width};
 
 use crate::columns::{Column, Kind, RowWriter, Shown, Table, TableError, Value};
 
@@ -64,9 +64,37 @@ impl TextTable {
 
     /// Columns that are aligned by spaces.
     pub fn plain(&self) -> String {
+        self.within(usize::MAX)
+    }
+
+    /// Columns that are aligned by spaces, as wide as standard output where that is a terminal.
+    pub fn for_terminal(&self) -> String {
+        let terminal = Term::stdout();
+        let size = if terminal.is_term() { terminal.size_checked() } else { None };
+        self.within(size.map_or(usize::MAX, |(_, columns)| columns.into()))
+    }
+
+    /// Columns that are aligned by spaces; where they are wider than `room`, in several tables one below another, each with the first words.
+    fn within(&self, room: usize) -> String {
         let widths = widths(&self.rows);
-        let line = |row: &Vec<String>| self.aligned(row, &widths).join(GAP).trim_end().to_owned() + "\n";
-        self.rows.iter().map(line).collect()
+        let needed = |columns: &[usize]| columns.iter().map(|&column| widths[column] + GAP.len()).sum::<usize>() - GAP.len();
+        let mut tables: Vec<Vec<usize>> = Vec::new();
+        for column in self.words..widths.len() {
+            match tables.last_mut() {
+                Some(table) if needed(&[&table[..], &[column]].concat()) <= room => table.push(column),
+                _ => tables.push((0..self.words).chain([column]).collect()),
+            }
+        }
+        if tables.is_empty() {
+            tables.push((0..widths.len()).collect());
+        }
+        let line = |row: &Vec<String>, table: &[usize]| {
+            let cells = self.aligned(row, &widths);
+            let shown: Vec<&str> = table.iter().map(|&column| cells[column].as_str()).collect();
+            shown.join(GAP).trim_end().to_owned() + "\n"
+        };
+        let tables: Vec<String> = tables.iter().map(|table| self.rows.iter().map(|row| line(row, table)).collect()).collect();
+        tables.join("\n")
     }
 
     fn has_words(&self, column: usize) -> bool {
@@ -176,6 +204,18 @@ mod tests {
             assert!(text.lines().all(|line| measure_text_width(line) == width), "{text}");
         }
         assert_eq!((table().markdown().lines().count(), table().plain().lines().count()), (4, 3));
+    }
+
+    #[test]
+    fn a_table_wider_than_the_room_goes_on_below_with_the_first_words() {
+        let mut table = TextTable::new(1, ["device", "peak", "impacts", "outcome"]);
+        table.row(["pair", "0.25", "12", "safe"].map(str::to_owned).to_vec());
+        let text = table.within(22);
+        assert_eq!(text, "device  peak  impacts\npair    0.25       12\n\ndevice  outcome\npair       safe\n");
+        // However narrow, nothing is lost.
+        let narrow = table.within(1);
+        assert!(["peak", "0.25", "impacts", "12", "outcome", "safe"].iter().all(|word| narrow.contains(word)), "{narrow}");
+        assert_eq!(table.within(30), table.plain());
     }
 
     #[test]

@@ -362,7 +362,7 @@ fn log(session: &mut Talk, given: &LogArguments, out: &mut impl Write) -> anyhow
     } else if given.json.json {
         print_json(&LogDocument { total, entries: described(&entries, period) }, out)?;
     } else {
-        writeln!(out, "{}{} of {total} entries", table(&entries, period).plain(), entries.len())?;
+        writeln!(out, "{}{} of {total} entries", table(&entries, period).for_terminal(), entries.len())?;
     }
     Ok(())
 }

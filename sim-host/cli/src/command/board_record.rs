@@ -171,7 +171,7 @@ fn show(state: &RecorderState, parts: &Parts, period: f64, out: &mut impl Write)
         table.row(numbers.into_iter().chain([pages.len().to_string(), notes.join(", ")]).collect());
     }
     if !parts.is_empty() {
-        write!(out, "{}", table.plain())?;
+        write!(out, "{}", table.for_terminal())?;
     }
     writeln!(out, "{}", recordings::room(state, period))?;
     Ok(())

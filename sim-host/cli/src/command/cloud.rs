@@ -198,8 +198,8 @@ fn fill(report: &mut Report, studied: &Studied<'_>, findings: &Findings, warning
             None => report.note(format_args!("there is no picture of the {name}: there are no points for it")),
         }
     }
-    report.print(TextTable::of(&demand_table(findings))?.markdown());
-    report.print(format_args!("\n{}\n", TextTable::of(&fragility_table(findings))?.markdown()));
+    report.print(TextTable::of(&demand_table(findings))?.for_terminal());
+    report.print(format_args!("\n{}\n", TextTable::of(&fragility_table(findings))?.for_terminal()));
     fragility_notes(&findings.fragility).iter().for_each(|line| report.print(line));
     report.left_out(&runs.left_out);
     report.accuracy(runs.worst);

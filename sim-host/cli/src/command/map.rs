@@ -256,5 +256,5 @@ fn outcome_table(maps: &[DeviceMap]) -> String {
             number(speed, 0),
         ]);
     }
-    table.plain()
+    table.for_terminal()
 }

@@ -67,7 +67,7 @@ pub(super) fn print_boundaries(report: &mut Report, all: &[Boundaries]) {
             number(of_device.seconds, 1),
         ]);
     }
-    report.print(format_args!("\n{}", table.plain()));
+    report.print(format_args!("\n{}", table.for_terminal()));
     for Boundaries { device, unresolved, unresolved_width, evaluations, .. } in all.iter().filter(|all| all.unresolved > 0) {
         report.print(format_args!(
             "{device}: {unresolved} squares on boundaries are left coarser, up to a relative {unresolved_width:.1e} wide, after \

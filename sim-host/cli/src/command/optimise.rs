@@ -225,7 +225,7 @@ fn fill(
     report.picture("trade_off", trade_off_picture(problem, findings))?;
     let Findings { motions, designs, runs, notes, .. } = findings;
     report.print(format_args!("{}: {motions} motions, {}", heading(choices), limits(choices)));
-    report.print(format_args!("{designs} devices tried in {runs} runs\n\n{}\n", choice_table(findings)?.markdown()));
+    report.print(format_args!("{designs} devices tried in {runs} runs\n\n{}\n", choice_table(findings)?.for_terminal()));
     notes.iter().for_each(|note| report.print(note));
     report.left_out(left_out);
     report.accuracy(solution.worst);

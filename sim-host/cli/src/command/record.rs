@@ -102,7 +102,7 @@ impl Run for RecordArguments {
             context.print_json(&entries.iter().map(Versioned::new).collect::<Vec<_>>());
         } else {
             if !described.is_empty() {
-                context.print(table(&described).plain());
+                context.print(table(&described).for_terminal());
             }
             for description in &described {
                 for warning in &description.read.warnings {

@@ -185,7 +185,7 @@ fn fill(report: &mut Report, studied: &Studied, records: &[RecordSummary], warni
     report.page("sensitivity.md", &page(title, &runs, in_place, &left_out))?;
     let heading = FigureTitle { text: title.clone(), conditions };
     report.picture("sensitivity", sensitivity_figure(heading, &study.devices, &figure_rows(&runs)))?;
-    report.print(table(&runs).markdown());
+    report.print(table(&runs).for_terminal());
     left_out.iter().for_each(|line| report.print(format_args!("left out: {line}")));
     report.accuracy(findings.worst);
     findings.failed.iter().for_each(|error| report.note(error));

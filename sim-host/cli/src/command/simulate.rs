@@ -68,7 +68,7 @@ impl Run for SimulateArguments {
             report.file("energy.csv", |file| write_energy(&runs, file).map_err(std::io::Error::other))?;
             report.picture("energy", energy_figure(title(&scene), &runs))?;
         }
-        report.print(device_table(&runs).plain());
+        report.print(device_table(&runs).for_terminal());
         for run in &runs {
             if let Some(error) = &run.error {
                 report.print(format_args!("device `{}`: {}", run.device, error.words(run.peak_rotation)));
