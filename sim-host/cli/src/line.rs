@@ -9,8 +9,8 @@ use crate::command::context::Run;
 #[cfg(feature = "effects")]
 use crate::command::{accuracy, board, closed_loop, hil, loop_study};
 use crate::command::{
-    batch, cloud, completions, effects, example, explain, manual, map, new, optimise, record, schema, sensitivity, similar,
-    simulate, synthesize,
+    batch, cloud, completions, effects, example, explain, manual, map, new, optimise, part, plan, record, schema, sensitivity,
+    similar, simulate, synthesize,
 };
 
 /// Rocking structures with inerters and clutches: simulate, and get the numbers to decide with.
@@ -32,6 +32,9 @@ pub enum Command {
     Batch(batch::BatchArguments),
     Map(map::MapArguments),
     Cloud(cloud::CloudArguments),
+    Plan(plan::PlanArguments),
+    Part(part::PartArguments),
+    Collect(part::CollectArguments),
     Optimise(optimise::OptimiseArguments),
     Similar(similar::SimilarArguments),
     Sensitivity(sensitivity::SensitivityArguments),
@@ -58,9 +61,10 @@ pub enum Command {
 }
 
 /// The subcommands as the help groups them.
-const GROUPS: [(&str, &[&str]); 5] = [
+const GROUPS: [(&str, &[&str]); 6] = [
     ("Simulate", &["example", "new", "schema", "simulate", "explain", "effects", "batch"]),
     ("Study", &["map", "cloud", "optimise", "sensitivity", "similar", "accuracy"]),
+    ("Many machines", &["plan", "part", "collect"]),
     ("Control", &["loop", "loop-study", "hil", "board"]),
     ("Ground motions", &["record", "synthesize"]),
     ("Shell", &["completions", "manual"]),
@@ -115,6 +119,9 @@ impl Command {
             Command::Cloud(arguments) => arguments,
             Command::Optimise(arguments) => arguments,
             Command::Map(arguments) => arguments,
+            Command::Plan(arguments) => arguments,
+            Command::Part(arguments) => arguments,
+            Command::Collect(arguments) => arguments,
             Command::Sensitivity(arguments) => arguments,
             #[cfg(feature = "effects")]
             Command::Accuracy(arguments) => arguments,

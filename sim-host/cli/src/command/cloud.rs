@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 use sprag_report::columns::Table;
+use sprag_report::long_run::division::Divisible;
 use sprag_report::long_run::origin::Origin;
 use sprag_report::long_run::rows::{Plan, Rows};
 use sprag_report::long_run::shard::Shard;
@@ -25,6 +26,7 @@ use sprag_studies::cloud::typed_tables::{demand_table, fragility_table, ranking_
 
 use super::accuracy_arguments::AccuracyArguments;
 use super::context::{Completion, Context, Run};
+use super::divided::Divided;
 use super::out_arguments::OutputArguments;
 use super::report::Report;
 use super::resumable;
@@ -134,7 +136,7 @@ fn studied<'a>(
     let study = arguments.input.load(change)?;
     let progress = Progress::new("runs");
     // Where the results go is tried before the work, not after it.
-    let subject = study_subject("cloud", &records.records).with("study", &study.file)?.with("structures", &study.structures)?;
+    let subject = subject(&study, records)?;
     let inputs = arguments.input.files(&study, records);
     folder.open(&Claim { subject: subject.clone(), page: "summary.json", names: &NAMES, inputs })?;
     if arguments.accuracy.is_chosen() {
@@ -146,7 +148,8 @@ fn studied<'a>(
     let columns = list.columns().into_iter().map(|column| column.name).collect();
     let origin = Origin::new(subject.clone(), list.rows());
     let shard = arguments.long_run.shard();
-    let plan = Plan { folder, name: "runs", columns, together: list.together(), shard, origin };
+    let shards = arguments.long_run.shards(folder);
+    let plan = Plan { folder, shards, name: "runs", columns, together: list.together(), shard, origin };
     let mut all = Vec::new();
     let mut rows = Rows::begin(&plan, arguments.long_run.start(), |row, record| {
         all.push(list.read(row, record)?);
@@ -168,6 +171,26 @@ fn studied<'a>(
     interrupt.keep(resumable("all rows", &rows));
     let runs = list.sum_up(all);
     Ok(Studied { study, records, subject, runs, rows: Some(rows) })
+}
+
+/// What the runs of `study` under `records` come from.
+fn subject(study: &Study, records: &StudyRecords) -> anyhow::Result<Subject> {
+    Ok(study_subject("cloud", &records.records).with("study", &study.file)?.with("structures", &study.structures)?)
+}
+
+impl Divided for CloudArguments {
+    fn divisible(&self, context: &mut Context<'_>) -> anyhow::Result<Divisible> {
+        self.accuracy.keeps_rows(Some("a plan"))?;
+        let study = self.input.load(None)?;
+        let (records, _) = self.input.read(&study, &self.threads.pool()?, context)?;
+        let list = RunList::new(&study, &records.records);
+        let origin = Origin::new(subject(&study, &records)?, list.rows());
+        Ok(Divisible { origin, name: "runs", columns: list.columns(), seconds_a_row: 2e-3 })
+    }
+
+    fn options(&mut self) -> (&mut OutputArguments, &mut ThreadArguments, &mut LongRunArguments) {
+        (&mut self.output, &mut self.threads, &mut self.long_run)
+    }
 }
 
 /// Puts files, tables and notes into the report.

@@ -1,5 +1,7 @@
 //! Options of commands whose rows can be split and resumed.
 
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 use sprag_report::long_run::shard::{MOST_SHARDS, Shard};
 use sprag_report::long_run::start::Start;
@@ -28,6 +30,9 @@ pub struct LongRunArguments {
     #[arg(long, value_name = "N", conflicts_with_all = ["shard", "resume", "restart"], help_heading = "Long runs",
         value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SHARDS)))]
     pub merge: Option<u32>,
+    /// Folder of the shards, where that is another than the results'.
+    #[arg(skip)]
+    pub shards: Option<PathBuf>,
 }
 
 impl ResumeArguments {
@@ -56,6 +61,11 @@ impl LongRunArguments {
     /// How the rows begin.
     pub fn start(&self) -> Start {
         self.merge.map_or_else(|| self.rows.start(), Start::Merge)
+    }
+
+    /// Where shards are that are merged into results in `folder`.
+    pub fn shards<'a>(&'a self, folder: &'a Path) -> &'a Path {
+        self.shards.as_deref().unwrap_or(folder)
     }
 
     /// Rows that this process makes.

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use clap::Args;
 use serde::Serialize;
+use sprag_report::long_run::division::Divisible;
 use sprag_report::long_run::origin::Origin;
 use sprag_report::long_run::rows::{Plan, Rows};
 use sprag_report::long_run::shard::Shard;
@@ -24,6 +25,7 @@ use sprag_studies::map::table::{Labels, columns};
 use sprag_studies::map::tally::{Counts, DeviceMap, Tally};
 
 use super::context::{Completion, Context, Run};
+use super::divided::Divided;
 use super::map_boundaries::{BoundarySummary, print_boundaries, trace};
 use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
@@ -120,7 +122,8 @@ impl Run for MapArguments {
         let shard = self.long_run.shard();
         let columns = columns(&grid);
         let titles = columns.iter().map(|column| column.name.clone()).collect();
-        let plan = Plan { folder: &folder, name: "map", columns: titles, together: 1, shard, origin };
+        let shards = self.long_run.shards(&folder);
+        let plan = Plan { folder: &folder, shards, name: "map", columns: titles, together: 1, shard, origin };
         let mut rows = Rows::begin(&plan, self.long_run.start(), |row, record| {
             tally.add(row, labels.read(row, record)?);
             Ok(())
@@ -162,6 +165,21 @@ impl Run for MapArguments {
             print_boundaries(&mut report, &boundaries);
         }
         report.finish(context)
+    }
+}
+
+impl Divided for MapArguments {
+    fn divisible(&self, _context: &mut Context<'_>) -> anyhow::Result<Divisible> {
+        let (grid, file) = grid(self)?;
+        let claim = claim_of_scene("map", &self.scene.scene, &grid.scene, &file, &NAMES, &[])?;
+        // In lanes, or block by block.
+        let seconds_a_row = if grid.pulsed(0, 0, 0)?.is_some() { 2e-6 } else { 2e-3 };
+        let origin = Origin::new(claim.subject, grid.table_rows());
+        Ok(Divisible { origin, name: "map", columns: columns(&grid), seconds_a_row })
+    }
+
+    fn options(&mut self) -> (&mut OutputArguments, &mut ThreadArguments, &mut LongRunArguments) {
+        (&mut self.output, &mut self.threads, &mut self.long_run)
     }
 }
 

@@ -10,6 +10,8 @@ mod csv_writer;
 mod error;
 mod fields;
 mod metadata;
+#[cfg_attr(not(feature = "parquet"), path = "no_parquet_reader.rs")]
+mod parquet_reader;
 #[cfg_attr(not(feature = "parquet"), path = "no_parquet_writer.rs")]
 mod parquet_writer;
 mod table;
@@ -23,6 +25,7 @@ pub use csv_writer::CsvWriter;
 pub use error::TableError;
 pub use fields::{FieldTable, Fields};
 pub use metadata::{Metadata, metadata_of};
+pub use parquet_reader::{parquet_text, read_parquet};
 pub use parquet_writer::ParquetWriter;
 pub use table::{RowWriter, Table, write_csv, write_parquet};
 pub use value::Value;

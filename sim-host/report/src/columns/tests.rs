@@ -107,6 +107,27 @@ fn a_finished_csv_file_gives_the_same_bytes() {
 }
 
 #[test]
+fn a_file_reads_back_to_the_same_csv() {
+    let path = tempfile::NamedTempFile::new().unwrap();
+    let open = || std::fs::File::open(path.path()).unwrap();
+    for rows in [0, 1, 1000, GROUP + 5] {
+        let table = Samples(rows);
+        std::fs::write(path.path(), parquet(&table)).unwrap();
+        let mut writer = CsvWriter::new(table.columns(), Vec::new()).unwrap();
+        assert_eq!(read_parquet(open(), &table.columns(), &mut writer).unwrap(), rows as u64);
+        assert!(writer.finish().unwrap() == csv(&table), "{rows}");
+    }
+    assert_eq!(parquet_text(open(), "command").unwrap().as_deref(), Some("sprag map scene.toml"));
+    assert_eq!(parquet_text(open(), "absent").unwrap(), None);
+    // Other columns, and what is no table, are refused.
+    let mut writer = CsvWriter::new(Vec::new(), Vec::new()).unwrap();
+    assert!(matches!(read_parquet(open(), &Samples(1).columns()[1..], &mut writer), Err(TableError::Titles { .. })));
+    std::fs::write(path.path(), "no table").unwrap();
+    assert!(matches!(read_parquet(open(), &Samples(1).columns(), &mut writer), Err(TableError::Parquet(_))));
+    assert!(parquet_text(open(), "command").is_err());
+}
+
+#[test]
 fn a_file_says_what_made_it() {
     let reader = SerializedFileReader::new(bytes::Bytes::from(parquet(&Samples(3)))).unwrap();
     let file = reader.metadata().file_metadata();

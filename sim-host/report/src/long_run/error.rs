@@ -29,6 +29,24 @@ pub enum LongRunError {
         /// The first thing that is not the same.
         what: String,
     },
+    /// A plan of another scene, study, version or record, or for another number of parts.
+    #[error("{}: it plans another run: {what} differs; plan this one in another folder", path.display())]
+    OtherPlan {
+        /// The plan.
+        path: PathBuf,
+        /// The first thing that is not the same.
+        what: String,
+    },
+    /// Parts that are not there, or of another plan.
+    #[error("{}: not there; {missing} of {parts} parts are missing", path.display())]
+    Parts {
+        /// File of the first one.
+        path: PathBuf,
+        /// How many are not there.
+        missing: usize,
+        /// How many there should be.
+        parts: u32,
+    },
     /// Rows that another program has changed while they were made.
     #[error("{}: it is not as it was written: {reason}; give --restart to make its rows again", path.display())]
     Changed {

@@ -18,6 +18,8 @@ use crate::output::{Results, is_at};
 pub struct Plan<'a> {
     /// Folder of the results.
     pub folder: &'a Path,
+    /// Folder of the shards that are merged.
+    pub shards: &'a Path,
     /// Name of the table: `map` for map.csv.
     pub name: &'a str,
     /// Heading.
@@ -49,9 +51,9 @@ struct Paths {
 }
 
 impl Plan<'_> {
-    fn paths(&self, shard: Shard) -> Paths {
+    fn paths(&self, folder: &Path, shard: Shard) -> Paths {
         let stem = shard.file_stem(self.name);
-        let path = |ending: &str| self.folder.join(format!("{stem}{ending}"));
+        let path = |ending: &str| folder.join(format!("{stem}{ending}"));
         Paths {
             unfinished: path(".csv.unfinished"),
             unfinished_page: path(".csv.unfinished.json"),
@@ -100,7 +102,7 @@ impl Rows {
         start: Start,
         mut known: impl FnMut(usize, &StringRecord) -> Result<(), String>,
     ) -> Result<Rows, LongRunError> {
-        let (paths, shape) = (plan.paths(plan.shard), plan.shape(plan.shard));
+        let (paths, shape) = (plan.paths(plan.folder, plan.shard), plan.shape(plan.shard));
         let rows = shape.range.len();
         let file = match start {
             Start::New => create(plan, &paths, new(&paths.unfinished)?)?,
@@ -284,7 +286,7 @@ fn merge(plan: &Plan<'_>, paths: &Paths, shards: u32) -> Result<File, LongRunErr
     }
     // Shards without a row need not be there.
     let with_rows = Shard::all(shards).filter(|shard| !plan.shape(*shard).range.is_empty());
-    let of: Vec<(Shard, Paths)> = with_rows.map(|shard| (shard, plan.paths(shard))).collect();
+    let of: Vec<(Shard, Paths)> = with_rows.map(|shard| (shard, plan.paths(plan.shards, shard))).collect();
     for (shard, part) in &of {
         let shape = plan.shape(*shard);
         let rows = shape.range.len();

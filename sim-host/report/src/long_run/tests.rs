@@ -14,7 +14,15 @@ const ROWS: usize = 12;
 
 fn plan(folder: &Path, shard: Shard, seed: u32) -> Plan<'_> {
     let origin = Origin::new(Subject::new("test", BTreeMap::new()).with("seed", &seed).unwrap(), ROWS);
-    Plan { folder, name: "table", columns: ["row", "its name, quoted"].map(str::to_owned).to_vec(), together: 2, shard, origin }
+    Plan {
+        folder,
+        shards: folder,
+        name: "table",
+        columns: ["row", "its name, quoted"].map(str::to_owned).to_vec(),
+        together: 2,
+        shard,
+        origin,
+    }
 }
 
 /// Begins, and adds `most` rows; the numbers of those that were known.

@@ -93,7 +93,15 @@ impl Tried {
     /// [`LongRunError`].
     pub fn begin(folder: &Path, origin: Origin, start: Start, motions: usize) -> Result<Tried, LongRunError> {
         let names = COLUMNS.map(str::to_owned);
-        let plan = Plan { folder, name: "tried", columns: names.to_vec(), together: motions, shard: Shard::WHOLE, origin };
+        let plan = Plan {
+            folder,
+            shards: folder,
+            name: "tried",
+            columns: names.to_vec(),
+            together: motions,
+            shard: Shard::WHOLE,
+            origin,
+        };
         let mut known: HashMap<Place, Responses> = HashMap::new();
         let rows = Rows::begin(&plan, start, |row, record| {
             let mut fields = RowFields::new(&names, record);

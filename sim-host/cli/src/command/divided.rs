@@ -1,0 +1,116 @@
+//! Commands whose rows are made in parts, by as many machines as there are.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, anyhow, bail};
+use sprag_report::long_run::division::{Divisible, Division};
+
+use super::context::{Completion, Context, Run};
+use super::long_run_arguments::LongRunArguments;
+use super::out_arguments::OutputArguments;
+use super::thread_arguments::ThreadArguments;
+use crate::line::{self, Command};
+
+/// A command whose rows can be made in parts.
+pub trait Divided: Run {
+    /// Its rows; no other option of long runs may be given.
+    ///
+    /// # Errors
+    /// Input that cannot be read.
+    fn divisible(&self, context: &mut Context<'_>) -> anyhow::Result<Divisible>;
+
+    /// What its parts and their merge have otherwise.
+    fn options(&mut self) -> (&mut OutputArguments, &mut ThreadArguments, &mut LongRunArguments);
+}
+
+/// The divided command of a command line without the name of the program.
+///
+/// # Errors
+/// A command that makes no rows in parts, or an option that contradicts them.
+pub fn divided(words: &[String]) -> anyhow::Result<Box<dyn Divided>> {
+    let words: Vec<_> = ["sprag"].into_iter().map(Into::into).chain(words.iter().map(Into::into)).collect();
+    let command = line::read(&words).map_err(|error| anyhow!("{}", super::wrong_line::wrong_line(&error)))?.command;
+    let mut command: Box<dyn Divided> = match command {
+        Command::Map(arguments) => Box::new(arguments),
+        Command::Cloud(arguments) => Box::new(arguments),
+        _ => bail!("only `map` and `cloud` are divided into parts"),
+    };
+    let (_, _, long_run) = command.options();
+    match long_run.given() {
+        None => Ok(command),
+        Some(option) => bail!("{option} is what a plan stands for: leave it out"),
+    }
+}
+
+/// A plan in its folder, with the command that it divides.
+pub struct Planned {
+    folder: PathBuf,
+    division: Division,
+    command: Box<dyn Divided>,
+    rows: Divisible,
+}
+
+impl Planned {
+    /// The plan in `folder`, which must still be of the rows that its command makes.
+    ///
+    /// # Errors
+    /// A folder without a plan, another working folder than where it was made, and a scene, record or program that has changed since.
+    pub fn read(folder: &Path, context: &mut Context<'_>) -> anyhow::Result<Planned> {
+        let division = Division::read(folder)?;
+        let here = std::env::current_dir().context("the working folder")?;
+        // Paths of the command line are relative to it.
+        if here != division.working_folder {
+            bail!("the plan was made in {}: run this there", division.working_folder.display());
+        }
+        let command = divided(&division.command_line)?;
+        let rows = command.divisible(context)?;
+        division.require(&rows.origin, folder)?;
+        Ok(Planned { folder: folder.to_owned(), division, command, rows })
+    }
+
+    /// Makes a part, unless it is there: then the answer is false. Any number of processes may do so at once.
+    ///
+    /// # Errors
+    /// A part that there is none of, an interrupt, and rows that cannot be made or kept.
+    pub fn make(mut self, part: u32, threads: Option<u16>, context: &mut Context<'_>) -> anyhow::Result<bool> {
+        let parts = self.division.parts;
+        let shard = self.division.shard(part).ok_or_else(|| anyhow!("there is no part {part}: the plan has 1 to {parts}"))?;
+        if self.division.has(&self.folder, part) {
+            return Ok(false);
+        }
+        let scratch = self.scratch()?;
+        let (output, of_threads, long_run) = self.command.options();
+        output.out = Some(scratch.path().to_owned());
+        output.replace.overwrite = true;
+        of_threads.threads = threads.or(of_threads.threads);
+        long_run.shard = Some(shard);
+        let (mut out, interrupt) = (io::sink(), context.interrupt);
+        let mut inner = Context { out: &mut out, err: context.err, interrupt, quiet: true };
+        let completion = self.command.run(&mut inner)?;
+        if completion == Completion::Interrupted {
+            inner.check_interrupt()?;
+        }
+        self.division.keep(&self.folder, part, &self.rows, scratch.path())?;
+        Ok(true)
+    }
+
+    /// Puts all parts together to the results of the command, as if it had not been divided.
+    ///
+    /// # Errors
+    /// Parts that are missing, and those of the command.
+    pub fn collect(mut self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+        let scratch = self.scratch()?;
+        self.division.unpack(&self.folder, &self.rows, scratch.path())?;
+        let parts = self.division.parts;
+        let (_, _, long_run) = self.command.options();
+        (long_run.merge, long_run.shards) = (Some(parts), Some(scratch.path().to_owned()));
+        self.command.run(context)
+    }
+
+    /// A folder in that of the plan, which is gone at the end.
+    fn scratch(&self) -> anyhow::Result<tempfile::TempDir> {
+        let folder = tempfile::Builder::new().prefix(".unfinished-").tempdir_in(&self.folder);
+        folder.with_context(|| self.folder.display().to_string())
+    }
+}

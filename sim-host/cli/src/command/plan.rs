@@ -1,0 +1,74 @@
+//! `sprag plan`: divides a study into parts for many machines.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context as _;
+use clap::Args;
+use sprag_report::long_run::division::Division;
+use sprag_report::long_run::shard::MOST_SHARDS;
+
+use super::context::{Completion, Context, Run};
+use super::divided::divided;
+
+/// Divide a map or cloud into parts for many machines.
+#[derive(Args, Clone, Debug)]
+#[command(
+    after_help = "Examples:\n  sprag plan shared/map -- map scenes/figure08.toml --set map.x.cells=8000 --set map.y.cells=8000\n  \
+    sprag plan shared/map --slurm -- map scenes/figure08.toml > job.sh && sbatch job.sh\n  \
+    for part in 1 2 3; do sprag part shared/map $part; done; sprag collect shared/map\n\n\
+    Writes plan.json: the command, the number of parts and a key, which is the same on every machine; it changes with the scene or study, the contents of \
+    every record, and the version of Sprag. Parts are made by `sprag part` in any order, anywhere that sees the folder, and put together by `sprag collect`."
+)]
+pub struct PlanArguments {
+    /// Folder for the plan and its parts.
+    #[arg(value_name = "FOLDER")]
+    pub folder: PathBuf,
+    /// Number of parts, in the place of --part-seconds.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SHARDS)))]
+    pub parts: Option<u32>,
+    /// Length of a part on one core, s, as a rough rate of rows has it; machines differ.
+    #[arg(long, value_name = "S", default_value_t = 30.0, conflicts_with = "parts", value_parser = seconds)]
+    pub part_seconds: f64,
+    /// Print a script for Slurm that makes all parts as one array.
+    #[arg(long)]
+    pub slurm: bool,
+    /// The command and its options, after two dashes.
+    #[arg(value_name = "COMMAND", required = true, last = true)]
+    pub command: Vec<String>,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (0.001..=86400.0).contains(&value) => Ok(value),
+        _ => Err("must be a number from 0.001 to 86400".to_owned()),
+    }
+}
+
+impl Run for PlanArguments {
+    fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+        let rows = divided(&self.command)?.divisible(context)?;
+        let wanted = (rows.origin.rows as f64 * rows.seconds_a_row / self.part_seconds).ceil();
+        let parts = self.parts.unwrap_or(wanted.clamp(1.0, f64::from(MOST_SHARDS)) as u32);
+        let here = std::env::current_dir().context("the working folder")?;
+        let division = Division::new(rows.origin, parts, here, self.command.clone());
+        division.write(&self.folder)?;
+        if self.slurm {
+            context.print(slurm(&division, &self.folder, rows.name));
+        } else {
+            let (key, rows) = (&division.key, division.origin.rows);
+            context.print(format_args!("{parts} parts of {rows} rows, key {key}\n"));
+        }
+        Ok(Completion::Complete)
+    }
+}
+
+/// A script for Slurm's `sbatch`. A part that is there already is done at once, so that it may be sent again as a whole.
+fn slurm(division: &Division, folder: &Path, name: &str) -> String {
+    let (parts, here) = (division.parts, division.working_folder.display());
+    let folder = folder.display();
+    format!(
+        "#!/bin/sh\n#SBATCH --job-name=sprag-{name}\n#SBATCH --array=1-{parts}\n#SBATCH --chdir={here}\n\
+         #SBATCH --output={folder}/part-%a.log\n#SBATCH --requeue\n\
+         exec sprag part '{folder}' \"$SLURM_ARRAY_TASK_ID\" --threads \"${{SLURM_CPUS_PER_TASK:-1}}\"\n"
+    )
+}
