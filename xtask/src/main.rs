@@ -3,6 +3,7 @@
 mod accuracy;
 mod board_image;
 mod budget;
+mod cluster;
 #[cfg(test)]
 mod documentation_links;
 mod effects;
@@ -92,6 +93,8 @@ enum Task {
     },
     /// Build the Debian package of the program, with its pages for `man` and its completions; needs cargo-deb
     Deb,
+    /// Make a map as an array job of a Slurm that is started on this machine alone
+    Cluster,
     /// Install the program below target/installed and run the README's commands with it in an empty folder, without cargo
     Installed,
     /// Feed random input to the fuzz targets
@@ -145,6 +148,7 @@ fn run(task: Task) -> Result<(), Stop> {
         Task::Hardware => hardware::run(root, &mut Steps::default()),
         Task::Figures { program } => figures::run(root, program.as_deref()),
         Task::Deb => package::deb(root),
+        Task::Cluster => cluster::run(root, &test::program(root)),
         Task::Installed => package::try_installed(root),
         Task::Fuzz { target, seconds } => fuzz::run(root, target.as_deref(), seconds, Inputs::New),
     }

@@ -1,7 +1,7 @@
 //! Every check of the project, in the order in which they are cheapest to fail.
 
 use crate::{
-    board_image, exhaustive,
+    board_image, cluster, exhaustive,
     firmware::{BOARD, Built, LINTED, TARGET},
     fuzz::{self, Inputs},
     hardware, package, panic_check,
@@ -11,7 +11,7 @@ use crate::{
     stop::Stop,
     tools,
 };
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The target of programs in a browser.
 const PAGE: &str = "wasm32-unknown-unknown";
@@ -70,6 +70,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     steps.step("tests, board image", || board_image::tests(root, &built))?;
     steps.step("rest of the tests' build", || built_tests.wait())?;
     steps.step("tests", || tests(root, &built, fuzz_seconds.is_some()))?;
+    steps.step("Slurm array", || cluster::run(root, &program(root)))?;
     match fuzz_seconds {
         Some(seconds) => {
             steps.step("installed program", || package::try_installed(root))?;
@@ -111,6 +112,11 @@ fn tests(root: &Path, built: &Built, all: bool) -> Result<(), Stop> {
         println!("-- tests not run: {need}: {why}");
     }
     result
+}
+
+/// The program that the tests of the command run, once they are built.
+pub fn program(root: &Path) -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from).join("debug/sprag")
 }
 
 /// Builds the images for the board and checks them; new sizes are accepted if they shall be overwritten.

@@ -62,6 +62,14 @@ pub fn need_valgrind() -> Result<(), Stop> {
     need("valgrind", &["valgrind"])
 }
 
+/// Makes sure that Slurm is installed.
+///
+/// # Errors
+/// If it is not and cannot be.
+pub fn need_slurm() -> Result<(), Stop> {
+    need_by("slurm-wlm", "slurmctld", || answers("slurmctld", &["-V"]) && answers("slurmd", &["-V"]))
+}
+
 /// Makes sure that there is a C++ compiler, which libFuzzer is built with.
 ///
 /// # Errors
