@@ -1,7 +1,7 @@
 //! Curves over a map, such as the boundaries between its regions.
 
 use super::layer::{path_through, write_path};
-use super::legend::{Key, Swatch};
+use super::legend::{LegendEntry, Swatch};
 use super::palette::{Stroke, device_look};
 use super::panel::Panel;
 
@@ -25,7 +25,7 @@ fn stroke(kind: usize) -> Stroke {
 }
 
 /// The legend entry of a kind of curves.
-pub(super) fn curve_key(kind: usize, name: &str) -> Key {
+pub(super) fn curve_key(kind: usize, name: &str) -> LegendEntry {
     (Swatch::Line(stroke(kind)), name.to_owned())
 }
 

@@ -16,6 +16,21 @@ pub enum Scale {
     Logarithmic,
 }
 
+impl Scale {
+    /// Where `value` is on an axis: its decimal logarithm on a logarithmic one, where only positive values are.
+    pub(super) fn place(self, value: f64) -> Option<f64> {
+        match self {
+            Scale::Linear => Some(value),
+            Scale::Logarithmic => (value > 0.0).then(|| math::log10(value)),
+        }
+    }
+}
+
+/// Whether `value` can be drawn: the square root keeps sums and differences of such values finite too.
+pub(super) fn drawable(value: f64) -> bool {
+    value.abs() < f64::MAX.sqrt()
+}
+
 /// Air beyond the outermost points, relative to the range.
 const AIR: f64 = 0.05;
 /// A linear vertical axis starts at zero when the values reach down to this part of the highest.
