@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::error::{Key, SceneError};
+use super::error::{KeyPath, SceneError};
 use super::schema::KeyOf;
 use super::sensors::SensorsTable;
 use crate::sensor::Suite;
@@ -227,7 +227,7 @@ impl ControllerTable {
     /// # Errors
     /// As [`ControllerTable::check`].
     pub fn suite(&self, origin: &str) -> Result<Suite, SceneError> {
-        self.check(&|key: &str| Key { origin: origin.to_owned(), key: key.to_owned() })
+        self.check(&|key: &str| KeyPath { origin: origin.to_owned(), key: key.to_owned() })
     }
 
     /// The sensors, once everything has been checked.

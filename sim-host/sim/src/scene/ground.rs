@@ -8,7 +8,7 @@ use sprag_shared::ground::harmonic::MavroeidisPapageorgiou;
 use sprag_shared::ground::{AnySegment, Harmonics, Linear, Ricker};
 use sprag_shared::structure::block::{Block, GRAVITY};
 
-use super::error::{Key, SceneError};
+use super::error::{KeyPath, SceneError};
 use super::schema::KeyOf;
 use crate::ground_motion::Component;
 use crate::record::{Component as RecordComponent, ReadOptions, Record, RecordError, RecordSummary, TIME_STEP_RANGE_S, Units};
@@ -132,12 +132,12 @@ pub enum GroundError {
     #[error("{0}")]
     Scene(#[from] SceneError),
     /// A record.
-    #[error("{error}{}", key.as_ref().map_or_else(String::new, |Key { origin, key }| format!(", or {key} in {origin}")))]
+    #[error("{error}{}", key.as_ref().map_or_else(String::new, |KeyPath { origin, key }| format!(", or {key} in {origin}")))]
     Record {
         /// What is wrong with it.
         error: RecordError,
         /// The key of the scene that repairs it, if one does.
-        key: Option<Key>,
+        key: Option<KeyPath>,
     },
 }
 
@@ -219,7 +219,7 @@ impl GroundTable {
         block: &Block,
         uplift: f64,
         (folder, direction): (&Path, Direction),
-        key: &dyn Fn(&str) -> Key,
+        key: &dyn Fn(&str) -> KeyPath,
         records: &mut Vec<RecordSummary>,
     ) -> Result<Component, GroundError> {
         let p = block.frequency_parameter();

@@ -11,7 +11,7 @@ pub use super::accuracy::{AccuracyTable, EventTreatment, MethodName, Precision};
 use super::checks::ChecksTable;
 use super::controller::ControllerTable;
 pub use super::device::{DeviceTable, Kind, KinematicsName, MountName};
-use super::error::{Key, SceneError};
+use super::error::{KeyPath, SceneError};
 use super::ground::GroundTable;
 use super::map::MapTable;
 use crate::keys::{Described, schema_of};
@@ -19,8 +19,8 @@ use crate::keys::{Described, schema_of};
 /// Default of `run.free_time_ratio`, in 1/p.
 pub const FREE_TIME_RATIO: f64 = 20.0;
 
-/// Makes the [`Key`] of a name.
-pub type KeyOf<'a> = dyn Fn(&str) -> Key + 'a;
+/// Makes the [`KeyPath`] of a name.
+pub type KeyOf<'a> = dyn Fn(&str) -> KeyPath + 'a;
 
 /// A scene file.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]

@@ -10,7 +10,7 @@ mod tests;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::error::{Key, SceneError};
+use super::error::{KeyPath, SceneError};
 use super::schema::KeyOf;
 use crate::sensor::preset::{self, Preset};
 use crate::sensor::{Inertial, Suite};
@@ -114,7 +114,7 @@ fn part<P: Copy, T: Change<P>>(
 fn find<P: Copy>(presets: &'static [Preset<P>], name: &str, place: &str, key: &KeyOf<'_>) -> Result<P, SceneError> {
     preset::find(presets, name).ok_or_else(|| {
         let known: Vec<String> = preset::names(presets).map(|name| format!("\"{name}\"")).collect();
-        let Key { origin, key } = key(place);
+        let KeyPath { origin, key } = key(place);
         SceneError::Range { origin, key, value: format!("\"{name}\""), range: format!("one of {}", known.join(", ")) }
     })
 }

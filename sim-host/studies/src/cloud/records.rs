@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use sprag_sim::ground_motion::{self, GroundMotion};
 use sprag_sim::record::{Component, ReadOptions, Record, RecordSummary, STANDARD_GRAVITY_M_S2, Warning, warning_lines};
 use sprag_sim::scene::SceneError;
-use sprag_sim::scene::error::Key;
+use sprag_sim::scene::error::KeyPath;
 use sprag_sim::scene::motions::GroundMotions;
 
 use super::folder;
@@ -118,7 +118,7 @@ fn sources(study: &Study, found: &mut StudyRecords) -> Result<Vec<Source>, Scene
         let path = match entry {
             RecordEntry::Path(path) => path,
             RecordEntry::Described(DescribedRecord { file, units, time_step_s, component }) => {
-                let key = |key: &str| Key { origin: study.origin.clone(), key: key.to_owned() };
+                let key = |key: &str| KeyPath { origin: study.origin.clone(), key: key.to_owned() };
                 check_units(units.as_deref(), &format!("records.{index}"), &key)?;
                 options.units = units.as_ref().and_then(|units| units.parse().ok()).or(options.units);
                 options.time_step_s = time_step_s.or(options.time_step_s);

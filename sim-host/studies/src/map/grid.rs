@@ -73,7 +73,7 @@ impl Grid {
     /// # Errors
     /// [`SceneError`] when the scene has no axes, or a value at a corner of the map is outside its range.
     pub fn new(scene: Scene, text: Table) -> Result<Grid, SceneError> {
-        let key = |key: &str| sprag_sim::scene::error::Key { origin: scene.origin.clone(), key: key.to_owned() };
+        let key = |key: &str| sprag_sim::scene::error::KeyPath { origin: scene.origin.clone(), key: key.to_owned() };
         let Some(map) = scene.file.map.clone() else {
             return Err(key("map.x").missing("a [map] table with an axis x, or --x KEY=FROM:TO:CELLS"));
         };
