@@ -154,14 +154,6 @@ impl Study {
     pub fn asks_for_errors(&self) -> bool {
         self.structures.iter().any(|structure| structure.scene.file.accuracy.level.is_some())
     }
-
-    /// Factors or levels: runs of every record for each structure and device.
-    pub fn scalings(&self) -> usize {
-        match &self.scaling {
-            Scaling::Factors(factors) => factors.len(),
-            Scaling::Levels(_, levels) => levels.len(),
-        }
-    }
 }
 
 fn names(scene: &Scene) -> Vec<String> {
