@@ -37,7 +37,7 @@ pub(super) fn write_curves(svg: &mut String, panel: &Panel<'_>, curves: &[MapCur
     }
 }
 
-/// The curve in drawing units, without points that nobody can tell from the one before; nothing for a curve smaller than that.
+/// The curve in drawing units, without points that nobody can distinguish from the one before; nothing for a curve smaller than that.
 fn path(panel: &Panel<'_>, points: &[(f64, f64)]) -> String {
     let mut drawn: Vec<(f64, f64)> = Vec::new();
     for (index, point) in points.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Open marks that tell devices apart without colour.
+//! Marks: open ones that distinguish devices without colour, those of the points of lines, and that of a choice.
 
 use super::layer::{units, write_disc};
 use super::palette::{Colour, INK, hex};

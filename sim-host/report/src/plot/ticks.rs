@@ -235,7 +235,7 @@ pub(super) fn tick_text(value: f64, step: f64) -> String {
     if value < 0.0 && text != "0" { format!("\u{2212}{text}") } else { text }
 }
 
-/// With the digits that tell ticks `step` apart.
+/// With the digits that distinguish ticks `step` apart.
 fn scientific(size: f64, step: f64) -> String {
     let power = |value: f64| (math::log10(value) + 1e-9).floor();
     let decimals = (power(size) - power(step)).clamp(0.0, 15.0) as usize;

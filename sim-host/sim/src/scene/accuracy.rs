@@ -182,7 +182,7 @@ impl AccuracyTable {
     }
 
     /// What only ideal devices, or only elastic clutches, are followed by. `beyond_ideal` is the first key that goes beyond the
-    /// ideal device, if any; `elastic` tells whether any device has an elastic clutch.
+    /// ideal device, if any; `elastic` is whether any device has an elastic clutch.
     ///
     /// # Errors
     /// [`SceneError::Conflict`] names the key.
@@ -208,7 +208,7 @@ impl AccuracyTable {
         Ok(())
     }
 
-    /// By the series, as closely as told.
+    /// By the series, as closely as asked.
     pub fn as_close(closeness: Closeness) -> AccuracyTable {
         AccuracyTable { tolerance: closeness.tolerance, ..AccuracyTable::default() }
     }

@@ -247,7 +247,7 @@ pub(super) fn default_name(table: &DeviceTable, all: &[DeviceTable]) -> String {
     if all.iter().filter(|other| other.kind == table.kind && other.name.is_none()).count() < 2 {
         return kind.to_owned();
     }
-    // Several of a kind are told apart by what they differ in most often.
+    // Several of a kind are distinguished by what they differ in most often.
     let position = all.iter().position(|other| std::ptr::eq(other, table)).unwrap_or(0);
     match table.mass_ratio {
         Some(ratio) => format!("{kind} {} (σ = {ratio})", position + 1),

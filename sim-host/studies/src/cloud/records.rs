@@ -178,7 +178,7 @@ mod tests {
         for part in ["empty: no file in it", "broken.csv", "gone.csv"] {
             assert!(found.unreadable.iter().any(|line| line.contains(part) && !line.contains('\n')), "{part}");
         }
-        // Two of one name are told apart.
+        // Two of one name are distinguished.
         let found = StudyRecords::read(&study(folder.path(), "['a/1.csv', 'a/deeper/1.csv']")).unwrap();
         assert!(names(&found)[0].ends_with("/a/1.csv") && names(&found)[1].ends_with("/a/deeper/1.csv"));
     }
@@ -191,10 +191,10 @@ mod tests {
         assert_eq!(of("['plain.g3']").records.len(), 0);
         let described = of("[{ file = 'plain.g3', units = 'm/s2', time_step_s = 0.02 }]");
         assert_eq!(described.records[0].motion.record.time_step_s, 0.02);
-        let mut told = study(folder.path(), "['plain.g3']");
+        let mut given = study(folder.path(), "['plain.g3']");
         let units = Some("m/s2".to_owned());
-        told.apply_record_options(&RecordTable { units, time_step_s: Some(0.02), ..RecordTable::default() });
-        assert_eq!(StudyRecords::read(&told).unwrap().records[0].motion.record, described.records[0].motion.record);
+        given.apply_record_options(&RecordTable { units, time_step_s: Some(0.02), ..RecordTable::default() });
+        assert_eq!(StudyRecords::read(&given).unwrap().records[0].motion.record, described.records[0].motion.record);
         let of_all = of("['plain.g3']\n[record]\nunits = 'm/s2'\ntime_step_s = 0.02");
         assert_eq!(of_all.records[0].motion.record, described.records[0].motion.record);
         let study = study(folder.path(), "[{ file = 'plain.g3', units = 'furlongs' }]");

@@ -88,7 +88,7 @@ impl Grid {
         grid.direct = (0..grid.scene.devices.len()).map(|device| grid.direct(device)).collect();
         let mut keys = std::iter::once(&grid.map.x).chain(&grid.map.y).map(|axis| axis.key.as_str());
         if keys.all(|key| !key.starts_with("ground.") || key == "ground.0.scale") {
-            // What cannot be read is told by the first cell.
+            // What cannot be read is reported by the first cell.
             grid.record = grid.scene.only_record().ok().flatten().map(|record| Samples::from(&record));
         }
         Ok(grid)

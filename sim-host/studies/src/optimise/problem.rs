@@ -120,7 +120,7 @@ impl<'a> Problem<'a> {
         Problem { choices, motions, left_out }
     }
 
-    /// Tries designs on rayon's threads until the best is found, but for those that `memory` has of an earlier search. `begin` is told of
+    /// Tries designs on rayon's threads until the best is found, but for those that `memory` has of an earlier search. `begin` is given
     /// runs to come, as often as there are more; `done` is called after each. Neither the number of threads nor their order changes a
     /// bit of the solution.
     ///
