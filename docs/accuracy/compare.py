@@ -18,7 +18,7 @@ or while θ̇ and −[ ] have one sign (clutched-pair). At θ = 0: θ̇⁺ = η 
     python3 compare.py [--markdown]                                    the built-in cells, as CSV or as a table of medians
     python3 compare.py --cases cases.csv --reference expected.csv      what `sprag batch` reads and writes (sine pulses)
 
-Without NumPy and SciPy it installs them into a virtual environment (--venv FOLDER; target/compare-venv by default) and goes on
+Without NumPy and SciPy it installs them into a virtual environment (--venv FOLDER; target/compare-venv by default) and continues
 there. Times are the least of three, of one for runs above 0.1 s.
 """
 
@@ -255,7 +255,7 @@ def markdown(rows: list[list[str]]) -> Iterator[str]:
 
 
 def ensure_scipy(folder: Path) -> None:
-    """Goes on in a virtual environment where this Python has no SciPy."""
+    """Continues in a virtual environment where this Python has no SciPy."""
     try:
         import scipy.integrate  # noqa: F401
     except ImportError:

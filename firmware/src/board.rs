@@ -56,7 +56,7 @@ pub type Recordings = <Selected as Board>::Recordings;
 
 /// A board. Its parts go to the tasks that own them.
 pub trait Board: Sized {
-    /// Its name, as the link tells it.
+    /// Its name, as the link reports it.
     const NAME: &'static str;
 
     /// Rate of the counter that [`Board::now`] reads, 1/s.
@@ -101,7 +101,7 @@ pub trait Board: Sized {
     /// The flash that recordings of earthquakes go to. To be called once.
     fn recordings(&mut self) -> Self::Recordings;
 
-    /// Starts sensors, coils (released) and link. The encoder goes on from `counts`, as they were last read before a reset, and counts
+    /// Starts sensors, coils (released) and link. The encoder continues from `counts`, as they were last read before a reset, and counts
     /// what the rack has moved since, if the board can; without them it starts at 0. The watchdog is running when this returns.
     fn begin(self, settings: &Settings, counts: Option<i32>) -> Parts<Self>;
 
@@ -123,7 +123,7 @@ pub trait Board: Sized {
         true
     }
 
-    /// CRC-32/MPEG-2 of words, each from its most significant bit on, going on from `before`, which at first is all ones.
+    /// CRC-32/MPEG-2 of words, each from its most significant bit on, continuing from `before`, which at first is all ones.
     fn crc(before: u32, words: &[u32]) -> u32;
 
     /// The last edge of an oscillator that has nothing to do with the crystal, since it was asked for one.

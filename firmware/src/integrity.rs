@@ -112,7 +112,7 @@ impl Integrity {
         if self.turn.is_multiple_of(AUDITED) { Next::Audit } else { Next::Sleep }
     }
 
-    /// Goes on with measuring the clock. Whether it is wrong.
+    /// Continues to measure the clock. Whether it is wrong.
     #[inline(never)]
     fn measure(&mut self) -> bool {
         let Some(clock) = &mut self.clock else {

@@ -15,7 +15,7 @@ use sprag_shared::link::reset_cause::Cause;
 /// Bytes of a file's name that are kept.
 pub const NAME: usize = 32;
 
-/// What is told after the start.
+/// What is reported after the start.
 #[derive(Clone, Copy)]
 pub struct LastWords {
     /// Why the program started.
@@ -29,7 +29,7 @@ pub struct LastWords {
 }
 
 impl LastWords {
-    /// How a `device` started that told this; its settings are `stored` ones.
+    /// How a `device` started that reported this; its settings are `stored` ones.
     pub fn started(&self, device: &Device, stored: bool) -> Started {
         let LastWords { cause, place, length, file } = *self;
         Started { cause, resumed: device.resumes(), stored, restarts: device.restarts(), length, place, file }

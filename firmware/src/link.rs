@@ -162,7 +162,7 @@ impl Link {
                 }
                 Some(Ok(received)) => {
                     self.around.lost_reports = LOST_REPORTS.load(Ordering::Relaxed);
-                    // It takes as long as half a period, and only this one tells.
+                    // It takes as long as half a period, and only this one reports.
                     if matches!(received.message, Request::State) {
                         self.around.stack = stack::deepest();
                     }
@@ -177,7 +177,7 @@ impl Link {
         moved
     }
 
-    /// The device's host has said nothing for too long: asks the device to go on without it.
+    /// The device's host has said nothing for too long: asks the device to continue without it.
     pub fn desert(&mut self, mut ask: impl FnMut(&Request, &mut Stored, &Surroundings) -> (Answer, Option<Pace>)) {
         warn!("the host is gone: detached");
         (_, self.pace) = ask(&Request::Detach, self.stored, &self.around);
@@ -187,7 +187,7 @@ impl Link {
         match answer {
             Answer::Reply(reply) | Answer::Restarted(reply) | Answer::SelfTest(reply) => self.next = Some((tag, reply)),
             Answer::Sample if self.pace == Some(Pace::Sample) => tick::pend(),
-            // Has been done before this is told.
+            // Has been done before this is reported.
             Answer::Sample | Answer::Change(_) | Answer::Recorder | Answer::Protect => {}
             Answer::Rehearse(mishap) => rehearse(mishap),
         }

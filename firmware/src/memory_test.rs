@@ -1,4 +1,4 @@
-//! The memory, tested word by word beside everything else that goes on: each bit takes both values and both steps between them, with its
+//! The memory, tested word by word beside everything else that runs: each bit takes both values and both steps between them, with its
 //! neighbours alike and unlike, and the word is as before when the interrupts come back, some 0.2 µs later. Stuck bits and bits of a word
 //! that pull each other are found; a wrong address is not.
 

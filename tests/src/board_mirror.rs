@@ -1,4 +1,4 @@
-//! What the board's program is around the controller, on the host: the same shared code, told what the board's own parts have read.
+//! What the board's program is around the controller, on the host: the same shared code, given what the board's own parts have read.
 
 use sprag_shared::control::sensing::sample::Reading;
 use sprag_shared::device::beginning::Beginning;

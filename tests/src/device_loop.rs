@@ -58,7 +58,7 @@ pub fn faithful() -> impl Fate {
     |_: Direction, _: u64, frame: &[u8]| frame.to_vec()
 }
 
-/// A disturbance that tells others the time of the loop, and does what another one does.
+/// A disturbance that gives others the time of the loop, and does what another one does.
 pub struct Timed<D> {
     /// s; below 0 before the motion.
     pub time: Rc<Cell<f64>>,
@@ -308,7 +308,7 @@ pub fn decides(decision: &Decision) -> bool {
     matches!(decision.phase, Phase::Armed | Phase::Rocking)
 }
 
-/// The ways of `docs/controller.md`; a device that goes on after a reset skips what is before Rocking.
+/// The ways of `docs/controller.md`; a device that resumes after a reset skips what is before Rocking.
 pub fn is_way(from: Phase, to: Phase, resumed: bool) -> bool {
     use Phase::{Armed, Boot, Calibrate, Fault, Rocking, SelfTest};
     match (from, to) {

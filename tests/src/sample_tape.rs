@@ -53,7 +53,7 @@ impl Tape {
         }
     }
 
-    /// Stillness after `last`: the prelude over again, with numbers that go on.
+    /// Stillness after `last`: the prelude over again, with numbers that continue.
     pub fn stillness_after(&self, last: &Sample) -> impl Iterator<Item = Sample> + '_ {
         let quiet = &self.prelude[self.prelude.len() / 2..];
         let length = quiet[quiet.len() - 1].gyroscope.number.wrapping_sub(quiet[0].gyroscope.number) + 1;
@@ -71,7 +71,7 @@ impl Tape {
     }
 }
 
-/// A controller that remembers what it was told.
+/// A controller that remembers what it was given.
 struct Listener {
     own: Box<dyn Driver>,
     samples: Vec<Sample>,

@@ -30,11 +30,11 @@ pub fn cargo_in(root: &Path, workspace: &str, args: &[&str]) -> Command {
 /// The target that programs for this machine are built for.
 ///
 /// # Errors
-/// If the compiler does not tell.
+/// If the compiler does not state it.
 pub fn host(root: &Path) -> Result<String, Stop> {
     let about = output(Command::new("rustc").current_dir(root).arg("-vV"))?;
     let host = about.lines().find_map(|line| line.strip_prefix("host: "));
-    host.map(str::to_owned).ok_or_else(|| Stop::failed("rustc does not tell its host"))
+    host.map(str::to_owned).ok_or_else(|| Stop::failed("rustc does not state its host"))
 }
 
 /// Runs a command to its end.

@@ -13,7 +13,7 @@ const TOLERATED_PART: u64 = 50;
 /// or by so many bytes if these are more.
 const TOLERATED_BYTES: u64 = 256;
 
-/// What tells how to accept a size.
+/// The lines that say how to accept a size.
 const ACCEPT: &str = "run `cargo xtask firmware --overwrite` to accept this";
 
 /// A section that reaches the board.

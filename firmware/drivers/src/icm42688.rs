@@ -70,7 +70,7 @@ enum Stage {
     Identify,
     /// Writes an entry of [`CONFIGURATION`].
     Setup(usize),
-    /// Goes on with its self-test.
+    /// Continues its self-test.
     Test,
     /// Reads; so many times in a row there was nothing new.
     Run(u16),
@@ -172,7 +172,7 @@ impl<D: SpiDevice<u16>> Icm42688<D> {
         }
     }
 
-    /// Nothing is written but the bank, so that a part that gives readings goes on with them.
+    /// Nothing is written but the bank, so that a part that gives readings keeps giving them.
     fn recognise(&mut self, entry: usize) -> Stage {
         // A controller that was itself reset may have left any bank selected.
         if entry == 0 && !(self.put(BANK, 0) && self.is_there()) {

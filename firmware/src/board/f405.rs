@@ -3,7 +3,7 @@
 //! | part | peripherals |
 //! | --- | --- |
 //! | [`clock`]: 168 MHz, the counter of time, and the slow oscillator beside it | RCC, TIM5 |
-//! | [`encoder`]: its counter, which goes on over a reset | TIM4, TIM3, stream 2 of DMA1 |
+//! | [`encoder`]: its counter, which runs on through a reset | TIM4, TIM3, stream 2 of DMA1 |
 //! | [`sensors`]: two inertial sensors, each on a [`mod@bus`] | SPI1, SPI2 |
 //! | [`coils`]: two coils, their currents and their supply | TIM8 with its break input PA6, PC8, PC9, ADC1 |
 //! | [`mod@line`]: the link | USART1, streams 2 and 7 of DMA2 |

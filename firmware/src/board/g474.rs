@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | [`clock`]: 168 MHz, the counter of time, and the slow oscillator beside it | RCC, PWR, TIM5 |
 //! | [`pins`] | GPIO A to C |
-//! | [`encoder`]: its counter, which goes on over a reset | TIM4, TIM3, channel 1 of DMA1 |
+//! | [`encoder`]: its counter, which runs on through a reset | TIM4, TIM3, channel 1 of DMA1 |
 //! | [`sensors`]: two inertial sensors | SPI1, SPI2 |
 //! | [`coils`]: two coils and their currents | TIM8 with COMP1 and COMP3 at its break, DAC3, PC8, PC9, ADC1 |
 //! | [`mod@line`]: the link | USART1, channels 2 and 3 of DMA1 |

@@ -6,7 +6,7 @@
 //! | [`inertial`]: two inertial sensors and an encoder, mounted in some way | buses of `embedded-hal`, [`inertial::Counter`] |
 //! | [`driver`]: two coils between two switches each | [`driver::Stage`] |
 //! | [`ring`]: the link, moved without the processor | [`ring::Streams`] |
-//! | [`kept_count`]: an encoder's counter that goes on over a reset | registers, as a table |
+//! | [`kept_count`]: an encoder's counter that runs on through a reset | registers, as a table |
 //! | [`light`] | a pin of `embedded-hal` |
 //! | [`mod@crc`]: the unit for checksums | nothing |
 //! | [`slow_clock`]: the slow oscillator, captured by TIM5 | a channel, as a table |

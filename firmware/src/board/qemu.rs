@@ -66,7 +66,7 @@ fn note_time() -> u64 {
 /// A control period has passed: the line may exchange a chunk.
 static TICKED: AtomicBool = AtomicBool::new(false);
 
-/// What the coils were last told.
+/// The last command to the coils.
 static COILS: AtomicU8 = AtomicU8::new(0);
 
 /// The board.

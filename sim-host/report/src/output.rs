@@ -115,7 +115,7 @@ impl Results {
         self.files.into_iter().try_for_each(Written::commit)
     }
 
-    /// Puts every file in its place, and tells `err` what the reader of the files should know, in a line each.
+    /// Puts every file in its place, and writes to `err` what the reader of the files should know, in a line each.
     ///
     /// # Errors
     /// As [`Results::commit`].

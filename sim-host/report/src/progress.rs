@@ -210,7 +210,7 @@ impl Seen<'_> {
         format!("{:.0} %{left}", (100.0 * share).floor()).chars().take(room).collect()
     }
 
-    /// How long the rest takes, if it goes on as it did.
+    /// How long the rest takes, if it continues as it did.
     fn left(&self, elapsed: Duration) -> Option<Duration> {
         let here = self.done.saturating_sub(self.before);
         let seconds = elapsed.as_secs_f64() * self.length.saturating_sub(self.done) as f64 / here as f64;

@@ -81,12 +81,6 @@ impl History {
         self.peak(|sample| sample.rotation_rad) / self.slenderness_rad
     }
 
-    /// Largest |angular acceleration|/(p²α) (dimensionless); zero without samples.
-    pub fn peak_acceleration_ratio(&self) -> f64 {
-        let p = self.frequency_parameter_1_s;
-        self.peak(|sample| sample.acceleration_rad_s2) / (p * p * self.slenderness_rad)
-    }
-
     /// Largest |transferred force| over block weight (dimensionless); zero without samples.
     pub fn peak_force_ratio(&self) -> f64 {
         self.peak(Sample::transferred_force_ratio)
@@ -230,7 +224,6 @@ mod tests {
         let history = history(vec![sample(0.0, 1)]);
         assert!((history.peak_rotation_ratio() - 0.2).abs() < 1e-12);
         assert!((history.peak_force_ratio() - 0.02).abs() < 1e-12);
-        assert!((history.peak_acceleration_ratio() - 1e-9 / 0.4).abs() < 1e-20);
         assert!(!history.ends_overturned());
     }
 

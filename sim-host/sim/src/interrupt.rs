@@ -33,7 +33,7 @@ impl Interrupt {
         self.0.signal.load(Ordering::Relaxed) != 0
     }
 
-    /// From here on `what` would be kept of the work, and this is how to go on with it.
+    /// From here on `what` would be kept of the work, and this is how to resume it.
     pub fn keep(&self, what: impl Display) {
         *self.0.kept.lock().unwrap_or_else(PoisonError::into_inner) = Some(what.to_string());
     }

@@ -171,7 +171,7 @@ impl Bench {
         self.engine.processor().set(Register::Stack, crate::chip::RAM + bytes);
     }
 
-    /// Has the program go on at `address`, as if a call had gone astray.
+    /// Has the program continue at `address`, as if a call had gone astray.
     pub fn stray(&mut self, address: u32) {
         self.engine.processor().set(Register::Link, self.program | 1);
         (self.program, self.asleep) = (address, false);

@@ -67,7 +67,7 @@ pub struct Chip {
     event: u64,
     /// When the bench wants the processor back.
     pub until: u64,
-    /// The processor goes on, from where it stopped.
+    /// The processor continues, from where it stopped.
     pub goes_on: bool,
     /// 128 KiB.
     pub ram: Memory,
@@ -119,7 +119,7 @@ pub struct Chip {
     pub unknown: BTreeMap<u32, u32>,
     /// A reset that is due.
     pub reset: Option<Cause>,
-    /// The processor cannot go on, and since when it has not been told.
+    /// The processor cannot continue, and has not yet been reported so.
     pub stuck: Option<Option<u32>>,
     /// The last blocks of instructions, for those who look for what went wrong.
     pub trail: VecDeque<u32>,

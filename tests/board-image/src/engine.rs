@@ -180,7 +180,7 @@ pub trait Guest {
     fn block(&mut self, processor: &Processor, address: u32, size: u32) -> bool;
     /// A handler has returned.
     fn returned(&mut self);
-    /// The processor cannot go on: an access that nothing answers at `address`, or an instruction that it does not have.
+    /// The processor cannot continue: an access that nothing answers at `address`, or an instruction that it does not have.
     fn stuck(&mut self, address: Option<u32>);
 }
 
@@ -304,9 +304,9 @@ impl<G: Guest> Engine<G> {
         well(code, "map registers");
     }
 
-    /// Runs from `address` on until the guest stops it or cannot go on.
+    /// Runs from `address` on until the guest stops it or cannot continue.
     pub fn run(&mut self, address: u32) {
-        // What goes wrong has been told to the guest.
+        // What goes wrong has been reported to the guest.
         // SAFETY: the callbacks have the guest to themselves: this holds the engine.
         let _ = unsafe { uc_emu_start(self.processor.0, u64::from(address | 1), u64::from(u32::MAX), 0, 0) };
     }

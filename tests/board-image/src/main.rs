@@ -103,7 +103,7 @@ fn serve(path: &Path) -> Result<(), String> {
         let (now, chip) = (rig.bench.now(), rig.bench.chip_mut());
         let clock = chip.rcc.peripheral_hz()[1];
         chip.line.send(&bytes, clock, now);
-        // It wakes up here, and may go on until the next tick.
+        // It wakes up here, and may run until the next tick.
         rig.settle(microseconds(100));
     }
 }

@@ -16,7 +16,7 @@ impl Model {
     /// Every one.
     pub const ALL: [Model; 2] = [Model::F405, Model::G474];
 
-    /// Its name, as the program tells it.
+    /// Its name, as the program reports it.
     pub fn name(self) -> &'static str {
         match self {
             Model::F405 => "f405",

@@ -114,7 +114,7 @@ pub struct RunEnd {
     pub missed: u32,
 }
 
-/// Runs the case that `words` encode and tells `observer` of it. Never panics, always ends.
+/// Runs the case that `words` encode and reports it to `observer`. Never panics, always ends.
 ///
 /// # Errors
 /// [`CaseError`] names the word that is wrong, or why the run stopped.
@@ -123,7 +123,7 @@ pub fn run(words: &[u32], observer: &mut dyn Observer<f32>) -> Result<RunEnd, Ca
 }
 
 impl Case<'_> {
-    /// Runs the case and tells `observer` of it, piece after piece; times start anew with each. Of a device that is not ideal, or over ground
+    /// Runs the case and reports it to `observer`, piece after piece; times start anew with each. Of a device that is not ideal, or over ground
     /// that moves vertically too, it is shown the device.
     ///
     /// # Errors

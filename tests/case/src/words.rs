@@ -30,7 +30,7 @@ use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::mount::Mount;
 use sprag_shared::structure::restitution::Restitution;
 
-/// "CASE", to be told from other files.
+/// "CASE", to be distinguished from other files.
 pub const MAGIC: u32 = u32::from_le_bytes(*b"CASE");
 
 /// Of the words' meaning.

@@ -132,9 +132,9 @@ impl Subject {
         let finer = || run_with(&self.scene.nudged(), 0, &self.folder, Effort::default().finer());
         let finer = self.finer.get_or_init(finer).as_ref().map_err(|error| format!("ours: {error}"))?;
         let own = compare(&self.ours, &Other::from(finer), slenderness);
-        // What one program loses to rounding, the other loses elsewhere: a tenth of the difference is enough to tell.
-        let telling = if apart > tolerance.history { (0.1 * apart).min(tolerance.history) } else { tolerance.history };
-        let own_noise = own.history.max(own.entries) > telling || !own.same_outcome;
+        // What one program loses to rounding, the other loses elsewhere: a tenth of the difference is enough to decide.
+        let decisive = if apart > tolerance.history { (0.1 * apart).min(tolerance.history) } else { tolerance.history };
+        let own_noise = own.history.max(own.entries) > decisive || !own.same_outcome;
         Ok(if own_noise && closes { Verdict::Chaotic(difference) } else { Verdict::Differ(difference) })
     }
 }

@@ -35,7 +35,7 @@ impl Method {
         keys
     }
 
-    /// Differences beyond these are told.
+    /// Differences beyond these are reported.
     pub fn tolerance(self) -> Tolerance {
         match self {
             Method::Series => Tolerance { history: 1e-6, residuals: [1e-9, 1e-10] },

@@ -22,7 +22,7 @@ pub struct ElasticEnd<S> {
     pub peak: f64,
     /// Steps begun.
     pub steps: u64,
-    /// Events told.
+    /// Events reported.
     pub events: u64,
     /// Deepest |θ| below the floor, rad.
     pub depth: f64,

@@ -33,7 +33,7 @@ pub struct Tally<S> {
     pub not_finite: bool,
     /// Stretches or events that began before the one before them, beyond an ulp of the clock.
     pub backwards: u64,
-    /// Events that were told twice at one instant with one state.
+    /// Events that were reported twice at one instant with one state.
     pub twice: u64,
     /// The energy that must not grow, with the level reached so far and the largest gain over it.
     pub energy: Option<Level>,
@@ -87,7 +87,7 @@ impl<S: Real> Tally<S> {
     pub fn assert_sane(&self, steps: u64, events: u64) {
         assert!(!self.not_finite, "not finite: {self:?}");
         assert_eq!(self.backwards, 0, "time ran backwards: {self:?}");
-        assert_eq!(self.twice, 0, "an event was told twice: {self:?}");
+        assert_eq!(self.twice, 0, "an event was reported twice: {self:?}");
         assert!(self.depth <= self.floor, "through the floor: {self:?}");
         assert!(self.steps <= steps, "{} steps, at most {steps} expected: {self:?}", self.steps);
         assert!(self.total() <= events, "{} events, at most {events} expected: {self:?}", self.total());
@@ -169,9 +169,9 @@ impl<S: Real> Observer<S> for Tally<S> {
             let rotation = state.rotation.abs().to_f64();
             self.turn = (rotation, self.turn.1.max(rotation / self.turn.0 - 1.0));
         }
-        let told = Some((event, now.to_bits(), *state));
-        self.twice += u64::from(told == self.event);
-        self.event = told;
+        let reported = Some((event, now.to_bits(), *state));
+        self.twice += u64::from(reported == self.event);
+        self.event = reported;
     }
 }
 

@@ -176,7 +176,7 @@ fn faults_are_detected_and_do_no_harm() {
             }
             let (time, _) = result.detected.clone().unwrap_or_else(|| panic!("{failing:?} {instant:?} is not detected"));
             // What cannot be known at once: a count that stays at rest until the block moves; an encoder that runs backwards likewise; a
-            // bias of the ground's accelerometer, which is told from shaking after 100 ms at rest; a clutch that disobeys until it is
+            // bias of the ground's accelerometer, which is distinguished from shaking after 100 ms at rest; a clutch that disobeys until it is
             // commanded otherwise. A gyroscope's bias in motion takes the slow window.
             let exempt =
                 matches!(failing, Failing::Stuck(Part::Encoder) | Failing::Contradicts(_) | Failing::Refuses | Failing::Sticks);

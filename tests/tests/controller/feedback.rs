@@ -1,4 +1,4 @@
-//! Clutches that are told by the currents of their coils, which go before the armatures.
+//! Clutches that are known by the currents of their coils, which go before the armatures.
 
 use sprag_report::progress::Progress;
 use sprag_sim::interrupt::Interrupt;

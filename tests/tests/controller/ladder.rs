@@ -1,4 +1,4 @@
-//! A sensor that is lost in mid-swing: another one stands in for it, and the law goes on.
+//! A sensor that is lost in mid-swing: another one stands in for it, and the law continues.
 
 use sprag_report::progress::Progress;
 use sprag_sim::interrupt::Interrupt;
@@ -6,7 +6,7 @@ use sprag_studies::loop_study::bench::Conditions;
 use sprag_studies::loop_study::losses::{LOSSES, losses, pulses};
 use sprag_studies::statistics::quantile;
 
-/// Two of three tell the rate: gyroscope, encoder's derivative, and the accelerometers by the equation of motion.
+/// Two of three give the rate: gyroscope, encoder's derivative, and the accelerometers by the equation of motion.
 #[test]
 fn any_one_sensor_lost_in_mid_swing_costs_less_than_five_percent() {
     let interrupt = Interrupt::default();

@@ -147,7 +147,7 @@ fn a_silent_link_puts_the_clutches_into_the_safe_state() {
 /// One fault of the sensors, the clutches or the clock, from mid-swing on.
 fn injected(image: &std::path::Path, scene: &LoopScene, failing: Failing, from: f64) {
     let course = Trial::new(image, scene).run(faithful(), &mut Injected::new(failing, from));
-    // The same code, told the same: the same fault at the same tick.
+    // The same code, given the same: the same fault at the same tick.
     assert_eq!(course.differing(), 0, "{failing:?}");
     let begun = course.at(from);
     let fault = course.ticks[begun..].iter().find_map(|tick| tick.applied.fault);

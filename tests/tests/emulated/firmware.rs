@@ -22,7 +22,7 @@ fn compare(name: &str, trial: &Trial<'_>) {
     let begun = std::time::Instant::now();
     let course = trial.run(faithful(), &mut ());
     let seconds = begun.elapsed().as_secs_f64();
-    // The decisions that the device sent, beside those of the same code on the host, which was told the same.
+    // The decisions that the device sent, beside those of the same code on the host, which was given the same.
     assert_eq!(course.differing(), 0, "{name}");
     // And so the loop is the one that the host closes by itself.
     assert_eq!(course.seen.len(), host.len(), "{name}");

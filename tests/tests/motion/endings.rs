@@ -215,7 +215,7 @@ fn accumulating_impacts_end_in_rest_at_their_closed_form() {
                         side = -side;
                     }
                     for constant in [true, false] {
-                        // Constant, or far too slow a sine to tell.
+                        // Constant, or far too slow a sine to see.
                         let segment = if constant {
                             Segment::constant(push * alpha, 300.0)
                         } else {

@@ -55,7 +55,7 @@ fn maps_do_not_depend_on_threads() {
     }
 }
 
-/// A cell of a map is the scene of that cell, simulated: lanes and cells that are read one by one tell the same.
+/// A cell of a map is the scene of that cell, simulated: lanes and cells that are read one by one agree.
 #[test]
 fn a_cell_is_its_scene() {
     let fast = grid("figure08.toml", &["map.x.cells=7", "map.y.cells=6"]);

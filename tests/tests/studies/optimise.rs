@@ -241,7 +241,7 @@ fn an_interrupted_search_has_no_results() {
     assert!(matches!(stopped, Err(RunError::Interrupted)));
 }
 
-/// Interrupted twice and gone on with, a search makes no run again, and comes to the same.
+/// Interrupted twice and resumed, a search makes no run again, and comes to the same.
 #[test]
 fn an_interrupted_search_goes_on() {
     let records = sine_pulses(&[0.3, 0.5], &[0.5, 1.0]);

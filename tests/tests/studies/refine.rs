@@ -190,7 +190,7 @@ fn csv(grid: &Grid, threads: usize) -> (Vec<u8>, Vec<Boundaries>) {
     (bytes, all)
 }
 
-/// With a budget that does not suffice: it is kept, what is left is told, and the result is the same on any number of threads.
+/// With a budget that does not suffice: it is kept, what is left is reported, and the result is the same on any number of threads.
 #[test]
 fn a_budget_is_kept_and_threads_change_nothing() {
     let grid = grid("figure08.toml", &["map.x.cells=20", "map.y.cells=15"]);

@@ -370,7 +370,7 @@ fn tested(line: &Line) -> (Option<Verdict>, u32) {
     assert!(is_configured(line), "as without a test");
     assert_eq!(ticks(&mut driver, line, 3), [Reading { acceleration: [10, -20, 4096], rate: [3, 4, -5] }; 3]);
     let verdict = driver.verdict();
-    assert_eq!(driver.verdict(), None, "told once");
+    assert_eq!(driver.verdict(), None, "reported once");
     (verdict, took)
 }
 

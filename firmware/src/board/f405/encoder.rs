@@ -1,4 +1,4 @@
-//! The encoder's counter, TIM4, which goes on over a reset.
+//! The encoder's counter, TIM4, which runs on through a reset.
 //!
 //! Its count is [kept](crate::board::parts::kept_count) by a stream of DMA1, paced by TIM3.
 
@@ -57,7 +57,7 @@ pub fn pause(timer: &pac::TIM4) {
 }
 
 impl Encoder {
-    /// At its pins, A and B, going on after a [`pause`]: from the count that was read last before a reset, or else from 0.
+    /// At its pins, A and B, continuing after a [`pause`]: from the count that was read last before a reset, or else from 0.
     pub fn new(timer: pac::TIM4, (a, b): (Pin<'B', 6>, Pin<'B', 7>), last: Option<i32>) -> Encoder {
         let _: Pin<'B', 6, _> = a.into_alternate::<2>().internal_resistor(Pull::Up);
         let _: Pin<'B', 7, _> = b.into_alternate::<2>().internal_resistor(Pull::Up);

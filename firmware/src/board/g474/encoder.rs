@@ -1,4 +1,4 @@
-//! The encoder's counter, TIM4, which goes on over a reset.
+//! The encoder's counter, TIM4, which runs on through a reset.
 //!
 //! Its count is [kept](crate::board::parts::kept_count) by channel 1 of DMA1, paced by TIM3.
 

@@ -34,7 +34,7 @@ pub fn begin(chip: &pac::Peripherals) -> DmaLine {
     chip.RCC.ahb1enr().modify(|_, w| w.dma1en().set_bit().dmamux1en().set_bit());
     let usart = &chip.USART1;
     usart.brr().write(|w| w.brr().set(DIVISOR as u16));
-    // A byte that comes too late for its place is lost, as its neighbour would be, and the port goes on.
+    // A byte that comes too late for its place is lost, as its neighbour would be, and the port continues.
     usart.cr3().write(|w| w.dmar().set_bit().dmat().set_bit().ovrdis().set_bit());
     usart.cr1().write(|w| w.ue().set_bit().te().set_bit().re().set_bit());
     let channel = dma().ch(RECEIVER);

@@ -7,7 +7,7 @@ use stm32g4::stm32g474 as pac;
 const SUPPLIED: u32 = 0x5A17_0474;
 
 /// Reads the flags of the last reset and clears them. Every reset pulls the reset pin, so the pin counts only when nothing else does. The
-/// supply's coming and its sagging set the same flag; a backup register tells one from the other.
+/// supply's coming and its sagging set the same flag; a backup register distinguishes them.
 pub fn cause(chip: &pac::Peripherals) -> Cause {
     let rcc = &chip.RCC;
     let flags = rcc.csr().read();

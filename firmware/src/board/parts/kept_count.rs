@@ -1,4 +1,4 @@
-//! An encoder's counter that goes on over a reset.
+//! An encoder's counter that runs on through a reset.
 //!
 //! A reset of the chip sets it to 0. So its count is copied into memory that a reset leaves alone, many times a second and without the
 //! processor. The first instructions of the next start, which are [`count_on!`]'s, put it back and let it count. What the rack moves in

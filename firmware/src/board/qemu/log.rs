@@ -71,7 +71,7 @@ unsafe impl defmt::Logger for Logger {
         let Sink { encoder, entry, length, .. } = sink;
         encoder.end_frame(|bytes| keep(entry, length, bytes));
         if let (Some(file), Some(entry)) = (&mut sink.file, sink.entry.get(..sink.length)) {
-            // A log that cannot be written must not stop what it tells of.
+            // A log that cannot be written must not stop what it reports.
             let _ = file.write_all(entry);
         }
         // SAFETY: what `acquire` gave.

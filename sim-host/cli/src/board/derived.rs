@@ -1,6 +1,6 @@
 //! Settings that follow from others: the block's frequency, uplift and coupling from its size, slenderness, inertia ratio and mass ratio.
 //!
-//! A controller is told p, p², the threshold of uplift and k = σ/λ as words of their own. A person knows R, α, λ and σ: those are given, and
+//! A controller is given p, p², the threshold of uplift and k = σ/λ as words of their own. A person knows R, α, λ and σ: those are given, and
 //! the words follow, p² = g/(λR), g tan α (slender: g α), k = σ/λ. λ and σ are no words; they are what the words amount to.
 
 use sprag_shared::math;
@@ -73,7 +73,7 @@ pub fn follow(before: &Settings, given: &Given, after: &mut Settings) -> Result<
     let levers: &[Item] = if slender(after) { &[Item::Lever] } else { &[Item::LeverAlong, Item::LeverAcross] };
     let at_centre = levers.iter().all(|lever| real(after, *lever) == if *lever == Item::LeverAcross { 0.0 } else { 1.0 });
     if moved && !at_centre && !given.any(levers) {
-        let named: Vec<String> = levers.iter().map(|lever| told(after, *lever)).collect();
+        let named: Vec<String> = levers.iter().map(|lever| stated(after, *lever)).collect();
         let reason = "away from the centre of mass levers change with size and slenderness";
         return Err(format!("{}: {reason}; give them, too, or take all from a scene with --scene", named.join(", ")));
     }
@@ -99,7 +99,7 @@ fn follow_size(before: &Settings, given: &Given, after: &mut Settings) -> Result
     let moved = size != real(before, Item::Size) || given.inertia_ratio.is_some();
     for (item, expected) in [(frequency, math::square_root(expected)), (squared, expected)] {
         if given.has(item) && !near(real(after, item), expected) {
-            let size = told(after, Item::Size);
+            let size = stated(after, Item::Size);
             let reason = format!("for {size} and {INERTIA_RATIO} = {}", short(ratio));
             return Err(contradiction(after, item, expected, &reason));
         }
@@ -151,8 +151,8 @@ pub fn check(settings: &Settings) -> Result<(), String> {
     if !INERTIA_RATIOS.contains(&ratio) {
         let reason = format!(
             "{} and {} make {INERTIA_RATIO} = {}, but that must be from 1 to 4",
-            told(settings, Item::Size),
-            told(settings, Item::Frequency),
+            stated(settings, Item::Size),
+            stated(settings, Item::Frequency),
             short(ratio)
         );
         return Err(reason);
@@ -160,19 +160,19 @@ pub fn check(settings: &Settings) -> Result<(), String> {
     let expected = uplift(settings);
     if !near(real(settings, Item::Uplift), expected) {
         let of = if slender(settings) { "for" } else { "the tangent, for" };
-        let reason = format!("{of} {}", told(settings, Item::Slenderness));
+        let reason = format!("{of} {}", stated(settings, Item::Slenderness));
         return Err(contradiction(settings, Item::Uplift, expected, &reason));
     }
     Ok(())
 }
 
 fn contradiction(settings: &Settings, item: Item, expected: f64, reason: &str) -> String {
-    let is = told(settings, item).replacen(" = ", " is ", 1);
+    let is = stated(settings, item).replacen(" = ", " is ", 1);
     format!("{is}, but must be {} {reason}", short(expected))
 }
 
 /// Name and value of a word.
-fn told(settings: &Settings, item: Item) -> String {
+fn stated(settings: &Settings, item: Item) -> String {
     let Some((description, word)) = Description::at(item.index()).zip(settings.get(item.index())) else { return String::new() };
     let unit = if description.unit.is_empty() { String::new() } else { format!(" {}", description.unit) };
     format!("{} = {}{unit}", description.name, description.show(word))

@@ -1,7 +1,7 @@
 //! A device in the place of the host's controller in a closed loop, tick for tick beside that controller.
 //!
 //! The plant's clutches are driven as a board drives its own: a coil keeps its last command until it gets another. So where a report is lost
-//! on the way the last one stays in force, and while the device is late the plant goes on without it. Only a device that starts anew lets go
+//! on the way the last one stays in force, and while the device is late the plant moves on without it. Only a device that starts anew lets go
 //! by itself: before a reset it puts its coils into the safe state, and there they stay until its first tick.
 
 use std::collections::VecDeque;
@@ -33,7 +33,7 @@ const UNREPORTED: u32 = 100;
 /// A device that says nothing for so long is gone.
 const GIVE_UP: Duration = Duration::from_secs(20);
 
-/// For how long a watchdog lets a device that has lost its way go on, s.
+/// For how long a watchdog lets a device that has lost its way continue, s.
 const WATCHDOG: f64 = 0.02;
 
 /// What the device said of one tick.
@@ -82,7 +82,7 @@ pub struct DeviceDriver<L: Line> {
     detached: bool,
     /// For how long a device that has been reset is away, s.
     boot_time: f64,
-    /// Ticks for which the coils still hold what the device told them before it lost its way.
+    /// Ticks for which the coils still hold what the device commanded before it lost its way.
     stalled: u32,
     /// Ticks after these for which it is away, its coils in the safe state.
     away: u32,
@@ -91,7 +91,7 @@ pub struct DeviceDriver<L: Line> {
 }
 
 impl<L: Line> DeviceDriver<L> {
-    /// Gives the device `settings`, tells it to take its samples from the link, and starts its controller. `own` is the same controller on the
+    /// Gives the device `settings`, makes it take its samples from the link, and starts its controller. `own` is the same controller on the
     /// host.
     ///
     /// # Errors
@@ -140,7 +140,7 @@ impl<L: Line> DeviceDriver<L> {
         self
     }
 
-    /// Lets the plant go on for this long (s) without a controller, its clutches in the safe state, whenever the device starts anew: an
+    /// Lets the plant move on for this long (s) without a controller, its clutches in the safe state, whenever the device starts anew: an
     /// emulator starts in no time, a board does not.
     #[must_use]
     pub fn with_boot_time(mut self, seconds: f64) -> Self {

@@ -101,7 +101,7 @@ pub fn list<L: Line>(session: &mut Session<L>) -> Result<Parts, DeviceError> {
     Ok(parts)
 }
 
-/// Every tick of a part. `progress` is told how many of its pages have come.
+/// Every tick of a part. `progress` is given how many of its pages have come.
 ///
 /// # Errors
 /// As [`Session::ask`].

@@ -261,9 +261,9 @@ mod tests {
             assigned(&mut settings, set).unwrap();
             assert_eq!(check(&settings), Ok(()), "{set}");
             for (index, description) in (0..).zip(Description::all()) {
-                let told = description.name.starts_with("model.")
+                let own = description.name.starts_with("model.")
                     || ["instruments.travel_per_count", "monitor.encoder.counts_per_radian"].contains(&description.name);
-                if let (true, Some(is), Some(should)) = (told, settings.get(index), expected.get(index)) {
+                if let (true, Some(is), Some(should)) = (own, settings.get(index), expected.get(index)) {
                     let (is, should) = (f32::from_bits(is), f32::from_bits(should));
                     assert!((is - should).abs() <= 1e-6 * should.abs(), "{set}: {} is {is}, not {should}", description.name);
                 }

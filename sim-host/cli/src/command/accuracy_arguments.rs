@@ -1,4 +1,4 @@
-//! The options by which every command is told how accurate to be.
+//! The options by which a user states how accurate a command shall be.
 
 use std::time::{Duration, Instant};
 

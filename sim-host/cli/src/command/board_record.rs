@@ -164,7 +164,7 @@ fn show(state: &RecorderState, parts: &Parts, period: f64, out: &mut impl Write)
             notes.push(format!("{unfinished} of its pages not finished"));
         }
         if !ends {
-            notes.push("no end: a reset, no more room, or it goes on".to_owned());
+            notes.push("no end: a reset, no more room, or it continues".to_owned());
         }
         let seconds = f64::from(*ticks) * f64::from(header.period);
         let numbers = [number.to_string(), part.to_string(), ticks.to_string(), format!("{seconds:.3}")];

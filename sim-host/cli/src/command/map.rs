@@ -229,7 +229,7 @@ fn grid(arguments: &MapArguments) -> Result<(Grid, SceneFile), SceneError> {
     if let (true, Some(toml::Value::Table(map))) = (arguments.cut, table.get_mut("map")) {
         map.remove("y");
     }
-    // A scene whose file has no line for its keys any more is told from one that was read as it is.
+    // A scene whose file has no line for its keys any more differs from one that was read as it is.
     let mut scene = if changes.is_empty() && !with_records && !arguments.cut {
         Scene::parse(&text, &origin)?
     } else {

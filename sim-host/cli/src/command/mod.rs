@@ -60,7 +60,7 @@ fn whole_number(text: &str, low: u64, high: u64) -> Result<u64, String> {
 /// What is shown while a time budget is planned.
 const TRYING: &str = "trying what the time affords";
 
-/// How an interrupted command goes on from the `rows` in `place`.
+/// How an interrupted command resumes from the `rows` in `place`.
 fn resumable(rows: &str, place: &Path) -> String {
-    format!("{rows} are kept in {}; the same command with --resume goes on", place.display())
+    format!("{rows} are kept in {}; the same command with --resume continues", place.display())
 }

@@ -11,7 +11,7 @@ use sprag_report::progress::Progress;
 use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::{RecordSummary, warning_lines};
-use sprag_sim::scene::error::Key;
+use sprag_sim::scene::error::KeyPath;
 use sprag_sim::scene::ground::{GroundError, Motion};
 use sprag_sim::scene::{Scene, SceneError};
 use sprag_studies::sensitivity::motion::{RecordFiles, StudyMotion};
@@ -142,7 +142,7 @@ fn require_files(scene: &Scene, records: &[RecordFiles]) -> Result<(), SceneErro
     for (name, tables, needed) in of {
         let without = tables.iter().position(|table| table.motion == Motion::Record && table.file.is_none());
         if let (Some(index), true) = (without, records.is_empty()) {
-            return Err(Key { origin: scene.origin.clone(), key: format!("{name}.{index}.file") }.missing(needed));
+            return Err(KeyPath { origin: scene.origin.clone(), key: format!("{name}.{index}.file") }.missing(needed));
         }
     }
     Ok(())

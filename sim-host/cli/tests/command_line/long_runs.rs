@@ -20,7 +20,7 @@ pub fn well(output: Output) {
     assert!(output.status.success(), "{}", said(&output));
 }
 
-/// The files that do not tell the time.
+/// The files without times.
 pub fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let read = |name: &str| (name.to_owned(), std::fs::read(folder.join(name)).unwrap());
     ["map.csv", "map.svg", "rotation.svg", "acceleration.svg"].map(read).to_vec()
@@ -103,11 +103,11 @@ fn control_c_leaves_what_is_finished() {
     assert!(sent.success());
     let ended = process.wait_with_output().unwrap();
     assert_eq!(ended.status.code(), Some(130));
-    assert!(said(&ended).contains("of 27000000 rows are kept; the same command with --resume goes on"), "{}", said(&ended));
+    assert!(said(&ended).contains("of 27000000 rows are kept; the same command with --resume continues"), "{}", said(&ended));
     assert!(folder.join("map.csv.unfinished").exists() && !folder.join("map.csv").exists());
 }
 
-/// An optimisation that is killed and gone on with leaves the files of one that is not, and no others.
+/// An optimisation that is killed and resumed leaves the files of one that is not, and no others.
 #[test]
 fn a_killed_optimisation_goes_on() {
     let (root, whole, killed) = folders();

@@ -262,7 +262,7 @@ fn a_command_that_fails_leaves_no_folder() {
     assert!(!folder.path().join("made").exists());
 }
 
-/// A process that works on rows keeps them, whatever another is told to throw away.
+/// A process that works on rows keeps them, whatever another is asked to throw away.
 #[cfg(unix)]
 #[test]
 fn a_restart_does_not_touch_the_rows_of_a_running_process() {

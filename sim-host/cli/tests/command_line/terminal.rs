@@ -192,7 +192,7 @@ fn map_keeps_its_rows_and_goes_on() {
     let large: Vec<&str> = large.iter().map(String::as_str).collect();
     for (by, more) in [("Ctrl-C", None), ("termination", Some("--resume"))] {
         let arguments: Vec<&str> = large.iter().copied().chain(more).collect();
-        let text = stopped(folder.path(), &arguments, by, "the same command with --resume goes on");
+        let text = stopped(folder.path(), &arguments, by, "the same command with --resume continues");
         assert!(text.contains("kept"), "{text:?}");
     }
     goes_on(folder.path(), &large, "map/map.csv.unfinished");
@@ -216,7 +216,7 @@ fn cloud_keeps_its_rows_and_goes_on() {
     records(folder.path(), 4 * MANY);
     let study = scene("cloud");
     let arguments = ["cloud", &study, "--out", "cloud", "--threads", "1", "--records", "records"];
-    stopped(folder.path(), &arguments, "termination", "the same command with --resume goes on");
+    stopped(folder.path(), &arguments, "termination", "the same command with --resume continues");
     goes_on(folder.path(), &arguments, "cloud/runs.csv.unfinished");
 }
 
@@ -226,7 +226,7 @@ fn optimise_keeps_its_rows_and_goes_on() {
     records(folder.path(), 100);
     let study = scene("optimise");
     let arguments = ["optimise", &study, "--out", "optimise", "--threads", "1", "--records", "records"];
-    stopped(folder.path(), &arguments, "Ctrl-C", "the same command with --resume goes on");
+    stopped(folder.path(), &arguments, "Ctrl-C", "the same command with --resume continues");
     goes_on(folder.path(), &arguments, "optimise/tried.csv.unfinished");
 }
 
@@ -351,7 +351,7 @@ fn either_stream_may_go_elsewhere() {
     long.control_c();
     let (code, text) = long.ended();
     assert_eq!((code, drawn(&text)), (130, vec!["^C"]));
-    assert!(file("errors.txt").contains("the same command with --resume goes on"), "{}", file("errors.txt"));
+    assert!(file("errors.txt").contains("the same command with --resume continues"), "{}", file("errors.txt"));
 }
 
 /// Work that does not look whether it shall stop, here because it waits for its input, is ended all the same.

@@ -35,12 +35,12 @@ fn every_command_that_reads_a_scene_warns_of_mixed_up_units_and_keeps_that() {
         let message = said(&output);
         for key in ["block.size_m is 1100: ", "block.slenderness_deg is 0.24: ", "device.0.clutch is given: "] {
             let line = format!("sprag: warning: {file}: {key}");
-            assert_eq!(message.lines().filter(|told| told.starts_with(&line)).count(), 1, "{name}: {message}");
+            assert_eq!(message.lines().filter(|printed| printed.starts_with(&line)).count(), 1, "{name}: {message}");
         }
         if name != "explain" {
             let kept = summary(&out)["warnings"].clone();
-            let told: Vec<&str> = message.lines().filter_map(|line| line.strip_prefix("sprag: warning: ")).collect();
-            assert_eq!(kept, serde_json::json!(told), "{name}");
+            let printed: Vec<&str> = message.lines().filter_map(|line| line.strip_prefix("sprag: warning: ")).collect();
+            assert_eq!(kept, serde_json::json!(printed), "{name}");
         }
     }
 }

@@ -28,7 +28,7 @@ impl<W: Write> CsvWriter<W> {
         Ok(writer)
     }
 
-    /// Goes on in `out`, which holds the titles and any number of rows.
+    /// Continues `out`, which holds the titles and any number of rows.
     pub fn resumed(columns: Vec<Column>, out: W) -> CsvWriter<W> {
         CsvWriter { columns, table: csv::Writer::from_writer(out), rows: 0, field: String::new() }
     }

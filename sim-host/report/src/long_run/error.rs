@@ -56,7 +56,7 @@ pub enum LongRunError {
         reason: String,
     },
     /// Ctrl-C.
-    #[error("{done} of {rows} rows are kept; the same command with --resume goes on")]
+    #[error("{done} of {rows} rows are kept; the same command with --resume continues")]
     Interrupted {
         /// Rows that are there.
         done: usize,
@@ -64,7 +64,7 @@ pub enum LongRunError {
         rows: usize,
     },
     /// Ctrl-C, where it is not known beforehand how many rows there will be.
-    #[error("{done} rows are kept; the same command with --resume goes on")]
+    #[error("{done} rows are kept; the same command with --resume continues")]
     Stopped {
         /// Rows that are there.
         done: usize,

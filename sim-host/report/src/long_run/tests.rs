@@ -44,7 +44,7 @@ fn whole(folder: &Path) -> Vec<u8> {
     std::fs::read(path).unwrap()
 }
 
-/// Cut at every byte, a run goes on to the same file; groups of rows that are not whole are made again.
+/// Cut at every byte, a run resumes to the same file; groups of rows that are not whole are made again.
 #[test]
 fn a_run_goes_on_from_any_byte() {
     let folder = tempfile::tempdir().unwrap();

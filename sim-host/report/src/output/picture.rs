@@ -9,7 +9,7 @@ use crate::plot::png;
 impl Results {
     /// Writes the figure `svg` to `folder` as NAME.svg and NAME.png, as `formats` say; returns the one to look at first, if any.
     ///
-    /// Characters that the font of PNG pictures does not have are told by [`Results::commit_with_notes`].
+    /// Characters that the font of PNG pictures does not have are reported by [`Results::commit_with_notes`].
     ///
     /// # Errors
     /// Those of [`Results::add`], and a figure that cannot be drawn.
@@ -53,10 +53,10 @@ mod tests {
         let png = Formats { svg: false, ..Formats::ALL };
         assert_eq!(first("dots.of", png, &mut results).unwrap(), Some(folder.path().join("dots.of.png")));
         assert_eq!(first("none", Formats { png: false, ..png }, &mut results).unwrap(), None);
-        let mut told = Vec::new();
-        results.commit_with_notes(&mut told).unwrap();
-        let told = String::from_utf8(told).unwrap();
-        assert!(told.lines().count() == 2 && told.ends_with("dots.of.png: the font has no `\u{5730}`\n"), "{told}");
+        let mut notes = Vec::new();
+        results.commit_with_notes(&mut notes).unwrap();
+        let notes = String::from_utf8(notes).unwrap();
+        assert!(notes.lines().count() == 2 && notes.ends_with("dots.of.png: the font has no `\u{5730}`\n"), "{notes}");
         let mut names: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         names.sort();
         assert_eq!(names, ["both.png", "both.svg", "dots.of.png"]);

@@ -1,4 +1,4 @@
-//! What results are of: by this they are told from results of other commands and other scenes.
+//! What results are of: by this they differ from results of other commands and other scenes.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

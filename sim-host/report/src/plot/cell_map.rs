@@ -1,20 +1,18 @@
 //! Small multiples of maps: classes of cells over a grid of two parameters.
 
 use super::cell::Class;
-use super::layer::{document, units, write_rect};
-use super::legend::{Key, Swatch, write_heading};
+use super::layer::{units, write_rect};
+use super::legend::{LegendEntry, Swatch};
 use super::map_curve::{MapCurve, curve_key, write_curves};
 use super::palette::hex;
-use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
+use super::panel::Panel;
+use super::panel_grid::PanelGrid;
 use super::panel_heading::Heading;
-use super::ticks::Scale;
+use super::ticks::{Scale, drawable};
 use super::{FigureTitle, PlotError};
 
-const MARGIN_PX: f64 = 10.0;
-/// Wider on the right, where half of the last tick label sticks out.
-const RIGHT_MARGIN_PX: f64 = 20.0;
-/// Between maps (px).
-const GAP_PX: f64 = 14.0;
+/// Between maps side by side at least, and between a map and the heading below it (px).
+const GAP_PX: (f64, f64) = (14.0, 18.0);
 /// Width that the maps of a row share, and the limits of one map (px).
 const ROW_PX: f64 = 900.0;
 const SMALLEST_MAP_PX: f64 = 110.0;
@@ -84,48 +82,30 @@ pub fn cell_map_figure(maps: &CellMaps) -> Result<String, PlotError> {
     }
     let columns = maps.columns.clamp(1, maps.maps.len());
     let map_px = |gap_px: f64| (ROW_PX / columns as f64 - gap_px).clamp(SMALLEST_MAP_PX, LARGEST_MAP_PX).floor();
-    let left_px = MARGIN_PX + LEFT_LABELS_PX;
     // Labels at the ends of neighbouring axes keep clear of each other.
-    let overhang_px = maps.panel(&maps.maps[0], (left_px, 0.0), map_px(GAP_PX)).overhang_px();
-    let gap_px = (overhang_px.0 + overhang_px.1 + LABELS_APART_PX).max(GAP_PX).ceil();
+    let overhang_px = maps.panel(&maps.maps[0], (0.0, 0.0), map_px(GAP_PX.0)).overhang_px();
+    let gap_px = (overhang_px.0 + overhang_px.1 + LABELS_APART_PX).max(GAP_PX.0).ceil();
     let map_px = map_px(gap_px);
-    let row_px = columns as f64 * (map_px + gap_px) - gap_px;
-    // Room for title and legend over a single small map.
-    let width_px = left_px + row_px.max(LARGEST_MAP_PX) + RIGHT_MARGIN_PX;
 
     let used = |class: usize| maps.maps.iter().any(|map| map.cells.contains(&class));
     let numbered = maps.classes.iter().enumerate();
-    let keys: Vec<Key> =
+    let keys: Vec<LegendEntry> =
         numbered.filter(|(class, _)| used(*class)).map(|(_, class)| (Swatch::Framed(class.colour), class.name.clone())).collect();
     let drawn = |kind: usize| maps.maps.iter().any(|map| map.curves.iter().any(|curve| curve.kind == kind));
     let numbered = maps.curves.iter().enumerate();
-    let curve_keys: Vec<Key> = numbered.filter(|(kind, _)| drawn(*kind)).map(|(kind, name)| curve_key(kind, name)).collect();
-    let mut body = String::new();
-    let groups: Vec<Vec<Key>> = [keys, curve_keys].into_iter().filter(|keys| !keys.is_empty()).collect();
-    let mut top_px = write_heading(&mut body, &maps.title, &groups, (left_px, width_px - left_px - RIGHT_MARGIN_PX), MARGIN_PX);
-
+    let curve_keys: Vec<LegendEntry> =
+        numbered.filter(|(kind, _)| drawn(*kind)).map(|(kind, name)| curve_key(kind, name)).collect();
     let headings: Vec<Heading> =
         maps.maps.iter().map(|map| Heading::of(&map.title, std::slice::from_ref(&map.note), map_px)).collect();
-    let heading_px = |row: &[Heading]| row.iter().map(Heading::height_px).fold(0.0, f64::max) + 4.0;
-    let rows_px: f64 = headings.chunks(columns).map(|row| heading_px(row) + map_px + GAP_PX).sum();
-    let height_px = top_px + rows_px - GAP_PX + BOTTOM_LABELS_PX + 4.0;
-
-    for (row, (row_maps, row_headings)) in maps.maps.chunks(columns).zip(headings.chunks(columns)).enumerate() {
-        top_px += heading_px(row_headings);
-        for (column, map) in row_maps.iter().enumerate() {
-            let index = row * columns + column;
-            let left_px = left_px + column as f64 * (map_px + gap_px);
-            row_headings[column].write(&mut body, (left_px, top_px - 6.0));
-            let panel = maps.panel(map, (left_px, top_px), map_px);
-            let panel = Panel { title: (column == 0).then_some(&maps.y_title), ..panel };
-            write_cells(&mut body, &panel, map, &maps.classes);
-            write_curves(&mut body, &panel, &map.curves, maps.curves.len());
-            let last = index + columns >= maps.maps.len();
-            panel.write_frame(&mut body, last.then_some(&maps.x_title));
-        }
-        top_px += map_px + GAP_PX;
-    }
-    Ok(document(&maps.title.text, (width_px, height_px), &body))
+    let grid = PanelGrid { columns, panel_px: (map_px, map_px), gap_px: (gap_px, GAP_PX.1), labels_px: 0.0 };
+    grid.document(&maps.title, &[keys, curve_keys], &headings, |svg, place| {
+        let map = &maps.maps[place.index];
+        let panel = Panel { title: place.first.then_some(&maps.y_title), ..maps.panel(map, place.corner_px, map_px) };
+        write_cells(svg, &panel, map, &maps.classes);
+        write_curves(svg, &panel, &map.curves, maps.curves.len());
+        panel.write_frame(svg, place.lowest.then_some(&maps.x_title));
+        Ok(())
+    })
 }
 
 impl CellMap {
@@ -158,8 +138,7 @@ fn check(map: &CellMap, maps: &CellMaps) -> Result<(), PlotError> {
         return Err(PlotError::NotFiniteValue { name: map.title.clone() });
     }
     for (title, (first, last), count) in [(&maps.x_title, maps.x, map.columns), (&maps.y_title, maps.y, map.rows)] {
-        // The square root keeps differences finite too.
-        if ![first, last].iter().all(|value| value.abs() < f64::MAX.sqrt()) {
+        if !(drawable(first) && drawable(last)) {
             return Err(PlotError::NotFiniteValue { name: title.clone() });
         }
         // Ticks need steps that change the values they are added to.

@@ -1,26 +1,22 @@
 //! A chart of lines in panels that share the horizontal axis, with linear or logarithmic scales.
 
-use sprag_shared::math;
-
 use super::curve::write_curve;
-use super::layer::{Text, document, escape, units};
-use super::legend::{BOLD_WIDTH, Key, Swatch, wrapped, write_heading, write_mark};
+use super::layer::{Text, escape, units};
+use super::legend::{DrawMark, LegendEntry, Swatch};
+use super::marker::write_mark;
 use super::palette::{INK, Stroke, device_look, guide_stroke, hex, stroke_of};
-use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
+use super::panel::{LEFT_LABELS_PX, Panel};
+use super::panel_grid::PanelGrid;
+use super::panel_heading::Heading;
 use super::text_width::text_width_px;
-use super::ticks::{Scale, axis_range};
+use super::ticks::{Scale, axis_range, drawable};
 use super::{FigureTitle, PlotError};
 
-const MARGIN_PX: f64 = 10.0;
-/// Wider on the right, where half of the last tick label sticks out.
-const RIGHT_MARGIN_PX: f64 = 20.0;
 /// Data area of a panel in a figure of one, two or more columns (px).
 const PANEL_SIZES_PX: [(f64, f64); 3] = [(668.0, 300.0), (350.0, 250.0), (260.0, 200.0)];
 const COLUMN_GAP_PX: f64 = 14.0;
 /// Below a panel that is not the last of its column, for tick labels (px).
 const TICK_LABELS_PX: f64 = 34.0;
-const HEADING_FONT_PX: f64 = 12.0;
-const HEADING_LINE_PX: f64 = 15.0;
 /// Labels at the ends of lines, and the distance that they keep (px).
 const LABEL_FONT_PX: f64 = 9.5;
 const LABEL_LINE_PX: f64 = 11.5;
@@ -119,56 +115,34 @@ pub fn chart_figure(chart: &Chart) -> Result<String, PlotError> {
     let labels = chart.panels.iter().flat_map(|panel| &panel.lines).map(|line| text_width_px(&line.label, LABEL_FONT_PX));
     let labels_px = labels.fold(0.0, f64::max);
     let labels_px = if labels_px > 0.0 { labels_px + LEADER_PX } else { 0.0 };
-    let column_px = LEFT_LABELS_PX + panel_width_px + labels_px + COLUMN_GAP_PX;
-    let width_px = MARGIN_PX + columns as f64 * column_px - COLUMN_GAP_PX + RIGHT_MARGIN_PX;
-    let left_px = MARGIN_PX + LEFT_LABELS_PX;
-    let mut body = String::new();
-    let area = (left_px, width_px - left_px - RIGHT_MARGIN_PX);
+    let grid = PanelGrid {
+        columns,
+        panel_px: (panel_width_px, panel_height_px),
+        gap_px: (LEFT_LABELS_PX + COLUMN_GAP_PX, TICK_LABELS_PX),
+        labels_px,
+    };
     let groups = [chart.keys.iter().map(|row| row.iter().map(ChartKey::entry).collect()).collect(), looks.groups().to_vec()];
-    let mut top_px = write_heading(&mut body, &chart.title, &groups.concat(), area, MARGIN_PX) + 4.0;
-
-    let headings: Vec<Vec<String>> =
-        chart.panels.iter().map(|panel| wrapped(&panel.title, BOLD_WIDTH * panel_width_px, HEADING_FONT_PX)).collect();
-    let heading_px = |row: &[Vec<String>]| row.iter().map(Vec::len).max().unwrap_or(0) as f64 * HEADING_LINE_PX;
-    let rows_px: f64 = headings.chunks(columns).map(|row| heading_px(row) + panel_height_px + TICK_LABELS_PX).sum();
-    let height_px = top_px + rows_px - TICK_LABELS_PX + BOTTOM_LABELS_PX + 4.0;
-
-    for (row, row_headings) in headings.chunks(columns).enumerate() {
-        top_px += heading_px(row_headings);
-        for (column, lines) in row_headings.iter().enumerate() {
-            let index = row * columns + column;
-            let left_px = left_px + column as f64 * column_px;
-            for (number, line) in lines.iter().rev().enumerate() {
-                let at = (left_px, top_px - 5.0 - number as f64 * HEADING_LINE_PX);
-                let text = Text::new(line, at, HEADING_FONT_PX);
-                Text { attributes: " font-weight=\"bold\"", ..text }.write(&mut body, false);
+    let headings: Vec<Heading> = chart.panels.iter().map(|panel| Heading::of(&panel.title, &[], panel_width_px)).collect();
+    grid.document(&chart.title, &groups.concat(), &headings, |svg, place| {
+        let (source, curves) = (&chart.panels[place.index], &panels[place.index]);
+        let y = axis_range(curves.iter().flatten().map(|point| point.1), source.y).ok_or_else(nothing)?;
+        let panel = Panel {
+            scales: (chart.x, source.y),
+            title: Some(&source.y_title),
+            ..Panel::new(place.corner_px, grid.panel_px, x.clone(), y)
+        };
+        panel.write_axes(svg, Some(if place.lowest { &chart.x_title } else { "" }));
+        for (line, points) in source.lines.iter().zip(curves) {
+            let stroke = looks.stroke(line);
+            write_curve(svg, &panel, points, stroke);
+            if line.marks || points.len() == 1 {
+                let open = line.look.is_some_and(|look| look.open);
+                points.iter().for_each(|point| write_mark(svg, panel.position_px(*point), stroke.colour, open));
             }
-            let (source, curves) = (&chart.panels[index], &panels[index]);
-            let y = axis_range(curves.iter().flatten().map(|point| point.1), source.y).ok_or_else(nothing)?;
-            let panel = Panel {
-                scales: (chart.x, source.y),
-                title: Some(&source.y_title),
-                ..Panel::new((left_px, top_px), (panel_width_px, panel_height_px), x.clone(), y)
-            };
-            let last = index + columns >= chart.panels.len();
-            panel.write_axes(&mut body, Some(if last { &chart.x_title } else { "" }));
-            for (line, points) in source.lines.iter().zip(curves) {
-                let stroke = looks.stroke(line);
-                write_curve(&mut body, &panel, points, stroke);
-                if line.marks || points.len() == 1 {
-                    let open = line.look.is_some_and(|look| look.open);
-                    points.iter().for_each(|point| write_mark(&mut body, panel.position_px(*point), stroke.colour, open));
-                }
-            }
-            write_labels(
-                &mut body,
-                &panel,
-                source.lines.iter().zip(curves).map(|(line, points)| (line, &points[..], looks.stroke(line))),
-            );
         }
-        top_px += panel_height_px + TICK_LABELS_PX;
-    }
-    Ok(document(&chart.title.text, (width_px, height_px), &body))
+        write_labels(svg, &panel, source.lines.iter().zip(curves).map(|(line, points)| (line, &points[..], looks.stroke(line))));
+        Ok(())
+    })
 }
 
 impl LineLook {
@@ -178,11 +152,15 @@ impl LineLook {
 }
 
 impl ChartKey {
-    fn entry(&self) -> Key {
+    fn entry(&self) -> LegendEntry {
         match self {
             ChartKey::Colour(colour, name) => (Swatch::Line(stroke_of(*colour, 0)), name.clone()),
             ChartKey::Dashes(dashes, name) => (Swatch::Line(Stroke { colour: INK, ..stroke_of(0, *dashes) }), name.clone()),
-            ChartKey::Marks(open, name) => (Swatch::Point { open: *open }, name.clone()),
+            ChartKey::Marks(open, name) => {
+                let disc: DrawMark = |svg, at| write_mark(svg, at, INK, false);
+                let circle: DrawMark = |svg, at| write_mark(svg, at, INK, true);
+                (Swatch::Drawn(if *open { circle } else { disc }), name.clone())
+            }
         }
     }
 }
@@ -230,15 +208,10 @@ fn apart(wanted: &[f64], distance: f64, (low, high): (f64, f64)) -> Vec<f64> {
 
 /// The points of `line` on the panel's scales: those that it can show.
 fn shown(line: &Line, x: Scale, y: Scale) -> Result<Vec<(f64, f64)>, PlotError> {
-    let on = |scale: Scale, value: f64| match scale {
-        Scale::Linear => Some(value),
-        Scale::Logarithmic => (value > 0.0).then(|| math::log10(value)),
-    };
-    // The square root keeps differences finite too.
-    if line.points.iter().any(|point| [point.0, point.1].iter().any(|value| value.is_nan() || value.abs() >= f64::MAX.sqrt())) {
+    if !line.points.iter().all(|point| drawable(point.0) && drawable(point.1)) {
         return Err(PlotError::NotFiniteValue { name: line.name.clone() });
     }
-    Ok(line.points.iter().filter_map(|point| Some((on(x, point.0)?, on(y, point.1)?))).collect())
+    Ok(line.points.iter().filter_map(|point| Some((x.place(point.0)?, y.place(point.1)?))).collect())
 }
 
 /// Which look belongs to which name.
@@ -280,13 +253,13 @@ impl<'a> Looks<'a> {
     }
 
     /// Legend entries; nameless lines have none.
-    fn groups(&self) -> [Vec<Key>; 2] {
+    fn groups(&self) -> [Vec<LegendEntry>; 2] {
         let line = |(index, (name, marks)): (usize, &(&str, bool))| {
             let stroke = device_look(index).stroke();
             (if *marks { Swatch::MarkedLine(stroke) } else { Swatch::Line(stroke) }, (*name).to_owned())
         };
         let guide = |(index, name): (usize, &&str)| (Swatch::Line(guide_stroke(index)), (*name).to_owned());
-        let named = |key: &Key| !key.1.is_empty();
+        let named = |key: &LegendEntry| !key.1.is_empty();
         [
             self.lines.iter().enumerate().map(line).filter(named).collect(),
             self.guides.iter().enumerate().map(guide).filter(named).collect(),

@@ -2,22 +2,18 @@
 
 use std::ops::Range;
 
-use sprag_shared::math;
-
 use super::curve::write_curve;
-use super::layer::{document, escape, write_area};
-use super::legend::{Key, Swatch, write_heading};
+use super::layer::{escape, write_area};
+use super::legend::{LegendEntry, Swatch};
 use super::marker::device_marker;
 use super::palette::{INK, Stroke, device_look};
-use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
+use super::panel::{LEFT_LABELS_PX, Panel};
+use super::panel_grid::PanelGrid;
 use super::panel_heading::Heading;
-use super::rug::{Rug, rugs_px};
-use super::ticks::{Scale, axis_range, close_range};
+use super::rug::{Rug, rugs_px, write_rug_key};
+use super::ticks::{Scale, axis_range, close_range, drawable};
 use super::{FigureTitle, PlotError};
 
-const MARGIN_PX: f64 = 10.0;
-/// Wider on the right, where half of the last tick label sticks out.
-const RIGHT_MARGIN_PX: f64 = 20.0;
 /// Data area of a panel in a figure of one or of more columns (px).
 const PANEL_SIZES_PX: [(f64, f64); 2] = [(600.0, 360.0), (350.0, 290.0)];
 const COLUMN_GAP_PX: f64 = 16.0;
@@ -102,41 +98,22 @@ pub fn cloud_figure(figure: &CloudFigure) -> Result<String, PlotError> {
     let x = if figure.scales.0 == Scale::Linear { x.start.max(0.0)..x.end } else { x };
 
     let columns = figure.columns.clamp(1, figure.panels.len().max(1));
-    let (width_of_panel, height_of_panel) = PANEL_SIZES_PX[columns.min(PANEL_SIZES_PX.len()) - 1];
-    let column_px = LEFT_LABELS_PX + width_of_panel + COLUMN_GAP_PX;
-    let width_px = MARGIN_PX + columns as f64 * column_px - COLUMN_GAP_PX + RIGHT_MARGIN_PX;
-    let left_px = MARGIN_PX + LEFT_LABELS_PX;
-    let mut body = String::new();
-    let area = (left_px, width_px - left_px - RIGHT_MARGIN_PX);
-    let mut top_px = write_heading(&mut body, &figure.title, &figure.keys(), area, MARGIN_PX) + 4.0;
-
-    let headings: Vec<Heading> =
-        figure.panels.iter().map(|panel| Heading::of(&panel.title, &panel.notes, width_of_panel)).collect();
-    let heading_px = |row: &[Heading]| row.iter().map(Heading::height_px).fold(0.0, f64::max);
-    let rows_px: f64 = headings.chunks(columns).map(|row| heading_px(row) + height_of_panel + TICK_LABELS_PX).sum();
-    let height_px = top_px + rows_px - TICK_LABELS_PX + BOTTOM_LABELS_PX + 4.0;
-
-    for (row, row_headings) in headings.chunks(columns).enumerate() {
-        top_px += heading_px(row_headings);
-        for (column, heading) in row_headings.iter().enumerate() {
-            let index = row * columns + column;
-            let left_px = left_px + column as f64 * column_px;
-            heading.write(&mut body, (left_px, top_px - 5.0));
-            let source = &figure.panels[index];
-            let y = figure.heights(source, &panels, height_of_panel).ok_or_else(nothing)?;
-            let panel = Panel {
-                scales: figure.scales,
-                title: Some(&source.y_title),
-                guides: if source.share { &[1.0] } else { &[] },
-                ..Panel::new((left_px, top_px), (width_of_panel, height_of_panel), x.clone(), y)
-            };
-            let last = index + columns >= figure.panels.len();
-            panel.write_axes(&mut body, Some(if last { &figure.x_title } else { "" }));
-            write_series(&mut body, &panel, &panels[index], figure.devices.len());
-        }
-        top_px += height_of_panel + TICK_LABELS_PX;
-    }
-    Ok(document(&figure.title.text, (width_px, height_px), &body))
+    let panel_px = PANEL_SIZES_PX[columns.min(PANEL_SIZES_PX.len()) - 1];
+    let grid = PanelGrid { columns, panel_px, gap_px: (LEFT_LABELS_PX + COLUMN_GAP_PX, TICK_LABELS_PX), labels_px: 0.0 };
+    let headings: Vec<Heading> = figure.panels.iter().map(|panel| Heading::of(&panel.title, &panel.notes, panel_px.0)).collect();
+    grid.document(&figure.title, &figure.keys(), &headings, |svg, place| {
+        let source = &figure.panels[place.index];
+        let y = figure.heights(source, &panels, panel_px.1).ok_or_else(nothing)?;
+        let panel = Panel {
+            scales: figure.scales,
+            title: Some(&source.y_title),
+            guides: if source.share { &[1.0] } else { &[] },
+            ..Panel::new(place.corner_px, panel_px, x.clone(), y)
+        };
+        panel.write_axes(svg, Some(if place.lowest { &figure.x_title } else { "" }));
+        write_series(svg, &panel, &panels[place.index], figure.devices.len());
+        Ok(())
+    })
 }
 
 /// The range of an axis that shows `values`; `None` without any.
@@ -191,7 +168,7 @@ impl CloudFigure {
     }
 
     /// The devices that are drawn, and what else is.
-    fn keys(&self) -> [Vec<Key>; 2] {
+    fn keys(&self) -> [Vec<LegendEntry>; 2] {
         let all = || self.panels.iter().flat_map(|panel| &panel.series);
         let drawn = |device: &usize| all().any(|series| series.device == *device);
         let marked = all().any(|series| !series.points.is_empty());
@@ -206,7 +183,7 @@ impl CloudFigure {
             others.push((Swatch::Mark(device_marker(0), INK), self.marks.clone()));
         }
         if all().any(|series| series.rug.is_some()) {
-            others.push((Swatch::Ticks, "a motion: above when it overturns the block, below when not".to_owned()));
+            others.push((Swatch::Drawn(write_rug_key), "a motion: above when it overturns the block, below when not".to_owned()));
         }
         [self.devices.iter().enumerate().filter_map(device).collect(), others]
     }
@@ -220,25 +197,20 @@ impl CloudSeries {
 
     /// On the scales of `figure`.
     fn on(&self, figure: &CloudFigure) -> Result<CloudSeries, PlotError> {
-        let on = |scale: Scale, value: f64| match scale {
-            Scale::Linear => Some(value),
-            Scale::Logarithmic => (value > 0.0).then(|| math::log10(value)),
-        };
         let (across, up) = figure.scales;
-        // The square root keeps differences finite too.
-        let finite = |value: f64| value.abs() < f64::MAX.sqrt();
         let of_points = self.points.iter().chain(&self.line).flat_map(|point| [point.0, point.1]);
         let of_band = self.band.iter().flat_map(|point| [point.at, point.low, point.high]);
-        if !of_points.chain(of_band).chain(self.intensities()).all(finite) {
+        if !of_points.chain(of_band).chain(self.intensities()).all(drawable) {
             let name = figure.devices.get(self.device).cloned().unwrap_or_default();
             return Err(PlotError::NotFiniteValue { name: escape(&name) });
         }
         let points = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
-            points.iter().filter_map(|point| Some((on(across, point.0)?, on(up, point.1)?))).collect()
+            points.iter().filter_map(|point| Some((across.place(point.0)?, up.place(point.1)?))).collect()
         };
-        let band =
-            |point: &BandPoint| Some(BandPoint { at: on(across, point.at)?, low: on(up, point.low)?, high: on(up, point.high)? });
-        let rug = |values: &[f64]| values.iter().filter_map(|value| on(across, *value)).collect();
+        let band = |point: &BandPoint| {
+            Some(BandPoint { at: across.place(point.at)?, low: up.place(point.low)?, high: up.place(point.high)? })
+        };
+        let rug = |values: &[f64]| values.iter().filter_map(|value| across.place(*value)).collect();
         Ok(CloudSeries {
             device: self.device,
             points: points(&self.points),

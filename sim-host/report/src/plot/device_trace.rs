@@ -3,13 +3,12 @@
 use sprag_sim::history::History;
 
 use super::palette::{DeviceLook, device_look};
+use super::ticks::drawable;
+use super::time_axis::check_order;
 use super::{PlotError, TimeAxis};
 
-/// Smallest half-height of the θ/α panel, so that the lines at ±1 always show.
-const SMALLEST_ROTATION_LIMIT: f64 = 1.2;
-
-/// Largest half-height of the θ/α panel, so that an overturning block does not flatten the others.
-const LARGEST_ROTATION_LIMIT: f64 = 2.5;
+/// Limits of the half-height of the θ/α panel: the lines at ±1 always show, and an overturning block does not flatten the others.
+const ROTATION_LIMITS: (f64, f64) = (1.2, 2.5);
 
 /// The curves and marks of one device; the first coordinate is on the figure's time axis.
 #[derive(Debug, Clone)]
@@ -36,7 +35,12 @@ pub(super) struct DeviceTrace {
 pub(super) fn rotation_limit(histories: &[History]) -> f64 {
     let safe_peak =
         histories.iter().filter(|history| !history.ends_overturned()).map(History::peak_rotation_ratio).fold(0.0, f64::max);
-    (1.15 * safe_peak).clamp(SMALLEST_ROTATION_LIMIT, LARGEST_ROTATION_LIMIT)
+    half_height(safe_peak)
+}
+
+/// Half-height of a θ/α panel for this peak.
+pub(super) fn half_height(peak: f64) -> f64 {
+    (1.15 * peak).clamp(ROTATION_LIMITS.0, ROTATION_LIMITS.1)
 }
 
 impl DeviceTrace {
@@ -93,7 +97,6 @@ pub(super) fn check(history: &History) -> Result<(), PlotError> {
     if !(positive(alpha) && positive(p) && positive(alpha * p)) {
         return Err(PlotError::InvalidBlock { device: device() });
     }
-    let mut before = f64::NEG_INFINITY;
     for sample in &history.samples {
         let plotted = [
             sample.time_s * p,
@@ -102,15 +105,11 @@ pub(super) fn check(history: &History) -> Result<(), PlotError> {
             sample.velocity_rad_s / (p * alpha),
             sample.transferred_force_ratio(),
         ];
-        // The square root keeps sums and differences of plotted values finite too.
-        if !plotted.iter().all(|value| value.abs() < f64::MAX.sqrt()) {
+        if !plotted.into_iter().all(drawable) {
             return Err(PlotError::NotFinite { device: device(), time_s: sample.time_s });
         }
-        if sample.time_s < before {
-            return Err(PlotError::TimeGoesBack { device: device(), time_s: sample.time_s });
-        }
-        before = sample.time_s;
     }
+    check_order(&history.device, history.samples.iter().map(|sample| sample.time_s))?;
     match history.impacts_s.iter().find(|time| !time.is_finite()) {
         Some(&time_s) => Err(PlotError::NotFinite { device: device(), time_s }),
         None => Ok(()),

@@ -7,23 +7,19 @@ use sprag_sim::simulation::energy::Shares;
 
 use super::curve::write_curve;
 use super::decimate::decimate;
-use super::layer::{Anchor, Text, document, escape, units, write_area, write_rect};
-use super::legend::write_heading;
-use super::palette::{Colour, FLYWHEEL_TINTS, GROUND, GUIDE, INK, Stroke, device_look, hex};
-use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
-use super::text_width::text_width_px;
+use super::layer::{Anchor, Text, escape, write_area};
+use super::legend::{LegendEntry, Swatch};
+use super::palette::{Colour, FLYWHEEL_TINTS, GROUND, GUIDE, INK, Stroke, device_look};
+use super::panel::Panel;
+use super::stack::Stack;
+use super::ticks::drawable;
+use super::time_axis::check_order;
 use super::{FigureTitle, PlotError};
 
-const WIDTH_PX: f64 = 760.0;
-const MARGIN_PX: f64 = 10.0;
-/// Wider on the right, where half of the last tick label sticks out.
-const RIGHT_MARGIN_PX: f64 = 20.0;
 const PANEL_PX: f64 = 150.0;
-/// Room above a panel for the name of its device.
-const NAME_PX: f64 = 22.0;
+/// Room above a panel for the name of its device, together with the gap.
+const NAME_PX: f64 = 14.0;
 const FONT_PX: f64 = 11.0;
-const ROW_PX: f64 = 17.0;
-const SWATCH_PX: f64 = 18.0;
 /// Shares that round to nothing in a picture.
 const NEGLIGIBLE: f64 = 5e-4;
 /// A device below this part of the highest one gets a scale of its own.
@@ -86,54 +82,42 @@ pub fn energy_figure(title: impl Into<FigureTitle>, runs: &[DeviceRun]) -> Resul
     let ledgers: Vec<Vec<(f64, Shares)>> = runs.iter().map(|run| ledger(run, end)).collect();
     let layers = layers();
 
-    let (left_px, width_px) = (MARGIN_PX + LEFT_LABELS_PX, WIDTH_PX - MARGIN_PX - LEFT_LABELS_PX - RIGHT_MARGIN_PX);
-    let mut body = String::new();
-    let heading_px = write_heading(&mut body, &title, &[], (left_px, width_px), MARGIN_PX);
-    let mut top_px = write_legend(&mut body, &ledgers, &layers, (left_px, width_px), heading_px - 4.0);
-
-    let height_px = top_px + runs.len() as f64 * (NAME_PX + PANEL_PX) + BOTTOM_LABELS_PX + 4.0;
-    let scales = scales(&ledgers);
-    for (index, ((run, ledger), scale)) in runs.iter().zip(&ledgers).zip(scales).enumerate() {
-        top_px += NAME_PX;
-        let (x, y) = (0.0..end, 0.0..scale);
-        let panel = Panel::new((left_px, top_px), (width_px, PANEL_PX), x, y);
-        let panel = Panel { title: Some("share of the barrier"), guides: &[1.0], ..panel };
-        let at = (left_px, top_px - 6.0);
-        Text { attributes: " font-weight=\"bold\"", ..Text::new(&escape(&name(run)), at, FONT_PX) }.write(&mut body, false);
-        write_areas(&mut body, &panel, ledger, &layers);
-        panel.write_axes(&mut body, (index + 1 == runs.len()).then_some("time (s)"));
+    let mut stack = Stack::new(&title, &keys(&ledgers, &layers), 0.0..end);
+    for (index, ((run, ledger), scale)) in runs.iter().zip(&ledgers).zip(scales(&ledgers)).enumerate() {
+        stack.top_px += NAME_PX;
+        let mut panel = stack.panel(PANEL_PX, 0.0..scale, Some("share of the barrier"));
+        panel.guides = &[1.0];
+        let svg = &mut stack.svg;
+        let at = (panel.left_px, panel.top_px - 6.0);
+        Text { attributes: " font-weight=\"bold\"", ..Text::new(&escape(&name(run)), at, FONT_PX) }.write(svg, false);
+        write_areas(svg, &panel, ledger, &layers);
+        panel.write_axes(svg, (index + 1 == runs.len()).then_some("time (s)"));
         let line: Vec<(f64, f64)> = ledger.iter().map(|(time, shares)| (*time, supply(shares))).collect();
-        write_curve(&mut body, &panel, &line, Stroke::solid(INK));
+        write_curve(svg, &panel, &line, Stroke::solid(INK));
         if run.outcome.overturned()
             && let Some((x, y)) = line.last().map(|point| panel.position_px(*point))
         {
-            let note = Text { colour: GROUND, ..Text::new("overturns", (x + 6.0, y.max(top_px + 12.0)), FONT_PX) };
-            note.write(&mut body, false);
+            let note = Text { colour: GROUND, ..Text::new("overturns", (x + 6.0, y.max(panel.top_px + 12.0)), FONT_PX) };
+            note.write(svg, false);
         }
         if ledger.is_empty() {
             let note = if run.energy.is_some() { "never rocks" } else { "no energy ledger" };
-            let middle = (left_px + 0.5 * width_px, top_px + 0.5 * PANEL_PX);
-            Text { anchor: Anchor::Middle, colour: GROUND, ..Text::new(note, middle, 13.0) }.write(&mut body, false);
+            let middle = (panel.left_px + 0.5 * panel.width_px, panel.top_px + 0.5 * PANEL_PX);
+            Text { anchor: Anchor::Middle, colour: GROUND, ..Text::new(note, middle, 13.0) }.write(svg, false);
         }
-        top_px += PANEL_PX;
     }
-    Ok(document(&title.text, (WIDTH_PX, height_px), &body))
+    Ok(stack.document(&title))
 }
 
 /// Refuses numbers that cannot be drawn.
 fn check(run: &DeviceRun) -> Result<(), PlotError> {
-    let mut before = f64::NEG_INFINITY;
-    for (time_s, shares) in run.energy.iter().flat_map(|energy| &energy.history) {
-        // The square root keeps sums finite too.
-        if !shares.row().iter().chain([time_s]).all(|value| value.abs() < f64::MAX.sqrt()) {
+    let history = || run.energy.iter().flat_map(|energy| &energy.history);
+    for (time_s, shares) in history() {
+        if !shares.row().into_iter().chain([*time_s]).all(drawable) {
             return Err(PlotError::NotFinite { device: run.device.clone(), time_s: *time_s });
         }
-        if *time_s < before {
-            return Err(PlotError::TimeGoesBack { device: run.device.clone(), time_s: *time_s });
-        }
-        before = *time_s;
     }
-    Ok(())
+    check_order(&run.device, history().map(|sample| sample.0))
 }
 
 /// What is drawn of a run's ledger: to `end` (s), or to where the block has passed 2α for good.
@@ -193,14 +177,8 @@ fn write_areas(svg: &mut String, panel: &Panel<'_>, ledger: &[(f64, Shares)], la
     }
 }
 
-/// Appends an entry for the line and for every area that some device has; returns the lower edge (px).
-fn write_legend(
-    svg: &mut String,
-    ledgers: &[Vec<(f64, Shares)>],
-    layers: &[Layer],
-    (left_px, width_px): (f64, f64),
-    top_px: f64,
-) -> f64 {
+/// Legend entries of the line and of every area that some device has.
+fn keys(ledgers: &[Vec<(f64, Shares)>], layers: &[Layer]) -> [Vec<LegendEntry>; 2] {
     let any = |value: &dyn Fn(&Shares) -> f64| ledgers.iter().flatten().any(|(_, shares)| value(shares) > NEGLIGIBLE);
     let parts = [
         ("put in: ", true),
@@ -209,30 +187,10 @@ fn write_legend(
         (", created by ideal clutches", any(&|shares| shares.created)),
         (", given by the paper's kinematics", any(&|shares| -shares.kinematics)),
     ];
-    let line: String = parts.into_iter().filter_map(|(text, shown)| shown.then_some(text)).collect();
+    let line = parts.into_iter().filter_map(|(text, shown)| shown.then_some(text)).collect();
     let shown = layers.iter().filter(|layer| any(&|shares| (layer.thickness)(shares).abs()));
-    let areas = shown.map(|layer| (Some(layer.colour), layer.name.to_owned()));
-
-    let (mut x, mut middle) = (left_px, top_px + 0.5 * ROW_PX);
-    for (colour, text) in std::iter::once((None, line)).chain(areas) {
-        let entry_px = SWATCH_PX + 5.0 + text_width_px(&text, FONT_PX);
-        if x > left_px && x + entry_px > left_px + width_px {
-            (x, middle) = (left_px, middle + ROW_PX);
-        }
-        match colour {
-            Some(colour) => write_rect(svg, (units(x), units(middle - 5.0)), (units(SWATCH_PX), units(10.0)), colour),
-            None => svg.push_str(&format!(
-                "<path d=\"M{} {}h{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"13\"/>\n",
-                units(x),
-                units(middle),
-                units(SWATCH_PX),
-                hex(INK),
-            )),
-        }
-        Text::new(&escape(&text), (x + SWATCH_PX + 5.0, middle + 0.36 * FONT_PX), FONT_PX).write(svg, false);
-        x += entry_px + 12.0;
-    }
-    middle + 0.5 * ROW_PX
+    let areas = shown.map(|layer| (Swatch::Tint(layer.colour), layer.name.to_owned())).collect();
+    [vec![(Swatch::Line(Stroke::solid(INK)), line)], areas]
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! Shading of engaged intervals, impact marks, and the notes where blocks overturn.
 
 use super::device_trace::DeviceTrace;
-use super::layer::{Anchor, Text, units, write_rect};
-use super::palette::{Colour, FLYWHEEL_TINTS, hex};
+use super::layer::{Text, units, write_rect};
+use super::legend::{LegendEntry, Swatch};
+use super::palette::{Colour, FLYWHEEL_TINTS, INK, hex};
 use super::panel::Panel;
 use super::text_width::text_width_px;
 
@@ -18,6 +19,35 @@ const LANE_BAR_PX: f64 = 3.0;
 
 const NOTE: &str = "overturns";
 const NOTE_FONT_PX: f64 = 10.5;
+
+/// Legend entries of the devices, and of the marks that the figure actually shows.
+pub(super) fn device_keys(traces: &[DeviceTrace]) -> [Vec<LegendEntry>; 2] {
+    let mut marks = Vec::new();
+    for (index, name) in ["first flywheel engaged", "second flywheel engaged"].into_iter().enumerate() {
+        let shown = |trace: &DeviceTrace| trace.engagements.iter().any(|(_, _, flywheel)| usize::from(*flywheel != 1) == index);
+        if traces.iter().any(shown) {
+            marks.push((Swatch::Tint(FLYWHEEL_TINTS[index]), name.to_owned()));
+        }
+    }
+    if traces.iter().filter(|trace| !trace.engagements.is_empty()).count() > 1 {
+        let bar = |svg: &mut String, (x, y): (f64, f64)| {
+            write_rect(svg, (units(x), units(y - 5.0)), (units(LANE_BAR_PX), units(10.0)), INK);
+        };
+        marks.push((Swatch::Drawn(bar), "device of a shaded lane".to_owned()));
+    }
+    if traces.iter().any(|trace| !trace.impacts.is_empty()) {
+        let triangle = |svg: &mut String, (x, y): (f64, f64)| {
+            svg.push_str(&format!("<path d=\"{}\" fill=\"{}\"/>\n", impact(units(x), units(y - 2.5), 1), hex(INK)));
+        };
+        marks.push((Swatch::Drawn(triangle), "impact".to_owned()));
+    }
+    [traces.iter().map(|trace| (Swatch::Line(trace.look.stroke()), trace.label.clone())).collect(), marks]
+}
+
+/// Path of the triangle of an impact with its tip at `x` and `y` (drawing units): the upper corner for a `side` of 1, the lower for −1.
+fn impact(x: i32, y: i32, side: i32) -> String {
+    format!("M{x} {y}l{} {}h{}z", -units(2.2), side * units(5.0), units(4.4))
+}
 
 /// Appends tints over the intervals in which a flywheel is engaged.
 ///
@@ -67,8 +97,7 @@ pub(super) fn write_impacts(svg: &mut String, panel: &Panel<'_>, traces: &[Devic
         let side = if index % 2 == 0 { 1 } else { -1 };
         let mut path = String::new();
         for x_px in thinned(panel, &trace.impacts) {
-            let x = units(x_px);
-            path.push_str(&format!("M{x} {zero}l{} {}h{}z", -units(2.2), side * units(5.0), units(4.4)));
+            path.push_str(&impact(units(x_px), zero, side));
         }
         if !path.is_empty() {
             svg.push_str(&format!(
@@ -127,7 +156,6 @@ pub(super) fn write_overturns(svg: &mut String, panel: &Panel<'_>, traces: &[Dev
             .unwrap_or(first);
         taken.push((left, baseline));
         Text {
-            anchor: Anchor::Start,
             colour: trace.look.colour,
             attributes: " paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"30\"",
             ..Text::new(NOTE, (left, baseline), NOTE_FONT_PX)

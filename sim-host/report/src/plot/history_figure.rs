@@ -4,23 +4,13 @@ use sprag_sim::history::History;
 
 use super::curve::write_curve;
 use super::device_trace::{DeviceTrace, check, rotation_limit};
-use super::engagement::{write_impacts, write_overturns, write_shading};
+use super::engagement::{device_keys, write_impacts, write_overturns, write_shading};
 use super::ground::ground_curve;
-use super::layer::document;
-use super::legend::{device_keys, write_heading};
 use super::palette::{GROUND, Stroke};
-use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel, scale_around_zero};
+use super::panel::scale_around_zero;
+use super::stack::{GROUND_PANEL_PX, PANEL_PX, ROTATION_PANEL_PX, Stack};
 use super::time_axis::time_span;
 use super::{FigureTitle, PlotError, TimeAxis};
-
-const WIDTH_PX: f64 = 760.0;
-const MARGIN_PX: f64 = 10.0;
-/// Wider on the right, where half of the last tick label sticks out.
-const RIGHT_MARGIN_PX: f64 = 20.0;
-const GAP_PX: f64 = 11.0;
-const PANEL_PX: f64 = 118.0;
-const GROUND_PANEL_PX: f64 = 84.0;
-const ROTATION_PANEL_PX: f64 = 184.0;
 
 /// Draws responses of several devices to one ground motion as an SVG document.
 ///
@@ -48,11 +38,7 @@ pub fn history_figure(title: impl Into<FigureTitle>, histories: &[History], axes
     let traces: Vec<DeviceTrace> =
         histories.iter().enumerate().map(|(index, history)| DeviceTrace::new(index, history, axes, limit)).collect();
     let ground = ground_curve(histories, axes);
-    let x = time_span(histories, axes)?;
-
-    let area = (MARGIN_PX + LEFT_LABELS_PX, WIDTH_PX - MARGIN_PX - LEFT_LABELS_PX - RIGHT_MARGIN_PX);
-    let mut body = String::new();
-    let heading_px = write_heading(&mut body, &title, &device_keys(&traces), area, MARGIN_PX);
+    let mut stack = Stack::new(&title, &device_keys(&traces), time_span(histories, axes)?);
 
     let values = |pick: fn(&DeviceTrace) -> &[(f64, f64)]| {
         traces.iter().flat_map(move |trace| {
@@ -61,51 +47,41 @@ pub fn history_figure(title: impl Into<FigureTitle>, histories: &[History], axes
             pick(trace)[..shown].iter().map(|point| point.1)
         })
     };
-    let mut top_px = heading_px;
-    let mut panel = |title, height_px, y, guides| {
-        let (left_px, width_px) = area;
-        let panel = Panel { title: Some(title), guides, ..Panel::new((left_px, top_px), (width_px, height_px), x.clone(), y) };
-        top_px += height_px + GAP_PX;
-        panel
-    };
     let ground_scale = scale_around_zero(ground.iter().map(|point| point.1), 0.1);
     let velocity_scale = scale_around_zero(values(|trace| &trace.velocity), 1.0);
     let force_scale = scale_around_zero(values(|trace| &trace.force), 0.1);
-    let ground_panel = panel("*a*_g (g)", GROUND_PANEL_PX, ground_scale, &[][..]);
-    let rotation_panel = panel("θ/α", ROTATION_PANEL_PX, -limit..limit, &[-1.0, 1.0][..]);
-    let velocity_panel = panel("θ'/(*p*α)", PANEL_PX, velocity_scale, &[][..]);
-    let force_panel =
-        traces.iter().any(|trace| !trace.force.is_empty()).then(|| panel("*F*/(*mg*)", PANEL_PX, force_scale, &[][..]));
+    let ground_panel = stack.panel(GROUND_PANEL_PX, ground_scale, Some("*a*_g (g)"));
+    let mut rotation_panel = stack.panel(ROTATION_PANEL_PX, -limit..limit, Some("θ/α"));
+    rotation_panel.guides = &[-1.0, 1.0];
+    let velocity_panel = stack.panel(PANEL_PX, velocity_scale, Some("θ'/(*p*α)"));
+    let has_force = traces.iter().any(|trace| !trace.force.is_empty());
+    let force_panel = has_force.then(|| stack.panel(PANEL_PX, force_scale, Some("*F*/(*mg*)")));
 
-    let last = force_panel.as_ref().unwrap_or(&velocity_panel);
-    let height_px = last.bottom_px() + BOTTOM_LABELS_PX + 4.0;
+    let svg = &mut stack.svg;
+    write_shading(svg, &rotation_panel, &traces);
+    ground_panel.write_axes(svg, None);
+    write_curve(svg, &ground_panel, &ground, Stroke::solid(GROUND));
 
-    write_shading(&mut body, &rotation_panel, &traces);
-    ground_panel.write_axes(&mut body, None);
-    write_curve(&mut body, &ground_panel, &ground, Stroke::solid(GROUND));
-
-    rotation_panel.write_axes(&mut body, None);
+    rotation_panel.write_axes(svg, None);
     for trace in &traces {
-        write_curve(&mut body, &rotation_panel, &trace.rotation, trace.look.stroke());
+        write_curve(svg, &rotation_panel, &trace.rotation, trace.look.stroke());
     }
-    write_impacts(&mut body, &rotation_panel, &traces);
-    write_overturns(&mut body, &rotation_panel, &traces);
+    write_impacts(svg, &rotation_panel, &traces);
+    write_overturns(svg, &rotation_panel, &traces);
 
-    let velocity_title = force_panel.is_none().then(|| axes.title());
-    velocity_panel.write_axes(&mut body, velocity_title);
+    velocity_panel.write_axes(svg, (!has_force).then(|| axes.title()));
     for trace in &traces {
-        write_curve(&mut body, &velocity_panel, &trace.velocity, trace.look.stroke());
+        write_curve(svg, &velocity_panel, &trace.velocity, trace.look.stroke());
     }
 
     if let Some(panel) = &force_panel {
-        write_shading(&mut body, panel, &traces);
-        panel.write_axes(&mut body, Some(axes.title()));
+        write_shading(svg, panel, &traces);
+        panel.write_axes(svg, Some(axes.title()));
         for trace in &traces {
-            write_curve(&mut body, panel, &trace.force, trace.look.stroke());
+            write_curve(svg, panel, &trace.force, trace.look.stroke());
         }
     }
-
-    Ok(document(&title.text, (WIDTH_PX, height_px), &body))
+    Ok(stack.document(&title))
 }
 
 #[cfg(test)]

@@ -1,26 +1,21 @@
-//! Bars over time: what the law wants, the command and the clutches of a closed loop.
+//! Bars over time, in lanes: what a law wants, commands, clutches, states.
 
 use super::engagement::write_bars;
 use super::layer::{Anchor, Text, units};
-use super::loop_figure::LoopTrace;
-use super::palette::{Colour, FLYWHEEL_BARS, GROUND};
+use super::legend::{LegendEntry, Swatch};
+use super::palette::{Colour, FLYWHEEL_BARS, FLYWHEEL_TINTS};
 use super::panel::Panel;
 
 /// Height of a lane, and of the bars in it (px).
 pub(super) const LANE_PX: f64 = 26.0;
 const BAR_PX: f64 = 16.0;
-const LANES: [[&str; 2]; 3] = [["law on the", "true motion"], ["command", ""], ["clutches", ""]];
 const LANE_FONT_PX: f64 = 10.5;
-/// Height of all lanes (px).
-pub(super) const LANES_PX: f64 = LANES.len() as f64 * LANE_PX;
 /// Bars closer than this are one, and none is narrower (drawing units).
 const LEAST_GAP: i32 = 3;
-/// What the law wants: no flywheel in particular.
-pub(super) const LAW: Colour = GROUND;
 
 /// Left edges and widths (drawing units) of the times in which `active` holds, each value until the next sample. Times that would
 /// be too narrow to see are widened, and gaps too narrow to see are closed.
-pub(super) fn bars(panel: &Panel<'_>, time: &[f64], active: impl Fn(usize) -> bool) -> Vec<(i32, i32)> {
+fn bars(panel: &Panel<'_>, time: &[f64], active: impl Fn(usize) -> bool) -> Vec<(i32, i32)> {
     let x = |time: f64| units(panel.position_px((time, panel.y.start)).0);
     let mut bars: Vec<(i32, i32)> = Vec::new();
     for (index, pair) in time.windows(2).enumerate() {
@@ -60,30 +55,40 @@ pub(super) fn write_flywheels(
     }
 }
 
-/// Appends the lanes and their names.
-pub(super) fn write_lanes(svg: &mut String, panel: &Panel<'_>, trace: &LoopTrace) {
-    for (lane, words) in LANES.into_iter().enumerate() {
-        let top_px = panel.top_px + lane as f64 * LANE_PX;
-        let extent = (top_px + 0.5 * (LANE_PX - BAR_PX), BAR_PX);
-        match lane {
-            0 => {
-                let law = bars(panel, &trace.time, |index| trace.ideal.get(index) == Some(&true));
-                write_bars(svg, &law, (units(extent.0), units(extent.1)), LAW);
-            }
-            1 => write_flywheels(svg, panel, extent, (&trace.time, &trace.commanded), FLYWHEEL_BARS),
-            _ => write_flywheels(svg, panel, extent, (&trace.time, &trace.engaged), FLYWHEEL_BARS),
-        }
-        write_lane_name(svg, panel, lane, words.split(|word| word.is_empty()).next().unwrap_or_default());
+/// Appends lane number `lane`: its name, a line for each of its words, and the bars that `draw` appends between an upper edge and a height.
+pub(super) fn write_lane(
+    svg: &mut String,
+    panel: &Panel<'_>,
+    (lane, words): (usize, &[&str]),
+    draw: impl FnOnce(&mut String, (f64, f64)),
+) {
+    let top_px = panel.top_px + lane as f64 * LANE_PX;
+    draw(svg, (top_px + 0.5 * (LANE_PX - BAR_PX), BAR_PX));
+    for (line, word) in words.iter().enumerate() {
+        let down = (line as f64 - 0.5 * (words.len() as f64 - 1.0)) * LANE_FONT_PX;
+        let at = (panel.left_px - 6.0, top_px + 0.5 * LANE_PX + down + 0.36 * LANE_FONT_PX);
+        Text { anchor: Anchor::End, ..Text::new(word, at, LANE_FONT_PX) }.write(svg, false);
     }
 }
 
-/// Appends the name of a lane, a line for each of its words.
-pub(super) fn write_lane_name(svg: &mut String, panel: &Panel<'_>, lane: usize, words: &[&str]) {
-    for (line, word) in words.iter().enumerate() {
-        let down = (line as f64 - 0.5 * (words.len() as f64 - 1.0)) * LANE_FONT_PX;
-        let at = (panel.left_px - 6.0, panel.top_px + (lane as f64 + 0.5) * LANE_PX + down + 0.36 * LANE_FONT_PX);
-        Text { anchor: Anchor::End, ..Text::new(word, at, LANE_FONT_PX) }.write(svg, false);
-    }
+/// Appends bars where `active` holds.
+pub(super) fn write_state(
+    svg: &mut String,
+    panel: &Panel<'_>,
+    (top_px, height_px): (f64, f64),
+    (time, colour): (&[f64], Colour),
+    active: impl Fn(usize) -> bool,
+) {
+    write_bars(svg, &bars(panel, time, active), (units(top_px), units(height_px)), colour);
+}
+
+/// Legend entries of the flywheels that occur in `states`.
+pub(super) fn flywheel_keys<'a>(states: impl Iterator<Item = &'a u8>) -> Vec<LegendEntry> {
+    let shown = states.fold(0, |shown, state| shown | state);
+    let key = |(bit, name): (usize, &str)| {
+        (shown & (1 << bit) != 0).then(|| (Swatch::Tints(FLYWHEEL_TINTS[bit], FLYWHEEL_BARS[bit]), name.to_owned()))
+    };
+    ["first flywheel", "second flywheel"].into_iter().enumerate().filter_map(key).collect()
 }
 
 #[cfg(test)]

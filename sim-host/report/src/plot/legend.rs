@@ -1,11 +1,10 @@
 //! Title and legend above the panels.
 
 use super::FigureTitle;
-use super::device_trace::DeviceTrace;
 use super::formula::{formula, formula_width_px};
-use super::layer::{Text, escape, units, write_area, write_disc, write_rect};
-use super::marker::{Marker, write_chosen};
-use super::palette::{Colour, DeviceLook, FLYWHEEL_TINTS, GROUND, INK, Stroke, hex};
+use super::layer::{Text, escape, units, write_area, write_rect};
+use super::marker::{Marker, write_mark};
+use super::palette::{Colour, DeviceLook, GROUND, INK, Stroke, hex};
 use super::text_width::text_width_px;
 
 const TITLE_FONT_PX: f64 = 14.0;
@@ -16,14 +15,14 @@ const ROW_PX: f64 = 17.0;
 const SWATCH_PX: f64 = 36.0;
 const GAP_PX: f64 = 14.0;
 
-/// Radius of the discs at the points of a line (px).
-const MARK_PX: f64 = 2.6;
-
 /// Part of a width that [`wrapped`] may use for bold text, which is wider.
 pub(super) const BOLD_WIDTH: f64 = 0.87;
 
 /// A legend entry: what it looks like and its name.
-pub(super) type Key = (Swatch, String);
+pub(super) type LegendEntry = (Swatch, String);
+
+/// Appends a mark around a position (px).
+pub(super) type DrawMark = fn(&mut String, (f64, f64));
 
 /// What stands left of a legend text.
 #[derive(Debug, Clone, Copy)]
@@ -32,30 +31,22 @@ pub(super) enum Swatch {
     Line(Stroke),
     /// A piece of a curve with a disc at its points.
     MarkedLine(Stroke),
-    /// A mark of a line in a colour of none: a disc, or a circle.
-    Point { open: bool },
     /// A piece of a fitted line on its band, with the mark of what it was fitted to.
     Fitted(DeviceLook, Option<Marker>),
     /// A mark in a colour of no device.
     Mark(Marker, Colour),
-    /// The mark of a choice, with its band.
-    Chosen,
+    /// What a function draws.
+    Drawn(DrawMark),
     /// A band of this opacity.
     Band(f64),
     /// A line in the middle of its band of this opacity.
     BandedLine(Stroke, f64),
-    /// Ticks of a rug.
-    Ticks,
     /// A tint.
     Tint(Colour),
     /// A tint and the colour that stands for the same where it is alone.
     Tints(Colour, Colour),
     /// A colour that needs an edge, since it may be near white.
     Framed(Colour),
-    /// The triangle of an impact.
-    Triangle,
-    /// The bar beside a lane of tints.
-    LaneBar,
 }
 
 /// Appends title and legend from `top_px` down, over the width from `left_px`; returns the lower edge (px).
@@ -64,7 +55,7 @@ pub(super) enum Swatch {
 pub(super) fn write_heading(
     svg: &mut String,
     title: &FigureTitle,
-    groups: &[Vec<Key>],
+    groups: &[Vec<LegendEntry>],
     (left_px, width_px): (f64, f64),
     top_px: f64,
 ) -> f64 {
@@ -86,31 +77,8 @@ pub(super) fn write_heading(
     y + 6.0
 }
 
-/// The devices, and the marks that the figure actually shows.
-pub(super) fn device_keys(traces: &[DeviceTrace]) -> [Vec<Key>; 2] {
-    [traces.iter().map(|trace| (Swatch::Line(trace.look.stroke()), trace.label.clone())).collect(), keys(traces)]
-}
-
-/// Entries for the marks that the figure actually shows.
-fn keys(traces: &[DeviceTrace]) -> Vec<Key> {
-    let mut keys = Vec::new();
-    for (index, name) in ["first flywheel engaged", "second flywheel engaged"].into_iter().enumerate() {
-        let shown = |trace: &DeviceTrace| trace.engagements.iter().any(|(_, _, flywheel)| usize::from(*flywheel != 1) == index);
-        if traces.iter().any(shown) {
-            keys.push((Swatch::Tint(FLYWHEEL_TINTS[index]), name.to_owned()));
-        }
-    }
-    if traces.iter().filter(|trace| !trace.engagements.is_empty()).count() > 1 {
-        keys.push((Swatch::LaneBar, "device of a shaded lane".to_owned()));
-    }
-    if traces.iter().any(|trace| !trace.impacts.is_empty()) {
-        keys.push((Swatch::Triangle, "impact".to_owned()));
-    }
-    keys
-}
-
 /// Appends entries in as many columns as fit; returns the lower edge (px).
-fn write_entries(svg: &mut String, entries: &[Key], (left_px, width_px): (f64, f64), top_px: f64) -> f64 {
+fn write_entries(svg: &mut String, entries: &[LegendEntry], (left_px, width_px): (f64, f64), top_px: f64) -> f64 {
     let lefts = column_lefts(entries, width_px);
     let columns = lefts.len();
     for (index, (swatch, text)) in entries.iter().enumerate() {
@@ -125,7 +93,7 @@ fn write_entries(svg: &mut String, entries: &[Key], (left_px, width_px): (f64, f
 }
 
 /// Left edges of the columns (px), at least one: the largest number of columns whose widest entries fit side by side.
-fn column_lefts(entries: &[Key], width_px: f64) -> Vec<f64> {
+fn column_lefts(entries: &[LegendEntry], width_px: f64) -> Vec<f64> {
     for columns in (2..=entries.len()).rev() {
         let mut widths = vec![0.0_f64; columns];
         for (index, (_, text)) in entries.iter().enumerate() {
@@ -146,16 +114,6 @@ fn column_lefts(entries: &[Key], width_px: f64) -> Vec<f64> {
     vec![0.0]
 }
 
-/// Appends the mark of a point of a line: a disc, or a circle if it is `open`.
-pub(super) fn write_mark(svg: &mut String, at_px: (f64, f64), colour: Colour, open: bool) {
-    if open {
-        let stroke = format!(" stroke=\"{}\" stroke-width=\"{}\"", hex(colour), units(1.1));
-        write_disc(svg, at_px, MARK_PX - 0.3, Colour(255, 255, 255), &stroke);
-    } else {
-        write_disc(svg, at_px, MARK_PX, colour, "");
-    }
-}
-
 fn write_swatch(svg: &mut String, swatch: Swatch, x_px: f64, middle_px: f64) {
     let (x, y, width) = (units(x_px), units(middle_px), units(SWATCH_PX));
     match swatch {
@@ -167,9 +125,8 @@ fn write_swatch(svg: &mut String, swatch: Swatch, x_px: f64, middle_px: f64) {
         )),
         Swatch::MarkedLine(stroke) => {
             write_swatch(svg, Swatch::Line(stroke), x_px, middle_px);
-            write_disc(svg, (x_px + 0.5 * SWATCH_PX, middle_px), MARK_PX, stroke.colour, "");
+            write_mark(svg, (x_px + 0.5 * SWATCH_PX, middle_px), stroke.colour, false);
         }
-        Swatch::Point { open } => write_mark(svg, (x_px + 0.5 * SWATCH_PX, middle_px), INK, open),
         Swatch::Fitted(look, marker) => {
             write_swatch(svg, Swatch::Line(look.stroke()), x_px, middle_px);
             if let Some(marker) = marker {
@@ -177,7 +134,7 @@ fn write_swatch(svg: &mut String, swatch: Swatch, x_px: f64, middle_px: f64) {
             }
         }
         Swatch::Mark(marker, colour) => marker.write(svg, (x_px + 0.5 * SWATCH_PX, middle_px), colour),
-        Swatch::Chosen => write_chosen(svg, (x_px + 0.5 * SWATCH_PX, middle_px), (middle_px + 7.0, middle_px - 7.0)),
+        Swatch::Drawn(draw) => draw(svg, (x_px + 0.5 * SWATCH_PX, middle_px)),
         Swatch::Band(opacity) => {
             let [left, right, top, bottom] = [x_px, x_px + SWATCH_PX, middle_px - 5.0, middle_px + 5.0];
             write_area(svg, &[(left, top), (right, top), (right, bottom), (left, bottom)], INK, opacity);
@@ -185,11 +142,6 @@ fn write_swatch(svg: &mut String, swatch: Swatch, x_px: f64, middle_px: f64) {
         Swatch::BandedLine(stroke, opacity) => {
             write_swatch(svg, Swatch::Band(opacity), x_px, middle_px);
             write_swatch(svg, Swatch::Line(stroke), x_px, middle_px);
-        }
-        Swatch::Ticks => {
-            let ticks: String =
-                [6.0, 11.0, 13.0, 18.0, 24.0].map(|at| format!("M{} {}v{}", x + units(at), y - units(4.0), units(8.0))).concat();
-            svg.push_str(&format!("<path d=\"{ticks}\" stroke=\"{}\" stroke-width=\"8\"/>\n", hex(INK)));
         }
         Swatch::Tint(colour) => {
             write_rect(svg, (x, y - units(5.0)), (width, units(10.0)), colour);
@@ -202,19 +154,6 @@ fn write_swatch(svg: &mut String, swatch: Swatch, x_px: f64, middle_px: f64) {
             write_rect(svg, (x, y - units(5.0)), (width, units(10.0)), INK);
             write_rect(svg, (x + units(0.6), y - units(4.4)), (width - units(1.2), units(8.8)), colour);
         }
-        Swatch::LaneBar => {
-            let corner = (x + width / 2, y - units(5.0));
-            write_rect(svg, corner, (units(3.0), units(10.0)), INK);
-        }
-        Swatch::Triangle => svg.push_str(&format!(
-            "<path d=\"M{} {}l{} {}h{}z\" fill=\"{}\"/>\n",
-            x + width / 2,
-            y - units(2.5),
-            -units(2.2),
-            units(5.0),
-            units(4.4),
-            hex(INK),
-        )),
     }
 }
 
@@ -273,7 +212,7 @@ mod tests {
 
     #[test]
     fn entries_share_a_row_when_they_fit() {
-        let entries = |length: usize| vec![(Swatch::Triangle, "x".repeat(length)); 4];
+        let entries = |length: usize| vec![(Swatch::Band(1.0), "x".repeat(length)); 4];
         assert_eq!(column_lefts(&entries(5), 668.0).len(), 4);
         assert_eq!(column_lefts(&entries(40), 668.0).len(), 2);
         assert_eq!(column_lefts(&entries(400), 668.0), vec![0.0]);

@@ -3,29 +3,21 @@
 use std::ops::Range;
 
 use super::curve::write_curve;
-use super::fault_mark::{FAULT_ROW_PX, fault_places, fault_stroke, write_faults};
-use super::lane::{LANES_PX, LAW, write_flywheels, write_lanes};
-use super::layer::document;
-use super::legend::{Key, Swatch, write_heading};
-use super::palette::{FLYWHEEL_BARS, FLYWHEEL_TINTS, GROUND, Stroke, device_look};
-use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel, scale_around_zero};
-use super::time_axis::span_of;
+use super::device_trace::half_height;
+use super::fault_mark::{Faults, fault_stroke};
+use super::lane::{LANE_PX, flywheel_keys, write_flywheels, write_lane, write_state};
+use super::legend::{LegendEntry, Swatch};
+use super::palette::{Colour, FLYWHEEL_BARS, FLYWHEEL_TINTS, GROUND, Stroke, device_look};
+use super::panel::{Panel, scale_around_zero};
+use super::stack::{GROUND_PANEL_PX, PANEL_PX, ROTATION_PANEL_PX, Stack};
+use super::ticks::drawable;
+use super::time_axis::{check_order, check_trace, span_of};
 use super::{FigureTitle, PlotError};
 
-const WIDTH_PX: f64 = 760.0;
-const MARGIN_PX: f64 = 10.0;
-/// Wider on the right, where half of the last tick label sticks out.
-const RIGHT_MARGIN_PX: f64 = 20.0;
-const GAP_PX: f64 = 11.0;
-const PANEL_PX: f64 = 118.0;
-const GROUND_PANEL_PX: f64 = 84.0;
-const ROTATION_PANEL_PX: f64 = 184.0;
-/// Limits of the half-height of the θ/α panel.
-const ROTATION_LIMITS: (f64, f64) = (1.2, 2.5);
+/// What the law wants: no flywheel in particular.
+const LAW: Colour = GROUND;
 /// Estimates beyond this many times the largest true value are cut off.
 const ESTIMATE_REACH: f64 = 1.5;
-/// Name of the trace in errors.
-const NAME: &str = "closed loop";
 const IDEAL: &str = "ideal pair";
 const HOST: &str = "host's own loop";
 
@@ -76,46 +68,41 @@ pub fn loop_figure(title: impl Into<FigureTitle>, trace: &LoopTrace) -> Result<S
     let title = title.into();
     check(trace)?;
     let x = span_of(trace.time.iter().copied())?;
-    let Range { start, end } = x;
-    let (left_px, width_px) = (MARGIN_PX + LEFT_LABELS_PX, WIDTH_PX - MARGIN_PX - LEFT_LABELS_PX - RIGHT_MARGIN_PX);
-    let inside = |time: f64| time >= start && time <= end;
-    let position_px = |time: f64| left_px + (time - start) / (end - start) * width_px;
-    let marks: Vec<(f64, &str)> =
-        trace.faults.iter().filter(|fault| inside(fault.0)).map(|fault| (position_px(fault.0), fault.1.as_str())).collect();
-    let ideal: Vec<(f64, f64)> = trace.rotation_ideal.iter().copied().filter(|point| inside(point.0)).collect();
-    let host: Vec<(f64, f64)> = trace.rotation_host.iter().copied().filter(|point| inside(point.0)).collect();
-    let mut body = String::new();
-    let keys = keys(trace, !ideal.is_empty(), !marks.is_empty());
-    let heading_px = write_heading(&mut body, &title, &keys, (left_px, width_px), MARGIN_PX);
-
-    let places = fault_places(&marks, left_px + width_px);
-    let fault_rows = places.iter().flatten().map(|place| place.1 + 1).max().unwrap_or(0);
-    let first_px = heading_px + fault_rows as f64 * FAULT_ROW_PX;
+    let inside = |time: f64| time >= x.start && time <= x.end;
+    let shown = |points: &[(f64, f64)]| -> Vec<(f64, f64)> { points.iter().copied().filter(|point| inside(point.0)).collect() };
+    let (ideal, host) = (shown(&trace.rotation_ideal), shown(&trace.rotation_host));
+    let keys = keys(trace, !ideal.is_empty(), trace.faults.iter().any(|fault| inside(fault.0)));
+    let mut stack = Stack::new(&title, &keys, x);
+    let faults = Faults::new(&mut stack, &trace.faults);
 
     let peak = trace.rotation.iter().chain(ideal.iter().map(|point| &point.1)).fold(0.0_f64, |peak, value| peak.max(value.abs()));
-    let limit = (1.15 * peak).clamp(ROTATION_LIMITS.0, ROTATION_LIMITS.1);
-    let mut top_px = first_px;
-    let mut panel = |height_px: f64, y, title| {
-        let panel = Panel { title, ..Panel::new((left_px, top_px), (width_px, height_px), x.clone(), y) };
-        top_px += height_px + GAP_PX;
-        panel
-    };
-    let ground_panel = panel(GROUND_PANEL_PX, scale_around_zero(trace.ground_g.iter().copied(), 0.1), Some("*a*_g (g)"));
-    let rotation_panel = Panel { guides: &[-1.0, 1.0], ..panel(ROTATION_PANEL_PX, -limit..limit, Some("θ/α")) };
+    let limit = half_height(peak);
+    let ground_scale = scale_around_zero(trace.ground_g.iter().copied(), 0.1);
+    let ground_panel = stack.panel(GROUND_PANEL_PX, ground_scale, Some("*a*_g (g)"));
+    let mut rotation_panel = stack.panel(ROTATION_PANEL_PX, -limit..limit, Some("θ/α"));
+    rotation_panel.guides = &[-1.0, 1.0];
     let velocity_scale = scale_with_estimate(&trace.velocity, &trace.velocity_estimated);
-    let velocity_panel = panel(PANEL_PX, velocity_scale, Some("θ'/(*p*α)"));
-    let push_panel = panel(PANEL_PX, scale_with_estimate(&trace.push, &trace.push_estimated), Some("θ''/(*p*²α)"));
-    let lane_panel = Panel { y_ticks: false, ..panel(LANES_PX, 0.0..1.0, None) };
-    let height_px = lane_panel.bottom_px() + BOTTOM_LABELS_PX + 4.0;
+    let velocity_panel = stack.panel(PANEL_PX, velocity_scale, Some("θ'/(*p*α)"));
+    let push_panel = stack.panel(PANEL_PX, scale_with_estimate(&trace.push, &trace.push_estimated), Some("θ''/(*p*²α)"));
+    let mut lanes = stack.panel(3.0 * LANE_PX, 0.0..1.0, None);
+    lanes.y_ticks = false;
 
+    let svg = &mut stack.svg;
     let extent = (rotation_panel.top_px, rotation_panel.height_px);
-    write_flywheels(&mut body, &rotation_panel, extent, (&trace.time, &trace.engaged), FLYWHEEL_TINTS);
+    write_flywheels(svg, &rotation_panel, extent, (&trace.time, &trace.engaged), FLYWHEEL_TINTS);
     for panel in [&ground_panel, &rotation_panel, &velocity_panel, &push_panel] {
-        panel.write_axes(&mut body, None);
+        panel.write_axes(svg, None);
     }
-    write_lanes(&mut body, &lane_panel, trace);
-    lane_panel.write_frame(&mut body, Some("time (s)"));
-    write_faults(&mut body, &marks, (first_px, lane_panel.bottom_px()), &places);
+    write_lane(svg, &lanes, (0, &["law on the", "true motion"]), |svg, extent| {
+        write_state(svg, &lanes, extent, (&trace.time, LAW), |index| trace.ideal[index]);
+    });
+    for (lane, name, states) in [(1, "command", &trace.commanded), (2, "clutches", &trace.engaged)] {
+        write_lane(svg, &lanes, (lane, &[name]), |svg, extent| {
+            write_flywheels(svg, &lanes, extent, (&trace.time, states), FLYWHEEL_BARS);
+        });
+    }
+    lanes.write_frame(svg, Some("time (s)"));
+    faults.write(svg, lanes.bottom_px());
 
     let curves: [(&Panel<'_>, &[f64], Stroke); 6] = [
         (&ground_panel, &trace.ground_g, Stroke::solid(GROUND)),
@@ -125,13 +112,13 @@ pub fn loop_figure(title: impl Into<FigureTitle>, trace: &LoopTrace) -> Result<S
         (&push_panel, &trace.push_estimated, estimated_stroke()),
         (&push_panel, &trace.push, true_stroke()),
     ];
-    write_curve(&mut body, &rotation_panel, &host, host_stroke());
+    write_curve(svg, &rotation_panel, &host, host_stroke());
     for (panel, values, stroke) in curves {
         let points: Vec<(f64, f64)> = trace.time.iter().copied().zip(values.iter().copied()).collect();
-        write_curve(&mut body, panel, &points, stroke);
+        write_curve(svg, panel, &points, stroke);
     }
-    write_curve(&mut body, &rotation_panel, &ideal, ideal_stroke());
-    Ok(document(&title.text, (WIDTH_PX, height_px), &body))
+    write_curve(svg, &rotation_panel, &ideal, ideal_stroke());
+    Ok(stack.document(&title))
 }
 
 fn true_stroke() -> Stroke {
@@ -154,49 +141,27 @@ fn estimated_stroke() -> Stroke {
 
 /// Refuses vectors of different lengths, numbers that cannot be drawn and times out of order.
 fn check(trace: &LoopTrace) -> Result<(), PlotError> {
-    let expected = trace.time.len();
-    let lengths = [
-        ("ground_g", trace.ground_g.len()),
-        ("rotation", trace.rotation.len()),
-        ("velocity", trace.velocity.len()),
-        ("velocity_estimated", trace.velocity_estimated.len()),
-        ("push", trace.push.len()),
-        ("push_estimated", trace.push_estimated.len()),
-        ("engaged", trace.engaged.len()),
-        ("commanded", trace.commanded.len()),
-        ("ideal", trace.ideal.len()),
+    let values: [(&str, &[f64]); 6] = [
+        ("ground_g", &trace.ground_g),
+        ("rotation", &trace.rotation),
+        ("velocity", &trace.velocity),
+        ("velocity_estimated", &trace.velocity_estimated),
+        ("push", &trace.push),
+        ("push_estimated", &trace.push_estimated),
     ];
-    if let Some(&(name, found)) = lengths.iter().find(|(_, found)| *found != expected) {
-        return Err(PlotError::WrongLength { name: name.to_owned(), found, expected });
-    }
-    // The square root keeps differences finite too.
-    let finite = |value: f64| value.abs() < f64::MAX.sqrt();
-    let values =
-        [&trace.ground_g, &trace.rotation, &trace.velocity, &trace.velocity_estimated, &trace.push, &trace.push_estimated];
-    for (index, &time_s) in trace.time.iter().enumerate() {
-        if !finite(time_s) || values.iter().any(|values| !finite(values[index])) {
-            return Err(PlotError::NotFinite { device: NAME.to_owned(), time_s });
-        }
-    }
+    let states = [("engaged", trace.engaged.len()), ("commanded", trace.commanded.len()), ("ideal", trace.ideal.len())];
+    check_trace("closed loop", &trace.time, &values, &states, &trace.faults)?;
     for (name, curve) in [(IDEAL, &trace.rotation_ideal), (HOST, &trace.rotation_host)] {
-        if let Some(&(time_s, _)) = curve.iter().find(|(time, rotation)| !finite(*time) || !finite(*rotation)) {
+        if let Some(&(time_s, _)) = curve.iter().find(|(time, rotation)| !(drawable(*time) && drawable(*rotation))) {
             return Err(PlotError::NotFinite { device: name.to_owned(), time_s });
         }
-        if let Some(pair) = curve.windows(2).find(|pair| pair[1].0 < pair[0].0) {
-            return Err(PlotError::TimeGoesBack { device: name.to_owned(), time_s: pair[1].0 });
-        }
-    }
-    if let Some(&(time_s, _)) = trace.faults.iter().find(|(time, _)| !finite(*time)) {
-        return Err(PlotError::NotFinite { device: NAME.to_owned(), time_s });
-    }
-    if let Some(pair) = trace.time.windows(2).find(|pair| pair[1] < pair[0]) {
-        return Err(PlotError::TimeGoesBack { device: NAME.to_owned(), time_s: pair[1] });
+        check_order(name, curve.iter().map(|point| point.0))?;
     }
     Ok(())
 }
 
 /// Legend entries of what the figure shows.
-fn keys(trace: &LoopTrace, has_ideal: bool, has_faults: bool) -> [Vec<Key>; 2] {
+fn keys(trace: &LoopTrace, has_ideal: bool, has_faults: bool) -> [Vec<LegendEntry>; 2] {
     let key = |swatch, name: &str| (swatch, name.to_owned());
     let mut lines = vec![key(Swatch::Line(true_stroke()), "closed loop, true motion")];
     lines.push(key(Swatch::Line(estimated_stroke()), "estimate"));
@@ -206,12 +171,7 @@ fn keys(trace: &LoopTrace, has_ideal: bool, has_faults: bool) -> [Vec<Key>; 2] {
     if !trace.rotation_host.is_empty() {
         lines.push(key(Swatch::Line(host_stroke()), HOST));
     }
-    let mut colours = Vec::new();
-    for (bit, name) in ["first flywheel", "second flywheel"].into_iter().enumerate() {
-        if trace.engaged.iter().chain(&trace.commanded).any(|state| state & (1 << bit) != 0) {
-            colours.push(key(Swatch::Tints(FLYWHEEL_TINTS[bit], FLYWHEEL_BARS[bit]), name));
-        }
-    }
+    let mut colours = flywheel_keys(trace.engaged.iter().chain(&trace.commanded));
     if trace.ideal.contains(&true) {
         colours.push(key(Swatch::Tint(LAW), "wanted by the law"));
     }

@@ -1,7 +1,7 @@
 //! Curves over a map, such as the boundaries between its regions.
 
 use super::layer::{path_through, write_path};
-use super::legend::{Key, Swatch};
+use super::legend::{LegendEntry, Swatch};
 use super::palette::{Stroke, device_look};
 use super::panel::Panel;
 
@@ -25,7 +25,7 @@ fn stroke(kind: usize) -> Stroke {
 }
 
 /// The legend entry of a kind of curves.
-pub(super) fn curve_key(kind: usize, name: &str) -> Key {
+pub(super) fn curve_key(kind: usize, name: &str) -> LegendEntry {
     (Swatch::Line(stroke(kind)), name.to_owned())
 }
 
@@ -37,7 +37,7 @@ pub(super) fn write_curves(svg: &mut String, panel: &Panel<'_>, curves: &[MapCur
     }
 }
 
-/// The curve in drawing units, without points that nobody can tell from the one before; nothing for a curve smaller than that.
+/// The curve in drawing units, without points that nobody can distinguish from the one before; nothing for a curve smaller than that.
 fn path(panel: &Panel<'_>, points: &[(f64, f64)]) -> String {
     let mut drawn: Vec<(f64, f64)> = Vec::new();
     for (index, point) in points.iter().enumerate() {

@@ -1,6 +1,6 @@
-//! Open marks that tell devices apart without colour.
+//! Marks: open ones that distinguish devices without colour, those of the points of lines, and that of a choice.
 
-use super::layer::units;
+use super::layer::{units, write_disc};
 use super::palette::{Colour, INK, hex};
 
 /// Half of a mark's size (px).
@@ -45,8 +45,26 @@ impl Marker {
     }
 }
 
+/// Radius of the discs at the points of a line (px).
+const MARK_PX: f64 = 2.6;
+
+/// Appends the mark of a point of a line: a disc, or a circle if it is `open`.
+pub(super) fn write_mark(svg: &mut String, at_px: (f64, f64), colour: Colour, open: bool) {
+    if open {
+        let stroke = format!(" stroke=\"{}\" stroke-width=\"{}\"", hex(colour), units(1.1));
+        write_disc(svg, at_px, MARK_PX - 0.3, Colour(255, 255, 255), &stroke);
+    } else {
+        write_disc(svg, at_px, MARK_PX, colour, "");
+    }
+}
+
 /// Radius of the ring around a choice (px).
 const RING_PX: f64 = 5.6;
+
+/// Appends the mark of a choice around a position in pixels, as the legend has it.
+pub(super) fn write_chosen_key(svg: &mut String, at_px: (f64, f64)) {
+    write_chosen(svg, at_px, (at_px.1 + 7.0, at_px.1 - 7.0));
+}
 
 /// Appends the mark of a choice around a position in pixels: a ring, with whiskers to the heights of a band's `ends`.
 pub(super) fn write_chosen(svg: &mut String, (x_px, y_px): (f64, f64), ends: (f64, f64)) {

@@ -28,12 +28,14 @@ mod map_curve;
 mod marker;
 mod palette;
 mod panel;
+mod panel_grid;
 mod panel_heading;
 #[cfg_attr(not(feature = "png"), path = "no_png.rs")]
 mod png;
 mod recording_figure;
 mod rug;
 mod sensitivity_figure;
+mod stack;
 #[cfg(any(test, feature = "testing"))]
 pub mod synthetic;
 mod text_width;

@@ -8,6 +8,12 @@ use super::layer::{Anchor, Text, path_through, units, write_path};
 use super::palette::{GUIDE, INK, Stroke, guide_stroke, hex};
 use super::ticks::Scale;
 
+/// Around a figure (px).
+pub(super) const MARGIN_PX: f64 = 10.0;
+
+/// Right of a figure, where half of the last tick label sticks out (px).
+pub(super) const RIGHT_MARGIN_PX: f64 = 20.0;
+
 /// Space left of a panel for tick labels and the axis title (px).
 pub(super) const LEFT_LABELS_PX: f64 = 62.0;
 
@@ -29,6 +35,7 @@ const LEFT_LABEL_PX: f64 = 34.0;
 const TITLE_FONT_PX: f64 = 13.0;
 const FRAME_PX: f64 = 0.8;
 const GUIDE_PX: f64 = 0.7;
+const GRID_PX: f64 = 0.4;
 
 /// A panel of the figure.
 #[derive(Debug, Clone)]
@@ -104,6 +111,13 @@ impl Panel<'_> {
             let font_px = title_font_px(title, self.width_px);
             Text { anchor: Anchor::Middle, ..Text::new(&formula(title), middle, font_px) }.write(svg, false);
         }
+    }
+
+    /// Appends vertical lines at the labels of the shared axis.
+    pub(super) fn write_grid(&self, svg: &mut String) {
+        let line = |label: &Label| path_through([self.y.start, self.y.end].map(|at| self.position_px((label.at, at))));
+        let path: String = self.axes().0.ticks().labelled.iter().map(line).collect();
+        write_path(svg, &path, Stroke { width_px: GRID_PX, ..Stroke::solid(GUIDE) });
     }
 
     fn write_guides(&self, svg: &mut String) {

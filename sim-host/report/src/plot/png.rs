@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_font_lacks_is_told() {
+    fn what_the_font_lacks_is_reported() {
         let found = png(&text("", "a\u{5730}b\u{9707}α")).unwrap();
         assert_eq!(found.missing.into_iter().collect::<String>(), "\u{5730}\u{9707}");
     }

@@ -1,29 +1,14 @@
 //! The figure of an earthquake as a device recorded it: ground, rotation and velocity over time, commands, clutches and phases.
 
-use std::ops::Range;
-
 use super::curve::write_curve;
-use super::fault_mark::{FAULT_ROW_PX, fault_places, fault_stroke, write_faults};
-use super::lane::{LANE_PX, bars, write_flywheels, write_lane_name};
-use super::layer::{document, units};
-use super::legend::{Key, Swatch, write_heading};
+use super::fault_mark::{Faults, fault_stroke};
+use super::lane::{LANE_PX, flywheel_keys, write_flywheels, write_lane, write_state};
+use super::legend::{LegendEntry, Swatch};
 use super::palette::{FAULT, FLYWHEEL_BARS, FLYWHEEL_TINTS, GROUND, Stroke, device_look};
-use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel, scale_around_zero};
-use super::time_axis::span_of;
+use super::panel::scale_around_zero;
+use super::stack::{GROUND_PANEL_PX, PANEL_PX, ROTATION_PANEL_PX, Stack};
+use super::time_axis::{check_trace, span_of};
 use super::{FigureTitle, PlotError};
-use crate::plot::engagement::write_bars;
-
-const WIDTH_PX: f64 = 760.0;
-const MARGIN_PX: f64 = 10.0;
-/// Wider on the right, where half of the last tick label sticks out.
-const RIGHT_MARGIN_PX: f64 = 20.0;
-const GAP_PX: f64 = 11.0;
-const GROUND_PANEL_PX: f64 = 84.0;
-const ROTATION_PANEL_PX: f64 = 184.0;
-const VELOCITY_PANEL_PX: f64 = 118.0;
-/// Height of a bar in its lane (px).
-const BAR_PX: f64 = 16.0;
-const LANES: [&str; 3] = ["command", "clutches", "state"];
 
 /// A recording over time; all but `faults` have the length of `time`.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -56,47 +41,31 @@ pub struct RecordingTrace {
 pub fn recording_figure(title: impl Into<FigureTitle>, trace: &RecordingTrace) -> Result<String, PlotError> {
     let title = title.into();
     check(trace)?;
-    let Range { start, end } = span_of(trace.time.iter().copied())?;
-    let (left_px, width_px) = (MARGIN_PX + LEFT_LABELS_PX, WIDTH_PX - MARGIN_PX - LEFT_LABELS_PX - RIGHT_MARGIN_PX);
-    let position_px = |time: f64| left_px + (time - start) / (end - start) * width_px;
-    let marks: Vec<(f64, &str)> = trace.faults.iter().map(|fault| (position_px(fault.0), fault.1.as_str())).collect();
-    let mut body = String::new();
-    let heading_px = write_heading(&mut body, &title, &keys(trace), (left_px, width_px), MARGIN_PX);
-    let places = fault_places(&marks, left_px + width_px);
-    let fault_rows = places.iter().flatten().map(|place| place.1 + 1).max().unwrap_or(0);
-    let first_px = heading_px + fault_rows as f64 * FAULT_ROW_PX;
-    let mut top_px = first_px;
-    let mut panel = |height_px: f64, y, title| {
-        let panel = Panel { title, ..Panel::new((left_px, top_px), (width_px, height_px), start..end, y) };
-        top_px += height_px + GAP_PX;
-        panel
-    };
+    let mut stack = Stack::new(&title, &keys(trace), span_of(trace.time.iter().copied())?);
+    let faults = Faults::new(&mut stack, &trace.faults);
     let scale = |values: &[f64], floor: f64| scale_around_zero(values.iter().copied(), floor);
-    let ground = panel(GROUND_PANEL_PX, scale(&trace.ground_g, 0.1), Some("*a*_g (g)"));
-    let rotation = panel(ROTATION_PANEL_PX, scale(&trace.rotation, 1e-3), Some("θ (rad)"));
-    let velocity = panel(VELOCITY_PANEL_PX, scale(&trace.velocity, 1e-2), Some("θ' (rad/s)"));
-    let lanes = Panel { y_ticks: false, ..panel(LANES.len() as f64 * LANE_PX, 0.0..1.0, None) };
-    let height_px = lanes.bottom_px() + BOTTOM_LABELS_PX + 4.0;
-    write_flywheels(&mut body, &rotation, (rotation.top_px, rotation.height_px), (&trace.time, &trace.engaged), FLYWHEEL_TINTS);
+    let ground = stack.panel(GROUND_PANEL_PX, scale(&trace.ground_g, 0.1), Some("*a*_g (g)"));
+    let rotation = stack.panel(ROTATION_PANEL_PX, scale(&trace.rotation, 1e-3), Some("θ (rad)"));
+    let velocity = stack.panel(PANEL_PX, scale(&trace.velocity, 1e-2), Some("θ' (rad/s)"));
+    let mut lanes = stack.panel(3.0 * LANE_PX, 0.0..1.0, None);
+    lanes.y_ticks = false;
+    let svg = &mut stack.svg;
+    write_flywheels(svg, &rotation, (rotation.top_px, rotation.height_px), (&trace.time, &trace.engaged), FLYWHEEL_TINTS);
     for panel in [&ground, &rotation, &velocity] {
-        panel.write_axes(&mut body, None);
+        panel.write_axes(svg, None);
     }
-    for (lane, name) in LANES.into_iter().enumerate() {
-        let extent = (lanes.top_px + lane as f64 * LANE_PX + 0.5 * (LANE_PX - BAR_PX), BAR_PX);
-        match lane {
-            0 => write_flywheels(&mut body, &lanes, extent, (&trace.time, &trace.commanded), FLYWHEEL_BARS),
-            1 => write_flywheels(&mut body, &lanes, extent, (&trace.time, &trace.engaged), FLYWHEEL_BARS),
-            _ => {
-                for (state, colour) in [(1, GROUND), (2, FAULT)] {
-                    let shown = bars(&lanes, &trace.time, |index| trace.state.get(index) == Some(&state));
-                    write_bars(&mut body, &shown, (units(extent.0), units(extent.1)), colour);
-                }
-            }
+    for (lane, name, states) in [(0, "command", &trace.commanded), (1, "clutches", &trace.engaged)] {
+        write_lane(svg, &lanes, (lane, &[name]), |svg, extent| {
+            write_flywheels(svg, &lanes, extent, (&trace.time, states), FLYWHEEL_BARS);
+        });
+    }
+    write_lane(svg, &lanes, (2, &["state"]), |svg, extent| {
+        for (state, colour) in [(1, GROUND), (2, FAULT)] {
+            write_state(svg, &lanes, extent, (&trace.time, colour), |index| trace.state[index] == state);
         }
-        write_lane_name(&mut body, &lanes, lane, &[name]);
-    }
-    lanes.write_frame(&mut body, Some("time (s)"));
-    write_faults(&mut body, &marks, (first_px, lanes.bottom_px()), &places);
+    });
+    lanes.write_frame(svg, Some("time (s)"));
+    faults.write(svg, lanes.bottom_px());
     let curves = [
         (&ground, &trace.ground_g, Stroke::solid(GROUND)),
         (&rotation, &trace.rotation, device_look(0).stroke()),
@@ -104,24 +73,19 @@ pub fn recording_figure(title: impl Into<FigureTitle>, trace: &RecordingTrace) -
     ];
     for (panel, values, stroke) in curves {
         let points: Vec<(f64, f64)> = trace.time.iter().copied().zip(values.iter().copied()).collect();
-        write_curve(&mut body, panel, &points, stroke);
+        write_curve(svg, panel, &points, stroke);
     }
-    Ok(document(&title.text, (WIDTH_PX, height_px), &body))
+    Ok(stack.document(&title))
 }
 
 /// Legend entries of what the figure shows.
-fn keys(trace: &RecordingTrace) -> [Vec<Key>; 2] {
+fn keys(trace: &RecordingTrace) -> [Vec<LegendEntry>; 2] {
     let key = |swatch, name: &str| (swatch, name.to_owned());
     let mut lines = vec![key(Swatch::Line(device_look(0).stroke()), "estimate of the device")];
     if !trace.faults.is_empty() {
         lines.push(key(Swatch::Line(fault_stroke()), "fault"));
     }
-    let mut colours = Vec::new();
-    for (bit, name) in ["first flywheel", "second flywheel"].into_iter().enumerate() {
-        if trace.engaged.iter().chain(&trace.commanded).any(|state| state & (1 << bit) != 0) {
-            colours.push(key(Swatch::Tints(FLYWHEEL_TINTS[bit], FLYWHEEL_BARS[bit]), name));
-        }
-    }
+    let mut colours = flywheel_keys(trace.engaged.iter().chain(&trace.commanded));
     for (state, name, colour) in [(1, "rocking", GROUND), (2, "in Fault", FAULT)] {
         if trace.state.contains(&state) {
             colours.push(key(Swatch::Tint(colour), name));
@@ -131,29 +95,10 @@ fn keys(trace: &RecordingTrace) -> [Vec<Key>; 2] {
 }
 
 fn check(trace: &RecordingTrace) -> Result<(), PlotError> {
-    let expected = trace.time.len();
-    let lengths = [
-        ("ground_g", trace.ground_g.len()),
-        ("rotation", trace.rotation.len()),
-        ("velocity", trace.velocity.len()),
-        ("commanded", trace.commanded.len()),
-        ("engaged", trace.engaged.len()),
-        ("state", trace.state.len()),
-    ];
-    if let Some(&(name, found)) = lengths.iter().find(|(_, found)| *found != expected) {
-        return Err(PlotError::WrongLength { name: name.to_owned(), found, expected });
-    }
-    let device = || "recording".to_owned();
-    for (index, &time_s) in trace.time.iter().enumerate() {
-        let values = [time_s, trace.ground_g[index], trace.rotation[index], trace.velocity[index]];
-        if values.iter().any(|value| !value.is_finite()) {
-            return Err(PlotError::NotFinite { device: device(), time_s });
-        }
-    }
-    match trace.time.windows(2).find(|pair| pair[1] < pair[0]) {
-        Some(pair) => Err(PlotError::TimeGoesBack { device: device(), time_s: pair[1] }),
-        None => Ok(()),
-    }
+    let values: [(&str, &[f64]); 3] =
+        [("ground_g", &trace.ground_g), ("rotation", &trace.rotation), ("velocity", &trace.velocity)];
+    let states = [("commanded", trace.commanded.len()), ("engaged", trace.engaged.len()), ("state", trace.state.len())];
+    check_trace("recording", &trace.time, &values, &states, &trace.faults)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Ticks at the edges of a panel for runs that have an outcome only.
 
 use super::layer::units;
-use super::palette::{device_look, hex};
+use super::palette::{INK, device_look, hex};
 use super::panel::Panel;
 
 /// Most that the rugs above or below the curves take (px), and a lane of them.
@@ -36,6 +36,13 @@ impl Rug {
             svg.push_str(&format!("<path d=\"{path}\" stroke=\"{colour}\" stroke-width=\"8\" stroke-opacity=\"0.7\"/>\n"));
         }
     }
+}
+
+/// Appends the ticks of a legend's entry around a position in pixels.
+pub(super) fn write_rug_key(svg: &mut String, (x_px, y_px): (f64, f64)) {
+    let tick = |at_px: f64| format!("M{} {}v{}", units(x_px + at_px), units(y_px - 4.0), units(8.0));
+    let ticks = [-12.0, -7.0, -5.0, 0.0, 6.0].map(tick).concat();
+    svg.push_str(&format!("<path d=\"{ticks}\" stroke=\"{}\" stroke-width=\"8\"/>\n", hex(INK)));
 }
 
 /// What the lanes of `devices` take above or below the curves (px).

@@ -1,14 +1,13 @@
 //! The figure of a study of sensitivity: how much each variant changes the peak rotation of each device.
 
-use super::layer::{Anchor, Text, document, escape, units, write_disc, write_rect};
-use super::legend::{BOLD_WIDTH, write_heading};
-use super::palette::{Colour, GROUND, GUIDE, INK, device_look, hex};
+use super::layer::{Anchor, Text, document, escape, path_through, units, write_disc, write_path, write_rect};
+use super::legend::{BOLD_WIDTH, DrawMark, LegendEntry, Swatch, write_heading};
+use super::palette::{Colour, GROUND, INK, Stroke, device_look, hex};
+use super::panel::{BOTTOM_LABELS_PX, MARGIN_PX, Panel};
 use super::text_width::text_width_px;
-use super::ticks::{round_ticks, tick_text};
 use super::{FigureTitle, PlotError};
 
 const WIDTH_PX: f64 = 900.0;
-const MARGIN_PX: f64 = 12.0;
 /// Left of the axis, for effects and variants, at least.
 const LABELS_PX: f64 = 280.0;
 /// Where variants start, right of their effects, at least.
@@ -17,6 +16,8 @@ const VARIANT_PX: f64 = 96.0;
 const LABEL_GAP_PX: f64 = 12.0;
 /// Right of the axis, for one column of counts.
 const COUNT_PX: f64 = 62.0;
+/// Above the axis, for the titles of these columns.
+const HEAD_PX: f64 = 34.0;
 const LANE_PX: f64 = 13.0;
 const ROW_GAP_PX: f64 = 7.0;
 const FONT_PX: f64 = 11.5;
@@ -100,20 +101,19 @@ pub fn sensitivity_figure(
     let labels_px = (variant_px + widest(&|row| text_width_px(&row.variant, FONT_PX)) + LABEL_GAP_PX).max(LABELS_PX);
     let figure_px = WIDTH_PX + labels_px - LABELS_PX;
     let (left_px, width_px) = (MARGIN_PX, figure_px - 2.0 * MARGIN_PX);
-    let heading_px = write_heading(&mut body, &title, &[], (left_px, width_px), MARGIN_PX);
-    let used: Vec<usize> = (0..devices.len()).filter(|index| lanes().any(|lane| lane.device == *index)).collect();
-    let legend_px = write_legend(&mut body, devices, &used, (left_px, width_px), heading_px - 2.0);
+    let legend_px = write_heading(&mut body, &title, &keys(devices, rows), (left_px, width_px), MARGIN_PX);
 
     let row_px = |row: &SensitivityRow| row.lanes.len().max(1) as f64 * LANE_PX + ROW_GAP_PX;
-    let axis = Axis {
-        left_px: left_px + labels_px,
-        width_px: width_px - labels_px - 2.0 * COUNT_PX,
-        top_px: legend_px + 34.0,
-        bottom_px: legend_px + 34.0 + rows.iter().map(row_px).sum::<f64>(),
-        limit: limit(lanes().flat_map(SensitivityLane::values)),
-    };
+    let limit = limit(lanes().flat_map(SensitivityLane::values));
+    let panel = Panel::new(
+        (left_px + labels_px, legend_px + HEAD_PX),
+        (width_px - labels_px - 2.0 * COUNT_PX, rows.iter().map(row_px).sum()),
+        -100.0 * limit..100.0 * limit,
+        0.0..1.0,
+    );
+    let axis = Axis { panel: Panel { y_ticks: false, ..panel }, limit };
     let mut marks = String::new();
-    let (mut top_px, mut band) = (axis.top_px, false);
+    let (mut top_px, mut band) = (axis.panel.top_px, false);
     for (index, row) in rows.iter().enumerate() {
         let starts = index == 0 || rows[index - 1].effect != row.effect;
         band ^= starts;
@@ -137,7 +137,7 @@ pub fn sensitivity_figure(
     axis.write(&mut body);
     body.push_str(&marks);
 
-    let height_px = axis.bottom_px + 46.0;
+    let height_px = axis.panel.bottom_px() + BOTTOM_LABELS_PX + 4.0;
     Ok(document(&title.text, (figure_px, height_px), &body))
 }
 
@@ -159,57 +159,31 @@ fn limit(changes: impl Iterator<Item = f64>) -> f64 {
     LIMITS.into_iter().find(|limit| held <= *limit).unwrap_or(LIMITS[LIMITS.len() - 1])
 }
 
-/// The shared axis.
+/// The panel of the changes, in percent, and the columns of counts on its right.
 struct Axis {
-    left_px: f64,
-    width_px: f64,
-    top_px: f64,
-    bottom_px: f64,
-    /// Half-width, relative.
+    panel: Panel<'static>,
+    /// Largest change that it shows, relative.
     limit: f64,
 }
 
 impl Axis {
-    fn right_px(&self) -> f64 {
-        self.left_px + self.width_px
-    }
-
     fn position_px(&self, change: f64) -> f64 {
-        self.left_px + 0.5 * self.width_px * (1.0 + change / self.limit)
+        self.panel.position_px((100.0 * change, 0.0)).0
     }
 
     /// Middle of the column of counts number `index`.
     fn column_px(&self, index: usize) -> f64 {
-        self.right_px() + (index as f64 + 0.5) * COUNT_PX
+        self.panel.right_px() + (index as f64 + 0.5) * COUNT_PX
     }
 
     fn write(&self, svg: &mut String) {
-        let range = -100.0 * self.limit..100.0 * self.limit;
-        let ticks = round_ticks(&range, 8, 0.0);
-        let step = ticks.get(1).zip(ticks.first()).map_or(1.0, |(second, first)| second - first);
-        let (top, bottom) = (units(self.top_px), units(self.bottom_px));
-        for &tick in &ticks {
-            let x = units(self.position_px(tick / 100.0));
-            let (colour, width) = if tick == 0.0 { (INK, 10) } else { (GUIDE, 4) };
-            svg.push_str(&format!(
-                "<path d=\"M{x} {top}V{}\" stroke=\"{}\" stroke-width=\"{width}\"/>\n",
-                bottom + units(4.0),
-                hex(colour)
-            ));
-            let sign = if tick > 0.0 { "+" } else { "" };
-            let text = format!("{sign}{}", tick_text(tick, step));
-            let at = (self.position_px(tick / 100.0), self.bottom_px + 17.0);
-            Text { anchor: Anchor::Middle, ..Text::new(&text, at, SMALL_FONT_PX) }.write(svg, false);
-        }
-        let at = (self.left_px + 0.5 * self.width_px, self.bottom_px + 36.0);
-        let text = Text::new("change of the peak rotation (%)", at, 13.0);
-        Text { anchor: Anchor::Middle, ..text }.write(svg, false);
-        for edge in [self.left_px, self.right_px()] {
-            svg.push_str(&format!("<path d=\"M{} {top}V{bottom}\" stroke=\"{}\" stroke-width=\"8\"/>\n", units(edge), hex(INK)));
-        }
+        self.panel.write_grid(svg);
+        let zero = [self.panel.y.start, self.panel.y.end].map(|at| self.panel.position_px((0.0, at)));
+        write_path(svg, &path_through(zero), Stroke { width_px: 1.0, ..Stroke::solid(INK) });
+        self.panel.write_frame(svg, Some("change of the peak rotation (%)"));
         for (index, words) in [["overturns", "instead"], ["stands", "instead"]].into_iter().enumerate() {
             for (line, word) in words.into_iter().enumerate() {
-                let at = (self.column_px(index), self.top_px - 18.0 + 12.0 * line as f64);
+                let at = (self.column_px(index), self.panel.top_px - 18.0 + 12.0 * line as f64);
                 Text { anchor: Anchor::Middle, colour: GROUND, ..Text::new(word, at, SMALL_FONT_PX) }.write(svg, false);
             }
         }
@@ -218,7 +192,6 @@ impl Axis {
 
 fn write_lane(svg: &mut String, axis: &Axis, lane: &SensitivityLane, middle_px: f64) {
     let colour = device_look(lane.device).colour;
-    let y = units(middle_px);
     for &change in &lane.changes {
         if change.abs() <= axis.limit {
             write_disc(svg, (axis.position_px(change), middle_px), DOT_PX, colour, " fill-opacity=\"0.45\"");
@@ -226,20 +199,17 @@ fn write_lane(svg: &mut String, axis: &Axis, lane: &SensitivityLane, middle_px: 
             write_beyond(svg, axis, change, middle_px, colour);
         }
     }
-    if let Some([low, median, high]) = lane.quantiles {
-        let inside = |change: f64| axis.position_px(change.clamp(-axis.limit, axis.limit));
-        let (from, to) = (units(inside(low)), units(inside(high)));
-        svg.push_str(&format!("<path d=\"M{from} {y}H{to}\" stroke=\"{}\" stroke-width=\"16\"/>\n", hex(colour)));
-        let edge = " stroke=\"#ffffff\" stroke-width=\"12\"";
-        write_disc(svg, (inside(median), middle_px), MEDIAN_PX, colour, edge);
+    if let Some(quantiles) = lane.quantiles {
+        let inside = quantiles.map(|change| axis.position_px(change.clamp(-axis.limit, axis.limit)));
+        write_quantiles(svg, inside, middle_px, colour);
     }
     match lane.own {
         Some(OwnMark::Change(change)) if change.abs() <= axis.limit => {
             write_diamond(svg, (axis.position_px(change), middle_px), colour);
         }
         Some(OwnMark::Change(change)) => {
-            let edge = if change > 0.0 { axis.right_px() - DIAMOND_PX } else { axis.left_px + DIAMOND_PX };
-            write_diamond(svg, (edge, middle_px), colour);
+            let inwards = if change > 0.0 { -DIAMOND_PX } else { DIAMOND_PX };
+            write_diamond(svg, (axis.position_px(axis.limit.copysign(change)) + inwards, middle_px), colour);
             write_beyond(svg, axis, change, middle_px, colour);
         }
         Some(OwnMark::Overturns) => write_diamond(svg, (axis.column_px(0) - 14.0, middle_px), colour),
@@ -256,6 +226,13 @@ fn write_lane(svg: &mut String, axis: &Axis, lane: &SensitivityLane, middle_px: 
     }
 }
 
+/// Appends the line between the outer quantiles and the disc of the median.
+fn write_quantiles(svg: &mut String, [low_px, median_px, high_px]: [f64; 3], middle_px: f64, colour: Colour) {
+    let (from, to, y) = (units(low_px), units(high_px), units(middle_px));
+    svg.push_str(&format!("<path d=\"M{from} {y}H{to}\" stroke=\"{}\" stroke-width=\"16\"/>\n", hex(colour)));
+    write_disc(svg, (median_px, middle_px), MEDIAN_PX, colour, " stroke=\"#ffffff\" stroke-width=\"12\"");
+}
+
 fn write_diamond(svg: &mut String, (x_px, y_px): (f64, f64), colour: Colour) {
     let half = units(DIAMOND_PX);
     svg.push_str(&format!(
@@ -268,8 +245,8 @@ fn write_diamond(svg: &mut String, (x_px, y_px): (f64, f64), colour: Colour) {
 
 /// A triangle that points over the edge of the axis.
 fn write_beyond(svg: &mut String, axis: &Axis, change: f64, middle_px: f64, colour: Colour) {
-    let (tip, base) = if change > 0.0 { (axis.right_px() + 6.0, -1) } else { (axis.left_px - 6.0, 1) };
-    write_triangle(svg, (tip, middle_px), base, colour);
+    let side = change.signum();
+    write_triangle(svg, (axis.position_px(side * axis.limit) + 6.0 * side, middle_px), -side as i32, colour);
 }
 
 fn write_triangle(svg: &mut String, (x_px, y_px): (f64, f64), base: i32, colour: Colour) {
@@ -283,38 +260,20 @@ fn write_triangle(svg: &mut String, (x_px, y_px): (f64, f64), base: i32, colour:
     ));
 }
 
-/// Appends the devices' colours and the marks; returns the lower edge (px).
-fn write_legend(svg: &mut String, devices: &[String], used: &[usize], (left_px, width_px): (f64, f64), top_px: f64) -> f64 {
-    type Mark<'a> = Box<dyn Fn(&mut String, (f64, f64)) + 'a>;
-    let mut entries: Vec<(Mark<'_>, &str)> = Vec::new();
-    for &index in used {
-        let colour = device_look(index).colour;
-        let mark: Mark<'_> =
-            Box::new(move |svg, (x, y)| write_rect(svg, (units(x - 6.0), units(y - 5.0)), (units(12.0), units(10.0)), colour));
-        entries.push((mark, &devices[index]));
-    }
-    let devices = entries.len();
-    entries.push((Box::new(|svg, at| write_disc(svg, at, DOT_PX, INK, " fill-opacity=\"0.45\"")), "a record"));
-    let median: Mark<'_> = Box::new(|svg, (x, y)| {
-        let (from, to, y_units) = (units(x - 9.0), units(x + 9.0), units(y));
-        svg.push_str(&format!("<path d=\"M{from} {y_units}H{to}\" stroke=\"{}\" stroke-width=\"16\"/>\n", hex(INK)));
-        write_disc(svg, (x, y), MEDIAN_PX, INK, " stroke=\"#ffffff\" stroke-width=\"12\"");
-    });
-    entries.push((median, "median, 16th to 84th percentile"));
-    entries.push((Box::new(|svg, at| write_diamond(svg, at, INK)), "the scene's own motion"));
-    entries.push((Box::new(|svg, (x, y)| write_triangle(svg, (x + 3.0, y), -1, INK)), "beyond the axis"));
-
-    let (mut x, mut middle) = (left_px, top_px + 9.0);
-    for (index, (mark, name)) in entries.iter().enumerate() {
-        let entry_px = 24.0 + text_width_px(name, FONT_PX);
-        if index == devices || (x > left_px && x + entry_px > left_px + width_px) {
-            (x, middle) = (left_px, middle + 18.0);
-        }
-        mark(svg, (x + 9.0, middle));
-        Text::new(&escape(name), (x + 24.0, middle + 0.36 * FONT_PX), FONT_PX).write(svg, false);
-        x += entry_px + 14.0;
-    }
-    middle + 9.0
+/// Legend entries of the devices that are drawn, and of all marks.
+fn keys(devices: &[String], rows: &[SensitivityRow]) -> [Vec<LegendEntry>; 2] {
+    let used = |index: &usize| rows.iter().flat_map(|row| &row.lanes).any(|lane| lane.device == *index);
+    let device = |index: usize| (Swatch::Tint(device_look(index).colour), devices[index].clone());
+    let marks: [(DrawMark, &str); 4] = [
+        (|svg, at| write_disc(svg, at, DOT_PX, INK, " fill-opacity=\"0.45\""), "a record"),
+        (|svg, (x, y)| write_quantiles(svg, [x - 9.0, x, x + 9.0], y, INK), "median, 16th to 84th percentile"),
+        (|svg, at| write_diamond(svg, at, INK), "the scene's own motion"),
+        (|svg, (x, y)| write_triangle(svg, (x + 3.0, y), -1, INK), "beyond the axis"),
+    ];
+    [
+        (0..devices.len()).filter(used).map(device).collect(),
+        marks.map(|(draw, name)| (Swatch::Drawn(draw), name.to_owned())).to_vec(),
+    ]
 }
 
 #[cfg(test)]

@@ -16,6 +16,21 @@ pub enum Scale {
     Logarithmic,
 }
 
+impl Scale {
+    /// Where `value` is on an axis: its decimal logarithm on a logarithmic one, where only positive values are.
+    pub(super) fn place(self, value: f64) -> Option<f64> {
+        match self {
+            Scale::Linear => Some(value),
+            Scale::Logarithmic => (value > 0.0).then(|| math::log10(value)),
+        }
+    }
+}
+
+/// Whether `value` can be drawn: the square root keeps sums and differences of such values finite too.
+pub(super) fn drawable(value: f64) -> bool {
+    value.abs() < f64::MAX.sqrt()
+}
+
 /// Air beyond the outermost points, relative to the range.
 const AIR: f64 = 0.05;
 /// A linear vertical axis starts at zero when the values reach down to this part of the highest.
@@ -220,7 +235,7 @@ pub(super) fn tick_text(value: f64, step: f64) -> String {
     if value < 0.0 && text != "0" { format!("\u{2212}{text}") } else { text }
 }
 
-/// With the digits that tell ticks `step` apart.
+/// With the digits that distinguish ticks `step` apart.
 fn scientific(size: f64, step: f64) -> String {
     let power = |value: f64| (math::log10(value) + 1e-9).floor();
     let decimals = (power(size) - power(step)).clamp(0.0, 15.0) as usize;

@@ -5,6 +5,7 @@ use std::ops::Range;
 use sprag_sim::history::History;
 
 use super::PlotError;
+use super::ticks::drawable;
 
 /// The scale of a figure's time axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -42,6 +43,44 @@ pub(super) fn time_span(histories: &[History], axes: TimeAxis) -> Result<Range<f
         let scale = axes.scale(history.frequency_parameter_1_s);
         history.samples.iter().map(move |sample| scale * sample.time_s)
     }))
+}
+
+/// Refuses what cannot be drawn of a trace over `time`: `values` and `lengths` of another length, numbers too large, and times out of
+/// order.
+pub(super) fn check_trace(
+    device: &str,
+    time: &[f64],
+    values: &[(&str, &[f64])],
+    lengths: &[(&str, usize)],
+    faults: &[(f64, String)],
+) -> Result<(), PlotError> {
+    let expected = time.len();
+    let mut lengths = values.iter().map(|(name, values)| (*name, values.len())).chain(lengths.iter().copied());
+    if let Some((name, found)) = lengths.find(|(_, found)| *found != expected) {
+        return Err(PlotError::WrongLength { name: name.to_owned(), found, expected });
+    }
+    let not_finite = |time_s: f64| Err(PlotError::NotFinite { device: device.to_owned(), time_s });
+    for (index, &time_s) in time.iter().enumerate() {
+        if !drawable(time_s) || !values.iter().all(|(_, values)| drawable(values[index])) {
+            return not_finite(time_s);
+        }
+    }
+    match faults.iter().find(|(time, _)| !drawable(*time)) {
+        Some(&(time_s, _)) => not_finite(time_s),
+        None => check_order(device, time.iter().copied()),
+    }
+}
+
+/// Refuses `times` out of order.
+pub(super) fn check_order(device: &str, times: impl Iterator<Item = f64>) -> Result<(), PlotError> {
+    let mut before = f64::NEG_INFINITY;
+    for time_s in times {
+        if time_s < before {
+            return Err(PlotError::TimeGoesBack { device: device.to_owned(), time_s });
+        }
+        before = time_s;
+    }
+    Ok(())
 }
 
 /// From the first to the last of `times`.

@@ -1,17 +1,16 @@
 //! Panels of a probability against what it costs: a line of designs for each series, the Pareto front below them, and the limit.
 
 use super::curve::write_curve;
-use super::layer::{document, write_area, write_disc};
-use super::legend::{Key, Swatch, write_heading};
-use super::marker::{device_marker, write_chosen};
+use super::layer::{write_area, write_disc};
+use super::legend::{LegendEntry, Swatch};
+use super::marker::{device_marker, write_chosen, write_chosen_key};
 use super::palette::{FRONT, GUIDE, INK, Stroke, device_look, guide_stroke};
-use super::panel::{BOTTOM_LABELS_PX, LEFT_LABELS_PX, Panel};
+use super::panel::{LEFT_LABELS_PX, Panel};
+use super::panel_grid::PanelGrid;
+use super::panel_heading::Heading;
 use super::{FigureTitle, PlotError};
 use crate::band::Band;
 
-const MARGIN_PX: f64 = 10.0;
-/// Wider on the right, where half of the last tick label sticks out.
-const RIGHT_MARGIN_PX: f64 = 20.0;
 /// Data area of a panel that is alone, and of one of several (px).
 const PANEL_SIZES_PX: [(f64, f64); 2] = [(640.0, 380.0), (390.0, 320.0)];
 const COLUMN_GAP_PX: f64 = 18.0;
@@ -88,35 +87,22 @@ pub fn trade_off_figure(figure: &TradeOffFigure) -> Result<String, PlotError> {
         return Err(PlotError::NotFiniteValue { name: panel.x_title.clone() });
     }
     let columns = figure.panels.len();
-    let (panel_width_px, panel_height_px) = PANEL_SIZES_PX[columns.min(PANEL_SIZES_PX.len()) - 1];
-    let column_px = LEFT_LABELS_PX + panel_width_px + COLUMN_GAP_PX;
-    let width_px = MARGIN_PX + columns as f64 * column_px - COLUMN_GAP_PX + RIGHT_MARGIN_PX;
-    let left_px = MARGIN_PX + LEFT_LABELS_PX;
-    let mut body = String::new();
-    let area = (left_px, width_px - left_px - RIGHT_MARGIN_PX);
-    let top_px = write_heading(&mut body, &figure.title, &figure.keys(), area, MARGIN_PX) + 4.0;
-    let height_px = top_px + panel_height_px + BOTTOM_LABELS_PX + 4.0;
+    let panel_px = PANEL_SIZES_PX[columns.min(PANEL_SIZES_PX.len()) - 1];
+    let grid = PanelGrid { columns, panel_px, gap_px: (LEFT_LABELS_PX + COLUMN_GAP_PX, 0.0), labels_px: 0.0 };
     // Probabilities of all panels are those of the same designs.
     let highest = figure.panels.iter().map(TradeOffPanel::highest).fold(LEAST_SHARE, f64::max);
-    for (column, source) in figure.panels.iter().enumerate() {
-        let corner = (left_px + column as f64 * column_px, top_px);
-        let farthest = source.farthest();
-        let panel = Panel {
-            title: Some("probability of overturning"),
-            ..Panel::new(
-                corner,
-                (panel_width_px, panel_height_px),
-                -AIR * farthest..(1.0 + AIR) * farthest,
-                -AIR * highest..(1.0 + AIR) * highest,
-            )
-        };
-        source.write(&mut body, &panel);
-    }
-    Ok(document(&figure.title.text, (width_px, height_px), &body))
+    let headings: Vec<Heading> = figure.panels.iter().map(|_| Heading::of("", &[], panel_px.0)).collect();
+    grid.document(&figure.title, &figure.keys(), &headings, |svg, place| {
+        let source = &figure.panels[place.index];
+        let [x, y] = [source.farthest(), highest].map(|most| -AIR * most..(1.0 + AIR) * most);
+        let panel = Panel { title: Some("probability of overturning"), ..Panel::new(place.corner_px, panel_px, x, y) };
+        source.write(svg, &panel);
+        Ok(())
+    })
 }
 
 impl TradeOffFigure {
-    fn keys(&self) -> [Vec<Key>; 2] {
+    fn keys(&self) -> [Vec<LegendEntry>; 2] {
         let series =
             |(index, name): (usize, &String)| (Swatch::Fitted(device_look(index), Some(device_marker(index))), name.clone());
         let any = |has: fn(&TradeOffPanel) -> bool| self.panels.iter().any(has);
@@ -128,7 +114,7 @@ impl TradeOffFigure {
             others.push((Swatch::Mark(device_marker(0), GUIDE), "left out of the front".to_owned()));
         }
         if any(|panel| panel.chosen.is_some()) {
-            others.push((Swatch::Chosen, format!("best, with its {}", self.band)));
+            others.push((Swatch::Drawn(write_chosen_key), format!("best, with its {}", self.band)));
         }
         others.push((Swatch::BandedLine(guide_stroke(0), 2.0 * BAND_OPACITY), format!("bare block, with its {}", self.band)));
         [self.series.iter().enumerate().map(series).collect(), others]

@@ -2,7 +2,7 @@
 //!
 //! A motion is followed again with a smaller tolerance. Whatever separates the two, be it truncation or rounding, the impacts and the
 //! nearness of a boundary enlarge alike, so their difference says how far the first is from the truth. Where it is as close as rounding
-//! allows, two more runs that lay their steps otherwise tell how much rounding matters, and the differences are taken larger.
+//! allows, two more runs that lay their steps otherwise show how much rounding matters, and the differences are taken larger.
 
 use serde::Serialize;
 

@@ -129,7 +129,7 @@ impl Case {
         })
     }
 
-    /// Runs the case as accurately as asked, and tells the error.
+    /// Runs the case as accurately as asked, and gives the error.
     ///
     /// # Errors
     /// Those of [`Case::run`].

@@ -5,7 +5,7 @@ use sprag_shared::control::sensing::sample::Sample;
 
 /// Whoever stands between sensors, controller and clutches.
 pub trait Disturbance {
-    /// May change what the controller is told at `time` (s).
+    /// May change what the controller is given at `time` (s).
     fn disturb(&mut self, time: f64, sample: &mut Sample, circumstances: &mut Circumstances);
 
     /// What the clutches do of the controller's `command`; `last` is what they did before.

@@ -1,6 +1,6 @@
-//! What tells the controller which clutches are engaged: a switch at the armature, or the current, which goes before it.
+//! What shows the controller which clutches are engaged: a switch at the armature, or the current, which goes before it.
 
-/// How clutches tell where they are.
+/// How clutches report where they are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Feedback {
     /// By switches at the armatures.

@@ -37,7 +37,7 @@ pub struct Clock {
 pub struct Tick {
     /// The plant.
     pub plant: Whereabouts,
-    /// What the controller was told.
+    /// What the controller was given.
     pub sample: Sample,
     /// And said.
     pub decision: Decision,
@@ -102,7 +102,7 @@ pub struct ClosedLoop<'a> {
     pub suite: &'a Suite,
     /// Of their noise and scatter.
     pub seed: u64,
-    /// What tells the controller which clutches are engaged.
+    /// What shows the controller which clutches are engaged.
     pub feedback: Feedback,
     /// What goes wrong on purpose.
     pub disturbance: &'a mut dyn Disturbance,

@@ -14,8 +14,7 @@ pub const GEOMETRY: Effect = Effect {
     ],
     source: "Thiers-Moggia and Málaga-Chuquitaype 2019, Eq. 2 and 15-18; Housner 1963",
     keys: &["block.geometry"],
-    of_device: false,
-    is_on: |scene, index| (scene.geometry() == Geometry::Slender).then(|| settings(scene, index, GEOMETRY.keys)),
+    is_on: |scene, _| scene.geometry() == Geometry::Slender,
 };
 
 /// Vertical ground motion.
@@ -25,12 +24,7 @@ pub const VERTICAL: Effect = Effect {
     equation: &["g sin δ becomes (g + v̈_g) sin δ; uplift from rest when |ü_g| > (g + v̈_g) tan α; refused unless 1 + v̈_g/g > 0"],
     source: "Yim, Chopra and Penzien 1980",
     keys: &["vertical"],
-    of_device: false,
-    is_on: |scene, _| match scene.file.vertical.len() {
-        0 => None,
-        1 => Some("one [[vertical]] table".to_owned()),
-        several => Some(format!("{several} [[vertical]] tables, summed")),
-    },
+    is_on: |scene, _| !scene.file.vertical.is_empty(),
 };
 
 /// Where η comes from.
@@ -46,6 +40,5 @@ pub const IMPACT: Effect = Effect {
     ],
     source: "Eq. 3 of the paper; Housner 1963; moment of momentum about the new toe with the inerter's impulse, derived here",
     keys: &["block.restitution"],
-    of_device: false,
-    is_on: |scene, index| Some(settings(scene, index, IMPACT.keys)).filter(|setting| !setting.is_empty()),
+    is_on: |scene, index| !settings(scene, index, IMPACT.keys).is_empty(),
 };

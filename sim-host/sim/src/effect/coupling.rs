@@ -2,7 +2,7 @@
 
 use sprag_shared::structure::drivetrain::{Actuation, Engagement, FlywheelLosses};
 
-use super::{Effect, settings};
+use super::Effect;
 
 /// Clutches without properties of their own.
 pub const ENGAGEMENT: Effect = Effect {
@@ -14,13 +14,9 @@ pub const ENGAGEMENT: Effect = Effect {
     ],
     source: "Makris and Kampas 2016 for the pair; conservation of angular momentum; kinematics of one-way clutches",
     keys: &["device.N.engagement"],
-    of_device: true,
-    is_on: |scene, index| {
-        let on = match scene.devices[index].drivetrain.engagement {
-            Engagement::Rigid | Engagement::Overrunning => true,
-            Engagement::Ideal | Engagement::Friction { .. } | Engagement::Elastic { .. } => false,
-        };
-        on.then(|| settings(scene, index, ENGAGEMENT.keys))
+    is_on: |scene, index| match scene.devices[index].drivetrain.engagement {
+        Engagement::Rigid | Engagement::Overrunning => true,
+        Engagement::Ideal | Engagement::Friction { .. } | Engagement::Elastic { .. } => false,
     },
 };
 
@@ -42,13 +38,9 @@ pub const CLUTCH: Effect = Effect {
         "device.N.clutch.damping_n_s_m",
         "device.N.clutch.backlash_m",
     ],
-    of_device: true,
-    is_on: |scene, index| {
-        let on = match scene.devices[index].drivetrain.engagement {
-            Engagement::Friction { .. } | Engagement::Elastic { .. } => true,
-            Engagement::Ideal | Engagement::Rigid | Engagement::Overrunning => false,
-        };
-        on.then(|| settings(scene, index, CLUTCH.keys))
+    is_on: |scene, index| match scene.devices[index].drivetrain.engagement {
+        Engagement::Friction { .. } | Engagement::Elastic { .. } => true,
+        Engagement::Ideal | Engagement::Rigid | Engagement::Overrunning => false,
     },
 };
 
@@ -71,11 +63,7 @@ pub const ACTUATION: Effect = Effect {
         "device.N.actuation.miss_probability",
         "device.N.actuation.miss_seed",
     ],
-    of_device: true,
-    is_on: |scene, index| {
-        let on = scene.devices[index].drivetrain.actuation != Actuation::default();
-        on.then(|| settings(scene, index, ACTUATION.keys))
-    },
+    is_on: |scene, index| scene.devices[index].drivetrain.actuation != Actuation::default(),
 };
 
 /// What slows flywheels down.
@@ -89,9 +77,5 @@ pub const FLYWHEEL: Effect = Effect {
         "device.N.flywheel.dry_deceleration_m_s2",
         "device.N.flywheel.brake_deceleration_m_s2",
     ],
-    of_device: true,
-    is_on: |scene, index| {
-        let on = scene.devices[index].drivetrain.flywheel != FlywheelLosses::default();
-        on.then(|| settings(scene, index, FLYWHEEL.keys))
-    },
+    is_on: |scene, index| scene.devices[index].drivetrain.flywheel != FlywheelLosses::default(),
 };

@@ -4,7 +4,7 @@ use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
 use sprag_shared::structure::mount::Mount;
 
-use super::{Effect, settings};
+use super::Effect;
 
 /// Where the inerter is tied.
 pub const MOUNT: Effect = Effect {
@@ -17,11 +17,7 @@ pub const MOUNT: Effect = Effect {
     ],
     source: "Figures 3 and 4 of the paper, Eq. 11; other points by the same derivative",
     keys: &["device.N.mount", "device.N.mount_height_m", "device.N.pulley_ratio"],
-    of_device: true,
-    is_on: |scene, index| {
-        let mount = scene.devices[index].device.mount;
-        (mount != Mount::CentreOfMass).then(|| settings(scene, index, MOUNT.keys))
-    },
+    is_on: |scene, index| scene.devices[index].device.mount != Mount::CentreOfMass,
 };
 
 /// The θ̇² term.
@@ -31,11 +27,7 @@ pub const KINEMATICS: Effect = Effect {
     equation: &["paper:      ü = R ℓ θ̈", "consistent: ü = R (ℓ θ̈ + ℓ′ θ̇²)"],
     source: "Eq. 11 of the paper leaves the θ̇² term out; with it, by differentiating the travel twice",
     keys: &["device.N.kinematics"],
-    of_device: true,
-    is_on: |scene, index| {
-        let kinematics = scene.devices[index].device.kinematics;
-        (kinematics == KinematicsKind::Consistent).then(|| settings(scene, index, KINEMATICS.keys))
-    },
+    is_on: |scene, index| scene.devices[index].device.kinematics == KinematicsKind::Consistent,
 };
 
 /// Gravitational mass of the device.
@@ -56,11 +48,9 @@ pub const WEIGHT: Effect = Effect {
         "device.N.weight.rack_kg",
         "device.N.weight.rack_on",
     ],
-    of_device: true,
     is_on: |scene, index| {
         let device = &scene.devices[index];
-        let on = device.added_mass != AddedMass::NONE || device.drivetrain.rack.guided_mass_ratio != 0.0;
-        on.then(|| settings(scene, index, WEIGHT.keys))
+        device.added_mass != AddedMass::NONE || device.drivetrain.rack.guided_mass_ratio != 0.0
     },
 };
 
@@ -76,11 +66,9 @@ pub const RACK: Effect = Effect {
         "device.N.rack.dry_friction_ratio",
         "device.N.rack.dry_friction_n",
     ],
-    of_device: true,
     is_on: |scene, index| {
         let device = &scene.devices[index];
         let rack = device.drivetrain.rack;
-        let on = device.device.kind != DeviceKind::None && (rack.viscous != 0.0 || rack.dry_ratio != 0.0);
-        on.then(|| settings(scene, index, RACK.keys))
+        device.device.kind != DeviceKind::None && (rack.viscous != 0.0 || rack.dry_ratio != 0.0)
     },
 };

@@ -50,8 +50,8 @@ impl Effects {
 
     fn among(scene: &Scene, index: usize, of_device: bool) -> Effects {
         let (mut on, mut off) = (Vec::new(), Vec::new());
-        for effect in EFFECTS.into_iter().filter(|effect| effect.of_device == of_device) {
-            match (effect.is_on)(scene, index) {
+        for effect in EFFECTS.into_iter().filter(|effect| effect.of_device() == of_device) {
+            match effect.setting(scene, index) {
                 Some(keys) => on.push(Setting { effect, keys }),
                 None => off.push(effect.name),
             }

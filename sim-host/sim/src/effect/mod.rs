@@ -30,10 +30,8 @@ pub struct Effect {
     pub source: &'static str,
     /// The paths of its keys in a scene; `N` is the number of a table.
     pub keys: &'static [&'static str],
-    /// Each device has its own; otherwise it is the whole scene's.
-    pub of_device: bool,
-    /// The keys and values by which a scene turns it on for device number n, which the scene has; `None` while it is off.
-    pub is_on: fn(&Scene, usize) -> Option<String>,
+    /// Whether a scene turns it on for device number n, which the scene has.
+    pub is_on: fn(&Scene, usize) -> bool,
 }
 
 /// All of them, in the order of the way from the ground to the flywheels and out.
@@ -62,6 +60,23 @@ impl Effect {
     /// Its keys, described.
     pub fn described_keys(&self) -> impl Iterator<Item = &'static Key> {
         described(self.keys)
+    }
+
+    /// Each device has its own; otherwise it is the whole scene's.
+    pub fn of_device(&self) -> bool {
+        self.keys.iter().all(|key| key.starts_with("device.N."))
+    }
+
+    /// The keys and values by which `scene` turns it on for device number `index`, which the scene has; `None` while it is off.
+    pub fn setting(&self, scene: &Scene, index: usize) -> Option<String> {
+        (self.is_on)(scene, index).then(|| match (self.name, settings(scene, index, self.keys)) {
+            ("vertical", _) => match scene.file.vertical.len() {
+                1 => "one [[vertical]] table".to_owned(),
+                several => format!("{several} [[vertical]] tables, summed"),
+            },
+            ("checks", set) if set.is_empty() => "[checks]".to_owned(),
+            (_, set) => set,
+        })
     }
 }
 

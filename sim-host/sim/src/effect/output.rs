@@ -1,6 +1,6 @@
 //! Effects on what is reported: checks of demands, and the energy ledger. The motion stays as it is.
 
-use super::{Effect, settings};
+use super::Effect;
 
 /// Demands on support and gears.
 pub const CHECKS: Effect = Effect {
@@ -23,12 +23,7 @@ pub const CHECKS: Effect = Effect {
         "checks.largest_force_ratio",
         "checks.largest_stroke_m",
     ],
-    of_device: false,
-    is_on: |scene, index| {
-        scene.file.checks.as_ref()?;
-        let set = settings(scene, index, CHECKS.keys);
-        Some(if set.is_empty() { "[checks]".to_owned() } else { set })
-    },
+    is_on: |scene, _| scene.file.checks.is_some(),
 };
 
 /// Where the energy goes.
@@ -38,6 +33,5 @@ pub const ENERGY: Effect = Effect {
     equation: &["initial + input of the ground + created = kinetic + potential + stored + Σ dissipated"],
     source: "energy balance of block and device",
     keys: &["output.energy"],
-    of_device: false,
-    is_on: |scene, index| scene.file.output.energy.then(|| settings(scene, index, ENERGY.keys)),
+    is_on: |scene, _| scene.file.output.energy,
 };

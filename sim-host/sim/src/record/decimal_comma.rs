@@ -9,7 +9,7 @@ use super::table::{is_acceleration, is_time};
 ///
 /// # Errors
 ///
-/// [`RecordError::DecimalCommas`] where commas seem to be decimal marks, but cannot be told from commas between fields.
+/// [`RecordError::DecimalCommas`] where commas seem to be decimal marks, but cannot be distinguished from commas between fields.
 pub(super) fn with_points(name: &str, lines: &[&str]) -> Result<Option<Vec<String>>, RecordError> {
     let (mut first_comma, mut parted, mut all_decimal, mut leading_zero) = (None, false, true, false);
     for (index, line) in lines.iter().enumerate().filter(|(_, line)| is_numbers(line)) {
@@ -31,7 +31,7 @@ pub(super) fn with_points(name: &str, lines: &[&str]) -> Result<Option<Vec<Strin
     let refused = || RecordError::DecimalCommas { file: name.to_owned(), line: first + 1 };
     match (all_decimal, parted || leading_zero, leading_zero) {
         (true, true, _) => Ok(Some(lines.iter().map(|line| points(line)).collect())),
-        // One comma a line, as between two columns of whole numbers: a line of names tells them apart.
+        // One comma a line, as between two columns of whole numbers: a line of names distinguishes them.
         (true, false, _) if lines[..first].iter().any(|line| names_two_columns(line)) => Ok(None),
         (true, false, _) | (false, _, true) => Err(refused()),
         (false, _, false) => Ok(None),

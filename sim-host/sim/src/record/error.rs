@@ -94,7 +94,7 @@ pub enum RecordError {
     },
     /// Commas that seem to be decimal marks, where commas may part fields as well.
     #[error(
-        "{file}: line {line}: decimal commas: they cannot be told from commas between fields; write decimal points, or part the fields by semicolons"
+        "{file}: line {line}: decimal commas: they cannot be distinguished from commas between fields; write decimal points, or part the fields by semicolons"
     )]
     DecimalCommas {
         /// File as named by the caller.

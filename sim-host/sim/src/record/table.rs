@@ -13,7 +13,7 @@ const MAXIMUM_HEADER_LINES: usize = 100;
 /// A first column is a time column if at least this share of its steps is positive: nine in ten, so that a damaged
 /// time column is reported as one and not read as accelerations, of which half would be positive.
 const TIME_COLUMN_SHARE: f64 = 0.9;
-/// Rows needed to tell a time column from values that happen to grow, in tables of more than two columns.
+/// Rows needed to distinguish a time column from values that happen to grow, in tables of more than two columns.
 const TIME_COLUMN_ROWS: usize = 8;
 
 /// The rows of numbers of a text, and the lines before and between them.

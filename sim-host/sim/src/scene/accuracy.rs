@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use sprag_loops::Method;
 use sprag_shared::method::fixed::FixedStep;
 
@@ -75,11 +76,12 @@ pub enum EventTreatment {
 }
 
 /// `[accuracy]`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AccuracyTable {
     /// Accuracy in place of all other keys of the table: a word, or a relative error of the peak rotation; errors are reported.
-    #[serde(default, skip_serializing_if = "Option::is_none", with = "level")]
+    #[serde(default, with = "level")]
     #[schemars(with = "level::Written")]
     pub level: Option<Accuracy>,
     /// Method of integration.
@@ -96,11 +98,9 @@ pub struct AccuracyTable {
     #[schemars(range(min = 1e-20, max = 1e-2))]
     pub tolerance: f64,
     /// Fixed step; or give `step_ratio`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-7, max = 1.0))]
     pub step_s: Option<f64>,
     /// Fixed step, in 1/p; or give `step_s`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-7, max = 1.0))]
     pub step_ratio: Option<f64>,
 }
@@ -182,7 +182,7 @@ impl AccuracyTable {
     }
 
     /// What only ideal devices, or only elastic clutches, are followed by. `beyond_ideal` is the first key that goes beyond the
-    /// ideal device, if any; `elastic` tells whether any device has an elastic clutch.
+    /// ideal device, if any; `elastic` is whether any device has an elastic clutch.
     ///
     /// # Errors
     /// [`SceneError::Conflict`] names the key.
@@ -208,7 +208,7 @@ impl AccuracyTable {
         Ok(())
     }
 
-    /// By the series, as closely as told.
+    /// By the series, as closely as asked.
     pub fn as_close(closeness: Closeness) -> AccuracyTable {
         AccuracyTable { tolerance: closeness.tolerance, ..AccuracyTable::default() }
     }

@@ -2,27 +2,25 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 use super::error::SceneError;
 use super::schema::KeyOf;
 
 /// `[checks]`; the table turns the checks on.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ChecksTable {
     /// Available coefficient of friction under the block; a warning above. Without it the demand is only reported.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 10.0))]
     pub friction_coefficient: Option<f64>,
     /// Mesh of rack and first pinion; needs `block.mass_kg`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub gear: Option<GearTable>,
     /// Force of both flywheels on their support over the block's weight; a warning above.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e6))]
     pub largest_force_ratio: Option<f64>,
     /// Travel of the terminals; a warning above.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e4))]
     pub largest_stroke_m: Option<f64>,
 }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::error::{Key, SceneError};
+use super::error::{KeyPath, SceneError};
 use super::schema::KeyOf;
 use super::sensors::SensorsTable;
 use crate::sensor::Suite;
@@ -93,7 +93,7 @@ pub enum SafeStateName {
     Engaged,
 }
 
-/// What tells the controller which clutches are engaged.
+/// What shows the controller which clutches are engaged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum FeedbackName {
@@ -174,7 +174,7 @@ pub struct ControllerTable {
     pub engaged_at_rest: bool,
     /// State of the clutches after a fault.
     pub safe_state: SafeStateName,
-    /// What tells the controller which clutches are engaged.
+    /// What shows the controller which clutches are engaged.
     pub feedback: FeedbackName,
     /// Time from a current that engages to a closed clutch, with feedback by current.
     #[schemars(range(min = 0.0, max = 1.0))]
@@ -227,7 +227,7 @@ impl ControllerTable {
     /// # Errors
     /// As [`ControllerTable::check`].
     pub fn suite(&self, origin: &str) -> Result<Suite, SceneError> {
-        self.check(&|key: &str| Key { origin: origin.to_owned(), key: key.to_owned() })
+        self.check(&|key: &str| KeyPath { origin: origin.to_owned(), key: key.to_owned() })
     }
 
     /// The sensors, once everything has been checked.

@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::Block;
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -67,61 +68,48 @@ impl SceneDevice {
 }
 
 /// `[[device]]`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DeviceTable {
     /// Kind of device.
     pub kind: Kind,
     /// Name in tables and legends; its kind without the key.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"pair")]
     pub name: Option<String>,
     /// Mass ratio σ of inertance and block; or give `inertance_kg` or `flywheels`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e4))]
     pub mass_ratio: Option<f64>,
     /// Inertance m_r; or give `mass_ratio` or `flywheels`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub inertance_kg: Option<f64>,
     /// Flywheel train (Eq. 9), the first on the rack; or give `mass_ratio` or `inertance_kg`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(example = EXAMPLE_TRAIN)]
     pub flywheels: Option<Vec<FlywheelTable>>,
     /// Where the device is attached (Figure 3).
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("default" = MountName::default()))]
     pub mount: Option<MountName>,
     /// Height of a tying point above the base.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub mount_height_m: Option<f64>,
     /// Travel of the terminal over that of the tying point or corner; of "tying-point" and "base-corners".
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0, "default" = 1.0))]
     pub pulley_ratio: Option<f64>,
     /// Acceleration of the terminals; always "consistent" where flywheels have a speed of their own.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("default" = KinematicsName::Paper))]
     pub kinematics: Option<KinematicsName>,
     /// How the flywheels of a clutched pair are coupled, in the place of `clutch`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("default" = EngagementName::default()))]
     pub engagement: Option<EngagementName>,
     /// Losses of the flywheels, as deceleration of a rack that moves with them.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub flywheel: Option<FlywheelLossesTable>,
     /// Properties of the clutches of a clutched pair: a capacity makes plates that slip, a stiffness a spring.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub clutch: Option<ClutchTable>,
     /// Friction that the rack meets, whatever the clutch does.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub rack: Option<RackTable>,
     /// Delays between a command and a clutch that has obeyed it.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub actuation: Option<ActuationTable>,
     /// Gravitational mass of the device, and what it rides on.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub weight: Option<WeightTable>,
 }
 
@@ -259,7 +247,7 @@ pub(super) fn default_name(table: &DeviceTable, all: &[DeviceTable]) -> String {
     if all.iter().filter(|other| other.kind == table.kind && other.name.is_none()).count() < 2 {
         return kind.to_owned();
     }
-    // Several of a kind are told apart by what they differ in most often.
+    // Several of a kind are distinguished by what they differ in most often.
     let position = all.iter().position(|other| std::ptr::eq(other, table)).unwrap_or(0);
     match table.mass_ratio {
         Some(ratio) => format!("{kind} {} (σ = {ratio})", position + 1),

@@ -3,7 +3,7 @@
 use serde_path_to_error::{Path, Segment, Track};
 use toml::de::{DeArray, DeTable};
 
-use super::error::{Key, SceneError};
+use super::error::{KeyPath, SceneError};
 use crate::keys::Described;
 use crate::keys::bounds::{Outside, outside};
 
@@ -51,7 +51,9 @@ fn read<T: Described>(table: toml::Table, origin: &str, line: impl FnOnce(&Path)
     })?;
     match outside {
         None => Ok(document),
-        Some(Outside { path, value, range }) => Err(Key { origin: origin.to_owned(), key: path.join(".") }.range(value, &range)),
+        Some(Outside { path, value, range }) => {
+            Err(KeyPath { origin: origin.to_owned(), key: path.join(".") }.range(value, &range))
+        }
     }
 }
 

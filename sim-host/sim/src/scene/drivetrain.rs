@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use sprag_shared::math;
 use sprag_shared::structure::block::{Block, GRAVITY};
 use sprag_shared::structure::device::Device;
@@ -77,57 +78,48 @@ impl BrakeValue {
 }
 
 /// `clutch`: a capacity makes plates that slip, a stiffness a spring.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ClutchTable {
     /// Largest force at the rack over the block's weight; or give `capacity_n`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e6))]
     pub capacity_ratio: Option<f64>,
     /// Largest force at the rack; or give `capacity_ratio`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub capacity_n: Option<f64>,
     /// Stiffness K at the rack, K/(mp²); or give `stiffness_n_m`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub stiffness_ratio: Option<f64>,
     /// Stiffness K at the rack; or give `stiffness_ratio`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub stiffness_n_m: Option<f64>,
     /// Damping C at the rack, ζ = C/(2 √(K m_r)); or give `damping_n_s_m`. With a stiffness.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub damping_ratio: Option<f64>,
     /// Damping C at the rack; or give `damping_ratio`. With a stiffness.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub damping_n_s_m: Option<f64>,
     /// Play at the rack from contact to contact. With a stiffness.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub backlash_m: Option<f64>,
 }
 
 /// `rack`: friction that the rack meets, whatever the clutch does.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RackTable {
     /// Viscous force over the block's mass and the velocity; or give `viscous_n_s_m`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e3))]
     pub viscous_1_s: Option<f64>,
     /// Viscous force over the velocity; or give `viscous_1_s`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub viscous_n_s_m: Option<f64>,
     /// Dry friction over the block's weight; or give `dry_friction_n`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub dry_friction_ratio: Option<f64>,
     /// Dry friction; or give `dry_friction_ratio`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub dry_friction_n: Option<f64>,
 }

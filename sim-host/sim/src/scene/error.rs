@@ -67,14 +67,14 @@ pub enum SceneError {
 
 /// The place of a value, from which errors about it are made.
 #[derive(Debug, Clone)]
-pub struct Key {
+pub struct KeyPath {
     /// File.
     pub origin: String,
     /// Key, with dots.
     pub key: String,
 }
 
-impl Key {
+impl KeyPath {
     /// `value` is outside `range`.
     pub fn range(self, value: f64, range: &str) -> SceneError {
         SceneError::Range { origin: self.origin, key: self.key, value: Number(value).to_string(), range: range.to_owned() }

@@ -4,82 +4,69 @@ use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use sprag_shared::ground::harmonic::MavroeidisPapageorgiou;
 use sprag_shared::ground::{AnySegment, Harmonics, Linear, Ricker};
 use sprag_shared::structure::block::{Block, GRAVITY};
 
-use super::error::{Key, SceneError};
+use super::error::{KeyPath, SceneError};
 use super::schema::KeyOf;
 use crate::ground_motion::Component;
 use crate::record::{Component as RecordComponent, ReadOptions, Record, RecordError, RecordSummary, TIME_STEP_RANGE_S, Units};
 
 /// One `[[ground]]` or `[[vertical]]` table.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GroundTable {
     /// Kind of motion.
     pub motion: Motion,
     /// Amplitude a_g/(g tan α), or a_g/(gα) for the slender model; of horizontal motions.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -1e6, max = 1e6))]
     pub amplitude_ratio: Option<f64>,
     /// Amplitude a_g.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -1e3, max = 1e3))]
     pub amplitude_g: Option<f64>,
     /// Amplitude a_g.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -1e4, max = 1e4))]
     pub amplitude_m_s2: Option<f64>,
     /// Velocity amplitude A of a Mavroeidis-Papageorgiou pulse.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -100.0, max = 100.0))]
     pub velocity_amplitude_m_s: Option<f64>,
     /// Frequency ω_g/p; or give `frequency_hz`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-3, max = 1e4))]
     pub frequency_ratio: Option<f64>,
     /// Frequency; or give `frequency_ratio`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-3, max = 1e3))]
     pub frequency_hz: Option<f64>,
     /// Length of a rectangular pulse; or give `duration_ratio`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-6, max = 1e4))]
     pub duration_s: Option<f64>,
     /// Length of a rectangular pulse, in 1/p; or give `duration_s`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-6, max = 1e4))]
     pub duration_ratio: Option<f64>,
     /// Oscillations γ of a Mavroeidis-Papageorgiou pulse.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 1.0), range(max = 100.0), example = 2.0)]
     pub oscillations: Option<f64>,
     /// Phase ν of a Mavroeidis-Papageorgiou pulse.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -360.0, max = 360.0))]
     pub phase_deg: Option<f64>,
     /// File of a record, relative to the scene.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"near_fault.csv")]
     pub file: Option<PathBuf>,
     /// Whether the file is one of the command line, whose paths are relative to where the user stands.
     #[serde(skip)]
     pub of_command_line: bool,
     /// Units of a record that does not state its own: g, m/s2, cm/s2 (gal), mm/s2, in/s2 or ft/s2.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"g")]
     pub units: Option<String>,
     /// Time step of a record that does not state its own.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-6, max = 10.0))]
     pub time_step_s: Option<f64>,
     /// Component of a record file with several.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"NS")]
     pub component: Option<String>,
     /// Time step to which a record is resampled linearly.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = TIME_STEP_RANGE_S.0, max = TIME_STEP_RANGE_S.1))]
     pub resample_to_s: Option<f64>,
     /// Factor on the whole motion.
@@ -132,12 +119,12 @@ pub enum GroundError {
     #[error("{0}")]
     Scene(#[from] SceneError),
     /// A record.
-    #[error("{error}{}", key.as_ref().map_or_else(String::new, |Key { origin, key }| format!(", or {key} in {origin}")))]
+    #[error("{error}{}", key.as_ref().map_or_else(String::new, |KeyPath { origin, key }| format!(", or {key} in {origin}")))]
     Record {
         /// What is wrong with it.
         error: RecordError,
         /// The key of the scene that repairs it, if one does.
-        key: Option<Key>,
+        key: Option<KeyPath>,
     },
 }
 
@@ -219,7 +206,7 @@ impl GroundTable {
         block: &Block,
         uplift: f64,
         (folder, direction): (&Path, Direction),
-        key: &dyn Fn(&str) -> Key,
+        key: &dyn Fn(&str) -> KeyPath,
         records: &mut Vec<RecordSummary>,
     ) -> Result<Component, GroundError> {
         let p = block.frequency_parameter();

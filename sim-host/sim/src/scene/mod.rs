@@ -96,7 +96,7 @@ impl Scene {
     }
 
     fn check(file: SceneFile, origin: &str) -> Result<Scene, SceneError> {
-        let key = |key: &str| error::Key { origin: origin.to_owned(), key: key.to_owned() };
+        let key = |key: &str| error::KeyPath { origin: origin.to_owned(), key: key.to_owned() };
         let block = file.block.block(&key)?;
         let restitution = file.block.restitution(&key)?;
         if file.device.is_empty() {
@@ -228,7 +228,7 @@ fn refusal(error: &ParameterError, origin: &str, index: usize) -> SceneError {
         rule if rule.ends_with(" restitution") => format!("block.restitution: the {rule} of device.{index}"),
         parameter => format!("device.{index}.{parameter}"),
     };
-    error::Key { origin: origin.to_owned(), key }.range(error.value, error.range)
+    error::KeyPath { origin: origin.to_owned(), key }.range(error.value, error.range)
 }
 
 /// The first key of the scene that takes a device or the ground beyond what an ideal device is followed under, if any.

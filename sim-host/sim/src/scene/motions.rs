@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::Scene;
-use super::error::{Key, SceneError};
+use super::error::{KeyPath, SceneError};
 use super::ground::{Direction, GroundError, GroundTable, Motion};
 use crate::ground_motion::{Component, GroundMotion};
 use crate::record::{Record, RecordSummary};
@@ -109,8 +109,8 @@ impl Scene {
     }
 
     /// The place of `key`, for messages.
-    pub fn key(&self, key: &str) -> Key {
-        Key { origin: self.origin.clone(), key: key.to_owned() }
+    pub fn key(&self, key: &str) -> KeyPath {
+        KeyPath { origin: self.origin.clone(), key: key.to_owned() }
     }
 }
 

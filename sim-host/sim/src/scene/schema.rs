@@ -4,6 +4,7 @@ use std::sync::LazyLock;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use sprag_shared::structure::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::{REST_SPEED, Restitution};
 
@@ -11,7 +12,7 @@ pub use super::accuracy::{AccuracyTable, EventTreatment, MethodName, Precision};
 use super::checks::ChecksTable;
 use super::controller::ControllerTable;
 pub use super::device::{DeviceTable, Kind, KinematicsName, MountName};
-use super::error::{Key, SceneError};
+use super::error::{KeyPath, SceneError};
 use super::ground::GroundTable;
 use super::map::MapTable;
 use crate::keys::{Described, schema_of};
@@ -19,10 +20,11 @@ use crate::keys::{Described, schema_of};
 /// Default of `run.free_time_ratio`, in 1/p.
 pub const FREE_TIME_RATIO: f64 = 20.0;
 
-/// Makes the [`Key`] of a name.
-pub type KeyOf<'a> = dyn Fn(&str) -> Key + 'a;
+/// Makes the [`KeyPath`] of a name.
+pub type KeyOf<'a> = dyn Fn(&str) -> KeyPath + 'a;
 
 /// A scene file.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Sprag scene")]
@@ -49,13 +51,10 @@ pub struct SceneFile {
     #[serde(default)]
     pub accuracy: AccuracyTable,
     /// Checks of what a device demands of its support and gears; the table turns them on.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub checks: Option<ChecksTable>,
     /// Controller of the clutches, for `sprag loop`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub controller: Option<ControllerTable>,
     /// Axes of an overturning map, for `sprag map`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub map: Option<MapTable>,
     /// What is written.
     #[serde(default)]
@@ -70,15 +69,14 @@ impl Described for SceneFile {
 }
 
 /// `[block]`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BlockTable {
     /// Size R, from a toe to the centre of mass; or give `frequency_parameter_1_s`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-3, max = 1e4))]
     pub size_m: Option<f64>,
     /// Frequency parameter p = √(g/(λR)); or give `size_m`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-2, max = 1e3))]
     pub frequency_parameter_1_s: Option<f64>,
     /// Slenderness α, the angle between the vertical and the line from a toe to the centre of mass.
@@ -89,7 +87,6 @@ pub struct BlockTable {
     #[schemars(range(min = 1.0, max = 4.0))]
     pub inertia_ratio: f64,
     /// Mass m; needed by values in kg, N, N/m and N s/m.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub mass_kg: Option<f64>,
     /// Equation of motion.
@@ -187,15 +184,14 @@ impl BlockTable {
 }
 
 /// `[run]`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RunTable {
     /// Time after the ground motion; or give `free_time_ratio`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e5))]
     pub free_time_s: Option<f64>,
     /// Time after the ground motion, in 1/p; or give `free_time_s`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e5), extend("default" = FREE_TIME_RATIO))]
     pub free_time_ratio: Option<f64>,
     /// Angular velocity θ̇/(pα) below which an impact may end in rest.

@@ -9,8 +9,9 @@ mod tests;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
-use super::error::{Key, SceneError};
+use super::error::{KeyPath, SceneError};
 use super::schema::KeyOf;
 use crate::sensor::preset::{self, Preset};
 use crate::sensor::{Inertial, Suite};
@@ -23,27 +24,22 @@ pub use name_or::NameOr;
 const SEED: u64 = 1;
 
 /// `sensors`. Without any key all sensors are ideal.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SensorsTable {
     /// All sensors by one name; each can be replaced by the keys below.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"icm-42688-p")]
     pub suite: Option<String>,
     /// Gyroscope on the block, by name or by table.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub gyroscope: Option<NameOr<GyroscopeTable>>,
     /// Accelerometers on the block, by name or by table.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub block_accelerometer: Option<NameOr<AccelerometerTable>>,
     /// Accelerometer on the ground, by name or by table.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub ground_accelerometer: Option<NameOr<AccelerometerTable>>,
     /// Encoder on the rack, by name or by table.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub encoder: Option<NameOr<EncoderTable>>,
     /// Seed of errors and noise.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("default" = SEED))]
     pub seed: Option<u64>,
 }
@@ -114,7 +110,7 @@ fn part<P: Copy, T: Change<P>>(
 fn find<P: Copy>(presets: &'static [Preset<P>], name: &str, place: &str, key: &KeyOf<'_>) -> Result<P, SceneError> {
     preset::find(presets, name).ok_or_else(|| {
         let known: Vec<String> = preset::names(presets).map(|name| format!("\"{name}\"")).collect();
-        let Key { origin, key } = key(place);
+        let KeyPath { origin, key } = key(place);
         SceneError::Range { origin, key, value: format!("\"{name}\""), range: format!("one of {}", known.join(", ")) }
     })
 }

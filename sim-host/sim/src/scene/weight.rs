@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use sprag_shared::math;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::Block;
@@ -30,26 +31,23 @@ pub enum Seat {
 }
 
 /// `weight`. Masses are those of all flywheels, with gears and housing, and of the rack.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WeightTable {
     /// Mass of all flywheels, gears and housing over the block's; or give `flywheels_kg`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub flywheels_ratio: Option<f64>,
     /// Mass of all flywheels, gears and housing; or give `flywheels_ratio`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub flywheels_kg: Option<f64>,
     /// What flywheels, gears and housing ride on.
     #[serde(default)]
     pub flywheels_on: Seat,
     /// Mass of the rack over the block's; or give `rack_kg`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub rack_ratio: Option<f64>,
     /// Mass of the rack; or give `rack_ratio`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub rack_kg: Option<f64>,
     /// What the rack rides on.

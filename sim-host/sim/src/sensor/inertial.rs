@@ -82,7 +82,7 @@ pub(super) struct InertialSensor<const AXES: usize> {
     low_pass: Option<LowPass>,
     filtered: [State; AXES],
     clock: Option<Clock>,
-    /// Of the truth last told, s.
+    /// Of the truth last given, s.
     time: f64,
     /// That truth, with scale and misalignment.
     input: [f64; AXES],

@@ -2,7 +2,7 @@
 //!
 //! - [`inertial`]: gyroscope and accelerometers, with [`noise`], [`drift`], a low-pass filter, quantisation and saturation;
 //! - [`encoder`]: the incremental encoder on the rack;
-//! - [`sampling`]: when they sample and how late they tell;
+//! - [`sampling`]: when they sample and how late they report;
 //! - [`preset`]: parts by name.
 //!
 //! Not modelled: temperature, non-linearity, vibration rectification, a gyroscope's sensitivity to acceleration, saturation ahead of the

@@ -11,7 +11,7 @@ const FURTHEST: f64 = 0.45;
 /// Instants at which a sensor samples and at which its readings can be read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampling {
-    /// Output data rate, Hz. 0 is continuous: a reading at every instant that the truth is told.
+    /// Output data rate, Hz. 0 is continuous: a reading at every instant that the truth is given.
     pub rate: f64,
     /// Samples at whole periods after time 0, as a sensor does that the controller clocks, or that clocks the controller. Otherwise the
     /// sensor runs freely: its first sample falls anywhere in the first period.
@@ -64,7 +64,7 @@ impl Clock {
         self.next = self.first + self.index as f64 * self.period + shift;
     }
 
-    /// Goes on to the instant after the next.
+    /// Advances to the instant after the next.
     #[inline]
     pub(super) fn step(&mut self) {
         self.index += 1;

@@ -195,7 +195,7 @@ fn latency_is_kept_to_within_the_sampling() {
             for index in 1..20_000 {
                 let time = 1e-4 * f64::from(index);
                 sensors.advance(time, &rate(time));
-                // The truth is the time, so that the reading tells when it was taken.
+                // The truth is the time, so that the reading shows when it was taken.
                 let age = time - f64::from(sensors.sample().gyroscope.value);
                 assert!(time < 0.01 || (age > latency - 1e-6 && age < latency + 0.6e-3 + 1e-6), "{latency}: {age}");
             }

@@ -132,7 +132,7 @@ impl<'a> Course<'a> {
         ended.map_err(|end| end.after(self.ground.duration()))
     }
 
-    /// Follows a device with a memory as [`Course::follow`] an ideal one, and tells `observer` of every swing.
+    /// Follows a device with a memory as [`Course::follow`] an ideal one, and reports every swing to `observer`.
     ///
     /// # Errors
     /// Those of [`Course::follow`].

@@ -4,6 +4,8 @@ use serde::Serialize;
 
 use super::board::BoardCost;
 use super::variant::Variant;
+use crate::statistics::front::undominated;
+use crate::statistics::{DemandPoint, PowerLaw};
 
 /// One device, followed in one way.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,33 +80,22 @@ impl Row {
 
 /// Marks the rows of every device that no other one beats in both time and error.
 pub fn mark_front(rows: &mut [Row]) {
-    for index in 0..rows.len() {
-        let Some(error) = rows[index].peak_error else { continue };
-        let (device, time) = (rows[index].device, rows[index].nanoseconds);
-        let beaten = rows.iter().any(|other| {
-            let closer = other.peak_error.is_some_and(|own| own < error || (own == error && other.nanoseconds < time));
-            other.device == device && closer && other.nanoseconds <= time
-        });
-        rows[index].on_front = !beaten && rows[index].outcome_right;
+    for device in 0..rows.iter().map(|row| row.device + 1).max().unwrap_or(0) {
+        let cost = |row: &Row| row.peak_error.filter(|_| row.device == device).map(|error| (row.nanoseconds, error));
+        let on_front = undominated(&rows.iter().filter_map(cost).collect::<Vec<_>>());
+        for (row, on_front) in rows.iter_mut().filter(|row| cost(row).is_some()).zip(on_front) {
+            row.on_front = on_front && row.outcome_right;
+        }
     }
 }
 
 /// Order of a family: the slope of the error over the step, both in logarithms, by least squares over the points with errors from
 /// `floor` to 0.1. `None` with fewer than three.
 pub fn order(points: impl Iterator<Item = (f64, f64)>, floor: f64) -> Option<f64> {
-    let points: Vec<(f64, f64)> = points
-        .filter(|(_, error)| (floor..=0.1).contains(error))
-        .map(|(step, error)| (sprag_shared::math::ln(step), sprag_shared::math::ln(error)))
-        .collect();
-    if points.len() < 3 {
-        return None;
-    }
-    let count = points.len() as f64;
-    let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / count, y + point.1 / count));
-    let (xx, xy) = points
-        .iter()
-        .fold((0.0, 0.0), |(xx, xy), point| (xx + (point.0 - x) * (point.0 - x), xy + (point.0 - x) * (point.1 - y)));
-    Some(xy / xx)
+    // An error is a power of the step, as a demand is one of an intensity.
+    let read = points.filter(|(_, error)| (floor..=0.1).contains(error));
+    let points: Vec<DemandPoint> = read.map(|(intensity, demand)| DemandPoint { intensity, demand }).collect();
+    Some(PowerLaw::fit(&points).ok()?.b)
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use sprag_sim::ground_motion::{self, GroundMotion};
 use sprag_sim::record::{Component, ReadOptions, Record, RecordSummary, STANDARD_GRAVITY_M_S2, Warning, warning_lines};
 use sprag_sim::scene::SceneError;
-use sprag_sim::scene::error::Key;
+use sprag_sim::scene::error::KeyPath;
 use sprag_sim::scene::motions::GroundMotions;
 
 use super::folder;
@@ -118,7 +118,7 @@ fn sources(study: &Study, found: &mut StudyRecords) -> Result<Vec<Source>, Scene
         let path = match entry {
             RecordEntry::Path(path) => path,
             RecordEntry::Described(DescribedRecord { file, units, time_step_s, component }) => {
-                let key = |key: &str| Key { origin: study.origin.clone(), key: key.to_owned() };
+                let key = |key: &str| KeyPath { origin: study.origin.clone(), key: key.to_owned() };
                 check_units(units.as_deref(), &format!("records.{index}"), &key)?;
                 options.units = units.as_ref().and_then(|units| units.parse().ok()).or(options.units);
                 options.time_step_s = time_step_s.or(options.time_step_s);
@@ -178,7 +178,7 @@ mod tests {
         for part in ["empty: no file in it", "broken.csv", "gone.csv"] {
             assert!(found.unreadable.iter().any(|line| line.contains(part) && !line.contains('\n')), "{part}");
         }
-        // Two of one name are told apart.
+        // Two of one name are distinguished.
         let found = StudyRecords::read(&study(folder.path(), "['a/1.csv', 'a/deeper/1.csv']")).unwrap();
         assert!(names(&found)[0].ends_with("/a/1.csv") && names(&found)[1].ends_with("/a/deeper/1.csv"));
     }
@@ -191,10 +191,10 @@ mod tests {
         assert_eq!(of("['plain.g3']").records.len(), 0);
         let described = of("[{ file = 'plain.g3', units = 'm/s2', time_step_s = 0.02 }]");
         assert_eq!(described.records[0].motion.record.time_step_s, 0.02);
-        let mut told = study(folder.path(), "['plain.g3']");
+        let mut given = study(folder.path(), "['plain.g3']");
         let units = Some("m/s2".to_owned());
-        told.apply_record_options(&RecordTable { units, time_step_s: Some(0.02), ..RecordTable::default() });
-        assert_eq!(StudyRecords::read(&told).unwrap().records[0].motion.record, described.records[0].motion.record);
+        given.apply_record_options(&RecordTable { units, time_step_s: Some(0.02), ..RecordTable::default() });
+        assert_eq!(StudyRecords::read(&given).unwrap().records[0].motion.record, described.records[0].motion.record);
         let of_all = of("['plain.g3']\n[record]\nunits = 'm/s2'\ntime_step_s = 0.02");
         assert_eq!(of_all.records[0].motion.record, described.records[0].motion.record);
         let study = study(folder.path(), "[{ file = 'plain.g3', units = 'furlongs' }]");

@@ -28,7 +28,7 @@ impl RunList<'_> {
         writer.finish()
     }
 
-    /// The run that row number `row` tells of.
+    /// The run of row number `row`.
     ///
     /// # Errors
     /// When it is the row of another run, or none.

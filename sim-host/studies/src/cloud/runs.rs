@@ -182,7 +182,7 @@ impl<'a> RunList<'a> {
 }
 
 impl Runs {
-    /// Runs `study` under `records`. `begin` is told how many runs there will be, `done` is called after each.
+    /// Runs `study` under `records`. `begin` is given how many runs there will be, `done` is called after each.
     ///
     /// # Errors
     /// [`RunError::Interrupted`]; runs that fail are among [`Runs::left_out`].
@@ -274,7 +274,7 @@ impl Subject<'_> {
         runs
     }
 
-    /// What becomes of the block under each of `shakings` with device number `device`, where the lanes can tell.
+    /// What becomes of the block under each of `shakings` with device number `device`, where the lanes can know.
     fn in_lanes(
         &self,
         device: usize,

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use serde::Serialize;
-use sprag_sim::scene::error::Key;
+use sprag_sim::scene::error::KeyPath;
 use sprag_sim::scene::ground::Motion;
 use sprag_sim::scene::schema::SceneFile;
 use sprag_sim::scene::{Scene, SceneError};
@@ -45,7 +45,7 @@ pub(super) fn structures(
     folder: &Path,
     overrides: &[String],
 ) -> Result<Vec<StudyStructure>, StudyError> {
-    let key = |key: &str| Key { origin: origin.to_owned(), key: key.to_owned() };
+    let key = |key: &str| KeyPath { origin: origin.to_owned(), key: key.to_owned() };
     let load = |overrides: &[String]| match &file.scene {
         Some(path) => Scene::load(&folder.join(path), overrides),
         None => Scene::parse_with(PIER, "the scene of a study that names none", overrides),
@@ -75,7 +75,7 @@ pub(super) fn structures(
 
 /// A structure, if the records of a study can be its ground motion.
 fn structure(name: String, scene: Scene) -> Result<StudyStructure, SceneError> {
-    let key = |key: &str| Key { origin: scene.origin.clone(), key: key.to_owned() };
+    let key = |key: &str| KeyPath { origin: scene.origin.clone(), key: key.to_owned() };
     let ground = &scene.file.ground;
     if ground.len() != 1 || ground[0].motion != Motion::Record {
         let reason = "a study shakes by its records: the scene needs one [[ground]] table, with motion = \"record\"";

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use sprag_sim::record::{Component, ReadOptions, Units};
-use sprag_sim::scene::error::Key;
+use sprag_sim::scene::error::KeyPath;
 use sprag_sim::scene::{Scene, SceneError, document, text_of};
 
 use super::measure::Measure;
@@ -86,7 +86,7 @@ impl Study {
         records: &[PathBuf],
     ) -> Result<Study, StudyError> {
         let mut file: StudyFile = document::from_text(text, origin)?;
-        let key = |key: &str| Key { origin: origin.to_owned(), key: key.to_owned() };
+        let key = |key: &str| KeyPath { origin: origin.to_owned(), key: key.to_owned() };
         let mut folder_of_records = folder.to_owned();
         if !records.is_empty() {
             file.records = records.iter().cloned().map(RecordEntry::Path).collect();
@@ -154,21 +154,13 @@ impl Study {
     pub fn asks_for_errors(&self) -> bool {
         self.structures.iter().any(|structure| structure.scene.file.accuracy.level.is_some())
     }
-
-    /// Factors or levels: runs of every record for each structure and device.
-    pub fn scalings(&self) -> usize {
-        match &self.scaling {
-            Scaling::Factors(factors) => factors.len(),
-            Scaling::Levels(_, levels) => levels.len(),
-        }
-    }
 }
 
 fn names(scene: &Scene) -> Vec<String> {
     scene.devices.iter().map(|device| device.name.clone()).collect()
 }
 
-fn scaling(file: &StudyFile, key: &dyn Fn(&str) -> Key) -> Result<Scaling, SceneError> {
+fn scaling(file: &StudyFile, key: &dyn Fn(&str) -> KeyPath) -> Result<Scaling, SceneError> {
     let check = |name: &str, values: &[f64]| match values.len() {
         1..=MOST_SCALES => Ok(()),
         count => Err(key(name).range(count as f64, "a list of 1 to 1000 numbers")),
@@ -191,7 +183,7 @@ fn scaling(file: &StudyFile, key: &dyn Fn(&str) -> Key) -> Result<Scaling, Scene
     }
 }
 
-fn check_names(asked: &[String], structures: &[StudyStructure], key: Key) -> Result<(), SceneError> {
+fn check_names(asked: &[String], structures: &[StudyStructure], key: KeyPath) -> Result<(), SceneError> {
     let names: Vec<&str> = structures.iter().map(|structure| structure.name.as_str()).collect();
     match asked.iter().find(|name| !names.contains(&name.as_str())) {
         Some(name) => Err(SceneError::Range {
@@ -204,7 +196,7 @@ fn check_names(asked: &[String], structures: &[StudyStructure], key: Key) -> Res
     }
 }
 
-fn bootstrap(file: &StudyFile, key: &dyn Fn(&str) -> Key) -> Result<Bootstrap, SceneError> {
+fn bootstrap(file: &StudyFile, key: &dyn Fn(&str) -> KeyPath) -> Result<Bootstrap, SceneError> {
     let table = file.bootstrap;
     let level = Level::new(table.level).map_err(|_| key("bootstrap.level").range(table.level, "above 0 and below 1"))?;
     Ok(Bootstrap { resamples: table.resamples, seed: table.seed, level })
@@ -214,7 +206,7 @@ fn bootstrap(file: &StudyFile, key: &dyn Fn(&str) -> Key) -> Result<Bootstrap, S
 ///
 /// # Errors
 /// [`SceneError`] for units or a time step outside their range.
-fn reading(table: &RecordTable, scene: &Scene, key: &dyn Fn(&str) -> Key) -> Result<ReadOptions, SceneError> {
+fn reading(table: &RecordTable, scene: &Scene, key: &dyn Fn(&str) -> KeyPath) -> Result<ReadOptions, SceneError> {
     check_units(table.units.as_deref(), "record", key)?;
     Ok(read_options(table, scene))
 }
@@ -230,9 +222,9 @@ fn read_options(table: &RecordTable, scene: &Scene) -> ReadOptions {
 }
 
 /// Units of `table`, if they can be meant.
-pub(super) fn check_units(units: Option<&str>, table: &str, key: &dyn Fn(&str) -> Key) -> Result<(), SceneError> {
+pub(super) fn check_units(units: Option<&str>, table: &str, key: &dyn Fn(&str) -> KeyPath) -> Result<(), SceneError> {
     if let Some(units) = units.filter(|units| units.parse::<Units>().is_err()) {
-        let Key { origin, key } = key(&format!("{table}.units"));
+        let KeyPath { origin, key } = key(&format!("{table}.units"));
         let range = Units::ALLOWED.to_owned();
         return Err(SceneError::Range { origin, key, value: format!("{units:?}"), range });
     }

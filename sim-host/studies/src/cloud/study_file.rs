@@ -6,6 +6,7 @@ use std::sync::LazyLock;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 use sprag_sim::keys::{Described, schema_of};
 use sprag_sim::record::TIME_STEP_RANGE_S;
@@ -32,6 +33,7 @@ fn each_above_zero(schema: &mut schemars::Schema) {
 }
 
 /// A study file.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Sprag study")]
@@ -40,7 +42,6 @@ pub struct StudyFile {
     #[serde(default)]
     pub title: String,
     /// Scene file with block, devices and restitution, relative to the study; the pier of the paper's Section 6.2 without the key.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"record.toml")]
     pub scene: Option<PathBuf>,
     /// Record files and folders of them, relative to the study; `--records PATH` takes their place.
@@ -53,11 +54,9 @@ pub struct StudyFile {
     #[serde(default)]
     pub structure: Vec<StructureTable>,
     /// Factors on every record; 1 without `scale` and `stripes`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(max = LARGEST_FACTOR)), transform = each_above_zero, length(min = 1, max = super::study::MOST_SCALES), example = EXAMPLE_SCALES)]
     pub scale: Option<Vec<f64>>,
     /// Levels that every record is scaled to, in the place of `scale`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub stripes: Option<StripesTable>,
     /// Measures that are ranked.
     #[serde(default = "all_measures")]
@@ -73,7 +72,6 @@ pub struct StudyFile {
     #[serde(default)]
     pub bootstrap: BootstrapTable,
     /// Choice of a device, for `sprag optimise`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub optimise: Option<OptimiseTable>,
 }
 
@@ -99,43 +97,38 @@ pub enum RecordEntry {
 }
 
 /// A file or folder of which more is known than of the others.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DescribedRecord {
     /// File or folder.
     pub file: PathBuf,
     /// Units of files that do not state theirs: g, m/s2, cm/s2 (gal), mm/s2, in/s2 or ft/s2.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"g")]
     pub units: Option<String>,
     /// Time step of files that do not state theirs.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = TIME_STEP_RANGE_S.0, max = TIME_STEP_RANGE_S.1))]
     pub time_step_s: Option<f64>,
     /// Component of files with several.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"NS")]
     pub component: Option<String>,
 }
 
 /// `[record]`: as the options of `sprag record`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RecordTable {
     /// Units of files that do not state theirs: g, m/s2, cm/s2 (gal), mm/s2, in/s2 or ft/s2.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"g")]
     pub units: Option<String>,
     /// Time step of files that do not state theirs.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = TIME_STEP_RANGE_S.0, max = TIME_STEP_RANGE_S.1))]
     pub time_step_s: Option<f64>,
     /// Component of files with several.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"NS")]
     pub component: Option<String>,
     /// Time step to resample to.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = TIME_STEP_RANGE_S.0, max = TIME_STEP_RANGE_S.1))]
     pub resample_to_s: Option<f64>,
 }

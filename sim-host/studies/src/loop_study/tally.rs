@@ -131,7 +131,7 @@ impl Pairs {
     }
 }
 
-/// The tallies with the fewest overturned runs: first the least, then those that specimens do not tell apart from it.
+/// The tallies with the fewest overturned runs: first the least, then those that specimens do not distinguish from it.
 pub fn fewest(tallies: &[Tally]) -> Vec<usize> {
     let Some(least) = (0..tallies.len()).min_by_key(|&index| tallies[index].count()) else { return Vec::new() };
     let alike = |&index: &usize| index != least && !tallies[index].beyond(&tallies[least]).differs();
@@ -159,7 +159,7 @@ mod tests {
         assert!((one.beyond(&other).value + 0.375).abs() < 1e-12);
         assert_eq!(fewest(&[other, one]), [1, 0], "four specimens are few");
         let none = tally([0; 8]);
-        assert_eq!(fewest(&[none.clone(), none, tally([1; 8])]), [0, 1], "every specimen tells them apart");
+        assert_eq!(fewest(&[none.clone(), none, tally([1; 8])]), [0, 1], "every specimen distinguishes them");
     }
 
     #[test]

@@ -99,7 +99,7 @@ pub(super) fn small_multiples(
     }
 }
 
-/// The scene's title and what the picture shows, and below it what no axis sets: one picture is told from another of the same scene.
+/// The scene's title and what the picture shows, and below it what no axis sets: so that pictures of the same scene differ.
 fn title(grid: &Grid, what: &str) -> FigureTitle {
     let (last_column, last_row) = (grid.columns() - 1, grid.rows() - 1);
     let corners = [(0, 0), (last_column, 0), (0, last_row), (last_column, last_row)];

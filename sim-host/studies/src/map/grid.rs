@@ -73,7 +73,7 @@ impl Grid {
     /// # Errors
     /// [`SceneError`] when the scene has no axes, or a value at a corner of the map is outside its range.
     pub fn new(scene: Scene, text: Table) -> Result<Grid, SceneError> {
-        let key = |key: &str| sprag_sim::scene::error::Key { origin: scene.origin.clone(), key: key.to_owned() };
+        let key = |key: &str| sprag_sim::scene::error::KeyPath { origin: scene.origin.clone(), key: key.to_owned() };
         let Some(map) = scene.file.map.clone() else {
             return Err(key("map.x").missing("a [map] table with an axis x, or --x KEY=FROM:TO:CELLS"));
         };
@@ -88,7 +88,7 @@ impl Grid {
         grid.direct = (0..grid.scene.devices.len()).map(|device| grid.direct(device)).collect();
         let mut keys = std::iter::once(&grid.map.x).chain(&grid.map.y).map(|axis| axis.key.as_str());
         if keys.all(|key| !key.starts_with("ground.") || key == "ground.0.scale") {
-            // What cannot be read is told by the first cell.
+            // What cannot be read is reported by the first cell.
             grid.record = grid.scene.only_record().ok().flatten().map(|record| Samples::from(&record));
         }
         Ok(grid)

@@ -47,7 +47,7 @@ pub enum MapError {
         /// Why.
         error: CaseError,
     },
-    /// Rows that cannot be kept, or gone on with.
+    /// Rows that cannot be kept, or resumed.
     #[error("{0}")]
     Rows(#[from] LongRunError),
     /// Ctrl-C.

@@ -54,7 +54,7 @@ pub struct DeviceMap {
     pub counts: Counts,
     /// The cells that are shown, row by row from the lowest, each from the left.
     pub shown: Vec<PulseResult>,
-    /// Cells that were worked out in this run, which are fewer than all of a run that went on.
+    /// Cells that were worked out in this run, which are fewer than all of a run that was resumed.
     pub worked_out: usize,
     /// Time that those took, s.
     pub seconds: f64,

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use sprag_sim::scene::checks::ChecksTable;
 use sprag_sim::scene::device::DeviceTable;
-use sprag_sim::scene::error::Key;
+use sprag_sim::scene::error::KeyPath;
 use sprag_sim::scene::schema::KeyOf;
 use sprag_sim::scene::{Scene, SceneError};
 
@@ -83,7 +83,7 @@ pub(super) fn curves(
         }
     }
     if curves.is_empty() {
-        let Key { origin, key } = key("laws");
+        let KeyPath { origin, key } = key("laws");
         let reason = format!("none of them can be; {}", reasons.join("; "));
         return Err(SceneError::Conflict { origin, key, reason });
     }

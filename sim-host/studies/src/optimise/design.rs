@@ -61,7 +61,7 @@ pub struct Score {
 impl Score {
     /// Of `responses`, beside those of the `bare` block under the same motions; `limits` say of what quantile.
     ///
-    /// The force on a block that overturns counts unless it is told not to: its support has to bear it as long as there is something to
+    /// The force on a block that overturns counts unless it is set not to: its support has to bear it as long as there is something to
     /// save, and a design must not respect a limit by losing the block. The travel does not count there: a block that lies down takes
     /// the terminals farther than any stroke that could be meant.
     ///

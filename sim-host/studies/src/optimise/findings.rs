@@ -4,10 +4,10 @@ use serde::Serialize;
 
 use super::choice::{best, complete, nearest};
 use super::design::{Candidate, Design, Score};
-use super::front::undominated;
 use super::limit::{Limits, Quantity};
 use super::problem::{Choices, Problem, Solution};
 use super::search::{BEST_FACTOR, Crossing, crossings};
+use crate::statistics::front::undominated;
 use crate::statistics::proportion::wilson;
 use crate::statistics::{Band, Level};
 

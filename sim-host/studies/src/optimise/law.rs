@@ -2,7 +2,7 @@
 
 use sprag_sim::scene::device::{DeviceTable, Kind};
 use sprag_sim::scene::drivetrain::EngagementName;
-use sprag_sim::scene::error::Key;
+use sprag_sim::scene::error::KeyPath;
 use sprag_sim::scene::{Scene, SceneError};
 
 /// A device without its mass ratio: its kind, its clutch, and all else that a `[[device]]` says.
@@ -22,7 +22,7 @@ pub const IDEAL_LAWS: [&str; 4] = ["inerter", "clutched-pair", "rigid", "overrun
 ///
 /// # Errors
 /// [`SceneError`] at `key` for a name that is neither, one that is there twice, a device without an inerter, and a scene without one.
-pub(super) fn laws(names: &[String], scene: &Scene, key: &Key) -> Result<Vec<Law>, SceneError> {
+pub(super) fn laws(names: &[String], scene: &Scene, key: &KeyPath) -> Result<Vec<Law>, SceneError> {
     let devices = || scene.devices.iter().map(|device| device.name.as_str()).zip(&scene.file.device);
     if names.is_empty() {
         let laws: Vec<Law> =
@@ -35,7 +35,7 @@ pub(super) fn laws(names: &[String], scene: &Scene, key: &Key) -> Result<Vec<Law
     }
     let mut laws: Vec<Law> = Vec::new();
     for (index, name) in names.iter().enumerate() {
-        let key = || Key { origin: key.origin.clone(), key: format!("{}.{index}", key.key) };
+        let key = || KeyPath { origin: key.origin.clone(), key: format!("{}.{index}", key.key) };
         if laws.iter().any(|law| law.name == *name) {
             return Err(key().conflict(&format!("\"{name}\" is there twice")));
         }
@@ -45,7 +45,7 @@ pub(super) fn laws(names: &[String], scene: &Scene, key: &Key) -> Result<Vec<Law
             let ideal = IDEAL_LAWS.iter().map(|name| format!("\"{name}\""));
             let mut all: Vec<String> = ideal.collect();
             all.extend(known.filter(|name| !all.contains(name)).collect::<Vec<_>>());
-            let Key { origin, key } = key();
+            let KeyPath { origin, key } = key();
             SceneError::Range { origin, key, value: format!("{name:?}"), range: format!("among {}", all.join(", ")) }
         })?;
         if device.kind == Kind::None {

@@ -4,7 +4,7 @@
 //! - [`motion`], [`response`], [`problem`]: what each does under each motion.
 //! - [`design`], [`search`]: devices and what they come to, on a grid of mass ratios and where it matters in between; [`tried`]: those of an
 //!   interrupted search.
-//! - [`choice`], [`front`], [`findings`]: which is best, and at what price.
+//! - [`choice`], [`findings`]: which is best, and at what price.
 //! - [`typed_tables`], [`page`], [`figure`]: tables and pictures of it.
 
 pub mod choice;
@@ -12,7 +12,6 @@ pub mod curve;
 pub mod design;
 pub mod figure;
 pub mod findings;
-pub mod front;
 pub mod law;
 pub mod limit;
 pub mod motion;

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::accuracy::EventTreatment;
-use sprag_sim::scene::error::Key;
+use sprag_sim::scene::error::KeyPath;
 use sprag_sim::scene::schema::{DeviceTable, Kind};
 use sprag_sim::scene::{Scene, SceneError};
 use sprag_sim::simulation::{RunError, simulate_for_study};
@@ -47,7 +47,7 @@ impl<'a> Choices<'a> {
     /// # Errors
     /// [`SceneError`] names the key of the study, its value and what it may be.
     pub fn of(study: &'a Study) -> Result<Choices<'a>, SceneError> {
-        let key = |name: &str| Key { origin: study.origin.clone(), key: format!("optimise.{name}") };
+        let key = |name: &str| KeyPath { origin: study.origin.clone(), key: format!("optimise.{name}") };
         let mut table = study.file.optimise.clone().unwrap_or_default();
         table.check(&key)?;
         let structure = structure(study, &table, key("structure"))?;
@@ -56,7 +56,7 @@ impl<'a> Choices<'a> {
             table.largest_stroke_m = table.largest_stroke_m.or(checks.largest_stroke_m);
         }
         if structure.scene.file.accuracy.events == EventTreatment::StepEnd {
-            let of_scene = Key { origin: structure.scene.origin.clone(), key: "accuracy.events".to_owned() };
+            let of_scene = KeyPath { origin: structure.scene.origin.clone(), key: "accuracy.events".to_owned() };
             return Err(of_scene.conflict("largest forces lie between steps: an optimisation needs \"located\""));
         }
         let mut left_out = Vec::new();
@@ -72,7 +72,7 @@ impl<'a> Choices<'a> {
 }
 
 /// The structure of `study` that gets the device.
-fn structure<'a>(study: &'a Study, table: &OptimiseTable, key: Key) -> Result<&'a StudyStructure, SceneError> {
+fn structure<'a>(study: &'a Study, table: &OptimiseTable, key: KeyPath) -> Result<&'a StudyStructure, SceneError> {
     let names = || study.structures.iter().map(|structure| format!("{:?}", structure.name)).collect::<Vec<_>>().join(", ");
     match (&table.structure, &study.structures[..]) {
         (None, [only]) => Ok(only),
@@ -120,7 +120,7 @@ impl<'a> Problem<'a> {
         Problem { choices, motions, left_out }
     }
 
-    /// Tries designs on rayon's threads until the best is found, but for those that `memory` has of an earlier search. `begin` is told of
+    /// Tries designs on rayon's threads until the best is found, but for those that `memory` has of an earlier search. `begin` is given
     /// runs to come, as often as there are more; `done` is called after each. Neither the number of threads nor their order changes a
     /// bit of the solution.
     ///

@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use sprag_sim::scene::SceneError;
 use sprag_sim::scene::map::{AxisTable, ScaleName};
 use sprag_sim::scene::schema::KeyOf;
@@ -21,11 +22,11 @@ pub const LARGEST_MASS_RATIO: f64 = 10_000.0;
 const EXAMPLE_LAWS: [&str; 2] = ["inerter", "clutched-pair"];
 
 /// `[optimise]`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct OptimiseTable {
     /// Structure of the study that gets the device, by name; needed where there are several.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"taller")]
     pub structure: Option<String>,
     /// Mass ratios to choose from, in equal factors.
@@ -40,12 +41,10 @@ pub struct OptimiseTable {
     #[schemars(length(max = MOST_CHOICES))]
     pub mounts: Vec<MountEntry>,
     /// Largest |F|/(mg) of the device on its support; that of the scene's `[checks]` without the key.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e6))]
     pub largest_force_ratio: Option<f64>,
     /// Largest travel of the terminals to one side, over the motions in which the block stands; that of the scene's `[checks]` without the
     /// key.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e4))]
     pub largest_stroke_m: Option<f64>,
     /// Share of the motions that must respect a limit.

@@ -44,7 +44,7 @@ fn laws_are_devices_of_the_scene_or_ideal_ones() {
     );
     let choices = Choices::of(&study).unwrap();
     let names: Vec<String> = choices.curves.iter().map(super::curve::Curve::name).collect();
-    // A flywheel of its own speed cannot be at the base corners; the others go on.
+    // A flywheel of its own speed cannot be at the base corners; the others stay.
     let point = "tying-point 1.5 m, pulley 2";
     assert_eq!(
         names,

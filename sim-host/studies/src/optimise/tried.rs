@@ -1,4 +1,4 @@
-//! Designs that have been tried, as rows of `tried.csv.unfinished`: what an interrupted search goes on from.
+//! Designs that have been tried, as rows of `tried.csv.unfinished`: what an interrupted search resumes from.
 
 use std::collections::HashMap;
 use std::path::Path;

@@ -176,7 +176,7 @@ mod tests {
                     continue;
                 }
                 let effect = effect::find(variant.effect).unwrap();
-                assert!((effect.is_on)(&scene, index).is_some(), "{}", variant.label());
+                assert!((effect.is_on)(&scene, index), "{}", variant.label());
                 let on = Effects::of_scene(&scene).on.into_iter().chain(Effects::of_device(&scene, index).on);
                 let others: Vec<_> = on.map(|setting| setting.effect.name).filter(|name| *name != variant.effect).collect();
                 // Flywheels with a speed of their own bring the consistent kinematics with them.

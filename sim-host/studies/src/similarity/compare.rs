@@ -67,7 +67,7 @@ pub struct Departure {
 }
 
 impl Departure {
-    /// Of `other` from `first`; compared as long as both go on.
+    /// Of `other` from `first`; compared as long as both last.
     pub fn between(first: &Response, other: &Response) -> Departure {
         let mut departure = Departure { largest: 0.0, at_frequency_parameter_time: 0.0, relative: None };
         let mut peak = 0.0_f64;

@@ -211,7 +211,7 @@ impl fmt::Display for Fragility {
             Fragility::Separated { highest_stood, lowest_overturned } => write!(
                 f,
                 "every run up to the intensity {} stood and every one from {} overturned: the median \
-                 lies between, and the dispersion cannot be told from 0",
+                 lies between, and the dispersion cannot be distinguished from 0",
                 rounded(highest_stood),
                 rounded(lowest_overturned)
             ),

@@ -8,6 +8,7 @@
 //! - [`bootstrap`]: its bands by resampling.
 //! - [`proportion`]: what a share of a sample says of a probability.
 //! - [`level`], [`mod@quantile`]: confidence levels and bands, quantiles of a sample.
+//! - [`front`]: which points no other one betters.
 //! - [`normal`], [`student`]: the distributions behind them.
 //!
 //! Logarithms are natural. Every function gives the same bits on every machine and for every number of threads.
@@ -16,6 +17,7 @@ pub mod bootstrap;
 pub mod efficiency;
 pub mod fragility;
 pub mod fragility_curve;
+pub mod front;
 pub mod level;
 pub mod normal;
 pub mod observation;

@@ -6,7 +6,7 @@ use sprag_shared::math::{exp, ln, square_root};
 
 use super::level::Level;
 
-/// Fewest points: with two the line passes through both, and nothing is left to tell the scatter from.
+/// Fewest points: with two the line passes through both, and nothing is left to find the scatter from.
 pub const FEWEST_POINTS: usize = 3;
 
 /// Intensity and demand of one run, in any units.

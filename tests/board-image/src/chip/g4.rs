@@ -10,7 +10,7 @@ const BACKUP: u32 = 0x100;
 const BACKUP_OF_F4: u32 = 0x50;
 
 impl Chip {
-    /// A load of the processor's from the flash that is not mapped: bank 2, which waits for what goes on there.
+    /// A load of the processor's from the flash that is not mapped: bank 2, which waits for what is done there.
     pub(super) fn load_checked(&mut self, address: u32, bytes: &mut [u8]) {
         if let Some(at) = self.flash.ends() {
             self.pass(at.saturating_sub(self.now));

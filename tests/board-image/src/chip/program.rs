@@ -108,7 +108,7 @@ impl Guest for Chip {
     }
 
     fn block(&mut self, processor: &Processor, address: u32, size: u32) -> bool {
-        // The first block since the processor went on is carried out in any case: whoever asks for steps gets on.
+        // The first block since the processor continued is carried out in any case: whoever asks for steps gets on.
         if !std::mem::take(&mut self.goes_on) && self.stops(processor) {
             return true;
         }

@@ -6,7 +6,7 @@
 
 use crate::time::seconds;
 
-/// A switch that does what it is told, or not.
+/// A switch that obeys, or not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Switch {
     /// It does.

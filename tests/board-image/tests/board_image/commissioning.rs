@@ -134,7 +134,7 @@ fn an_older_firmware_than_one_that_has_run_is_told() {
         let Reply::Log(log) = rig.ask(&Request::Log { from: 0 }) else { panic!("no log") };
         let first = log.entries[0].entry().map(|entry| entry.kind);
         assert_eq!(first, Some(Kind::Warning(Fault::OlderFirmware.code())), "{model:?}");
-        // Only told.
+        // Only reported.
         let state = rig.wait(4000, |state| state.phase == Phase::Armed);
         assert_eq!((state.phase, state.fault), (Phase::Armed, None), "{model:?}");
         assert_eq!(rig.bench.chip().flash.works.len(), works, "{model:?}: noted again");

@@ -17,7 +17,7 @@ const PROGRAM: [u16; 20] = [
 const HANDLER: u32 = 0x0801_1100;
 const HANDLERS_PROGRAM: [u16; 4] = [0x6850, 0x1C40, 0x6050, 0x4770];
 
-/// ARMv7-M, B1.5.6 and B1.5.8: a handler begins outside of any IT block, and its return goes on within the one that it came in.
+/// ARMv7-M, B1.5.6 and B1.5.8: a handler begins outside of any IT block, and its return continues within the one that it came in.
 #[test]
 fn an_exception_in_an_it_block_is_not_under_its_condition_and_leaves_it() {
     let mut vectors = [0_u32; 16];

@@ -28,7 +28,7 @@ fn a_coils_supply_that_sags_is_a_warning_and_nothing_more() {
             supply(&mut rig, volts);
             rig.ticks(200);
             assert_eq!(rig.warnings(), expected, "{model:?}: {volts} V");
-            // Told once, and nothing else has come of it.
+            // Reported once, and nothing else has come of it.
             supply(&mut rig, 24.0);
             rig.ticks(200);
             supply(&mut rig, volts);

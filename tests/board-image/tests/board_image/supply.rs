@@ -97,7 +97,7 @@ fn between_looks(rig: &mut Rig) -> BTreeSet<u32> {
     let chip = rig.bench.chip();
     let mut places = BTreeSet::new();
     for (address, size) in blocks {
-        // Up to four instructions under the condition of an IT: Unicorn cannot go on in the middle of them.
+        // Up to four instructions under the condition of an IT: Unicorn cannot continue in the middle of them.
         let mut conditional = 0;
         for place in chip.instructions_of(address, size) {
             if conditional == 0 {

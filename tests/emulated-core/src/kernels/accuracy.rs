@@ -179,7 +179,7 @@ impl Observer<f32> for Watch<'_> {
     }
 }
 
-/// Prints a line for every combination that tells something; all zeros on the host.
+/// Prints a line for every combination that shows something; all zeros on the host.
 ///
 /// # Errors
 /// If `out` refuses a line.

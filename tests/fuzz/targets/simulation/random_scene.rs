@@ -36,7 +36,7 @@ fn block_and_devices(draw: &mut Draw<'_>, text: &mut String) -> bool {
         0 => writeln!(text, "size_m = {:?}", draw.number(1e-3, 1e4)),
         _ => writeln!(text, "frequency_parameter_1_s = {:?}", draw.number(1e-2, 1e3)),
     };
-    // Without a loss at impacts the smallest motion goes on for ever, in millions of impacts; so do those words of a very slender block.
+    // Without a loss at impacts the smallest motion lasts for ever, in millions of impacts; so do those words of a very slender block.
     let (restitution, slenderest) = match draw.below(8) {
         0 => ("\"geometric\"".to_owned(), 1.0),
         1 => ("\"momentum-balance\"".to_owned(), 1.0),

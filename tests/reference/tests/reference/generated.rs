@@ -35,7 +35,7 @@ fn ledgers_close() {
     std::fs::remove_dir_all(&folder).expect("a folder that was there");
 }
 
-/// Scenes that had told two programs apart (`scenes/`, whose first lines say by what): this one runs them.
+/// Scenes in which two programs had differed (`scenes/`, whose first lines say by what): this one runs them.
 #[test]
 fn scenes_that_told_programs_apart_run() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");

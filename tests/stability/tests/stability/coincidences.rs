@@ -26,7 +26,7 @@ fn recorded<S: Precision>(structure: &Structure, start: Start<S>, segments: &[Se
 }
 
 /// Thrown back on its floor while the ground holds it up: with b > 1 the push in gα, φ̈ = φ − 1 + b, the block just touches at
-/// v² = (φ₀ − 1 + b)² − (b − 1)². Missed or hit by an ulp, it goes on from there the same way.
+/// v² = (φ₀ − 1 + b)² − (b − 1)². Missed or hit by an ulp, it continues from there the same way.
 fn a_grazing_impact<S: Precision>() {
     for device in DeviceKind::ALL {
         for (push, start) in [(1.5, 0.2), (1.01, 0.05), (4.0, 0.5)] {
@@ -154,7 +154,7 @@ fn an_impact_on_a_kink_of_the_record<S: Precision>() {
     }
 }
 
-/// One motion, cut in two at each of its events, an ulp before it and an ulp after it, and 10⁻¹⁵ s after it: each event is told once,
+/// One motion, cut in two at each of its events, an ulp before it and an ulp after it, and 10⁻¹⁵ s after it: each event is reported once,
 /// and the motion is the same.
 fn a_cut_at_every_event<S: Precision>() {
     let mut cuts = 0;
@@ -175,8 +175,8 @@ fn a_cut_at_every_event<S: Precision>() {
                     let parts = recorded(&structure, Start::Rest, &segments);
                     let kinds = |log: &Log<S, true>| {
                         // Not those that rounding may move across the end.
-                        let told = log.events.iter().take_while(|logged| logged.time < duration * S::of(0.9));
-                        told.map(|logged| logged.event).collect::<Vec<_>>()
+                        let events = log.events.iter().take_while(|logged| logged.time < duration * S::of(0.9));
+                        events.map(|logged| logged.event).collect::<Vec<_>>()
                     };
                     assert_eq!(kinds(&parts), kinds(&whole), "{} {geometry:?} {device:?} cut at {cut:?}", S::NAME);
                     let after = parts.stretches.last().expect("a stretch").motions.last().copied().expect("a motion");

@@ -23,7 +23,7 @@ fn a_denormal_rotation<S: Precision>() {
                 for side in [S::ONE, -S::ONE] {
                     for stepping in steppings() {
                         let start = Start::Released(side * rotation, S::ZERO);
-                        // A search of 64 looks tells 2⁻⁶⁴ of a step; in Euler steps, whose θ̇ is not the slope of θ, it halves at every
+                        // A search of 64 looks finds 2⁻⁶⁴ of a step; in Euler steps, whose θ̇ is not the slope of θ, it halves at every
                         // other look: 2⁻³². What gravity does in that time is all that the fall may come out with.
                         let euler = matches!(stepping, Stepping::SemiImplicitEuler(_));
                         let (peak, time) = if euler { (1e-24, 1e-10) } else { (1e-36, 1e-15) };

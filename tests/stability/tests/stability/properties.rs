@@ -80,8 +80,8 @@ fn bits<S: Precision>(x: S) -> u64 {
 
 /// Two motions are one, with the second's rotations, times and velocities multiplied by these; to the bit.
 fn same<S: Precision>(first: &Log<S, true>, second: &Log<S, true>, rotation: S, time: S) -> Result<(), TestCaseError> {
-    let told = |log: &Log<S, true>| log.events.iter().map(|logged| logged.event).collect::<Vec<_>>();
-    prop_assert_eq!(told(first), told(second));
+    let events = |log: &Log<S, true>| log.events.iter().map(|logged| logged.event).collect::<Vec<_>>();
+    prop_assert_eq!(events(first), events(second));
     let velocity = rotation / time;
     for (a, b) in first.events.iter().zip(&second.events) {
         prop_assert_eq!(bits(a.time * time), bits(b.time));
@@ -189,16 +189,16 @@ fn split<S: Precision>(structure: &Structure, motion: &Motion, share: f64) -> Re
     let parts = [Segment::sine(level, omega, at), Segment::sine_from(level, omega, omega * at, whole[0].duration - at)];
     let cut = recorded(structure, Stepping::Tight, &parts);
     let until = |log: &Log<S, true>| {
-        let mut told = Vec::new();
+        let mut events = Vec::new();
         for logged in log.events.iter().take_while(|logged| logged.time <= at * S::of(1.0 + 1e-4)) {
             // Where rounding leaves the sign of the terminals' acceleration open, the clutch may switch there and back at the cut.
-            if logged.event == Event::Switch && told.last() == Some(&Event::Switch) {
-                told.pop();
+            if logged.event == Event::Switch && events.last() == Some(&Event::Switch) {
+                events.pop();
             } else {
-                told.push(logged.event);
+                events.push(logged.event);
             }
         }
-        told
+        events
     };
     prop_assert_eq!(until(&log), until(&cut), "{} split at {:?}", S::NAME, at);
     let off = (log.peaks.rotation - cut.peaks.rotation).abs() / log.peaks.rotation.larger(S::of(structure.block.slenderness()));

@@ -115,7 +115,7 @@ fn an_ulp_above_the_threshold_for_good<S: Precision>() {
     }
 }
 
-/// A sine whose crest is beyond the threshold by an ulp: the crossings lie together closer than the clock can tell, or nearly so.
+/// A sine whose crest is beyond the threshold by an ulp: the crossings lie together closer than the clock can resolve, or nearly so.
 fn a_push_that_only_touches_the_threshold<S: Precision>() {
     for structure in structures() {
         for level in [threshold::<S>(&structure).up(), threshold::<S>(&structure) * S::of(1.0 + S::tolerance(1e-12, 1e-6))] {

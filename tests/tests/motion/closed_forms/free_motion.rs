@@ -136,7 +136,7 @@ fn first_integrals_hold_to_rounding() {
                     structure.device.kinematics = KinematicsKind::Consistent;
                     let consistent = drift(&structure, start, consistent_integral);
                     assert!(consistent < 5e-15, "consistent, {device:?}, {degrees}°, σ = {mass_ratio}: {consistent:e}");
-                    // The test can tell the two apart.
+                    // The test can distinguish the two.
                     if device == DeviceKind::Inerter {
                         assert!(drift(&structure, start, paper_integral) > 1e-9);
                     }

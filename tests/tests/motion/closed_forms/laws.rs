@@ -33,7 +33,7 @@ fn uplift_threshold() {
 /// ℓθ̈ and ℓθ̇ in the paper's kinematics, ℓθ̈ + ℓ'θ̇² and ℓθ̇ in the consistent ones. The sign does not depend on κ.
 #[test]
 fn the_clutch_keeps_its_law() {
-    let mut told = [0_usize; 2];
+    let mut stretches = [0_usize; 2];
     for kinematics in [KinematicsKind::Paper, KinematicsKind::Consistent] {
         for mount in
             [Mount::CentreOfMass, Mount::TyingPoint { height: 3.0, pulley_ratio: 2.0 }, Mount::BaseCorners { pulley_ratio: 3.0 }]
@@ -78,12 +78,12 @@ fn the_clutch_keeps_its_law() {
                         let power = (lever * motion.acceleration + quadratic) * lever * motion.velocity;
                         if power.abs() > 1e-12 {
                             assert_eq!(stretch.engaged, power > 0.0, "{kinematics:?} {mount:?} α = {degrees}°: {stretch:?}");
-                            told[usize::from(stretch.engaged)] += 1;
+                            stretches[usize::from(stretch.engaged)] += 1;
                         }
                     }
                 }
             }
         }
     }
-    assert!(told[0] > 1000 && told[1] > 1000, "{told:?}");
+    assert!(stretches[0] > 1000 && stretches[1] > 1000, "{stretches:?}");
 }

@@ -180,7 +180,7 @@ fn any_ground_motion_before_a_first_impact() {
         }
     }
     println!("{compared} boundaries of random records compared");
-    assert!(compared >= 40, "only {compared} records told anything");
+    assert!(compared >= 40, "only {compared} records decided anything");
 }
 
 #[test]

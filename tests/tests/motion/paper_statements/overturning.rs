@@ -11,7 +11,7 @@ fn columns(map: &Spectra, device: usize) -> Vec<Vec<Outcome>> {
     (0..map.columns).map(column).collect()
 }
 
-/// Region 1 lies above a curve and Region 2 below it. Region 2 is enclosed, but with the pair it goes on upwards beside Region 1.
+/// Region 1 lies above a curve and Region 2 below it. Region 2 is enclosed, but with the pair it continues upwards beside Region 1.
 #[test]
 fn regions_lie_as_in_the_figure() {
     for map in SPECTRA.iter() {

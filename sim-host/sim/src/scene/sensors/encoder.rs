@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 use super::super::error::SceneError;
 use super::super::schema::KeyOf;
@@ -10,42 +11,34 @@ use super::sampling::{SamplingKeys, change_sampling};
 use crate::sensor::{Encoder, preset};
 
 /// `encoder`: a preset and what differs from it.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EncoderTable {
     /// Encoder that the other keys change; the suite's without the key.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"amt102-v")]
     pub preset: Option<String>,
     /// Travel per count; or give `counts_per_revolution` and `pinion_radius_m`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-9, max = 0.01))]
     pub resolution_m: Option<f64>,
     /// Counts a revolution after quadrature, of an encoder on a pinion.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 4.0, max = 1e8), example = 4096.0)]
     pub counts_per_revolution: Option<f64>,
     /// Radius of that pinion.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-3, max = 10.0))]
     pub pinion_radius_m: Option<f64>,
     /// Probability that a count is missed.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 0.5))]
     pub miss_probability: Option<f64>,
     /// How often it is read; 0 (continuously), or from 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e5))]
     pub rate_hz: Option<f64>,
     /// Whether it is read at whole periods instead of on a clock of its own.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub synchronous: Option<bool>,
     /// Jitter of the instant at which it is read; up to a tenth of the period.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 0.1))]
     pub jitter_s: Option<f64>,
     /// Time until a reading is known; up to 32 periods.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 0.1))]
     pub latency_s: Option<f64>,
 }

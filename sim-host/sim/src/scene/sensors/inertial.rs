@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use sprag_shared::structure::block::GRAVITY;
 
 use super::super::error::SceneError;
@@ -12,131 +13,103 @@ use crate::sensor::Inertial;
 use crate::sensor::preset::{DEGREE, MILLI_G};
 
 /// `gyroscope`: a preset and what differs from it. Bias, scale error and misalignment are standard deviations over specimens.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct GyroscopeTable {
     /// Gyroscope that the other keys change; the suite's without the key.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"icm-42688-p")]
     pub preset: Option<String>,
     /// Noise density, one-sided.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub noise_density_deg_s_rthz: Option<f64>,
     /// Bias at turn-on, standard deviation over specimens.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub bias_deg_s: Option<f64>,
     /// Bias instability as a Gauss-Markov process.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub drift_deg_s: Option<f64>,
     /// Correlation time of the bias instability.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-3, max = 1e6))]
     pub drift_correlation_time_s: Option<f64>,
     /// Random walk of the bias.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub random_walk_deg_s_rts: Option<f64>,
     /// Scale error as a fraction, standard deviation over specimens.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 0.5))]
     pub scale_error_ratio: Option<f64>,
     /// Misalignment of an axis, standard deviation over specimens.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 45.0))]
     pub misalignment_deg: Option<f64>,
     /// −3 dB corner; 0 (none), or from 0.1.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e5))]
     pub bandwidth_hz: Option<f64>,
     /// Reading per count.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub resolution_deg_s: Option<f64>,
     /// Full scale either way; 0 (no limit).
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e5))]
     pub full_scale_deg_s: Option<f64>,
     /// How often it is read; 0 (continuously), or from 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e5))]
     pub rate_hz: Option<f64>,
     /// Whether it is read at whole periods instead of on a clock of its own.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub synchronous: Option<bool>,
     /// Jitter of the instant at which it is read; up to a tenth of the period.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 0.1))]
     pub jitter_s: Option<f64>,
     /// Time until a reading is known; up to 32 periods.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 0.1))]
     pub latency_s: Option<f64>,
 }
 
 /// `block_accelerometer` and `ground_accelerometer`, as [`GyroscopeTable`].
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AccelerometerTable {
     /// Accelerometer that the other keys change; the suite's without the key.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"icm-42688-p")]
     pub preset: Option<String>,
     /// Noise density, one-sided.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub noise_density_ug_rthz: Option<f64>,
     /// Bias at turn-on, standard deviation over specimens.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e3))]
     pub bias_mg: Option<f64>,
     /// Bias instability as a Gauss-Markov process.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e3))]
     pub drift_mg: Option<f64>,
     /// Correlation time of the bias instability.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-3, max = 1e6))]
     pub drift_correlation_time_s: Option<f64>,
     /// Random walk of the bias.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e3))]
     pub random_walk_mg_rts: Option<f64>,
     /// Scale error as a fraction, standard deviation over specimens.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 0.5))]
     pub scale_error_ratio: Option<f64>,
     /// Misalignment of an axis, standard deviation over specimens.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 45.0))]
     pub misalignment_deg: Option<f64>,
     /// −3 dB corner; 0 (none), or from 0.1.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e5))]
     pub bandwidth_hz: Option<f64>,
     /// Reading per count.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e3))]
     pub resolution_mg: Option<f64>,
     /// Full scale either way; 0 (no limit).
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e4))]
     pub full_scale_g: Option<f64>,
     /// How often it is read; 0 (continuously), or from 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1e5))]
     pub rate_hz: Option<f64>,
     /// Whether it is read at whole periods instead of on a clock of its own.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub synchronous: Option<bool>,
     /// Jitter of the instant at which it is read; up to a tenth of the period.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 0.1))]
     pub jitter_s: Option<f64>,
     /// Time until a reading is known; up to 32 periods.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 0.1))]
     pub latency_s: Option<f64>,
 }

@@ -24,7 +24,7 @@ impl<O> Crossing<O> {
     }
 }
 
-/// Times that a bisection goes on in both halves.
+/// Times that a bisection continues in both halves.
 const MOST_FORKS: u32 = 2;
 
 /// Outcomes of points, each evaluated once and no more of them than a budget allows.

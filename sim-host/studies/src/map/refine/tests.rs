@@ -162,7 +162,7 @@ fn a_boundary_is_followed_out_of_sight_of_the_grid() {
 }
 
 /// Two boundaries whose distance falls from a part of a square far below the tolerance: each is followed as if it were alone, and where
-/// they cannot be told apart they are a bundle.
+/// they cannot be distinguished they are a bundle.
 #[test]
 fn boundaries_side_by_side_are_followed() {
     let lower = |x: f64| 0.213 + 0.3 * x + 0.2 * x * x;

@@ -42,7 +42,7 @@ pub struct Traced<O> {
 /// `grid` are the outcomes at the grid points, row by row from the lowest, each of `columns`. `evaluate` gives those of other places in
 /// order; it is called with few large batches and never twice for one place. With one row, changes of outcome along it are narrowed
 /// down. No more than `budget` places are evaluated; simple boundaries come first, tangles of several after them, and what is left
-/// coarser is told. The same input gives the same result.
+/// coarser is reported. The same input gives the same result.
 ///
 /// # Errors
 /// Those of `evaluate`.

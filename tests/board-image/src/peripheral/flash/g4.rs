@@ -51,7 +51,7 @@ pub(super) struct Banks {
     checks: Vec<u8>,
     /// The first half of a double word.
     half: Option<(u32, u32)>,
-    /// What goes on, whether the supply cuts it short, and when it ends.
+    /// What is done, whether the supply cuts it short, and when it ends.
     going: Option<(Work, bool, u64)>,
     /// The options are to come into force.
     reload: bool,
@@ -80,7 +80,7 @@ fn columns() -> impl Iterator<Item = u8> {
     of_weight(3).chain(of_weight(5)).take(64)
 }
 
-/// The check bits; a blank double word has blank ones. The manual does not tell the code, only that it mends one error and finds two.
+/// The check bits; a blank double word has blank ones. The manual does not state the code, only that it mends one error and finds two.
 fn check_bits(double: u64) -> u8 {
     columns().enumerate().filter(|(bit, _)| double >> bit & 1 == 0).fold(0xFF, |check, (_, column)| check ^ column)
 }
@@ -161,12 +161,12 @@ impl Flash {
         flag == DETECTED
     }
 
-    /// When what goes on ends.
+    /// When what is done ends.
     pub fn ends(&self) -> Option<u64> {
         self.banks.going.map(|(_, _, at)| at)
     }
 
-    /// Work that goes on beside the processor.
+    /// Work that is done beside the processor.
     pub fn start(&mut self, work: Work, now: u64) {
         let cut = self.begin(work);
         let time = self.duration(work);

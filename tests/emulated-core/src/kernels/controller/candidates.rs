@@ -123,7 +123,7 @@ pub fn ideal() -> [Candidate; 7] {
     ]
 }
 
-/// On a pair whose flywheels go on spinning, in the consistent kinematics.
+/// On a pair whose flywheels keep spinning, in the consistent kinematics.
 pub fn spinning() -> [Candidate; 2] {
     [
         candidate("spinning", MODEL_AIDED, ClutchLaw::ResistingPredicted),

@@ -52,7 +52,7 @@ impl<const SIZES: usize> Counts<SIZES> {
     }
 }
 
-/// The largest count that is told from larger ones, and one more.
+/// The largest count that is distinguished from larger ones, and one more.
 const SIZES: usize = 8192;
 
 #[inline(never)]

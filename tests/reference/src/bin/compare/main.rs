@@ -2,7 +2,7 @@
 //!
 //! - `compare SPRAG COUNT SEED KEEP` compares scenes 0 up to COUNT of SEED with both of Sprag's methods, and keeps those that
 //!   differ in the folder KEEP; with `METHOD` in the environment (`taylor` or `runge-kutta-4`) with that alone.
-//! - `compare SPRAG SCENE.toml…` tells of each scene; with `EVENTS` or `HISTORY` in the environment it lists those of this
+//! - `compare SPRAG SCENE.toml…` reports each scene; with `EVENTS` or `HISTORY` in the environment it lists those of this
 //!   program, `RESOLUTION` changes its steps.
 
 mod many;

@@ -1,4 +1,4 @@
-//! Random scenes, on every core, told in their order.
+//! Random scenes, on every core, printed in their order.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -28,16 +28,16 @@ pub fn compare(sprag: &Path, count: u64, seed: u64, keep: &Path) -> Result<(), S
     }
     let mut tallies: Vec<Tally> = methods.iter().map(|_| Tally::default()).collect();
     let mut wrong = 0;
-    let mut tell = |number: u64, (family, verdicts): Checked| {
+    let mut print = |number: u64, (family, verdicts): Checked| {
         for ((method, verdict), tally) in methods.iter().zip(&verdicts).zip(&mut tallies) {
             tally.add(family, verdict);
-            let told = match verdict {
+            let text = match verdict {
                 Ok(Verdict::Differ(difference)) => format!("{difference:?}"),
                 Err(error) => error.lines().next().unwrap_or_default().chars().take(260).collect(),
                 Ok(_) => continue,
             };
             wrong += 1;
-            println!("{seed}-{number} {family:12} {:14} {told}", method.name());
+            println!("{seed}-{number} {family:12} {:14} {text}", method.name());
         }
     };
     let next = AtomicU64::new(0);
@@ -61,7 +61,7 @@ pub fn compare(sprag: &Path, count: u64, seed: u64, keep: &Path) -> Result<(), S
         for (number, checked) in results {
             early.insert(number, checked);
             while let Some(checked) = early.remove(&turn) {
-                tell(turn, checked);
+                print(turn, checked);
                 turn += 1;
             }
         }

@@ -10,7 +10,7 @@ use sprag_reference::simulate::run_with;
 
 use crate::sprag::simulate;
 
-/// Tells of every device of a scene; of its only one also beside `sprag`.
+/// Reports every device of a scene; of its only one also beside `sprag`.
 ///
 /// # Errors
 /// What this program says when it cannot run the scene.
