@@ -8,9 +8,10 @@ use sha2::{Digest as _, Sha256};
 
 use super::error::LongRunError;
 use super::origin::{Ledger, Origin};
+use super::rows::write_page;
 use super::shard::Shard;
 use crate::columns::{Column, CsvWriter, parquet_of_csv, parquet_text, read_parquet};
-use crate::output::{Results, SCHEMA_VERSION};
+use crate::output::SCHEMA_VERSION;
 
 /// The rows of a run that can be divided.
 #[derive(Clone, Debug)]
@@ -21,7 +22,7 @@ pub struct Divisible {
     pub name: &'static str,
     /// Columns of the table.
     pub columns: Vec<Column>,
-    /// Time that a row takes on one core, s, to the next power of ten: how long parts are goes by it.
+    /// Time that a row takes on one core, s, roughly: how many rows a part has follows from it.
     pub seconds_a_row: f64,
 }
 
@@ -81,9 +82,7 @@ impl Division {
             }
         }
         fs::create_dir_all(folder).map_err(|error| LongRunError::file(folder, &error))?;
-        let mut results = Results::default();
-        let written = results.add_json(&path, self).and_then(|()| results.commit());
-        written.map_err(|error| LongRunError::File { path: error.path, reason: error.reason })
+        write_page(self, &path)
     }
 
     /// Refuses a run whose rows come from something else than was planned: a scene or record that has changed since, or another version.
@@ -120,7 +119,7 @@ impl Division {
     /// [`LongRunError::File`].
     pub fn keep(&self, folder: &Path, part: u32, rows: &Divisible, scratch: &Path) -> Result<(), LongRunError> {
         let path = self.part_file(folder, part);
-        let failed = |error: &dyn std::fmt::Display| LongRunError::File { path: path.clone(), reason: error.to_string() };
+        let failed = |error: &dyn std::fmt::Display| LongRunError::file(&path, &error);
         let shard = self.shard(part).unwrap_or(Shard::WHOLE);
         let table = File::open(scratch.join(shard.file_stem(rows.name)).with_extension("csv")).map_err(|error| failed(&error))?;
         let unfinished = scratch.join("part.parquet");
@@ -133,15 +132,16 @@ impl Division {
     /// Writes every part as the shard of a run into `scratch`, for a merge.
     ///
     /// # Errors
-    /// [`LongRunError::Missing`] names the first part that is missing.
+    /// [`LongRunError::Parts`] names the first part that is missing.
     pub fn unpack(&self, folder: &Path, rows: &Divisible, scratch: &Path) -> Result<(), LongRunError> {
-        if let Some(part) = (1..=self.parts).find(|part| !self.has(folder, *part)) {
-            let missing = (1..=self.parts).filter(|part| !self.has(folder, *part)).count();
-            return Err(LongRunError::Parts { path: self.part_file(folder, part), missing, parts: self.parts });
+        let missing: Vec<u32> = (1..=self.parts).filter(|part| !self.has(folder, *part)).collect();
+        if let Some(first) = missing.first() {
+            let path = self.part_file(folder, *first);
+            return Err(LongRunError::Parts { path, missing: missing.len(), parts: self.parts });
         }
         for (part, shard) in (1..).zip(Shard::all(self.parts)) {
             let path = self.part_file(folder, part);
-            let failed = |error: &dyn std::fmt::Display| LongRunError::File { path: path.clone(), reason: error.to_string() };
+            let failed = |error: &dyn std::fmt::Display| LongRunError::file(&path, &error);
             let stem = scratch.join(shard.file_stem(rows.name));
             let table = File::create(stem.with_extension("csv")).map_err(|error| failed(&error))?;
             let mut writer = CsvWriter::new(rows.columns.clone(), table).map_err(|error| failed(&error))?;

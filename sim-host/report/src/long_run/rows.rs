@@ -6,6 +6,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use csv::StringRecord;
+use serde::Serialize;
 
 use super::error::LongRunError;
 use super::origin::{Ledger, Origin};
@@ -263,10 +264,11 @@ fn whole(shard: Shard, path: &Path, have: usize, rows: usize) -> Result<(), Long
     if have == rows { Ok(()) } else { Err(missing) }
 }
 
-fn write_page(ledger: &Ledger, path: &Path) -> Result<(), LongRunError> {
+/// Writes the page at `path`, as a whole or not at all.
+pub(super) fn write_page(page: &impl Serialize, path: &Path) -> Result<(), LongRunError> {
     let mut results = Results::default();
     let failed = |error: crate::output::OutputError| LongRunError::File { path: error.path, reason: error.reason };
-    results.add_json(path, ledger).map_err(failed)?;
+    results.add_json(path, page).map_err(failed)?;
     results.commit().map_err(failed)
 }
 

@@ -145,36 +145,46 @@ fn two_processes_do_not_write_one_file() {
 }
 
 /// Whoever begins while another ends: the rows of each are its own, and the table is whole.
+/// Runs that begin at once in `folder`, each in its way; gives how many end, all with the bytes `expected`. The others are refused.
+fn together<const RUNS: usize>(folder: &Path, starts: [Start; RUNS], expected: &[u8]) -> usize {
+    let run = |start| {
+        let (rows, _) = go_on(&plan(folder, Shard::WHOLE, 1), start, ROWS)?;
+        let finished = rows.finish()?;
+        Ok::<_, LongRunError>(std::fs::read(finished).unwrap())
+    };
+    let runs = std::thread::scope(|scope| starts.map(|start| scope.spawn(move || run(start))).map(|run| run.join().unwrap()));
+    let mut finished = 0;
+    for run in runs {
+        match run {
+            Ok(bytes) => {
+                assert_eq!(bytes, expected);
+                finished += 1;
+            }
+            Err(error) => {
+                let refused = error.to_string();
+                assert!(["another process", "an interrupted run"].iter().any(|words| refused.contains(words)), "{refused}");
+            }
+        }
+    }
+    finished
+}
+
 #[test]
 fn runs_that_begin_and_end_together_do_not_mix() {
     let folder = tempfile::tempdir().unwrap();
     let expected = whole(folder.path());
-    let run = |start| {
-        let (rows, _) = go_on(&plan(folder.path(), Shard::WHOLE, 1), start, ROWS)?;
-        let finished = rows.finish()?;
-        Ok::<_, LongRunError>(std::fs::read(finished).unwrap())
-    };
-    let mut finished = 0;
     for _ in 0..40 {
-        let runs = std::thread::scope(|scope| {
-            [Start::Restart, Start::New, Start::New, Start::New]
-                .map(|start| scope.spawn(move || run(start)))
-                .map(|run| run.join().unwrap())
-        });
-        for run in runs {
-            match run {
-                Ok(bytes) => {
-                    assert_eq!(bytes, expected);
-                    finished += 1;
-                }
-                Err(error) => {
-                    let refused = error.to_string();
-                    assert!(["another process", "an interrupted run"].iter().any(|words| refused.contains(words)), "{refused}");
-                }
-            }
-        }
+        assert!(together(folder.path(), [Start::Restart, Start::Restart, Start::New], &expected) > 0);
     }
-    // Each may find that another has just begun, so that none of a round ends.
+}
+
+#[test]
+fn a_new_run_begins_beside_one_that_ends_or_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let expected = whole(folder.path());
+    // Of new runs alone each may find that another has just begun, so that in a round none ends.
+    let starts = [Start::Restart, Start::New, Start::New, Start::New];
+    let finished: usize = (0..40).map(|_| together(folder.path(), starts, &expected)).sum();
     assert!(finished > 20, "{finished}");
 }
 
