@@ -41,7 +41,7 @@ pub fn table(entries: &[Entry], period: f32) -> TextTable {
     table
 }
 
-/// An entry, for JSON.
+/// An entry, for programs.
 #[derive(Debug, Serialize)]
 pub struct LogRow {
     tick: u32,
@@ -49,37 +49,33 @@ pub struct LogRow {
     rotation_rad: f32,
     velocity_rad_s: f32,
     what: String,
+    /// Of a fault or warning.
     fault_code: Option<u16>,
 }
 
-/// Every entry, for JSON; `period` is from tick to tick, s.
-pub fn described(entries: &[Entry], period: f32) -> Vec<LogRow> {
+/// Every entry, for programs; `period` is from tick to tick, s.
+pub fn log_rows(entries: &[Entry], period: f32) -> Vec<LogRow> {
     let row = |entry: &Entry| LogRow {
         tick: entry.tick,
         time_s: time(entry, period),
         rotation_rad: entry.rotation,
         velocity_rad_s: entry.velocity,
         what: what(entry.kind),
-        fault_code: fault_code(entry.kind),
+        fault_code: match entry.kind {
+            Kind::Fault(code) | Kind::Warning(code) => Some(code),
+            _ => None,
+        },
     };
     entries.iter().map(row).collect()
-}
-
-/// The code of a fault or warning.
-fn fault_code(kind: Kind) -> Option<u16> {
-    match kind {
-        Kind::Fault(code) | Kind::Warning(code) => Some(code),
-        _ => None,
-    }
 }
 
 /// As a table for programs.
 pub fn rows(entries: &[Entry], period: f32) -> TextTable {
     let mut table = TextTable::new(0, ["tick", "time_s", "rotation_rad", "velocity_rad_s", "what", "fault_code"]);
-    for entry in entries {
-        let code = fault_code(entry.kind).map_or_else(String::new, |code| code.to_string());
-        let numbers = [time(entry, period).to_string(), entry.rotation.to_string(), entry.velocity.to_string()];
-        table.row([&[entry.tick.to_string()][..], &numbers, &[what(entry.kind), code]].concat());
+    for LogRow { tick, time_s, rotation_rad, velocity_rad_s, what, fault_code } in log_rows(entries, period) {
+        let numbers = [tick.to_string(), time_s.to_string(), rotation_rad.to_string(), velocity_rad_s.to_string()];
+        let code = fault_code.map_or_else(String::new, |code| code.to_string());
+        table.row(numbers.into_iter().chain([what, code]).collect());
     }
     table
 }

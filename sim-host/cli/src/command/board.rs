@@ -17,11 +17,11 @@ use sprag_sim::interrupt::Interrupt;
 
 use super::board_line::{Connected, LineArguments, connect};
 use super::board_record::{self, RecordArguments};
-use super::context::{Completion, Context, Interrupted, Run};
+use super::context::{Completion, Context, Interrupted, Run, write_json};
 use super::loop_scene::LoopScene;
 use super::out_arguments::OverwriteArguments;
 use super::record_arguments::SceneRecordArguments;
-use crate::board::event_table::{LogRow, described, rows, table, what};
+use crate::board::event_table::{LogRow, log_rows, rows, table, what};
 use crate::board::info::{DeviceInfo, phase_text};
 use crate::board::line::{DeviceError, Line};
 use crate::board::session::Session;
@@ -218,8 +218,7 @@ fn show(session: &mut Talk, json: bool, out: &mut impl Write) -> anyhow::Result<
 
 /// Prints results as JSON.
 pub(super) fn print_json(results: &impl Serialize, out: &mut impl Write) -> anyhow::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, &Versioned::new(results)).map_err(std::io::Error::from)?;
-    Ok(writeln!(out)?)
+    Ok(write_json(&Versioned::new(results), out)?)
 }
 
 fn change(given: &ParameterArguments, context: &mut Context<'_>) -> anyhow::Result<()> {
@@ -360,7 +359,7 @@ fn log(session: &mut Talk, given: &LogArguments, out: &mut impl Write) -> anyhow
             writeln!(out, "{} of {total} entries in {}", entries.len(), path.display())?;
         }
     } else if given.json.json {
-        print_json(&LogDocument { total, entries: described(&entries, period) }, out)?;
+        print_json(&LogDocument { total, entries: log_rows(&entries, period) }, out)?;
     } else {
         writeln!(out, "{}{} of {total} entries", table(&entries, period).for_terminal(), entries.len())?;
     }

@@ -94,6 +94,28 @@ impl RecordingsDocument {
         };
         RecordingsDocument { recordings: parts.iter().filter_map(row).collect(), room: recordings::room(state, period) }
     }
+
+    fn show(&self, out: &mut impl Write) -> anyhow::Result<()> {
+        let mut table = TextTable::new(0, ["earthquake", "part", "ticks", "time s", "pages", "what"]).ending_in_words();
+        for row in &self.recordings {
+            let mut notes = Vec::new();
+            if row.attached {
+                notes.push("of what a host said".to_owned());
+            }
+            if row.unfinished_pages > 0 {
+                notes.push(format!("{} of its pages not finished", row.unfinished_pages));
+            }
+            if !row.ended {
+                notes.push("no end: a reset, no more room, or it continues".to_owned());
+            }
+            let numbers = [row.earthquake.to_string(), row.part.to_string(), row.ticks.to_string(), format!("{:.3}", row.time_s)];
+            table.row(numbers.into_iter().chain([row.pages.to_string(), notes.join(", ")]).collect());
+        }
+        if !self.recordings.is_empty() {
+            write!(out, "{}", table.for_terminal())?;
+        }
+        Ok(writeln!(out, "{}", self.room)?)
+    }
 }
 
 /// Lists, saves, draws or erases.
@@ -110,12 +132,8 @@ pub fn run(given: &RecordArguments, out: &mut impl Write, interrupt: &Interrupt)
         let parts = recordings::list(session)?;
         if files.is_empty() {
             let period = f64::from(parameters::read(session)?.period());
-            let state = recordings::state(session)?;
-            return if given.json.json {
-                print_json(&RecordingsDocument::new(&state, &parts, period), out)
-            } else {
-                show(&state, &parts, period, out)
-            };
+            let document = RecordingsDocument::new(&recordings::state(session)?, &parts, period);
+            return if given.json.json { print_json(&document, out) } else { document.show(out) };
         }
         let recordings = chosen(given, &parts)?
             .into_iter()
@@ -150,31 +168,6 @@ fn chosen<'a>(given: &RecordArguments, parts: &'a Parts) -> anyhow::Result<Vec<(
         }
         _ => Ok(chosen),
     }
-}
-
-fn show(state: &RecorderState, parts: &Parts, period: f64, out: &mut impl Write) -> anyhow::Result<()> {
-    let mut table = TextTable::new(0, ["earthquake", "part", "ticks", "time s", "pages", "what"]).ending_in_words();
-    for ((number, part), Part { pages, ticks, unfinished, ends }) in parts {
-        let Some((_, header)) = pages.first() else { continue };
-        let mut notes = Vec::new();
-        if header.attached {
-            notes.push("of what a host said".to_owned());
-        }
-        if *unfinished > 0 {
-            notes.push(format!("{unfinished} of its pages not finished"));
-        }
-        if !ends {
-            notes.push("no end: a reset, no more room, or it continues".to_owned());
-        }
-        let seconds = f64::from(*ticks) * f64::from(header.period);
-        let numbers = [number.to_string(), part.to_string(), ticks.to_string(), format!("{seconds:.3}")];
-        table.row(numbers.into_iter().chain([pages.len().to_string(), notes.join(", ")]).collect());
-    }
-    if !parts.is_empty() {
-        write!(out, "{}", table.for_terminal())?;
-    }
-    writeln!(out, "{}", recordings::room(state, period))?;
-    Ok(())
 }
 
 fn save(given: &RecordArguments, recordings: &[Recording], out: &mut impl Write) -> anyhow::Result<()> {

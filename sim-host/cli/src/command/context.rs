@@ -56,6 +56,15 @@ pub struct Context<'a> {
     pub quiet: bool,
 }
 
+/// Writes results as JSON.
+///
+/// # Errors
+/// That of `out`.
+pub fn write_json(results: &impl Serialize, out: &mut impl Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, results)?;
+    writeln!(out)
+}
+
 impl Context<'_> {
     /// Runs a subcommand and gives its exit code; what kept it from finishing is written in one line.
     pub fn run(&mut self, subcommand: &dyn Run) -> i32 {
@@ -85,7 +94,7 @@ impl Context<'_> {
 
     /// Writes results as JSON to standard output.
     pub fn print_json(&mut self, value: &impl Serialize) {
-        let _ = serde_json::to_writer_pretty(&mut self.out, value).map_err(io::Error::from).and_then(|()| writeln!(self.out));
+        let _ = write_json(value, &mut self.out);
     }
 
     /// Writes one line to standard error.
