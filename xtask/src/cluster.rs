@@ -2,6 +2,7 @@
 
 use crate::{
     process::{captured, output, run as done},
+    scratch::empty,
     stop::Stop,
     tools,
 };
@@ -42,12 +43,7 @@ pub fn run(root: &Path, sprag: &Path) -> Result<(), Stop> {
     let folder = root.join("target/slurm");
     let at = |name: &str| folder.join(name);
     let cannot = |path: &Path, error: std::io::Error| Stop::failed(format!("{}: {error}", path.display()));
-    if folder.exists() {
-        fs::remove_dir_all(&folder).map_err(|error| cannot(&folder, error))?;
-    }
-    for name in ["state", "spool"] {
-        fs::create_dir_all(at(name)).map_err(|error| cannot(&folder, error))?;
-    }
+    ["", "state", "spool"].iter().try_for_each(|name| empty(&at(name)))?;
     let scene = root.join("scenes/figure08.toml");
     fs::copy(&scene, at("scene.toml")).map_err(|error| cannot(&scene, error))?;
     let cluster = Cluster::start(&folder)?;

@@ -2,7 +2,7 @@
 //! flags that cargo-fuzz uses without a sanitizer, so that nothing but a C++ compiler needs installing.
 
 use crate::{
-    process::{cargo_in, executables, filtered, host, run as done},
+    process::{cargo_in, executables, filtered, host, run as done, target_folder},
     stop::Stop,
     tools,
 };
@@ -66,8 +66,7 @@ pub fn run(root: &Path, only: Option<&str>, seconds: u32, inputs: Inputs) -> Res
 pub fn check(root: &Path) -> Result<(), Stop> {
     tools::need_cxx()?;
     // In the root's folder, which has the libraries of others checked already.
-    let folder = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
-    done(cargo_in(root, WORKSPACE, &["check", "--all-targets"]).env("CARGO_TARGET_DIR", root.join(folder)))
+    done(cargo_in(root, WORKSPACE, &["check", "--all-targets"]).env("CARGO_TARGET_DIR", target_folder(root)))
 }
 
 /// Builds all targets and gives their names, in order, and programs.

@@ -15,6 +15,7 @@ mod hardware;
 mod package;
 mod panic_check;
 mod process;
+mod scratch;
 mod seal;
 mod size;
 mod steps;

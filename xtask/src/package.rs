@@ -1,15 +1,12 @@
 //! The program as it is installed: tried without the sources, and as a Debian package.
 
 use crate::{
-    process::{answers, cargo, output, run as done},
+    process::{answers, cargo, output, run as done, target_folder},
+    scratch::empty,
     stop::Stop,
     tools,
 };
-use std::{
-    fs,
-    path::{Path, PathBuf},
-    process::Command,
-};
+use std::{fs, path::Path, process::Command};
 
 /// Installs the program by the README's first command and runs the README's other ones in an empty folder, without cargo.
 ///
@@ -20,7 +17,7 @@ pub fn try_installed(root: &Path) -> Result<(), Stop> {
     let (place, folder) = (root.join("target/installed"), root.join("target/installed-try"));
     let mut install = cargo(root, &["install", "--locked", "--force", "--path", "sim-host/cli", "--root"]);
     // Built where everything else is.
-    done(install.arg(&place).arg("--target-dir").arg(root.join("target")))?;
+    done(install.arg(&place).arg("--target-dir").arg(target_folder(root)))?;
     empty(&folder)?;
     let readme = fs::read_to_string(root.join("README.md")).map_err(|error| Stop::failed(format!("README.md: {error}")))?;
     let commands = commands(&readme);
@@ -55,8 +52,7 @@ pub fn deb(root: &Path) -> Result<(), Stop> {
         return Err(Stop::usage("cargo-deb is missing: cargo install --locked cargo-deb"));
     }
     done(&mut cargo(root, &["build", "--locked", "--profile", "dist", "--package", "sprag-cli"]))?;
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
-    let (sprag, folder) = (target.join("dist/sprag"), root.join("target/deb"));
+    let (sprag, folder) = (target_folder(root).join("dist/sprag"), root.join("target/deb"));
     empty(&folder)?;
     done(Command::new(&sprag).args(["manual", "--quiet"]).arg(folder.join("man")))?;
     for shell in ["bash", "fish", "zsh"] {
@@ -65,13 +61,6 @@ pub fn deb(root: &Path) -> Result<(), Stop> {
         fs::write(&file, text).map_err(|error| Stop::failed(format!("{}: {error}", file.display())))?;
     }
     done(&mut cargo(root, &["deb", "--no-build", "--package", "sprag-cli", "--profile", "dist"]))
-}
-
-/// Makes a folder, empty if it is there.
-fn empty(folder: &Path) -> Result<(), Stop> {
-    if folder.exists() { fs::remove_dir_all(folder) } else { Ok(()) }
-        .and_then(|()| fs::create_dir_all(folder))
-        .map_err(|error| Stop::failed(format!("{}: {error}", folder.display())))
 }
 
 #[cfg(test)]

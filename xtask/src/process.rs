@@ -27,6 +27,11 @@ pub fn cargo_in(root: &Path, workspace: &str, args: &[&str]) -> Command {
     command
 }
 
+/// The folder that the root's workspace is built in.
+pub fn target_folder(root: &Path) -> PathBuf {
+    root.join(std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| OsString::from("target")))
+}
+
 /// The target that programs for this machine are built for.
 ///
 /// # Errors

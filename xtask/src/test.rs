@@ -5,7 +5,7 @@ use crate::{
     firmware::{BOARD, Built, LINTED, TARGET},
     fuzz::{self, Inputs},
     hardware, package, panic_check,
-    process::{Beside, cargo, cargo_in, host, run as done},
+    process::{Beside, cargo, cargo_in, host, run as done, target_folder},
     size,
     steps::Steps,
     stop::Stop,
@@ -116,7 +116,7 @@ fn tests(root: &Path, built: &Built, all: bool) -> Result<(), Stop> {
 
 /// The program that the tests of the command run, once they are built.
 pub fn program(root: &Path) -> PathBuf {
-    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from).join("debug/sprag")
+    target_folder(root).join("debug/sprag")
 }
 
 /// Builds the images for the board and checks them; new sizes are accepted if they shall be overwritten.
