@@ -16,6 +16,7 @@ fn a_study_needs_records_and_nothing_else() {
     let study = parse(RECORDS).unwrap();
     assert_eq!(study.devices, ["none", "inerter", "clutched pair"]);
     assert_eq!(study.structures.len(), 1);
+    assert!(matches!(&study.scaling, Scaling::Factors(factors) if factors.len() == 1));
     assert_eq!(study.scaling, Scaling::Factors(vec![1.0]));
     assert_eq!(study.file.measures, Measure::ALL);
     assert_eq!((study.file.demand.measure, study.file.fragility.measure), (Measure::UniformDuration, Measure::Pgv));
