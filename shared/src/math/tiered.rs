@@ -8,10 +8,11 @@ use super::scalar::{Real, Scalar};
 use super::tier::Tier;
 
 /// A number `S` with the sines of tier `T`; everything else, e^x and the square root included, is that of `S`.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(transparent)]
 pub struct Tiered<S, T> {
-    number: S,
+    /// The number itself.
+    pub number: S,
     tier: PhantomData<T>,
 }
 
@@ -20,14 +21,6 @@ impl<S, T> Tiered<S, T> {
     #[inline(always)]
     pub const fn new(number: S) -> Self {
         Tiered { number, tier: PhantomData }
-    }
-}
-
-impl<S: Copy, T> Tiered<S, T> {
-    /// The number itself.
-    #[inline(always)]
-    pub const fn number(self) -> S {
-        self.number
     }
 }
 
@@ -58,15 +51,8 @@ impl<S: Neg<Output = S>, T> Neg for Tiered<S, T> {
     }
 }
 
-impl<S: PartialEq, T> PartialEq for Tiered<S, T> {
-    #[inline(always)]
-    fn eq(&self, other: &Self) -> bool {
-        self.number == other.number
-    }
-}
-
 // Each comparison by itself: derived, they would go through an ordering, which takes the target two comparisons.
-impl<S: PartialOrd, T> PartialOrd for Tiered<S, T> {
+impl<S: PartialOrd, T: PartialEq> PartialOrd for Tiered<S, T> {
     #[inline(always)]
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         self.number.partial_cmp(&other.number)
@@ -129,6 +115,7 @@ impl<S: Real, T: Tier<S>> Real for Tiered<S, T> {
     const HALF: Self = Tiered::new(S::HALF);
     const SMALLEST: Self = Tiered::new(S::SMALLEST);
     const EPSILON: Self = Tiered::new(S::EPSILON);
+    const STUMPFF_TERMS: usize = S::STUMPFF_TERMS;
 
     #[inline]
     fn sin_cos_of_phase(self) -> (Self, Self) {
@@ -144,12 +131,6 @@ impl<S: Real, T: Tier<S>> Real for Tiered<S, T> {
     #[inline]
     fn square_root(self) -> Self {
         Tiered::new(self.number.square_root())
-    }
-
-    #[inline(always)]
-    fn stumpff_series(self) -> (Self, Self) {
-        let (c2, c3) = self.number.stumpff_series();
-        (Tiered::new(c2), Tiered::new(c3))
     }
 
     #[inline(always)]
@@ -256,6 +237,6 @@ mod tests {
     fn it_is_no_larger_than_its_number() {
         assert_eq!(size_of::<Tiered<f32, Micromath>>(), size_of::<f32>());
         assert!(Tiered::<f32, Libm>::new(1.0) < Tiered::new(2.0) && Tiered::<f64, Libm>::new(f64::NAN) != Tiered::new(f64::NAN));
-        assert_eq!(Tiered::<f64, Libm>::new(-2.5).abs().number(), 2.5);
+        assert_eq!(Tiered::<f64, Libm>::new(-2.5).abs().number, 2.5);
     }
 }

@@ -22,7 +22,7 @@
 use crate::equation::motion::Motion;
 use crate::equation::{Equation, SlenderBlock};
 use crate::ground::Elementary;
-use crate::math::polynomial::{Curve, first_zero_of, largest_magnitude_of};
+use crate::math::polynomial::{first_zero_of, largest_magnitude_of};
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::math::stumpff;
@@ -78,13 +78,6 @@ pub struct SlenderArc<S> {
     end: Motion<S>,
     /// Bound of d²θ̈/dτ² over the step.
     curvature: S,
-}
-
-/// θ̈ and its first two derivatives.
-struct Acceleration<S> {
-    value: S,
-    slope: S,
-    second: S,
 }
 
 impl<S: Real> SlenderArc<S> {
@@ -150,7 +143,7 @@ impl<S: Real> SlenderArc<S> {
     }
 
     /// θ̈ and its derivatives; the equation of motion gives the first, its own derivatives the others.
-    fn acceleration(&self, time: S) -> Acceleration<S> {
+    fn acceleration(&self, time: S) -> [S; 3] {
         let growth = self.growth(time);
         let motion = self.motion(time, growth);
         let (mut push_slope, mut push_second) = (self.ground.slope, S::ZERO);
@@ -163,11 +156,16 @@ impl<S: Real> SlenderArc<S> {
             push_slope = push_slope + amplitude * wave.frequency * (wave.cosine * cosine - wave.sine * sine);
             push_second = push_second - amplitude * squared * (wave.sine * cosine + wave.cosine * sine);
         }
-        Acceleration {
-            value: motion.acceleration,
-            slope: self.rate * (motion.velocity - push_slope),
-            second: self.rate * (motion.acceleration - push_second),
+        [motion.acceleration, self.rate * (motion.velocity - push_slope), self.rate * (motion.acceleration - push_second)]
+    }
+
+    /// θ̈ and its derivative.
+    fn value_and_slope(&self, time: S) -> (S, S) {
+        if time == S::ZERO {
+            return (self.start.acceleration, self.jerk);
         }
+        let [value, slope, _] = self.acceleration(time);
+        (value, slope)
     }
 }
 
@@ -178,27 +176,6 @@ struct Growth<S> {
     squared: S,
     c2: S,
     c3: S,
-}
-
-impl<S: Real> Curve<S> for &SlenderArc<S> {
-    #[inline]
-    fn value_and_slope(&self, time: S) -> (S, S) {
-        if time == S::ZERO {
-            return (self.start.acceleration, self.jerk);
-        }
-        let Acceleration { value, slope, .. } = self.acceleration(time);
-        (value, slope)
-    }
-
-    #[inline]
-    fn value(&self, time: S) -> S {
-        self.at(time).acceleration
-    }
-
-    #[inline]
-    fn second_derivative(&self, time: S) -> S {
-        self.acceleration(time).second
-    }
 }
 
 impl<S: Real> DenseOutput<S> for SlenderArc<S> {
@@ -227,7 +204,8 @@ impl<S: Real> DenseOutput<S> for SlenderArc<S> {
 
     #[inline]
     fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
-        largest_magnitude_of(&self, self.curvature, from, to, floor)
+        let curve = (|t| self.value_and_slope(t), |t| self.acceleration(t)[2]);
+        largest_magnitude_of(&curve, self.curvature, from, to, floor)
     }
 }
 
