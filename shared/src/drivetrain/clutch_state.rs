@@ -104,6 +104,31 @@ impl<S: Real> DeviceState<S> {
         DeviceState { wheels: [wheel; 2], ..DeviceState::default() }
     }
 
+    /// Flywheels that are locked.
+    pub fn locked(&self) -> u32 {
+        self.wheels.iter().map(|wheel| u32::from(wheel.coupling == Coupling::Locked)).sum()
+    }
+
+    /// The device's unknowns at the start of a step: speeds of the flywheels, then twists of the clutches.
+    #[inline(always)]
+    pub fn unknowns(&self) -> [S; UNKNOWNS] {
+        let [a, b] = &self.wheels;
+        [a.spin, b.spin, a.twist, b.twist]
+    }
+
+    /// Stores the unknowns at the end of a step, where the rack has the speed `rack` (over R).
+    #[inline(always)]
+    pub fn store(&mut self, unknowns: &[S], rack: S) {
+        for (i, wheel) in self.wheels.iter_mut().enumerate() {
+            if let Some(&spin) = unknowns.get(i) {
+                wheel.spin = if wheel.coupling == Coupling::Locked { rack } else { spin };
+            }
+            if let Some(&twist) = unknowns.get(i + 2) {
+                wheel.twist = twist;
+            }
+        }
+    }
+
     /// Time until something happens by the clock alone, s; none if nothing is due.
     #[inline]
     pub fn next_due(&self) -> Option<S> {
@@ -192,6 +217,9 @@ pub enum Guard<S> {
     /// friction − sign · θ̈ of a block that its clutches hold on its base, likewise.
     HeldDown(S, S),
 }
+
+/// Largest number of a device's own unknowns.
+pub const UNKNOWNS: usize = 4;
 
 /// Largest number of guards of a device: the command, and two of each flywheel.
 pub const GUARDS: usize = 5;

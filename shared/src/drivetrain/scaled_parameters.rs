@@ -6,8 +6,8 @@ use crate::math::sign::Sign;
 use crate::structure::block::Block;
 use crate::structure::drivetrain::{Drivetrain, Engagement};
 
-/// Drivetrain parameters in the units of the equations.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Drivetrain parameters in the units of the equations; all zero without a device.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ScaledParameters<S> {
     /// k = σ/λ of one flywheel.
     pub inertance: S,

@@ -96,10 +96,7 @@ fn solve<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G:
     for (value, &rate) in unknowns.iter_mut().zip(&frozen.rates) {
         *value = *value + h * rate;
     }
-    let Some(parameters) = known.transmission.parameters() else {
-        return Place { time: h, ground, rotation, velocity, unknowns };
-    };
-    // A spring between a block and a flywheel that are both held keeps its twist.
+    let parameters = &known.start.transmission.parameters;
     let contact = [0, 1].map(|i| law.stiffness[i] > S::ZERO && !(known.is_held() && law.moves[i] == S::ZERO));
     let both = contact[0] && contact[1];
     let coupled = frozen.arm * frozen.leverage;

@@ -24,8 +24,8 @@ mod threshold;
 pub use command::Actuator;
 
 use crate::drivetrain::any_transmission::AnyTransmission;
-use crate::drivetrain::clutch_state::{Coupling, DeviceState, GUARDS, Guard, ModeCoefficients};
-use crate::drivetrain::transmission::{AnyPoint, EvaluationPoint, EventContext, UNKNOWNS};
+use crate::drivetrain::clutch_state::{Coupling, DeviceState, GUARDS, Guard, ModeCoefficients, UNKNOWNS};
+use crate::drivetrain::transmission::{AnyPoint, EvaluationPoint, EventContext};
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
 use crate::equation::motion::Motion;
@@ -214,7 +214,7 @@ impl<S: Real> HybridSystem<S> {
             side: motion.side,
             rotation: motion.rotation,
             velocity: motion.velocity,
-            unknowns: self.transmission.load(&state.device),
+            unknowns: state.device.unknowns(),
             time: *time,
             length: stop - *time,
             freed: state.free && motion.velocity == S::ZERO,
@@ -238,17 +238,13 @@ impl<S: Real> HybridSystem<S> {
                 (until, end) = (zero, End::Guard(guard));
             }
         }
-        if traits.unknowns >= 2
-            && let Some(parameters) = self.transmission.parameters()
-        {
-            for (i, wheel) in state.device.wheels.iter().enumerate() {
-                // Without dry friction nothing changes where a flywheel stands for an instant.
-                let stops = wheel.coupling != Coupling::Locked && parameters.dry_of(wheel) > S::ZERO;
-                if let (Some(turning), true) = (wheel.turning, stops)
-                    && let Some(zero) = output.unknown_zero(i, until, turning, wheel.spin == S::ZERO)
-                {
-                    (until, end) = (zero, End::Stopped(i));
-                }
+        for (i, wheel) in state.device.wheels.iter().enumerate().take(traits.unknowns) {
+            // Without dry friction nothing changes where a flywheel stands for an instant.
+            let stops = wheel.coupling != Coupling::Locked && self.transmission.parameters.dry_of(wheel) > S::ZERO;
+            if let (Some(turning), true) = (wheel.turning, stops)
+                && let Some(zero) = output.unknown_zero(i, until, turning, wheel.spin == S::ZERO)
+            {
+                (until, end) = (zero, End::Stopped(i));
             }
         }
         let mut last = output.at(until);
@@ -289,7 +285,7 @@ impl<S: Real> HybridSystem<S> {
         let motion = &mut state.motion;
         (motion.rotation, motion.velocity) = (last.rotation, last.velocity);
         let configuration = self.body.configuration(motion.side.unit(), motion.rotation);
-        self.transmission.store(&mut state.device, &unknowns, self.body.to_terminal(&configuration, motion.velocity));
+        state.device.store(&unknowns[..traits.unknowns], self.body.to_terminal(&configuration, motion.velocity));
         state.device.elapse(until);
         (state.fresh, state.free) = ([false; GUARDS], false);
         let ground = shaking.at(*time);
@@ -348,9 +344,7 @@ impl<S: Real> HybridSystem<S> {
         let force = self.transmission.account(&point, S::ZERO, &state.device).force[index & 1];
         let wheel = &mut state.device.wheels[index & 1];
         wheel.spin = S::ZERO;
-        if let Some(parameters) = self.transmission.parameters() {
-            parameters.settle(wheel, force);
-        }
+        self.transmission.parameters.settle(wheel, force);
     }
 
     /// Answer of the device to an event; a change of its coupling is reported.
@@ -365,6 +359,7 @@ impl<S: Real> HybridSystem<S> {
         let motion = &mut state.motion;
         let mut at = EventContext {
             body: &self.body,
+            parameters: &self.transmission.parameters,
             side: motion.side,
             direction: motion.direction,
             rotation: motion.rotation,
@@ -414,14 +409,15 @@ impl<S: Real> HybridSystem<S> {
     /// `state` as the start of a step.
     fn place(&self, state: &HybridState<S>) -> Place<S, UNKNOWNS> {
         let BlockState { rotation, velocity, .. } = state.motion;
-        Place { time: S::ZERO, ground: state.ground, rotation, velocity, unknowns: self.transmission.load(&state.device) }
+        Place { time: S::ZERO, ground: state.ground, rotation, velocity, unknowns: state.device.unknowns() }
     }
 
     /// The evaluation point of an instant.
     fn point<'a>(&'a self, law: &'a ModeCoefficients<S>, side: Sign, at: &Place<S, UNKNOWNS>) -> AnyPoint<'a, S, UNKNOWNS> {
         let Place { time, ground, rotation, velocity, unknowns } = *at;
         let configuration = self.body.configuration(side.unit(), rotation);
-        EvaluationPoint { body: &self.body, law, configuration, velocity, unknowns, ground, clock: time }
+        let parameters = &self.transmission.parameters;
+        EvaluationPoint { body: &self.body, parameters, law, configuration, velocity, unknowns, ground, clock: time }
     }
 
     /// Snapshot of block and device at an instant, for observers.

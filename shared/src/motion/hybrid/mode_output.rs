@@ -1,8 +1,8 @@
 //! Mode output: dense output over one step with the unknowns and guards of a device.
 
 use crate::drivetrain::any_transmission::{AnyTransmission, each_transmission};
-use crate::drivetrain::clutch_state::ModeCoefficients;
-use crate::drivetrain::transmission::{EvaluationPoint, PointOf, Transmission, UNKNOWNS};
+use crate::drivetrain::clutch_state::{ModeCoefficients, UNKNOWNS};
+use crate::drivetrain::transmission::{EvaluationPoint, PointOf, Transmission};
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
 use crate::ground::GroundSegment;
@@ -93,10 +93,10 @@ impl<S: Real> ModeStart<'_, S> {
     pub fn known<W: WithModeStart<S>>(&self, next: W) -> W::Output {
         match self.body {
             AnyBody::Slender(body) => {
-                each_transmission!(self.transmission, transmission => next.with(&KnownModeStart { start: self, body, transmission }))
+                each_transmission!(self.transmission.kind, transmission => next.with(&KnownModeStart { start: self, body, transmission }))
             }
             AnyBody::Full(body) => {
-                each_transmission!(self.transmission, transmission => next.with(&KnownModeStart { start: self, body, transmission }))
+                each_transmission!(self.transmission.kind, transmission => next.with(&KnownModeStart { start: self, body, transmission }))
             }
         }
     }
@@ -135,7 +135,8 @@ impl<S: Real, B: Body<S>, D> KnownModeStart<'_, S, B, D> {
     fn point<const X: usize>(&self, at: &Place<S, X>) -> PointOf<'_, S, B, S, X> {
         let configuration = self.body.configuration(self.start.side.unit(), at.rotation);
         let Place { time, ground, velocity, unknowns, .. } = *at;
-        EvaluationPoint { body: self.body, law: self.start.law, configuration, velocity, unknowns, ground, clock: time }
+        let ModeStart { law, transmission: AnyTransmission { parameters, .. }, .. } = self.start;
+        EvaluationPoint { body: self.body, parameters, law, configuration, velocity, unknowns, ground, clock: time }
     }
 
     /// θ̈ and the rates of the device's unknowns.

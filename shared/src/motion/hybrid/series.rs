@@ -4,8 +4,8 @@
 use core::cell::Cell;
 
 use super::mode_output::{KnownModeStart, ModeIntegrator, ModeOutput, ModeStart, WithModeStart};
-use crate::drivetrain::clutch_state::{GUARDS, Guard};
-use crate::drivetrain::transmission::{EvaluationPoint, Transmission, UNKNOWNS};
+use crate::drivetrain::clutch_state::{GUARDS, Guard, UNKNOWNS};
+use crate::drivetrain::transmission::{EvaluationPoint, Transmission};
 use crate::equation::body::Body;
 use crate::equation::motion::Motion;
 use crate::math::power_series::{DEVICE_SLOTS, MAXIMUM_ORDER, Tape};
@@ -77,7 +77,7 @@ impl<S: Real, const N: usize> WithModeStart<S> for Expansion<'_, S, N> {
             unknown[0] = start.unknowns[i];
             tape.set(GIVEN + i, 0, start.unknowns[i]);
         }
-        let sizes = known.transmission.scales(start.speed);
+        let sizes = known.transmission.scales(&start.transmission.parameters, start.speed);
         let mut truncation = Truncation::new(start.length, tolerance);
         for k in 0..N - 2 {
             tape.set(2, k, ground[k]);
@@ -91,6 +91,7 @@ impl<S: Real, const N: usize> WithModeStart<S> for Expansion<'_, S, N> {
             let up = if shaken_up { given(3) } else { push };
             let at = EvaluationPoint {
                 body: known.body,
+                parameters: &start.transmission.parameters,
                 law: start.law,
                 configuration: known.body.configuration(side, theta),
                 velocity: omega,

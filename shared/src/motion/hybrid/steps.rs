@@ -2,8 +2,8 @@
 
 use super::exponential;
 use super::mode_output::{KnownModeStart, ModeIntegrator, ModeOutput, ModeStart, Place, WithModeStart};
-use crate::drivetrain::any_transmission::{first, padded};
-use crate::drivetrain::transmission::{Transmission, UNKNOWNS};
+use crate::drivetrain::clutch_state::UNKNOWNS;
+use crate::drivetrain::transmission::{Transmission, first};
 use crate::equation::body::Body;
 use crate::equation::motion::Motion;
 use crate::math::scalar::Real;
@@ -103,7 +103,8 @@ impl<S: Real> WithModeStart<S> for Step<'_, S> {
         let ground = known.start.ground_at(self.time);
         let end = advance(self.method, known, (&from, &rates), (self.time, ground));
         let (acceleration, _) = known.rates(&end);
-        ((rates.0, padded(&rates.1)), (end.map(padded), acceleration))
+        let all = |unknowns: &[S; X]| core::array::from_fn(|i| unknowns.get(i).copied().unwrap_or(S::ZERO));
+        ((rates.0, all(&rates.1)), (end.map(all), acceleration))
     }
 }
 
