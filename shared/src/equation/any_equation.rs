@@ -3,7 +3,6 @@
 //! Only the steps of a method, which evaluate the equation many times, are compiled for each type ([`AnyEquation::known`]); the event loop
 //! is compiled once.
 
-use super::kinematics::{Consistent, Paper};
 use super::lever::{CentreOfMass, TyingPoint};
 use super::switched::Switched;
 use super::{Equation, FullBlock, FullInerter, SlenderBlock};
@@ -17,14 +16,10 @@ pub enum AnyEquation<S> {
     Slender(SlenderBlock<S>),
     /// Full block, alone or with its inerter released.
     Block(FullBlock<S>),
-    /// Inerter at the centre of mass, kinematics of the paper.
-    CentrePaper(FullInerter<S, CentreOfMass, Paper>),
-    /// Inerter at the centre of mass, consistent kinematics.
-    CentreConsistent(FullInerter<S, CentreOfMass, Consistent>),
-    /// Inerter at any point of the block, kinematics of the paper.
-    PointPaper(FullInerter<S, TyingPoint<S>, Paper>),
-    /// Inerter at any point of the block, consistent kinematics.
-    PointConsistent(FullInerter<S, TyingPoint<S>, Consistent>),
+    /// Inerter at the centre of mass.
+    Centre(FullInerter<S, CentreOfMass>),
+    /// Inerter at any point of the block.
+    Point(FullInerter<S, TyingPoint<S>>),
 }
 
 /// Continuation that receives the equation in its own type.
@@ -41,10 +36,8 @@ macro_rules! known {
         match $any {
             AnyEquation::Slender($equation) => $then,
             AnyEquation::Block($equation) => $then,
-            AnyEquation::CentrePaper($equation) => $then,
-            AnyEquation::CentreConsistent($equation) => $then,
-            AnyEquation::PointPaper($equation) => $then,
-            AnyEquation::PointConsistent($equation) => $then,
+            AnyEquation::Centre($equation) => $then,
+            AnyEquation::Point($equation) => $then,
         }
     };
 }

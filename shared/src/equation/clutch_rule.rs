@@ -44,36 +44,6 @@ impl ClutchRule {
     }
 }
 
-/// Clutch rule as a type, so that lanes without a clutch have no clutch in their loop.
-pub trait Clutch: Copy {
-    /// The rule.
-    const RULE: ClutchRule;
-}
-
-/// [`ClutchRule::Without`] as a type.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NoInerter;
-
-/// [`ClutchRule::Always`] as a type.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SingleInerter;
-
-/// [`ClutchRule::Resisting`] as a type.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ClutchedPair;
-
-impl Clutch for NoInerter {
-    const RULE: ClutchRule = ClutchRule::Without;
-}
-
-impl Clutch for SingleInerter {
-    const RULE: ClutchRule = ClutchRule::Always;
-}
-
-impl Clutch for ClutchedPair {
-    const RULE: ClutchRule = ClutchRule::Resisting;
-}
-
 /// The flywheel for motion in `direction`.
 #[inline(always)]
 pub fn wheel_for(direction: Sign) -> usize {

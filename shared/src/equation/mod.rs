@@ -8,7 +8,7 @@
 //! is either engaged or not. They are written over [`Value`], so the same lines give an acceleration in f32 or f64, in
 //! SIMD lanes, and the coefficients of a Taylor series.
 //!
-//! [`lever`], [`kinematics`]: the inerter's terminals; [`body`]: the same equations in parts, for devices with forces of their own;
+//! [`lever`]: the inerter's terminals; [`body`]: the same equations in parts, for devices with forces of their own;
 //! [`clutch_rule`]: Eq. 10; [`first_integral`]: the energy integral. The room imports `math` only.
 
 pub mod any_body;
@@ -17,17 +17,13 @@ pub mod body;
 pub mod clutch_rule;
 pub mod configuration;
 pub mod first_integral;
-pub mod kinematics;
 pub mod lever;
 pub mod motion;
 pub mod switched;
 
-use core::marker::PhantomData;
-
 use crate::math::scalar::Scalar;
 use crate::math::value::Value;
 use configuration::FullConfiguration;
-use kinematics::Kinematics;
 use lever::Lever;
 
 /// Equation of motion of one rotation, of second order and smooth between events.
@@ -114,29 +110,21 @@ impl<S: Scalar> Equation<S> for FullBlock<S> {
 
 /// Equation of motion of the block with its inerter (Eq. 13-16, any mount); κ = 0 with the inerter released.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FullInerter<S, L, K> {
+pub struct FullInerter<S, L> {
     /// Equation of the block alone.
     pub block: FullBlock<S>,
     /// κ k: σ/λ while engaged, 0 while released. In SIMD lanes each lane has its own.
     pub coupling: S,
     /// Lever ℓ(θ).
     pub lever: L,
-    /// Kinematics, paper or consistent.
-    kinematics: PhantomData<K>,
+    /// Consistent kinematics, with the θ̇² term; else the paper's (Eq. 11).
+    pub consistent: bool,
 }
 
-impl<S, L, K> FullInerter<S, L, K> {
-    /// Block with the inerter's coupling κ k at the lever ℓ(θ).
-    #[inline(always)]
-    pub const fn new(block: FullBlock<S>, coupling: S, lever: L) -> Self {
-        FullInerter { block, coupling, lever, kinematics: PhantomData }
-    }
-}
-
-impl<S: Scalar, L: Lever<S>, K: Kinematics> FullInerter<S, L, K> {
+impl<S: Scalar, L: Lever<S>> FullInerter<S, L> {
     #[inline(always)]
     fn at<V: Value<S>>(&self, side: S, rotation: V) -> FullConfiguration<V> {
-        FullConfiguration::new(&self.lever, K::CONSISTENT, side, self.block.delta(side, rotation))
+        FullConfiguration::new(&self.lever, self.consistent, side, self.block.delta(side, rotation))
     }
 
     /// The same mount with another coupling κ k.
@@ -146,10 +134,10 @@ impl<S: Scalar, L: Lever<S>, K: Kinematics> FullInerter<S, L, K> {
     }
 }
 
-impl<S: Scalar, L: Lever<S>, K: Kinematics> Equation<S> for FullInerter<S, L, K> {
+impl<S: Scalar, L: Lever<S>> Equation<S> for FullInerter<S, L> {
     #[inline(always)]
     fn switches_with_acceleration(&self) -> bool {
-        !K::CONSISTENT
+        !self.consistent
     }
 
     #[inline(always)]

@@ -22,24 +22,16 @@ use crate::motion::state::BlockState;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Digest {
     hash: Fnv,
-    stretches: u32,
-    events: u32,
+    /// Intervals so far.
+    pub stretches: u32,
+    /// Events so far.
+    pub events: u32,
 }
 
 impl Digest {
     /// The hash so far.
     pub fn hash(&self) -> u64 {
         self.hash.value()
-    }
-
-    /// Intervals so far.
-    pub fn stretches(&self) -> u32 {
-        self.stretches
-    }
-
-    /// Events so far.
-    pub fn events(&self) -> u32 {
-        self.events
     }
 
     #[inline]
@@ -89,7 +81,7 @@ mod tests {
         let of = |rotation: f32, velocity: f32, side, event| {
             let mut digest = Digest::default();
             digest.event(event, 0.0, &BlockState { rotation, velocity, side, ..BlockState::default() });
-            assert_eq!((digest.stretches(), digest.events()), (0, 1));
+            assert_eq!((digest.stretches, digest.events), (0, 1));
             digest.hash()
         };
         let base = of(0.1, 0.2, Sign::Positive, Event::Turn);

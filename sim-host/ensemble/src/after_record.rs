@@ -28,7 +28,7 @@ impl Shaken {
         state.impacts = impacts;
         let overturned = match structure.geometry {
             Geometry::Full => core::f64::consts::FRAC_PI_2,
-            Geometry::Slender => structure.geometry.point_of_no_return(&structure.block, 0.0),
+            Geometry::Slender => structure.geometry.point_of_no_return(structure.block.slenderness(), 0.0),
         };
         let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
         system.advance(&method, &mut state, &Quiet, free_time, &Limits { overturned, events: MOST_EVENTS }, &mut peaks)?;

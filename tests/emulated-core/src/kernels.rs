@@ -10,14 +10,13 @@ mod devices;
 use core::{fmt, hint::black_box};
 use sprag_shared::{
     equation::{
-        Equation, FullBlock, FullInerter, SlenderBlock, any_equation::AnyEquation, clutch_rule::ClutchRule, kinematics::Paper,
-        lever::CentreOfMass,
+        Equation, FullBlock, FullInerter, SlenderBlock, any_equation::AnyEquation, clutch_rule::ClutchRule, lever::CentreOfMass,
     },
     ground::Harmonics,
     math::sine32,
     method::{
         dense_output::Integrator,
-        fixed::{FixedStep, runge_kutta_4},
+        fixed::{FixedStep, Scheme, runge_kutta_4},
         taylor::Taylor,
     },
     motion::{
@@ -28,7 +27,7 @@ use sprag_shared::{
     },
 };
 
-type Inerter = FullInerter<f32, CentreOfMass, Paper>;
+type Inerter = FullInerter<f32, CentreOfMass>;
 
 /// p² of a rectangle with R = 2 m, 1/s².
 const FREQUENCY_SQUARED: f32 = 3.677_493_7;
@@ -46,7 +45,7 @@ const STEP: f32 = 0.005;
 const BLOCK: FullBlock<f32> = FullBlock { frequency_squared: FREQUENCY_SQUARED, slenderness: SLENDERNESS };
 
 const fn inerter(coupling: f32) -> Inerter {
-    FullInerter::new(BLOCK, coupling, CentreOfMass)
+    FullInerter { block: BLOCK, coupling, lever: CentreOfMass, consistent: false }
 }
 
 const fn slender(inertia: f32) -> SlenderBlock<f32> {
@@ -182,7 +181,7 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
 
     let pair = black_box(IdealSystem {
         released: AnyEquation::Block(BLOCK),
-        engaged: AnyEquation::CentrePaper(inerter(COUPLING)),
+        engaged: AnyEquation::Centre(inerter(COUPLING)),
         restitution: RESTITUTION,
         uplift: UPLIFT,
         slenderness: SLENDERNESS,
@@ -191,8 +190,8 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
         clutch: ClutchRule::Resisting,
     });
     let pulse = black_box(Harmonics::sine(0.5, core::f32::consts::TAU));
-    located("located-euler-step", &FixedStep::SemiImplicitEuler { step: STEP }, (&pair, &pulse), counter, out)?;
-    located("located-rk4-step", &FixedStep::RungeKutta4 { step: STEP }, (&pair, &pulse), counter, out)?;
+    located("located-euler-step", &FixedStep { scheme: Scheme::SemiImplicitEuler, step: STEP }, (&pair, &pulse), counter, out)?;
+    located("located-rk4-step", &FixedStep { scheme: Scheme::RungeKutta4, step: STEP }, (&pair, &pulse), counter, out)?;
     located("located-taylor12-step", &Taylor::<f32, 12>::fixed(10.0 * STEP), (&pair, &pulse), counter, out)?;
     accuracy::report(counter, out)?;
     devices::report(counter, out)?;

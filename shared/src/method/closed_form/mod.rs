@@ -27,7 +27,7 @@ use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::math::stumpff;
 use crate::method::dense_output::{DenseOutput, Integrator, StepStart};
-use crate::method::fixed::{FixedOutput, FixedStep};
+use crate::method::fixed::{FixedOutput, Scheme};
 
 /// Longest step, in 1/p_σ, so that e^{pτ} stays small and the bounds tight.
 const LONGEST: f64 = 4.0;
@@ -54,7 +54,7 @@ impl<S: Real> Integrator<S> for ClosedForm<S> {
     fn integrate<'a>(&'a self, start: &'a StepStart<'a, S>) -> ClosedFormOutput<'a, S> {
         match (start.equation.slender(), start.segment.elementary(start.time)) {
             (Some(block), Some(ground)) => ClosedFormOutput::Closed(SlenderArc::new(block, ground, start)),
-            _ => ClosedFormOutput::Stepped(FixedOutput::new(FixedStep::RungeKutta4 { step: self.step }, start)),
+            _ => ClosedFormOutput::Stepped(FixedOutput::new(Scheme::RungeKutta4, start)),
         }
     }
 

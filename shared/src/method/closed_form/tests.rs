@@ -5,6 +5,7 @@ use crate::ground::check::Sum;
 use crate::ground::harmonic::{Harmonic, MavroeidisPapageorgiou};
 use crate::ground::{GroundSegment, Harmonics, Linear, Quiet, Ricker};
 use crate::math::{asin, exp, square_root};
+use crate::method::fixed::{FixedStep, Scheme};
 use crate::method::taylor::Taylor;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits, Phase};
@@ -245,7 +246,7 @@ fn elsewhere_it_is_the_runge_kutta_method() {
     for kind in DeviceKind::ALL {
         let structure = structure(kind, Geometry::Full);
         let (state, log) = follow::<f64, _>(&structure, &ClosedForm { step: 0.01 }, segments);
-        let (same, same_log) = follow::<f64, _>(&structure, &FixedStep::RungeKutta4 { step: 0.01 }, segments);
+        let (same, same_log) = follow::<f64, _>(&structure, &FixedStep { scheme: Scheme::RungeKutta4, step: 0.01 }, segments);
         assert_eq!((state, log.peaks, log.events), (same, same_log.peaks, same_log.events));
     }
 }

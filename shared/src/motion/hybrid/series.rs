@@ -8,33 +8,16 @@ use crate::drivetrain::clutch_state::{GUARDS, Guard, UNKNOWNS};
 use crate::drivetrain::transmission::{EvaluationPoint, Transmission};
 use crate::equation::body::Body;
 use crate::equation::motion::Motion;
-use crate::math::power_series::{DEVICE_SLOTS, MAXIMUM_ORDER, Tape};
+use crate::math::power_series::{DEVICE_SLOTS, Tape};
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::math::{RECIPROCALS, polynomial};
 use crate::method::dense_output::DenseOutput;
 use crate::method::motion_series::{StepSeries, Truncation};
+use crate::method::taylor::Taylor;
 
-/// A Taylor method with `N` coefficients for each quantity (8 to 32), and the tape it works on. One per thread: it is
-/// scratch space, not state.
-pub struct Series<S, const N: usize> {
-    tape: Tape<S, N, DEVICE_SLOTS>,
-    tolerance: S,
-    step: Option<S>,
-}
-
-impl<S: Real, const N: usize> Series<S, N> {
-    /// Steps of its own choice: as long as the series' last terms stay below `tolerance` times what matters.
-    pub fn adaptive(tolerance: S) -> Self {
-        const { assert!(N >= 8 && N <= MAXIMUM_ORDER) };
-        Series { tape: Tape::default(), tolerance, step: None }
-    }
-
-    /// Fixed steps of `step` s (above 0), order N − 2.
-    pub fn fixed(step: S) -> Self {
-        Series { step: Some(step), ..Series::adaptive(S::ZERO) }
-    }
-}
+/// [`Taylor`] with a tape for a device's unknowns and guards.
+pub type Series<S, const N: usize> = Taylor<S, N, DEVICE_SLOTS>;
 
 /// Mode output of one step as power series.
 #[derive(Clone, Copy, Debug)]

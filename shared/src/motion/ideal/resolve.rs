@@ -40,7 +40,7 @@ impl Structure {
             released,
             engaged,
             restitution: S::of(restitution),
-            uplift: S::of(self.geometry.uplift_threshold(&self.block)),
+            uplift: S::of(self.geometry.uplift_threshold(self.block.slenderness())),
             slenderness: S::of(alpha),
             rest_speed: S::of(rest * speed),
             counted_speed: S::of(COUNTED_SPEED * speed),
@@ -73,16 +73,10 @@ impl Structure {
         }
         let point = device.mount.lever(&self.block)?.rounded();
         let inerter = |coupling: f64| {
-            let coupling = S::of(coupling);
-            match (device.mount, device.kinematics) {
-                (Mount::CentreOfMass, KinematicsKind::Paper) => {
-                    AnyEquation::CentrePaper(FullInerter::new(block, coupling, CentreOfMass))
-                }
-                (Mount::CentreOfMass, KinematicsKind::Consistent) => {
-                    AnyEquation::CentreConsistent(FullInerter::new(block, coupling, CentreOfMass))
-                }
-                (_, KinematicsKind::Paper) => AnyEquation::PointPaper(FullInerter::new(block, coupling, point)),
-                (_, KinematicsKind::Consistent) => AnyEquation::PointConsistent(FullInerter::new(block, coupling, point)),
+            let (coupling, consistent) = (S::of(coupling), device.kinematics == KinematicsKind::Consistent);
+            match device.mount {
+                Mount::CentreOfMass => AnyEquation::Centre(FullInerter { block, coupling, lever: CentreOfMass, consistent }),
+                _ => AnyEquation::Point(FullInerter { block, coupling, lever: point, consistent }),
             }
         };
         let engaged = inerter(coupling);

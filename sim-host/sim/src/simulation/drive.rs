@@ -67,7 +67,7 @@ impl<'a> Course<'a> {
     pub fn angle<S: Real>(&self, bound: f64) -> S {
         S::of(match (self.overturning, self.geometry) {
             (Overturning::Reached, Geometry::Full) => core::f64::consts::FRAC_PI_2,
-            _ => self.geometry.point_of_no_return(self.block, bound),
+            _ => self.geometry.point_of_no_return(self.block.slenderness(), bound),
         })
     }
 

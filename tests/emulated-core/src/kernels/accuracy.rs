@@ -15,8 +15,8 @@ use core::{f64::consts::FRAC_PI_2, fmt, hint::black_box};
 use sprag_case::{Case, CaseError, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::{
     equation::{
-        FullBlock, FullInerter, SlenderBlock, any_equation::AnyEquation, clutch_rule::ClutchRule, kinematics::Paper,
-        lever::CentreOfMass, switched::Switched,
+        FullBlock, FullInerter, SlenderBlock, any_equation::AnyEquation, clutch_rule::ClutchRule, lever::CentreOfMass,
+        switched::Switched,
     },
     ground::Linear,
     math::{
@@ -51,8 +51,8 @@ fn full<S: Real>() -> FullBlock<S> {
     FullBlock { frequency_squared: S::of(super::FREQUENCY_SQUARED.into()), slenderness: S::of(super::SLENDERNESS.into()) }
 }
 
-fn inerter<S: Real>(coupling: f32) -> FullInerter<S, CentreOfMass, Paper> {
-    FullInerter::new(full(), S::of(coupling.into()), CentreOfMass)
+fn inerter<S: Real>(coupling: f32) -> FullInerter<S, CentreOfMass> {
+    FullInerter { block: full(), coupling: S::of(coupling.into()), lever: CentreOfMass, consistent: false }
 }
 
 fn slender<S: Real>(inertia: f32) -> SlenderBlock<S> {

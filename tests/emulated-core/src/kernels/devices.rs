@@ -15,7 +15,7 @@ use sprag_shared::{
     },
     equation::{any_body::AnyBody, body::FullBody, lever::TyingPoint},
     ground::Harmonics,
-    method::fixed::FixedStep,
+    method::fixed::{FixedStep, Scheme},
     motion::{
         hybrid::{
             Actuator, HybridSystem,
@@ -119,8 +119,8 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
     let pulse = black_box(Shape::Sine(Harmonics::sine(0.5, TAU)));
     let up = black_box(Shape::Sine(Harmonics::sine(0.2, 4.0 * TAU)));
     let (level, both) = (Shaking { horizontal: &pulse, vertical: None }, Shaking { horizontal: &pulse, vertical: Some(&up) });
-    let integrator = FixedStep::RungeKutta4 { step: super::STEP };
-    let midpoint = FixedStep::ExponentialMidpoint { step: super::STEP };
+    let integrator = FixedStep { scheme: Scheme::RungeKutta4, step: super::STEP };
+    let midpoint = FixedStep { scheme: Scheme::ExponentialMidpoint, step: super::STEP };
     let (paper, consistent) = (body(false, false), body(true, false));
 
     macro_rules! line {

@@ -15,7 +15,7 @@ use super::series::Series;
 use super::{HybridState, HybridSystem};
 use crate::ground::{AnySegment, Harmonics, Linear, Quiet};
 use crate::method::dense_output::DenseOutput;
-use crate::method::fixed::FixedStep;
+use crate::method::fixed::{FixedStep, Scheme};
 use crate::method::taylor::Taylor;
 use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
@@ -74,7 +74,7 @@ pub fn structure(geometry: Geometry, degrees: f64, kind: DeviceKind, sigma: f64,
 
 pub fn shake(structure: Structure, amplitude: f64, frequency: f64) -> Shake {
     let p = structure.block.frequency_parameter();
-    let amplitude = amplitude * structure.geometry.uplift_threshold(&structure.block);
+    let amplitude = amplitude * structure.geometry.uplift_threshold(structure.block.slenderness());
     let cycle = (sine(amplitude, frequency * p), core::f64::consts::TAU / (frequency * p));
     Shake { structure, pieces: std::vec![cycle], free_time: 12.0 / p }
 }
@@ -136,7 +136,7 @@ impl Shake {
         let largest = |(ground, duration): &(AnySegment<f64>, f64)| ground.bound(*duration);
         let bound = if quiet { 0.0 } else { self.pieces.iter().map(largest).fold(0.0, f64::max) };
         let block = self.structure.loaded().unwrap().block;
-        Limits { overturned: self.structure.geometry.point_of_no_return(&block, bound), events: 100_000 }
+        Limits { overturned: self.structure.geometry.point_of_no_return(block.slenderness(), bound), events: 100_000 }
     }
 
     /// By the loop for ideal devices.
@@ -186,7 +186,7 @@ impl Shake {
     pub fn exponential(&self, drivetrain: &Drivetrain, step: f64) -> Seen {
         let machine = drivetrain.resolve(&self.structure, false).unwrap();
         assert!(machine.transmission.traits().springs, "not an elastic clutch");
-        self.follow(&machine, &FixedStep::ExponentialMidpoint { step }, &mut ())
+        self.follow(&machine, &FixedStep { scheme: Scheme::ExponentialMidpoint, step }, &mut ())
     }
 
     fn follow<T: ModeIntegrator<f64>>(&self, machine: &HybridSystem<f64>, method: &T, other: &mut dyn Observer<f64>) -> Seen {
