@@ -132,13 +132,7 @@ impl<S: Real> DeviceState<S> {
     /// Time until something happens by the clock alone, s; none if nothing is due.
     #[inline]
     pub fn next_due(&self) -> Option<S> {
-        let mut due = None;
-        for wheel in &self.wheels {
-            if wheel.pending >= S::ZERO {
-                due = Some(due.map_or(wheel.pending, |t: S| t.smaller(wheel.pending)));
-            }
-        }
-        due
+        self.wheels.iter().map(|wheel| wheel.pending).filter(|pending| *pending >= S::ZERO).reduce(S::smaller)
     }
 
     /// Lets the clocks run for `time` (s).

@@ -66,7 +66,7 @@ mod tests {
     use super::*;
     use crate::ground::check::Sum;
     use crate::ground::harmonic::MavroeidisPapageorgiou;
-    use crate::ground::{GroundSegment, Harmonics, Linear, Quiet, Ricker};
+    use crate::ground::{GroundSegment, Harmonics, Linear, Ricker};
     use crate::math::sin_cos;
 
     fn change(motion: &Elementary<f64>, t: f64) -> f64 {
@@ -90,7 +90,7 @@ mod tests {
     fn pieces_go_on_as_they_say() {
         let wavelet = MavroeidisPapageorgiou { velocity_amplitude: 0.9, frequency: 0.5, oscillations: 1.8, phase: 0.6 };
         let line = Linear { start: 0.2, slope: -0.3 };
-        goes_on(&Quiet);
+        goes_on(&Harmonics::QUIET);
         goes_on(&line);
         goes_on(&Harmonics::sine(1.5, 4.0));
         goes_on(&Harmonics::cosine(0.7, 7.0));

@@ -24,6 +24,11 @@ pub struct Harmonics<S, const M: usize> {
     pub terms: [Harmonic<S>; M],
 }
 
+impl<S> Harmonics<S, 0> {
+    /// No motion.
+    pub const QUIET: Self = Harmonics { terms: [] };
+}
+
 impl<S: Real> Harmonics<S, 1> {
     /// The sine pulse A sin ωτ; one cycle lasts 2π/ω, a half-sine pulse π/ω.
     pub fn sine(amplitude: S, frequency: S) -> Self {
@@ -131,6 +136,11 @@ impl<S: Real, const M: usize> GroundSegment<S> for Harmonics<S, M> {
                 }
             }
         }
+    }
+
+    #[inline]
+    fn is_quiet(&self) -> bool {
+        M == 0
     }
 
     #[inline]

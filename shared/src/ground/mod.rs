@@ -47,42 +47,6 @@ pub trait GroundSegment<S: Real> {
     }
 }
 
-/// Ground that does not move.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Quiet;
-
-impl<S: Real> GroundSegment<S> for Quiet {
-    #[inline(always)]
-    fn acceleration(&self, _time: S) -> S {
-        S::ZERO
-    }
-
-    #[inline(always)]
-    fn slope(&self, _time: S) -> S {
-        S::ZERO
-    }
-
-    #[inline(always)]
-    fn curvature_bound(&self) -> S {
-        S::ZERO
-    }
-
-    #[inline(always)]
-    fn series(&self, _time: S, coefficients: &mut [S]) {
-        coefficients.fill(S::ZERO);
-    }
-
-    #[inline(always)]
-    fn is_quiet(&self) -> bool {
-        true
-    }
-
-    #[inline(always)]
-    fn elementary(&self, _time: S) -> Option<Elementary<S>> {
-        Some(Elementary::line(S::ZERO))
-    }
-}
-
 #[cfg(test)]
 pub(crate) mod check {
     use super::*;

@@ -162,7 +162,7 @@ impl<S: Real, T: Tier<S>> Real for Tiered<S, T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ground::{Harmonics, Quiet};
+    use crate::ground::Harmonics;
     use crate::math::tier::{Libm, Micromath, OwnPolynomial};
     use crate::method::dense_output::Integrator;
     use crate::method::fixed::{FixedStep, Scheme};
@@ -193,7 +193,7 @@ mod tests {
         let sine = Harmonics::sine(S::of(0.3), S::of(4.0));
         let duration = S::of(core::f64::consts::TAU / 4.0);
         system.advance(&method, &mut state, &sine, duration, &limits, &mut digest).unwrap();
-        system.advance(&method, &mut state, &Quiet, S::of(2.5), &limits, &mut digest).unwrap();
+        system.advance(&method, &mut state, &Harmonics::QUIET, S::of(2.5), &limits, &mut digest).unwrap();
         assert!(digest.events > 10);
         (digest.hash(), state.rotation.to_f64())
     }

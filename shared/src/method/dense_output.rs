@@ -4,7 +4,7 @@ use crate::equation::Equation;
 use crate::equation::any_equation::AnyEquation;
 use crate::equation::motion::Motion;
 use crate::ground::GroundSegment;
-use crate::math::root::zero_shown;
+use crate::math::root::{newton_bracketed, zero_shown};
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 
@@ -49,6 +49,15 @@ pub trait DenseOutput<S: Real> {
 
     /// The motion at `time` after the start.
     fn at(&self, time: S) -> Motion<S>;
+
+    /// Time at which a monotone θ reaches `level` between two times, where θ − `level` has the sign `before` at first.
+    #[inline]
+    fn crossing(&self, level: S, before: Sign, (from, to): (S, S)) -> S {
+        newton_bracketed(from, to, before, S::HALF * (from + to), |t| {
+            let motion = self.at(t);
+            (motion.rotation - level, motion.velocity)
+        })
+    }
 
     /// The motion at [`DenseOutput::length`].
     #[inline(always)]

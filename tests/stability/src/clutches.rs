@@ -1,6 +1,6 @@
 //! A block with elastic clutches, whatever their stiffness, by fixed exponential midpoint steps.
 
-use sprag_shared::ground::{Harmonics, Quiet};
+use sprag_shared::ground::Harmonics;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::fixed::{FixedStep, Scheme};
 use sprag_shared::motion::device_snapshot::DeviceOutput;
@@ -54,7 +54,7 @@ pub fn elastic_run<S: Real>(
     let mut done = machine.advance(&method, &mut state, shaking, duration, &limits, &mut watch);
     if done.is_ok() {
         watch.quiet = true;
-        let shaking = Shaking { horizontal: &Quiet, vertical: None };
+        let shaking = Shaking { horizontal: &Harmonics::QUIET, vertical: None };
         done = machine.advance(&method, &mut state, shaking, S::of(free_time), &limits, &mut watch);
     }
     let Watch { peak, steps, events, depth, gain, .. } = watch;

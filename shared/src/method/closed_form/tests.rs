@@ -3,7 +3,7 @@ use crate::equation::FullBlock;
 use crate::equation::any_equation::AnyEquation;
 use crate::ground::check::Sum;
 use crate::ground::harmonic::{Harmonic, MavroeidisPapageorgiou};
-use crate::ground::{GroundSegment, Harmonics, Linear, Quiet, Ricker};
+use crate::ground::{GroundSegment, Harmonics, Linear, Ricker};
 use crate::math::{asin, exp, square_root};
 use crate::method::fixed::{FixedStep, Scheme};
 use crate::method::taylor::Taylor;
@@ -234,9 +234,9 @@ fn it_knows_where_it_applies() {
         };
         matches!(ClosedForm { step: 0.1 }.integrate(&start), ClosedFormOutput::Closed(_))
     };
-    assert!(applies(&slender, &Quiet) && applies(&slender, &Harmonics::sine(0.3, 5.0)));
+    assert!(applies(&slender, &Harmonics::QUIET) && applies(&slender, &Harmonics::sine(0.3, 5.0)));
     assert!(applies(&slender, &Segment::wavelet(1.4, 0.4, 0.6).ground::<f64>()));
-    assert!(!applies(&slender, &wavelet) && !applies(&full, &Quiet));
+    assert!(!applies(&slender, &wavelet) && !applies(&full, &Harmonics::QUIET));
 }
 
 /// Where it does not apply, its steps are the Runge-Kutta method's to the last bit.

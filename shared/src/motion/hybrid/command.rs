@@ -240,15 +240,10 @@ impl<S: Real> HybridSystem<S> {
         if !self.transmission.traits().commanded {
             return None;
         }
-        let mut due = state.device.next_due().filter(|time| *time > S::ZERO);
-        if self.transmission.parameters.rise_time > S::ZERO {
-            for wheel in &state.device.wheels {
-                if let Some(time) = ramp_due(&self.transmission.parameters, wheel, state.held) {
-                    due = Some(due.map_or(time, |sooner: S| sooner.smaller(time)));
-                }
-            }
-        }
-        due
+        let parameters = &self.transmission.parameters;
+        let wheels = state.device.wheels.iter().filter(|_| parameters.rise_time > S::ZERO);
+        let ramps = wheels.filter_map(|wheel| ramp_due(parameters, wheel, state.held));
+        state.device.next_due().into_iter().filter(|time| *time > S::ZERO).chain(ramps).reduce(S::smaller)
     }
 
     /// `stop`, or the instant before it at which something happens by the clock alone.

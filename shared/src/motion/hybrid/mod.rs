@@ -29,7 +29,6 @@ use crate::drivetrain::transmission::{AnyPoint, EvaluationPoint, EventContext};
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
 use crate::equation::motion::Motion;
-use crate::math::root::newton_bracketed;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
@@ -249,18 +248,9 @@ impl<S: Real> HybridSystem<S> {
         }
         let mut last = output.at(until);
         // θ is monotone up to here.
-        let crossing = |level: S, before: Sign| {
-            newton_bracketed(S::ZERO, until, before, S::HALF * until, |t| {
-                let motion = output.at(t);
-                (motion.rotation - level, motion.velocity)
-            })
-        };
-        if motion.side.times(last.rotation) < S::ZERO {
-            until = crossing(S::ZERO, motion.side);
-            (end, last) = (End::Impact, output.at(until));
-        } else if motion.side == motion.direction && motion.side.times(last.rotation) > limits.overturned {
-            until = crossing(motion.side.times(limits.overturned), motion.side.opposite());
-            (end, last) = (End::Overturned, output.at(until));
+        if let Some((level, before)) = motion.passes(last.rotation, limits) {
+            until = output.crossing(level, before, (S::ZERO, until));
+            (end, last) = (if before == motion.side { End::Impact } else { End::Overturned }, output.at(until));
         }
         let first = output.at(S::ZERO);
         let engaged = state.device.wheels.iter().any(|wheel| wheel.coupling.is_engaged());

@@ -23,10 +23,7 @@ pub(super) struct Threshold<S> {
 
 /// The earlier of two instants, with what is known of it.
 pub(super) fn earlier<S: Real, T>(instants: [Option<(S, T)>; 2]) -> Option<(S, T)> {
-    match instants {
-        [Some(a), Some(b)] => Some(if b.0 < a.0 { b } else { a }),
-        [a, b] => a.or(b),
-    }
+    instants.into_iter().flatten().reduce(|a, b| if b.0 < a.0 { b } else { a })
 }
 
 impl<S: Real> Threshold<S> {

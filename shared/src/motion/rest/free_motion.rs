@@ -97,7 +97,7 @@ mod tests {
     use crate::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 
     use crate::equation::first_integral::{FullIntegral, SlenderIntegral};
-    use crate::ground::Quiet;
+    use crate::ground::Harmonics;
     use crate::method::taylor::Taylor;
     use crate::motion::state::{Limits, Phase};
     use crate::observers::peaks::Peaks;
@@ -114,7 +114,7 @@ mod tests {
         let mut state = system.released_at(rotation, velocity, 0.0);
         let mut peaks = Peaks { rocked: true, ..Peaks::default() };
         let limits = Limits { overturned: 3.0 * structure.block.slenderness(), events: 100_000 };
-        system.advance(&Taylor::<f64, 20>::adaptive(1e-17), &mut state, &Quiet, 40.0, &limits, &mut peaks).unwrap();
+        system.advance(&Taylor::<f64, 20>::adaptive(1e-17), &mut state, &Harmonics::QUIET, 40.0, &limits, &mut peaks).unwrap();
         let overturned = state.phase == Phase::Overturned;
         let impact = peaks.first_impact.is_some();
         (Settled { overturned, impact, rotation: peaks.rotation, acceleration: peaks.acceleration }, state.impacts)

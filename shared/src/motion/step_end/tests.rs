@@ -6,7 +6,7 @@ use self::follow::{TimeSteppingPeaks, follow};
 use super::*;
 use crate::equation::lever::CentreOfMass;
 use crate::equation::{FullBlock, FullInerter, SlenderBlock};
-use crate::ground::{GroundSegment, Harmonics, Quiet};
+use crate::ground::{GroundSegment, Harmonics};
 use crate::math::lanes::Lanes;
 use crate::math::scalar::Real;
 use crate::math::wide_sine;
@@ -31,7 +31,7 @@ fn figure10<S: Real>(step: f64) -> TimeSteppingPeaks<S> {
     let pulse = Harmonics::sine(S::of(AMPLITUDE), S::of(FREQUENCY));
     let mut state = TimeSteppingState::at_rest();
     let first = follow(&block, &mut state, &pulse, (S::of(TAU / FREQUENCY), S::of(step)), S::of(10.0));
-    let then = follow(&block, &mut state, &Quiet, (S::of(20.0), S::of(step)), S::of(2.0));
+    let then = follow(&block, &mut state, &Harmonics::QUIET, (S::of(20.0), S::of(step)), S::of(2.0));
     TimeSteppingPeaks {
         rotation: first.rotation.larger(then.rotation),
         impacts: first.impacts + then.impacts,
@@ -113,7 +113,7 @@ fn without_a_clutch_the_error_is_that_of_the_impacts() {
     let pulse = Harmonics::sine(1.5, 4.0);
     let mut state = TimeSteppingState::at_rest();
     let seen = follow(&none, &mut state, &pulse, (TAU / 4.0, 1e-4), 2.0);
-    let then = follow(&none, &mut state, &Quiet, (3.0, 1e-4), 2.0);
+    let then = follow(&none, &mut state, &Harmonics::QUIET, (3.0, 1e-4), 2.0);
     // Figure 5, none: 0.4082.
     assert!((seen.rotation.larger(then.rotation) - 0.4082).abs() < 2e-4, "{seen:?} {then:?}");
     assert!(!seen.overturned && seen.impacts + then.impacts > 0);

@@ -1,6 +1,6 @@
 //! One case of a batch: a dimensionless block under one cycle of a pulse.
 
-use sprag_shared::ground::{Harmonics, Quiet};
+use sprag_shared::ground::Harmonics;
 use sprag_shared::motion::state::{BlockState, Limits};
 use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::added_mass::AddedMass;
@@ -121,7 +121,7 @@ impl Case {
         };
         method.advance(&system, &mut state, &pulse, duration, &limits(amplitude.abs()), &mut peaks)?;
         peaks.origin = duration;
-        method.advance(&system, &mut state, &Quiet, self.free_time, &limits(0.0), &mut peaks)?;
+        method.advance(&system, &mut state, &Harmonics::QUIET, self.free_time, &limits(0.0), &mut peaks)?;
         let outcome = Outcome::of(&state, &peaks);
         Ok(CaseResult {
             outcome,

@@ -160,7 +160,8 @@ fn events_looked_for_once_a_step<S: Precision>() {
                 let pulse = sprag_shared::ground::Harmonics::sine(level, S::of(4.0));
                 let mut state = TimeSteppingState::at_rest();
                 let seen = follow(&block, &mut state, &pulse, (S::of(TAU / 4.0), self.step), S::of(1.5));
-                let then = follow(&block, &mut state, &sprag_shared::ground::Quiet, (S::of(4.0), self.step), S::of(1.5));
+                let then =
+                    follow(&block, &mut state, &sprag_shared::ground::Harmonics::QUIET, (S::of(4.0), self.step), S::of(1.5));
                 let most = ((TAU / 4.0 + 4.0) / self.step.to_f64()) as u32 + 2;
                 assert!(state.rotation.is_finite() && state.velocity.is_finite() && seen.impacts + then.impacts <= most);
                 assert!(amplitude > 1.0 || seen.rotation == S::ZERO, "{seen:?}");

@@ -13,7 +13,7 @@ use std::vec::Vec;
 use super::mode_output::{ModeIntegrator, Shaking};
 use super::series::Series;
 use super::{HybridState, HybridSystem};
-use crate::ground::{AnySegment, Harmonics, Linear, Quiet};
+use crate::ground::{AnySegment, Harmonics, Linear};
 use crate::method::dense_output::DenseOutput;
 use crate::method::fixed::{FixedStep, Scheme};
 use crate::method::taylor::Taylor;
@@ -160,7 +160,7 @@ impl Shake {
             origin += duration;
         }
         peaks.0.origin = origin;
-        system.advance(&method, &mut state, &Quiet, self.free_time, &self.limits(true), &mut peaks).unwrap();
+        system.advance(&method, &mut state, &Harmonics::QUIET, self.free_time, &self.limits(true), &mut peaks).unwrap();
         let peaks = peaks.0;
         Seen {
             peak: peaks.rotation,
@@ -197,7 +197,7 @@ impl Shake {
             machine.advance(method, &mut state, shaking, *duration, &self.limits(false), &mut watcher).unwrap();
             watcher.peaks.origin += duration;
         }
-        let shaking = Shaking { horizontal: &Quiet, vertical: None };
+        let shaking = Shaking { horizontal: &Harmonics::QUIET, vertical: None };
         machine.advance(method, &mut state, shaking, self.free_time, &self.limits(true), &mut watcher).unwrap();
         let own = watcher;
         Seen {
