@@ -1,6 +1,6 @@
 //! A dimensionless block under one cycle of a pulse, and its outcome.
 
-use sprag_shared::motion::rest::free_motion::{FreeMotion, Legs};
+use sprag_shared::motion::rest::free_motion::FreeMotion;
 use sprag_shared::structure::block::Block;
 
 use crate::model::Model;
@@ -76,8 +76,8 @@ impl PulsedBlock {
         impact: bool,
     ) -> PulseResult {
         let (outward, inward) = self.plain.couplings::<PAIR>();
-        let legs = Legs { outward: M::integral(outward), returning: M::integral(outward), inward: M::integral(inward) };
-        let motion = FreeMotion { slenderness: self.plain.slenderness, restitution: self.plain.restitution, legs };
+        let PlainBlock { slenderness, restitution, .. } = self.plain;
+        let motion = FreeMotion { slenderness, restitution, outward: M::integral(outward), inward: M::integral(inward) };
         let settled = motion.settle(rotation, velocity);
         if settled.overturned {
             return PulseResult::overturned(impact || settled.impact);

@@ -71,7 +71,7 @@ fn springless<S: Real>(law: &ModeCoefficients<S>) -> ModeCoefficients<S> {
 }
 
 fn freeze<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
-    soft: &KnownModeStart<'_, S, B, D>,
+    soft: &KnownModeStart<'_, S, B, D, X, G>,
     at: &Place<S, X>,
 ) -> Frozen<S, X> {
     let (acceleration, rates) = soft.rates(at);
@@ -83,7 +83,7 @@ fn freeze<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G
 
 /// The frozen system a time `h` after `from`, exactly; `ground` is the ground's acceleration then, in g.
 fn solve<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
-    known: &KnownModeStart<'_, S, B, D>,
+    known: &KnownModeStart<'_, S, B, D, X, G>,
     from: &Place<S, X>,
     frozen: &Frozen<S, X>,
     (h, ground): (S, [S; 2]),
@@ -96,7 +96,7 @@ fn solve<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G:
     for (value, &rate) in unknowns.iter_mut().zip(&frozen.rates) {
         *value = *value + h * rate;
     }
-    let parameters = &known.start.transmission.parameters;
+    let parameters = &known.start.system.transmission.parameters;
     let contact = [0, 1].map(|i| law.stiffness[i] > S::ZERO && !(known.is_held() && law.moves[i] == S::ZERO));
     let both = contact[0] && contact[1];
     let coupled = frozen.arm * frozen.leverage;
@@ -142,7 +142,7 @@ fn solve<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G:
 
 /// The state a time `h` after `from`, where the ground's acceleration (in g) is `ground`. Order 2; stable for every stiffness.
 pub(super) fn midpoint<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
-    known: &KnownModeStart<'_, S, B, D>,
+    known: &KnownModeStart<'_, S, B, D, X, G>,
     from: &Place<S, X>,
     (h, ground): (S, [S; 2]),
 ) -> Place<S, X> {

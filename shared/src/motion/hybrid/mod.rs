@@ -205,21 +205,15 @@ impl<S: Real> HybridSystem<S> {
             self.hold_law(state, &mut law);
         }
         let start = ModeStart {
-            body: &self.body,
-            transmission: &self.transmission,
+            system: self,
             law: &law,
             shaking,
-            ground: state.ground,
             side: motion.side,
-            rotation: motion.rotation,
-            velocity: motion.velocity,
-            unknowns: state.device.unknowns(),
+            place: self.place(state),
             time: *time,
             length: stop - *time,
             freed: state.free && motion.velocity == S::ZERO,
             held,
-            scale: self.slenderness,
-            speed: self.speed,
         };
         debug_assert!(state.ground == shaking.at(*time), "the ground is as it was left");
         let output = integrator.integrate(&start);

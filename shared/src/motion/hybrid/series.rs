@@ -46,21 +46,22 @@ impl<S: Real, const N: usize> WithModeStart<S> for Expansion<'_, S, N> {
     #[inline(always)]
     fn with<B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
         self,
-        known: &KnownModeStart<'_, S, B, D>,
+        known: &KnownModeStart<'_, S, B, D, X, G>,
     ) -> Self::Output {
         // θ, θ̇, the ground twice and the clock, then the device's unknowns.
         const GIVEN: usize = 5;
         let Expansion { tape, output, ground: [ground, vertical], tolerance, scale } = self;
         let start = known.start;
+        let parameters = &start.system.transmission.parameters;
         let shaken_up = start.shaking.vertical.is_some();
         let next = Cell::new(GIVEN + X);
         let side = start.side.unit();
-        output.series.motion.start(tape, start.rotation, start.velocity);
+        output.series.motion.start(tape, start.place.rotation, start.place.velocity);
         for (i, unknown) in output.unknowns.iter_mut().enumerate().take(X) {
-            unknown[0] = start.unknowns[i];
-            tape.set(GIVEN + i, 0, start.unknowns[i]);
+            unknown[0] = start.place.unknowns[i];
+            tape.set(GIVEN + i, 0, start.place.unknowns[i]);
         }
-        let sizes = known.transmission.scales(&start.transmission.parameters, start.speed);
+        let sizes = known.transmission.scales(parameters, start.system.speed);
         let mut truncation = Truncation::new(start.length, tolerance);
         for k in 0..N - 2 {
             tape.set(2, k, ground[k]);
@@ -74,7 +75,7 @@ impl<S: Real, const N: usize> WithModeStart<S> for Expansion<'_, S, N> {
             let up = if shaken_up { given(3) } else { push };
             let at = EvaluationPoint {
                 body: known.body,
-                parameters: &start.transmission.parameters,
+                parameters,
                 law: start.law,
                 configuration: known.body.configuration(side, theta),
                 velocity: omega,
@@ -127,7 +128,7 @@ impl<S: Real, const N: usize> ModeIntegrator<S> for Series<S, N> {
         if let Some(segment) = start.shaking.vertical {
             segment.series(start.time, &mut ground[1]);
         }
-        let scale = start.scale.larger(start.rotation.abs());
+        let scale = start.system.slenderness.larger(start.place.rotation.abs());
         let tolerance = self.tolerance * scale;
         let sizes = start.known(Expansion { tape: &self.tape, output: &mut output, ground: &ground, tolerance, scale });
         let SeriesModeOutput { series, unknowns, .. } = &mut output;

@@ -17,7 +17,7 @@ type Rates<S, const X: usize> = (S, [S; X]);
 #[inline(always)]
 fn advance<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
     scheme: Scheme,
-    known: &KnownModeStart<'_, S, B, D>,
+    known: &KnownModeStart<'_, S, B, D, X, G>,
     (from, rates): (&Place<S, X>, &Rates<S, X>),
     (h, ground): (S, [S; 2]),
 ) -> Place<S, X> {
@@ -35,7 +35,7 @@ fn advance<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const 
 
 #[inline(always)]
 fn runge_kutta_4<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
-    known: &KnownModeStart<'_, S, B, D>,
+    known: &KnownModeStart<'_, S, B, D, X, G>,
     from: &Place<S, X>,
     (a1, r1): (S, &[S; X]),
     (h, ground): (S, [S; 2]),
@@ -91,9 +91,9 @@ impl<S: Real> WithModeStart<S> for Step<'_, S> {
     #[inline(always)]
     fn with<B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
         self,
-        known: &KnownModeStart<'_, S, B, D>,
+        known: &KnownModeStart<'_, S, B, D, X, G>,
     ) -> Self::Output {
-        let from = known.start.place().map(first);
+        let from = known.start.place.map(first);
         let rates = match self.rates {
             Some((acceleration, rates)) => (*acceleration, first(rates)),
             None => known.rates(&from),
@@ -103,25 +103,6 @@ impl<S: Real> WithModeStart<S> for Step<'_, S> {
         let (acceleration, _) = known.rates(&end);
         let all = |unknowns: &[S; X]| core::array::from_fn(|i| unknowns.get(i).copied().unwrap_or(S::ZERO));
         ((rates.0, all(&rates.1)), (end.map(all), acceleration))
-    }
-}
-
-/// Guard `index` at `place`, where θ̈ is `acceleration`.
-struct GuardAt<'a, S> {
-    index: usize,
-    place: &'a Place<S, UNKNOWNS>,
-    acceleration: S,
-}
-
-impl<S: Real> WithModeStart<S> for GuardAt<'_, S> {
-    type Output = S;
-
-    #[inline(always)]
-    fn with<B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
-        self,
-        known: &KnownModeStart<'_, S, B, D>,
-    ) -> S {
-        known.guard(self.index, &self.place.map(first), self.acceleration)
     }
 }
 
@@ -143,7 +124,7 @@ impl<'a, S: Real> FixedModeOutput<'a, S> {
 
     fn place(&self, time: S) -> (Place<S, UNKNOWNS>, S) {
         if time == S::ZERO {
-            (self.start.place(), self.rates.0)
+            (self.start.place, self.rates.0)
         } else if time == self.start.length {
             self.end
         } else {
@@ -174,7 +155,10 @@ impl<S: Real> ModeOutput<S> for FixedModeOutput<'_, S> {
     #[inline(never)]
     fn guard(&self, index: usize, time: S) -> S {
         let (place, acceleration) = self.place(time);
-        self.start.known(GuardAt { index, place: &place, acceleration })
+        let ModeStart { system, law, side, held, .. } = *self.start;
+        let point = system.point(law, side, &place);
+        let acceleration = if held { system.transmission.acceleration(&point) } else { acceleration };
+        system.transmission.guard(&point, acceleration, law.watch[index])
     }
 }
 
