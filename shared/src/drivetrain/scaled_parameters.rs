@@ -1,6 +1,7 @@
 //! Drivetrain parameters in the units of the equations: forces over λmR, lengths over R, inertance over λm.
 
 use super::clutch_state::{Coupling, DeviceState, FlywheelState, ModeCoefficients};
+use crate::math::root::bisection;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::structure::block::Block;
@@ -168,18 +169,7 @@ impl<S: Real> ScaledParameters<S> {
         if wheel.spin == S::ZERO || !stopped(time) {
             return None;
         }
-        let (mut low, mut high) = (S::ZERO, time);
-        for _ in 0..64 {
-            let middle = S::HALF * (low + high);
-            if middle <= low || middle >= high {
-                break;
-            }
-            if stopped(middle) {
-                high = middle;
-            } else {
-                low = middle;
-            }
-        }
+        let high = bisection(S::ZERO, time, S::ZERO, stopped);
         (high < time).then_some(high)
     }
 

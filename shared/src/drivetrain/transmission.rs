@@ -140,9 +140,7 @@ pub trait Transmission<S: Real, const X: usize, const G: usize> {
 
     /// What the kind adds to the coefficients of a mode: its guards beside the command, and forces of its clutches.
     #[inline(always)]
-    fn extend(&self, law: &mut ModeCoefficients<S>, parameters: &ScaledParameters<S>, device: &DeviceState<S>) {
-        let _ = (law, parameters, device);
-    }
+    fn extend(&self, _law: &mut ModeCoefficients<S>, _parameters: &ScaledParameters<S>, _device: &DeviceState<S>) {}
 
     /// θ̈ and the rates of the device's unknowns. In the default flywheels that are not locked coast, ẇ = −c w − d sgn w.
     #[inline(always)]
@@ -174,21 +172,15 @@ pub trait Transmission<S: Real, const X: usize, const G: usize> {
 
     /// The guard `watch` has reached zero.
     #[inline(always)]
-    fn reached(&self, at: &mut EventContext<'_, S>, watch: Guard<S>) {
-        let _ = (at, watch);
-    }
+    fn reached(&self, _at: &mut EventContext<'_, S>, _watch: Guard<S>) {}
 
     /// The velocity has jumped, or passed zero: modes that this ends are left.
     #[inline(always)]
-    fn settle(&self, at: &mut EventContext<'_, S>) {
-        let _ = at;
-    }
+    fn settle(&self, _at: &mut EventContext<'_, S>) {}
 
     /// An impact, at which the rack's speed jumps from `before` to what it is now; called before [`Transmission::settle`].
     #[inline(always)]
-    fn impact(&self, at: &mut EventContext<'_, S>, before: S) {
-        let _ = (at, before);
-    }
+    fn impact(&self, _at: &mut EventContext<'_, S>, _before: S) {}
 
     /// Forces of the two flywheels on the rack, of the rack itself, energy stored, and power lost.
     #[inline(always)]

@@ -60,8 +60,7 @@ pub trait Equation<S: Scalar>: Copy {
     /// Power that the paper's kinematics take without a cause, per λmR² (1/s³): −κ k ℓ ℓ' θ̇³, which is what the energy
     /// ½(1 + κ k ℓ²)θ̇² of block and flywheel misses of the work done on them; 0 where energy is conserved.
     #[inline(always)]
-    fn paper_power(&self, side: S, rotation: S, velocity: S) -> S {
-        let _ = (side, rotation, velocity);
+    fn paper_power(&self, _side: S, _rotation: S, _velocity: S) -> S {
         S::of(0.0)
     }
 }

@@ -41,8 +41,7 @@ pub trait GroundSegment<S: Real> {
 
     /// How ü_g/g goes on from τ, if it is made of a line and a few sines; the same answer, yes or no, for every τ.
     #[inline(always)]
-    fn elementary(&self, time: S) -> Option<Elementary<S>> {
-        let _ = time;
+    fn elementary(&self, _time: S) -> Option<Elementary<S>> {
         None
     }
 }

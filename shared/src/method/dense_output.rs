@@ -76,14 +76,12 @@ pub trait DenseOutput<S: Real> {
     ///
     /// The default sees what the ends of the step show; a method with a series overrides it and proves its answer.
     #[inline(always)]
-    fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        let _ = from_zero;
+    fn acceleration_zero(&self, from: S, to: S, sign: Sign, _from_zero: bool) -> Option<S> {
         zero_shown(from, to, sign, |t| self.at(t).acceleration)
     }
 
     /// First zero of the switching function, as [`DenseOutput::acceleration_zero`]; called only where the two differ.
-    fn switching_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        let _ = from_zero;
+    fn switching_zero(&self, from: S, to: S, sign: Sign, _from_zero: bool) -> Option<S> {
         zero_shown(from, to, sign, |t| self.switching(t))
     }
 

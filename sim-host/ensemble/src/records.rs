@@ -5,6 +5,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use sprag_shared::math::root::bisection;
 use sprag_shared::math::scalar::Scalar;
 use sprag_shared::motion::state::Phase;
 use sprag_shared::observers::peaks::Peaks;
@@ -239,18 +240,10 @@ impl<'a, 'b> Lanes<'a, 'b> {
 /// When, in (0, `length`], the block in `lane` passes `limit`, at which it overturns.
 fn passes<const TERMS: usize>(series: &Series<TERMS>, lane: usize, length: f64, limit: f64) -> f64 {
     let rotation = |time: f64| series.rotation().iter().rev().fold(0.0, |sum, c| sum * time + c.0[lane]);
-    let (mut low, mut high) = (0.0, length);
     if rotation(0.0) >= limit {
         return 0.0;
     }
-    while high - low > length * f64::EPSILON {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            break;
-        }
-        if rotation(middle) < limit { low = middle } else { high = middle }
-    }
-    high
+    bisection(0.0, length, length * f64::EPSILON, |time| rotation(time) >= limit)
 }
 
 /// Runs all `shaken` blocks, which have the model `M` and the clutch `C`, into `results`, one each; those left `None` are for the core.

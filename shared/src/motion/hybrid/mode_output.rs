@@ -164,20 +164,17 @@ pub trait ModeOutput<S: Real>: DenseOutput<S> {
     fn guard(&self, index: usize, time: S) -> S;
 
     /// First zero of θ̇, which has the sign `sign` just after the start, and is zero there with `from_zero`.
-    fn velocity_zero(&self, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        let _ = from_zero;
+    fn velocity_zero(&self, to: S, sign: Sign, _from_zero: bool) -> Option<S> {
         zero_shown(S::ZERO, to, sign, |t| self.at(t).velocity)
     }
 
     /// First zero of guard `index`, positive just after the start.
-    fn guard_zero(&self, index: usize, to: S, from_zero: bool) -> Option<S> {
-        let _ = from_zero;
+    fn guard_zero(&self, index: usize, to: S, _from_zero: bool) -> Option<S> {
         zero_shown(S::ZERO, to, Sign::Positive, |t| self.guard(index, t))
     }
 
     /// First zero of the device's unknown `index`, of sign `sign` just after the start.
-    fn unknown_zero(&self, index: usize, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        let _ = from_zero;
+    fn unknown_zero(&self, index: usize, to: S, sign: Sign, _from_zero: bool) -> Option<S> {
         zero_shown(S::ZERO, to, sign, |t| self.unknowns(t).get(index).copied().unwrap_or(S::ZERO))
     }
 }
