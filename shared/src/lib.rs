@@ -56,7 +56,7 @@
 //! | z | `twist` ([`drivetrain::clutch_state::FlywheelState`]) | twist of an elastic clutch as travel of the rack, over R |
 //! | K, C, F_c | `stiffness`, `damping`, `capacity` ([`drivetrain::scaled_parameters::ScaledParameters`]) | stiffness, damping and capacity of a clutch: K/(λm), C/(λm), F_c/(λmR) |
 //! | Eq. 10 | [`equation::clutch_rule::ClutchRule::Resisting`] | clutch rule: engaged while acceleration and velocity have one sign |
-//! | Eq. 11 | `consistent` ([`equation::FullInerter`]) | kinematics of the terminals, without or with ℓ'θ̇² |
+//! | Eq. 11 | `consistent` ([`equation::body::FullBody`]) | kinematics of the terminals, without or with ℓ'θ̇² |
 //! | - | [`ground::GroundSegment`] | ground segment: smooth ground motion between two kinks |
 //! | - | [`method::dense_output::DenseOutput`] | dense output: θ, θ̇, θ̈ at any time of a step |
 //! | - | [`motion::hybrid::mode_output::ModeOutput`] | mode output: dense output with a device's unknowns and guards |

@@ -1,7 +1,6 @@
 //! Run-time choice of the body, with the same bits as a body known at compile time.
 
-use super::body::{Body, FullBody, SlenderBody};
-use super::configuration::FullConfiguration;
+use super::body::{Body, FullBody, FullConfiguration, SlenderBody};
 use crate::math::scalar::Scalar;
 use crate::math::value::Value;
 

@@ -72,11 +72,6 @@ impl<S: Real> Equation<S> for AnyEquation<S> {
     }
 
     #[inline]
-    fn inertia(&self, side: S, rotation: S) -> S {
-        known!(self, equation => equation.inertia(side, rotation))
-    }
-
-    #[inline]
     fn slender(&self) -> Option<&SlenderBlock<S>> {
         known!(self, equation => equation.slender())
     }

@@ -15,7 +15,6 @@ pub mod any_body;
 pub mod any_equation;
 pub mod body;
 pub mod clutch_rule;
-pub mod configuration;
 pub mod first_integral;
 pub mod lever;
 pub mod motion;
@@ -23,7 +22,7 @@ pub mod switched;
 
 use crate::math::scalar::Scalar;
 use crate::math::value::Value;
-use configuration::FullConfiguration;
+use body::{Body, FullBody};
 use lever::Lever;
 
 /// Equation of motion of one rotation, of second order and smooth between events.
@@ -47,9 +46,6 @@ pub trait Equation<S: Scalar>: Copy {
 
     /// Acceleration of the inerter's terminals per R (1/s²): ℓθ̈, plus ℓ'θ̇² in the consistent kinematics.
     fn terminal_acceleration(&self, side: S, rotation: S, velocity: S, acceleration: S) -> S;
-
-    /// (1 + κ k ℓ²): inertia about the toe over that of the bare block.
-    fn inertia(&self, side: S, rotation: S) -> S;
 
     /// The equation as that of the slender block, if it is one: linear, so that its motion has a closed form.
     #[inline(always)]
@@ -100,32 +96,18 @@ impl<S: Scalar> Equation<S> for FullBlock<S> {
     fn terminal_acceleration(&self, _side: S, _rotation: S, _velocity: S, _acceleration: S) -> S {
         S::of(0.0)
     }
-
-    #[inline(always)]
-    fn inertia(&self, _side: S, _rotation: S) -> S {
-        S::of(1.0)
-    }
 }
 
 /// Equation of motion of the block with its inerter (Eq. 13-16, any mount); κ = 0 with the inerter released.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FullInerter<S, L> {
-    /// Equation of the block alone.
-    pub block: FullBlock<S>,
+    /// The block and its lever.
+    pub body: FullBody<S, L>,
     /// κ k: σ/λ while engaged, 0 while released. In SIMD lanes each lane has its own.
     pub coupling: S,
-    /// Lever ℓ(θ).
-    pub lever: L,
-    /// Consistent kinematics, with the θ̇² term; else the paper's (Eq. 11).
-    pub consistent: bool,
 }
 
-impl<S: Scalar, L: Lever<S>> FullInerter<S, L> {
-    #[inline(always)]
-    fn at<V: Value<S>>(&self, side: S, rotation: V) -> FullConfiguration<V> {
-        FullConfiguration::new(&self.lever, self.consistent, side, self.block.delta(side, rotation))
-    }
-
+impl<S, L> FullInerter<S, L> {
     /// The same mount with another coupling κ k.
     #[inline(always)]
     pub fn with_coupling(self, coupling: S) -> Self {
@@ -136,34 +118,29 @@ impl<S: Scalar, L: Lever<S>> FullInerter<S, L> {
 impl<S: Scalar, L: Lever<S>> Equation<S> for FullInerter<S, L> {
     #[inline(always)]
     fn switches_with_acceleration(&self) -> bool {
-        !self.consistent
+        !self.body.consistent
     }
 
     #[inline(always)]
     fn acceleration<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V {
-        let at = self.at(side, rotation);
-        at.solve_acceleration(self.block.driving_moment(at.sin, at.cos, ground), self.coupling, velocity)
+        let at = self.body.configuration(side, rotation);
+        self.body.solve_acceleration(&at, self.body.driving_moment(&at, [ground; 2]), self.coupling, velocity)
     }
 
     #[inline(always)]
     fn switching<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V {
-        let at = self.at(side, rotation);
-        at.switching(velocity, self.block.driving_moment(at.sin, at.cos, ground))
+        let at = self.body.configuration(side, rotation);
+        self.body.switching(&at, velocity, self.body.driving_moment(&at, [ground; 2]))
     }
 
     #[inline(always)]
     fn terminal_acceleration(&self, side: S, rotation: S, velocity: S, acceleration: S) -> S {
-        self.at(side, rotation).terminal_acceleration(velocity, acceleration)
-    }
-
-    #[inline(always)]
-    fn inertia(&self, side: S, rotation: S) -> S {
-        self.at(side, rotation).inertia(self.coupling)
+        self.body.terminal_acceleration(&self.body.configuration(side, rotation), velocity, acceleration)
     }
 
     #[inline(always)]
     fn paper_power(&self, side: S, rotation: S, velocity: S) -> S {
-        self.at(side, rotation).paper_power(&self.lever, side, velocity, self.coupling)
+        self.body.paper_power(side, &self.body.configuration(side, rotation), velocity, self.coupling)
     }
 }
 
@@ -190,11 +167,6 @@ impl<S: Scalar> Equation<S> for SlenderBlock<S> {
     #[inline(always)]
     fn terminal_acceleration(&self, _side: S, _rotation: S, _velocity: S, acceleration: S) -> S {
         self.lever * acceleration
-    }
-
-    #[inline(always)]
-    fn inertia(&self, _side: S, _rotation: S) -> S {
-        self.inertia
     }
 
     #[inline(always)]

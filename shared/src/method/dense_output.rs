@@ -59,12 +59,6 @@ pub trait DenseOutput<S: Real> {
         })
     }
 
-    /// The motion at [`DenseOutput::length`].
-    #[inline(always)]
-    fn end(&self) -> Motion<S> {
-        self.at(self.length())
-    }
-
     /// Switching function of the clutch (Eq. 10), where it is not θ̈ itself.
     #[inline]
     fn switching(&self, time: S) -> S {

@@ -124,11 +124,6 @@ impl<S: Real> DenseOutput<S> for FixedOutput<'_, S> {
     }
 
     #[inline(always)]
-    fn end(&self) -> Motion<S> {
-        self.end
-    }
-
-    #[inline(always)]
     fn evaluated_end(&self) -> Option<S> {
         Some(self.end.acceleration)
     }

@@ -79,6 +79,7 @@ mod tests {
     use crate::equation::Equation;
     use crate::equation::FullInerter;
     use crate::equation::any_equation::AnyEquation;
+    use crate::equation::body::FullBody;
     use crate::motion::ideal::IdealSystem;
     use crate::structure::block::GRAVITY;
     use crate::structure::device::{DeviceKind, KinematicsKind};
@@ -214,9 +215,15 @@ mod tests {
         }
         let bare = structure(Mount::CentreOfMass, AddedMass::NONE);
         let seen = look_at(&bare, 0.21, 0.0, 0.3);
-        assert!(matches!(seen.equations[1], AnyEquation::Centre(FullInerter { consistent: true, .. })), "{seen:?}");
+        assert!(
+            matches!(seen.equations[1], AnyEquation::Centre(FullInerter { body: FullBody { consistent: true, .. }, .. })),
+            "{seen:?}"
+        );
         let loaded = look_at(&Structure { added_mass: LOADS[1], ..bare }, 0.21, 0.0, 0.3);
-        assert!(matches!(loaded.equations[1], AnyEquation::Point(FullInerter { consistent: true, .. })), "{loaded:?}");
+        assert!(
+            matches!(loaded.equations[1], AnyEquation::Point(FullInerter { body: FullBody { consistent: true, .. }, .. })),
+            "{loaded:?}"
+        );
         assert_ne!(loaded.engaged, seen.engaged);
     }
 

@@ -1,5 +1,6 @@
 //! Models of the block in SIMD lanes: equations of motion, and first integrals after the ground has stopped.
 
+use sprag_shared::equation::body::FullBody;
 use sprag_shared::equation::first_integral::{FirstIntegral, FullIntegral, SlenderIntegral};
 use sprag_shared::equation::lever::CentreOfMass;
 use sprag_shared::equation::switched::Switched;
@@ -80,7 +81,7 @@ impl Model for FullWithInerter {
     #[inline(always)]
     fn modes(slenderness: Number, coupling: Number) -> Modes<Self::Equation> {
         let block = full(slenderness);
-        let engaged = FullInerter { block, coupling, lever: CentreOfMass, consistent: false };
+        let engaged = FullInerter { body: FullBody { block, lever: CentreOfMass, consistent: false, vertical: false }, coupling };
         Modes { released: engaged.with_coupling(number(0.0)), engaged }
     }
 

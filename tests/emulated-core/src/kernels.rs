@@ -10,7 +10,8 @@ mod devices;
 use core::{fmt, hint::black_box};
 use sprag_shared::{
     equation::{
-        Equation, FullBlock, FullInerter, SlenderBlock, any_equation::AnyEquation, clutch_rule::ClutchRule, lever::CentreOfMass,
+        Equation, FullBlock, FullInerter, SlenderBlock, any_equation::AnyEquation, body::FullBody, clutch_rule::ClutchRule,
+        lever::CentreOfMass,
     },
     ground::Harmonics,
     math::sine32,
@@ -45,7 +46,7 @@ const STEP: f32 = 0.005;
 const BLOCK: FullBlock<f32> = FullBlock { frequency_squared: FREQUENCY_SQUARED, slenderness: SLENDERNESS };
 
 const fn inerter(coupling: f32) -> Inerter {
-    FullInerter { block: BLOCK, coupling, lever: CentreOfMass, consistent: false }
+    FullInerter { body: FullBody { block: BLOCK, lever: CentreOfMass, consistent: false, vertical: false }, coupling }
 }
 
 const fn slender(inertia: f32) -> SlenderBlock<f32> {
@@ -158,7 +159,7 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
     line("rk4-full-engaged-only", count(counter, || smooth(&full.engaged, &mut end, &step)))?;
     black_box(end);
     end = state;
-    line("rk4-full-no-inerter", count(counter, || smooth(&full.released.block, &mut end, &step)))?;
+    line("rk4-full-no-inerter", count(counter, || smooth(&full.released.body.block, &mut end, &step)))?;
     black_box(end);
     end = state;
     line("rk4-slender-clutched-pair", count(counter, || detected_slender(&slender, &mut end, &step)))?;

@@ -236,7 +236,7 @@ impl<S: Real> IdealSystem<S> {
                 None
             };
             let until = switching_zero.or(acceleration_zero).unwrap_or(length);
-            let end = if until == length { output.end() } else { output.at(until) };
+            let end = output.at(until);
             let mut interval = MonotoneInterval {
                 start: *time,
                 from,

@@ -2,6 +2,7 @@
 
 use super::IdealSystem;
 use crate::equation::any_equation::AnyEquation;
+use crate::equation::body::FullBody;
 use crate::equation::clutch_rule::ClutchRule;
 use crate::equation::lever::CentreOfMass;
 use crate::equation::{FullBlock, FullInerter, SlenderBlock};
@@ -71,12 +72,16 @@ impl Structure {
         if device.kind == DeviceKind::None {
             return Ok([alone; 2]);
         }
-        let point = device.mount.lever(&self.block)?.rounded();
+        let lever = device.mount.lever(&self.block)?.rounded();
+        let consistent = device.kinematics == KinematicsKind::Consistent;
         let inerter = |coupling: f64| {
-            let (coupling, consistent) = (S::of(coupling), device.kinematics == KinematicsKind::Consistent);
+            let coupling = S::of(coupling);
             match device.mount {
-                Mount::CentreOfMass => AnyEquation::Centre(FullInerter { block, coupling, lever: CentreOfMass, consistent }),
-                _ => AnyEquation::Point(FullInerter { block, coupling, lever: point, consistent }),
+                Mount::CentreOfMass => {
+                    let body = FullBody { block, lever: CentreOfMass, consistent, vertical: false };
+                    AnyEquation::Centre(FullInerter { body, coupling })
+                }
+                _ => AnyEquation::Point(FullInerter { body: FullBody { block, lever, consistent, vertical: false }, coupling }),
             }
         };
         let engaged = inerter(coupling);

@@ -4,6 +4,7 @@ use core::f64::consts::TAU;
 
 use self::follow::{TimeSteppingPeaks, follow};
 use super::*;
+use crate::equation::body::FullBody;
 use crate::equation::lever::CentreOfMass;
 use crate::equation::{FullBlock, FullInerter, SlenderBlock};
 use crate::ground::{GroundSegment, Harmonics};
@@ -177,7 +178,10 @@ impl Scalar for Single {
 
 fn full_pair<S: Scalar>(consistent: bool) -> TimeStepping<S, FullInerter<S, CentreOfMass>> {
     let block = FullBlock { frequency_squared: S::of(1.0), slenderness: S::of(0.3) };
-    let with = |coupling| FullInerter { block, coupling: S::of(coupling), lever: CentreOfMass, consistent };
+    let with = |coupling| FullInerter {
+        body: FullBody { block, lever: CentreOfMass, consistent, vertical: false },
+        coupling: S::of(coupling),
+    };
     TimeStepping { released: with(0.0), engaged: with(0.375), restitution: S::of(0.85), uplift: S::of(crate::math::tan(0.3)) }
 }
 

@@ -15,6 +15,7 @@ mod entries;
 
 pub use entries::Entries;
 
+use crate::math::quadrature::integral;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
@@ -225,20 +226,16 @@ impl<S: Real> Observer<S> for Ledger<S> {
             Some(last) => self.attribute(&last, &first),
         }
         self.since = Since::default();
-        let [input, clutch, brake, bearing, rack, kinematics] =
-            crate::math::quadrature::integral(interval.from, interval.to, S::HALF / self.frequency, |time| {
-                let snapshot = output.snapshot(time);
-                let spent = &snapshot.device.spent;
-                let input = self.input(interval.side, &snapshot);
-                [input, spent.clutch, spent.brake, spent.bearing, spent.rack, spent.kinematics]
-            });
-        let entries = &mut self.entries;
-        entries.input = entries.input + input;
-        entries.clutch = entries.clutch + clutch;
-        entries.brake = entries.brake + brake;
-        entries.bearing = entries.bearing + bearing;
-        entries.rack = entries.rack + rack;
-        entries.kinematics = entries.kinematics + kinematics;
+        let sums = integral(interval.from, interval.to, S::HALF / self.frequency, |time| {
+            let snapshot = output.snapshot(time);
+            let spent = &snapshot.device.spent;
+            let input = self.input(interval.side, &snapshot);
+            [input, spent.clutch, spent.brake, spent.bearing, spent.rack, spent.kinematics]
+        });
+        let Entries { input, clutch, brake, bearing, rack, kinematics, .. } = &mut self.entries;
+        for (entry, sum) in [input, clutch, brake, bearing, rack, kinematics].into_iter().zip(sums) {
+            *entry = *entry + sum;
+        }
         self.state_of_affairs(self.balance(interval.side, &output.snapshot(interval.to)));
     }
 

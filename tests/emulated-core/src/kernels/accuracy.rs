@@ -15,8 +15,8 @@ use core::{f64::consts::FRAC_PI_2, fmt, hint::black_box};
 use sprag_case::{Case, CaseError, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::{
     equation::{
-        FullBlock, FullInerter, SlenderBlock, any_equation::AnyEquation, clutch_rule::ClutchRule, lever::CentreOfMass,
-        switched::Switched,
+        FullBlock, FullInerter, SlenderBlock, any_equation::AnyEquation, body::FullBody, clutch_rule::ClutchRule,
+        lever::CentreOfMass, switched::Switched,
     },
     ground::Linear,
     math::{
@@ -52,7 +52,10 @@ fn full<S: Real>() -> FullBlock<S> {
 }
 
 fn inerter<S: Real>(coupling: f32) -> FullInerter<S, CentreOfMass> {
-    FullInerter { block: full(), coupling: S::of(coupling.into()), lever: CentreOfMass, consistent: false }
+    FullInerter {
+        body: FullBody { block: full(), lever: CentreOfMass, consistent: false, vertical: false },
+        coupling: S::of(coupling.into()),
+    }
 }
 
 fn slender<S: Real>(inertia: f32) -> SlenderBlock<S> {
