@@ -1,7 +1,6 @@
 //! Contract of a transmission: rates between events, guards, and answers to events.
 
 use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients, UNKNOWNS};
-use super::power_loss::Spent;
 use super::scaled_parameters::ScaledParameters;
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
@@ -193,6 +192,21 @@ pub trait Transmission<S: Real, const X: usize, const G: usize> {
 #[inline(always)]
 pub fn first<S: Copy, const X: usize>(unknowns: &[S; UNKNOWNS]) -> [S; X] {
     core::array::from_fn(|i| unknowns[i % UNKNOWNS])
+}
+
+/// Energy losses by cause, or their rates.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spent<S> {
+    /// Slip and damping of the clutches.
+    pub clutch: S,
+    /// Brakes of idle flywheels.
+    pub brake: S,
+    /// Bearings of the flywheels.
+    pub bearing: S,
+    /// Friction of the rack.
+    pub rack: S,
+    /// What the paper's kinematics take away without a physical cause (negative: create).
+    pub kinematics: S,
 }
 
 /// Forces, speeds, energies and losses of a device at an instant ([`crate::motion::device_snapshot::Snapshot`]).

@@ -120,6 +120,7 @@ pub(crate) fn run<M: Model, const PAIR: bool>(
     let zero = number(0.0);
     let one = number(1.0);
     let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
+    let follow = |index: usize| pulsed[index].follow::<M, PAIR>(&method).map_err(|error| (index, error));
     let mut stepping = M::Stepping::default();
     let mut blocks = Blocks::default();
     let mut pulses = Pulses { amplitude: zero, frequency: one, phase: zero, time: zero, duration: one };
@@ -136,22 +137,15 @@ pub(crate) fn run<M: Model, const PAIR: bool>(
             for lane in (0..WIDTH).filter(|&lane| done.at(lane)) {
                 if let Some(index) = at[lane] {
                     let block: &PulsedBlock = &pulsed[index];
+                    let peaks = (blocks.peak_rotation.0[lane], blocks.peak_acceleration.0[lane]);
                     results[index] = if blocks.hard.at(lane) {
-                        block.follow::<M, PAIR>(&method).map_err(|error| (index, error))?
+                        follow(index)?
                     } else if blocks.overturned.at(lane) {
                         PulseResult::overturned(blocks.impact.at(lane))
+                    } else if rests.at(lane) {
+                        block.stands(peaks.0, peaks.1)
                     } else {
-                        let peaks = (blocks.peak_rotation.0[lane], blocks.peak_acceleration.0[lane]);
-                        if rests.at(lane) {
-                            block.stands(peaks.0, peaks.1)
-                        } else {
-                            block.settle::<M, PAIR>(
-                                blocks.rotation.0[lane],
-                                blocks.velocity.0[lane],
-                                peaks,
-                                blocks.impact.at(lane),
-                            )
-                        }
+                        block.settle::<M, PAIR>(blocks.rotation.0[lane], blocks.velocity.0[lane], peaks, blocks.impact.at(lane))
                     };
                     if !blocks.hard.at(lane) && results[index].outcome == Outcome::Safe {
                         stepping.stands(lane, index, results);
@@ -186,7 +180,7 @@ pub(crate) fn run<M: Model, const PAIR: bool>(
                     } else if uplifts == Some(false) {
                         results[next] = PulseResult::NO_ROCKING;
                     } else {
-                        results[next] = block.follow::<M, PAIR>(&method).map_err(|error| (next, error))?;
+                        results[next] = follow(next)?;
                     }
                     next += 1;
                 }
@@ -197,7 +191,7 @@ pub(crate) fn run<M: Model, const PAIR: bool>(
             }
             if at.iter().all(Option::is_none) {
                 for &index in stepping.finish(results) {
-                    results[index] = pulsed[index].follow::<M, PAIR>(&method).map_err(|error| (index, error))?;
+                    results[index] = follow(index)?;
                 }
                 return Ok(());
             }

@@ -65,11 +65,6 @@ struct Frozen<S, const X: usize> {
     rates: [S; X],
 }
 
-/// The law without its springs.
-fn springless<S: Real>(law: &ModeCoefficients<S>) -> ModeCoefficients<S> {
-    ModeCoefficients { stiffness: [S::ZERO; 2], damping: [S::ZERO; 2], ..*law }
-}
-
 fn freeze<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
     soft: &KnownModeStart<'_, S, B, D, X, G>,
     at: &Place<S, X>,
@@ -146,7 +141,7 @@ pub(super) fn midpoint<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: u
     from: &Place<S, X>,
     (h, ground): (S, [S; 2]),
 ) -> Place<S, X> {
-    let law = springless(known.start.law);
+    let law = ModeCoefficients { stiffness: [S::ZERO; 2], damping: [S::ZERO; 2], ..*known.start.law };
     let soft = ModeStart { law: &law, ..*known.start };
     let soft = KnownModeStart { start: &soft, ..*known };
     let half = S::HALF * h;

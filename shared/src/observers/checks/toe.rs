@@ -104,10 +104,7 @@ impl<S: Real> Toe<S> {
     /// ℓ = A cos δ + s B sin δ; slender: a constant.
     fn arm(&self, side: Sign, (sin, cos): (S, S)) -> S {
         let [along, across] = self.lever;
-        match self.geometry {
-            Geometry::Full => along * cos + side.times(across) * sin,
-            Geometry::Slender => along,
-        }
+        along * cos + side.times(across) * sin
     }
 
     /// A force over λmR (1/s²) over the weight.

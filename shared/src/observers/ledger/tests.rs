@@ -1,6 +1,6 @@
 use super::*;
-use crate::drivetrain::power_loss::Spent;
 use crate::drivetrain::transmission::Account as DeviceAccount;
+use crate::drivetrain::transmission::Spent;
 use crate::equation::motion::Motion;
 use crate::ground::Linear;
 use crate::math;
