@@ -3,7 +3,8 @@
 //! Only the steps of a method, which evaluate the equation many times, are compiled for each type ([`AnyEquation::known`]); the event loop
 //! is compiled once.
 
-use super::lever::{CentreOfMass, TyingPoint};
+use super::body::FullBody;
+use super::lever::{CentreOfMass, Lever, TyingPoint};
 use super::switched::Switched;
 use super::{Equation, FullBlock, FullInerter, SlenderBlock};
 use crate::math::scalar::Real;
@@ -43,10 +44,24 @@ macro_rules! known {
 }
 
 impl<S: Real> AnyEquation<S> {
-    /// Goes on with the equation in its own type: one choice for all that `next` evaluates.
+    /// Goes on with the equation in its own type and kinematics: one choice for all that `next` evaluates.
     #[inline(always)]
     pub fn known<W: WithEquation<S>>(&self, next: W) -> W::Output {
-        known!(self, equation => next.with(equation))
+        match self {
+            AnyEquation::Slender(equation) => next.with(equation),
+            AnyEquation::Block(equation) => next.with(equation),
+            AnyEquation::Centre(equation) => equation.known(next),
+            AnyEquation::Point(equation) => equation.known(next),
+        }
+    }
+}
+
+impl<S: Real, L: Lever<S>> FullInerter<S, L> {
+    /// Goes on with fields that the compiler knows: a series that asks for them in every order takes longer.
+    #[inline(always)]
+    fn known<W: WithEquation<S>>(&self, next: W) -> W::Output {
+        let of = |consistent| FullInerter { body: FullBody { consistent, vertical: false, ..self.body }, ..*self };
+        if self.body.consistent { next.with(&of(true)) } else { next.with(&of(false)) }
     }
 }
 

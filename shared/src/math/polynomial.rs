@@ -28,17 +28,20 @@ pub fn value_and_slope<S: Scalar>(coefficients: &[S], time: S) -> (S, S) {
     (even + odd * time, odd + (time + time) * (even_slope + odd_slope * time))
 }
 
-/// Second derivative.
-fn second_derivative<S: Real>(coefficients: &[S], time: S) -> S {
-    let terms = coefficients.iter().zip(&SECOND).skip(2).rev();
-    terms.fold(S::ZERO, |sum, (&c, &factor)| sum * time + c * S::of(factor))
+/// Σ k(k−1) s(c_k) t^{k−2} with the function s = `size`.
+#[inline(always)]
+fn twice_derived<S: Real>(coefficients: &[S], time: S, size: impl Fn(S) -> S) -> S {
+    let mut sum = S::ZERO;
+    for (&c, &factor) in coefficients.iter().zip(&SECOND).skip(2).rev() {
+        sum = sum * time + size(c) * S::of(factor);
+    }
+    sum
 }
 
 /// Bound of the second derivative's magnitude over [0, `to`]: Σ k(k−1)|c_k| to^{k−2}.
 #[inline]
 pub fn curvature_bound<S: Real>(coefficients: &[S], to: S) -> S {
-    let terms = coefficients.iter().zip(&SECOND).skip(2).rev();
-    terms.fold(S::ZERO, |sum, (&c, &factor)| sum * to + c.abs() * S::of(factor))
+    twice_derived(coefficients, to, S::abs)
 }
 
 /// k(k−1).
@@ -155,7 +158,7 @@ fn search<S: Real>(
 
 /// Largest |p(t)| of a polynomial on [`from`, `to`], if above `floor`; else `floor`.
 pub fn largest_magnitude<S: Real>(coefficients: &[S], curvature: S, from: (S, S), to: (S, S), floor: S) -> S {
-    let curve = (|t| value_and_slope(coefficients, t), |t| second_derivative(coefficients, t));
+    let curve = (|t| value_and_slope(coefficients, t), |t| twice_derived(coefficients, t, |c| c));
     largest_magnitude_of(&curve, curvature, from, to, floor)
 }
 
