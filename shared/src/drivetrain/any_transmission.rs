@@ -93,7 +93,6 @@ fn of_kind<'a, S: Real, const X: usize>(at: &AnyPoint<'a, S, UNKNOWNS>) -> AnyPo
 
 impl<S: Real> AnyTransmission<S> {
     /// Traits of the kind.
-    #[inline]
     pub fn traits(&self) -> Traits {
         fn of<S: Real, D: Transmission<S, X, G>, const X: usize, const G: usize>(_: &D) -> Traits {
             Traits {

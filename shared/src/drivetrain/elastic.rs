@@ -93,14 +93,12 @@ impl<S: Real> Transmission<S, 4, GUARDS> for ElasticPair {
     const HOLDS: bool = true;
     const SPRINGS: bool = true;
 
-    #[inline(always)]
     fn scales(&self, parameters: &ScaledParameters<S>, speed: S) -> [S; 4] {
         // A twist matters by its force: that of a spring that would give the flywheel this speed.
         let twist = speed * (parameters.inertance / parameters.stiffness).square_root();
         [speed, speed, twist, twist]
     }
 
-    #[inline(always)]
     fn extend(&self, law: &mut ModeCoefficients<S>, parameters: &ScaledParameters<S>, device: &DeviceState<S>) {
         let plays = parameters.half_play > S::ZERO;
         for (i, wheel) in device.wheels.iter().enumerate() {

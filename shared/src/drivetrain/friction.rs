@@ -49,7 +49,6 @@ impl<S: Real> Transmission<S, 2, 3> for FrictionPair {
     const COMMANDED: bool = true;
     const HOLDS: bool = true;
 
-    #[inline(always)]
     fn extend(&self, law: &mut ModeCoefficients<S>, parameters: &ScaledParameters<S>, device: &DeviceState<S>) {
         for (i, wheel) in device.wheels.iter().enumerate() {
             law.watch[i + 1] = match wheel.coupling {

@@ -17,7 +17,6 @@ impl<S: Real> Transmission<S, 2, 1> for OverrunningPair {
     const COMMANDED: bool = false;
     const HOLDS: bool = true;
 
-    #[inline(always)]
     fn extend(&self, law: &mut ModeCoefficients<S>, _parameters: &ScaledParameters<S>, device: &DeviceState<S>) {
         let wheel = wheel_for(Sign::of(law.direction, Sign::Positive));
         law.watch[0] = match device.wheels[wheel].coupling {

@@ -121,7 +121,6 @@ pub trait Transmission<S: Real, const X: usize, const G: usize> {
     const PERMANENT: bool = false;
 
     /// Coefficients of the present mode.
-    #[inline(always)]
     fn law(
         &self,
         parameters: &ScaledParameters<S>,
@@ -138,7 +137,6 @@ pub trait Transmission<S: Real, const X: usize, const G: usize> {
     }
 
     /// What the kind adds to the coefficients of a mode: its guards beside the command, and forces of its clutches.
-    #[inline(always)]
     fn extend(&self, _law: &mut ModeCoefficients<S>, _parameters: &ScaledParameters<S>, _device: &DeviceState<S>) {}
 
     /// θ̈ and the rates of the device's unknowns. In the default flywheels that are not locked coast, ẇ = −c w − d sgn w.
@@ -158,38 +156,31 @@ pub trait Transmission<S: Real, const X: usize, const G: usize> {
     }
 
     /// Size of each unknown that matters, for tolerances, where θ̇ of that size is `speed` (rad/s).
-    #[inline(always)]
     fn scales(&self, _parameters: &ScaledParameters<S>, speed: S) -> [S; X] {
         [speed; X]
     }
 
     /// A command to engage takes effect; in the default without a loss of momentum.
-    #[inline(always)]
     fn engage(&self, at: &mut EventContext<'_, S>, wheel: usize) {
         at.device.wheels[wheel].coupling = Coupling::Locked;
     }
 
     /// The guard `watch` has reached zero.
-    #[inline(always)]
     fn reached(&self, _at: &mut EventContext<'_, S>, _watch: Guard<S>) {}
 
     /// The velocity has jumped, or passed zero: modes that this ends are left.
-    #[inline(always)]
     fn settle(&self, _at: &mut EventContext<'_, S>) {}
 
     /// An impact, at which the rack's speed jumps from `before` to what it is now; called before [`Transmission::settle`].
-    #[inline(always)]
     fn impact(&self, _at: &mut EventContext<'_, S>, _before: S) {}
 
     /// Forces of the two flywheels on the rack, of the rack itself, energy stored, and power lost.
-    #[inline(always)]
     fn account(&self, at: &AnyPoint<'_, S, X>, acceleration: S, device: &DeviceState<S>) -> Account<S> {
         account(at, acceleration, device)
     }
 }
 
 /// The first `X` of the unknowns.
-#[inline(always)]
 pub fn first<S: Copy, const X: usize>(unknowns: &[S; UNKNOWNS]) -> [S; X] {
     core::array::from_fn(|i| unknowns[i % UNKNOWNS])
 }

@@ -59,7 +59,6 @@ impl<S: Real> AnySegment<S> {
 }
 
 impl<S: Real> GroundSegment<S> for AnySegment<S> {
-    #[inline]
     fn acceleration(&self, time: S) -> S {
         each!(self, segment => segment.acceleration(time))
     }

@@ -29,13 +29,11 @@ pub struct Elementary<S> {
 
 impl<S: Real> Elementary<S> {
     /// A straight line of this slope (g/s).
-    #[inline(always)]
     pub fn line(slope: S) -> Self {
         Elementary { slope, waves: [Wave { frequency: S::ZERO, sine: S::ZERO, cosine: S::ZERO }; MOST_WAVES], count: 0 }
     }
 
     /// With one sine more; None when it is one too many.
-    #[inline(always)]
     pub fn with(mut self, wave: Wave<S>) -> Option<Self> {
         *self.waves.get_mut(self.count)? = wave;
         self.count += 1;
@@ -49,13 +47,11 @@ impl<S: Real> Elementary<S> {
     }
 
     /// The sines.
-    #[inline(always)]
     pub fn waves(&self) -> &[Wave<S>] {
         self.waves.get(..self.count).unwrap_or(&self.waves)
     }
 
     /// The sines, to be changed.
-    #[inline(always)]
     pub fn waves_mut(&mut self) -> &mut [Wave<S>] {
         &mut self.waves[..self.count.min(MOST_WAVES)]
     }

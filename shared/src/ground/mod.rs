@@ -34,13 +34,11 @@ pub trait GroundSegment<S: Real> {
     fn series(&self, time: S, coefficients: &mut [S]);
 
     /// Whether the ground is known to stand still over the whole piece, so that a free motion may be summed to its end.
-    #[inline(always)]
     fn is_quiet(&self) -> bool {
         false
     }
 
     /// How ü_g/g goes on from τ, if it is made of a line and a few sines; the same answer, yes or no, for every τ.
-    #[inline(always)]
     fn elementary(&self, _time: S) -> Option<Elementary<S>> {
         None
     }

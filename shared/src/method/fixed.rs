@@ -66,7 +66,6 @@ pub struct FixedOutput<'a, S> {
 }
 
 impl<'a, S: Real> FixedOutput<'a, S> {
-    #[inline(always)]
     pub(crate) fn new(scheme: Scheme, start: &'a StepStart<'a, S>) -> Self {
         let first = start.first_acceleration(start.equation);
         let end = Self::motion(scheme, start, first, start.length);
@@ -90,7 +89,6 @@ struct Step<'s, 'a, S> {
 impl<S: Real> WithEquation<S> for Step<'_, '_, S> {
     type Output = Motion<S>;
 
-    #[inline(always)]
     fn with<E: Switched<S>>(self, equation: &E) -> Motion<S> {
         let Step { scheme, start, first, time } = self;
         let side = start.side.unit();
@@ -110,12 +108,10 @@ impl<S: Real> WithEquation<S> for Step<'_, '_, S> {
 }
 
 impl<S: Real> DenseOutput<S> for FixedOutput<'_, S> {
-    #[inline(always)]
     fn length(&self) -> S {
         self.start.length
     }
 
-    #[inline]
     fn at(&self, time: S) -> Motion<S> {
         if time == S::ZERO {
             return Motion { rotation: self.start.rotation, velocity: self.start.velocity, acceleration: self.first };
@@ -123,12 +119,10 @@ impl<S: Real> DenseOutput<S> for FixedOutput<'_, S> {
         if time == self.start.length { self.end } else { Self::motion(self.scheme, self.start, self.first, time) }
     }
 
-    #[inline(always)]
     fn evaluated_end(&self) -> Option<S> {
         Some(self.end.acceleration)
     }
 
-    #[inline]
     fn switching(&self, time: S) -> S {
         let motion = self.at(time);
         let push = self.start.segment.acceleration(self.start.time + time);
@@ -139,12 +133,10 @@ impl<S: Real> DenseOutput<S> for FixedOutput<'_, S> {
 impl<S: Real> Integrator<S> for FixedStep<S> {
     type Output<'a> = FixedOutput<'a, S>;
 
-    #[inline(always)]
     fn integrate<'a>(&'a self, start: &'a StepStart<'a, S>) -> Self::Output<'a> {
         FixedOutput::new(self.scheme, start)
     }
 
-    #[inline(always)]
     fn step(&self) -> Option<S> {
         Some(self.step)
     }

@@ -70,7 +70,6 @@ impl<S: Real, const N: usize> Integrator<S> for Taylor<S, N> {
         output
     }
 
-    #[inline(always)]
     fn step(&self) -> Option<S> {
         self.step
     }
@@ -127,7 +126,6 @@ impl<S: Real, const N: usize> TaylorOutput<S, N> {
 }
 
 impl<S: Real, const N: usize> DenseOutput<S> for TaylorOutput<S, N> {
-    #[inline(always)]
     fn length(&self) -> S {
         self.series.length
     }

@@ -34,7 +34,6 @@ impl Digest {
         self.hash.value()
     }
 
-    #[inline]
     fn instant<S: Real>(&mut self, rotation: S, velocity: S, side: Sign, kind: u8) {
         self.hash.number(rotation);
         self.hash.number(velocity);
@@ -43,13 +42,11 @@ impl Digest {
 }
 
 impl<S: Real> Observer<S> for Digest {
-    #[inline]
     fn interval(&mut self, _output: &dyn DenseOutput<S>, interval: &MonotoneInterval<S>) {
         self.stretches = self.stretches.wrapping_add(1);
         self.instant(interval.last.rotation, interval.last.velocity, interval.side, u8::from(interval.engaged));
     }
 
-    #[inline]
     fn event(&mut self, event: Event, _time: S, state: &BlockState<S>) {
         self.events = self.events.wrapping_add(1);
         let kind = match event {

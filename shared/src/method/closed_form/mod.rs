@@ -50,7 +50,6 @@ pub enum ClosedFormOutput<'a, S> {
 impl<S: Real> Integrator<S> for ClosedForm<S> {
     type Output<'a> = ClosedFormOutput<'a, S>;
 
-    #[inline]
     fn integrate<'a>(&'a self, start: &'a StepStart<'a, S>) -> ClosedFormOutput<'a, S> {
         match (start.equation.slender(), start.segment.elementary(start.time)) {
             (Some(block), Some(ground)) => ClosedFormOutput::Closed(SlenderArc::new(block, ground, start)),
@@ -58,7 +57,6 @@ impl<S: Real> Integrator<S> for ClosedForm<S> {
         }
     }
 
-    #[inline(always)]
     fn step(&self) -> Option<S> {
         Some(self.step)
     }
@@ -111,14 +109,12 @@ impl<S: Real> SlenderArc<S> {
         output
     }
 
-    #[inline(always)]
     fn growth(&self, time: S) -> Growth<S> {
         let squared = self.rate * (time * time);
         let (c2, c3) = stumpff::c2_c3(-squared);
         Growth { squared, c2, c3 }
     }
 
-    #[inline(always)]
     fn motion(&self, time: S, growth: Growth<S>) -> Motion<S> {
         let Growth { squared, c2, c3 } = growth;
         let Motion { rotation, velocity, acceleration } = self.start;
@@ -179,12 +175,10 @@ struct Growth<S> {
 }
 
 impl<S: Real> DenseOutput<S> for SlenderArc<S> {
-    #[inline(always)]
     fn length(&self) -> S {
         self.length
     }
 
-    #[inline]
     fn at(&self, time: S) -> Motion<S> {
         if time == S::ZERO {
             self.start
@@ -196,13 +190,11 @@ impl<S: Real> DenseOutput<S> for SlenderArc<S> {
     }
 
     /// θ̈: slender blocks switch with it.
-    #[inline]
     fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
         let stretch = (from, to, self.at(to).acceleration);
         first_zero_of(|t| self.value_and_slope(t), self.curvature, stretch, sign, from_zero)
     }
 
-    #[inline]
     fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
         let curve = (|t| self.value_and_slope(t), |t| self.acceleration(t)[2]);
         largest_magnitude_of(&curve, self.curvature, from, to, floor)
@@ -219,32 +211,26 @@ macro_rules! either {
 }
 
 impl<S: Real> DenseOutput<S> for ClosedFormOutput<'_, S> {
-    #[inline(always)]
     fn length(&self) -> S {
         either!(self, output => output.length())
     }
 
-    #[inline]
     fn at(&self, time: S) -> Motion<S> {
         either!(self, output => output.at(time))
     }
 
-    #[inline]
     fn switching(&self, time: S) -> S {
         either!(self, output => output.switching(time))
     }
 
-    #[inline]
     fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
         either!(self, output => output.acceleration_zero(from, to, sign, from_zero))
     }
 
-    #[inline]
     fn switching_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
         either!(self, output => output.switching_zero(from, to, sign, from_zero))
     }
 
-    #[inline]
     fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
         either!(self, output => output.largest_acceleration(from, to, floor))
     }

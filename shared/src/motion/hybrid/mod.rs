@@ -185,7 +185,6 @@ impl<S: Real> HybridSystem<S> {
     }
 
     /// One step, up to its first event.
-    #[inline]
     fn follow<T: ModeIntegrator<S>>(
         &self,
         integrator: &T,

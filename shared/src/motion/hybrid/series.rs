@@ -144,14 +144,12 @@ impl<S: Real, const N: usize> ModeIntegrator<S> for Series<S, N> {
         output
     }
 
-    #[inline(always)]
     fn step(&self) -> Option<S> {
         self.step
     }
 }
 
 impl<S: Real, const N: usize> DenseOutput<S> for SeriesModeOutput<S, N> {
-    #[inline(always)]
     fn length(&self) -> S {
         self.series.length
     }

@@ -134,7 +134,6 @@ impl<'a, S: Real> FixedModeOutput<'a, S> {
 }
 
 impl<S: Real> DenseOutput<S> for FixedModeOutput<'_, S> {
-    #[inline(always)]
     fn length(&self) -> S {
         self.start.length
     }
@@ -170,7 +169,6 @@ impl<S: Real> ModeIntegrator<S> for FixedStep<S> {
         FixedModeOutput::new(self.scheme, start)
     }
 
-    #[inline(always)]
     fn step(&self) -> Option<S> {
         Some(self.step)
     }

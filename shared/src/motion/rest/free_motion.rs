@@ -38,7 +38,6 @@ impl<I: FirstIntegral> FreeMotion<I> {
     /// The end of the motion from |θ| = `rotation` (rad, not negative) with the outward `velocity` (p rad).
     ///
     /// A block that just reaches the tip counts as overturned.
-    #[inline]
     pub fn settle(&self, rotation: f64, velocity: f64) -> Settled {
         let FreeMotion { slenderness: alpha, outward, inward, .. } = *self;
         let (mut q, mut velocity) = (alpha - rotation, velocity);
