@@ -1,7 +1,7 @@
 //! The core of Sprag, shared by the simulator and the firmware: the dynamics of a rocking block with inerters, its event-driven integration,
 //! and the controller of its clutches. No `std`, no allocation, no `unsafe`.
 //!
-//! Two wings stand on one foundation and never import each other. A room imports only rooms below it; `tests/rooms.rs` checks both.
+//! Two wings stand on one foundation and never import each other. A room imports only rooms below it; `xtask/src/rooms.rs` checks both.
 //!
 //! ```text
 //!        motion wing                              controller wing
@@ -56,7 +56,7 @@
 //! | z | `twist` ([`drivetrain::clutch_state::FlywheelState`]) | twist of an elastic clutch as travel of the rack, over R |
 //! | K, C, F_c | `stiffness`, `damping`, `capacity` ([`drivetrain::scaled_parameters::ScaledParameters`]) | stiffness, damping and capacity of a clutch: K/(λm), C/(λm), F_c/(λmR) |
 //! | Eq. 10 | [`equation::clutch_rule::ClutchRule::Resisting`] | clutch rule: engaged while acceleration and velocity have one sign |
-//! | Eq. 11 | [`equation::kinematics::Paper`], [`equation::kinematics::Consistent`] | kinematics of the terminals, without or with ℓ'θ̇² |
+//! | Eq. 11 | `consistent` ([`equation::body::FullBody`]) | kinematics of the terminals, without or with ℓ'θ̇² |
 //! | - | [`ground::GroundSegment`] | ground segment: smooth ground motion between two kinks |
 //! | - | [`method::dense_output::DenseOutput`] | dense output: θ, θ̇, θ̈ at any time of a step |
 //! | - | [`motion::hybrid::mode_output::ModeOutput`] | mode output: dense output with a device's unknowns and guards |

@@ -36,7 +36,7 @@ impl Pulsed {
     /// The state `until` 1/p after the pulse begins, and what happened before; the pulse is over after 2π/ω_g.
     pub fn follow(&self, until: f64) -> (BlockState<f64>, FullLog) {
         let structure = self.structure();
-        let level = self.amplitude * self.geometry.uplift_threshold(&structure.block);
+        let level = self.amplitude * self.geometry.uplift_threshold(structure.block.slenderness());
         let end = TAU / self.frequency;
         let pulse = match self.shape {
             PulseShape::Sine => Segment::sine(level, self.frequency, end.min(until)),

@@ -15,6 +15,8 @@ mod hardware;
 mod package;
 mod panic_check;
 mod process;
+#[cfg(test)]
+mod rooms;
 mod scratch;
 mod seal;
 mod size;

@@ -76,7 +76,7 @@ impl Model {
             slenderness: block.slenderness() as f32,
             size: block.size() as f32,
             restitution: structure.restitution()? as f32,
-            uplift: structure.geometry.uplift_threshold(block) as f32,
+            uplift: structure.geometry.uplift_threshold(block.slenderness()) as f32,
             coupling: (structure.device.mass_ratio / block.inertia_ratio()) as f32,
             wheels_spin,
             decay: flywheel.viscous_rate as f32,

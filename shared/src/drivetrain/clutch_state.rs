@@ -25,7 +25,6 @@ pub enum Coupling {
 // Every variant is named, so that a new one is placed in each set.
 impl Coupling {
     /// Engaged clutch: any connection of rack and flywheel, the gear play included.
-    #[inline(always)]
     pub fn is_engaged(self) -> bool {
         match self {
             Coupling::Open => false,
@@ -34,7 +33,6 @@ impl Coupling {
     }
 
     /// Engaged elastic clutch, whose twist is a state: within its play, in contact or saturated.
-    #[inline(always)]
     pub fn has_twist(self) -> bool {
         match self {
             Coupling::Open | Coupling::Locked | Coupling::Slipping(_) => false,
@@ -43,7 +41,6 @@ impl Coupling {
     }
 
     /// Sign of the force of plates that slip; none while they stick or are open.
-    #[inline(always)]
     pub fn slip_sign(self) -> Option<Sign> {
         match self {
             Coupling::Slipping(sign) | Coupling::Saturated(sign) => Some(sign),
@@ -52,7 +49,6 @@ impl Coupling {
     }
 
     /// Side of the play on which an elastic clutch is in contact; none within the play and for other clutches.
-    #[inline(always)]
     pub fn contact_side(self) -> Option<Sign> {
         match self {
             Coupling::Elastic(side) | Coupling::Saturated(side) => Some(side),
@@ -104,20 +100,35 @@ impl<S: Real> DeviceState<S> {
         DeviceState { wheels: [wheel; 2], ..DeviceState::default() }
     }
 
-    /// Time until something happens by the clock alone, s; none if nothing is due.
-    #[inline]
-    pub fn next_due(&self) -> Option<S> {
-        let mut due = None;
-        for wheel in &self.wheels {
-            if wheel.pending >= S::ZERO {
-                due = Some(due.map_or(wheel.pending, |t: S| t.smaller(wheel.pending)));
+    /// Flywheels that are locked.
+    pub fn locked(&self) -> u32 {
+        self.wheels.iter().map(|wheel| u32::from(wheel.coupling == Coupling::Locked)).sum()
+    }
+
+    /// The device's unknowns at the start of a step: speeds of the flywheels, then twists of the clutches.
+    pub fn unknowns(&self) -> [S; UNKNOWNS] {
+        let [a, b] = &self.wheels;
+        [a.spin, b.spin, a.twist, b.twist]
+    }
+
+    /// Stores the unknowns at the end of a step, where the rack has the speed `rack` (over R).
+    pub fn store(&mut self, unknowns: &[S], rack: S) {
+        for (i, wheel) in self.wheels.iter_mut().enumerate() {
+            if let Some(&spin) = unknowns.get(i) {
+                wheel.spin = if wheel.coupling == Coupling::Locked { rack } else { spin };
+            }
+            if let Some(&twist) = unknowns.get(i + 2) {
+                wheel.twist = twist;
             }
         }
-        due
+    }
+
+    /// Time until something happens by the clock alone, s; none if nothing is due.
+    pub fn next_due(&self) -> Option<S> {
+        self.wheels.iter().map(|wheel| wheel.pending).filter(|pending| *pending >= S::ZERO).reduce(S::smaller)
     }
 
     /// Lets the clocks run for `time` (s).
-    #[inline]
     pub fn elapse(&mut self, time: S) {
         for wheel in &mut self.wheels {
             if wheel.pending >= S::ZERO {
@@ -192,6 +203,9 @@ pub enum Guard<S> {
     /// friction − sign · θ̈ of a block that its clutches hold on its base, likewise.
     HeldDown(S, S),
 }
+
+/// Largest number of a device's own unknowns.
+pub const UNKNOWNS: usize = 4;
 
 /// Largest number of guards of a device: the command, and two of each flywheel.
 pub const GUARDS: usize = 5;

@@ -12,54 +12,54 @@ use crate::math::sign::Sign;
 use crate::math::value::Value;
 
 /// Two flywheels, a friction clutch on each, that obey Eq. 10.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrictionPair<S>(pub ScaledParameters<S>);
+pub struct FrictionPair;
 
-impl<S: Real> FrictionPair<S> {
+impl<S: Real> EventContext<'_, S> {
     /// Stick or slip where the plates run at one speed.
-    fn stick_or_slip(&self, at: &mut EventContext<'_, S>, wheel: usize) {
-        let force = force_if_locked(self, &self.0, at, wheel);
-        let rack = at.rack_speed();
-        let wheel = &mut at.device.wheels[wheel];
-        wheel.spin = rack;
-        if force.abs() <= self.0.capacity_of(wheel).0 {
-            wheel.coupling = Coupling::Locked;
+    fn stick_or_slip(&mut self, wheel: usize) {
+        let force = force_if_locked(&FrictionPair, self, wheel);
+        let rack = self.rack_speed();
+        let clutch = &mut self.device.wheels[wheel];
+        clutch.spin = rack;
+        if force.abs() <= self.parameters.capacity_of(clutch).0 {
+            clutch.coupling = Coupling::Locked;
         } else {
             self.slip(wheel, Sign::of(force, Sign::Positive));
         }
     }
 
-    fn slip(&self, wheel: &mut crate::drivetrain::clutch_state::FlywheelState<S>, sign: Sign) {
+    /// Plates that touch at any speed of the flywheel.
+    fn meet(&mut self, wheel: usize) {
+        let slip = self.rack_speed() - self.device.wheels[wheel].spin;
+        if slip == S::ZERO {
+            self.stick_or_slip(wheel);
+        } else {
+            self.slip(wheel, Sign::of(slip, Sign::Positive));
+        }
+    }
+
+    fn slip(&mut self, wheel: usize, sign: Sign) {
+        let wheel = &mut self.device.wheels[wheel];
         wheel.coupling = Coupling::Slipping(sign);
-        let force = sign.times(self.0.capacity_of(wheel).0);
-        self.0.settle(wheel, force);
+        self.parameters.settle(wheel, sign.times(self.parameters.capacity_of(wheel).0));
     }
 }
 
-impl<S: Real> Transmission<S, 2, 3> for FrictionPair<S> {
+impl<S: Real> Transmission<S, 2, 3> for FrictionPair {
     const COMMANDED: bool = true;
     const HOLDS: bool = true;
 
-    #[inline(always)]
-    fn parameters(&self) -> Option<&ScaledParameters<S>> {
-        Some(&self.0)
-    }
-
-    #[inline(always)]
-    fn law(&self, direction: Sign, terminal_acceleration_sign: Sign, device: &DeviceState<S>) -> ModeCoefficients<S> {
-        let mut law = self.0.law(direction, device);
-        law.watch[0] = Guard::Command(terminal_acceleration_sign.unit());
+    fn extend(&self, law: &mut ModeCoefficients<S>, parameters: &ScaledParameters<S>, device: &DeviceState<S>) {
         for (i, wheel) in device.wheels.iter().enumerate() {
             law.watch[i + 1] = match wheel.coupling {
                 Coupling::Locked => {
-                    let (capacity, growth) = self.0.capacity_of(wheel);
+                    let (capacity, growth) = parameters.capacity_of(wheel);
                     Guard::Capacity(capacity, growth)
                 }
                 Coupling::Slipping(sign) => Guard::Slip(sign.unit(), i),
                 _ => Guard::Nothing,
             };
         }
-        law
     }
 
     #[inline(always)]
@@ -67,19 +67,19 @@ impl<S: Real> Transmission<S, 2, 3> for FrictionPair<S> {
         let law = at.law;
         let plates = at.clock.scale(law.slip_growth[0] + law.slip_growth[1]).offset(law.slip[0] + law.slip[1]);
         let rates = [0, 1].map(|i| {
-            let gain = law.moves[i] * self.0.mobility;
+            let gain = law.moves[i] * at.parameters.mobility;
             at.clock.scale(law.slip_growth[i] * gain).offset(law.slip[i] * gain - law.drag[i])
                 - at.unknowns[i].scale(law.decay[i])
         });
-        (acceleration(at, self.0.rack_push, true, Some(plates)), rates)
+        (acceleration(at, true, Some(plates)), rates)
     }
 
     #[inline(always)]
     fn guard<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 2>, acceleration: V, watch: Guard<S>) -> V {
         match watch {
-            Guard::Command(sign) => command(at, self.0.rack_push, true, sign),
+            Guard::Command(sign) => command(at, true, sign),
             Guard::Capacity(capacity, growth) => {
-                let force = locked_force(at, &self.0, acceleration);
+                let force = locked_force(at, acceleration);
                 at.clock.scale(growth).offset(capacity).square() - force.square()
             }
             Guard::Slip(sign, wheel) => {
@@ -90,13 +90,8 @@ impl<S: Real> Transmission<S, 2, 3> for FrictionPair<S> {
     }
 
     fn engage(&self, at: &mut EventContext<'_, S>, wheel: usize) {
-        let slip = at.rack_speed() - at.device.wheels[wheel].spin;
         at.device.wheels[wheel].engaged_for = S::ZERO;
-        if slip == S::ZERO {
-            self.stick_or_slip(at, wheel);
-        } else {
-            self.slip(&mut at.device.wheels[wheel], Sign::of(slip, Sign::Positive));
-        }
+        at.meet(wheel);
     }
 
     fn reached(&self, at: &mut EventContext<'_, S>, watch: Guard<S>) {
@@ -104,19 +99,19 @@ impl<S: Real> Transmission<S, 2, 3> for FrictionPair<S> {
             Guard::Slip(_, wheel) => {
                 let (wheel, other) = (wheel & 1, 1 - (wheel & 1));
                 let both = at.device.wheels[other].coupling == Coupling::Locked;
-                self.stick_or_slip(at, wheel);
+                at.stick_or_slip(wheel);
                 if both {
                     // What joins changes the force on what sticks already, and that the force on what joins.
-                    self.stick_or_slip(at, other);
-                    self.stick_or_slip(at, wheel);
+                    at.stick_or_slip(other);
+                    at.stick_or_slip(wheel);
                 }
             }
             Guard::Capacity(..) => {
                 for wheel in 0..2 {
                     if at.device.wheels[wheel].coupling == Coupling::Locked {
-                        let force = force_if_locked(self, &self.0, at, wheel);
-                        if force.abs() >= self.0.capacity_of(&at.device.wheels[wheel]).0 * S::of(0.999) {
-                            self.slip(&mut at.device.wheels[wheel], Sign::of(force, Sign::Positive));
+                        let force = force_if_locked(self, at, wheel);
+                        if force.abs() >= at.parameters.capacity_of(&at.device.wheels[wheel]).0 * S::of(0.999) {
+                            at.slip(wheel, Sign::of(force, Sign::Positive));
                         }
                     }
                 }
@@ -126,24 +121,16 @@ impl<S: Real> Transmission<S, 2, 3> for FrictionPair<S> {
     }
 
     fn settle(&self, at: &mut EventContext<'_, S>) {
-        let rack = at.rack_speed();
         for wheel in 0..2 {
             match at.device.wheels[wheel].coupling {
                 Coupling::Locked => {
-                    let force = force_if_locked(self, &self.0, at, wheel);
-                    if force.abs() > self.0.capacity_of(&at.device.wheels[wheel]).0 {
-                        at.device.wheels[wheel].spin = rack;
-                        self.slip(&mut at.device.wheels[wheel], Sign::of(force, Sign::Positive));
+                    let force = force_if_locked(self, at, wheel);
+                    if force.abs() > at.parameters.capacity_of(&at.device.wheels[wheel]).0 {
+                        at.device.wheels[wheel].spin = at.rack_speed();
+                        at.slip(wheel, Sign::of(force, Sign::Positive));
                     }
                 }
-                Coupling::Slipping(_) => {
-                    let slip = rack - at.device.wheels[wheel].spin;
-                    if slip == S::ZERO {
-                        self.stick_or_slip(at, wheel);
-                    } else {
-                        self.slip(&mut at.device.wheels[wheel], Sign::of(slip, Sign::Positive));
-                    }
-                }
+                Coupling::Slipping(_) => at.meet(wheel),
                 _ => {}
             }
         }
@@ -152,16 +139,16 @@ impl<S: Real> Transmission<S, 2, 3> for FrictionPair<S> {
     fn impact(&self, at: &mut EventContext<'_, S>, before: S) {
         // No plate holds against an impulse: the flywheel keeps its speed and the plates slip.
         let rack = at.rack_speed();
-        for wheel in &mut at.device.wheels {
-            if wheel.coupling == Coupling::Locked && rack != before {
-                wheel.spin = before;
-                self.slip(wheel, Sign::of(rack - before, Sign::Positive));
+        for wheel in 0..2 {
+            if at.device.wheels[wheel].coupling == Coupling::Locked && rack != before {
+                at.device.wheels[wheel].spin = before;
+                at.slip(wheel, Sign::of(rack - before, Sign::Positive));
             }
         }
     }
 
     fn account(&self, at: &AnyPoint<'_, S, 2>, acceleration: S, device: &DeviceState<S>) -> Account<S> {
-        let mut account = account(at, &self.0, acceleration, device);
+        let mut account = account(at, acceleration, device);
         let rack = at.body.to_terminal(&at.configuration, at.velocity);
         for (i, wheel) in device.wheels.iter().enumerate() {
             if let Coupling::Slipping(_) = wheel.coupling {

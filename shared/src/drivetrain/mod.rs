@@ -1,7 +1,7 @@
 //! Transmissions from the rack to a flywheel: ideal, rigid, overrunning, friction and elastic clutches.
 //!
 //! [`transmission::Transmission`] is what each of them is to the integration; [`scaled_parameters`]: its parameters in the units of the equations; [`clutch_state`]:
-//! what a device remembers; [`power_loss`]: where its energy goes. Parameters in SI units are in [`crate::structure::drivetrain`]. The room
+//! what a device remembers. Parameters in SI units are in [`crate::structure::drivetrain`]. The room
 //! imports `math`, `equation` and `structure`.
 
 pub mod any_transmission;
@@ -10,7 +10,6 @@ pub mod elastic;
 pub mod friction;
 pub mod ideal;
 pub mod overrunning;
-pub mod power_loss;
 pub mod rigid;
 pub mod scaled_parameters;
 pub mod transmission;

@@ -3,7 +3,7 @@
 
 use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients};
 use super::scaled_parameters::ScaledParameters;
-use super::transmission::{EventContext, PointOf, Transmission, force_if_locked, jolt, locked_force, open};
+use super::transmission::{EventContext, PointOf, Transmission, force_if_locked, locked_force};
 use crate::equation::body::Body;
 use crate::equation::clutch_rule::wheel_for;
 use crate::math::scalar::Real;
@@ -11,33 +11,24 @@ use crate::math::sign::Sign;
 use crate::math::value::Value;
 
 /// Two flywheels, an overrunning clutch on each, for one direction of motion each.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OverrunningPair<S>(pub ScaledParameters<S>);
+pub struct OverrunningPair;
 
-impl<S: Real> Transmission<S, 2, 1> for OverrunningPair<S> {
+impl<S: Real> Transmission<S, 2, 1> for OverrunningPair {
     const COMMANDED: bool = false;
     const HOLDS: bool = true;
 
-    #[inline(always)]
-    fn parameters(&self) -> Option<&ScaledParameters<S>> {
-        Some(&self.0)
-    }
-
-    #[inline(always)]
-    fn law(&self, direction: Sign, _terminal_acceleration_sign: Sign, device: &DeviceState<S>) -> ModeCoefficients<S> {
-        let mut law = self.0.law(direction, device);
-        let wheel = wheel_for(direction);
+    fn extend(&self, law: &mut ModeCoefficients<S>, _parameters: &ScaledParameters<S>, device: &DeviceState<S>) {
+        let wheel = wheel_for(Sign::of(law.direction, Sign::Positive));
         law.watch[0] = match device.wheels[wheel].coupling {
             Coupling::Locked => Guard::Held(law.direction),
             _ => Guard::Ahead(law.direction, wheel),
         };
-        law
     }
 
     #[inline(always)]
     fn guard<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 2>, acceleration: V, watch: Guard<S>) -> V {
         match watch {
-            Guard::Held(sign) => locked_force(at, &self.0, acceleration).scale(sign),
+            Guard::Held(sign) => locked_force(at, acceleration).scale(sign),
             Guard::Ahead(sign, wheel) => {
                 (at.unknowns[wheel & 1] - at.body.to_terminal(&at.configuration, at.velocity)).scale(sign)
             }
@@ -45,14 +36,11 @@ impl<S: Real> Transmission<S, 2, 1> for OverrunningPair<S> {
         }
     }
 
-    #[inline(always)]
-    fn release(&self, _at: &mut EventContext<'_, S>, _wheel: usize) {}
-
     fn reached(&self, at: &mut EventContext<'_, S>, watch: Guard<S>) {
         let wheel = wheel_for(at.direction);
         match watch {
             Guard::Ahead(..) => at.device.wheels[wheel].coupling = Coupling::Locked,
-            _ => open(&self.0, at, wheel),
+            _ => at.open(wheel),
         }
     }
 
@@ -60,9 +48,9 @@ impl<S: Real> Transmission<S, 2, 1> for OverrunningPair<S> {
         let (wheel, rack) = (wheel_for(at.direction), at.rack_speed());
         let other = 1 - wheel;
         if at.device.wheels[other].coupling == Coupling::Locked {
-            open(&self.0, at, other);
+            at.open(other);
         }
-        let resists = |at: &EventContext<'_, S>| at.direction.times(force_if_locked(self, &self.0, at, wheel)) > S::ZERO;
+        let resists = |at: &EventContext<'_, S>| at.direction.times(force_if_locked(self, at, wheel)) > S::ZERO;
         // What stands still is held by the clutch until the force overcomes the bearings.
         let stands = rack == S::ZERO;
         let spin = at.device.wheels[wheel].spin;
@@ -71,13 +59,13 @@ impl<S: Real> Transmission<S, 2, 1> for OverrunningPair<S> {
             if ahead > S::ZERO {
                 return;
             } else if ahead < S::ZERO {
-                jolt(&self.0, at, wheel);
+                at.jolt(wheel);
             } else {
                 at.device.wheels[wheel].coupling = Coupling::Locked;
             }
         }
         if !resists(at) && !stands {
-            open(&self.0, at, wheel);
+            at.open(wheel);
         }
     }
 
@@ -87,7 +75,7 @@ impl<S: Real> Transmission<S, 2, 1> for OverrunningPair<S> {
             if wheel.coupling == Coupling::Locked {
                 wheel.spin = before;
                 wheel.coupling = Coupling::Open;
-                self.0.settle(wheel, S::ZERO);
+                at.parameters.settle(wheel, S::ZERO);
             }
         }
     }

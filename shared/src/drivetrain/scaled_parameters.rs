@@ -1,13 +1,14 @@
 //! Drivetrain parameters in the units of the equations: forces over λmR, lengths over R, inertance over λm.
 
 use super::clutch_state::{Coupling, DeviceState, FlywheelState, ModeCoefficients};
+use crate::math::root::bisection;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::structure::block::Block;
 use crate::structure::drivetrain::{Drivetrain, Engagement};
 
-/// Drivetrain parameters in the units of the equations.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Drivetrain parameters in the units of the equations; all zero without a device.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ScaledParameters<S> {
     /// k = σ/λ of one flywheel.
     pub inertance: S,
@@ -45,7 +46,6 @@ pub struct ScaledParameters<S> {
 
 /// A growing `value` (0 or more) where it is compared with what it shall exceed: the instant at which both are equal but for rounding
 /// counts as past it.
-#[inline]
 pub(crate) fn rounded_up<S: Real>(value: S) -> S {
     value * (S::ONE + S::EPSILON * S::of(16.0))
 }
@@ -89,7 +89,6 @@ impl<S: Real> ScaledParameters<S> {
     }
 
     /// Capacity now and its growth.
-    #[inline]
     pub fn capacity_of(&self, wheel: &FlywheelState<S>) -> (S, S) {
         if wheel.engaged_for >= self.rise_time {
             return (self.capacity, S::ZERO);
@@ -128,7 +127,6 @@ impl<S: Real> ScaledParameters<S> {
 
     /// Dry friction at the rack of a standing flywheel that is coupled to it, and its growth: that of the bearings, as far as the
     /// plates transmit it; 1/s² and 1/s³.
-    #[inline]
     pub fn standing_friction(&self, wheel: &FlywheelState<S>) -> (S, S) {
         let bearing = self.inertance * self.bearing_dry;
         let (capacity, growth) = self.capacity_of(wheel);
@@ -136,14 +134,12 @@ impl<S: Real> ScaledParameters<S> {
     }
 
     /// Deceleration of an idle or engaged flywheel by dry friction, 1/s².
-    #[inline]
     pub fn dry_of(&self, wheel: &FlywheelState<S>) -> S {
         if wheel.coupling.is_engaged() { self.bearing_dry } else { self.bearing_dry + self.brake }
     }
 
     /// Decides which way a flywheel turns on which `force` (1/s²) acts: a standing one starts only beyond its dry friction. Without any it
     /// is never held, or it would miss the first of a force that grows from zero.
-    #[inline]
     pub fn settle(&self, wheel: &mut FlywheelState<S>, force: S) {
         let dry = self.inertance * self.dry_of(wheel);
         wheel.turning = if wheel.spin > S::ZERO {
@@ -168,18 +164,7 @@ impl<S: Real> ScaledParameters<S> {
         if wheel.spin == S::ZERO || !stopped(time) {
             return None;
         }
-        let (mut low, mut high) = (S::ZERO, time);
-        for _ in 0..64 {
-            let middle = S::HALF * (low + high);
-            if middle <= low || middle >= high {
-                break;
-            }
-            if stopped(middle) {
-                high = middle;
-            } else {
-                low = middle;
-            }
-        }
+        let high = bisection(S::ZERO, time, S::ZERO, stopped);
         (high < time).then_some(high)
     }
 

@@ -1,7 +1,6 @@
 //! Contract of a transmission: rates between events, guards, and answers to events.
 
-use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients};
-use super::power_loss::Spent;
+use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients, UNKNOWNS};
 use super::scaled_parameters::ScaledParameters;
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
@@ -14,6 +13,8 @@ use crate::math::value::Value;
 pub struct EvaluationPoint<'a, S, B, P, V, const X: usize> {
     /// The block.
     pub body: &'a B,
+    /// Parameters of the transmission.
+    pub parameters: &'a ScaledParameters<S>,
     /// Coefficients of the mode.
     pub law: &'a ModeCoefficients<S>,
     /// The body's configuration at θ.
@@ -39,6 +40,8 @@ pub type AnyPoint<'a, S, const X: usize> = PointOf<'a, S, AnyBody<S>, S, X>;
 pub struct EventContext<'a, S> {
     /// The block.
     pub body: &'a AnyBody<S>,
+    /// Parameters of the transmission.
+    pub parameters: &'a ScaledParameters<S>,
     /// s.
     pub side: Sign,
     /// Sign of θ̇, or the one it is about to take.
@@ -53,143 +56,149 @@ pub struct EventContext<'a, S> {
     pub device: &'a mut DeviceState<S>,
 }
 
-impl<S: Real> EventContext<'_, S> {
+impl<'a, S: Real> EventContext<'a, S> {
     /// Speed of the rack over R, 1/s.
     pub fn rack_speed(&self) -> S {
         let configuration = self.body.configuration(self.side.unit(), self.rotation);
         self.body.to_terminal(&configuration, self.velocity)
     }
+
+    /// The [`EvaluationPoint`] of the instant, in the mode `law` of `device`.
+    pub fn point<const X: usize>(&self, law: &'a ModeCoefficients<S>, device: &DeviceState<S>) -> AnyPoint<'a, S, X> {
+        EvaluationPoint {
+            body: self.body,
+            parameters: self.parameters,
+            law,
+            configuration: self.body.configuration(self.side.unit(), self.rotation),
+            velocity: self.velocity,
+            unknowns: first(&device.unknowns()),
+            ground: self.ground,
+            clock: S::ZERO,
+        }
+    }
+
+    /// Plastic impact of a rigid clutch that closes: block and flywheel exchange momentum,
+    /// (1 + (K + k) ℓ²) θ̇⁺ = (1 + K ℓ²) θ̇⁻ + k ℓ w, where K is what was locked already.
+    pub fn jolt(&mut self, wheel: usize) {
+        let ScaledParameters { rack_coupling, inertance, .. } = *self.parameters;
+        let configuration = self.body.configuration(self.side.unit(), self.rotation);
+        let arm = self.body.arm(&configuration);
+        let before = S::ONE + (rack_coupling + S::count(self.device.locked()) * inertance) * arm * arm;
+        let after = before + inertance * arm * arm;
+        let closing = self.device.wheels[wheel].spin;
+        self.velocity = (before * self.velocity + inertance * arm * closing) / after;
+        self.device.wheels[wheel].coupling = Coupling::Locked;
+    }
+
+    /// Release of a wheel, with the rack's speed if it was locked.
+    pub fn open(&mut self, wheel: usize) {
+        let rack = self.rack_speed();
+        let wheel = &mut self.device.wheels[wheel];
+        if wheel.coupling == Coupling::Locked {
+            wheel.spin = rack;
+        }
+        if self.parameters.stops_at_once {
+            wheel.spin = S::ZERO;
+        }
+        wheel.coupling = Coupling::Open;
+        wheel.twist = S::ZERO;
+        self.parameters.settle(wheel, S::ZERO);
+    }
 }
 
 /// Transmission of one kind, with `X` unknowns and `G` guards. It is a type, so that what a scene does not ask for is
 /// not in its loop.
-pub trait Transmission<S: Real, const X: usize, const G: usize>: Copy {
+pub trait Transmission<S: Real, const X: usize, const G: usize> {
     /// The clutch obeys Eq. 10, so that changes of its command are events.
     const COMMANDED: bool;
     /// Friction of rack and bearings may hold the block at a turn.
     const HOLDS: bool;
     /// Elastic clutches, so that flywheels may swing while the block is held.
     const SPRINGS: bool = false;
+    /// Locked flywheels take part in the change of moment of momentum at an impact.
+    const THROUGH_IMPACTS: bool = false;
+    /// The first flywheel is always locked.
+    const PERMANENT: bool = false;
 
-    /// Coefficients of the present mode. The default watches the command alone.
-    #[inline(always)]
-    fn law(&self, direction: Sign, terminal_acceleration_sign: Sign, device: &DeviceState<S>) -> ModeCoefficients<S> {
-        let none = || ModeCoefficients::of(direction);
-        let mut law = self.parameters().map_or_else(none, |parameters| parameters.law(direction, device));
+    /// Coefficients of the present mode.
+    fn law(
+        &self,
+        parameters: &ScaledParameters<S>,
+        direction: Sign,
+        terminal_acceleration_sign: Sign,
+        device: &DeviceState<S>,
+    ) -> ModeCoefficients<S> {
+        let mut law = parameters.law(direction, device);
         if Self::COMMANDED {
             law.watch[0] = Guard::Command(terminal_acceleration_sign.unit());
         }
+        self.extend(&mut law, parameters, device);
         law
     }
+
+    /// What the kind adds to the coefficients of a mode: its guards beside the command, and forces of its clutches.
+    fn extend(&self, _law: &mut ModeCoefficients<S>, _parameters: &ScaledParameters<S>, _device: &DeviceState<S>) {}
 
     /// θ̈ and the rates of the device's unknowns. In the default flywheels that are not locked coast, ẇ = −c w − d sgn w.
     #[inline(always)]
     fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, X>) -> (V, [V; X]) {
-        let acceleration = acceleration(at, self.rack_push(), Self::HOLDS, None);
-        (acceleration, core::array::from_fn(|i| at.unknowns[i].scale(-at.law.decay[i & 1]).offset(-at.law.drag[i & 1])))
+        let rates = core::array::from_fn(|i| at.unknowns[i].scale(-at.law.decay[i & 1]).offset(-at.law.drag[i & 1]));
+        (acceleration(at, Self::HOLDS, None), rates)
     }
 
     /// Value of the guard `watch`, where θ̈ is `acceleration`; positive while the mode lasts. The default knows the command alone.
     #[inline(always)]
     fn guard<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, X>, acceleration: V, watch: Guard<S>) -> V {
         match watch {
-            Guard::Command(sign) if Self::COMMANDED => command(at, self.rack_push(), Self::HOLDS, sign),
+            Guard::Command(sign) if Self::COMMANDED => command(at, Self::HOLDS, sign),
             _ => acceleration,
         }
     }
 
-    /// The parameters, where there are any.
-    fn parameters(&self) -> Option<&ScaledParameters<S>>;
-
-    /// [`ScaledParameters::rack_push`].
-    #[inline(always)]
-    fn rack_push(&self) -> S {
-        self.parameters().map_or(S::ZERO, |parameters| parameters.rack_push)
-    }
-
-    /// The device's unknowns at the start of a step: speeds of the flywheels, then twists of the clutches.
-    #[inline(always)]
-    fn load(&self, device: &DeviceState<S>) -> [S; X] {
-        let [a, b] = &device.wheels;
-        let unknowns = [a.spin, b.spin, a.twist, b.twist];
-        core::array::from_fn(|i| unknowns[i % UNKNOWNS])
-    }
-
-    /// Stores the unknowns at the end of a step, where the rack has the speed `rack` (over R).
-    #[inline(always)]
-    fn store(&self, device: &mut DeviceState<S>, unknowns: &[S; X], rack: S) {
-        for (i, wheel) in device.wheels.iter_mut().enumerate() {
-            if let Some(&spin) = unknowns.get(i) {
-                wheel.spin = if wheel.coupling == Coupling::Locked { rack } else { spin };
-            }
-            if let Some(&twist) = unknowns.get(i + 2) {
-                wheel.twist = twist;
-            }
-        }
-    }
-
     /// Size of each unknown that matters, for tolerances, where θ̇ of that size is `speed` (rad/s).
-    #[inline(always)]
-    fn scales(&self, speed: S) -> [S; X] {
+    fn scales(&self, _parameters: &ScaledParameters<S>, speed: S) -> [S; X] {
         [speed; X]
     }
 
-    /// A command to engage takes effect.
-    #[inline(always)]
+    /// A command to engage takes effect; in the default without a loss of momentum.
     fn engage(&self, at: &mut EventContext<'_, S>, wheel: usize) {
-        let _ = (at, wheel);
-    }
-
-    /// A command to release takes effect.
-    #[inline(always)]
-    fn release(&self, at: &mut EventContext<'_, S>, wheel: usize) {
-        if let Some(parameters) = self.parameters() {
-            open(parameters, at, wheel);
-        }
+        at.device.wheels[wheel].coupling = Coupling::Locked;
     }
 
     /// The guard `watch` has reached zero.
-    #[inline(always)]
-    fn reached(&self, at: &mut EventContext<'_, S>, watch: Guard<S>) {
-        let _ = (at, watch);
-    }
+    fn reached(&self, _at: &mut EventContext<'_, S>, _watch: Guard<S>) {}
 
     /// The velocity has jumped, or passed zero: modes that this ends are left.
-    #[inline(always)]
-    fn settle(&self, at: &mut EventContext<'_, S>) {
-        let _ = at;
-    }
+    fn settle(&self, _at: &mut EventContext<'_, S>) {}
 
     /// An impact, at which the rack's speed jumps from `before` to what it is now; called before [`Transmission::settle`].
-    #[inline(always)]
-    fn impact(&self, at: &mut EventContext<'_, S>, before: S) {
-        let _ = (at, before);
-    }
-
-    /// Flywheels that take part in the change of moment of momentum at an impact.
-    #[inline(always)]
-    fn engaged_at_impact(&self, device: &DeviceState<S>) -> usize {
-        let _ = device;
-        0
-    }
-
-    /// Σ k engaged while a block without ground motion falls back (`inward`) or rises.
-    #[inline(always)]
-    fn swing_coupling(&self, inward: bool) -> S {
-        self.parameters().map_or(S::ZERO, |parameters| {
-            if inward { parameters.inertance + parameters.rack_coupling } else { parameters.rack_coupling }
-        })
-    }
+    fn impact(&self, _at: &mut EventContext<'_, S>, _before: S) {}
 
     /// Forces of the two flywheels on the rack, of the rack itself, energy stored, and power lost.
-    #[inline(always)]
     fn account(&self, at: &AnyPoint<'_, S, X>, acceleration: S, device: &DeviceState<S>) -> Account<S> {
-        self.parameters().map_or(Account::default(), |parameters| account(at, parameters, acceleration, device))
+        account(at, acceleration, device)
     }
 }
 
-/// Largest number of a device's own unknowns.
-pub const UNKNOWNS: usize = 4;
+/// The first `X` of the unknowns.
+pub fn first<S: Copy, const X: usize>(unknowns: &[S; UNKNOWNS]) -> [S; X] {
+    core::array::from_fn(|i| unknowns[i % UNKNOWNS])
+}
+
+/// Energy losses by cause, or their rates.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spent<S> {
+    /// Slip and damping of the clutches.
+    pub clutch: S,
+    /// Brakes of idle flywheels.
+    pub brake: S,
+    /// Bearings of the flywheels.
+    pub bearing: S,
+    /// Friction of the rack.
+    pub rack: S,
+    /// What the paper's kinematics take away without a physical cause (negative: create).
+    pub kinematics: S,
+}
 
 /// Forces, speeds, energies and losses of a device at an instant ([`crate::motion::device_snapshot::Snapshot`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -210,15 +219,14 @@ pub struct Account<S> {
     pub spent: Spent<S>,
 }
 
-/// θ̈ of a block with `resistance` at the rack beside the law's own: the weight and ground, the rack's inertia and friction.
+/// θ̈ of a block under its weight, the ground and the rack's inertia; with `friction` also that of the rack, and `resistance` there.
 #[inline(always)]
 pub fn acceleration<S: Real, V: Value<S>, B: Body<S>, const X: usize>(
     at: &PointOf<'_, S, B, V, X>,
-    push: S,
     friction: bool,
     resistance: Option<V>,
 ) -> V {
-    let mut moment = driving_moment(at, push, friction);
+    let mut moment = driving_moment(at, friction);
     if friction {
         let own = at.body.to_terminal(&at.configuration, at.velocity).scale(at.law.viscous).offset(at.law.dry);
         let resistance = match resistance {
@@ -226,38 +234,28 @@ pub fn acceleration<S: Real, V: Value<S>, B: Body<S>, const X: usize>(
             None => own,
         };
         moment = moment - at.body.to_terminal(&at.configuration, resistance);
-    } else if let Some(resistance) = resistance {
-        moment = moment - at.body.to_terminal(&at.configuration, resistance);
     }
     at.body.solve_acceleration(&at.configuration, moment, at.law.coupling, at.velocity)
 }
 
 /// D, with the inertia force of the ground's acceleration on a guided rack.
 #[inline(always)]
-pub fn driving_moment<S: Real, V: Value<S>, B: Body<S>, const X: usize>(at: &PointOf<'_, S, B, V, X>, push: S, rack: bool) -> V {
-    let driving_moment = at.body.driving_moment(&at.configuration, at.ground);
-    if rack { driving_moment - at.body.to_terminal(&at.configuration, at.ground[0].scale(push)) } else { driving_moment }
+pub fn driving_moment<S: Real, V: Value<S>, B: Body<S>, const X: usize>(at: &PointOf<'_, S, B, V, X>, rack: bool) -> V {
+    let moment = at.body.driving_moment(&at.configuration, at.ground);
+    if rack { moment - at.body.to_terminal(&at.configuration, at.ground[0].scale(at.parameters.rack_push)) } else { moment }
 }
 
 /// sign · switching function of Eq. 10.
 #[inline(always)]
-pub fn command<S: Real, V: Value<S>, B: Body<S>, const X: usize>(
-    at: &PointOf<'_, S, B, V, X>,
-    push: S,
-    rack: bool,
-    sign: S,
-) -> V {
-    let driving_moment = driving_moment(at, push, rack);
+pub fn command<S: Real, V: Value<S>, B: Body<S>, const X: usize>(at: &PointOf<'_, S, B, V, X>, rack: bool, sign: S) -> V {
+    let driving_moment = driving_moment(at, rack);
     at.body.switching(&at.configuration, at.velocity, driving_moment).scale(sign)
 }
 
 /// Force of a locked flywheel on the rack: its inertia and its bearing's friction, dry friction with the sign of the motion.
 #[inline(always)]
-pub fn locked_force<S: Real, V: Value<S>, B: Body<S>, const X: usize>(
-    at: &PointOf<'_, S, B, V, X>,
-    parameters: &ScaledParameters<S>,
-    acceleration: V,
-) -> V {
+pub fn locked_force<S: Real, V: Value<S>, B: Body<S>, const X: usize>(at: &PointOf<'_, S, B, V, X>, acceleration: V) -> V {
+    let parameters = at.parameters;
     let inertia = at.body.terminal_acceleration(&at.configuration, at.velocity, acceleration);
     let bearing = at.body.to_terminal(&at.configuration, at.velocity).scale(parameters.bearing_rate);
     (inertia + bearing).offset(at.law.direction * parameters.bearing_dry).scale(parameters.inertance)
@@ -266,72 +264,20 @@ pub fn locked_force<S: Real, V: Value<S>, B: Body<S>, const X: usize>(
 /// The force on a wheel if it were locked now, on a block whose other wheels stay as they are.
 pub fn force_if_locked<S: Real, D: Transmission<S, X, G>, const X: usize, const G: usize>(
     transmission: &D,
-    parameters: &ScaledParameters<S>,
     at: &EventContext<'_, S>,
     wheel: usize,
 ) -> S {
     let mut device = *at.device;
     device.wheels[wheel].coupling = Coupling::Locked;
-    let law = transmission.law(at.direction, at.direction, &device);
-    let point = point(transmission, at.body, &law, at, &device);
+    let law = transmission.law(at.parameters, at.direction, at.direction, &device);
+    let point = at.point(&law, &device);
     let (acceleration, _) = transmission.flow(&point);
-    locked_force(&point, parameters, acceleration)
-}
-
-/// The [`EvaluationPoint`] of an instant.
-pub fn point<'a, S: Real, D: Transmission<S, X, G>, const X: usize, const G: usize>(
-    transmission: &D,
-    body: &'a AnyBody<S>,
-    law: &'a ModeCoefficients<S>,
-    at: &EventContext<'_, S>,
-    device: &DeviceState<S>,
-) -> AnyPoint<'a, S, X> {
-    EvaluationPoint {
-        body,
-        law,
-        configuration: body.configuration(at.side.unit(), at.rotation),
-        velocity: at.velocity,
-        unknowns: transmission.load(device),
-        ground: at.ground,
-        clock: S::ZERO,
-    }
-}
-
-/// Plastic impact of a rigid clutch that closes: block and flywheel exchange momentum,
-/// (1 + (K + k) ℓ²) θ̇⁺ = (1 + K ℓ²) θ̇⁻ + k ℓ w, where K is what was locked already.
-pub fn jolt<S: Real>(parameters: &ScaledParameters<S>, at: &mut EventContext<'_, S>, wheel: usize) {
-    let configuration = at.body.configuration(at.side.unit(), at.rotation);
-    let arm = at.body.arm(&configuration);
-    let locked = at.device.wheels.iter().filter(|wheel| wheel.coupling == Coupling::Locked).count();
-    let before = S::ONE + (parameters.rack_coupling + S::count(locked as u32) * parameters.inertance) * arm * arm;
-    let after = before + parameters.inertance * arm * arm;
-    let closing = at.device.wheels[wheel].spin;
-    at.velocity = (before * at.velocity + parameters.inertance * arm * closing) / after;
-    at.device.wheels[wheel].coupling = Coupling::Locked;
-}
-
-/// Release of a wheel, with the rack's speed if it was locked.
-pub fn open<S: Real>(parameters: &ScaledParameters<S>, at: &mut EventContext<'_, S>, wheel: usize) {
-    let rack = at.rack_speed();
-    let wheel = &mut at.device.wheels[wheel];
-    if wheel.coupling == Coupling::Locked {
-        wheel.spin = rack;
-    }
-    if parameters.stops_at_once {
-        wheel.spin = S::ZERO;
-    }
-    wheel.coupling = Coupling::Open;
-    wheel.twist = S::ZERO;
-    parameters.settle(wheel, S::ZERO);
+    locked_force(&point, acceleration)
 }
 
 /// Energy and losses that all kinds share: rack, bearings, brakes, and flywheels at their speeds.
-pub fn account<S: Real, const X: usize>(
-    at: &AnyPoint<'_, S, X>,
-    parameters: &ScaledParameters<S>,
-    acceleration: S,
-    device: &DeviceState<S>,
-) -> Account<S> {
+pub fn account<S: Real, const X: usize>(at: &AnyPoint<'_, S, X>, acceleration: S, device: &DeviceState<S>) -> Account<S> {
+    let parameters = at.parameters;
     let rack = at.body.to_terminal(&at.configuration, at.velocity);
     let rack_acceleration = at.body.terminal_acceleration(&at.configuration, at.velocity, acceleration);
     let mut account = Account::default();
@@ -354,7 +300,7 @@ pub fn account<S: Real, const X: usize>(
             account.spent.brake = account.spent.brake + parameters.inertance * parameters.brake * spin.abs();
         }
         if locked {
-            account.force[i] = locked_force(at, parameters, acceleration);
+            account.force[i] = locked_force(at, acceleration);
         }
     }
     account

@@ -1,7 +1,6 @@
 //! Run-time choice of the body, with the same bits as a body known at compile time.
 
-use super::body::{Body, FullBody, SlenderBody};
-use super::configuration::FullConfiguration;
+use super::body::{Body, FullBody, FullConfiguration, SlenderBody};
 use crate::math::scalar::Scalar;
 use crate::math::value::Value;
 
@@ -37,7 +36,6 @@ macro_rules! either {
 impl<S: Scalar> Body<S> for AnyBody<S> {
     type Configuration<V: Value<S>> = AnyConfiguration<V>;
 
-    #[inline]
     fn configuration<V: Value<S>>(&self, side: S, rotation: V) -> AnyConfiguration<V> {
         match self {
             AnyBody::Slender(body) => AnyConfiguration::Slender(body.configuration(side, rotation)),
@@ -45,47 +43,38 @@ impl<S: Scalar> Body<S> for AnyBody<S> {
         }
     }
 
-    #[inline]
     fn driving_moment<V: Value<S>>(&self, configuration: &AnyConfiguration<V>, ground: [V; 2]) -> V {
         either!(self, configuration, |body, own| body.driving_moment(own, ground), ground[0])
     }
 
-    #[inline]
     fn to_terminal<V: Value<S>>(&self, configuration: &AnyConfiguration<V>, x: V) -> V {
         either!(self, configuration, |body, own| body.to_terminal(own, x), x)
     }
 
-    #[inline]
     fn terminal_acceleration<V: Value<S>>(&self, configuration: &AnyConfiguration<V>, velocity: V, acceleration: V) -> V {
         either!(self, configuration, |body, own| body.terminal_acceleration(own, velocity, acceleration), acceleration)
     }
 
-    #[inline]
     fn solve_acceleration<V: Value<S>>(&self, configuration: &AnyConfiguration<V>, moment: V, coupling: S, velocity: V) -> V {
         either!(self, configuration, |body, own| body.solve_acceleration(own, moment, coupling, velocity), moment)
     }
 
-    #[inline]
     fn switching<V: Value<S>>(&self, configuration: &AnyConfiguration<V>, velocity: V, driving_moment: V) -> V {
         either!(self, configuration, |body, own| body.switching(own, velocity, driving_moment), driving_moment)
     }
 
-    #[inline]
     fn paper_power(&self, side: S, configuration: &AnyConfiguration<S>, velocity: S, coupling: S) -> S {
         either!(self, configuration, |body, own| body.paper_power(side, own, velocity, coupling), S::of(0.0))
     }
 
-    #[inline]
     fn arm(&self, configuration: &AnyConfiguration<S>) -> S {
         either!(self, configuration, |body, own| body.arm(own), S::of(1.0))
     }
 
-    #[inline]
     fn travel(&self, side: S, configuration: &AnyConfiguration<S>) -> S {
         either!(self, configuration, |body, own| body.travel(side, own), S::of(0.0))
     }
 
-    #[inline]
     fn factors(&self, configuration: &AnyConfiguration<S>) -> (S, S) {
         either!(self, configuration, |body, own| body.factors(own), (S::of(0.0), S::of(0.0)))
     }

@@ -3,8 +3,7 @@
 //! Only the steps of a method, which evaluate the equation many times, are compiled for each type ([`AnyEquation::known`]); the event loop
 //! is compiled once.
 
-use super::kinematics::{Consistent, Paper};
-use super::lever::{CentreOfMass, TyingPoint};
+use super::lever::{CentreOfMass, Lever, TyingPoint};
 use super::switched::Switched;
 use super::{Equation, FullBlock, FullInerter, SlenderBlock};
 use crate::math::scalar::Real;
@@ -17,14 +16,10 @@ pub enum AnyEquation<S> {
     Slender(SlenderBlock<S>),
     /// Full block, alone or with its inerter released.
     Block(FullBlock<S>),
-    /// Inerter at the centre of mass, kinematics of the paper.
-    CentrePaper(FullInerter<S, CentreOfMass, Paper>),
-    /// Inerter at the centre of mass, consistent kinematics.
-    CentreConsistent(FullInerter<S, CentreOfMass, Consistent>),
-    /// Inerter at any point of the block, kinematics of the paper.
-    PointPaper(FullInerter<S, TyingPoint<S>, Paper>),
-    /// Inerter at any point of the block, consistent kinematics.
-    PointConsistent(FullInerter<S, TyingPoint<S>, Consistent>),
+    /// Inerter at the centre of mass.
+    Centre(FullInerter<S, CentreOfMass>),
+    /// Inerter at any point of the block.
+    Point(FullInerter<S, TyingPoint<S>>),
 }
 
 /// Continuation that receives the equation in its own type.
@@ -41,19 +36,29 @@ macro_rules! known {
         match $any {
             AnyEquation::Slender($equation) => $then,
             AnyEquation::Block($equation) => $then,
-            AnyEquation::CentrePaper($equation) => $then,
-            AnyEquation::CentreConsistent($equation) => $then,
-            AnyEquation::PointPaper($equation) => $then,
-            AnyEquation::PointConsistent($equation) => $then,
+            AnyEquation::Centre($equation) => $then,
+            AnyEquation::Point($equation) => $then,
         }
     };
 }
 
 impl<S: Real> AnyEquation<S> {
-    /// Goes on with the equation in its own type: one choice for all that `next` evaluates.
+    /// Goes on with the equation in its own type and kinematics: one choice for all that `next` evaluates.
     #[inline(always)]
     pub fn known<W: WithEquation<S>>(&self, next: W) -> W::Output {
-        known!(self, equation => next.with(equation))
+        match self {
+            AnyEquation::Slender(equation) => next.with(equation),
+            AnyEquation::Block(equation) => next.with(equation),
+            AnyEquation::Centre(equation) => equation.known(next),
+            AnyEquation::Point(equation) => equation.known(next),
+        }
+    }
+}
+
+impl<S: Real, L: Lever<S>> FullInerter<S, L> {
+    #[inline(always)]
+    fn known<W: WithEquation<S>>(&self, next: W) -> W::Output {
+        if self.body.consistent { next.with(&self.with_kinematics(true)) } else { next.with(&self.with_kinematics(false)) }
     }
 }
 
@@ -76,11 +81,6 @@ impl<S: Real> Equation<S> for AnyEquation<S> {
     #[inline]
     fn terminal_acceleration(&self, side: S, rotation: S, velocity: S, acceleration: S) -> S {
         known!(self, equation => equation.terminal_acceleration(side, rotation, velocity, acceleration))
-    }
-
-    #[inline]
-    fn inertia(&self, side: S, rotation: S) -> S {
-        known!(self, equation => equation.inertia(side, rotation))
     }
 
     #[inline]

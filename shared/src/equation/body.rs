@@ -8,8 +8,7 @@
 //! ideal devices; here the same parts stand apart, so that a device with a memory can put its own forces between them.
 
 use super::FullBlock;
-use super::configuration::FullConfiguration;
-use super::lever::TyingPoint;
+use super::lever::{Lever, TyingPoint};
 use crate::math::scalar::Scalar;
 use crate::math::value::Value;
 
@@ -33,7 +32,8 @@ pub trait Body<S: Scalar>: Copy {
     /// θ̈ from (1 + k ℓ²) θ̈ + k ℓ ℓ' θ̇² = `moment` (the θ̇² term in the consistent kinematics only).
     fn solve_acceleration<V: Value<S>>(&self, configuration: &Self::Configuration<V>, moment: V, coupling: S, velocity: V) -> V;
 
-    /// A quantity with the sign of the terminals' acceleration under D alone, whatever is engaged (Eq. 10).
+    /// A quantity with the sign of the terminals' acceleration under D alone, whatever is engaged (Eq. 10): D in the paper's kinematics,
+    /// ℓ (ℓ D + ℓ' θ̇²) in the consistent ones.
     fn switching<V: Value<S>>(&self, configuration: &Self::Configuration<V>, velocity: V, driving_moment: V) -> V;
 
     /// Power that the paper's kinematics take from an engaged flywheel without a cause: −k ℓ ℓ' θ̇³ per λmR²; 0 where
@@ -118,25 +118,40 @@ impl<S: Scalar> Body<S> for SlenderBody<S> {
     }
 }
 
+/// Configuration of the exact block: sin δ, cos δ, ℓ and, in the consistent kinematics, ℓ'; with δ = αs − θ.
+#[derive(Clone, Copy, Debug)]
+pub struct FullConfiguration<V> {
+    /// sin δ.
+    pub sin: V,
+    /// cos δ.
+    pub cos: V,
+    /// ℓ.
+    pub arm: V,
+    /// ℓ' = dℓ/dθ, in the consistent kinematics only.
+    pub rate: Option<V>,
+}
+
 /// The exact block (Eq. 13-16) with any mount.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FullBody<S> {
+pub struct FullBody<S, L = TyingPoint<S>> {
     /// The block.
     pub block: FullBlock<S>,
     /// ℓ(θ).
-    pub lever: TyingPoint<S>,
-    /// Consistent kinematics, with the θ̇² term; else the paper's.
+    pub lever: L,
+    /// Consistent kinematics, with the θ̇² term; else the paper's (Eq. 11).
     pub consistent: bool,
     /// The ground moves vertically too.
     pub vertical: bool,
 }
 
-impl<S: Scalar> Body<S> for FullBody<S> {
+impl<S: Scalar, L: Lever<S>> Body<S> for FullBody<S, L> {
     type Configuration<V: Value<S>> = FullConfiguration<V>;
 
     #[inline(always)]
     fn configuration<V: Value<S>>(&self, side: S, rotation: V) -> FullConfiguration<V> {
-        FullConfiguration::new(&self.lever, self.consistent, side, self.block.delta(side, rotation))
+        let (sin, cos) = self.block.delta(side, rotation).sin_cos();
+        let rate = if self.consistent { Some(self.lever.arm_rate(side, sin, cos)) } else { None };
+        FullConfiguration { sin, cos, arm: self.lever.arm(side, sin, cos), rate }
     }
 
     #[inline(always)]
@@ -152,22 +167,37 @@ impl<S: Scalar> Body<S> for FullBody<S> {
 
     #[inline(always)]
     fn terminal_acceleration<V: Value<S>>(&self, at: &FullConfiguration<V>, velocity: V, acceleration: V) -> V {
-        at.terminal_acceleration(velocity, acceleration)
+        let tangential = at.arm * acceleration;
+        match at.rate {
+            Some(rate) => tangential + rate * velocity.square(),
+            None => tangential,
+        }
     }
 
     #[inline(always)]
     fn solve_acceleration<V: Value<S>>(&self, at: &FullConfiguration<V>, moment: V, coupling: S, velocity: V) -> V {
-        at.solve_acceleration(moment, coupling, velocity)
+        let moment = match at.rate {
+            Some(rate) => moment - (at.arm * rate * velocity.square()).scale(coupling),
+            None => moment,
+        };
+        moment / at.arm.square().scale(coupling).offset(S::of(1.0))
     }
 
     #[inline(always)]
     fn switching<V: Value<S>>(&self, at: &FullConfiguration<V>, velocity: V, driving_moment: V) -> V {
-        at.switching(velocity, driving_moment)
+        match at.rate {
+            Some(rate) => at.arm * (at.arm * driving_moment + rate * velocity.square()),
+            None => driving_moment,
+        }
     }
 
     #[inline(always)]
     fn paper_power(&self, side: S, at: &FullConfiguration<S>, velocity: S, coupling: S) -> S {
-        at.paper_power(&self.lever, side, velocity, coupling)
+        if at.rate.is_some() {
+            return S::of(0.0);
+        }
+        let rate = self.lever.arm_rate(side, at.sin, at.cos);
+        -(coupling * at.arm * rate * (velocity * velocity * velocity))
     }
 
     #[inline(always)]
@@ -177,8 +207,8 @@ impl<S: Scalar> Body<S> for FullBody<S> {
 
     #[inline(always)]
     fn travel(&self, side: S, at: &FullConfiguration<S>) -> S {
-        // ℓ = A cos δ + s B sin δ with dδ = −dθ.
-        side * self.lever.across * at.cos - self.lever.along * at.sin
+        // ℓ is a sum of a sine and a cosine: its integral is −ℓ'.
+        -self.lever.arm_rate(side, at.sin, at.cos)
     }
 
     #[inline(always)]

@@ -16,20 +16,17 @@ pub enum ClutchRule {
 
 impl ClutchRule {
     /// Whether there is an inerter at all.
-    #[inline(always)]
     pub const fn has_inerter(self) -> bool {
         !matches!(self, ClutchRule::Without)
     }
 
     /// Whether engagement depends on the signs, so that their changes are events.
-    #[inline(always)]
     pub const fn follows_signs(self) -> bool {
         matches!(self, ClutchRule::Resisting)
     }
 
     /// Whether an inerter is engaged while the velocity has the sign `direction` and the terminals' acceleration the
     /// sign `terminal_acceleration_sign`.
-    #[inline(always)]
     pub fn engages(self, direction: Sign, terminal_acceleration_sign: Sign) -> bool {
         match self {
             ClutchRule::Without => false,
@@ -44,38 +41,7 @@ impl ClutchRule {
     }
 }
 
-/// Clutch rule as a type, so that lanes without a clutch have no clutch in their loop.
-pub trait Clutch: Copy {
-    /// The rule.
-    const RULE: ClutchRule;
-}
-
-/// [`ClutchRule::Without`] as a type.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NoInerter;
-
-/// [`ClutchRule::Always`] as a type.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SingleInerter;
-
-/// [`ClutchRule::Resisting`] as a type.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ClutchedPair;
-
-impl Clutch for NoInerter {
-    const RULE: ClutchRule = ClutchRule::Without;
-}
-
-impl Clutch for SingleInerter {
-    const RULE: ClutchRule = ClutchRule::Always;
-}
-
-impl Clutch for ClutchedPair {
-    const RULE: ClutchRule = ClutchRule::Resisting;
-}
-
 /// The flywheel for motion in `direction`.
-#[inline(always)]
 pub fn wheel_for(direction: Sign) -> usize {
     match direction {
         Sign::Positive => 0,

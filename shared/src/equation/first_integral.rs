@@ -30,19 +30,16 @@ pub struct SlenderIntegral {
 }
 
 impl FirstIntegral for SlenderIntegral {
-    #[inline]
     fn squared_speed(&self, from: f64, squared: f64, to: f64) -> f64 {
         squared + (to - from) * (to + from) / self.inertia
     }
 
-    #[inline]
     fn turn(&self, from: f64, squared: f64) -> Option<f64> {
         let speed = math::square_root(squared * self.inertia);
         let square = (from - speed) * (from + speed);
         (square > 0.0).then(|| math::square_root(square))
     }
 
-    #[inline]
     fn acceleration(&self, q: f64) -> f64 {
         q.abs() / self.inertia
     }
@@ -56,7 +53,6 @@ pub struct FullIntegral {
 }
 
 impl FirstIntegral for FullIntegral {
-    #[inline]
     fn squared_speed(&self, from: f64, squared: f64, to: f64) -> f64 {
         // cos from − cos to.
         let fall = -2.0 * math::sin(0.5 * (from + to)) * math::sin(0.5 * (from - to));
@@ -68,7 +64,6 @@ impl FirstIntegral for FullIntegral {
         squared + 2.0 * math::atan(root * fall / (1.0 + self.coupling * product)) / root
     }
 
-    #[inline]
     fn turn(&self, from: f64, squared: f64) -> Option<f64> {
         let half_sine = math::sin(0.5 * from);
         let half_square = half_sine * half_sine;
@@ -88,7 +83,6 @@ impl FirstIntegral for FullIntegral {
         (square > 0.0).then(|| 2.0 * math::asin(math::square_root(square)))
     }
 
-    #[inline]
     fn acceleration(&self, q: f64) -> f64 {
         let (sine, cosine) = math::sin_cos(q);
         sine.abs() / (1.0 + self.coupling * cosine * cosine)

@@ -8,26 +8,21 @@
 //! is either engaged or not. They are written over [`Value`], so the same lines give an acceleration in f32 or f64, in
 //! SIMD lanes, and the coefficients of a Taylor series.
 //!
-//! [`lever`], [`kinematics`]: the inerter's terminals; [`body`]: the same equations in parts, for devices with forces of their own;
+//! [`lever`]: the inerter's terminals; [`body`]: the same equations in parts, for devices with forces of their own;
 //! [`clutch_rule`]: Eq. 10; [`first_integral`]: the energy integral. The room imports `math` only.
 
 pub mod any_body;
 pub mod any_equation;
 pub mod body;
 pub mod clutch_rule;
-pub mod configuration;
 pub mod first_integral;
-pub mod kinematics;
 pub mod lever;
 pub mod motion;
 pub mod switched;
 
-use core::marker::PhantomData;
-
 use crate::math::scalar::Scalar;
 use crate::math::value::Value;
-use configuration::FullConfiguration;
-use kinematics::Kinematics;
+use body::{Body, FullBody};
 use lever::Lever;
 
 /// Equation of motion of one rotation, of second order and smooth between events.
@@ -52,9 +47,6 @@ pub trait Equation<S: Scalar>: Copy {
     /// Acceleration of the inerter's terminals per R (1/s²): ℓθ̈, plus ℓ'θ̇² in the consistent kinematics.
     fn terminal_acceleration(&self, side: S, rotation: S, velocity: S, acceleration: S) -> S;
 
-    /// (1 + κ k ℓ²): inertia about the toe over that of the bare block.
-    fn inertia(&self, side: S, rotation: S) -> S;
-
     /// The equation as that of the slender block, if it is one: linear, so that its motion has a closed form.
     #[inline(always)]
     fn slender(&self) -> Option<&SlenderBlock<S>> {
@@ -64,8 +56,7 @@ pub trait Equation<S: Scalar>: Copy {
     /// Power that the paper's kinematics take without a cause, per λmR² (1/s³): −κ k ℓ ℓ' θ̇³, which is what the energy
     /// ½(1 + κ k ℓ²)θ̇² of block and flywheel misses of the work done on them; 0 where energy is conserved.
     #[inline(always)]
-    fn paper_power(&self, side: S, rotation: S, velocity: S) -> S {
-        let _ = (side, rotation, velocity);
+    fn paper_power(&self, _side: S, _rotation: S, _velocity: S) -> S {
         S::of(0.0)
     }
 }
@@ -105,78 +96,57 @@ impl<S: Scalar> Equation<S> for FullBlock<S> {
     fn terminal_acceleration(&self, _side: S, _rotation: S, _velocity: S, _acceleration: S) -> S {
         S::of(0.0)
     }
-
-    #[inline(always)]
-    fn inertia(&self, _side: S, _rotation: S) -> S {
-        S::of(1.0)
-    }
 }
 
 /// Equation of motion of the block with its inerter (Eq. 13-16, any mount); κ = 0 with the inerter released.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FullInerter<S, L, K> {
-    /// Equation of the block alone.
-    pub block: FullBlock<S>,
+pub struct FullInerter<S, L> {
+    /// The block and its lever.
+    pub body: FullBody<S, L>,
     /// κ k: σ/λ while engaged, 0 while released. In SIMD lanes each lane has its own.
     pub coupling: S,
-    /// Lever ℓ(θ).
-    pub lever: L,
-    /// Kinematics, paper or consistent.
-    kinematics: PhantomData<K>,
 }
 
-impl<S, L, K> FullInerter<S, L, K> {
-    /// Block with the inerter's coupling κ k at the lever ℓ(θ).
-    #[inline(always)]
-    pub const fn new(block: FullBlock<S>, coupling: S, lever: L) -> Self {
-        FullInerter { block, coupling, lever, kinematics: PhantomData }
-    }
-}
-
-impl<S: Scalar, L: Lever<S>, K: Kinematics> FullInerter<S, L, K> {
-    #[inline(always)]
-    fn at<V: Value<S>>(&self, side: S, rotation: V) -> FullConfiguration<V> {
-        FullConfiguration::new(&self.lever, K::CONSISTENT, side, self.block.delta(side, rotation))
-    }
-
+impl<S, L> FullInerter<S, L> {
     /// The same mount with another coupling κ k.
     #[inline(always)]
     pub fn with_coupling(self, coupling: S) -> Self {
         FullInerter { coupling, ..self }
     }
+
+    /// The same on level ground in the consistent kinematics, or in the paper's: a constant spares what compiles for it the choice.
+    #[inline(always)]
+    pub fn with_kinematics(self, consistent: bool) -> Self {
+        FullInerter { body: FullBody { consistent, vertical: false, ..self.body }, ..self }
+    }
 }
 
-impl<S: Scalar, L: Lever<S>, K: Kinematics> Equation<S> for FullInerter<S, L, K> {
+impl<S: Scalar, L: Lever<S>> Equation<S> for FullInerter<S, L> {
     #[inline(always)]
     fn switches_with_acceleration(&self) -> bool {
-        !K::CONSISTENT
+        !self.body.consistent
     }
 
     #[inline(always)]
     fn acceleration<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V {
-        let at = self.at(side, rotation);
-        at.solve_acceleration(self.block.driving_moment(at.sin, at.cos, ground), self.coupling, velocity)
+        let at = self.body.configuration(side, rotation);
+        self.body.solve_acceleration(&at, self.body.driving_moment(&at, [ground; 2]), self.coupling, velocity)
     }
 
     #[inline(always)]
     fn switching<V: Value<S>>(&self, side: S, rotation: V, velocity: V, ground: V) -> V {
-        let at = self.at(side, rotation);
-        at.switching(velocity, self.block.driving_moment(at.sin, at.cos, ground))
+        let at = self.body.configuration(side, rotation);
+        self.body.switching(&at, velocity, self.body.driving_moment(&at, [ground; 2]))
     }
 
     #[inline(always)]
     fn terminal_acceleration(&self, side: S, rotation: S, velocity: S, acceleration: S) -> S {
-        self.at(side, rotation).terminal_acceleration(velocity, acceleration)
-    }
-
-    #[inline(always)]
-    fn inertia(&self, side: S, rotation: S) -> S {
-        self.at(side, rotation).inertia(self.coupling)
+        self.body.terminal_acceleration(&self.body.configuration(side, rotation), velocity, acceleration)
     }
 
     #[inline(always)]
     fn paper_power(&self, side: S, rotation: S, velocity: S) -> S {
-        self.at(side, rotation).paper_power(&self.lever, side, velocity, self.coupling)
+        self.body.paper_power(side, &self.body.configuration(side, rotation), velocity, self.coupling)
     }
 }
 
@@ -203,11 +173,6 @@ impl<S: Scalar> Equation<S> for SlenderBlock<S> {
     #[inline(always)]
     fn terminal_acceleration(&self, _side: S, _rotation: S, _velocity: S, acceleration: S) -> S {
         self.lever * acceleration
-    }
-
-    #[inline(always)]
-    fn inertia(&self, _side: S, _rotation: S) -> S {
-        self.inertia
     }
 
     #[inline(always)]

@@ -1,6 +1,5 @@
 //! Equations of motion whose inerter each SIMD lane can have engaged or released.
 
-use super::kinematics::Kinematics;
 use super::lever::Lever;
 use super::{Equation, FullBlock, FullInerter, SlenderBlock};
 use crate::math::scalar::Scalar;
@@ -26,7 +25,7 @@ impl<S: Scalar> Switched<S> for FullBlock<S> {
     }
 }
 
-impl<S: Scalar, L: Lever<S>, K: Kinematics> Switched<S> for FullInerter<S, L, K> {
+impl<S: Scalar, L: Lever<S>> Switched<S> for FullInerter<S, L> {
     #[inline(always)]
     fn switched(mask: S::Mask, engaged: &Self, released: &Self) -> Self {
         released.with_coupling(S::select(mask, engaged.coupling, released.coupling))

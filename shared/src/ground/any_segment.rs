@@ -1,6 +1,6 @@
 //! A ground segment chosen at run time.
 
-use super::{Elementary, GroundSegment, Harmonics, Linear, Quiet, Ricker};
+use super::{Elementary, GroundSegment, Harmonics, Linear, Ricker};
 use crate::math::scalar::Real;
 
 /// A ground segment of any shape. It is chosen at every look, not before the loop: one loop for each structure and method is what
@@ -23,7 +23,7 @@ macro_rules! each {
     ($segment:expr, $inner:ident => $result:expr) => {
         match $segment {
             AnySegment::Quiet => {
-                let $inner = &Quiet;
+                let $inner = &Harmonics::QUIET;
                 $result
             }
             AnySegment::Linear($inner) => $result,
@@ -59,7 +59,6 @@ impl<S: Real> AnySegment<S> {
 }
 
 impl<S: Real> GroundSegment<S> for AnySegment<S> {
-    #[inline]
     fn acceleration(&self, time: S) -> S {
         each!(self, segment => segment.acceleration(time))
     }

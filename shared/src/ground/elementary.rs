@@ -29,13 +29,11 @@ pub struct Elementary<S> {
 
 impl<S: Real> Elementary<S> {
     /// A straight line of this slope (g/s).
-    #[inline(always)]
     pub fn line(slope: S) -> Self {
         Elementary { slope, waves: [Wave { frequency: S::ZERO, sine: S::ZERO, cosine: S::ZERO }; MOST_WAVES], count: 0 }
     }
 
     /// With one sine more; None when it is one too many.
-    #[inline(always)]
     pub fn with(mut self, wave: Wave<S>) -> Option<Self> {
         *self.waves.get_mut(self.count)? = wave;
         self.count += 1;
@@ -49,13 +47,11 @@ impl<S: Real> Elementary<S> {
     }
 
     /// The sines.
-    #[inline(always)]
     pub fn waves(&self) -> &[Wave<S>] {
         self.waves.get(..self.count).unwrap_or(&self.waves)
     }
 
     /// The sines, to be changed.
-    #[inline(always)]
     pub fn waves_mut(&mut self) -> &mut [Wave<S>] {
         &mut self.waves[..self.count.min(MOST_WAVES)]
     }
@@ -66,7 +62,7 @@ mod tests {
     use super::*;
     use crate::ground::check::Sum;
     use crate::ground::harmonic::MavroeidisPapageorgiou;
-    use crate::ground::{GroundSegment, Harmonics, Linear, Quiet, Ricker};
+    use crate::ground::{GroundSegment, Harmonics, Linear, Ricker};
     use crate::math::sin_cos;
 
     fn change(motion: &Elementary<f64>, t: f64) -> f64 {
@@ -90,7 +86,7 @@ mod tests {
     fn pieces_go_on_as_they_say() {
         let wavelet = MavroeidisPapageorgiou { velocity_amplitude: 0.9, frequency: 0.5, oscillations: 1.8, phase: 0.6 };
         let line = Linear { start: 0.2, slope: -0.3 };
-        goes_on(&Quiet);
+        goes_on(&Harmonics::QUIET);
         goes_on(&line);
         goes_on(&Harmonics::sine(1.5, 4.0));
         goes_on(&Harmonics::cosine(0.7, 7.0));

@@ -24,6 +24,11 @@ pub struct Harmonics<S, const M: usize> {
     pub terms: [Harmonic<S>; M],
 }
 
+impl<S> Harmonics<S, 0> {
+    /// No motion.
+    pub const QUIET: Self = Harmonics { terms: [] };
+}
+
 impl<S: Real> Harmonics<S, 1> {
     /// The sine pulse A sin ωτ; one cycle lasts 2π/ω, a half-sine pulse π/ω.
     pub fn sine(amplitude: S, frequency: S) -> Self {
@@ -94,26 +99,22 @@ impl MavroeidisPapageorgiou {
 }
 
 impl<S: Real, const M: usize> GroundSegment<S> for Harmonics<S, M> {
-    #[inline]
     fn acceleration(&self, time: S) -> S {
         self.terms
             .iter()
             .fold(S::ZERO, |sum, term| sum + term.amplitude * (term.frequency * time + term.phase).sin_cos_of_phase().0)
     }
 
-    #[inline]
     fn slope(&self, time: S) -> S {
         self.terms.iter().fold(S::ZERO, |sum, term| {
             sum + term.amplitude * term.frequency * (term.frequency * time + term.phase).sin_cos_of_phase().1
         })
     }
 
-    #[inline]
     fn curvature_bound(&self) -> S {
         self.terms.iter().fold(S::ZERO, |sum, term| sum + term.amplitude.abs() * (term.frequency * term.frequency))
     }
 
-    #[inline]
     fn series(&self, time: S, coefficients: &mut [S]) {
         coefficients.fill(S::ZERO);
         for term in &self.terms {
@@ -133,7 +134,10 @@ impl<S: Real, const M: usize> GroundSegment<S> for Harmonics<S, M> {
         }
     }
 
-    #[inline]
+    fn is_quiet(&self) -> bool {
+        M == 0
+    }
+
     fn elementary(&self, time: S) -> Option<Elementary<S>> {
         self.terms.iter().try_fold(Elementary::line(S::ZERO), |sum, term| {
             let (sine, cosine) = (term.frequency * time + term.phase).sin_cos_of_phase();

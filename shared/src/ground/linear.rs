@@ -14,13 +14,11 @@ pub struct Linear<S> {
 
 impl<S: Real> Linear<S> {
     /// From one sample to the next over `duration` (s, above 0).
-    #[inline(always)]
     pub fn between(first: S, second: S, duration: S) -> Linear<S> {
         Linear { start: first, slope: (second - first) / duration }
     }
 
     /// Constant.
-    #[inline(always)]
     pub fn constant(level: S) -> Linear<S> {
         Linear { start: level, slope: S::ZERO }
     }
@@ -42,22 +40,18 @@ impl<S: Real> Linear<S> {
 }
 
 impl<S: Real> GroundSegment<S> for Linear<S> {
-    #[inline(always)]
     fn acceleration(&self, time: S) -> S {
         self.start + self.slope * time
     }
 
-    #[inline(always)]
     fn slope(&self, _time: S) -> S {
         self.slope
     }
 
-    #[inline(always)]
     fn curvature_bound(&self) -> S {
         S::ZERO
     }
 
-    #[inline(always)]
     fn series(&self, time: S, coefficients: &mut [S]) {
         coefficients.fill(S::ZERO);
         if let [first, second, ..] = coefficients {
@@ -66,7 +60,6 @@ impl<S: Real> GroundSegment<S> for Linear<S> {
         }
     }
 
-    #[inline(always)]
     fn elementary(&self, _time: S) -> Option<Elementary<S>> {
         Some(Elementary::line(self.slope))
     }

@@ -34,52 +34,13 @@ pub trait GroundSegment<S: Real> {
     fn series(&self, time: S, coefficients: &mut [S]);
 
     /// Whether the ground is known to stand still over the whole piece, so that a free motion may be summed to its end.
-    #[inline(always)]
     fn is_quiet(&self) -> bool {
         false
     }
 
     /// How ü_g/g goes on from τ, if it is made of a line and a few sines; the same answer, yes or no, for every τ.
-    #[inline(always)]
-    fn elementary(&self, time: S) -> Option<Elementary<S>> {
-        let _ = time;
-        None
-    }
-}
-
-/// Ground that does not move.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Quiet;
-
-impl<S: Real> GroundSegment<S> for Quiet {
-    #[inline(always)]
-    fn acceleration(&self, _time: S) -> S {
-        S::ZERO
-    }
-
-    #[inline(always)]
-    fn slope(&self, _time: S) -> S {
-        S::ZERO
-    }
-
-    #[inline(always)]
-    fn curvature_bound(&self) -> S {
-        S::ZERO
-    }
-
-    #[inline(always)]
-    fn series(&self, _time: S, coefficients: &mut [S]) {
-        coefficients.fill(S::ZERO);
-    }
-
-    #[inline(always)]
-    fn is_quiet(&self) -> bool {
-        true
-    }
-
-    #[inline(always)]
     fn elementary(&self, _time: S) -> Option<Elementary<S>> {
-        Some(Elementary::line(S::ZERO))
+        None
     }
 }
 

@@ -8,16 +8,7 @@ use super::sign::Sign;
 /// Σ c_k t^k, as two interleaved Horner chains in t². Written over [`Scalar`], so that lanes take it too.
 #[inline(always)]
 pub fn value<S: Scalar>(coefficients: &[S], time: S) -> S {
-    let squared = time * time;
-    let (pairs, rest) = coefficients.as_chunks::<2>();
-    let zero = S::of(0.0);
-    let mut even = rest.first().copied().unwrap_or(zero);
-    let mut odd = zero;
-    for [low, high] in pairs.iter().rev() {
-        even = even * squared + *low;
-        odd = odd * squared + *high;
-    }
-    even + odd * time
+    value_and_slope(coefficients, time).0
 }
 
 /// Value and derivative. With p = E(t²) + t O(t²), p' = O + 2t (E' + t O'): four chains at once.
@@ -37,11 +28,12 @@ pub fn value_and_slope<S: Scalar>(coefficients: &[S], time: S) -> (S, S) {
     (even + odd * time, odd + (time + time) * (even_slope + odd_slope * time))
 }
 
-/// Second derivative.
-fn second_derivative<S: Real>(coefficients: &[S], time: S) -> S {
+/// Σ k(k−1) s(c_k) t^{k−2} with the function s = `size`.
+#[inline(always)]
+fn twice_derived<S: Real>(coefficients: &[S], time: S, size: impl Fn(S) -> S) -> S {
     let mut sum = S::ZERO;
     for (&c, &factor) in coefficients.iter().zip(&SECOND).skip(2).rev() {
-        sum = sum * time + c * S::of(factor);
+        sum = sum * time + size(c) * S::of(factor);
     }
     sum
 }
@@ -49,11 +41,7 @@ fn second_derivative<S: Real>(coefficients: &[S], time: S) -> S {
 /// Bound of the second derivative's magnitude over [0, `to`]: Σ k(k−1)|c_k| to^{k−2}.
 #[inline]
 pub fn curvature_bound<S: Real>(coefficients: &[S], to: S) -> S {
-    let mut sum = S::ZERO;
-    for (&c, &factor) in coefficients.iter().zip(&SECOND).skip(2).rev() {
-        sum = sum * to + c.abs() * S::of(factor);
-    }
-    sum
+    twice_derived(coefficients, to, S::abs)
 }
 
 /// k(k−1).
@@ -168,46 +156,18 @@ fn search<S: Real>(
     Err(left)
 }
 
-/// A smooth function of time whose extremes are sought.
-pub trait Curve<S> {
-    /// Its value.
-    fn value(&self, time: S) -> S;
-
-    /// Its value and derivative.
-    fn value_and_slope(&self, time: S) -> (S, S);
-
-    /// Its second derivative.
-    fn second_derivative(&self, time: S) -> S;
-}
-
-/// A polynomial.
-impl<S: Real> Curve<S> for &[S] {
-    #[inline(always)]
-    fn value(&self, time: S) -> S {
-        value(self, time)
-    }
-
-    #[inline(always)]
-    fn value_and_slope(&self, time: S) -> (S, S) {
-        value_and_slope(self, time)
-    }
-
-    #[inline(always)]
-    fn second_derivative(&self, time: S) -> S {
-        second_derivative(self, time)
-    }
-}
-
 /// Largest |p(t)| of a polynomial on [`from`, `to`], if above `floor`; else `floor`.
 pub fn largest_magnitude<S: Real>(coefficients: &[S], curvature: S, from: (S, S), to: (S, S), floor: S) -> S {
-    largest_magnitude_of(&coefficients, curvature, from, to, floor)
+    let curve = (|t| value_and_slope(coefficients, t), |t| twice_derived(coefficients, t, |c| c));
+    largest_magnitude_of(&curve, curvature, from, to, floor)
 }
 
-/// Largest magnitude of a curve on [`from`, `to`], where its values are `left` and `right`, if above `floor`; else `floor`.
+/// Largest magnitude of a curve, given as its value with its slope and its second derivative, on [`from`, `to`], where its values are
+/// `left` and `right`, if above `floor`; else `floor`.
 /// Interior extremes are found where the slope changes sign between the ends of a stretch that the bound `curvature` of the
 /// second derivative does not rule out.
-pub fn largest_magnitude_of<S: Real, F: Curve<S>>(
-    curve: &F,
+pub fn largest_magnitude_of<S: Real>(
+    curve: &(impl Fn(S) -> (S, S), impl Fn(S) -> S),
     curvature: S,
     (from, left): (S, S),
     (to, right): (S, S),
@@ -218,12 +178,18 @@ pub fn largest_magnitude_of<S: Real, F: Curve<S>>(
     if left.abs().larger(right.abs()) + curvature * (w * w) * S::of(0.125) <= floor {
         return ends;
     }
-    let left_slope = curve.value_and_slope(from).1;
-    let right_slope = curve.value_and_slope(to).1;
+    let left_slope = (curve.0)(from).1;
+    let right_slope = (curve.0)(to).1;
     largest_within(curve, [(from, left, left_slope), (to, right, right_slope)], ends, curvature, w * S::of(1.0 / 16.0))
 }
 
-fn largest_within<S: Real, F: Curve<S>>(curve: &F, ends: [(S, S, S); 2], floor: S, curvature: S, smallest: S) -> S {
+fn largest_within<S: Real>(
+    curve: &(impl Fn(S) -> (S, S), impl Fn(S) -> S),
+    ends: [(S, S, S); 2],
+    floor: S,
+    curvature: S,
+    smallest: S,
+) -> S {
     let [(from, left, left_slope), (to, right, right_slope)] = ends;
     let w = to - from;
     let ceiling = left.abs().larger(right.abs()) + curvature * (w * w) * S::of(0.125);
@@ -237,7 +203,7 @@ fn largest_within<S: Real, F: Curve<S>>(curve: &F, ends: [(S, S, S); 2], floor: 
     }
     if w > smallest && !(peaks && left_slope.abs() + right_slope.abs() > S::of(1.8) * curvature * w) {
         let middle = S::HALF * (from + to);
-        let (value, slope) = curve.value_and_slope(middle);
+        let (value, slope) = (curve.0)(middle);
         let floor = floor.larger(value.abs());
         let floor = largest_within(curve, [ends[0], (middle, value, slope)], floor, curvature, smallest);
         return largest_within(curve, [(middle, value, slope), ends[1]], floor, curvature, smallest);
@@ -247,9 +213,9 @@ fn largest_within<S: Real, F: Curve<S>>(curve: &F, ends: [(S, S, S); 2], floor: 
     }
     let sign = Sign::of(left_slope, Sign::Positive);
     let at = newton_bracketed(from, to, sign, from + w * left_slope.abs() / (left_slope.abs() + right_slope.abs()), |t| {
-        (curve.value_and_slope(t).1, curve.second_derivative(t))
+        ((curve.0)(t).1, (curve.1)(t))
     });
-    floor.larger(curve.value(at).abs())
+    floor.larger((curve.0)(at).0.abs())
 }
 
 #[cfg(test)]

@@ -77,6 +77,18 @@ pub fn illinois<S: Real>(left: S, right: S, before: Sign, mut function: impl FnM
     high
 }
 
+/// Least x above `low` and up to `high`, to within `tolerance`, from which `reached` holds; it does not at `low` and does at `high`.
+pub fn bisection<S: Real>(mut low: S, mut high: S, tolerance: S, reached: impl Fn(S) -> bool) -> S {
+    for _ in 0..64 {
+        let middle = S::HALF * (low + high);
+        if high - low <= tolerance || middle <= low || middle >= high {
+            break;
+        }
+        *if reached(middle) { &mut high } else { &mut low } = middle;
+    }
+    high
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -41,6 +41,8 @@ pub trait Real: Scalar<Mask = bool> + PartialOrd + Default {
     const EPSILON: Self;
     /// Smallest number with all its digits (below it they are denormal).
     const SMALLEST: Self;
+    /// Terms of the series of Stumpff's c₂ and c₃ ([`super::stumpff`]) for |z| ≤ 1.
+    const STUMPFF_TERMS: usize;
 
     /// Sine and cosine of any phase (rad); accurate to rounding for |x| up to a few thousand turns.
     fn sin_cos_of_phase(self) -> (Self, Self);
@@ -50,9 +52,6 @@ pub trait Real: Scalar<Mask = bool> + PartialOrd + Default {
 
     /// Square root; NaN below 0.
     fn square_root(self) -> Self;
-
-    /// Stumpff's c₂ and c₃ ([`super::stumpff`]) of z with |z| ≤ 1.
-    fn stumpff_series(self) -> (Self, Self);
 
     /// The whole number `count` (exact up to 2²⁴ in f32, 2⁵³ in f64).
     fn count(count: u32) -> Self;
@@ -83,7 +82,7 @@ pub trait Real: Scalar<Mask = bool> + PartialOrd + Default {
 }
 
 macro_rules! single_number {
-    ($number:ty, $bits:ty, $signed:ty, $one_bits:expr, $sin_cos:path, $phase:path, $exp:path, $sqrt:path, $stumpff:path) => {
+    ($number:ty, $bits:ty, $signed:ty, $one_bits:expr, $sin_cos:path, $phase:path, $exp:path, $sqrt:path, $stumpff_terms:literal) => {
         impl Scalar for $number {
             type Mask = bool;
 
@@ -119,6 +118,7 @@ macro_rules! single_number {
             const HALF: Self = 0.5;
             const EPSILON: Self = <$number>::EPSILON;
             const SMALLEST: Self = <$number>::MIN_POSITIVE;
+            const STUMPFF_TERMS: usize = $stumpff_terms;
 
             #[inline]
             fn sin_cos_of_phase(self) -> (Self, Self) {
@@ -133,11 +133,6 @@ macro_rules! single_number {
             #[inline]
             fn square_root(self) -> Self {
                 $sqrt(self)
-            }
-
-            #[inline]
-            fn stumpff_series(self) -> (Self, Self) {
-                $stumpff(self)
             }
 
             #[inline(always)]
@@ -180,7 +175,7 @@ single_number!(
     crate::math::sine32::sin_cos_of_phase,
     crate::math::exp32,
     crate::math::square_root32,
-    crate::math::stumpff::series32
+    5
 );
 single_number!(
     f64,
@@ -191,7 +186,7 @@ single_number!(
     crate::math::sin_cos,
     crate::math::exp,
     crate::math::square_root,
-    crate::math::stumpff::series
+    9
 );
 
 #[cfg(test)]

@@ -39,10 +39,7 @@ impl Sign {
     /// ±1.
     #[inline(always)]
     pub fn unit<S: Real>(self) -> S {
-        match self {
-            Sign::Positive => S::ONE,
-            Sign::Negative => -S::ONE,
-        }
+        self.times(S::ONE)
     }
 
     /// `x` or `-x`.

@@ -28,36 +28,23 @@ pub(super) const fn reciprocal_factorials<const N: usize>(first: usize) -> [f64;
 const SECOND: [f64; 9] = reciprocal_factorials(2);
 const THIRD: [f64; 9] = reciprocal_factorials(3);
 
-macro_rules! series {
-    ($(#[$meta:meta])* $name:ident, $number:ty, $terms:literal) => {
-        $(#[$meta])*
-        #[inline]
-        pub fn $name(z: $number) -> ($number, $number) {
-            let (mut c2, mut c3) = (0.0, 0.0);
-            for j in (0..$terms).rev() {
-                c2 = SECOND[j] as $number - z * c2;
-                c3 = THIRD[j] as $number - z * c3;
-            }
-            (c2, c3)
-        }
-    };
+/// c₂(z) and c₃(z) for |z| ≤ 1, to a unit in the last place.
+#[inline]
+fn series<S: Real>(z: S) -> (S, S) {
+    let (mut c2, mut c3) = (S::ZERO, S::ZERO);
+    for j in (0..S::STUMPFF_TERMS).rev() {
+        c2 = S::of(SECOND[j]) - z * c2;
+        c3 = S::of(THIRD[j]) - z * c3;
+    }
+    (c2, c3)
 }
-
-series!(
-    /// c₂(z) and c₃(z) for |z| ≤ 1, to a unit in the last place.
-    series, f64, 9
-);
-series!(
-    /// [`series`] in single precision.
-    series32, f32, 5
-);
 
 /// c₂(z) and c₃(z) for any z, to a few units in the last place (at z far above 1 c₂ has the absolute error of a cosine). Below −z = x²
 /// they grow as e^x/(2x²) and e^x/(2x³), and overflow with e^x.
 #[inline]
 pub fn c2_c3<S: Real>(z: S) -> (S, S) {
     if z.abs() <= S::ONE {
-        z.stumpff_series()
+        series(z)
     } else if z > S::ZERO {
         let x = z.square_root();
         let (sine, cosine) = x.sin_cos_of_phase();

@@ -8,10 +8,11 @@ use super::scalar::{Real, Scalar};
 use super::tier::Tier;
 
 /// A number `S` with the sines of tier `T`; everything else, e^x and the square root included, is that of `S`.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(transparent)]
 pub struct Tiered<S, T> {
-    number: S,
+    /// The number itself.
+    pub number: S,
     tier: PhantomData<T>,
 }
 
@@ -20,14 +21,6 @@ impl<S, T> Tiered<S, T> {
     #[inline(always)]
     pub const fn new(number: S) -> Self {
         Tiered { number, tier: PhantomData }
-    }
-}
-
-impl<S: Copy, T> Tiered<S, T> {
-    /// The number itself.
-    #[inline(always)]
-    pub const fn number(self) -> S {
-        self.number
     }
 }
 
@@ -58,15 +51,8 @@ impl<S: Neg<Output = S>, T> Neg for Tiered<S, T> {
     }
 }
 
-impl<S: PartialEq, T> PartialEq for Tiered<S, T> {
-    #[inline(always)]
-    fn eq(&self, other: &Self) -> bool {
-        self.number == other.number
-    }
-}
-
 // Each comparison by itself: derived, they would go through an ordering, which takes the target two comparisons.
-impl<S: PartialOrd, T> PartialOrd for Tiered<S, T> {
+impl<S: PartialOrd, T: PartialEq> PartialOrd for Tiered<S, T> {
     #[inline(always)]
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         self.number.partial_cmp(&other.number)
@@ -129,6 +115,7 @@ impl<S: Real, T: Tier<S>> Real for Tiered<S, T> {
     const HALF: Self = Tiered::new(S::HALF);
     const SMALLEST: Self = Tiered::new(S::SMALLEST);
     const EPSILON: Self = Tiered::new(S::EPSILON);
+    const STUMPFF_TERMS: usize = S::STUMPFF_TERMS;
 
     #[inline]
     fn sin_cos_of_phase(self) -> (Self, Self) {
@@ -144,12 +131,6 @@ impl<S: Real, T: Tier<S>> Real for Tiered<S, T> {
     #[inline]
     fn square_root(self) -> Self {
         Tiered::new(self.number.square_root())
-    }
-
-    #[inline(always)]
-    fn stumpff_series(self) -> (Self, Self) {
-        let (c2, c3) = self.number.stumpff_series();
-        (Tiered::new(c2), Tiered::new(c3))
     }
 
     #[inline(always)]
@@ -181,10 +162,10 @@ impl<S: Real, T: Tier<S>> Real for Tiered<S, T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ground::{Harmonics, Quiet};
+    use crate::ground::Harmonics;
     use crate::math::tier::{Libm, Micromath, OwnPolynomial};
     use crate::method::dense_output::Integrator;
-    use crate::method::fixed::FixedStep;
+    use crate::method::fixed::{FixedStep, Scheme};
     use crate::method::taylor::Taylor;
     use crate::motion::state::{BlockState, Limits};
     use crate::observers::digest::Digest;
@@ -212,8 +193,8 @@ mod tests {
         let sine = Harmonics::sine(S::of(0.3), S::of(4.0));
         let duration = S::of(core::f64::consts::TAU / 4.0);
         system.advance(&method, &mut state, &sine, duration, &limits, &mut digest).unwrap();
-        system.advance(&method, &mut state, &Quiet, S::of(2.5), &limits, &mut digest).unwrap();
-        assert!(digest.events() > 10);
+        system.advance(&method, &mut state, &Harmonics::QUIET, S::of(2.5), &limits, &mut digest).unwrap();
+        assert!(digest.events > 10);
         (digest.hash(), state.rotation.to_f64())
     }
 
@@ -221,8 +202,8 @@ mod tests {
     fn a_number_of_its_own_tier_gives_the_same_bits() {
         for kinematics in [KinematicsKind::Paper, KinematicsKind::Consistent] {
             type Single = Tiered<f32, OwnPolynomial>;
-            let plain = run::<f32, _>(FixedStep::RungeKutta4 { step: 2e-3 }, kinematics);
-            assert_eq!(plain, run::<Single, _>(FixedStep::RungeKutta4 { step: Single::of(2e-3) }, kinematics));
+            let plain = run::<f32, _>(FixedStep { scheme: Scheme::RungeKutta4, step: 2e-3 }, kinematics);
+            assert_eq!(plain, run::<Single, _>(FixedStep { scheme: Scheme::RungeKutta4, step: Single::of(2e-3) }, kinematics));
             type Double = Tiered<f64, Libm>;
             let plain = run::<f64, _>(Taylor::<f64, 20>::adaptive(1e-17), kinematics);
             assert_eq!(plain, run::<Double, _>(Taylor::<Double, 20>::adaptive(Double::of(1e-17)), kinematics));
@@ -234,15 +215,16 @@ mod tests {
         let exact = run::<f64, _>(Taylor::<f64, 20>::adaptive(1e-17), KinematicsKind::Paper).1;
         let error = |(_, rotation): (u64, f64)| (rotation - exact).abs();
         type Careful = Tiered<f32, Libm>;
-        let careful = run::<Careful, _>(FixedStep::RungeKutta4 { step: Careful::of(2e-3) }, KinematicsKind::Paper);
-        let own = run::<f32, _>(FixedStep::RungeKutta4 { step: 2e-3 }, KinematicsKind::Paper);
+        let careful =
+            run::<Careful, _>(FixedStep { scheme: Scheme::RungeKutta4, step: Careful::of(2e-3) }, KinematicsKind::Paper);
+        let own = run::<f32, _>(FixedStep { scheme: Scheme::RungeKutta4, step: 2e-3 }, KinematicsKind::Paper);
         assert_ne!(careful.0, own.0);
         assert!(error(careful) < 2e-5 && error(own) < 2e-5, "{:e} {:e}", error(careful), error(own));
         type Wide = Tiered<f64, OwnPolynomial>;
         let wide = run::<Wide, _>(Taylor::<Wide, 20>::adaptive(Wide::of(1e-17)), KinematicsKind::Paper);
         assert!(error(wide) < 1e-12, "{:e}", error(wide));
         type Cheap = Tiered<f32, Micromath>;
-        let cheap = run::<Cheap, _>(FixedStep::RungeKutta4 { step: Cheap::of(2e-3) }, KinematicsKind::Paper);
+        let cheap = run::<Cheap, _>(FixedStep { scheme: Scheme::RungeKutta4, step: Cheap::of(2e-3) }, KinematicsKind::Paper);
         std::println!(
             "rotation at the end {exact}; errors: own {:e}, libm {:e}, micromath {:e}",
             error(own),
@@ -256,6 +238,6 @@ mod tests {
     fn it_is_no_larger_than_its_number() {
         assert_eq!(size_of::<Tiered<f32, Micromath>>(), size_of::<f32>());
         assert!(Tiered::<f32, Libm>::new(1.0) < Tiered::new(2.0) && Tiered::<f64, Libm>::new(f64::NAN) != Tiered::new(f64::NAN));
-        assert_eq!(Tiered::<f64, Libm>::new(-2.5).abs().number(), 2.5);
+        assert_eq!(Tiered::<f64, Libm>::new(-2.5).abs().number, 2.5);
     }
 }

@@ -4,7 +4,7 @@ use crate::equation::Equation;
 use crate::equation::any_equation::AnyEquation;
 use crate::equation::motion::Motion;
 use crate::ground::GroundSegment;
-use crate::math::root::zero_shown;
+use crate::math::root::{newton_bracketed, zero_shown};
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 
@@ -50,10 +50,13 @@ pub trait DenseOutput<S: Real> {
     /// The motion at `time` after the start.
     fn at(&self, time: S) -> Motion<S>;
 
-    /// The motion at [`DenseOutput::length`].
-    #[inline(always)]
-    fn end(&self) -> Motion<S> {
-        self.at(self.length())
+    /// Time at which a monotone θ reaches `level` between two times, where θ − `level` has the sign `before` at first.
+    #[inline]
+    fn crossing(&self, level: S, before: Sign, (from, to): (S, S)) -> S {
+        newton_bracketed(from, to, before, S::HALF * (from + to), |t| {
+            let motion = self.at(t);
+            (motion.rotation - level, motion.velocity)
+        })
     }
 
     /// Switching function of the clutch (Eq. 10), where it is not θ̈ itself.
@@ -67,14 +70,12 @@ pub trait DenseOutput<S: Real> {
     ///
     /// The default sees what the ends of the step show; a method with a series overrides it and proves its answer.
     #[inline(always)]
-    fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        let _ = from_zero;
+    fn acceleration_zero(&self, from: S, to: S, sign: Sign, _from_zero: bool) -> Option<S> {
         zero_shown(from, to, sign, |t| self.at(t).acceleration)
     }
 
     /// First zero of the switching function, as [`DenseOutput::acceleration_zero`]; called only where the two differ.
-    fn switching_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        let _ = from_zero;
+    fn switching_zero(&self, from: S, to: S, sign: Sign, _from_zero: bool) -> Option<S> {
         zero_shown(from, to, sign, |t| self.switching(t))
     }
 

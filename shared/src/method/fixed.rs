@@ -12,37 +12,25 @@ use crate::equation::motion::Motion;
 use crate::equation::switched::Switched;
 use crate::math::scalar::{Real, Scalar};
 
-/// Fixed-step method, each with its step in s (above 0).
+/// Fixed-step method.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum FixedStep<S> {
-    /// Semi-implicit (symplectic) Euler: velocities first, then positions with the new velocities. Order 1.
-    SemiImplicitEuler {
-        /// Step, s.
-        step: S,
-    },
-    /// The classical Runge-Kutta method. Order 4.
-    RungeKutta4 {
-        /// Step, s.
-        step: S,
-    },
-    /// The exponential midpoint method ([`crate::motion::hybrid::exponential`]) for elastic clutches, order 2; for all other devices the
-    /// Runge-Kutta method.
-    ExponentialMidpoint {
-        /// Step, s.
-        step: S,
-    },
+pub struct FixedStep<S> {
+    /// Scheme of a step.
+    pub scheme: Scheme,
+    /// Step, s (above 0).
+    pub step: S,
 }
 
-impl<S: Real> FixedStep<S> {
-    /// The step, s.
-    #[inline(always)]
-    pub fn step(&self) -> S {
-        match *self {
-            FixedStep::SemiImplicitEuler { step } | FixedStep::RungeKutta4 { step } | FixedStep::ExponentialMidpoint { step } => {
-                step
-            }
-        }
-    }
+/// Scheme of a fixed step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scheme {
+    /// Semi-implicit (symplectic) Euler: velocities first, then positions with the new velocities. Order 1.
+    SemiImplicitEuler,
+    /// The classical Runge-Kutta method. Order 4.
+    RungeKutta4,
+    /// The exponential midpoint method ([`crate::motion::hybrid::exponential`]) for elastic clutches, order 2; for all other devices the
+    /// Runge-Kutta method.
+    ExponentialMidpoint,
 }
 
 /// One step of the classical Runge-Kutta method of length `h` for θ̈ = f(θ, θ̇, ü), where `ground` holds ü_g/g at the
@@ -71,29 +59,28 @@ pub fn runge_kutta_4<S: Scalar, E: Equation<S>>(
 
 /// Dense output of a fixed-step method: its end, and the step taken again for every time before it.
 pub struct FixedOutput<'a, S> {
-    method: FixedStep<S>,
+    scheme: Scheme,
     start: &'a StepStart<'a, S>,
     first: S,
     end: Motion<S>,
 }
 
 impl<'a, S: Real> FixedOutput<'a, S> {
-    #[inline(always)]
-    pub(crate) fn new(method: FixedStep<S>, start: &'a StepStart<'a, S>) -> Self {
+    pub(crate) fn new(scheme: Scheme, start: &'a StepStart<'a, S>) -> Self {
         let first = start.first_acceleration(start.equation);
-        let end = Self::motion(method, start, first, start.length);
-        FixedOutput { method, start, first, end }
+        let end = Self::motion(scheme, start, first, start.length);
+        FixedOutput { scheme, start, first, end }
     }
 
     #[inline(never)]
-    fn motion(method: FixedStep<S>, start: &StepStart<'a, S>, first: S, time: S) -> Motion<S> {
-        start.equation.known(Step { method, start, first, time })
+    fn motion(scheme: Scheme, start: &StepStart<'a, S>, first: S, time: S) -> Motion<S> {
+        start.equation.known(Step { scheme, start, first, time })
     }
 }
 
 /// One step of length `time`, where θ̈ at the start is `first`.
 struct Step<'s, 'a, S> {
-    method: FixedStep<S>,
+    scheme: Scheme,
     start: &'s StepStart<'a, S>,
     first: S,
     time: S,
@@ -104,15 +91,15 @@ impl<S: Real> WithEquation<S> for Step<'_, '_, S> {
 
     #[inline(always)]
     fn with<E: Switched<S>>(self, equation: &E) -> Motion<S> {
-        let Step { method, start, first, time } = self;
+        let Step { scheme, start, first, time } = self;
         let side = start.side.unit();
         let push = start.segment.acceleration(start.time + time);
-        let (rotation, velocity) = match method {
-            FixedStep::SemiImplicitEuler { .. } => {
+        let (rotation, velocity) = match scheme {
+            Scheme::SemiImplicitEuler => {
                 let velocity = start.velocity + time * first;
                 (start.rotation + time * velocity, velocity)
             }
-            FixedStep::RungeKutta4 { .. } | FixedStep::ExponentialMidpoint { .. } => {
+            Scheme::RungeKutta4 | Scheme::ExponentialMidpoint => {
                 let ground = [S::ZERO, start.segment.acceleration(start.time + S::HALF * time), push];
                 runge_kutta_4(equation, side, (start.rotation, start.velocity), first, ground, time)
             }
@@ -122,30 +109,21 @@ impl<S: Real> WithEquation<S> for Step<'_, '_, S> {
 }
 
 impl<S: Real> DenseOutput<S> for FixedOutput<'_, S> {
-    #[inline(always)]
     fn length(&self) -> S {
         self.start.length
     }
 
-    #[inline]
     fn at(&self, time: S) -> Motion<S> {
         if time == S::ZERO {
             return Motion { rotation: self.start.rotation, velocity: self.start.velocity, acceleration: self.first };
         }
-        if time == self.start.length { self.end } else { Self::motion(self.method, self.start, self.first, time) }
+        if time == self.start.length { self.end } else { Self::motion(self.scheme, self.start, self.first, time) }
     }
 
-    #[inline(always)]
-    fn end(&self) -> Motion<S> {
-        self.end
-    }
-
-    #[inline(always)]
     fn evaluated_end(&self) -> Option<S> {
         Some(self.end.acceleration)
     }
 
-    #[inline]
     fn switching(&self, time: S) -> S {
         let motion = self.at(time);
         let push = self.start.segment.acceleration(self.start.time + time);
@@ -156,13 +134,11 @@ impl<S: Real> DenseOutput<S> for FixedOutput<'_, S> {
 impl<S: Real> Integrator<S> for FixedStep<S> {
     type Output<'a> = FixedOutput<'a, S>;
 
-    #[inline(always)]
     fn integrate<'a>(&'a self, start: &'a StepStart<'a, S>) -> Self::Output<'a> {
-        FixedOutput::new(*self, start)
+        FixedOutput::new(self.scheme, start)
     }
 
-    #[inline(always)]
     fn step(&self) -> Option<S> {
-        Some(FixedStep::step(self))
+        Some(self.step)
     }
 }

@@ -4,7 +4,6 @@ use crate::math::scalar::Real;
 
 /// The first whole multiple of `step` (s, above 0) after `time` (s), or `end` (s) if that comes first. `tick` is the multiple found
 /// last, 0 at the start of a ground segment; steps during a rest are skipped, so that a long rest costs no time.
-#[inline]
 pub fn next_stop<S: Real>(tick: &mut u32, step: S, time: S, end: S) -> S {
     let next = S::count(tick.wrapping_add(1)) * step;
     if next > time && S::count(*tick) * step == time {

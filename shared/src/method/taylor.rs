@@ -10,7 +10,7 @@ use crate::equation::any_equation::WithEquation;
 use crate::equation::motion::Motion;
 use crate::equation::switched::Switched;
 use crate::math::polynomial;
-use crate::math::power_series::{MAXIMUM_ORDER, Tape};
+use crate::math::power_series::{MAXIMUM_ORDER, SLOTS, Tape};
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 
@@ -19,13 +19,13 @@ pub const TERMS: usize = 20;
 
 /// A Taylor method with `N` coefficients for each quantity (8 to 32), and the tape it works on. One per thread: it is
 /// scratch space, not state.
-pub struct Taylor<S, const N: usize> {
-    tape: Tape<S, N>,
-    tolerance: S,
-    step: Option<S>,
+pub struct Taylor<S, const N: usize, const SLOTS: usize = { self::SLOTS }> {
+    pub(crate) tape: Tape<S, N, SLOTS>,
+    pub(crate) tolerance: S,
+    pub(crate) step: Option<S>,
 }
 
-impl<S: Real, const N: usize> Taylor<S, N> {
+impl<S: Real, const N: usize, const SLOTS: usize> Taylor<S, N, SLOTS> {
     /// Steps of its own choice: as long as the series' last terms stay below `tolerance` times the rotation that
     /// matters (α, or |θ| where larger). 1e-17 is tight in f64; from 1e-20 to 1e-2.
     pub fn adaptive(tolerance: S) -> Self {
@@ -35,7 +35,7 @@ impl<S: Real, const N: usize> Taylor<S, N> {
 
     /// Fixed steps of `step` s (above 0), order N − 2: θ̇ has one coefficient less than θ.
     pub fn fixed(step: S) -> Self {
-        Taylor { step: Some(step), ..Taylor::adaptive(S::ZERO) }
+        Taylor { step: Some(step), ..Self::adaptive(S::ZERO) }
     }
 }
 
@@ -70,7 +70,6 @@ impl<S: Real, const N: usize> Integrator<S> for Taylor<S, N> {
         output
     }
 
-    #[inline(always)]
     fn step(&self) -> Option<S> {
         self.step
     }
@@ -127,7 +126,6 @@ impl<S: Real, const N: usize> TaylorOutput<S, N> {
 }
 
 impl<S: Real, const N: usize> DenseOutput<S> for TaylorOutput<S, N> {
-    #[inline(always)]
     fn length(&self) -> S {
         self.series.length
     }

@@ -56,34 +56,21 @@ pub trait Observer<S: Real> {
     }
 
     /// Motion over a monotone interval.
-    #[inline(always)]
-    fn interval(&mut self, output: &dyn DenseOutput<S>, interval: &MonotoneInterval<S>) {
-        let _ = (output, interval);
-    }
+    fn interval(&mut self, _output: &dyn DenseOutput<S>, _interval: &MonotoneInterval<S>) {}
 
     /// Motion over a monotone interval, with the device: where the loop shows one, it calls this in the place of [`Observer::interval`].
-    #[inline(always)]
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         self.interval(output.motion(), interval);
     }
 
     /// The block stands on its base while its flywheels may coast, or of no length: what one event left for another at the same instant.
-    #[inline(always)]
-    fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
-        let _ = (output, interval);
-    }
+    fn device_at_rest(&mut self, _output: &dyn DeviceOutput<S>, _interval: &MonotoneInterval<S>) {}
 
     /// An event, with the state after it.
-    #[inline(always)]
-    fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
-        let _ = (event, time, state);
-    }
+    fn event(&mut self, _event: Event, _time: S, _state: &BlockState<S>) {}
 
     /// Free decay: the remaining swings, summed in closed form.
-    #[inline(always)]
-    fn decay(&mut self, decay: &Decay<S>) {
-        let _ = decay;
-    }
+    fn decay(&mut self, _decay: &Decay<S>) {}
 }
 
 /// Observer that ignores everything.

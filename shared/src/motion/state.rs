@@ -39,6 +39,19 @@ pub struct BlockState<S> {
 }
 
 impl<S: Real> BlockState<S> {
+    /// Level that θ passes on its way to `rotation`, and the sign of θ less it before: 0 at an impact, or the limit of overturning.
+    #[inline]
+    pub(super) fn passes(&self, rotation: S, limits: &Limits<S>) -> Option<(S, Sign)> {
+        let outward = self.side.times(rotation);
+        if outward < S::ZERO {
+            Some((S::ZERO, self.side))
+        } else if self.side == self.direction && outward > limits.overturned {
+            Some((self.side.times(limits.overturned), self.side.opposite()))
+        } else {
+            None
+        }
+    }
+
     /// The block on its base at its uplift to `side`, which all its signs take.
     pub(super) fn uplifted(&self, side: Sign) -> BlockState<S> {
         BlockState {

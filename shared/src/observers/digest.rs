@@ -22,8 +22,10 @@ use crate::motion::state::BlockState;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Digest {
     hash: Fnv,
-    stretches: u32,
-    events: u32,
+    /// Intervals so far.
+    pub stretches: u32,
+    /// Events so far.
+    pub events: u32,
 }
 
 impl Digest {
@@ -32,17 +34,6 @@ impl Digest {
         self.hash.value()
     }
 
-    /// Intervals so far.
-    pub fn stretches(&self) -> u32 {
-        self.stretches
-    }
-
-    /// Events so far.
-    pub fn events(&self) -> u32 {
-        self.events
-    }
-
-    #[inline]
     fn instant<S: Real>(&mut self, rotation: S, velocity: S, side: Sign, kind: u8) {
         self.hash.number(rotation);
         self.hash.number(velocity);
@@ -51,13 +42,11 @@ impl Digest {
 }
 
 impl<S: Real> Observer<S> for Digest {
-    #[inline]
     fn interval(&mut self, _output: &dyn DenseOutput<S>, interval: &MonotoneInterval<S>) {
         self.stretches = self.stretches.wrapping_add(1);
         self.instant(interval.last.rotation, interval.last.velocity, interval.side, u8::from(interval.engaged));
     }
 
-    #[inline]
     fn event(&mut self, event: Event, _time: S, state: &BlockState<S>) {
         self.events = self.events.wrapping_add(1);
         let kind = match event {
@@ -89,7 +78,7 @@ mod tests {
         let of = |rotation: f32, velocity: f32, side, event| {
             let mut digest = Digest::default();
             digest.event(event, 0.0, &BlockState { rotation, velocity, side, ..BlockState::default() });
-            assert_eq!((digest.stretches(), digest.events()), (0, 1));
+            assert_eq!((digest.stretches, digest.events), (0, 1));
             digest.hash()
         };
         let base = of(0.1, 0.2, Sign::Positive, Event::Turn);

@@ -2,6 +2,7 @@
 
 use super::error::{ParameterError, require};
 use crate::math;
+use crate::math::scalar::Real;
 
 /// Standard acceleration of gravity, m/s².
 pub const GRAVITY: f64 = 9.806_65;
@@ -98,21 +99,29 @@ pub enum Geometry {
 }
 
 impl Geometry {
-    /// Ground acceleration, in g, above which the block uplifts from rest: tan α (Eq. 1), or α for the slender model.
-    pub fn uplift_threshold(self, block: &Block) -> f64 {
+    /// Ground acceleration, in g, above which a block of this `slenderness` (rad) uplifts from rest: tan α (Eq. 1), or α for the slender model.
+    pub fn uplift_threshold(self, slenderness: f64) -> f64 {
         match self {
-            Geometry::Full => math::tan(block.slenderness),
-            Geometry::Slender => block.slenderness,
+            Geometry::Full => math::tan(slenderness),
+            Geometry::Slender => slenderness,
         }
     }
 
     /// |θ| (rad) beyond which an outward motion never returns under a ground acceleration that stays within
     /// ±`ground_bound` (in g): there the weight's overturning moment outweighs any push. Full: α + atan(bound), at most
     /// π/2, where the block lies on the ground; slender: α + bound.
-    pub fn point_of_no_return(self, block: &Block, ground_bound: f64) -> f64 {
+    pub fn point_of_no_return(self, slenderness: f64, ground_bound: f64) -> f64 {
         match self {
-            Geometry::Full => (block.slenderness + math::atan(ground_bound)).min(core::f64::consts::FRAC_PI_2),
-            Geometry::Slender => block.slenderness + ground_bound,
+            Geometry::Full => (slenderness + math::atan(ground_bound)).min(core::f64::consts::FRAC_PI_2),
+            Geometry::Slender => slenderness + ground_bound,
+        }
+    }
+
+    /// Sine and cosine of an angle δ (rad) of the geometry.
+    pub fn sin_cos<S: Real>(self, delta: S) -> (S, S) {
+        match self {
+            Geometry::Full => delta.sin_cos(),
+            Geometry::Slender => (delta, S::ONE),
         }
     }
 }
@@ -144,7 +153,7 @@ mod tests {
     fn beyond_the_point_of_no_return_the_bracket_pushes_outward() {
         let block = Block::new(1.0, 0.2, RECTANGLE_INERTIA_RATIO).unwrap();
         for bound in [0.0, 0.3, 2.0] {
-            let angle = Geometry::Full.point_of_no_return(&block, bound);
+            let angle = Geometry::Full.point_of_no_return(block.slenderness(), bound);
             if angle < 1.57 {
                 let delta = 0.2 - (angle + 1e-9);
                 assert!(math::sin(delta) + bound * math::cos(delta) < 0.0);

@@ -8,7 +8,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use sprag_shared::equation::kinematics::Paper;
+use sprag_shared::equation::body::FullBody;
 use sprag_shared::equation::lever::{CentreOfMass, Lever, TyingPoint};
 use sprag_shared::equation::{FullBlock, FullInerter};
 use sprag_shared::math::lanes::Lanes;
@@ -19,7 +19,7 @@ mod alternatives;
 
 use alternatives::{AnyMount, Quad, step_by_pointer};
 
-type Pair<S, L> = TimeStepping<S, FullInerter<S, L, Paper>>;
+type Pair<S, L> = TimeStepping<S, FullInerter<S, L>>;
 
 /// Steps in one measurement: short enough to fall between two other programs' turns.
 const STEPS: usize = 1 << 11;
@@ -31,7 +31,10 @@ const STEP: f64 = 0.01;
 /// α = 10°, σ = 0.5, η = 0.85, p = 1.
 fn pair<S: Scalar, L: Lever<S>>(lever: L) -> Pair<S, L> {
     let block = FullBlock { frequency_squared: S::of(1.0), slenderness: S::of(0.174_532_925) };
-    let with = |coupling: f64| FullInerter::new(block, S::of(coupling), lever);
+    let with = |coupling: f64| FullInerter {
+        body: FullBody { block, lever, consistent: false, vertical: false },
+        coupling: S::of(coupling),
+    };
     TimeStepping { released: with(0.0), engaged: with(0.375), restitution: S::of(0.85), uplift: S::of(0.176_327) }
 }
 

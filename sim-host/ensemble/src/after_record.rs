@@ -1,6 +1,6 @@
 //! A block after its record: some time on quiet ground, by the core.
 
-use sprag_shared::ground::Quiet;
+use sprag_shared::ground::Harmonics;
 use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::state::{Limits, Phase};
 use sprag_shared::structure::Structure;
@@ -28,10 +28,17 @@ impl Shaken {
         state.impacts = impacts;
         let overturned = match structure.geometry {
             Geometry::Full => core::f64::consts::FRAC_PI_2,
-            Geometry::Slender => structure.geometry.point_of_no_return(&structure.block, 0.0),
+            Geometry::Slender => structure.geometry.point_of_no_return(structure.block.slenderness(), 0.0),
         };
         let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
-        system.advance(&method, &mut state, &Quiet, free_time, &Limits { overturned, events: MOST_EVENTS }, &mut peaks)?;
+        system.advance(
+            &method,
+            &mut state,
+            &Harmonics::QUIET,
+            free_time,
+            &Limits { overturned, events: MOST_EVENTS },
+            &mut peaks,
+        )?;
         Ok(Shaken { phase: state.phase, rotation: state.rotation, velocity: state.velocity, impacts: state.impacts, peaks })
     }
 }

@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use sprag_shared::equation::clutch_rule::Clutch;
 use sprag_shared::ground::Harmonics;
 pub use sprag_shared::method::taylor::TERMS;
 use sprag_shared::method::taylor::Taylor;
@@ -36,16 +35,16 @@ impl PulsedBlock {
     /// The block in units of 1/p.
     fn structure(&self) -> Result<Structure, CaseError> {
         Ok(Structure {
-            block: Block::of_unit_frequency(self.slenderness, RECTANGLE_INERTIA_RATIO)?,
-            geometry: self.geometry,
+            block: Block::of_unit_frequency(self.plain.slenderness, RECTANGLE_INERTIA_RATIO)?,
+            geometry: self.plain.geometry,
             device: Device {
-                kind: self.device,
-                mass_ratio: self.coupling * RECTANGLE_INERTIA_RATIO,
+                kind: self.plain.device,
+                mass_ratio: self.plain.coupling * RECTANGLE_INERTIA_RATIO,
                 mount: Mount::CentreOfMass,
                 kinematics: KinematicsKind::Paper,
             },
             added_mass: AddedMass::NONE,
-            restitution: Restitution::Constant(self.restitution),
+            restitution: Restitution::Constant(self.plain.restitution),
             rest_speed: REST_SPEED,
         })
     }
@@ -54,7 +53,7 @@ impl PulsedBlock {
     ///
     /// # Errors
     /// [`CaseError`] for a parameter outside its range, or a motion that cannot be followed.
-    pub fn follow<M: Model, C: Clutch>(&self, method: &Taylor<f64, TERMS>) -> Result<PulseResult, CaseError> {
+    pub fn follow<M: Model, const PAIR: bool>(&self, method: &Taylor<f64, TERMS>) -> Result<PulseResult, CaseError> {
         let structure = self.structure()?;
         let (state, peaks) = self.over_the_pulse(&structure, method)?;
         if !peaks.rocked {
@@ -66,7 +65,7 @@ impl PulsedBlock {
             Phase::Rest => self.stands(peaks.rotation, peaks.acceleration),
             Phase::Rocking => {
                 let (rotation, velocity) = (state.side.times(state.rotation), state.side.times(state.velocity));
-                self.settle::<M, C>(rotation, velocity, (peaks.rotation, peaks.acceleration), impact)
+                self.settle::<M, PAIR>(rotation, velocity, (peaks.rotation, peaks.acceleration), impact)
             }
         })
     }
@@ -84,7 +83,7 @@ impl PulsedBlock {
             PulseShape::Sine => Harmonics::sine(amplitude, frequency_ratio),
             PulseShape::Cosine => Harmonics::cosine(amplitude, frequency_ratio),
         };
-        let overturned = structure.geometry.point_of_no_return(&structure.block, amplitude.abs());
+        let overturned = structure.geometry.point_of_no_return(structure.block.slenderness(), amplitude.abs());
         let (mut state, mut peaks) = (BlockState::default(), Peaks::default());
         let limits = Limits { overturned, events: 1_000_000 };
         system.advance(method, &mut state, &ground, TAU / frequency_ratio, &limits, &mut peaks)?;

@@ -7,14 +7,19 @@
 
 use std::array::from_fn;
 
-use sprag_shared::equation::clutch_rule::Clutch;
 use sprag_shared::equation::switched::Switched;
 use sprag_shared::math::polynomial as core_polynomial;
 use sprag_shared::math::scalar::Scalar;
+use sprag_shared::structure::COUNTED_SPEED;
 
+use crate::plain::PlainBlock;
 use crate::polynomial::{Shape, extreme, shape, value, value_and_slope, zero};
+use crate::rest::WEAK_IMPACT;
 use crate::series::Series;
 use crate::{Mask, Number, WIDTH, number};
+
+/// Size of the last terms of a step's series over α.
+pub(crate) const TOLERANCE: f64 = 3e-15;
 
 /// Halvings of a step that a block may ask for.
 pub(crate) const MOST_HALVINGS: u32 = 24;
@@ -94,6 +99,18 @@ impl Bounds {
         let (zero, one) = (number(0.0), number(1.0));
         Bounds { slenderness: one, coupling: zero, restitution: zero, no_return: one, weak: zero, counted: zero, tolerance: one }
     }
+
+    /// Another block in `lane`, which does not return from beyond `no_return` (rad).
+    pub(crate) fn renew(&mut self, lane: usize, block: &PlainBlock, no_return: f64) {
+        let PlainBlock { slenderness, coupling, restitution, .. } = *block;
+        self.slenderness.0[lane] = slenderness;
+        self.coupling.0[lane] = coupling;
+        self.restitution.0[lane] = restitution;
+        self.no_return.0[lane] = no_return;
+        self.weak.0[lane] = WEAK_IMPACT * slenderness;
+        self.counted.0[lane] = COUNTED_SPEED * slenderness;
+        self.tolerance.0[lane] = TOLERANCE * slenderness;
+    }
 }
 
 /// Equations of motion with the inerter released and engaged.
@@ -151,7 +168,7 @@ impl Blocks {
 
     /// One step of every block, at most `longest`; returns how far each went. `series.ground` is ü_g/g in each block's mirror.
     #[inline(always)]
-    pub fn step<E: Switched<Number>, C: Clutch, const TERMS: usize>(
+    pub fn step<E: Switched<Number>, const PAIR: bool, const TERMS: usize>(
         &mut self,
         modes: &Modes<E>,
         bounds: &Bounds,
@@ -164,11 +181,8 @@ impl Blocks {
             // The sign of θ̈ does not depend on the mode.
             self.read_push(modes.released.switching(one, self.rotation, self.velocity, series.ground[0]));
         }
-        let equation = match (C::RULE.follows_signs(), C::RULE.has_inerter()) {
-            (true, _) => E::switched(!(self.outward ^ self.pushed), &modes.engaged, &modes.released),
-            (false, true) => modes.engaged,
-            (false, false) => modes.released,
-        };
+        let equation =
+            if PAIR { E::switched(!(self.outward ^ self.pushed), &modes.engaged, &modes.released) } else { modes.engaged };
         series.expand(&equation, self.rotation, self.velocity, self.at_zero);
         let push = self.pushed.sign();
 

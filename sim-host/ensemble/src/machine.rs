@@ -7,7 +7,6 @@
 #[cfg(all(target_arch = "x86_64", not(test)))]
 use pulp::Arch;
 use pulp::NullaryFnOnce;
-use sprag_shared::equation::clutch_rule::{Clutch, ClutchedPair, NoInerter, SingleInerter};
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
 
@@ -33,34 +32,34 @@ trait Work {
     type Output;
 
     /// Does it; to be inlined, so that it is built for the registers of its caller.
-    fn with<M: Model, C: Clutch>(self) -> Self::Output;
+    fn with<M: Model, const PAIR: bool>(self) -> Self::Output;
 }
 
 /// Work for a model and a clutch.
-struct Resolved<W, M, C>(W, std::marker::PhantomData<(M, C)>);
+struct Resolved<W, M, const PAIR: bool>(W, std::marker::PhantomData<M>);
 
-impl<W: Work, M: Model, C: Clutch> NullaryFnOnce for Resolved<W, M, C> {
+impl<W: Work, M: Model, const PAIR: bool> NullaryFnOnce for Resolved<W, M, PAIR> {
     type Output = W::Output;
 
     #[inline(always)]
     fn call(self) -> Self::Output {
-        self.0.with::<M, C>()
+        self.0.with::<M, PAIR>()
     }
 }
 
 /// Does `work` on blocks of this geometry and device.
 fn resolve<W: Work>((geometry, device): (Geometry, DeviceKind), registers: Registers, work: W) -> W::Output {
     match (geometry, device) {
-        (Geometry::Full, DeviceKind::None) => go::<W, FullAlone, NoInerter>(work, registers),
-        (Geometry::Full, DeviceKind::Inerter) => go::<W, FullWithInerter, SingleInerter>(work, registers),
-        (Geometry::Full, DeviceKind::ClutchedPair) => go::<W, FullWithInerter, ClutchedPair>(work, registers),
-        (Geometry::Slender, DeviceKind::ClutchedPair) => go::<W, Slender, ClutchedPair>(work, registers),
-        (Geometry::Slender, _) => go::<W, Slender, SingleInerter>(work, registers),
+        (Geometry::Full, DeviceKind::None) => go::<W, FullAlone, false>(work, registers),
+        (Geometry::Full, DeviceKind::Inerter) => go::<W, FullWithInerter, false>(work, registers),
+        (Geometry::Full, DeviceKind::ClutchedPair) => go::<W, FullWithInerter, true>(work, registers),
+        (Geometry::Slender, DeviceKind::ClutchedPair) => go::<W, Slender, true>(work, registers),
+        (Geometry::Slender, _) => go::<W, Slender, false>(work, registers),
     }
 }
 
-fn go<W: Work, M: Model, C: Clutch>(work: W, registers: Registers) -> W::Output {
-    let resolved = Resolved(work, std::marker::PhantomData::<(M, C)>);
+fn go<W: Work, M: Model, const PAIR: bool>(work: W, registers: Registers) -> W::Output {
+    let resolved = Resolved::<_, _, PAIR>(work, std::marker::PhantomData::<M>);
     match registers {
         // Not `Arch::dispatch`: its way without wide registers would be a second copy of the one below.
         // No unit test asks for registers (`tests/tests/motion/lanes_*.rs` do), and every kind takes as long to build.
@@ -88,8 +87,8 @@ impl Work for UnderPulses<'_> {
     type Output = Result<(), (usize, CaseError)>;
 
     #[inline(always)]
-    fn with<M: Model, C: Clutch>(self) -> Self::Output {
-        pulses::run::<M, C>(self.pulsed, self.results)
+    fn with<M: Model, const PAIR: bool>(self) -> Self::Output {
+        pulses::run::<M, PAIR>(self.pulsed, self.results)
     }
 }
 
@@ -102,8 +101,8 @@ impl Work for UnderRecords<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn with<M: Model, C: Clutch>(self) -> Self::Output {
-        records::run::<M, C>(self.shaken, self.results);
+    fn with<M: Model, const PAIR: bool>(self) -> Self::Output {
+        records::run::<M, PAIR>(self.shaken, self.results);
     }
 }
 
@@ -114,7 +113,7 @@ impl Work for UnderRecords<'_, '_> {
 pub fn run(pulsed: &[PulsedBlock], registers: Registers) -> Result<Vec<PulseResult>, (usize, CaseError)> {
     let mut results = vec![PulseResult::NO_ROCKING; pulsed.len()];
     // Neighbours of one model and device go through the lanes together.
-    let kind = |block: &PulsedBlock| (block.geometry, block.device);
+    let kind = |block: &PulsedBlock| (block.plain.geometry, block.plain.device);
     let mut start = 0;
     for group in pulsed.chunk_by(|a, b| kind(a) == kind(b)) {
         let found = &mut results[start..start + group.len()];

@@ -1,11 +1,10 @@
 //! Models of the block in SIMD lanes: equations of motion, and first integrals after the ground has stopped.
 
+use sprag_shared::equation::body::FullBody;
 use sprag_shared::equation::first_integral::{FirstIntegral, FullIntegral, SlenderIntegral};
-use sprag_shared::equation::kinematics::Paper;
 use sprag_shared::equation::lever::CentreOfMass;
 use sprag_shared::equation::switched::Switched;
 use sprag_shared::equation::{FullBlock, FullInerter, SlenderBlock};
-use sprag_shared::math;
 use sprag_shared::structure::block::Geometry;
 
 use crate::blocks::Modes;
@@ -30,14 +29,6 @@ pub trait Model {
 
     /// The integral with κ k = `coupling`.
     fn integral(coupling: f64) -> Self::Integral;
-
-    /// ü_g/g above which a block of slenderness `alpha` (rad) uplifts: tan α, or α for the slender model.
-    fn uplift_threshold(alpha: f64) -> f64 {
-        match Self::GEOMETRY {
-            Geometry::Full => math::tan(alpha),
-            Geometry::Slender => alpha,
-        }
-    }
 
     /// |θ̈|/p² of a block of slenderness `alpha` (rad) at θ = 0 on quiet ground, with κ k = `coupling`.
     fn rate(alpha: f64, coupling: f64) -> f64 {
@@ -81,7 +72,7 @@ impl Model for FullAlone {
 }
 
 impl Model for FullWithInerter {
-    type Equation = FullInerter<Number, CentreOfMass, Paper>;
+    type Equation = FullInerter<Number, CentreOfMass>;
     type Integral = FullIntegral;
     type Stepping = BySeries<FullWithInerter>;
 
@@ -90,7 +81,7 @@ impl Model for FullWithInerter {
     #[inline(always)]
     fn modes(slenderness: Number, coupling: Number) -> Modes<Self::Equation> {
         let block = full(slenderness);
-        let engaged = FullInerter::new(block, coupling, CentreOfMass);
+        let engaged = FullInerter { body: FullBody { block, lever: CentreOfMass, consistent: false, vertical: false }, coupling };
         Modes { released: engaged.with_coupling(number(0.0)), engaged }
     }
 

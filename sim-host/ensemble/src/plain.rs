@@ -21,6 +21,16 @@ pub struct PlainBlock {
 }
 
 impl PlainBlock {
+    /// κ k on quiet ground while it moves outward and while it moves inward.
+    pub(crate) fn couplings<const PAIR: bool>(&self) -> (f64, f64) {
+        (if PAIR { 0.0 } else { self.coupling }, self.coupling)
+    }
+
+    /// Whether the lanes may take it: parameters as the core would accept them.
+    pub(crate) fn is_within_range(&self) -> bool {
+        (1e-4..1.5).contains(&self.slenderness) && (0.0..=1e3).contains(&self.coupling) && (0.0..=1.0).contains(&self.restitution)
+    }
+
     /// The block of `structure`, if the lanes have its device.
     pub fn of_structure(structure: &Structure) -> Option<PlainBlock> {
         let Structure { block, geometry, device, added_mass, restitution, .. } = structure;

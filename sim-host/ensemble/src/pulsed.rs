@@ -1,11 +1,10 @@
 //! A dimensionless block under one cycle of a pulse, and its outcome.
 
-use sprag_shared::equation::clutch_rule::Clutch;
-use sprag_shared::motion::rest::free_motion::{FreeMotion, Legs};
-use sprag_shared::structure::block::{Block, Geometry};
-use sprag_shared::structure::device::DeviceKind;
+use sprag_shared::motion::rest::free_motion::FreeMotion;
+use sprag_shared::structure::block::Block;
 
 use crate::model::Model;
+use crate::plain::PlainBlock;
 use crate::shaken::Shaken;
 use sprag_shared::observers::outcome::Outcome;
 
@@ -24,16 +23,8 @@ pub enum PulseShape {
 /// A dimensionless block under a one-cycle pulse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PulsedBlock {
-    /// Full or slender.
-    pub geometry: Geometry,
-    /// Its device, at the centre of mass, paper kinematics.
-    pub device: DeviceKind,
-    /// α, rad.
-    pub slenderness: f64,
-    /// k = σ/λ; for the slender model kℓ², with any mount.
-    pub coupling: f64,
-    /// Restitution η.
-    pub restitution: f64,
+    /// The block.
+    pub plain: PlainBlock,
     /// Shape of the pulse.
     pub pulse: PulseShape,
     /// Frequency ratio ω_g/p.
@@ -70,28 +61,23 @@ impl PulseResult {
 }
 
 impl PulsedBlock {
-    /// κ k on quiet ground while it moves outward and while it moves inward.
-    pub(crate) fn couplings<C: Clutch>(&self) -> (f64, f64) {
-        (if C::RULE.follows_signs() { 0.0 } else { self.coupling }, self.coupling)
-    }
-
     pub(crate) fn stands(&self, rotation: f64, acceleration: f64) -> PulseResult {
-        let alpha = self.slenderness;
+        let alpha = self.plain.slenderness;
         PulseResult { outcome: Outcome::Safe, peak_rotation: rotation / alpha, peak_acceleration: acceleration / alpha }
     }
 
     /// Outcome of a motion that the pulse leaves at |θ| = `rotation` with the outward `velocity` and these peaks.
     #[inline]
-    pub(crate) fn settle<M: Model, C: Clutch>(
+    pub(crate) fn settle<M: Model, const PAIR: bool>(
         &self,
         rotation: f64,
         velocity: f64,
         peaks: (f64, f64),
         impact: bool,
     ) -> PulseResult {
-        let (outward, inward) = self.couplings::<C>();
-        let legs = Legs { outward: M::integral(outward), returning: M::integral(outward), inward: M::integral(inward) };
-        let motion = FreeMotion { slenderness: self.slenderness, restitution: self.restitution, legs };
+        let (outward, inward) = self.plain.couplings::<PAIR>();
+        let PlainBlock { slenderness, restitution, .. } = self.plain;
+        let motion = FreeMotion { slenderness, restitution, outward: M::integral(outward), inward: M::integral(inward) };
         let settled = motion.settle(rotation, velocity);
         if settled.overturned {
             return PulseResult::overturned(impact || settled.impact);
@@ -101,12 +87,7 @@ impl PulsedBlock {
 
     /// Parameters that the lanes may take, as the core would accept them.
     pub(crate) fn is_within_range(&self) -> bool {
-        let PulsedBlock { slenderness, coupling, restitution, frequency_ratio, amplitude_ratio, .. } = *self;
-        (1e-4..1.5).contains(&slenderness)
-            && (0.0..=1e3).contains(&coupling)
-            && (0.0..=1.0).contains(&restitution)
-            && (1e-3..1e3).contains(&frequency_ratio)
-            && amplitude_ratio.abs() < 1e4
+        self.plain.is_within_range() && (1e-3..1e3).contains(&self.frequency_ratio) && self.amplitude_ratio.abs() < 1e4
     }
 
     /// Whether the pulse lifts it; none if rounding decides.

@@ -3,26 +3,21 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::marker::PhantomData;
 
-use sprag_shared::equation::clutch_rule::Clutch;
 use sprag_shared::math::scalar::Scalar;
 use sprag_shared::math::{self, RECIPROCALS};
 use sprag_shared::method::taylor::Taylor;
-use sprag_shared::structure::block::Geometry;
 
 use crate::alone::{CaseError, TERMS, TIGHT};
 use crate::blocks::{Blocks, Bounds};
 use crate::model::Model;
 use crate::pulsed::{PulseResult, PulseShape, PulsedBlock};
-use crate::rest::{AfterWeakImpact, Sine, WEAK_IMPACT};
+use crate::rest::{AfterWeakImpact, Sine};
 use crate::series::Series;
 use crate::{Mask, Number, WIDTH, number};
 use sprag_shared::observers::outcome::Outcome;
 
 /// Coefficients of θ: with more, steps hardly get longer, because events cut them.
 const SERIES_TERMS: usize = 18;
-
-/// Size of the last terms of a step's series over α.
-pub const TOLERANCE: f64 = 3e-15;
 
 /// Steps of one block before the core takes it; most take a dozen.
 const MOST_STEPS: u32 = 400;
@@ -59,7 +54,7 @@ pub trait Stepping: Default {
     }
 
     /// One step of blocks, at most up to the end of their pulses; returns how far each went.
-    fn step<C: Clutch>(&mut self, blocks: &mut Blocks, bounds: &Bounds, pulses: &Pulses) -> Number;
+    fn step<const PAIR: bool>(&mut self, blocks: &mut Blocks, bounds: &Bounds, pulses: &Pulses) -> Number;
 }
 
 /// Steps by power series.
@@ -76,10 +71,10 @@ impl<M> Default for BySeries<M> {
 
 impl<M: Model> Stepping for BySeries<M> {
     #[inline(always)]
-    fn step<C: Clutch>(&mut self, blocks: &mut Blocks, bounds: &Bounds, pulses: &Pulses) -> Number {
+    fn step<const PAIR: bool>(&mut self, blocks: &mut Blocks, bounds: &Bounds, pulses: &Pulses) -> Number {
         pulses.series(blocks.side, &mut self.series.ground[..SERIES_TERMS - 2]);
         let modes = M::modes(bounds.slenderness, bounds.coupling);
-        blocks.step::<M::Equation, C, SERIES_TERMS>(&modes, bounds, &mut self.series, pulses.left())
+        blocks.step::<M::Equation, PAIR, SERIES_TERMS>(&modes, bounds, &mut self.series, pulses.left())
     }
 }
 
@@ -118,10 +113,14 @@ impl Pulses {
 /// # Errors
 /// The first [`CaseError`], with the number of its block; parameters are checked by the core when it is asked to follow a block.
 #[inline(always)]
-pub(crate) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [PulseResult]) -> Result<(), (usize, CaseError)> {
+pub(crate) fn run<M: Model, const PAIR: bool>(
+    pulsed: &[PulsedBlock],
+    results: &mut [PulseResult],
+) -> Result<(), (usize, CaseError)> {
     let zero = number(0.0);
     let one = number(1.0);
     let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
+    let follow = |index: usize| pulsed[index].follow::<M, PAIR>(&method).map_err(|error| (index, error));
     let mut stepping = M::Stepping::default();
     let mut blocks = Blocks::default();
     let mut pulses = Pulses { amplitude: zero, frequency: one, phase: zero, time: zero, duration: one };
@@ -138,17 +137,15 @@ pub(crate) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [Pu
             for lane in (0..WIDTH).filter(|&lane| done.at(lane)) {
                 if let Some(index) = at[lane] {
                     let block: &PulsedBlock = &pulsed[index];
+                    let peaks = (blocks.peak_rotation.0[lane], blocks.peak_acceleration.0[lane]);
                     results[index] = if blocks.hard.at(lane) {
-                        block.follow::<M, C>(&method).map_err(|error| (index, error))?
+                        follow(index)?
                     } else if blocks.overturned.at(lane) {
                         PulseResult::overturned(blocks.impact.at(lane))
+                    } else if rests.at(lane) {
+                        block.stands(peaks.0, peaks.1)
                     } else {
-                        let peaks = (blocks.peak_rotation.0[lane], blocks.peak_acceleration.0[lane]);
-                        if rests.at(lane) {
-                            block.stands(peaks.0, peaks.1)
-                        } else {
-                            block.settle::<M, C>(blocks.rotation.0[lane], blocks.velocity.0[lane], peaks, blocks.impact.at(lane))
-                        }
+                        block.settle::<M, PAIR>(blocks.rotation.0[lane], blocks.velocity.0[lane], peaks, blocks.impact.at(lane))
                     };
                     if !blocks.hard.at(lane) && results[index].outcome == Outcome::Safe {
                         stepping.stands(lane, index, results);
@@ -160,27 +157,20 @@ pub(crate) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [Pu
                     let uplifts = if block.is_within_range() { block.uplifts() } else { None };
                     if uplifts == Some(true) {
                         at[lane] = Some(next);
-                        if threshold.0 != block.slenderness {
-                            threshold = (block.slenderness, M::uplift_threshold(block.slenderness));
+                        let alpha = block.plain.slenderness;
+                        if threshold.0 != alpha {
+                            threshold = (alpha, M::GEOMETRY.uplift_threshold(alpha));
                         }
                         // A positive ground acceleration uplifts the block to the negative side; the sign of the pulse only mirrors the motion.
                         let amplitude = block.amplitude_ratio.abs() * threshold.1;
                         let sine = block.pulse == PulseShape::Sine;
-                        bounds.slenderness.0[lane] = block.slenderness;
-                        bounds.coupling.0[lane] = block.coupling;
                         pulses.amplitude.0[lane] = -amplitude;
                         pulses.frequency.0[lane] = block.frequency_ratio;
                         pulses.phase.0[lane] = if sine { 0.0 } else { FRAC_PI_2 };
                         pulses.duration.0[lane] = TAU / block.frequency_ratio;
                         let uplift = || math::asin(1.0 / block.amplitude_ratio.abs()) / block.frequency_ratio;
                         pulses.time.0[lane] = if sine { uplift() } else { 0.0 };
-                        bounds.restitution.0[lane] = block.restitution;
-                        bounds.no_return.0[lane] = match M::GEOMETRY {
-                            Geometry::Full => (block.slenderness + math::atan(amplitude)).min(FRAC_PI_2),
-                            Geometry::Slender => block.slenderness + amplitude,
-                        };
-                        bounds.weak.0[lane] = WEAK_IMPACT * block.slenderness;
-                        bounds.tolerance.0[lane] = TOLERANCE * block.slenderness;
+                        bounds.renew(lane, &block.plain, M::GEOMETRY.point_of_no_return(alpha, amplitude));
                         blocks.renew(lane);
                         blocks.uplift(lane, 1.0, sine);
                         stepping.renew(lane);
@@ -190,7 +180,7 @@ pub(crate) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [Pu
                     } else if uplifts == Some(false) {
                         results[next] = PulseResult::NO_ROCKING;
                     } else {
-                        results[next] = block.follow::<M, C>(&method).map_err(|error| (next, error))?;
+                        results[next] = follow(next)?;
                     }
                     next += 1;
                 }
@@ -201,13 +191,13 @@ pub(crate) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [Pu
             }
             if at.iter().all(Option::is_none) {
                 for &index in stepping.finish(results) {
-                    results[index] = pulsed[index].follow::<M, C>(&method).map_err(|error| (index, error))?;
+                    results[index] = follow(index)?;
                 }
                 return Ok(());
             }
         }
         let left = pulses.left();
-        let went = stepping.step::<C>(&mut blocks, &bounds, &pulses);
+        let went = stepping.step::<PAIR>(&mut blocks, &bounds, &pulses);
         pulses.time = pulses.time + went;
         for (lane, count) in steps.iter_mut().enumerate() {
             *count += 1;
@@ -221,9 +211,8 @@ pub(crate) fn run<M: Model, C: Clutch>(pulsed: &[PulsedBlock], results: &mut [Pu
                 let Some(block) = at[lane].map(|index: usize| &pulsed[index]) else { continue };
                 let sine = pulses.sine(lane, block);
                 let push = sine.amplitude * math::sin(sine.frequency * pulses.time.0[lane] + sine.phase) * -blocks.side.0[lane];
-                let motion = (blocks.velocity.0[lane], block.restitution, block.slenderness);
-                let couplings = block.couplings::<C>();
-                match sine.after_weak_impact::<M>(pulses.time.0[lane], push, motion, couplings) {
+                let speed = blocks.velocity.0[lane];
+                match sine.after_weak_impact::<M, PAIR>(pulses.time.0[lane], push, speed, &block.plain) {
                     AfterWeakImpact::Rests => rests.set(lane, true),
                     AfterWeakImpact::Uplifts { time, half_cycles } => {
                         pulses.time.0[lane] = time;

@@ -5,25 +5,21 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use sprag_shared::equation::clutch_rule::Clutch;
+use sprag_shared::math::root::bisection;
 use sprag_shared::math::scalar::Scalar;
 use sprag_shared::motion::state::Phase;
 use sprag_shared::observers::peaks::Peaks;
-use sprag_shared::structure::COUNTED_SPEED;
 use sprag_shared::structure::block::Geometry;
 
 use crate::blocks::{Blocks, Bounds};
 use crate::model::Model;
-use crate::rest::{WEAK_IMPACT, tail};
+use crate::rest::tail;
 use crate::series::Series;
 use crate::shaken::{DOUBTFUL_UPLIFT, Doubtful, Shaken, ShakenBlock, Uplift};
 use crate::{Mask, Number, WIDTH, number};
 
 /// Coefficients of θ: as many as reach from one sample to the next.
 const SERIES_TERMS: usize = 9;
-
-/// Size of the last terms of a step's series over α.
-const TOLERANCE: f64 = 3e-15;
 
 /// Steps within one sample before the core takes a block.
 const MOST_STEPS: f64 = 5_000.0;
@@ -105,7 +101,7 @@ impl<'a, 'b> Lanes<'a, 'b> {
             if !block.is_plain() {
                 continue;
             }
-            let threshold = M::uplift_threshold(block.plain.slenderness);
+            let threshold = M::GEOMETRY.uplift_threshold(block.plain.slenderness);
             let first = match block.next_uplift(0, 0.0, threshold) {
                 Err(Doubtful) => continue,
                 Ok(None) => {
@@ -115,14 +111,7 @@ impl<'a, 'b> Lanes<'a, 'b> {
                 }
                 Ok(Some(uplift)) => uplift,
             };
-            let alpha = block.plain.slenderness;
-            self.bounds.slenderness.0[lane] = alpha;
-            self.bounds.coupling.0[lane] = block.plain.coupling;
-            self.bounds.restitution.0[lane] = block.plain.restitution;
-            self.bounds.no_return.0[lane] = FRAC_PI_2;
-            self.bounds.weak.0[lane] = WEAK_IMPACT * alpha;
-            self.bounds.counted.0[lane] = COUNTED_SPEED * alpha;
-            self.bounds.tolerance.0[lane] = TOLERANCE * alpha;
+            self.bounds.renew(lane, &block.plain, FRAC_PI_2);
             self.lines.step.0[lane] = block.step();
             self.lines.rate.0[lane] = 1.0 / block.step();
             self.at[lane] =
@@ -162,7 +151,7 @@ impl<'a, 'b> Lanes<'a, 'b> {
 
     /// Notes impacts, of which `first` are the first ones, and lets blocks rest that hardly move any more: those that rest to the end of
     /// their records, and those that were put to their next uplift.
-    fn after_impacts<M: Model, C: Clutch>(&mut self, first: Mask) -> (Mask, Mask) {
+    fn after_impacts<M: Model, const PAIR: bool>(&mut self, first: Mask) -> (Mask, Mask) {
         let (mut rest, mut uplift) = (Mask::NONE, Mask::NONE);
         let (counted, weak) = (self.blocks.counted, self.blocks.weak);
         let notable = counted | weak | first;
@@ -179,7 +168,7 @@ impl<'a, 'b> Lanes<'a, 'b> {
             }
             self.at[lane] = Some(place);
             if weak.at(lane) {
-                match self.weak_impact::<M, C>(lane, place) {
+                match self.weak_impact::<M, PAIR>(lane, place) {
                     AfterWeakImpact::Rocks => {}
                     AfterWeakImpact::Rests => rest.set(lane, true),
                     AfterWeakImpact::Uplifts => uplift.set(lane, true),
@@ -190,7 +179,7 @@ impl<'a, 'b> Lanes<'a, 'b> {
     }
 
     /// As the core's impact: those that accumulate after a weak one, in closed form.
-    fn weak_impact<M: Model, C: Clutch>(&mut self, lane: usize, mut place: Place) -> AfterWeakImpact {
+    fn weak_impact<M: Model, const PAIR: bool>(&mut self, lane: usize, mut place: Place) -> AfterWeakImpact {
         let block = &self.shaken[place.index];
         let (time, step) = (self.lines.time.0[lane], self.lines.step.0[lane]);
         let (start, slope) = block.line(place.sample);
@@ -209,8 +198,7 @@ impl<'a, 'b> Lanes<'a, 'b> {
             }
             return AfterWeakImpact::Rocks;
         }
-        let outward = if C::RULE.follows_signs() { 0.0 } else { block.plain.coupling };
-        let tail = tail::<M>(push, (speed, block.plain.restitution, block.plain.slenderness), (outward, block.plain.coupling));
+        let tail = tail::<M, PAIR>(push, speed, &block.plain);
         let rest = tail.rest(time, step, negligible, |at| push_at(at).abs() < 1.0);
         let Some(ends) = rest else { return AfterWeakImpact::Rocks };
         place.impacts += tail.impacts;
@@ -252,23 +240,15 @@ impl<'a, 'b> Lanes<'a, 'b> {
 /// When, in (0, `length`], the block in `lane` passes `limit`, at which it overturns.
 fn passes<const TERMS: usize>(series: &Series<TERMS>, lane: usize, length: f64, limit: f64) -> f64 {
     let rotation = |time: f64| series.rotation().iter().rev().fold(0.0, |sum, c| sum * time + c.0[lane]);
-    let (mut low, mut high) = (0.0, length);
     if rotation(0.0) >= limit {
         return 0.0;
     }
-    while high - low > length * f64::EPSILON {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            break;
-        }
-        if rotation(middle) < limit { low = middle } else { high = middle }
-    }
-    high
+    bisection(0.0, length, length * f64::EPSILON, |time| rotation(time) >= limit)
 }
 
 /// Runs all `shaken` blocks, which have the model `M` and the clutch `C`, into `results`, one each; those left `None` are for the core.
 #[inline(always)]
-pub(crate) fn run<M: Model, C: Clutch>(shaken: &[ShakenBlock<'_>], results: &mut [Option<Shaken>]) {
+pub(crate) fn run<M: Model, const PAIR: bool>(shaken: &[ShakenBlock<'_>], results: &mut [Option<Shaken>]) {
     let (zero, one) = (number(0.0), number(1.0));
     let mut series = Series::<SERIES_TERMS>::default();
     let mut lanes = Lanes::new(shaken);
@@ -283,7 +263,7 @@ pub(crate) fn run<M: Model, C: Clutch>(shaken: &[ShakenBlock<'_>], results: &mut
         let left = lines.step - lines.time;
         let before = blocks.impact;
         let modes = M::modes(bounds.slenderness, bounds.coupling);
-        let went = blocks.step::<M::Equation, C, SERIES_TERMS>(&modes, bounds, &mut series, left);
+        let went = blocks.step::<M::Equation, PAIR, SERIES_TERMS>(&modes, bounds, &mut series, left);
         lines.time = lines.time + went;
         let mut over = !left.exceeds(went);
         steps = over.choose(zero, steps + one);
@@ -292,7 +272,7 @@ pub(crate) fn run<M: Model, C: Clutch>(shaken: &[ShakenBlock<'_>], results: &mut
         let mut rest = Mask::NONE;
         if (first | blocks.counted | blocks.weak).any() {
             let uplift;
-            (rest, uplift) = lanes.after_impacts::<M, C>(first);
+            (rest, uplift) = lanes.after_impacts::<M, PAIR>(first);
             over = over & !uplift;
         }
         let ended = lanes.blocks.overturned | lanes.blocks.hard | rest;

@@ -7,6 +7,7 @@ use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::structure::{COUNTED_SPEED, REST_SPEED};
 
 use crate::model::Model;
+use crate::plain::PlainBlock;
 
 /// θ̇/(pα) after an impact below which the next ones are summed.
 pub const WEAK_IMPACT: f64 = REST_SPEED;
@@ -40,14 +41,11 @@ pub enum AfterWeakImpact {
     Unsettled,
 }
 
-/// Impact accumulation after a weak impact, which leaves a block of slenderness `alpha` (rad) with `speed` (rad; p = 1) on a side where the
-/// ground acceleration is `push` (in units of the threshold, positive inward, below 1), under couplings κ k of the clutch while it moves outward and inward.
-pub fn tail<M: Model>(
-    push: f64,
-    (speed, restitution, alpha): (f64, f64, f64),
-    (outward, inward): (f64, f64),
-) -> Accumulation<f64> {
-    // Just as a block at rest, one that hardly moves is held by the rest of the threshold: |θ̈| is linear in the ground acceleration.
+/// Impact accumulation after a weak impact, which leaves `block` with `speed` (rad; p = 1) on a side where the ground acceleration is `push`
+/// (in units of the threshold, positive inward, below 1).
+pub fn tail<M: Model, const PAIR: bool>(push: f64, speed: f64, block: &PlainBlock) -> Accumulation<f64> {
+    let PlainBlock { slenderness: alpha, restitution, .. } = *block;
+    let (outward, inward) = block.couplings::<PAIR>();
     let rates = |push: f64| {
         let held = 1.0 + push;
         (held * M::rate(alpha, outward), held * M::rate(alpha, inward))
@@ -57,17 +55,17 @@ pub fn tail<M: Model>(
 
 impl Sine {
     /// Decision after an impact at `time`; the rest is that of [`tail`].
-    pub fn after_weak_impact<M: Model>(
+    pub fn after_weak_impact<M: Model, const PAIR: bool>(
         &self,
         time: f64,
         push: f64,
-        (speed, restitution, alpha): (f64, f64, f64),
-        (outward, inward): (f64, f64),
+        speed: f64,
+        block: &PlainBlock,
     ) -> AfterWeakImpact {
         if push.abs() >= 1.0 {
             return AfterWeakImpact::Unsettled;
         }
-        let tail = tail::<M>(push, (speed, restitution, alpha), (outward, inward));
+        let tail = tail::<M, PAIR>(push, speed, block);
         let rested = time + tail.duration;
         let angle = self.frequency * rested + self.phase;
         if rested > self.duration || (self.amplitude * math::sin(angle)).abs() >= 1.0 {

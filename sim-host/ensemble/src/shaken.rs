@@ -118,10 +118,7 @@ impl ShakenBlock<'_> {
     /// Whether the lanes may take it: parameters as the core would accept them.
     pub(crate) fn is_plain(&self) -> bool {
         let ShakenBlock { plain, frequency_parameter, samples, factor } = *self;
-        let PlainBlock { slenderness, coupling, restitution, .. } = plain;
-        (1e-4..1.5).contains(&slenderness)
-            && (0.0..=1e3).contains(&coupling)
-            && (0.0..=1.0).contains(&restitution)
+        plain.is_within_range()
             && (1e-3..1e3).contains(&frequency_parameter)
             && samples.values.len() > 1
             && (1e-9..1e3).contains(&samples.step)

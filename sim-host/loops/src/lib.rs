@@ -7,7 +7,7 @@ use sprag_shared::ground::GroundSegment;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::closed_form::ClosedForm;
 use sprag_shared::method::dense_output::Integrator;
-use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::method::fixed::{FixedStep, Scheme};
 use sprag_shared::method::taylor::{TERMS, Taylor};
 use sprag_shared::motion::hybrid::HybridState;
 use sprag_shared::motion::hybrid::HybridSystem;
@@ -134,6 +134,6 @@ pub fn hybrid(method: Method<f64>) -> Box<dyn HybridLoop<f64>> {
         Method::Adaptive(tolerance) => Box::new(Series::<f64, TERMS>::adaptive(tolerance)),
         Method::Series(step) => Box::new(Series::<f64, TERMS>::fixed(step)),
         Method::Fixed(method) => Box::new(method),
-        Method::ClosedForm(step) => Box::new(FixedStep::RungeKutta4 { step }),
+        Method::ClosedForm(step) => Box::new(FixedStep { scheme: Scheme::RungeKutta4, step }),
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::ideal::{STIFF, Watch, most_events};
 use crate::{Case, CaseError, FixedMethod, Initially, RunEnd, Shape};
-use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::method::fixed::{FixedStep, Scheme};
 use sprag_shared::motion::hybrid::HybridSystem;
 use sprag_shared::motion::hybrid::mode_output::Shaking;
 use sprag_shared::motion::observer::Observer;
@@ -22,8 +22,10 @@ pub(super) fn run(case: &Case<'_>, observer: &mut dyn Observer<f32>) -> Result<R
     let machine = case.drivetrain.resolve(&case.structure, case.ground.is_vertical())?;
     let step = case.step;
     let method = match case.method {
-        FixedMethod::RungeKutta4 => FixedStep::RungeKutta4 { step },
-        FixedMethod::ExponentialMidpoint if machine.transmission.traits().springs => FixedStep::ExponentialMidpoint { step },
+        FixedMethod::RungeKutta4 => FixedStep { scheme: Scheme::RungeKutta4, step },
+        FixedMethod::ExponentialMidpoint if machine.transmission.traits().springs => {
+            FixedStep { scheme: Scheme::ExponentialMidpoint, step }
+        }
         method @ FixedMethod::ExponentialMidpoint => return Err(CaseError::Method { method, runs: STIFF }),
         method => return Err(CaseError::Method { method, runs: IDEAL }),
     };

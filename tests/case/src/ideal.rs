@@ -2,7 +2,7 @@
 
 use crate::{Case, CaseError, FixedMethod, Initially, RunEnd, Shape, TERMS};
 use sprag_shared::method::dense_output::{DenseOutput, Integrator};
-use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::method::fixed::{FixedStep, Scheme};
 use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::ideal::IdealSystem;
@@ -21,8 +21,8 @@ pub(super) fn run(case: &Case<'_>, observer: &mut dyn Observer<f32>) -> Result<R
     match case.method {
         method @ FixedMethod::ExponentialMidpoint => Err(CaseError::Method { method, runs: STIFF }),
         FixedMethod::Taylor => follow(case, &system, &Taylor::<f32, TERMS>::fixed(step), observer),
-        FixedMethod::SemiImplicitEuler => follow(case, &system, &FixedStep::SemiImplicitEuler { step }, observer),
-        FixedMethod::RungeKutta4 => follow(case, &system, &FixedStep::RungeKutta4 { step }, observer),
+        FixedMethod::SemiImplicitEuler => follow(case, &system, &FixedStep { scheme: Scheme::SemiImplicitEuler, step }, observer),
+        FixedMethod::RungeKutta4 => follow(case, &system, &FixedStep { scheme: Scheme::RungeKutta4, step }, observer),
     }
 }
 
@@ -67,7 +67,7 @@ fn follow<M: Integrator<f32>>(
     };
     watch.peaks.rocked = state.phase == Phase::Rocking;
     let block = structure.loaded()?.block;
-    let no_return = |bound: f32| structure.geometry.point_of_no_return(&block, f64::from(bound)) as f32;
+    let no_return = |bound: f32| structure.geometry.point_of_no_return(block.slenderness(), f64::from(bound)) as f32;
     let overturned = no_return(ground.bound());
     let mut follow = |shape: &Shape, start: f32, duration: f32, overturned: f32| -> Result<(), Stopped> {
         let limits = Limits { overturned, events: most_events(duration, *step) };

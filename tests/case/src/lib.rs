@@ -58,13 +58,13 @@ pub enum Initially {
 /// The method, with fixed steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FixedMethod {
-    /// [`sprag_shared::method::fixed::FixedStep::SemiImplicitEuler`]; ideal devices only.
+    /// [`sprag_shared::method::fixed::Scheme::SemiImplicitEuler`]; ideal devices only.
     SemiImplicitEuler,
-    /// [`sprag_shared::method::fixed::FixedStep::RungeKutta4`]; for everything.
+    /// [`sprag_shared::method::fixed::Scheme::RungeKutta4`]; for everything.
     RungeKutta4,
     /// [`sprag_shared::method::taylor::Taylor`] with [`TERMS`] coefficients; ideal devices only.
     Taylor,
-    /// [`sprag_shared::method::fixed::FixedStep::ExponentialMidpoint`]; elastic clutches only.
+    /// [`sprag_shared::method::fixed::Scheme::ExponentialMidpoint`]; elastic clutches only.
     ExponentialMidpoint,
 }
 

@@ -53,8 +53,8 @@ pub fn run_case(words: &[u32], counter: &mut impl FnMut() -> u32, out: &mut impl
     writeln!(out, "impacts {}", end.state.impacts)?;
     writeln!(out, "peak_rotation_rad {}", end.peaks.rotation)?;
     writeln!(out, "missed_engagements {}", end.missed)?;
-    writeln!(out, "stretches {}", digest.stretches())?;
-    writeln!(out, "events {}", digest.events())?;
+    writeln!(out, "stretches {}", digest.stretches)?;
+    writeln!(out, "events {}", digest.events)?;
     writeln!(out, "digest {:016x}", digest.hash())?;
     writeln!(out, "steps {}", end.steps)?;
     writeln!(out, "instructions {instructions}")?;

@@ -10,14 +10,14 @@ mod devices;
 use core::{fmt, hint::black_box};
 use sprag_shared::{
     equation::{
-        Equation, FullBlock, FullInerter, SlenderBlock, any_equation::AnyEquation, clutch_rule::ClutchRule, kinematics::Paper,
+        Equation, FullBlock, FullInerter, SlenderBlock, any_equation::AnyEquation, body::FullBody, clutch_rule::ClutchRule,
         lever::CentreOfMass,
     },
     ground::Harmonics,
-    math::sine32,
+    math::{scalar::Real, sine32},
     method::{
         dense_output::Integrator,
-        fixed::{FixedStep, runge_kutta_4},
+        fixed::{FixedStep, Scheme, runge_kutta_4},
         taylor::Taylor,
     },
     motion::{
@@ -28,7 +28,10 @@ use sprag_shared::{
     },
 };
 
-type Inerter = FullInerter<f32, CentreOfMass, Paper>;
+type Inerter = FullInerter<f32, CentreOfMass>;
+
+/// A block and its inerter, in time stepping.
+type WithInerter<S> = TimeStepping<S, FullInerter<S, CentreOfMass>>;
 
 /// p² of a rectangle with R = 2 m, 1/s².
 const FREQUENCY_SQUARED: f32 = 3.677_493_7;
@@ -46,7 +49,7 @@ const STEP: f32 = 0.005;
 const BLOCK: FullBlock<f32> = FullBlock { frequency_squared: FREQUENCY_SQUARED, slenderness: SLENDERNESS };
 
 const fn inerter(coupling: f32) -> Inerter {
-    FullInerter::new(BLOCK, coupling, CentreOfMass)
+    FullInerter { body: FullBody { block: BLOCK, lever: CentreOfMass, consistent: false, vertical: false }, coupling }
 }
 
 const fn slender(inertia: f32) -> SlenderBlock<f32> {
@@ -64,15 +67,23 @@ struct Step {
     length: f32,
 }
 
+/// With kinematics that the compiler knows, as [`AnyEquation::known`](sprag_shared::equation::any_equation::AnyEquation::known) hands a block
+/// to its steps.
+#[inline(always)]
+fn paper<S: Real>(block: &WithInerter<S>) -> WithInerter<S> {
+    let [released, engaged] = [block.released, block.engaged].map(|equation| equation.with_kinematics(false));
+    TimeStepping { released, engaged, ..*block }
+}
+
 /// Clutch by the signs at the start, four evaluations, impact by the sign at the end.
 #[inline(never)]
-fn detected_full(block: &TimeStepping<f32, Inerter>, state: &mut TimeSteppingState<f32>, step: &Step) {
-    *state = block.runge_kutta_4(*state, step.ground, step.length);
+fn detected_full(block: &WithInerter<f32>, state: &mut TimeSteppingState<f32>, step: &Step) {
+    *state = paper(block).runge_kutta_4(*state, step.ground, step.length);
 }
 
 #[inline(never)]
-fn detected_full_euler(block: &TimeStepping<f32, Inerter>, state: &mut TimeSteppingState<f32>, step: &Step) {
-    *state = block.semi_implicit_euler(*state, step.ground[0], step.length);
+fn detected_full_euler(block: &WithInerter<f32>, state: &mut TimeSteppingState<f32>, step: &Step) {
+    *state = paper(block).semi_implicit_euler(*state, step.ground[0], step.length);
 }
 
 #[inline(never)]
@@ -83,9 +94,20 @@ fn detected_slender(block: &TimeStepping<f32, SlenderBlock<f32>>, state: &mut Ti
 /// Four evaluations and nothing else.
 #[inline(never)]
 fn smooth<E: Equation<f32>>(equation: &E, state: &mut TimeSteppingState<f32>, step: &Step) {
+    evaluate(equation, state, step);
+}
+
+#[inline(always)]
+fn evaluate<E: Equation<f32>>(equation: &E, state: &mut TimeSteppingState<f32>, step: &Step) {
     let TimeSteppingState { rotation, velocity, side } = *state;
     let first = equation.acceleration(side, rotation, velocity, step.ground[0]);
     (state.rotation, state.velocity) = runge_kutta_4(equation, side, (rotation, velocity), first, step.ground, step.length);
+}
+
+/// The same with an inerter.
+#[inline(never)]
+fn smooth_full(equation: &Inerter, state: &mut TimeSteppingState<f32>, step: &Step) {
+    evaluate(&equation.with_kinematics(false), state, step);
 }
 
 #[inline(never)]
@@ -156,10 +178,10 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
     line("rk4-full-clutched-pair", count(counter, || detected_full(&full, &mut end, &step)))?;
     black_box(end);
     end = state;
-    line("rk4-full-engaged-only", count(counter, || smooth(&full.engaged, &mut end, &step)))?;
+    line("rk4-full-engaged-only", count(counter, || smooth_full(&full.engaged, &mut end, &step)))?;
     black_box(end);
     end = state;
-    line("rk4-full-no-inerter", count(counter, || smooth(&full.released.block, &mut end, &step)))?;
+    line("rk4-full-no-inerter", count(counter, || smooth(&full.released.body.block, &mut end, &step)))?;
     black_box(end);
     end = state;
     line("rk4-slender-clutched-pair", count(counter, || detected_slender(&slender, &mut end, &step)))?;
@@ -182,7 +204,7 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
 
     let pair = black_box(IdealSystem {
         released: AnyEquation::Block(BLOCK),
-        engaged: AnyEquation::CentrePaper(inerter(COUPLING)),
+        engaged: AnyEquation::Centre(inerter(COUPLING)),
         restitution: RESTITUTION,
         uplift: UPLIFT,
         slenderness: SLENDERNESS,
@@ -191,8 +213,8 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
         clutch: ClutchRule::Resisting,
     });
     let pulse = black_box(Harmonics::sine(0.5, core::f32::consts::TAU));
-    located("located-euler-step", &FixedStep::SemiImplicitEuler { step: STEP }, (&pair, &pulse), counter, out)?;
-    located("located-rk4-step", &FixedStep::RungeKutta4 { step: STEP }, (&pair, &pulse), counter, out)?;
+    located("located-euler-step", &FixedStep { scheme: Scheme::SemiImplicitEuler, step: STEP }, (&pair, &pulse), counter, out)?;
+    located("located-rk4-step", &FixedStep { scheme: Scheme::RungeKutta4, step: STEP }, (&pair, &pulse), counter, out)?;
     located("located-taylor12-step", &Taylor::<f32, 12>::fixed(10.0 * STEP), (&pair, &pulse), counter, out)?;
     accuracy::report(counter, out)?;
     devices::report(counter, out)?;

@@ -1,8 +1,8 @@
 //! A block with elastic clutches, whatever their stiffness, by fixed exponential midpoint steps.
 
-use sprag_shared::ground::{Harmonics, Quiet};
+use sprag_shared::ground::Harmonics;
 use sprag_shared::math::scalar::Real;
-use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::method::fixed::{FixedStep, Scheme};
 use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::hybrid::HybridSystem;
 use sprag_shared::motion::hybrid::mode_output::Shaking;
@@ -46,7 +46,7 @@ pub fn elastic_run<S: Real>(
     let energy = Energy::of(structure);
     let mut watch = Watch { energy, quiet: false, least: f64::INFINITY, peak: 0.0, steps: 0, events: 0, depth: 0.0, gain: 0.0 };
     let mut state = machine.at_rest();
-    let method = FixedStep::ExponentialMidpoint { step: S::of(step) };
+    let method = FixedStep { scheme: Scheme::ExponentialMidpoint, step: S::of(step) };
     let limits = Limits { overturned: S::of(core::f64::consts::FRAC_PI_2), events: 10_000_000 };
     let duration = S::of(core::f64::consts::TAU) / S::of(frequency);
     let sine = Harmonics::sine(S::of(amplitude), S::of(frequency));
@@ -54,7 +54,7 @@ pub fn elastic_run<S: Real>(
     let mut done = machine.advance(&method, &mut state, shaking, duration, &limits, &mut watch);
     if done.is_ok() {
         watch.quiet = true;
-        let shaking = Shaking { horizontal: &Quiet, vertical: None };
+        let shaking = Shaking { horizontal: &Harmonics::QUIET, vertical: None };
         done = machine.advance(&method, &mut state, shaking, S::of(free_time), &limits, &mut watch);
     }
     let Watch { peak, steps, events, depth, gain, .. } = watch;

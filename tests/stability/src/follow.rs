@@ -53,7 +53,7 @@ pub fn follow<S: Real, M: Integrator<S>, W: Watcher<S>>(
     for (index, segment) in segments.iter().enumerate() {
         // The ground may yet push back as hard as its strongest segment still to come.
         let bound = segments[index..].iter().fold(S::ZERO, |bound, later| bound.larger(later.bound()));
-        let limit = structure.geometry.point_of_no_return(&structure.block, bound.to_f64());
+        let limit = structure.geometry.point_of_no_return(structure.block.slenderness(), bound.to_f64());
         let limits = Limits { overturned: S::of(limit), events: 1_000_000 };
         system.advance(method, &mut state, &segment.ground, segment.duration, &limits, watcher)?;
         watcher.passed(segment.duration);

@@ -2,7 +2,7 @@
 
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::dense_output::Integrator;
-use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::method::fixed::{FixedStep, Scheme};
 use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::state::{BlockState, Stopped};
 use sprag_shared::structure::Structure;
@@ -164,8 +164,12 @@ fn run<S: Precision, W: Watcher<S>>(
     }
     match stepping {
         Stepping::Tight => counted(structure, S::tight(), start, segments, watcher),
-        Stepping::RungeKutta4(step) => counted(structure, FixedStep::RungeKutta4 { step }, start, segments, watcher),
-        Stepping::SemiImplicitEuler(step) => counted(structure, FixedStep::SemiImplicitEuler { step }, start, segments, watcher),
+        Stepping::RungeKutta4(step) => {
+            counted(structure, FixedStep { scheme: Scheme::RungeKutta4, step }, start, segments, watcher)
+        }
+        Stepping::SemiImplicitEuler(step) => {
+            counted(structure, FixedStep { scheme: Scheme::SemiImplicitEuler, step }, start, segments, watcher)
+        }
         Stepping::Taylor(step) => counted(structure, Taylor::<S, 12>::fixed(step), start, segments, watcher),
     }
 }

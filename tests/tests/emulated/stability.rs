@@ -27,8 +27,8 @@ fn the_hard_cases_are_the_same_on_the_board() {
             ("outcome", end.outcome.name().to_owned()),
             ("impacts", end.state.impacts.to_string()),
             ("peak_rotation_rad", end.peaks.rotation.to_string()),
-            ("stretches", digest.stretches().to_string()),
-            ("events", digest.events().to_string()),
+            ("stretches", digest.stretches.to_string()),
+            ("events", digest.events.to_string()),
             ("steps", end.steps.to_string()),
             ("digest", format!("{:016x}", digest.hash())),
         ] {

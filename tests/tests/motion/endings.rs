@@ -71,7 +71,7 @@ fn the_rest_threshold_does_not_show() {
 
 /// Level (g) and duration of a case's pulse.
 fn pulse_of(case: &Case, structure: &Structure) -> (f64, f64) {
-    (case.amplitude_ratio * case.geometry.uplift_threshold(&structure.block), TAU / case.frequency_ratio)
+    (case.amplitude_ratio * case.geometry.uplift_threshold(structure.block.slenderness()), TAU / case.frequency_ratio)
 }
 
 #[test]
@@ -254,7 +254,7 @@ fn impacts_under_a_weak_sine_end_in_rest() {
             for (level, frequency) in [(0.2, 3.0), (0.5, 1.0), (0.9, 0.3)] {
                 let ends = [1e-7, 1e-6, 1e-5].map(|rest_speed| {
                     let structure = Structure { rest_speed, ..unit_block(geometry, 12.0, device, 0.5, 0.8) };
-                    let uplift = geometry.uplift_threshold(&structure.block);
+                    let uplift = geometry.uplift_threshold(structure.block.slenderness());
                     let segments = [Segment::sine(level * uplift, frequency, 200.0)];
                     let mut log = FullLog::sampling(3);
                     let start = Start::Released(0.03 * structure.block.slenderness(), 0.0);
@@ -279,7 +279,7 @@ fn impacts_under_a_weak_sine_end_in_rest() {
 fn rest_and_uplift_take_turns() {
     for device in DeviceKind::ALL {
         let structure = unit_block(Geometry::Full, 15.0, device, 0.5, 0.1);
-        let uplift = Geometry::Full.uplift_threshold(&structure.block);
+        let uplift = Geometry::Full.uplift_threshold(structure.block.slenderness());
         let (ratio, frequency) = (1.2, 3.0);
         let mut log = FullLog::sampling(3);
         let segments = [Segment::sine(ratio * uplift, frequency, 20.0 * TAU / frequency)];

@@ -45,7 +45,7 @@ fn a_stopped_block_leaves_with_the_push() {
                 for (push, towards) in [(-1.5, 1.0), (1.5, -1.0)] {
                     let structure = unit_block(geometry, 10.0, device, 0.5, restitution);
                     let alpha = structure.block.slenderness();
-                    let level = push * geometry.uplift_threshold(&structure.block);
+                    let level = push * geometry.uplift_threshold(structure.block.slenderness());
                     // Inward, from the positive side.
                     let start = Start::Released(0.01 * alpha, -0.5 * alpha);
                     let mut log = FullLog::sampling(3);
@@ -279,7 +279,7 @@ fn wild_ground_motions_end() {
         if index % 5 == 0 {
             structure.device.kinematics = KinematicsKind::Consistent;
         }
-        let uplift = geometry.uplift_threshold(&structure.block);
+        let uplift = geometry.uplift_threshold(structure.block.slenderness());
         let mut last = 0.0;
         let segments: Vec<_> = (0..60)
             .map(|_| {

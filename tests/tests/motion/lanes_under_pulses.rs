@@ -1,6 +1,7 @@
 //! Blocks under pulses in lanes against the core, which follows one at a time.
 
 use sprag_ensemble::machine::{Registers, run};
+use sprag_ensemble::plain::PlainBlock;
 use sprag_ensemble::pulsed::{PulseResult, PulsedBlock};
 use sprag_loops::{Method, Precision};
 use sprag_shared::observers::outcome::Outcome;
@@ -90,15 +91,21 @@ fn a_pulse_turned_about_gives_the_mirrored_motion() {
 /// On the threshold, just beyond it, with parameters at the ends of their ranges: the core has them.
 #[test]
 fn what_is_not_plain_is_left_to_the_core() {
-    let plain = PulsedBlock::from(&Case { amplitude_ratio: 3.0, ..Case::default() });
-    let result = |block: PulsedBlock| run(&[block, plain], Registers::Widest).map(|results| results[0].outcome);
-    assert_eq!(result(PulsedBlock { amplitude_ratio: 1.0, ..plain }).unwrap(), Outcome::NoRocking);
-    assert_eq!(result(PulsedBlock { amplitude_ratio: 0.5, ..plain }).unwrap(), Outcome::NoRocking);
-    assert_eq!(result(PulsedBlock { amplitude_ratio: 1.0 + 1e-10, ..plain }).unwrap(), Outcome::Safe);
-    assert_eq!(result(PulsedBlock { restitution: 0.0, amplitude_ratio: 1.2, ..plain }).unwrap(), Outcome::Safe);
-    assert!(result(PulsedBlock { slenderness: 1.6, ..plain }).is_err());
-    assert!(result(PulsedBlock { slenderness: f64::NAN, ..plain }).is_err());
-    assert!(result(PulsedBlock { restitution: 1.5, ..plain }).is_err());
-    let second = run(&[plain, PulsedBlock { coupling: -1.0, device: DeviceKind::Inerter, ..plain }], Registers::Widest);
+    let pulsed = PulsedBlock::from(&Case { amplitude_ratio: 3.0, ..Case::default() });
+    let result = |block: PulsedBlock| run(&[block, pulsed], Registers::Widest).map(|results| results[0].outcome);
+    assert_eq!(result(PulsedBlock { amplitude_ratio: 1.0, ..pulsed }).unwrap(), Outcome::NoRocking);
+    assert_eq!(result(PulsedBlock { amplitude_ratio: 0.5, ..pulsed }).unwrap(), Outcome::NoRocking);
+    assert_eq!(result(PulsedBlock { amplitude_ratio: 1.0 + 1e-10, ..pulsed }).unwrap(), Outcome::Safe);
+    assert_eq!(
+        result(PulsedBlock { plain: PlainBlock { restitution: 0.0, ..pulsed.plain }, amplitude_ratio: 1.2, ..pulsed }).unwrap(),
+        Outcome::Safe
+    );
+    assert!(result(PulsedBlock { plain: PlainBlock { slenderness: 1.6, ..pulsed.plain }, ..pulsed }).is_err());
+    assert!(result(PulsedBlock { plain: PlainBlock { slenderness: f64::NAN, ..pulsed.plain }, ..pulsed }).is_err());
+    assert!(result(PulsedBlock { plain: PlainBlock { restitution: 1.5, ..pulsed.plain }, ..pulsed }).is_err());
+    let second = run(
+        &[pulsed, PulsedBlock { plain: PlainBlock { coupling: -1.0, device: DeviceKind::Inerter, ..pulsed.plain }, ..pulsed }],
+        Registers::Widest,
+    );
     assert_eq!(second.unwrap_err().0, 1);
 }

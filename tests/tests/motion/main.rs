@@ -1,9 +1,11 @@
-//! The motion of a block with an ideal device: closed forms, reference cells, recorded motions, hard cases, lanes, and the statements of the paper.
+//! The motion of a block and its device: closed forms, reference cells, recorded motions, hard cases, lanes, the statements of the paper, and the second
+//! program (`tests/reference`).
 
 mod balanced_starts;
 mod closed_forms;
 mod convergence;
 mod endings;
+mod error_estimates_of_devices;
 mod fast_motions;
 mod figures;
 mod hard_starts;
@@ -13,5 +15,7 @@ mod needs_cells;
 mod needs_records;
 mod paper_statements;
 mod record_hard_cases;
+mod reference;
+mod second_program;
 mod sine_exhaustive;
 mod symmetry;

@@ -7,7 +7,7 @@ use proptest::test_runner::{Config, RngSeed};
 use sprag_shared::math::cos;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::dense_output::Integrator;
-use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::method::fixed::{FixedStep, Scheme};
 use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::observer::Event;
 use sprag_shared::motion::state::Phase;
@@ -53,7 +53,7 @@ fn motions() -> impl Strategy<Value = (f64, f64, Vec<f64>)> {
 }
 
 fn segments<S: Real>(structure: &Structure, (amplitude, frequency, samples): &(f64, f64, Vec<f64>)) -> Vec<Segment<S>> {
-    let uplift = structure.geometry.uplift_threshold(&structure.block);
+    let uplift = structure.geometry.uplift_threshold(structure.block.slenderness());
     let level = |ratio: f64| S::of(ratio * uplift);
     let lines = samples.windows(2).map(|pair| Segment::line(level(pair[0]), level(pair[1]), S::of(0.11)));
     [Segment::sine(level(*amplitude), S::of(*frequency), S::of(TAU / frequency))]
@@ -107,7 +107,7 @@ struct Shape {
 fn shape(structure: &Structure, frequency: f64, amplitude: f64) -> Shape {
     let p = structure.block.frequency_parameter();
     let alpha = structure.block.slenderness();
-    let level = amplitude * structure.geometry.uplift_threshold(&structure.block);
+    let level = amplitude * structure.geometry.uplift_threshold(structure.block.slenderness());
     let pulse = Segment::sine(level, frequency * p, TAU / (frequency * p));
     let (state, log) = shake(structure, &[pulse, Segment::quiet(15.0 / p)]);
     Shape {
@@ -145,16 +145,16 @@ proptest! {
     fn mirrored_ground_gives_the_mirrored_motion(structure in structures(), motion in motions()) {
         mirrored(&structure, &Taylor::<f64, 20>::adaptive(1e-16), &segments(&structure, &motion))?;
         mirrored(&structure, &Taylor::<f64, 9>::fixed(0.021), &segments(&structure, &motion))?;
-        mirrored(&structure, &FixedStep::RungeKutta4 { step: 0.013_f64 }, &segments(&structure, &motion))?;
-        mirrored(&structure, &FixedStep::SemiImplicitEuler { step: 0.0037_f64 }, &segments(&structure, &motion))?;
+        mirrored(&structure, &FixedStep { scheme: Scheme::RungeKutta4, step: 0.013_f64 }, &segments(&structure, &motion))?;
+        mirrored(&structure, &FixedStep { scheme: Scheme::SemiImplicitEuler, step: 0.0037_f64 }, &segments(&structure, &motion))?;
     }
 
     #[test]
     fn mirrored_in_single_precision_too(structure in structures(), motion in motions()) {
         mirrored(&structure, &Taylor::<f32, 10>::adaptive(1e-7), &segments(&structure, &motion))?;
         mirrored(&structure, &Taylor::<f32, 8>::fixed(0.021), &segments(&structure, &motion))?;
-        mirrored(&structure, &FixedStep::RungeKutta4 { step: 0.013_f32 }, &segments(&structure, &motion))?;
-        mirrored(&structure, &FixedStep::SemiImplicitEuler { step: 0.0037_f32 }, &segments(&structure, &motion))?;
+        mirrored(&structure, &FixedStep { scheme: Scheme::RungeKutta4, step: 0.013_f32 }, &segments(&structure, &motion))?;
+        mirrored(&structure, &FixedStep { scheme: Scheme::SemiImplicitEuler, step: 0.0037_f32 }, &segments(&structure, &motion))?;
     }
 
     /// Slender: only ω/p, a_g/(gα), η and σ matter, not R and α.

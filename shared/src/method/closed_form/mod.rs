@@ -22,12 +22,12 @@
 use crate::equation::motion::Motion;
 use crate::equation::{Equation, SlenderBlock};
 use crate::ground::Elementary;
-use crate::math::polynomial::{Curve, first_zero_of, largest_magnitude_of};
+use crate::math::polynomial::{first_zero_of, largest_magnitude_of};
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::math::stumpff;
 use crate::method::dense_output::{DenseOutput, Integrator, StepStart};
-use crate::method::fixed::{FixedOutput, FixedStep};
+use crate::method::fixed::{FixedOutput, Scheme};
 
 /// Longest step, in 1/p_σ, so that e^{pτ} stays small and the bounds tight.
 const LONGEST: f64 = 4.0;
@@ -50,15 +50,13 @@ pub enum ClosedFormOutput<'a, S> {
 impl<S: Real> Integrator<S> for ClosedForm<S> {
     type Output<'a> = ClosedFormOutput<'a, S>;
 
-    #[inline]
     fn integrate<'a>(&'a self, start: &'a StepStart<'a, S>) -> ClosedFormOutput<'a, S> {
         match (start.equation.slender(), start.segment.elementary(start.time)) {
             (Some(block), Some(ground)) => ClosedFormOutput::Closed(SlenderArc::new(block, ground, start)),
-            _ => ClosedFormOutput::Stepped(FixedOutput::new(FixedStep::RungeKutta4 { step: self.step }, start)),
+            _ => ClosedFormOutput::Stepped(FixedOutput::new(Scheme::RungeKutta4, start)),
         }
     }
 
-    #[inline(always)]
     fn step(&self) -> Option<S> {
         Some(self.step)
     }
@@ -78,13 +76,6 @@ pub struct SlenderArc<S> {
     end: Motion<S>,
     /// Bound of d²θ̈/dτ² over the step.
     curvature: S,
-}
-
-/// θ̈ and its first two derivatives.
-struct Acceleration<S> {
-    value: S,
-    slope: S,
-    second: S,
 }
 
 impl<S: Real> SlenderArc<S> {
@@ -118,7 +109,6 @@ impl<S: Real> SlenderArc<S> {
         output
     }
 
-    #[inline(always)]
     fn growth(&self, time: S) -> Growth<S> {
         let squared = self.rate * (time * time);
         let (c2, c3) = stumpff::c2_c3(-squared);
@@ -150,7 +140,7 @@ impl<S: Real> SlenderArc<S> {
     }
 
     /// θ̈ and its derivatives; the equation of motion gives the first, its own derivatives the others.
-    fn acceleration(&self, time: S) -> Acceleration<S> {
+    fn acceleration(&self, time: S) -> [S; 3] {
         let growth = self.growth(time);
         let motion = self.motion(time, growth);
         let (mut push_slope, mut push_second) = (self.ground.slope, S::ZERO);
@@ -163,11 +153,16 @@ impl<S: Real> SlenderArc<S> {
             push_slope = push_slope + amplitude * wave.frequency * (wave.cosine * cosine - wave.sine * sine);
             push_second = push_second - amplitude * squared * (wave.sine * cosine + wave.cosine * sine);
         }
-        Acceleration {
-            value: motion.acceleration,
-            slope: self.rate * (motion.velocity - push_slope),
-            second: self.rate * (motion.acceleration - push_second),
+        [motion.acceleration, self.rate * (motion.velocity - push_slope), self.rate * (motion.acceleration - push_second)]
+    }
+
+    /// θ̈ and its derivative.
+    fn value_and_slope(&self, time: S) -> (S, S) {
+        if time == S::ZERO {
+            return (self.start.acceleration, self.jerk);
         }
+        let [value, slope, _] = self.acceleration(time);
+        (value, slope)
     }
 }
 
@@ -180,34 +175,11 @@ struct Growth<S> {
     c3: S,
 }
 
-impl<S: Real> Curve<S> for &SlenderArc<S> {
-    #[inline]
-    fn value_and_slope(&self, time: S) -> (S, S) {
-        if time == S::ZERO {
-            return (self.start.acceleration, self.jerk);
-        }
-        let Acceleration { value, slope, .. } = self.acceleration(time);
-        (value, slope)
-    }
-
-    #[inline]
-    fn value(&self, time: S) -> S {
-        self.at(time).acceleration
-    }
-
-    #[inline]
-    fn second_derivative(&self, time: S) -> S {
-        self.acceleration(time).second
-    }
-}
-
 impl<S: Real> DenseOutput<S> for SlenderArc<S> {
-    #[inline(always)]
     fn length(&self) -> S {
         self.length
     }
 
-    #[inline]
     fn at(&self, time: S) -> Motion<S> {
         if time == S::ZERO {
             self.start
@@ -219,15 +191,14 @@ impl<S: Real> DenseOutput<S> for SlenderArc<S> {
     }
 
     /// θ̈: slender blocks switch with it.
-    #[inline]
     fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
         let stretch = (from, to, self.at(to).acceleration);
         first_zero_of(|t| self.value_and_slope(t), self.curvature, stretch, sign, from_zero)
     }
 
-    #[inline]
     fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
-        largest_magnitude_of(&self, self.curvature, from, to, floor)
+        let curve = (|t| self.value_and_slope(t), |t| self.acceleration(t)[2]);
+        largest_magnitude_of(&curve, self.curvature, from, to, floor)
     }
 }
 
@@ -241,27 +212,22 @@ macro_rules! either {
 }
 
 impl<S: Real> DenseOutput<S> for ClosedFormOutput<'_, S> {
-    #[inline(always)]
     fn length(&self) -> S {
         either!(self, output => output.length())
     }
 
-    #[inline]
     fn at(&self, time: S) -> Motion<S> {
         either!(self, output => output.at(time))
     }
 
-    #[inline]
     fn switching(&self, time: S) -> S {
         either!(self, output => output.switching(time))
     }
 
-    #[inline]
     fn acceleration_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
         either!(self, output => output.acceleration_zero(from, to, sign, from_zero))
     }
 
-    #[inline]
     fn switching_zero(&self, from: S, to: S, sign: Sign, from_zero: bool) -> Option<S> {
         either!(self, output => output.switching_zero(from, to, sign, from_zero))
     }

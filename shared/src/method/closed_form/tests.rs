@@ -3,8 +3,9 @@ use crate::equation::FullBlock;
 use crate::equation::any_equation::AnyEquation;
 use crate::ground::check::Sum;
 use crate::ground::harmonic::{Harmonic, MavroeidisPapageorgiou};
-use crate::ground::{GroundSegment, Harmonics, Linear, Quiet, Ricker};
+use crate::ground::{GroundSegment, Harmonics, Linear, Ricker};
 use crate::math::{asin, exp, square_root};
+use crate::method::fixed::{FixedStep, Scheme};
 use crate::method::taylor::Taylor;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits, Phase};
@@ -233,9 +234,9 @@ fn it_knows_where_it_applies() {
         };
         matches!(ClosedForm { step: 0.1 }.integrate(&start), ClosedFormOutput::Closed(_))
     };
-    assert!(applies(&slender, &Quiet) && applies(&slender, &Harmonics::sine(0.3, 5.0)));
+    assert!(applies(&slender, &Harmonics::QUIET) && applies(&slender, &Harmonics::sine(0.3, 5.0)));
     assert!(applies(&slender, &Segment::wavelet(1.4, 0.4, 0.6).ground::<f64>()));
-    assert!(!applies(&slender, &wavelet) && !applies(&full, &Quiet));
+    assert!(!applies(&slender, &wavelet) && !applies(&full, &Harmonics::QUIET));
 }
 
 /// Where it does not apply, its steps are the Runge-Kutta method's to the last bit.
@@ -245,7 +246,7 @@ fn elsewhere_it_is_the_runge_kutta_method() {
     for kind in DeviceKind::ALL {
         let structure = structure(kind, Geometry::Full);
         let (state, log) = follow::<f64, _>(&structure, &ClosedForm { step: 0.01 }, segments);
-        let (same, same_log) = follow::<f64, _>(&structure, &FixedStep::RungeKutta4 { step: 0.01 }, segments);
+        let (same, same_log) = follow::<f64, _>(&structure, &FixedStep { scheme: Scheme::RungeKutta4, step: 0.01 }, segments);
         assert_eq!((state, log.peaks, log.events), (same, same_log.peaks, same_log.events));
     }
 }

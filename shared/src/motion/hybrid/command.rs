@@ -228,7 +228,7 @@ impl<S: Real> HybridSystem<S> {
             if engage {
                 transmission.engage(at, index);
             } else {
-                transmission.release(at, index);
+                at.open(index);
             }
         });
         // What the acceleration of Eq. 10 is does not depend on the clutches.
@@ -240,15 +240,10 @@ impl<S: Real> HybridSystem<S> {
         if !self.transmission.traits().commanded {
             return None;
         }
-        let mut due = state.device.next_due().filter(|time| *time > S::ZERO);
-        if let Some(parameters) = self.transmission.parameters().filter(|parameters| parameters.rise_time > S::ZERO) {
-            for wheel in &state.device.wheels {
-                if let Some(time) = ramp_due(parameters, wheel, state.held) {
-                    due = Some(due.map_or(time, |sooner: S| sooner.smaller(time)));
-                }
-            }
-        }
-        due
+        let parameters = &self.transmission.parameters;
+        let wheels = state.device.wheels.iter().filter(|_| parameters.rise_time > S::ZERO);
+        let ramps = wheels.filter_map(|wheel| ramp_due(parameters, wheel, state.held));
+        state.device.next_due().into_iter().filter(|time| *time > S::ZERO).chain(ramps).reduce(S::smaller)
     }
 
     /// `stop`, or the instant before it at which something happens by the clock alone.
@@ -264,8 +259,8 @@ impl<S: Real> HybridSystem<S> {
 
     /// A clock has run out: a rising capacity may start a flywheel that stood.
     pub(super) fn ramps(&self, state: &mut HybridState<S>) {
-        let Some(parameters) = self.transmission.parameters().filter(|parameters| parameters.rise_time > S::ZERO) else { return };
-        for wheel in &mut state.device.wheels {
+        let parameters = &self.transmission.parameters;
+        for wheel in state.device.wheels.iter_mut().filter(|_| parameters.rise_time > S::ZERO) {
             if let (Some(sign), None) = (wheel.coupling.slip_sign(), wheel.turning) {
                 let capacity = parameters.capacity_of(wheel).0;
                 parameters.settle(wheel, sign.times(rounded_up(capacity)));

@@ -65,13 +65,8 @@ struct Frozen<S, const X: usize> {
     rates: [S; X],
 }
 
-/// The law without its springs.
-fn springless<S: Real>(law: &ModeCoefficients<S>) -> ModeCoefficients<S> {
-    ModeCoefficients { stiffness: [S::ZERO; 2], damping: [S::ZERO; 2], ..*law }
-}
-
 fn freeze<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
-    soft: &KnownModeStart<'_, S, B, D>,
+    soft: &KnownModeStart<'_, S, B, D, X, G>,
     at: &Place<S, X>,
 ) -> Frozen<S, X> {
     let (acceleration, rates) = soft.rates(at);
@@ -83,7 +78,7 @@ fn freeze<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G
 
 /// The frozen system a time `h` after `from`, exactly; `ground` is the ground's acceleration then, in g.
 fn solve<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
-    known: &KnownModeStart<'_, S, B, D>,
+    known: &KnownModeStart<'_, S, B, D, X, G>,
     from: &Place<S, X>,
     frozen: &Frozen<S, X>,
     (h, ground): (S, [S; 2]),
@@ -96,10 +91,7 @@ fn solve<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G:
     for (value, &rate) in unknowns.iter_mut().zip(&frozen.rates) {
         *value = *value + h * rate;
     }
-    let Some(parameters) = known.transmission.parameters() else {
-        return Place { time: h, ground, rotation, velocity, unknowns };
-    };
-    // A spring between a block and a flywheel that are both held keeps its twist.
+    let parameters = &known.start.system.transmission.parameters;
     let contact = [0, 1].map(|i| law.stiffness[i] > S::ZERO && !(known.is_held() && law.moves[i] == S::ZERO));
     let both = contact[0] && contact[1];
     let coupled = frozen.arm * frozen.leverage;
@@ -145,11 +137,11 @@ fn solve<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G:
 
 /// The state a time `h` after `from`, where the ground's acceleration (in g) is `ground`. Order 2; stable for every stiffness.
 pub(super) fn midpoint<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
-    known: &KnownModeStart<'_, S, B, D>,
+    known: &KnownModeStart<'_, S, B, D, X, G>,
     from: &Place<S, X>,
     (h, ground): (S, [S; 2]),
 ) -> Place<S, X> {
-    let law = springless(known.start.law);
+    let law = ModeCoefficients { stiffness: [S::ZERO; 2], damping: [S::ZERO; 2], ..*known.start.law };
     let soft = ModeStart { law: &law, ..*known.start };
     let soft = KnownModeStart { start: &soft, ..*known };
     let half = S::HALF * h;

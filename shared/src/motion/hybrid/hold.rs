@@ -56,20 +56,21 @@ impl<S: Real> HybridSystem<S> {
         self.idle(state, length);
         state.ground = shaking.at(until);
         match end {
-            Some((_, LetGo::Moves { sign, crossing })) => self.set_off(state, (sign, crossing), until, observer),
-            Some((_, LetGo::Rests)) => *state = self.standing(state, until, observer),
+            Some((_, Some(way))) => self.set_off(state, way, until, observer),
+            Some((_, None)) => *state = self.standing(state, until, observer),
             None => {}
         }
         until
     }
 
-    /// Breakaway of a held block before `stop`: time and kind. On its base it can only go up, and its weight alone may hold it again.
-    fn let_go(&self, state: &HybridState<S>, shaking: Shaking<'_, S>, time: S, stop: S) -> Option<(S, LetGo)> {
+    /// Breakaway of a held block before `stop`: time, and its direction with whether the threshold is crossed, not passed by a jump; no
+    /// direction where it rests. On its base it can only go up, and its weight alone may hold it again.
+    fn let_go(&self, state: &HybridState<S>, shaking: Shaking<'_, S>, time: S, stop: S) -> Option<(S, Option<(Sign, bool)>)> {
         let side = state.motion.side;
         let first = |threshold: Threshold<S>| threshold.exceeded(shaking, time, stop);
-        let moves = |sign| first(self.breakaway(state, side, sign)).map(|(at, crossing)| (at, LetGo::Moves { sign, crossing }));
+        let moves = |sign| first(self.breakaway(state, side, sign)).map(|(at, crossing)| (at, Some((sign, crossing))));
         let ends = if state.motion.rotation == S::ZERO {
-            [moves(side), first(self.weight(state)).map(|(at, _)| (at, LetGo::Rests))]
+            [moves(side), first(self.weight(state)).map(|(at, _)| (at, None))]
         } else {
             [moves(Sign::Positive), moves(Sign::Negative)]
         };
@@ -159,18 +160,4 @@ impl<S: Real> HybridSystem<S> {
         let sign = if outward { side } else { side.opposite() };
         self.set_off(state, (sign, true), time, observer);
     }
-}
-
-/// Cause of a held block's breakaway.
-#[derive(Clone, Copy, Debug)]
-enum LetGo {
-    /// The ground overcomes friction.
-    Moves {
-        /// Direction of the motion.
-        sign: Sign,
-        /// The threshold is crossed, not passed by a jump.
-        crossing: bool,
-    },
-    /// The block rests on its base: its weight alone holds it.
-    Rests,
 }

@@ -3,6 +3,7 @@
 use super::mode_output::Shaking;
 use super::{HybridState, HybridSystem};
 use crate::drivetrain::clutch_state::GUARDS;
+use crate::drivetrain::scaled_parameters::ScaledParameters;
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -31,8 +32,8 @@ impl<S: Real> HybridSystem<S> {
             let configuration = self.body.configuration(motion.side.unit(), S::ZERO);
             self.body.to_terminal(&configuration, incoming)
         };
-        let engaged = self.transmission.engaged_at_impact(&state.device);
-        motion.velocity = self.restitution[engaged.min(2)] * incoming;
+        let engaged = if self.transmission.traits().through_impacts { state.device.locked() } else { 0 };
+        motion.velocity = self.restitution[engaged.min(2) as usize] * incoming;
         motion.side = motion.direction;
         self.look_at_drive(state);
         let velocity = state.motion.velocity;
@@ -65,12 +66,14 @@ impl<S: Real> HybridSystem<S> {
     /// Impact accumulation: the infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]).
     fn accumulation(&self, standing: &HybridState<S>, speed: S) -> Accumulation<S> {
         let side = standing.motion.side;
+        let ScaledParameters { inertance, rack_coupling, .. } = self.transmission.parameters;
         let rates = |side: Sign| {
             let configuration = self.body.configuration(side.unit(), S::ZERO);
             let arm = self.body.arm(&configuration);
             let held = -self.breakaway(standing, side, side).at(standing.ground);
             let over = |inward: bool| {
-                let inertia = S::ONE + self.transmission.swing_coupling(inward) * arm * arm;
+                let inertance = if inward || self.transmission.traits().permanent { inertance } else { S::ZERO };
+                let inertia = S::ONE + (inertance + rack_coupling) * arm * arm;
                 (held / inertia).larger(S::EPSILON * S::EPSILON)
             };
             (over(false), over(true))
@@ -111,10 +114,8 @@ impl<S: Real> HybridSystem<S> {
 
     /// Time passes for an idle device.
     pub(super) fn idle(&self, state: &mut HybridState<S>, time: S) {
-        if let Some(parameters) = self.transmission.parameters() {
-            for wheel in &mut state.device.wheels {
-                parameters.coast(wheel, time);
-            }
+        for wheel in &mut state.device.wheels {
+            self.transmission.parameters.coast(wheel, time);
         }
         state.device.elapse(time);
     }

@@ -24,12 +24,11 @@ mod threshold;
 pub use command::Actuator;
 
 use crate::drivetrain::any_transmission::AnyTransmission;
-use crate::drivetrain::clutch_state::{Coupling, DeviceState, GUARDS, Guard, ModeCoefficients};
-use crate::drivetrain::transmission::{AnyPoint, EvaluationPoint, EventContext, UNKNOWNS};
+use crate::drivetrain::clutch_state::{Coupling, DeviceState, GUARDS, Guard, ModeCoefficients, UNKNOWNS};
+use crate::drivetrain::transmission::{AnyPoint, EvaluationPoint, EventContext};
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
 use crate::equation::motion::Motion;
-use crate::math::root::newton_bracketed;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
@@ -186,7 +185,6 @@ impl<S: Real> HybridSystem<S> {
     }
 
     /// One step, up to its first event.
-    #[inline]
     fn follow<T: ModeIntegrator<S>>(
         &self,
         integrator: &T,
@@ -206,21 +204,15 @@ impl<S: Real> HybridSystem<S> {
             self.hold_law(state, &mut law);
         }
         let start = ModeStart {
-            body: &self.body,
-            transmission: &self.transmission,
+            system: self,
             law: &law,
             shaking,
-            ground: state.ground,
             side: motion.side,
-            rotation: motion.rotation,
-            velocity: motion.velocity,
-            unknowns: self.transmission.load(&state.device),
+            place: self.place(state),
             time: *time,
             length: stop - *time,
             freed: state.free && motion.velocity == S::ZERO,
             held,
-            scale: self.slenderness,
-            speed: self.speed,
         };
         debug_assert!(state.ground == shaking.at(*time), "the ground is as it was left");
         let output = integrator.integrate(&start);
@@ -238,33 +230,20 @@ impl<S: Real> HybridSystem<S> {
                 (until, end) = (zero, End::Guard(guard));
             }
         }
-        if traits.unknowns >= 2
-            && let Some(parameters) = self.transmission.parameters()
-        {
-            for (i, wheel) in state.device.wheels.iter().enumerate() {
-                // Without dry friction nothing changes where a flywheel stands for an instant.
-                let stops = wheel.coupling != Coupling::Locked && parameters.dry_of(wheel) > S::ZERO;
-                if let (Some(turning), true) = (wheel.turning, stops)
-                    && let Some(zero) = output.unknown_zero(i, until, turning, wheel.spin == S::ZERO)
-                {
-                    (until, end) = (zero, End::Stopped(i));
-                }
+        for (i, wheel) in state.device.wheels.iter().enumerate().take(traits.unknowns) {
+            // Without dry friction nothing changes where a flywheel stands for an instant.
+            let stops = wheel.coupling != Coupling::Locked && self.transmission.parameters.dry_of(wheel) > S::ZERO;
+            if let (Some(turning), true) = (wheel.turning, stops)
+                && let Some(zero) = output.unknown_zero(i, until, turning, wheel.spin == S::ZERO)
+            {
+                (until, end) = (zero, End::Stopped(i));
             }
         }
         let mut last = output.at(until);
         // θ is monotone up to here.
-        let crossing = |level: S, before: Sign| {
-            newton_bracketed(S::ZERO, until, before, S::HALF * until, |t| {
-                let motion = output.at(t);
-                (motion.rotation - level, motion.velocity)
-            })
-        };
-        if motion.side.times(last.rotation) < S::ZERO {
-            until = crossing(S::ZERO, motion.side);
-            (end, last) = (End::Impact, output.at(until));
-        } else if motion.side == motion.direction && motion.side.times(last.rotation) > limits.overturned {
-            until = crossing(motion.side.times(limits.overturned), motion.side.opposite());
-            (end, last) = (End::Overturned, output.at(until));
+        if let Some((level, before)) = motion.passes(last.rotation, limits) {
+            until = output.crossing(level, before, (S::ZERO, until));
+            (end, last) = (if before == motion.side { End::Impact } else { End::Overturned }, output.at(until));
         }
         let first = output.at(S::ZERO);
         let engaged = state.device.wheels.iter().any(|wheel| wheel.coupling.is_engaged());
@@ -289,7 +268,7 @@ impl<S: Real> HybridSystem<S> {
         let motion = &mut state.motion;
         (motion.rotation, motion.velocity) = (last.rotation, last.velocity);
         let configuration = self.body.configuration(motion.side.unit(), motion.rotation);
-        self.transmission.store(&mut state.device, &unknowns, self.body.to_terminal(&configuration, motion.velocity));
+        state.device.store(&unknowns[..traits.unknowns], self.body.to_terminal(&configuration, motion.velocity));
         state.device.elapse(until);
         (state.fresh, state.free) = ([false; GUARDS], false);
         let ground = shaking.at(*time);
@@ -348,9 +327,7 @@ impl<S: Real> HybridSystem<S> {
         let force = self.transmission.account(&point, S::ZERO, &state.device).force[index & 1];
         let wheel = &mut state.device.wheels[index & 1];
         wheel.spin = S::ZERO;
-        if let Some(parameters) = self.transmission.parameters() {
-            parameters.settle(wheel, force);
-        }
+        self.transmission.parameters.settle(wheel, force);
     }
 
     /// Answer of the device to an event; a change of its coupling is reported.
@@ -365,6 +342,7 @@ impl<S: Real> HybridSystem<S> {
         let motion = &mut state.motion;
         let mut at = EventContext {
             body: &self.body,
+            parameters: &self.transmission.parameters,
             side: motion.side,
             direction: motion.direction,
             rotation: motion.rotation,
@@ -414,14 +392,15 @@ impl<S: Real> HybridSystem<S> {
     /// `state` as the start of a step.
     fn place(&self, state: &HybridState<S>) -> Place<S, UNKNOWNS> {
         let BlockState { rotation, velocity, .. } = state.motion;
-        Place { time: S::ZERO, ground: state.ground, rotation, velocity, unknowns: self.transmission.load(&state.device) }
+        Place { time: S::ZERO, ground: state.ground, rotation, velocity, unknowns: state.device.unknowns() }
     }
 
     /// The evaluation point of an instant.
     fn point<'a>(&'a self, law: &'a ModeCoefficients<S>, side: Sign, at: &Place<S, UNKNOWNS>) -> AnyPoint<'a, S, UNKNOWNS> {
         let Place { time, ground, rotation, velocity, unknowns } = *at;
         let configuration = self.body.configuration(side.unit(), rotation);
-        EvaluationPoint { body: &self.body, law, configuration, velocity, unknowns, ground, clock: time }
+        let parameters = &self.transmission.parameters;
+        EvaluationPoint { body: &self.body, parameters, law, configuration, velocity, unknowns, ground, clock: time }
     }
 
     /// Snapshot of block and device at an instant, for observers.

@@ -1,8 +1,9 @@
 //! Mode output: dense output over one step with the unknowns and guards of a device.
 
-use crate::drivetrain::any_transmission::{AnyTransmission, each_transmission};
-use crate::drivetrain::clutch_state::ModeCoefficients;
-use crate::drivetrain::transmission::{EvaluationPoint, PointOf, Transmission, UNKNOWNS};
+use super::HybridSystem;
+use crate::drivetrain::any_transmission::each_transmission;
+use crate::drivetrain::clutch_state::{ModeCoefficients, UNKNOWNS};
+use crate::drivetrain::transmission::{EvaluationPoint, Transmission};
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
 use crate::ground::GroundSegment;
@@ -32,24 +33,16 @@ impl<S: Real> Shaking<'_, S> {
 /// Start of a step: state, mode and ground motion.
 #[derive(Clone, Copy)]
 pub struct ModeStart<'a, S> {
-    /// Equations of the block.
-    pub body: &'a AnyBody<S>,
-    /// The device.
-    pub transmission: &'a AnyTransmission<S>,
+    /// The block on its device.
+    pub system: &'a HybridSystem<S>,
     /// Coefficients of the mode.
     pub law: &'a ModeCoefficients<S>,
     /// The ground motion.
     pub shaking: Shaking<'a, S>,
-    /// Ground acceleration at the start, in g.
-    pub ground: [S; 2],
     /// s = sgn θ.
     pub side: Sign,
-    /// θ, rad.
-    pub rotation: S,
-    /// θ̇, rad/s.
-    pub velocity: S,
-    /// The device's unknowns.
-    pub unknowns: [S; UNKNOWNS],
+    /// The state at the start.
+    pub place: Place<S, UNKNOWNS>,
     /// Local time in the ground segment, s.
     pub time: S,
     /// Largest length of the step, s; above 0.
@@ -58,15 +51,11 @@ pub struct ModeStart<'a, S> {
     pub freed: bool,
     /// Friction holds the block: θ̈ = 0, whatever acts. Only devices with springs take steps then.
     pub held: bool,
-    /// Size of a rotation that matters (rad), for tolerances.
-    pub scale: S,
-    /// Size of an angular velocity that matters, rad/s.
-    pub speed: S,
 }
 
 /// A step of a block and a device whose types are known.
 #[derive(Clone, Copy)]
-pub struct KnownModeStart<'a, S, B, D> {
+pub struct KnownModeStart<'a, S, B, D, const X: usize, const G: usize> {
     /// Start of the step.
     pub start: &'a ModeStart<'a, S>,
     /// Block in its own type.
@@ -83,7 +72,7 @@ pub trait WithModeStart<S: Real> {
     /// Goes on with `known`.
     fn with<B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
         self,
-        known: &KnownModeStart<'_, S, B, D>,
+        known: &KnownModeStart<'_, S, B, D, X, G>,
     ) -> Self::Output;
 }
 
@@ -91,21 +80,15 @@ impl<S: Real> ModeStart<'_, S> {
     /// Goes on with block and device in their own types: one choice for all that `next` evaluates.
     #[inline(always)]
     pub fn known<W: WithModeStart<S>>(&self, next: W) -> W::Output {
-        match self.body {
+        let kind = self.system.transmission.kind;
+        match &self.system.body {
             AnyBody::Slender(body) => {
-                each_transmission!(self.transmission, transmission => next.with(&KnownModeStart { start: self, body, transmission }))
+                each_transmission!(kind, transmission => next.with(&KnownModeStart { start: self, body, transmission }))
             }
             AnyBody::Full(body) => {
-                each_transmission!(self.transmission, transmission => next.with(&KnownModeStart { start: self, body, transmission }))
+                each_transmission!(kind, transmission => next.with(&KnownModeStart { start: self, body, transmission }))
             }
         }
-    }
-
-    /// The start itself.
-    #[inline(always)]
-    pub fn place(&self) -> Place<S, UNKNOWNS> {
-        let ModeStart { ground, rotation, velocity, unknowns, .. } = *self;
-        Place { time: S::ZERO, ground, rotation, velocity, unknowns }
     }
 
     /// The ground's acceleration (in g) `time` after the start.
@@ -121,42 +104,28 @@ impl<S: Real> ModeStart<'_, S> {
     }
 }
 
-impl<S: Real, B: Body<S>, D> KnownModeStart<'_, S, B, D> {
+impl<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize> KnownModeStart<'_, S, B, D, X, G> {
     /// Whether friction holds the block.
     #[inline(always)]
-    pub fn is_held<const X: usize, const G: usize>(&self) -> bool
-    where
-        D: Transmission<S, X, G>,
-    {
+    pub fn is_held(&self) -> bool {
         D::SPRINGS && self.start.held
-    }
-
-    #[inline(always)]
-    fn point<const X: usize>(&self, at: &Place<S, X>) -> PointOf<'_, S, B, S, X> {
-        let configuration = self.body.configuration(self.start.side.unit(), at.rotation);
-        let Place { time, ground, velocity, unknowns, .. } = *at;
-        EvaluationPoint { body: self.body, law: self.start.law, configuration, velocity, unknowns, ground, clock: time }
     }
 
     /// θ̈ and the rates of the device's unknowns.
     #[inline(never)]
-    pub fn rates<const X: usize, const G: usize>(&self, at: &Place<S, X>) -> (S, [S; X])
-    where
-        D: Transmission<S, X, G>,
-    {
-        let (acceleration, rates) = self.transmission.flow(&self.point(at));
+    pub fn rates(&self, at: &Place<S, X>) -> (S, [S; X]) {
+        let ModeStart { law, side, system, .. } = *self.start;
+        let (acceleration, rates) = self.transmission.flow(&EvaluationPoint {
+            body: self.body,
+            parameters: &system.transmission.parameters,
+            law,
+            configuration: self.body.configuration(side.unit(), at.rotation),
+            velocity: at.velocity,
+            unknowns: at.unknowns,
+            ground: at.ground,
+            clock: at.time,
+        });
         (if self.is_held() { S::ZERO } else { acceleration }, rates)
-    }
-
-    /// Guard `index`, where θ̈ is `acceleration`.
-    #[inline(always)]
-    pub fn guard<const X: usize, const G: usize>(&self, index: usize, at: &Place<S, X>, acceleration: S) -> S
-    where
-        D: Transmission<S, X, G>,
-    {
-        let point = self.point(at);
-        let acceleration = if self.is_held() { self.transmission.flow(&point).0 } else { acceleration };
-        self.transmission.guard(&point, acceleration, self.start.law.watch[index])
     }
 }
 
@@ -195,20 +164,17 @@ pub trait ModeOutput<S: Real>: DenseOutput<S> {
     fn guard(&self, index: usize, time: S) -> S;
 
     /// First zero of θ̇, which has the sign `sign` just after the start, and is zero there with `from_zero`.
-    fn velocity_zero(&self, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        let _ = from_zero;
+    fn velocity_zero(&self, to: S, sign: Sign, _from_zero: bool) -> Option<S> {
         zero_shown(S::ZERO, to, sign, |t| self.at(t).velocity)
     }
 
     /// First zero of guard `index`, positive just after the start.
-    fn guard_zero(&self, index: usize, to: S, from_zero: bool) -> Option<S> {
-        let _ = from_zero;
+    fn guard_zero(&self, index: usize, to: S, _from_zero: bool) -> Option<S> {
         zero_shown(S::ZERO, to, Sign::Positive, |t| self.guard(index, t))
     }
 
     /// First zero of the device's unknown `index`, of sign `sign` just after the start.
-    fn unknown_zero(&self, index: usize, to: S, sign: Sign, from_zero: bool) -> Option<S> {
-        let _ = from_zero;
+    fn unknown_zero(&self, index: usize, to: S, sign: Sign, _from_zero: bool) -> Option<S> {
         zero_shown(S::ZERO, to, sign, |t| self.unknowns(t).get(index).copied().unwrap_or(S::ZERO))
     }
 }

@@ -1,18 +1,13 @@
 //! Resolution of the parameters of block and drivetrain into their equations, as [`Structure::resolve`] for ideal devices.
 
 use super::{Actuator, HybridSystem};
-use crate::drivetrain::any_transmission::AnyTransmission;
-use crate::drivetrain::elastic::ElasticPair;
-use crate::drivetrain::friction::FrictionPair;
-use crate::drivetrain::ideal::{Alone, IdealPair, Single};
-use crate::drivetrain::overrunning::OverrunningPair;
-use crate::drivetrain::rigid::RigidPair;
+use crate::drivetrain::any_transmission::{AnyTransmission, TransmissionKind};
 use crate::drivetrain::scaled_parameters::ScaledParameters;
 use crate::math::scalar::Real;
 use crate::structure::device::{DeviceKind, KinematicsKind};
 use crate::structure::drivetrain::{Drivetrain, Engagement, Rack};
 use crate::structure::error::{ParameterError, require};
-use crate::structure::restitution::Restitution;
+use crate::structure::restitution::{Restitution, momentum_balance};
 use crate::structure::{COUNTED_SPEED, Structure};
 
 impl Drivetrain {
@@ -33,7 +28,13 @@ impl Drivetrain {
         let speed = block.frequency_parameter() * block.slenderness();
         Ok(HybridSystem {
             body: structure.body(consistent, vertical)?,
-            transmission: self.transmission(device.kind, ScaledParameters::of(self, &block, sigma, heavier)),
+            transmission: AnyTransmission {
+                kind: self.transmission(device.kind),
+                parameters: match device.kind {
+                    DeviceKind::None => ScaledParameters::default(),
+                    _ => ScaledParameters::of(self, &block, sigma, heavier),
+                },
+            },
             restitution: restitution.map(S::of),
             slenderness: S::of(block.slenderness()),
             speed: S::of(speed),
@@ -49,21 +50,19 @@ impl Drivetrain {
         kind == DeviceKind::ClutchedPair && self.engagement != Engagement::Ideal
     }
 
-    fn transmission<S: Real>(&self, kind: DeviceKind, parameters: ScaledParameters<S>) -> AnyTransmission<S> {
+    fn transmission(&self, kind: DeviceKind) -> TransmissionKind {
         let Drivetrain { engagement, flywheel, rack, .. } = self;
         let friction = *rack != Rack::default() || flywheel.viscous_rate != 0.0 || flywheel.dry_deceleration != 0.0;
-        match (kind, friction) {
-            (DeviceKind::None, _) => AnyTransmission::Alone(Alone),
-            (DeviceKind::Inerter, false) => AnyTransmission::Single(Single(parameters)),
-            (DeviceKind::Inerter, true) => AnyTransmission::SingleWithFriction(Single(parameters)),
-            (DeviceKind::ClutchedPair, _) => match engagement {
-                Engagement::Ideal if friction => AnyTransmission::IdealWithFriction(IdealPair(parameters)),
-                Engagement::Ideal => AnyTransmission::Ideal(IdealPair(parameters)),
-                Engagement::Rigid => AnyTransmission::Rigid(RigidPair(parameters)),
-                Engagement::Overrunning => AnyTransmission::Overrunning(OverrunningPair(parameters)),
-                Engagement::Friction { .. } => AnyTransmission::Friction(FrictionPair(parameters)),
-                Engagement::Elastic { .. } => AnyTransmission::Elastic(ElasticPair(parameters)),
-            },
+        match (kind, engagement) {
+            (DeviceKind::None, _) => TransmissionKind::Alone,
+            (DeviceKind::Inerter, _) if friction => TransmissionKind::SingleWithFriction,
+            (DeviceKind::Inerter, _) => TransmissionKind::Single,
+            (DeviceKind::ClutchedPair, Engagement::Ideal) if friction => TransmissionKind::IdealWithFriction,
+            (DeviceKind::ClutchedPair, Engagement::Ideal) => TransmissionKind::Ideal,
+            (DeviceKind::ClutchedPair, Engagement::Rigid) => TransmissionKind::Rigid,
+            (DeviceKind::ClutchedPair, Engagement::Overrunning) => TransmissionKind::Overrunning,
+            (DeviceKind::ClutchedPair, Engagement::Friction { .. }) => TransmissionKind::Friction,
+            (DeviceKind::ClutchedPair, Engagement::Elastic { .. }) => TransmissionKind::Elastic,
         }
     }
 }
@@ -73,13 +72,7 @@ fn restitutions(structure: &Structure, sigma: f64, rack: f64) -> Result<[f64; 3]
     if structure.restitution != Restitution::MomentumBalance {
         return Ok([structure.restitution()?; 3]);
     }
-    let engaged = |count: f64| {
-        crate::structure::restitution::momentum_balance(
-            &structure.block,
-            structure.geometry,
-            &structure.device.mount,
-            rack + count * sigma,
-        )
-    };
+    let Structure { block, geometry, device, .. } = structure;
+    let engaged = |count: f64| momentum_balance(block, *geometry, &device.mount, rack + count * sigma);
     Ok([engaged(0.0)?, engaged(1.0)?, engaged(2.0)?])
 }

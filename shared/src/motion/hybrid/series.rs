@@ -4,37 +4,20 @@
 use core::cell::Cell;
 
 use super::mode_output::{KnownModeStart, ModeIntegrator, ModeOutput, ModeStart, WithModeStart};
-use crate::drivetrain::clutch_state::{GUARDS, Guard};
-use crate::drivetrain::transmission::{EvaluationPoint, Transmission, UNKNOWNS};
+use crate::drivetrain::clutch_state::{GUARDS, Guard, UNKNOWNS};
+use crate::drivetrain::transmission::{EvaluationPoint, Transmission};
 use crate::equation::body::Body;
 use crate::equation::motion::Motion;
-use crate::math::power_series::{DEVICE_SLOTS, MAXIMUM_ORDER, Tape};
+use crate::math::power_series::{DEVICE_SLOTS, Tape};
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::math::{RECIPROCALS, polynomial};
 use crate::method::dense_output::DenseOutput;
 use crate::method::motion_series::{StepSeries, Truncation};
+use crate::method::taylor::Taylor;
 
-/// A Taylor method with `N` coefficients for each quantity (8 to 32), and the tape it works on. One per thread: it is
-/// scratch space, not state.
-pub struct Series<S, const N: usize> {
-    tape: Tape<S, N, DEVICE_SLOTS>,
-    tolerance: S,
-    step: Option<S>,
-}
-
-impl<S: Real, const N: usize> Series<S, N> {
-    /// Steps of its own choice: as long as the series' last terms stay below `tolerance` times what matters.
-    pub fn adaptive(tolerance: S) -> Self {
-        const { assert!(N >= 8 && N <= MAXIMUM_ORDER) };
-        Series { tape: Tape::default(), tolerance, step: None }
-    }
-
-    /// Fixed steps of `step` s (above 0), order N − 2.
-    pub fn fixed(step: S) -> Self {
-        Series { step: Some(step), ..Series::adaptive(S::ZERO) }
-    }
-}
+/// [`Taylor`] with a tape for a device's unknowns and guards.
+pub type Series<S, const N: usize> = Taylor<S, N, DEVICE_SLOTS>;
 
 /// Mode output of one step as power series.
 #[derive(Clone, Copy, Debug)]
@@ -63,21 +46,22 @@ impl<S: Real, const N: usize> WithModeStart<S> for Expansion<'_, S, N> {
     #[inline(always)]
     fn with<B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
         self,
-        known: &KnownModeStart<'_, S, B, D>,
+        known: &KnownModeStart<'_, S, B, D, X, G>,
     ) -> Self::Output {
         // θ, θ̇, the ground twice and the clock, then the device's unknowns.
         const GIVEN: usize = 5;
         let Expansion { tape, output, ground: [ground, vertical], tolerance, scale } = self;
         let start = known.start;
+        let parameters = &start.system.transmission.parameters;
         let shaken_up = start.shaking.vertical.is_some();
         let next = Cell::new(GIVEN + X);
         let side = start.side.unit();
-        output.series.motion.start(tape, start.rotation, start.velocity);
+        output.series.motion.start(tape, start.place.rotation, start.place.velocity);
         for (i, unknown) in output.unknowns.iter_mut().enumerate().take(X) {
-            unknown[0] = start.unknowns[i];
-            tape.set(GIVEN + i, 0, start.unknowns[i]);
+            unknown[0] = start.place.unknowns[i];
+            tape.set(GIVEN + i, 0, start.place.unknowns[i]);
         }
-        let sizes = known.transmission.scales(start.speed);
+        let sizes = known.transmission.scales(parameters, start.system.speed);
         let mut truncation = Truncation::new(start.length, tolerance);
         for k in 0..N - 2 {
             tape.set(2, k, ground[k]);
@@ -91,6 +75,7 @@ impl<S: Real, const N: usize> WithModeStart<S> for Expansion<'_, S, N> {
             let up = if shaken_up { given(3) } else { push };
             let at = EvaluationPoint {
                 body: known.body,
+                parameters,
                 law: start.law,
                 configuration: known.body.configuration(side, theta),
                 velocity: omega,
@@ -143,7 +128,7 @@ impl<S: Real, const N: usize> ModeIntegrator<S> for Series<S, N> {
         if let Some(segment) = start.shaking.vertical {
             segment.series(start.time, &mut ground[1]);
         }
-        let scale = start.scale.larger(start.rotation.abs());
+        let scale = start.system.slenderness.larger(start.place.rotation.abs());
         let tolerance = self.tolerance * scale;
         let sizes = start.known(Expansion { tape: &self.tape, output: &mut output, ground: &ground, tolerance, scale });
         let SeriesModeOutput { series, unknowns, .. } = &mut output;
@@ -159,14 +144,12 @@ impl<S: Real, const N: usize> ModeIntegrator<S> for Series<S, N> {
         output
     }
 
-    #[inline(always)]
     fn step(&self) -> Option<S> {
         self.step
     }
 }
 
 impl<S: Real, const N: usize> DenseOutput<S> for SeriesModeOutput<S, N> {
-    #[inline(always)]
     fn length(&self) -> S {
         self.series.length
     }

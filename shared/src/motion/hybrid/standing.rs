@@ -5,7 +5,6 @@ use super::seen::Still;
 use super::threshold::{Threshold, earlier};
 use super::{HybridState, HybridSystem};
 use crate::drivetrain::clutch_state::{Coupling, GUARDS};
-use crate::drivetrain::transmission::open;
 use crate::drivetrain::under_way::UnderWay;
 use crate::equation::motion::Motion;
 use crate::math::scalar::Real;
@@ -30,8 +29,7 @@ impl<S: Real> HybridSystem<S> {
 
     /// The clutches of a standing block are open, but for those that a controller holds; a device without clutches stays engaged.
     pub(super) fn part_at_rest(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
-        let Some(parameters) = self.transmission.parameters() else { return };
-        if !self.transmission.traits().commanded && self.transmission.traits().unknowns == 0 {
+        if self.transmission.traits().permanent {
             state.device.wheels[0].coupling = Coupling::Locked;
             return;
         }
@@ -41,7 +39,7 @@ impl<S: Real> HybridSystem<S> {
         self.with_instant(state, time, observer, |_, at| {
             for wheel in 0..2 {
                 if at.device.wheels[wheel].coupling.is_engaged() {
-                    open(parameters, at, wheel);
+                    at.open(wheel);
                 }
                 let wheel = &mut at.device.wheels[wheel];
                 (wheel.commanded, wheel.pending, wheel.under_way) = (false, -S::ONE, UnderWay::default());
@@ -91,8 +89,7 @@ impl<S: Real> HybridSystem<S> {
 
     /// `time` (s), or when before that a flywheel comes to a stop, if the block does not move: it kinks the powers that observers integrate.
     pub(super) fn until_stop(&self, state: &HybridState<S>, time: S) -> S {
-        let Some(parameters) = self.transmission.parameters() else { return time };
-        let stops = state.device.wheels.iter().filter_map(|wheel| parameters.stops_within(wheel, time));
+        let stops = state.device.wheels.iter().filter_map(|wheel| self.transmission.parameters.stops_within(wheel, time));
         stops.fold(time, Real::smaller)
     }
 
@@ -118,12 +115,14 @@ impl<S: Real> HybridSystem<S> {
 
     /// How long the clutches of a standing block stay as they are, from `time` to `duration` at most.
     pub(super) fn stands_until(&self, state: &mut HybridState<S>, time: S, duration: S) -> S {
-        let Some(parameters) = self.transmission.parameters().filter(|_| self.actuator.controlled) else { return duration };
+        if !self.actuator.controlled {
+            return duration;
+        }
         let mut stop = self.until_due(state, time, duration);
         for wheel in state.device.wheels.iter_mut().filter(|wheel| matches!(wheel.coupling, Coupling::Slipping(_))) {
-            match parameters.stops_within(wheel, stop - time) {
+            match self.transmission.parameters.stops_within(wheel, stop - time) {
                 Some(stops) if time + stops > time => stop = time + stops,
-                Some(stops) => parameters.coast(wheel, stops),
+                Some(stops) => self.transmission.parameters.coast(wheel, stops),
                 None => {}
             }
         }

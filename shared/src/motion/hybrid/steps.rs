@@ -2,13 +2,13 @@
 
 use super::exponential;
 use super::mode_output::{KnownModeStart, ModeIntegrator, ModeOutput, ModeStart, Place, WithModeStart};
-use crate::drivetrain::any_transmission::{first, padded};
-use crate::drivetrain::transmission::{Transmission, UNKNOWNS};
+use crate::drivetrain::clutch_state::UNKNOWNS;
+use crate::drivetrain::transmission::{Transmission, first};
 use crate::equation::body::Body;
 use crate::equation::motion::Motion;
 use crate::math::scalar::Real;
 use crate::method::dense_output::DenseOutput;
-use crate::method::fixed::FixedStep;
+use crate::method::fixed::{FixedStep, Scheme};
 
 /// θ̈ and the rates of the device's unknowns.
 type Rates<S, const X: usize> = (S, [S; X]);
@@ -16,28 +16,26 @@ type Rates<S, const X: usize> = (S, [S; X]);
 /// The state a time `h` after `from`, where the rates are `rates`; `ground` is the ground's acceleration then, in g.
 #[inline(always)]
 fn advance<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
-    method: FixedStep<S>,
-    known: &KnownModeStart<'_, S, B, D>,
+    scheme: Scheme,
+    known: &KnownModeStart<'_, S, B, D, X, G>,
     (from, rates): (&Place<S, X>, &Rates<S, X>),
     (h, ground): (S, [S; 2]),
 ) -> Place<S, X> {
     let first = known.start.first(rates.0);
-    match method {
-        FixedStep::SemiImplicitEuler { .. } => {
+    match scheme {
+        Scheme::SemiImplicitEuler => {
             let velocity = from.velocity + h * first;
             let unknowns = core::array::from_fn(|i| from.unknowns[i] + h * rates.1[i]);
             Place { time: h, ground, rotation: from.rotation + h * velocity, velocity, unknowns }
         }
-        FixedStep::ExponentialMidpoint { .. } if D::SPRINGS => exponential::midpoint(known, from, (h, ground)),
-        FixedStep::RungeKutta4 { .. } | FixedStep::ExponentialMidpoint { .. } => {
-            runge_kutta_4(known, from, (first, &rates.1), (h, ground))
-        }
+        Scheme::ExponentialMidpoint if D::SPRINGS => exponential::midpoint(known, from, (h, ground)),
+        Scheme::RungeKutta4 | Scheme::ExponentialMidpoint => runge_kutta_4(known, from, (first, &rates.1), (h, ground)),
     }
 }
 
 #[inline(always)]
 fn runge_kutta_4<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
-    known: &KnownModeStart<'_, S, B, D>,
+    known: &KnownModeStart<'_, S, B, D, X, G>,
     from: &Place<S, X>,
     (a1, r1): (S, &[S; X]),
     (h, ground): (S, [S; 2]),
@@ -72,7 +70,7 @@ fn runge_kutta_4<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, 
 
 /// Mode output of a fixed-step method: its ends, and the step taken again for every time between them.
 pub struct FixedModeOutput<'a, S> {
-    method: FixedStep<S>,
+    scheme: Scheme,
     start: &'a ModeStart<'a, S>,
     /// At the start.
     rates: Rates<S, UNKNOWNS>,
@@ -82,7 +80,7 @@ pub struct FixedModeOutput<'a, S> {
 
 /// A step of length `time`; the `rates` at its start are taken where they are not known.
 struct Step<'a, S> {
-    method: FixedStep<S>,
+    scheme: Scheme,
     rates: Option<&'a Rates<S, UNKNOWNS>>,
     time: S,
 }
@@ -93,68 +91,49 @@ impl<S: Real> WithModeStart<S> for Step<'_, S> {
     #[inline(always)]
     fn with<B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
         self,
-        known: &KnownModeStart<'_, S, B, D>,
+        known: &KnownModeStart<'_, S, B, D, X, G>,
     ) -> Self::Output {
-        let from = known.start.place().map(first);
+        let from = known.start.place.map(first);
         let rates = match self.rates {
             Some((acceleration, rates)) => (*acceleration, first(rates)),
             None => known.rates(&from),
         };
         let ground = known.start.ground_at(self.time);
-        let end = advance(self.method, known, (&from, &rates), (self.time, ground));
+        let end = advance(self.scheme, known, (&from, &rates), (self.time, ground));
         let (acceleration, _) = known.rates(&end);
-        ((rates.0, padded(&rates.1)), (end.map(padded), acceleration))
-    }
-}
-
-/// Guard `index` at `place`, where θ̈ is `acceleration`.
-struct GuardAt<'a, S> {
-    index: usize,
-    place: &'a Place<S, UNKNOWNS>,
-    acceleration: S,
-}
-
-impl<S: Real> WithModeStart<S> for GuardAt<'_, S> {
-    type Output = S;
-
-    #[inline(always)]
-    fn with<B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
-        self,
-        known: &KnownModeStart<'_, S, B, D>,
-    ) -> S {
-        known.guard(self.index, &self.place.map(first), self.acceleration)
+        let all = |unknowns: &[S; X]| core::array::from_fn(|i| unknowns.get(i).copied().unwrap_or(S::ZERO));
+        ((rates.0, all(&rates.1)), (end.map(all), acceleration))
     }
 }
 
 impl<'a, S: Real> FixedModeOutput<'a, S> {
-    fn new(method: FixedStep<S>, start: &'a ModeStart<'a, S>) -> Self {
-        let (rates, end) = Self::step(method, start, None, start.length);
-        FixedModeOutput { method, start, rates, end }
+    fn new(scheme: Scheme, start: &'a ModeStart<'a, S>) -> Self {
+        let (rates, end) = Self::step(scheme, start, None, start.length);
+        FixedModeOutput { scheme, start, rates, end }
     }
 
     #[inline(never)]
     fn step(
-        method: FixedStep<S>,
+        scheme: Scheme,
         start: &ModeStart<'_, S>,
         rates: Option<&Rates<S, UNKNOWNS>>,
         time: S,
     ) -> (Rates<S, UNKNOWNS>, (Place<S, UNKNOWNS>, S)) {
-        start.known(Step { method, rates, time })
+        start.known(Step { scheme, rates, time })
     }
 
     fn place(&self, time: S) -> (Place<S, UNKNOWNS>, S) {
         if time == S::ZERO {
-            (self.start.place(), self.rates.0)
+            (self.start.place, self.rates.0)
         } else if time == self.start.length {
             self.end
         } else {
-            Self::step(self.method, self.start, Some(&self.rates), time).1
+            Self::step(self.scheme, self.start, Some(&self.rates), time).1
         }
     }
 }
 
 impl<S: Real> DenseOutput<S> for FixedModeOutput<'_, S> {
-    #[inline(always)]
     fn length(&self) -> S {
         self.start.length
     }
@@ -175,7 +154,10 @@ impl<S: Real> ModeOutput<S> for FixedModeOutput<'_, S> {
     #[inline(never)]
     fn guard(&self, index: usize, time: S) -> S {
         let (place, acceleration) = self.place(time);
-        self.start.known(GuardAt { index, place: &place, acceleration })
+        let ModeStart { system, law, side, held, .. } = *self.start;
+        let point = system.point(law, side, &place);
+        let acceleration = if held { system.transmission.acceleration(&point) } else { acceleration };
+        system.transmission.guard(&point, acceleration, law.watch[index])
     }
 }
 
@@ -184,11 +166,10 @@ impl<S: Real> ModeIntegrator<S> for FixedStep<S> {
 
     #[inline(always)]
     fn integrate<'a>(&'a self, start: &'a ModeStart<'a, S>) -> Self::Output<'a> {
-        FixedModeOutput::new(*self, start)
+        FixedModeOutput::new(self.scheme, start)
     }
 
-    #[inline(always)]
     fn step(&self) -> Option<S> {
-        Some(FixedStep::step(self))
+        Some(self.step)
     }
 }

@@ -23,10 +23,7 @@ pub(super) struct Threshold<S> {
 
 /// The earlier of two instants, with what is known of it.
 pub(super) fn earlier<S: Real, T>(instants: [Option<(S, T)>; 2]) -> Option<(S, T)> {
-    match instants {
-        [Some(a), Some(b)] => Some(if b.0 < a.0 { b } else { a }),
-        [a, b] => a.or(b),
-    }
+    instants.into_iter().flatten().reduce(|a, b| if b.0 < a.0 { b } else { a })
 }
 
 impl<S: Real> Threshold<S> {
@@ -87,31 +84,29 @@ impl<S: Real> HybridSystem<S> {
         let configuration = self.body.configuration(side.unit(), state.motion.rotation);
         let (horizontal, vertical) = self.body.factors(&configuration);
         let arm = self.body.arm(&configuration);
-        let (mut push, mut dry, mut force) = (S::ZERO, (S::ZERO, S::ZERO), (S::ZERO, S::ZERO));
+        let parameters = &self.transmission.parameters;
+        let (mut dry, mut force) = ((parameters.rack_dry, S::ZERO), (S::ZERO, S::ZERO));
         let add = |(a, b): (S, S), (c, d): (S, S)| (a + c, b + d);
-        if let Some(parameters) = self.transmission.parameters() {
-            (push, dry) = (parameters.rack_push, (parameters.rack_dry, S::ZERO));
-            let sticks = |wheel: &FlywheelState<S>| match wheel.coupling {
-                Coupling::Locked => true,
-                Coupling::Slipping(_) => wheel.spin == S::ZERO,
-                Coupling::Open | Coupling::InPlay | Coupling::Elastic(_) | Coupling::Saturated(_) => false,
-            };
-            let wheels = &state.device.wheels;
-            for wheel in wheels.iter().filter(|wheel| sticks(wheel)) {
-                dry = add(dry, parameters.standing_friction(wheel));
-            }
-            let pulls = |wheel: &FlywheelState<S>| wheel.coupling.is_engaged() && !sticks(wheel);
-            if wheels.iter().any(pulls) {
-                let law = self.law(state);
-                let point = self.point(&law, side, &Place { velocity: S::ZERO, ..self.place(state) });
-                let account = self.transmission.account(&point, S::ZERO, &state.device);
-                for (i, _) in wheels.iter().enumerate().filter(|(_, wheel)| pulls(wheel)) {
-                    force = add(force, (account.force[i], law.slip_growth[i]));
-                }
+        let sticks = |wheel: &FlywheelState<S>| match wheel.coupling {
+            Coupling::Locked => true,
+            Coupling::Slipping(_) => wheel.spin == S::ZERO,
+            Coupling::Open | Coupling::InPlay | Coupling::Elastic(_) | Coupling::Saturated(_) => false,
+        };
+        let wheels = &state.device.wheels;
+        for wheel in wheels.iter().filter(|wheel| sticks(wheel)) {
+            dry = add(dry, parameters.standing_friction(wheel));
+        }
+        let pulls = |wheel: &FlywheelState<S>| wheel.coupling.is_engaged() && !sticks(wheel);
+        if wheels.iter().any(pulls) {
+            let law = self.law(state);
+            let point = self.point(&law, side, &Place { velocity: S::ZERO, ..self.place(state) });
+            let account = self.transmission.account(&point, S::ZERO, &state.device);
+            for (i, _) in wheels.iter().enumerate().filter(|(_, wheel)| pulls(wheel)) {
+                force = add(force, (account.force[i], law.slip_growth[i]));
             }
         }
         Threshold {
-            horizontal: sign.times(horizontal - arm * push),
+            horizontal: sign.times(horizontal - arm * parameters.rack_push),
             vertical: sign.times(vertical),
             constant: -(arm * dry.0) - sign.times(arm * force.0),
             growth: -(arm * dry.1) - sign.times(arm * force.1),

@@ -236,7 +236,7 @@ impl<S: Real> IdealSystem<S> {
                 None
             };
             let until = switching_zero.or(acceleration_zero).unwrap_or(length);
-            let end = if until == length { output.end() } else { output.at(until) };
+            let end = output.at(until);
             let mut interval = MonotoneInterval {
                 start: *time,
                 from,
@@ -259,52 +259,33 @@ impl<S: Real> IdealSystem<S> {
                 (until, end)
             };
             // θ is monotone up to the turn.
-            let crossing = |level: S, before: Sign| {
-                newton_bracketed(from, turn, before, S::HALF * (from + turn), |t| {
-                    let motion = output.at(t);
-                    (motion.rotation - level, motion.velocity)
-                })
-            };
-            if state.side.times(at_turn.rotation) < S::ZERO {
-                let hit = crossing(S::ZERO, state.side);
-                (interval.to, interval.last) = (hit, output.at(hit));
+            if let Some((level, before)) = state.passes(at_turn.rotation, limits) {
+                let at = output.crossing(level, before, (from, turn));
+                (interval.to, interval.last) = (at, output.at(at));
                 observer.interval(&output, &interval);
-                state.rotation = S::ZERO;
-                state.velocity = interval.last.velocity;
-                state.acceleration_is_zero = false;
-                *time = *time + hit;
-                return End::Impact;
-            }
-            if state.side == state.direction && state.side.times(at_turn.rotation) > limits.overturned {
-                let limit = state.side.times(limits.overturned);
-                let over = crossing(limit, state.side.opposite());
-                (interval.to, interval.last) = (over, output.at(over));
-                observer.interval(&output, &interval);
-                state.rotation = limit;
-                state.velocity = interval.last.velocity;
-                *time = *time + over;
-                return End::Overturned;
-            }
-            if turns && self.clutch.follows_signs() && from == S::ZERO && first.velocity == S::ZERO && turn <= stop * S::EPSILON {
-                // It has just turned: back at once would go on without end. The motion shows where it goes.
-                state.direction = state.direction.opposite();
-                state.acceleration_sign = state.direction;
-                if !separate_terminal_sign {
-                    state.terminal_acceleration_sign = state.acceleration_sign;
-                }
-                return End::Undecided;
+                (state.rotation, state.velocity, state.acceleration_is_zero) = (level, interval.last.velocity, false);
+                *time = *time + at;
+                return if before == state.side { End::Impact } else { End::Overturned };
             }
             if turns {
+                // It has just turned: back at once would go on without end. The motion shows where it goes.
+                let undecided =
+                    self.clutch.follows_signs() && from == S::ZERO && first.velocity == S::ZERO && turn <= stop * S::EPSILON;
                 (interval.to, interval.last) = (turn, at_turn);
-                observer.interval(&output, &interval);
+                if !undecided {
+                    observer.interval(&output, &interval);
+                }
                 // Not the sign of θ̈: in a long Euler step θ̇ does not follow it, and a turn back would be found without end.
                 state.direction = state.direction.opposite();
-                if method.step().is_none() {
+                if undecided || method.step().is_none() {
                     // A block let go in balance, with θ̈ = 0, may have the wrong sign of θ̈; its turn gives it.
                     state.acceleration_sign = state.direction;
                     if !separate_terminal_sign {
                         state.terminal_acceleration_sign = state.acceleration_sign;
                     }
+                }
+                if undecided {
+                    return End::Undecided;
                 }
                 observer.event(
                     Event::Turn,

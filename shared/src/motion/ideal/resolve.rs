@@ -2,6 +2,7 @@
 
 use super::IdealSystem;
 use crate::equation::any_equation::AnyEquation;
+use crate::equation::body::FullBody;
 use crate::equation::clutch_rule::ClutchRule;
 use crate::equation::lever::CentreOfMass;
 use crate::equation::{FullBlock, FullInerter, SlenderBlock};
@@ -20,31 +21,25 @@ impl Structure {
     pub fn resolve<S: Real>(&self) -> Result<IdealSystem<S>, ParameterError> {
         let sigma = self.device.mass_ratio;
         require("mass_ratio", sigma, (0.0..=10_000.0).contains(&sigma), "from 0 to 10000")?;
-        self.loaded()?.compose()
-    }
-
-    /// Equations of a structure without added mass.
-    fn compose<S: Real>(&self) -> Result<IdealSystem<S>, ParameterError> {
-        let alpha = self.block.slenderness();
-        let device = &self.device;
-        let speed = self.block.frequency_parameter() * alpha;
-        let rest = require("rest_speed", self.rest_speed, (1e-12..=1e-2).contains(&self.rest_speed), "from 1e-12 to 1e-2")?;
-        let restitution = self.restitution.evaluate(&self.block, self.geometry, device)?;
-        let clutch = match device.kind {
-            DeviceKind::None => ClutchRule::Without,
-            DeviceKind::Inerter => ClutchRule::Always,
-            DeviceKind::ClutchedPair => ClutchRule::Resisting,
-        };
-        let [released, engaged] = self.equations()?;
+        let loaded = self.loaded()?;
+        let Structure { block, geometry, device, restitution, rest_speed, .. } = &loaded;
+        let speed = block.frequency_parameter() * block.slenderness();
+        let rest = require("rest_speed", *rest_speed, (1e-12..=1e-2).contains(rest_speed), "from 1e-12 to 1e-2")?;
+        let restitution = restitution.evaluate(block, *geometry, device)?;
+        let [released, engaged] = loaded.equations()?;
         Ok(IdealSystem {
             released,
             engaged,
             restitution: S::of(restitution),
-            uplift: S::of(self.geometry.uplift_threshold(&self.block)),
-            slenderness: S::of(alpha),
+            uplift: S::of(geometry.uplift_threshold(block.slenderness())),
+            slenderness: S::of(block.slenderness()),
             rest_speed: S::of(rest * speed),
             counted_speed: S::of(COUNTED_SPEED * speed),
-            clutch,
+            clutch: match device.kind {
+                DeviceKind::None => ClutchRule::Without,
+                DeviceKind::Inerter => ClutchRule::Always,
+                DeviceKind::ClutchedPair => ClutchRule::Resisting,
+            },
         })
     }
 
@@ -71,18 +66,16 @@ impl Structure {
         if device.kind == DeviceKind::None {
             return Ok([alone; 2]);
         }
-        let point = device.mount.lever(&self.block)?.rounded();
+        let lever = device.mount.lever(&self.block)?.rounded();
+        let consistent = device.kinematics == KinematicsKind::Consistent;
         let inerter = |coupling: f64| {
             let coupling = S::of(coupling);
-            match (device.mount, device.kinematics) {
-                (Mount::CentreOfMass, KinematicsKind::Paper) => {
-                    AnyEquation::CentrePaper(FullInerter::new(block, coupling, CentreOfMass))
+            match device.mount {
+                Mount::CentreOfMass => {
+                    let body = FullBody { block, lever: CentreOfMass, consistent, vertical: false };
+                    AnyEquation::Centre(FullInerter { body, coupling })
                 }
-                (Mount::CentreOfMass, KinematicsKind::Consistent) => {
-                    AnyEquation::CentreConsistent(FullInerter::new(block, coupling, CentreOfMass))
-                }
-                (_, KinematicsKind::Paper) => AnyEquation::PointPaper(FullInerter::new(block, coupling, point)),
-                (_, KinematicsKind::Consistent) => AnyEquation::PointConsistent(FullInerter::new(block, coupling, point)),
+                _ => AnyEquation::Point(FullInerter { body: FullBody { block, lever, consistent, vertical: false }, coupling }),
             }
         };
         let engaged = inerter(coupling);

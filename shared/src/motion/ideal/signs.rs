@@ -59,7 +59,6 @@ impl<S: Real> IdealSystem<S> {
 
 /// The sign of `value`, whose part without the ground is `quiet`; the `known` one where the two parts cancel to rounding, because
 /// that is where an event at the end of the last ground segment has left it.
-#[inline]
 fn beyond_rounding<S: Real>(value: S, known: Sign, quiet: impl FnOnce() -> S) -> Sign {
     let sign = Sign::of(value, known);
     if sign == known {

@@ -33,13 +33,7 @@ impl<S: Real> IdealSystem<S> {
                 false,
             )
         };
-        let positive = crossing(Sign::Positive);
-        let negative = crossing(Sign::Negative);
-        let first = match (positive, negative) {
-            (Some(a), Some(b)) => Some(a.smaller(b)),
-            (a, b) => a.or(b),
-        };
-        // An uplift within rounding of the segment's end belongs to the next segment.
+        let first = [Sign::Positive, Sign::Negative].into_iter().filter_map(crossing).reduce(Real::smaller);
         first.filter(|&t| to - t > to * S::EPSILON * S::of(4.0)).map(|t| (t, true))
     }
 

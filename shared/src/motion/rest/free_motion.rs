@@ -7,18 +7,6 @@
 use crate::equation::first_integral::FirstIntegral;
 use crate::math;
 
-/// The integrals that are in force along the legs of a free motion: by Eq. 10 a clutched pair is engaged where acceleration and velocity
-/// have one sign, which on quiet ground is while it moves inward on this side of the tip.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Legs<I> {
-    /// Moving outward, up to the tip.
-    pub outward: I,
-    /// Moving back from beyond the tip.
-    pub returning: I,
-    /// Moving inward from the tip.
-    pub inward: I,
-}
-
 /// Free motion of a block on quiet ground: its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FreeMotion<I> {
@@ -26,8 +14,11 @@ pub struct FreeMotion<I> {
     pub slenderness: f64,
     /// η, 0 to 1.
     pub restitution: f64,
-    /// First integrals of its legs.
-    pub legs: Legs<I>,
+    /// First integral in force while it moves outward, and back from beyond the tip.
+    pub outward: I,
+    /// First integral in force while it moves inward on this side of the tip: by Eq. 10 a clutched pair is engaged where acceleration and
+    /// velocity have one sign.
+    pub inward: I,
 }
 
 /// How a free motion ends.
@@ -47,10 +38,8 @@ impl<I: FirstIntegral> FreeMotion<I> {
     /// The end of the motion from |θ| = `rotation` (rad, not negative) with the outward `velocity` (p rad).
     ///
     /// A block that just reaches the tip counts as overturned.
-    #[inline]
     pub fn settle(&self, rotation: f64, velocity: f64) -> Settled {
-        let Legs { outward, returning, inward } = self.legs;
-        let alpha = self.slenderness;
+        let FreeMotion { slenderness: alpha, outward, inward, .. } = *self;
         let (mut q, mut velocity) = (alpha - rotation, velocity);
         let mut settled = Settled { overturned: false, impact: false, rotation, acceleration: 0.0 };
         loop {
@@ -65,8 +54,8 @@ impl<I: FirstIntegral> FreeMotion<I> {
             }
             let mut squared = velocity * velocity;
             if q <= 0.0 {
-                settled.acceleration = settled.acceleration.max(returning.acceleration(q));
-                squared = returning.squared_speed(q, squared, 0.0);
+                settled.acceleration = settled.acceleration.max(outward.acceleration(q));
+                squared = outward.squared_speed(q, squared, 0.0);
                 if squared <= 0.0 {
                     return Settled { overturned: true, ..settled };
                 }
@@ -97,7 +86,7 @@ mod tests {
     use crate::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 
     use crate::equation::first_integral::{FullIntegral, SlenderIntegral};
-    use crate::ground::Quiet;
+    use crate::ground::Harmonics;
     use crate::method::taylor::Taylor;
     use crate::motion::state::{Limits, Phase};
     use crate::observers::peaks::Peaks;
@@ -114,7 +103,7 @@ mod tests {
         let mut state = system.released_at(rotation, velocity, 0.0);
         let mut peaks = Peaks { rocked: true, ..Peaks::default() };
         let limits = Limits { overturned: 3.0 * structure.block.slenderness(), events: 100_000 };
-        system.advance(&Taylor::<f64, 20>::adaptive(1e-17), &mut state, &Quiet, 40.0, &limits, &mut peaks).unwrap();
+        system.advance(&Taylor::<f64, 20>::adaptive(1e-17), &mut state, &Harmonics::QUIET, 40.0, &limits, &mut peaks).unwrap();
         let overturned = state.phase == Phase::Overturned;
         let impact = peaks.first_impact.is_some();
         (Settled { overturned, impact, rotation: peaks.rotation, acceleration: peaks.acceleration }, state.impacts)
@@ -128,8 +117,7 @@ mod tests {
             DeviceKind::Inerter => (COUPLING, COUPLING),
             DeviceKind::ClutchedPair => (0.0, COUPLING),
         };
-        let legs = Legs { outward: integral(out), returning: integral(out), inward: integral(back) };
-        let motion = FreeMotion { slenderness: alpha, restitution: 0.93, legs };
+        let motion = FreeMotion { slenderness: alpha, restitution: 0.93, outward: integral(out), inward: integral(back) };
         for step in 0..40 {
             let rotation = alpha * (0.03 + 0.043 * f64::from(step));
             for speed in -30..30 {
@@ -174,8 +162,7 @@ mod tests {
     #[test]
     fn the_tip_itself_and_rest() {
         let integral = SlenderIntegral { inertia: 1.0 };
-        let legs = Legs { outward: integral, returning: integral, inward: integral };
-        let motion = FreeMotion { slenderness: 0.2, restitution: 0.9, legs };
+        let motion = FreeMotion { slenderness: 0.2, restitution: 0.9, outward: integral, inward: integral };
         // From θ = 0 with v = α (in p rad) the slender block just reaches the tip.
         assert!(motion.settle(0.0, 0.2).overturned);
         assert!(!motion.settle(0.0, 0.2 - 1e-12).overturned);

@@ -73,11 +73,17 @@ impl<S: Scalar, E: Switched<S>> TimeStepping<S, E> {
         (S::select(moving, state.side, opposite), S::select(moving, h, S::select(uplifts, h, zero)))
     }
 
-    /// The equation in force by Eq. 10 at an instant: engaged where acceleration and velocity of the terminals have one sign.
+    /// Eq. 10 at an instant: engaged where acceleration and velocity of the terminals have one sign.
+    #[inline(always)]
+    pub fn engages(&self, state: &TimeSteppingState<S>, side: S, ground: S) -> S::Mask {
+        let drive = self.released.switching(side, state.rotation, state.velocity, ground);
+        (drive * state.velocity).exceeds(S::of(0.0))
+    }
+
+    /// The equation in force at an instant.
     #[inline(always)]
     pub fn engagement(&self, state: &TimeSteppingState<S>, side: S, ground: S) -> E {
-        let drive = self.released.switching(side, state.rotation, state.velocity, ground);
-        E::switched((drive * state.velocity).exceeds(S::of(0.0)), &self.engaged, &self.released)
+        E::switched(self.engages(state, side, ground), &self.engaged, &self.released)
     }
 
     /// Where θ has changed its sign: θ̇⁺ = η θ̇⁻ and the other toe. θ stays where the step left it.

@@ -40,7 +40,8 @@ const SUPPORT: usize = 4;
 pub struct Checks<S> {
     /// Time of the present ground segment's start from the origin, s; the caller sets it.
     pub origin: S,
-    report: Report<S>,
+    /// What was found up to the last interval or event.
+    pub report: Report<S>,
     toe: Toe<S>,
     impulses: Impulses<S>,
     /// The first quantity that is looked at.
@@ -72,11 +73,6 @@ impl<S: Real> Checks<S> {
     /// Looks at the force on the support and at impulses only: what every history is reported with.
     pub fn brief(self) -> Checks<S> {
         Checks { first: SUPPORT, ..self }
-    }
-
-    /// What was found up to the last interval or event.
-    pub fn report(&self) -> Report<S> {
-        self.report
     }
 
     /// As [`Checks::report`]; of a block that has overturned, what was found before its fall.

@@ -48,10 +48,7 @@ pub struct Report<S> {
 impl<S: Real> Report<S> {
     /// Farthest travel of the terminals, m: half the length that a rack needs between its stops.
     pub fn stroke(&self) -> Option<Extreme<S>> {
-        match self.travel {
-            [Some(positive), Some(negative)] => Some(if negative.value > positive.value { negative } else { positive }),
-            [positive, negative] => positive.or(negative),
-        }
+        self.travel.into_iter().flatten().reduce(|a, b| if b.value > a.value { b } else { a })
     }
 
     /// The record of a quantity in the order of the readings: friction, −V, the forces of the flywheels, that on the support.

@@ -65,7 +65,6 @@ impl<S: Real> Toe<S> {
     /// As [`Mount::lever`].
     pub fn new(block: &Block, geometry: Geometry, mount: &Mount, account: &Account) -> Result<Toe<S>, ParameterError> {
         let TyingPoint { along, across } = mount.lever(block)?;
-        let slender = math::square_root(mount.slender_lever_squared(block)?);
         let p2 = block.frequency_parameter_squared();
         let alpha = block.slenderness();
         let (pulley, vertical) = match *mount {
@@ -73,9 +72,10 @@ impl<S: Real> Toe<S> {
             Mount::TyingPoint { pulley_ratio, .. } => (pulley_ratio, false),
             Mount::BaseCorners { pulley_ratio } => (pulley_ratio, true),
         };
-        let (sin, cos, lever) = match geometry {
-            Geometry::Full => (math::sin(alpha), math::cos(alpha), [along, across]),
-            Geometry::Slender => (alpha, 1.0, [slender, 0.0]),
+        let (sin, cos) = geometry.sin_cos(alpha);
+        let lever = match geometry {
+            Geometry::Full => [along, across],
+            Geometry::Slender => [math::square_root(mount.slender_lever_squared(block)?), 0.0],
         };
         // An ideal clutch, which only resists, lets go at an impact; plates and springs pass no impulse on.
         let holds = matches!(account.clutching, Clutching::Permanent | Clutching::Rigid);
@@ -98,20 +98,13 @@ impl<S: Real> Toe<S> {
 
     /// sin δ and cos δ, or what stands for them in the slender model.
     fn direction(&self, side: Sign, rotation: S) -> (S, S) {
-        let delta = side.times(self.slenderness) - rotation;
-        match self.geometry {
-            Geometry::Full => delta.sin_cos(),
-            Geometry::Slender => (delta, S::ONE),
-        }
+        self.geometry.sin_cos(side.times(self.slenderness) - rotation)
     }
 
     /// ℓ = A cos δ + s B sin δ; slender: a constant.
     fn arm(&self, side: Sign, (sin, cos): (S, S)) -> S {
         let [along, across] = self.lever;
-        match self.geometry {
-            Geometry::Full => along * cos + side.times(across) * sin,
-            Geometry::Slender => along,
-        }
+        along * cos + side.times(across) * sin
     }
 
     /// A force over λmR (1/s²) over the weight.

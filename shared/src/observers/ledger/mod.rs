@@ -15,6 +15,7 @@ mod entries;
 
 pub use entries::Entries;
 
+use crate::math::quadrature::integral;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
@@ -51,7 +52,8 @@ pub struct Account {
 /// Observer that sums the [`Entries`] of a motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Ledger<S> {
-    entries: Entries<S>,
+    /// The entries up to the last interval or event.
+    pub entries: Entries<S>,
     geometry: Geometry,
     clutching: Clutching,
     frequency: S,
@@ -59,13 +61,15 @@ pub struct Ledger<S> {
     slenderness: S,
     coupling: S,
     rack: S,
-    barrier: S,
+    /// Potential energy at θ = α, which a block must pass to overturn by itself: p²(1 − cos α), slender ½p²α²; 1/s². It stands
+    /// for mgR(1 − cos α) joules.
+    pub barrier: S,
     last: Option<Balance<S>>,
     since: Since,
 }
 
 /// Energies at an instant.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Balance<S> {
     kinetic: S,
     potential: S,
@@ -86,17 +90,6 @@ struct Since {
 }
 
 impl<S: Real> Balance<S> {
-    /// A block that stands and a device that never moved.
-    const NOTHING: Balance<S> = Balance {
-        kinetic: S::ZERO,
-        potential: S::ZERO,
-        rack: S::ZERO,
-        springs: S::ZERO,
-        flywheel: [S::ZERO; 2],
-        engaged: [false; 2],
-        locked: [false; 2],
-    };
-
     fn stored(&self) -> S {
         self.flywheel[0] + self.flywheel[1] + self.rack + self.springs
     }
@@ -137,17 +130,6 @@ impl<S: Real> Ledger<S> {
         ledger
     }
 
-    /// The entries up to the last interval or event.
-    pub fn entries(&self) -> Entries<S> {
-        self.entries
-    }
-
-    /// Potential energy at θ = α, which a block must pass to overturn by itself: p²(1 − cos α), slender ½p²α²; 1/s². It stands
-    /// for mgR(1 − cos α) joules.
-    pub fn barrier(&self) -> S {
-        self.barrier
-    }
-
     /// p² (cos δ − cos α) = 2p² sin(αs − θ/2) sin(θ/2), which loses nothing near θ = 0.
     fn potential(&self, side: Sign, rotation: S) -> S {
         let half = S::HALF * rotation;
@@ -160,11 +142,7 @@ impl<S: Real> Ledger<S> {
 
     /// Work per time of the ground on block and rack.
     fn input(&self, side: Sign, snapshot: &Snapshot<S>) -> S {
-        let delta = side.times(self.slenderness) - snapshot.motion.rotation;
-        let (sin, cos) = match self.geometry {
-            Geometry::Full => delta.sin_cos(),
-            Geometry::Slender => (delta, S::ONE),
-        };
+        let (sin, cos) = self.geometry.sin_cos(side.times(self.slenderness) - snapshot.motion.rotation);
         let [horizontal, vertical] = snapshot.ground;
         let block = (horizontal * cos + vertical * sin) * snapshot.motion.velocity;
         -self.frequency_squared * (block + self.rack * horizontal * snapshot.terminal_velocity)
@@ -248,20 +226,16 @@ impl<S: Real> Observer<S> for Ledger<S> {
             Some(last) => self.attribute(&last, &first),
         }
         self.since = Since::default();
-        let [input, clutch, brake, bearing, rack, kinematics] =
-            crate::math::quadrature::integral(interval.from, interval.to, S::HALF / self.frequency, |time| {
-                let snapshot = output.snapshot(time);
-                let spent = &snapshot.device.spent;
-                let input = self.input(interval.side, &snapshot);
-                [input, spent.clutch, spent.brake, spent.bearing, spent.rack, spent.kinematics]
-            });
-        let entries = &mut self.entries;
-        entries.input = entries.input + input;
-        entries.clutch = entries.clutch + clutch;
-        entries.brake = entries.brake + brake;
-        entries.bearing = entries.bearing + bearing;
-        entries.rack = entries.rack + rack;
-        entries.kinematics = entries.kinematics + kinematics;
+        let sums = integral(interval.from, interval.to, S::HALF / self.frequency, |time| {
+            let snapshot = output.snapshot(time);
+            let spent = &snapshot.device.spent;
+            let input = self.input(interval.side, &snapshot);
+            [input, spent.clutch, spent.brake, spent.bearing, spent.rack, spent.kinematics]
+        });
+        let Entries { input, clutch, brake, bearing, rack, kinematics, .. } = &mut self.entries;
+        for (entry, sum) in [input, clutch, brake, bearing, rack, kinematics].into_iter().zip(sums) {
+            *entry = *entry + sum;
+        }
         self.state_of_affairs(self.balance(interval.side, &output.snapshot(interval.to)));
     }
 
@@ -273,7 +247,7 @@ impl<S: Real> Observer<S> for Ledger<S> {
         let Some(mut last) = self.last else {
             // Before any motion: a block that uplifts has stood.
             if event == Event::Uplift {
-                self.last = Some(Balance::NOTHING);
+                self.last = Some(Balance::default());
             }
             return;
         };

@@ -1,6 +1,6 @@
 use super::*;
-use crate::drivetrain::power_loss::Spent;
 use crate::drivetrain::transmission::Account as DeviceAccount;
+use crate::drivetrain::transmission::Spent;
 use crate::equation::motion::Motion;
 use crate::ground::Linear;
 use crate::math;
@@ -25,7 +25,7 @@ fn ledger(structure: &Structure) -> Ledger<f64> {
 
 fn follow(structure: &Structure, ground: &[(Shake, f64)], from: Option<(f64, f64)>) -> (BlockState<f64>, Entries<f64>) {
     let (state, ledger) = Run { structure, ground, from, observer: ledger(structure) }.go();
-    (state, ledger.entries())
+    (state, ledger.entries)
 }
 
 /// Every composition under `ground`; the largest residual over the input.
@@ -127,7 +127,7 @@ impl Observer<f64> for UntilImpact {
 
     fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
         if event == Event::Impact {
-            self.1.get_or_insert(self.0.entries());
+            self.1.get_or_insert(self.0.entries);
         }
         self.0.event(event, time, state);
     }
@@ -183,7 +183,7 @@ fn the_barrier_is_the_potential_at_the_top() {
     for (geometry, expected) in [(Geometry::Full, 1.0 - math::cos(0.3)), (Geometry::Slender, 0.045)] {
         let block = Block::of_unit_frequency(0.3, 4.0 / 3.0).unwrap();
         let ledger = Ledger::<f64>::new(&block, geometry, &Account::default());
-        assert!((ledger.barrier() - expected).abs() < 1e-15);
+        assert!((ledger.barrier - expected).abs() < 1e-15);
         // The potential is what the weight's moment holds against: dU/dθ = p² sin δ.
         for rotation in [-0.25, -1e-3, 1e-9, 0.4] {
             let side = Sign::of(rotation, Sign::Positive);
@@ -268,7 +268,7 @@ fn a_jolt_costs_what_the_momentum_balance_says() {
     let after = 2.2 / 1.4;
     event(&mut ledger, Event::Switch, after);
     show(&mut ledger, 0.0, |_| snapshot(0.1, after, after, true));
-    let entries = ledger.entries();
+    let entries = ledger.entries;
     assert!((entries.clutch - 0.5 * 0.4 / 1.4 * 2.25).abs() < 1e-15 && entries.residual().abs() < 1e-15);
     assert_eq!((entries.brake, entries.created, entries.impact), (0.0, 0.0, 0.0));
 }
@@ -280,25 +280,25 @@ fn what_jumps_at_an_event_goes_to_its_cause() {
     // Everything locked is slowed by 0.9.
     event(&mut ledger, Event::Impact, -1.8);
     show(&mut ledger, 0.0, |_| snapshot(0.0, -1.8, -1.8, true));
-    assert!((ledger.entries().impact - 0.5 * 1.4 * 4.0 * 0.19).abs() < 1e-14);
+    assert!((ledger.entries.impact - 0.5 * 1.4 * 4.0 * 0.19).abs() < 1e-14);
     // Released to a brake that stops it at once.
     event(&mut ledger, Event::Switch, -1.8);
     show(&mut ledger, 0.0, |_| snapshot(0.0, -1.8, 0.0, false));
-    assert!((ledger.entries().brake - 0.2 * 3.24).abs() < 1e-15 && ledger.entries().clutch == 0.0);
-    assert!(ledger.entries().residual().abs() < 1e-15);
+    assert!((ledger.entries.brake - 0.2 * 3.24).abs() < 1e-15 && ledger.entries.clutch == 0.0);
+    assert!(ledger.entries.residual().abs() < 1e-15);
     // An overrunning flywheel turns on while the block comes to rest and stands.
     let mut ledger = scripted(Clutching::Real, 0.0);
     show(&mut ledger, 0.0, |_| snapshot(0.0, -1e-3, -3.0, false));
     event(&mut ledger, Event::Impact, -9e-4);
     event(&mut ledger, Event::Rest, 0.0);
-    assert!((ledger.entries().impact - 5e-7).abs() < 1e-18 && (ledger.entries().stored - 1.8).abs() < 1e-15);
+    assert!((ledger.entries.impact - 5e-7).abs() < 1e-18 && (ledger.entries.stored - 1.8).abs() < 1e-15);
     show(&mut ledger, 2.0, |time| {
         let spin = time - 3.0;
         let mut coasting = snapshot(0.0, 0.0, spin, false);
         coasting.device.spent.bearing = -0.4 * spin;
         coasting
     });
-    assert!((ledger.entries().bearing - 0.2 * 8.0).abs() < 1e-15 && ledger.entries().residual().abs() < 1e-15);
+    assert!((ledger.entries.bearing - 0.2 * 8.0).abs() < 1e-15 && ledger.entries.residual().abs() < 1e-15);
 }
 
 #[test]
@@ -315,9 +315,9 @@ fn a_spring_that_an_impact_lets_go_is_lost_in_its_clutch() {
     event(&mut ledger, Event::Impact, -1.0);
     event(&mut ledger, Event::Switch, -1.0);
     show(&mut ledger, 0.0, |_| sprung(-1.0, 0.0, false));
-    let Entries { impact, clutch, brake, .. } = ledger.entries();
+    let Entries { impact, clutch, brake, .. } = ledger.entries;
     assert!((impact - (0.5 + 0.12) * 3.0).abs() < 1e-15 && (clutch - 0.7).abs() < 1e-15 && brake == 0.0, "{impact} {clutch}");
-    assert!(ledger.entries().residual().abs() < 1e-15);
+    assert!(ledger.entries.residual().abs() < 1e-15);
 }
 
 #[test]
@@ -330,7 +330,7 @@ fn powers_are_integrated_and_the_ground_works_on_block_and_rack() {
         let device = DeviceAccount { spent, ..plain.device };
         Snapshot { ground: [0.7, 0.2], terminal_velocity: 3.0 * time * time, device, ..plain }
     });
-    let entries = ledger.entries();
+    let entries = ledger.entries;
     let (before, after) = (0.2_f64, 0.3 - 0.55);
     let sideways = 0.7 * (math::sin(before) - math::sin(after)) + 0.3 * 0.7 * 3.375;
     let upward = 0.2 * (math::cos(after) - math::cos(before));

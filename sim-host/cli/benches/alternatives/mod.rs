@@ -2,7 +2,6 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use sprag_shared::equation::kinematics::Paper;
 use sprag_shared::equation::lever::{CentreOfMass, Lever, TyingPoint};
 use sprag_shared::equation::{Equation, FullInerter};
 use sprag_shared::math::scalar::Scalar;
@@ -98,7 +97,7 @@ pub trait Acceleration {
     fn switching(&self, side: f64, rotation: f64, velocity: f64, ground: f64) -> f64;
 }
 
-impl Acceleration for FullInerter<f64, CentreOfMass, Paper> {
+impl Acceleration for FullInerter<f64, CentreOfMass> {
     fn acceleration(&self, coupling: f64, side: f64, rotation: f64, velocity: f64, ground: f64) -> f64 {
         Equation::acceleration(&self.with_coupling(coupling), side, rotation, velocity, ground)
     }
@@ -111,7 +110,7 @@ impl Acceleration for FullInerter<f64, CentreOfMass, Paper> {
 #[inline(always)]
 pub fn step_by_pointer(
     equation: &dyn Acceleration,
-    block: &TimeStepping<f64, FullInerter<f64, CentreOfMass, Paper>>,
+    block: &TimeStepping<f64, FullInerter<f64, CentreOfMass>>,
     state: TimeSteppingState<f64>,
     ground: [f64; 3],
     h: f64,

@@ -218,5 +218,5 @@ fn uplift(settings: &Settings) -> f64 {
     let geometry = if slender(settings) { Geometry::Slender } else { Geometry::Full };
     // Size and inertia say nothing of it.
     let block = Block::of_unit_frequency(real(settings, Item::Slenderness), 4.0 / 3.0);
-    block.map_or(f64::INFINITY, |block| geometry.uplift_threshold(&block))
+    block.map_or(f64::INFINITY, |block| geometry.uplift_threshold(block.slenderness()))
 }

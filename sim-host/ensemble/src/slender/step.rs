@@ -2,7 +2,6 @@
 
 use std::f64::consts::PI;
 
-use sprag_shared::equation::clutch_rule::Clutch;
 use sprag_shared::math::scalar::Scalar;
 
 use super::crest;
@@ -104,7 +103,7 @@ impl Stepping for ClosedForm {
     }
 
     #[inline(always)]
-    fn step<C: Clutch>(&mut self, blocks: &mut Blocks, bounds: &Bounds, pulses: &Pulses) -> Number {
+    fn step<const PAIR: bool>(&mut self, blocks: &mut Blocks, bounds: &Bounds, pulses: &Pulses) -> Number {
         let Bounds { slenderness, coupling, .. } = *bounds;
         let (nothing, one) = (number(0.0), number(1.0));
         let half_cycle = number(PI);
@@ -115,11 +114,7 @@ impl Stepping for ClosedForm {
         // The sign of θ̈ does not depend on the mode.
         blocks.read_push(blocks.rotation - slenderness - ground * turn.0);
         let along = !(blocks.outward ^ blocks.pushed);
-        let engaged = match (C::RULE.follows_signs(), C::RULE.has_inerter()) {
-            (true, _) => along,
-            (false, true) => Mask::ALL,
-            (false, false) => Mask::NONE,
-        };
+        let engaged = if PAIR { along } else { Mask::ALL };
         let rate = one / (one + engaged.choose(coupling, nothing));
         let here = (blocks.rotation, blocks.velocity);
         let motion = Motion::new(here, (slenderness, rate), (ground, pulses.frequency), (phase, turn));
@@ -131,7 +126,7 @@ impl Stepping for ClosedForm {
         let push = blocks.pushed.sign();
         let direction = blocks.outward.sign();
         // A velocity that grows before it falls has its zero, if any, after that of θ̈: without a clutch nothing happens at the latter.
-        let passed = if C::RULE.follows_signs() { Mask::NONE } else { changed & along };
+        let passed = if PAIR { Mask::NONE } else { changed & along };
         let (mut rate_zero, mut turned, mut hit) = (Mask::NONE, Mask::NONE, Mask::NONE);
         let mut looked_at_rate = passed | !changed;
         loop {

@@ -1,6 +1,6 @@
 //! One case of a batch: a dimensionless block under one cycle of a pulse.
 
-use sprag_shared::ground::{Harmonics, Quiet};
+use sprag_shared::ground::Harmonics;
 use sprag_shared::motion::state::{BlockState, Limits};
 use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::added_mass::AddedMass;
@@ -11,6 +11,7 @@ use sprag_shared::structure::mount::Mount;
 use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
 
 pub use sprag_ensemble::alone::{CaseError, TIGHT};
+use sprag_ensemble::plain::PlainBlock;
 pub use sprag_ensemble::pulsed::PulseShape;
 use sprag_ensemble::pulsed::PulsedBlock;
 use sprag_loops::{IdealLoop, Method, Precision};
@@ -114,10 +115,13 @@ impl Case {
         let duration = core::f64::consts::TAU / self.frequency_ratio;
         let mut state = BlockState::default();
         let mut peaks = Peaks::default();
-        let limits = |bound| Limits { overturned: self.geometry.point_of_no_return(&structure.block, bound), events: 1_000_000 };
+        let limits = |bound| Limits {
+            overturned: self.geometry.point_of_no_return(structure.block.slenderness(), bound),
+            events: 1_000_000,
+        };
         method.advance(&system, &mut state, &pulse, duration, &limits(amplitude.abs()), &mut peaks)?;
         peaks.origin = duration;
-        method.advance(&system, &mut state, &Quiet, self.free_time, &limits(0.0), &mut peaks)?;
+        method.advance(&system, &mut state, &Harmonics::QUIET, self.free_time, &limits(0.0), &mut peaks)?;
         let outcome = Outcome::of(&state, &peaks);
         Ok(CaseResult {
             outcome,
@@ -155,15 +159,14 @@ impl Comparable for CaseResult {
 
 impl From<&Case> for PulsedBlock {
     fn from(case: &Case) -> PulsedBlock {
-        PulsedBlock {
+        let plain = PlainBlock {
             geometry: case.geometry,
             device: case.device,
             slenderness: case.slenderness,
             coupling: if case.device == DeviceKind::None { 0.0 } else { case.mass_ratio / RECTANGLE_INERTIA_RATIO },
             restitution: case.restitution,
-            pulse: case.pulse,
-            frequency_ratio: case.frequency_ratio,
-            amplitude_ratio: case.amplitude_ratio,
-        }
+        };
+        let Case { pulse, frequency_ratio, amplitude_ratio, .. } = *case;
+        PulsedBlock { plain, pulse, frequency_ratio, amplitude_ratio }
     }
 }

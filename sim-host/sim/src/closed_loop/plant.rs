@@ -3,7 +3,7 @@
 use sprag_loops::{HybridLoop, Method, hybrid};
 use sprag_shared::equation::body::Body;
 use sprag_shared::math::scalar::Real;
-use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::method::fixed::{FixedStep, Scheme};
 use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::hybrid::mode_output::Shaking;
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
@@ -91,8 +91,11 @@ impl<'a> Plant<'a> {
         };
         let block = surroundings.course.block;
         let step = surroundings.step;
-        let method =
-            if surroundings.exponential { FixedStep::ExponentialMidpoint { step } } else { FixedStep::RungeKutta4 { step } };
+        let method = if surroundings.exponential {
+            FixedStep { scheme: Scheme::ExponentialMidpoint, step }
+        } else {
+            FixedStep { scheme: Scheme::RungeKutta4, step }
+        };
         Plant {
             machine,
             method: hybrid(Method::Fixed(method)),

@@ -162,7 +162,7 @@ fn uplift(subject: &Subject<'_>) -> String {
     let (structure, drivetrain) = (&subject.loaded, &subject.device.drivetrain);
     let (block, geometry) = (&structure.block, structure.geometry);
     let weight = if subject.has_vertical() { "(g + v̈_g)" } else { "g" };
-    let threshold = geometry.uplift_threshold(block);
+    let threshold = geometry.uplift_threshold(block.slenderness());
     let slope = if geometry == Geometry::Full { "tan α" } else { "α" };
     // A pair's flywheel is taken on as the block goes: at once without a delay, and a spring that is not wound up yet holds nothing.
     let friction = structure.device.mass_ratio * drivetrain.flywheel.dry_deceleration / GRAVITY;

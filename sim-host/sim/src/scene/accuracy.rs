@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_with::skip_serializing_none;
 use sprag_loops::Method;
-use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::method::fixed::{FixedStep, Scheme};
 
 use super::error::SceneError;
 use super::schema::KeyOf;
@@ -27,14 +27,19 @@ pub enum MethodName {
 }
 
 impl MethodName {
-    /// The method in fixed steps of `step` (s), unless it is that of Taylor series.
-    pub fn fixed<S>(self, step: S) -> Option<FixedStep<S>> {
+    /// The scheme of fixed steps, unless the method is that of Taylor series.
+    fn scheme(self) -> Option<Scheme> {
         match self {
             MethodName::Taylor => None,
-            MethodName::RungeKutta4 => Some(FixedStep::RungeKutta4 { step }),
-            MethodName::SemiImplicitEuler => Some(FixedStep::SemiImplicitEuler { step }),
-            MethodName::ExponentialMidpoint => Some(FixedStep::ExponentialMidpoint { step }),
+            MethodName::RungeKutta4 => Some(Scheme::RungeKutta4),
+            MethodName::SemiImplicitEuler => Some(Scheme::SemiImplicitEuler),
+            MethodName::ExponentialMidpoint => Some(Scheme::ExponentialMidpoint),
         }
+    }
+
+    /// The method in fixed steps of `step` (s), unless it is that of Taylor series.
+    pub fn fixed<S>(self, step: S) -> Option<FixedStep<S>> {
+        self.scheme().map(|scheme| FixedStep { scheme, step })
     }
 
     /// The method in steps of `step` (s).

@@ -179,7 +179,7 @@ impl Scene {
 
     /// g tan α, or gα for the slender model, in g.
     pub fn uplift_threshold(&self) -> f64 {
-        self.geometry().uplift_threshold(&self.block)
+        self.geometry().uplift_threshold(self.block.slenderness())
     }
 
     /// How long the motion is followed after the ground motion, s.

@@ -52,7 +52,7 @@ impl Scene {
             warn("slenderness_deg", degrees, format!("that is degrees; {} rad would be {meant} degrees", Number(degrees)));
         } else if degrees > LEAST_SLENDER_DEG {
             let wide = number(math::tan(block.slenderness()));
-            let threshold = number(Geometry::Full.uplift_threshold(block));
+            let threshold = number(Geometry::Full.uplift_threshold(block.slenderness()));
             let reason = format!("a block {wide} times as wide as high, which rocks only above {threshold} g");
             warn("slenderness_deg", degrees, reason);
         }

@@ -29,8 +29,8 @@ impl<S: Real> Asked<S> {
     /// What it found.
     pub(super) fn results(self) -> Option<EnergyReport> {
         self.energy.map(|energy| {
-            let barrier = energy.ledger.barrier().to_f64();
-            let last = energy.ledger.entries().each(Real::to_f64);
+            let barrier = energy.ledger.barrier.to_f64();
+            let last = energy.ledger.entries.each(Real::to_f64);
             let shares = |entries: Entries<f64>| entries.scaled(1.0 / barrier);
             EnergyReport {
                 entries: shares(last).into(),
@@ -86,7 +86,7 @@ impl<S: Real> EnergyHistory<S> {
 
     /// Writes down the entries at `time` (s).
     fn write(&mut self, time: f64) {
-        let entries = self.ledger.entries();
+        let entries = self.ledger.entries;
         // Where two pieces of ground motion meet, their own times may differ in the last bit.
         let time = self.samples.last().map_or(time, |last| time.max(last.0));
         self.samples.push((time, entries.each(Real::to_f64)));

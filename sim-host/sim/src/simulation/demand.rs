@@ -90,7 +90,7 @@ pub(super) fn support_force_ratio<S: Real>(task: &Task<'_>, report: &Report<S>) 
 impl Demand {
     /// Of what `checks` found about the device of `task`.
     pub(super) fn of<S: Real>(task: &Task<'_>, table: &ChecksTable, checks: &Checks<S>) -> Demand {
-        let (report, whole) = (checks.before_fall(), checks.report());
+        let (report, whole) = (checks.before_fall(), checks.report);
         let farthest = |report: &Report<S>| report.stroke().map(|extreme| extreme.value.to_f64());
         let mut demand = Demand {
             friction_needed: number(&report.friction),

@@ -131,7 +131,7 @@ impl Found {
             impacts_s: recorder.impacts,
             clutch_switches: recorder.switches,
             missed_engagements: 0,
-            peak_force_ratio: checks.map(|checks| support_force_ratio(task, &checks.report()).unwrap_or(0.0)),
+            peak_force_ratio: checks.map(|checks| support_force_ratio(task, &checks.report).unwrap_or(0.0)),
             impulses: checks.map(|checks| Impulses::of(&checks.before_fall())).unwrap_or_default(),
             checks: checks.zip(task.scene.file.checks.as_ref()).map(|(checks, table)| Demand::of(task, table, &checks)),
             energy: asked.results(),

@@ -67,7 +67,7 @@ impl<'a> Course<'a> {
     pub fn angle<S: Real>(&self, bound: f64) -> S {
         S::of(match (self.overturning, self.geometry) {
             (Overturning::Reached, Geometry::Full) => core::f64::consts::FRAC_PI_2,
-            _ => self.geometry.point_of_no_return(self.block, bound),
+            _ => self.geometry.point_of_no_return(self.block.slenderness(), bound),
         })
     }
 
@@ -80,10 +80,8 @@ impl<'a> Course<'a> {
     /// friction may hold the block beyond.
     pub fn machine_angle<S: Real>(&self, machine: &HybridSystem<S>, bound: f64, lightest: f64) -> S {
         let p2 = self.block.frequency_parameter_squared();
-        let (held, pushed) = machine
-            .transmission
-            .parameters()
-            .map_or((0.0, 0.0), |parameters| (parameters.rack_dry.to_f64() / p2, parameters.rack_push.to_f64() / p2));
+        let parameters = &machine.transmission.parameters;
+        let (held, pushed) = (parameters.rack_dry.to_f64() / p2, parameters.rack_push.to_f64() / p2);
         self.angle((bound * (1.0 + pushed) + held) / lightest)
     }
 

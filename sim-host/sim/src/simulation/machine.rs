@@ -2,7 +2,7 @@
 
 use sprag_loops::{HybridLoop, Method, hybrid, hybrid_f32};
 use sprag_shared::math::scalar::Real;
-use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::method::fixed::{FixedStep, Scheme};
 use sprag_shared::motion::hybrid::HybridSystem;
 use sprag_shared::motion::state::Phase;
 
@@ -18,7 +18,7 @@ pub(super) fn run(task: &Task<'_>) -> Result<DeviceRun, Failure> {
         (Precision::F64, Some(step)) => follow(task, &*hybrid(accuracy.method.in_steps(step))),
         (Precision::F32, step) => {
             let step = step.unwrap_or(1e-3) as f32;
-            follow(task, &*hybrid_f32(accuracy.method.fixed(step).unwrap_or(FixedStep::RungeKutta4 { step })))
+            follow(task, &*hybrid_f32(accuracy.method.fixed(step).unwrap_or(FixedStep { scheme: Scheme::RungeKutta4, step })))
         }
     }
 }

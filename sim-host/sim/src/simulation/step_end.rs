@@ -129,9 +129,8 @@ fn trace<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, clutch: ClutchRule
                 if moving { equation.acceleration(state.side, state.rotation, state.velocity, push_at_end) } else { S::ZERO };
             trace.peaks.rotation = trace.peaks.rotation.larger(state.rotation.abs());
             trace.peaks.acceleration = trace.peaks.acceleration.larger(acceleration.abs());
-            let works = clutch.has_inerter()
-                && moving
-                && (!clutch.follows_signs() || equation.inertia(state.side, state.rotation) > S::ONE);
+            let engages = || steps.force_scale != 0.0 && block.engages(&state, state.side, push_at_end);
+            let works = clutch.has_inerter() && moving && (!clutch.follows_signs() || engages());
             trace.switches += u32::from(clutch.follows_signs() && works != engaged);
             engaged = works;
             let terminal = equation.terminal_acceleration(state.side, state.rotation, state.velocity, acceleration);

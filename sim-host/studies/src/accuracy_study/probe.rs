@@ -8,7 +8,7 @@ use sprag_shared::math::scalar::Real;
 use sprag_shared::math::tier::{Libm, Micromath, OwnPolynomial};
 use sprag_shared::math::tiered::Tiered;
 use sprag_shared::method::dense_output::DenseOutput;
-use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::method::fixed::{FixedStep, Scheme};
 use sprag_shared::motion::ideal::IdealSystem;
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::state::{BlockState, Phase};
@@ -52,8 +52,8 @@ fn with_any_method<S: Precision>(subject: &Subject, variant: &Variant, times: &[
     }
     let step = || S::of(step_of(subject, variant));
     let method = match (variant.method, variant.setting) {
-        (variant::Method::SemiImplicitEuler, _) => Method::Fixed(FixedStep::SemiImplicitEuler { step: step() }),
-        (variant::Method::RungeKutta4, _) => Method::Fixed(FixedStep::RungeKutta4 { step: step() }),
+        (variant::Method::SemiImplicitEuler, _) => Method::Fixed(FixedStep { scheme: Scheme::SemiImplicitEuler, step: step() }),
+        (variant::Method::RungeKutta4, _) => Method::Fixed(FixedStep { scheme: Scheme::RungeKutta4, step: step() }),
         (variant::Method::ClosedForm, _) => Method::ClosedForm(step()),
         (variant::Method::Taylor, Setting::Step(_)) => Method::Series(step()),
         (variant::Method::Taylor, Setting::Tolerance(tolerance)) => Method::Adaptive(S::of(tolerance)),

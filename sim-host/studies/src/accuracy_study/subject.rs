@@ -60,7 +60,7 @@ impl Subject {
     pub fn grid(&self, count: usize) -> Vec<Subject> {
         let block = &self.loaded.block;
         let p = block.frequency_parameter();
-        let threshold = self.loaded.geometry.uplift_threshold(block);
+        let threshold = self.loaded.geometry.uplift_threshold(block.slenderness());
         let at = |(from, to): (f64, f64), index: usize| from + (to - from) * (index as f64 + 0.5) / count as f64;
         let cell = |index: usize| {
             let frequency = at(FREQUENCIES, index % count) * p;

@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use sprag_ensemble::plain::PlainBlock;
 use sprag_ensemble::pulsed::PulsedBlock;
 use sprag_ensemble::shaken::{Samples, ShakenBlock};
 use sprag_shared::structure::block::GRAVITY;
@@ -237,9 +236,9 @@ impl Direct {
         match quantity {
             Quantity::Frequency => block.frequency_ratio = value,
             Quantity::Amplitude => block.amplitude_ratio = self.scale * value,
-            Quantity::Slenderness => block.slenderness = value.to_radians(),
-            Quantity::Restitution => block.restitution = value,
-            Quantity::MassRatio(index) if index == device => block.coupling = value / self.inertia_ratio,
+            Quantity::Slenderness => block.plain.slenderness = value.to_radians(),
+            Quantity::Restitution => block.plain.restitution = value,
+            Quantity::MassRatio(index) if index == device => block.plain.coupling = value / self.inertia_ratio,
             Quantity::MassRatio(_) => {}
         }
     }
@@ -257,7 +256,7 @@ pub fn pulsed(scene: &Scene, device: usize) -> Option<PulsedBlock> {
     if ground.start_s != 0.0 {
         return None;
     }
-    let PlainBlock { geometry, device, slenderness, coupling, restitution } = scene.plain_block(device)?;
+    let plain = scene.plain_block(device)?;
     let p = scene.block.frequency_parameter();
     let amplitude = match (ground.amplitude_ratio, ground.amplitude_g, ground.amplitude_m_s2) {
         (Some(ratio), ..) => ratio,
@@ -265,16 +264,7 @@ pub fn pulsed(scene: &Scene, device: usize) -> Option<PulsedBlock> {
         (.., m_s2) => m_s2? / GRAVITY / scene.uplift_threshold(),
     };
     let frequency_ratio = ground.frequency_ratio.or(ground.frequency_hz.map(|hertz| hertz * TAU / p))?;
-    Some(PulsedBlock {
-        geometry,
-        device,
-        slenderness,
-        coupling,
-        restitution,
-        pulse,
-        frequency_ratio,
-        amplitude_ratio: ground.scale * amplitude,
-    })
+    Some(PulsedBlock { plain, pulse, frequency_ratio, amplitude_ratio: ground.scale * amplitude })
 }
 
 #[cfg(test)]
@@ -333,7 +323,7 @@ mod tests {
             assert!((other.amplitude_ratio - ratios.amplitude_ratio).abs() < 1e-14);
             assert!((other.frequency_ratio - ratios.frequency_ratio).abs() < 1e-14);
         }
-        assert!((ratios.coupling - 0.4).abs() < 1e-15 && ratios.restitution == 0.8);
+        assert!((ratios.plain.coupling - 0.4).abs() < 1e-15 && ratios.plain.restitution == 0.8);
     }
 
     #[test]

@@ -9,13 +9,13 @@
 //!
 //! Taylor steps are ten times as long as the others. A tier is no part of the slender model, so there its cost is the same for all.
 
-use super::{RESTITUTION, STEP, Tally, count, mean};
+use super::{RESTITUTION, STEP, Tally, WithInerter, count, mean, paper};
 use crate::watcher::Watcher;
 use core::{f64::consts::FRAC_PI_2, fmt, hint::black_box};
 use sprag_case::{Case, CaseError, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::{
     equation::{
-        FullBlock, FullInerter, SlenderBlock, any_equation::AnyEquation, clutch_rule::ClutchRule, kinematics::Paper,
+        FullBlock, FullInerter, SlenderBlock, any_equation::AnyEquation, body::FullBody, clutch_rule::ClutchRule,
         lever::CentreOfMass, switched::Switched,
     },
     ground::Linear,
@@ -51,8 +51,11 @@ fn full<S: Real>() -> FullBlock<S> {
     FullBlock { frequency_squared: S::of(super::FREQUENCY_SQUARED.into()), slenderness: S::of(super::SLENDERNESS.into()) }
 }
 
-fn inerter<S: Real>(coupling: f32) -> FullInerter<S, CentreOfMass, Paper> {
-    FullInerter::new(full(), S::of(coupling.into()), CentreOfMass)
+fn inerter<S: Real>(coupling: f32) -> FullInerter<S, CentreOfMass> {
+    FullInerter {
+        body: FullBody { block: full(), lever: CentreOfMass, consistent: false, vertical: false },
+        coupling: S::of(coupling.into()),
+    }
 }
 
 fn slender<S: Real>(inertia: f32) -> SlenderBlock<S> {
@@ -78,6 +81,16 @@ fn runge_kutta_4<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, state: &mu
 #[inline(never)]
 fn euler<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, state: &mut TimeSteppingState<S>, step: &Step<S>) {
     *state = block.semi_implicit_euler(*state, step.ground[0], step.length);
+}
+
+#[inline(never)]
+fn paper_runge_kutta_4<S: Real>(block: &WithInerter<S>, state: &mut TimeSteppingState<S>, step: &Step<S>) {
+    *state = paper(block).runge_kutta_4(*state, step.ground, step.length);
+}
+
+#[inline(never)]
+fn paper_euler<S: Real>(block: &WithInerter<S>, state: &mut TimeSteppingState<S>, step: &Step<S>) {
+    *state = paper(block).semi_implicit_euler(*state, step.ground[0], step.length);
 }
 
 /// One step of `method` whose events are seen at its end.
@@ -196,9 +209,9 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
         ($precision:literal, $number:ty, $tier:literal) => {
             step_end!($precision, $number, $tier:
                 euler "euler" "none" "full" (full(), full()),
-                euler "euler" "clutched-pair" "full" (inerter(0.0), inerter(super::COUPLING)),
+                paper_euler "euler" "clutched-pair" "full" (inerter(0.0), inerter(super::COUPLING)),
                 runge_kutta_4 "rk4" "none" "full" (full(), full()),
-                runge_kutta_4 "rk4" "clutched-pair" "full" (inerter(0.0), inerter(super::COUPLING)),
+                paper_runge_kutta_4 "rk4" "clutched-pair" "full" (inerter(0.0), inerter(super::COUPLING)),
                 runge_kutta_4 "rk4" "clutched-pair" "slender" (slender(1.0), slender(1.0 + super::COUPLING)),
             );
         };

@@ -10,17 +10,12 @@ use core::{f32::consts::TAU, fmt, hint::black_box};
 use sprag_case::Shape;
 use sprag_shared::{
     drivetrain::{
-        any_transmission::AnyTransmission,
-        elastic::ElasticPair,
-        friction::FrictionPair,
-        ideal::{Alone, IdealPair, Single},
-        overrunning::OverrunningPair,
-        rigid::RigidPair,
+        any_transmission::{AnyTransmission, TransmissionKind},
         scaled_parameters::ScaledParameters,
     },
     equation::{any_body::AnyBody, body::FullBody, lever::TyingPoint},
     ground::Harmonics,
-    method::fixed::FixedStep,
+    method::fixed::{FixedStep, Scheme},
     motion::{
         hybrid::{
             Actuator, HybridSystem,
@@ -86,10 +81,14 @@ fn body(consistent: bool, vertical: bool) -> FullBody<f32> {
 }
 
 /// A block on its device, with the numbers of the ideal pair's kernel.
-fn machine(body: FullBody<f32>, transmission: AnyTransmission<f32>, drivetrain: &Drivetrain) -> HybridSystem<f32> {
+fn machine(body: FullBody<f32>, kind: TransmissionKind, block: &Block, drivetrain: &Drivetrain) -> HybridSystem<f32> {
+    let parameters = match kind {
+        TransmissionKind::Alone => ScaledParameters::default(),
+        _ => ScaledParameters::of(drivetrain, block, MASS_RATIO, 1.0),
+    };
     HybridSystem {
         body: AnyBody::Full(body),
-        transmission,
+        transmission: AnyTransmission { kind, parameters: black_box(parameters) },
         restitution: [super::RESTITUTION; 3],
         slenderness: super::SLENDERNESS,
         speed: 0.33,
@@ -117,87 +116,30 @@ fn passage<T: ModeIntegrator<f32>>(
 /// If `out` refuses a line.
 pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> fmt::Result {
     let Ok(block) = Block::new(2.0, f64::from(super::SLENDERNESS), RECTANGLE_INERTIA_RATIO) else { return Err(fmt::Error) };
-    let parameters = |drivetrain: &Drivetrain| black_box(ScaledParameters::<f32>::of(drivetrain, &block, MASS_RATIO, 1.0));
     let pulse = black_box(Shape::Sine(Harmonics::sine(0.5, TAU)));
     let up = black_box(Shape::Sine(Harmonics::sine(0.2, 4.0 * TAU)));
     let (level, both) = (Shaking { horizontal: &pulse, vertical: None }, Shaking { horizontal: &pulse, vertical: Some(&up) });
-    let integrator = FixedStep::RungeKutta4 { step: super::STEP };
-    let midpoint = FixedStep::ExponentialMidpoint { step: super::STEP };
+    let integrator = FixedStep { scheme: Scheme::RungeKutta4, step: super::STEP };
+    let midpoint = FixedStep { scheme: Scheme::ExponentialMidpoint, step: super::STEP };
     let (paper, consistent) = (body(false, false), body(true, false));
 
     macro_rules! line {
-        ($name:literal, $body:expr, $transmission:expr, $drivetrain:expr, $integrator:expr, $shaking:expr) => {{
-            let machine = black_box(machine($body, $transmission, &$drivetrain));
+        ($name:literal, $body:expr, $kind:ident, $drivetrain:expr, $integrator:expr, $shaking:expr) => {{
+            let machine = black_box(machine($body, TransmissionKind::$kind, &block, &$drivetrain));
             mean($name, |tally| passage(&machine, $integrator, $shaking, tally), counter, out)?;
         }};
     }
-    line!("machine-alone", paper, AnyTransmission::Alone(Alone), IDEAL, &integrator, level);
-    line!("machine-alone-vertical", body(false, true), AnyTransmission::Alone(Alone), IDEAL, &integrator, both);
-    line!(
-        "machine-single-friction",
-        paper,
-        AnyTransmission::SingleWithFriction(Single(parameters(&ROUGH))),
-        ROUGH,
-        &integrator,
-        level
-    );
-    line!("machine-ideal-pair", paper, AnyTransmission::Ideal(IdealPair(parameters(&IDEAL))), IDEAL, &integrator, level);
-    line!(
-        "machine-ideal-pair-friction",
-        paper,
-        AnyTransmission::IdealWithFriction(IdealPair(parameters(&ROUGH))),
-        ROUGH,
-        &integrator,
-        level
-    );
-    line!(
-        "machine-ideal-pair-consistent",
-        consistent,
-        AnyTransmission::Ideal(IdealPair(parameters(&IDEAL))),
-        IDEAL,
-        &integrator,
-        level
-    );
-    line!("machine-rigid", consistent, AnyTransmission::Rigid(RigidPair(parameters(&RIGID))), RIGID, &integrator, level);
-    line!(
-        "machine-overrunning",
-        consistent,
-        AnyTransmission::Overrunning(OverrunningPair(parameters(&OVERRUNNING))),
-        OVERRUNNING,
-        &integrator,
-        level
-    );
-    line!(
-        "machine-friction-clutch",
-        consistent,
-        AnyTransmission::Friction(FrictionPair(parameters(&FRICTION))),
-        FRICTION,
-        &integrator,
-        level
-    );
-    line!(
-        "machine-elastic-rk4",
-        consistent,
-        AnyTransmission::Elastic(ElasticPair(parameters(&ELASTIC))),
-        ELASTIC,
-        &integrator,
-        level
-    );
-    line!(
-        "machine-elastic-exponential",
-        consistent,
-        AnyTransmission::Elastic(ElasticPair(parameters(&ELASTIC))),
-        ELASTIC,
-        &midpoint,
-        level
-    );
-    line!(
-        "machine-all-together",
-        body(true, true),
-        AnyTransmission::Friction(FrictionPair(parameters(&ALL))),
-        ALL,
-        &integrator,
-        both
-    );
+    line!("machine-alone", paper, Alone, IDEAL, &integrator, level);
+    line!("machine-alone-vertical", body(false, true), Alone, IDEAL, &integrator, both);
+    line!("machine-single-friction", paper, SingleWithFriction, ROUGH, &integrator, level);
+    line!("machine-ideal-pair", paper, Ideal, IDEAL, &integrator, level);
+    line!("machine-ideal-pair-friction", paper, IdealWithFriction, ROUGH, &integrator, level);
+    line!("machine-ideal-pair-consistent", consistent, Ideal, IDEAL, &integrator, level);
+    line!("machine-rigid", consistent, Rigid, RIGID, &integrator, level);
+    line!("machine-overrunning", consistent, Overrunning, OVERRUNNING, &integrator, level);
+    line!("machine-friction-clutch", consistent, Friction, FRICTION, &integrator, level);
+    line!("machine-elastic-rk4", consistent, Elastic, ELASTIC, &integrator, level);
+    line!("machine-elastic-exponential", consistent, Elastic, ELASTIC, &midpoint, level);
+    line!("machine-all-together", body(true, true), Friction, ALL, &integrator, both);
     Ok(())
 }

@@ -162,7 +162,7 @@ fn a_cut_at_every_event<S: Precision>() {
         for device in DeviceKind::ALL {
             let mut structure = unit_block(geometry, 12.0, device, 0.5, 0.85);
             structure.device.kinematics = KinematicsKind::Consistent;
-            let level = S::of(1.5 * geometry.uplift_threshold(&structure.block));
+            let level = S::of(1.5 * geometry.uplift_threshold(structure.block.slenderness()));
             let (frequency, duration) = (S::of(4.0), S::of(1.25 * TAU / 4.0));
             let whole = recorded(&structure, Start::Rest, &[Segment::sine(level, frequency, duration)]);
             let end = whole.stretches.last().expect("a stretch").motions.last().copied().expect("a motion");

@@ -43,7 +43,7 @@ fn steps_of_any_length<S: Precision>(stepping: impl Fn(S) -> Stepping<S>) {
             for device in DeviceKind::ALL.into_iter().filter(|&device| !few || device != DeviceKind::Inerter) {
                 for amplitude in [1.2, 3.0, 8.0].into_iter().filter(|&amplitude| !few || amplitude == 3.0) {
                     let structure = structure(geometry, device, 0.85);
-                    let level = S::of(amplitude * geometry.uplift_threshold(&structure.block));
+                    let level = S::of(amplitude * geometry.uplift_threshold(structure.block.slenderness()));
                     let segments = [Segment::sine(level, S::of(4.0), S::of(TAU / 4.0)), Segment::quiet(S::of(4.0))];
                     let mut tally = Tally::new();
                     // θ̇ of semi-implicit Euler is not the slope of its θ: it finds the floor to within the error of a step only.
@@ -160,7 +160,8 @@ fn events_looked_for_once_a_step<S: Precision>() {
                 let pulse = sprag_shared::ground::Harmonics::sine(level, S::of(4.0));
                 let mut state = TimeSteppingState::at_rest();
                 let seen = follow(&block, &mut state, &pulse, (S::of(TAU / 4.0), self.step), S::of(1.5));
-                let then = follow(&block, &mut state, &sprag_shared::ground::Quiet, (S::of(4.0), self.step), S::of(1.5));
+                let then =
+                    follow(&block, &mut state, &sprag_shared::ground::Harmonics::QUIET, (S::of(4.0), self.step), S::of(1.5));
                 let most = ((TAU / 4.0 + 4.0) / self.step.to_f64()) as u32 + 2;
                 assert!(state.rotation.is_finite() && state.velocity.is_finite() && seen.impacts + then.impacts <= most);
                 assert!(amplitude > 1.0 || seen.rotation == S::ZERO, "{seen:?}");

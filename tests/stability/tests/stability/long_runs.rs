@@ -5,7 +5,7 @@ use core::f32::consts::TAU;
 use sprag_case::{Case, FixedMethod, Ground, Initially};
 use sprag_shared::ground::{GroundSegment, Linear};
 use sprag_shared::math::scalar::Real;
-use sprag_shared::method::fixed::FixedStep;
+use sprag_shared::method::fixed::{FixedStep, Scheme};
 use sprag_shared::motion::ideal::IdealSystem;
 use sprag_shared::motion::observer::{Event, Observer};
 use sprag_shared::motion::state::{BlockState, Limits, Phase};
@@ -57,7 +57,7 @@ impl<S: Precision> Observer<S> for Watch<S> {
 }
 
 fn day<S: Precision>(system: &IdealSystem<S>, samples: &[S]) -> Vec<(BlockState<S>, Watch<S>)> {
-    let method = FixedStep::RungeKutta4 { step: S::of(INTERVAL) };
+    let method = FixedStep { scheme: Scheme::RungeKutta4, step: S::of(INTERVAL) };
     let limits = Limits { overturned: S::ONE, events: 1_000 };
     let mut state = BlockState::default();
     let mut hours = Vec::new();
@@ -81,7 +81,7 @@ fn day<S: Precision>(system: &IdealSystem<S>, samples: &[S]) -> Vec<(BlockState<
 /// with every uplift where the record passes the threshold: no time is lost, no angle is left over.
 fn a_day_of_microtremor<S: Precision>() {
     let structure = unit_block(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, 0.6);
-    let threshold = structure.geometry.uplift_threshold(&structure.block);
+    let threshold = structure.geometry.uplift_threshold(structure.block.slenderness());
     let noise = hour();
     let samples: Vec<S> = noise.iter().map(|&ratio| S::of(ratio * threshold)).collect();
     let hours = day(&structure.resolve().expect("parameters within range"), &samples);
@@ -161,7 +161,7 @@ fn a_standing_block_costs_a_few_looks_at_the_ground() {
     let piece = Looked(Linear::between(0.05, -0.07, 0.005), Cell::new(0));
     let limits = Limits { overturned: 1.0, events: 10 };
     let mut state = BlockState::default();
-    let method = FixedStep::RungeKutta4 { step: 1e-4 };
+    let method = FixedStep { scheme: Scheme::RungeKutta4, step: 1e-4 };
     system.advance(&method, &mut state, &piece, 0.005, &limits, &mut ()).expect("rest");
     assert_eq!(state, BlockState::default());
     // Both thresholds at the start and the end, whatever the step.

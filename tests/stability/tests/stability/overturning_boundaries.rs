@@ -91,7 +91,7 @@ fn beside_a_boundary_after_impacts<S: Precision>() {
     for device in DeviceKind::ALL {
         for frequency in [4.0, 6.0] {
             let structure = unit_block(Geometry::Full, 14.0, device, 0.5, 0.9);
-            let threshold = structure.geometry.uplift_threshold(&structure.block);
+            let threshold = structure.geometry.uplift_threshold(structure.block.slenderness());
             let pulse = move |level: S| Segment::sine(level, S::of(frequency), S::of(TAU / frequency));
             let overturns = |ratio: f64| run(&structure, &pulse, ratio * threshold).end().phase == Phase::Overturned;
             let found = boundary(1.01, 60.0, overturns);

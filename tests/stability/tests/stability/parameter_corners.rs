@@ -41,7 +41,7 @@ impl Place {
     fn run<S: Precision>(&self, stepping: impl Fn(f64) -> Stepping<S>) -> Outcome<S> {
         let structure = self.structure();
         let p = structure.block.frequency_parameter();
-        let level = S::of(structure.geometry.uplift_threshold(&structure.block)) * S::of(self.amplitude);
+        let level = S::of(structure.geometry.uplift_threshold(structure.block.slenderness())) * S::of(self.amplitude);
         let stepping = stepping(1.0 / p);
         let mut tally = Tally::new();
         match stepping {

@@ -49,7 +49,7 @@ fn motions() -> impl Strategy<Value = Motion> {
 /// One cycle of a sine, the record at 0.11/p, and 5/p of quiet, with times multiplied by `slower`.
 fn segments<S: Precision>(structure: &Structure, (amplitude, frequency, samples): &Motion, slower: f64) -> Vec<Segment<S>> {
     let p = structure.block.frequency_parameter();
-    let uplift = structure.geometry.uplift_threshold(&structure.block);
+    let uplift = structure.geometry.uplift_threshold(structure.block.slenderness());
     let (level, time) = (|ratio: f64| S::of(ratio * uplift), |units: f64| S::of(units / p) * S::of(slower));
     let lines = samples.windows(2).map(|pair| Segment::line(level(pair[0]), level(pair[1]), time(0.11)));
     let omega = S::of(frequency * p) / S::of(slower);
@@ -184,7 +184,7 @@ fn split<S: Precision>(structure: &Structure, motion: &Motion, share: f64) -> Re
     let at = early[((share * early.len() as f64) as usize).min(early.len() - 1)].time;
     let p = structure.block.frequency_parameter();
     let omega = S::of(motion.1 * p);
-    let level = S::of(motion.0 * structure.geometry.uplift_threshold(&structure.block));
+    let level = S::of(motion.0 * structure.geometry.uplift_threshold(structure.block.slenderness()));
     prop_assume!(at > S::ZERO && at < whole[0].duration);
     let parts = [Segment::sine(level, omega, at), Segment::sine_from(level, omega, omega * at, whole[0].duration - at)];
     let cut = recorded(structure, Stepping::Tight, &parts);

@@ -21,7 +21,7 @@ fn every_stiffness<S: Precision>(step: f64, damping_ratio: f64, spread: f64) {
     for geometry in GEOMETRIES {
         let structure = structure(geometry);
         let p = structure.block.frequency_parameter();
-        let pulse = (3.0 * geometry.uplift_threshold(&structure.block), 5.0 * p);
+        let pulse = (3.0 * geometry.uplift_threshold(structure.block.slenderness()), 5.0 * p);
         let time = core::f64::consts::TAU / pulse.1 + 12.0 / p;
         let mut last = None;
         let mut gain = 0.0_f64;
@@ -63,7 +63,7 @@ fn an_undamped_spring<S: Precision>() {
     for exponent in [2, 5] {
         let structure = structure(Geometry::Full);
         let p = structure.block.frequency_parameter();
-        let pulse = (3.0 * structure.geometry.uplift_threshold(&structure.block), 5.0 * p);
+        let pulse = (3.0 * structure.geometry.uplift_threshold(structure.block.slenderness()), 5.0 * p);
         let stiffness = sprag_shared::math::pow(10.0, f64::from(exponent));
         let end = elastic_run::<S>(&structure, (stiffness, 0.0), pulse, 8.0 / p, 5e-4);
         let state = end.state.unwrap_or_else(|stopped| panic!("{} K/m = 1e{exponent}: {stopped}", S::NAME));

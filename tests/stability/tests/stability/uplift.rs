@@ -21,7 +21,7 @@ in_both_precisions!(
 );
 
 fn threshold<S: Precision>(structure: &Structure) -> S {
-    S::of(structure.geometry.uplift_threshold(&structure.block))
+    S::of(structure.geometry.uplift_threshold(structure.block.slenderness()))
 }
 
 /// Both geometries, all devices, 60 slendernesses: what rounding makes of tan α cos α − sin α differs with every one.

@@ -14,7 +14,7 @@ fn uplift_threshold() {
         let alpha = f64::to_radians(degrees);
         let block = Block::new(1.0, alpha, RECTANGLE_INERTIA_RATIO).expect("a block");
         for (geometry, closed) in [(Geometry::Full, sin(alpha) / cos(alpha)), (Geometry::Slender, alpha)] {
-            assert!(relative(geometry.uplift_threshold(&block), closed) < 1e-15);
+            assert!(relative(geometry.uplift_threshold(block.slenderness()), closed) < 1e-15);
             let structure = unit_block(geometry, degrees, DeviceKind::None, 0.0, 0.85);
             for (factor, rocks) in [(1.0 - 1e-12, false), (1.0 + 1e-12, true)] {
                 for sign in [1.0, -1.0] {

@@ -3,7 +3,7 @@
 use std::vec::Vec;
 
 use super::{HybridSystem, Seen, Watcher, pair, tight};
-use crate::ground::Quiet;
+use crate::ground::Harmonics;
 use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::hybrid::mode_output::Shaking;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
@@ -47,7 +47,7 @@ fn pulse(mut machine: HybridSystem<f64>) -> (Vec<f64>, bool) {
     let mut state = machine.released_at(0.1, 0.0, [0.0; 2]);
     let mut nobody = ();
     let mut watcher = Watcher::new(&mut nobody);
-    let shaking = Shaking { horizontal: &Quiet, vertical: None };
+    let shaking = Shaking { horizontal: &Harmonics::QUIET, vertical: None };
     let limits = pair(Geometry::Full, 1.0, 1.0).limits(true);
     for (wanted, until) in [([false, true], 0.005), ([false, false], 0.095)] {
         machine.order(&mut state, wanted, &mut watcher);

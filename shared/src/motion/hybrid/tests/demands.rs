@@ -50,7 +50,7 @@ fn the_support_takes_what_both_flywheels_pull() {
         let drivetrain = Drivetrain { engagement, flywheel, actuation: late, ..Drivetrain::default() };
         let mut watchers = (checks(&shake.structure, Clutching::Real, 0.0), Dense::default());
         shake.watched(&drivetrain, &tight(), &mut watchers);
-        let (Report { support, force, .. }, Dense([sum, largest])) = (watchers.0.report(), watchers.1);
+        let (Report { support, force, .. }, Dense([sum, largest])) = (watchers.0.report, watchers.1);
         let scale = 1.0 / shake.structure.block.frequency_parameter_squared();
         let (found, single) = (support.unwrap().value, force[0].unwrap().value.max(force[1].unwrap().value));
         assert!((found / (sum * scale) - 1.0).abs() < 1e-4, "{engagement:?}: {found} {}", sum * scale);
@@ -116,7 +116,7 @@ fn a_jolt_keeps_the_momentum() {
         };
         let mut watchers = (checks(&shake.structure, Clutching::Rigid, RACK), Jolts::default());
         shake.watched(&drivetrain, &tight(), &mut watchers);
-        let (report, jolts) = (watchers.0.report(), watchers.1.found);
+        let (report, jolts) = (watchers.0.report, watchers.1.found);
         assert!(jolts.len() > 3, "{}", jolts.len());
         let block = &shake.structure.block;
         let (half_width, height) = (math::sin(block.slenderness()), math::cos(block.slenderness()));
@@ -176,7 +176,7 @@ fn a_jolt_lifts_the_toe_of_a_block_that_rises() {
     let (sin, cos) = math::sin_cos(block.slenderness() - before.rotation);
     let added = SIGMA / block.inertia_ratio() * cos * cos;
     let expected = block.size() * sin * before.velocity * added / (1.0 + added);
-    let pull = found.report().jolt_pull.unwrap().value;
+    let pull = found.report.jolt_pull.unwrap().value;
     assert!(expected > 1e-3 && (pull / expected - 1.0).abs() < 1e-9, "{pull} {expected}");
 }
 
@@ -197,6 +197,6 @@ fn a_jolt_needs_more_friction_than_there_is() {
         presses.then_some((lambda - cos * cos) / (sin.abs() * cos))
     };
     let expected = watchers.1.found.iter().filter_map(needed).fold(0.0, f64::max);
-    let found = watchers.0.report().jolt_friction.unwrap().value;
+    let found = watchers.0.report.jolt_friction.unwrap().value;
     assert!(expected > 0.94 && (found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
 }

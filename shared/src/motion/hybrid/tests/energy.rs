@@ -21,7 +21,7 @@ fn the_ledger_closes_for_every_drivetrain() {
                 };
                 let mut ledger = Ledger::new(&shake.structure.block, geometry, &account);
                 shake.watched(&drivetrain, &tight(), &mut ledger);
-                let entries = ledger.entries();
+                let entries = ledger.entries;
                 let residual = entries.residual().abs() / entries.input.abs();
                 let what = std::format!("{geometry:?} {name} a = {amplitude}, ω/p = {frequency}: {entries:?}");
                 assert!(residual < 1e-10, "{what}: residual {residual:e} of the input");
@@ -52,7 +52,7 @@ fn what_the_ideal_clutch_creates() {
         let seen = shake.watched(&Drivetrain { engagement, flywheel, ..Drivetrain::default() }, &tight(), &mut ledger);
         let at_speed: Vec<f64> =
             seen.switches.iter().filter(|(time, ..)| (time - 0.22).abs() < 1e-12).map(|s| s.1.velocity).collect();
-        let entries = ledger.entries();
+        let entries = ledger.entries;
         let spin = 0.5 * k * at_speed[0] * at_speed[0];
         match engagement {
             Engagement::Ideal => assert!((entries.created / spin - 1.0).abs() < 1e-9, "{entries:?} {spin}"),

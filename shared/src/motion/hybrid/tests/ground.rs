@@ -2,7 +2,7 @@
 
 use super::{constant, pair, shake, sine, structure, tight};
 use crate::equation::any_body::AnyBody;
-use crate::ground::{AnySegment, Quiet};
+use crate::ground::{AnySegment, Harmonics};
 use crate::motion::hybrid::mode_output::Shaking;
 use crate::motion::hybrid::{HybridSystem, series::Series};
 use crate::motion::observer::Event;
@@ -109,7 +109,7 @@ fn dry_friction_takes_its_force_times_the_travel() {
     let mut state = machine.released_at(start, 0.0, [0.0; 2]);
     let mut turns = Turns::default();
     let limits = Limits { overturned: 1.0, events: 10_000 };
-    let shaking = Shaking { horizontal: &Quiet, vertical: None };
+    let shaking = Shaking { horizontal: &Harmonics::QUIET, vertical: None };
     machine.advance(&Series::<f64, 20>::adaptive(1e-17), &mut state, shaking, 6.0, &limits, &mut turns).unwrap();
     // p²(α|θ| − θ²/2) falls by p² F/(mg) over every unit of travel.
     let energy = |theta: f64| p2 * (alpha * theta.abs() - 0.5 * theta * theta);
@@ -134,7 +134,7 @@ fn friction_holds_a_block_where_nothing_else_does() {
         let machine: HybridSystem<f64> = dry(0.02).resolve(&structure, false).unwrap();
         let mut state = machine.released_at(angle, 0.0, [0.0; 2]);
         let limits = Limits { overturned: 1.5, events: 10_000 };
-        let shaking = Shaking { horizontal: &Quiet, vertical: None };
+        let shaking = Shaking { horizontal: &Harmonics::QUIET, vertical: None };
         machine.advance(&Series::<f64, 20>::adaptive(1e-17), &mut state, shaking, 1.0, &limits, &mut ()).unwrap();
         let (rotation, stays) = (state.motion.rotation, state.held);
         assert_eq!(stays, held, "at {angle}");

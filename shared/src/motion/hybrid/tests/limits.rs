@@ -98,7 +98,7 @@ fn the_first_swing_of_an_overrunning_clutch_is_ideal() {
 /// Two pushes with a pause: in the pause the block slows down and lets its flywheel go, the second push engages it at speed.
 pub fn engaging_at_speed(geometry: Geometry) -> super::Shake {
     let mut shake = pair(geometry, 1.0, 1.0);
-    let push = -2.0 * geometry.uplift_threshold(&shake.structure.block);
+    let push = -2.0 * geometry.uplift_threshold(shake.structure.block.slenderness());
     shake.pieces = std::vec![(constant(push), 0.15), (AnySegment::Quiet, 0.07), (constant(push), 0.05)];
     shake.free_time = 3.0;
     shake

@@ -1,7 +1,7 @@
 //! Each kind of drivetrain by a second method, and the methods by their orders.
 
 use super::{drivetrains, pair, tight};
-use crate::method::fixed::FixedStep;
+use crate::method::fixed::{FixedStep, Scheme};
 use crate::motion::hybrid::series::Series;
 use crate::structure::block::Geometry;
 use crate::structure::drivetrain::{Drivetrain, Engagement};
@@ -13,8 +13,8 @@ fn series_and_runge_kutta_agree() {
         for (name, drivetrain) in drivetrains() {
             let shake = pair(geometry, 3.0, 5.0);
             let series = shake.machine(&drivetrain, &tight());
-            let coarse = shake.machine(&drivetrain, &FixedStep::RungeKutta4 { step: 4e-4 });
-            let fine = shake.machine(&drivetrain, &FixedStep::RungeKutta4 { step: 1e-4 });
+            let coarse = shake.machine(&drivetrain, &FixedStep { scheme: Scheme::RungeKutta4, step: 4e-4 });
+            let fine = shake.machine(&drivetrain, &FixedStep { scheme: Scheme::RungeKutta4, step: 1e-4 });
             let error = |peak: f64| (peak / series.peak - 1.0).abs();
             assert!(error(fine.peak) < 1e-8, "{geometry:?} {name}: {} and {}", fine.peak, series.peak);
             assert!(error(fine.peak) <= error(coarse.peak) + 1e-12, "{geometry:?} {name}: no gain by smaller steps");
@@ -48,7 +48,8 @@ fn semi_implicit_euler_is_of_order_1() {
     for (name, drivetrain) in drivetrains() {
         let shake = pair(Geometry::Full, 3.0, 5.0);
         let exact = shake.machine(&drivetrain, &tight()).peak;
-        let error = |step: f64| (shake.machine(&drivetrain, &FixedStep::SemiImplicitEuler { step }).peak - exact).abs();
+        let error =
+            |step: f64| (shake.machine(&drivetrain, &FixedStep { scheme: Scheme::SemiImplicitEuler, step }).peak - exact).abs();
         let (coarse, fine) = (error(4e-4), error(1e-4));
         assert!(fine < 3e-3 * exact && (0.15..0.35).contains(&(fine / coarse)), "{name}: {coarse:e} and {fine:e}");
     }
@@ -99,11 +100,11 @@ fn the_explicit_step_is_bounded_by_the_stiffness() {
     let stiffness = 1e6;
     let frequency = (stiffness * (0.75 + 2.0_f64)).sqrt();
     let exact = shake.machine(&stiff(stiffness, 0.01), &tight()).peak;
-    let stable = shake.machine(&stiff(stiffness, 0.01), &FixedStep::RungeKutta4 { step: 1.0 / frequency }).peak;
+    let stable = shake.machine(&stiff(stiffness, 0.01), &FixedStep { scheme: Scheme::RungeKutta4, step: 1.0 / frequency }).peak;
     assert!((stable / exact - 1.0).abs() < 0.01, "{stable} and {exact}");
     let error = |peak: f64| (peak / exact - 1.0).abs();
     let explicit = std::panic::catch_unwind(|| {
-        shake.machine(&stiff(stiffness, 0.01), &FixedStep::RungeKutta4 { step: 4.0 / frequency }).peak
+        shake.machine(&stiff(stiffness, 0.01), &FixedStep { scheme: Scheme::RungeKutta4, step: 4.0 / frequency }).peak
     });
     let exponential = shake.exponential(&stiff(stiffness, 0.01), 4.0 / frequency).peak;
     assert!(error(exponential) < 0.01, "{exponential} and {exact}");

@@ -13,9 +13,9 @@ use std::vec::Vec;
 use super::mode_output::{ModeIntegrator, Shaking};
 use super::series::Series;
 use super::{HybridState, HybridSystem};
-use crate::ground::{AnySegment, Harmonics, Linear, Quiet};
+use crate::ground::{AnySegment, Harmonics, Linear};
 use crate::method::dense_output::DenseOutput;
-use crate::method::fixed::FixedStep;
+use crate::method::fixed::{FixedStep, Scheme};
 use crate::method::taylor::Taylor;
 use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
@@ -74,7 +74,7 @@ pub fn structure(geometry: Geometry, degrees: f64, kind: DeviceKind, sigma: f64,
 
 pub fn shake(structure: Structure, amplitude: f64, frequency: f64) -> Shake {
     let p = structure.block.frequency_parameter();
-    let amplitude = amplitude * structure.geometry.uplift_threshold(&structure.block);
+    let amplitude = amplitude * structure.geometry.uplift_threshold(structure.block.slenderness());
     let cycle = (sine(amplitude, frequency * p), core::f64::consts::TAU / (frequency * p));
     Shake { structure, pieces: std::vec![cycle], free_time: 12.0 / p }
 }
@@ -136,7 +136,7 @@ impl Shake {
         let largest = |(ground, duration): &(AnySegment<f64>, f64)| ground.bound(*duration);
         let bound = if quiet { 0.0 } else { self.pieces.iter().map(largest).fold(0.0, f64::max) };
         let block = self.structure.loaded().unwrap().block;
-        Limits { overturned: self.structure.geometry.point_of_no_return(&block, bound), events: 100_000 }
+        Limits { overturned: self.structure.geometry.point_of_no_return(block.slenderness(), bound), events: 100_000 }
     }
 
     /// By the loop for ideal devices.
@@ -160,7 +160,7 @@ impl Shake {
             origin += duration;
         }
         peaks.0.origin = origin;
-        system.advance(&method, &mut state, &Quiet, self.free_time, &self.limits(true), &mut peaks).unwrap();
+        system.advance(&method, &mut state, &Harmonics::QUIET, self.free_time, &self.limits(true), &mut peaks).unwrap();
         let peaks = peaks.0;
         Seen {
             peak: peaks.rotation,
@@ -186,7 +186,7 @@ impl Shake {
     pub fn exponential(&self, drivetrain: &Drivetrain, step: f64) -> Seen {
         let machine = drivetrain.resolve(&self.structure, false).unwrap();
         assert!(machine.transmission.traits().springs, "not an elastic clutch");
-        self.follow(&machine, &FixedStep::ExponentialMidpoint { step }, &mut ())
+        self.follow(&machine, &FixedStep { scheme: Scheme::ExponentialMidpoint, step }, &mut ())
     }
 
     fn follow<T: ModeIntegrator<f64>>(&self, machine: &HybridSystem<f64>, method: &T, other: &mut dyn Observer<f64>) -> Seen {
@@ -197,7 +197,7 @@ impl Shake {
             machine.advance(method, &mut state, shaking, *duration, &self.limits(false), &mut watcher).unwrap();
             watcher.peaks.origin += duration;
         }
-        let shaking = Shaking { horizontal: &Quiet, vertical: None };
+        let shaking = Shaking { horizontal: &Harmonics::QUIET, vertical: None };
         machine.advance(method, &mut state, shaking, self.free_time, &self.limits(true), &mut watcher).unwrap();
         let own = watcher;
         Seen {

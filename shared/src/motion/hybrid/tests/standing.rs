@@ -5,7 +5,7 @@ use std::vec::Vec;
 use super::{Shake, pair, shake, sine, structure, tight};
 use crate::ground::{AnySegment, Linear};
 use crate::math;
-use crate::method::fixed::FixedStep;
+use crate::method::fixed::{FixedStep, Scheme};
 use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::hybrid::HybridSystem;
 use crate::motion::hybrid::mode_output::Shaking;
@@ -142,7 +142,7 @@ fn rising_plates_with_bearings_and_brakes_come_to_an_end() {
 fn a_second_uplift_feels_the_spinning_flywheels() {
     let block = structure(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
     let mut shake: Shake = shake(block, 1.8, 4.6);
-    let threshold = shake.structure.geometry.uplift_threshold(&shake.structure.block);
+    let threshold = shake.structure.geometry.uplift_threshold(shake.structure.block.slenderness());
     shake.pieces.push((AnySegment::Quiet, 8.3));
     shake.pieces.push((sine(1.05 * threshold, core::f64::consts::PI), 0.55));
     shake.free_time = 0.0;
@@ -155,10 +155,10 @@ fn a_second_uplift_feels_the_spinning_flywheels() {
         let uplifts: Vec<f64> =
             series.events.iter().filter(|(event, _)| *event == Event::Uplift).map(|(_, time)| *time).collect();
         assert!(uplifts.len() == 2 && series.spins.iter().any(|spin| spin.abs() > 1e-3), "{uplifts:?} {:?}", series.spins);
-        let steps = shake.machine(&drivetrain, &FixedStep::RungeKutta4 { step: 2e-4 });
+        let steps = shake.machine(&drivetrain, &FixedStep { scheme: Scheme::RungeKutta4, step: 2e-4 });
         let (a, b) = (series.state.rotation, steps.state.rotation);
         assert!((a - b).abs() < 1e-6 * a.abs() && a != 0.0, "{engagement:?}: {a} and {b}");
-        let entries = ledger.entries();
+        let entries = ledger.entries;
         assert!(entries.residual().abs() < 1e-12 * entries.input.abs(), "{engagement:?}: {entries:?}");
     }
 }

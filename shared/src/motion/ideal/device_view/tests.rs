@@ -1,5 +1,5 @@
 use super::*;
-use crate::drivetrain::power_loss::Spent;
+use crate::drivetrain::transmission::Spent;
 use crate::ground::{Harmonics, Linear};
 use crate::math::sign::Sign;
 use crate::method::taylor::Taylor;

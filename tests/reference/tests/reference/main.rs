@@ -1,4 +1,0 @@
-//! The second program by itself: known answers and random scenes.
-
-mod answers;
-mod generated;
