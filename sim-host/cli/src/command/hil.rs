@@ -12,7 +12,7 @@ use sprag_sim::closed_loop::answered::Looped;
 use sprag_sim::closed_loop::plant::Extremes;
 use sprag_sim::closed_loop::report::{LoopReport, write_history};
 use sprag_sim::closed_loop::run::Tick;
-use sprag_sim::closed_loop::{LoopFailure, LoopTask};
+use sprag_sim::closed_loop::{LoopFailure, LoopScene, LoopTask};
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::warning_lines;
 use sprag_sim::simulation::ErrorReport;
@@ -21,7 +21,7 @@ use super::accuracy_arguments::AccuracyArguments;
 use super::board_line::{LineArguments, connect};
 use super::closed_loop::{failed, heading, numbered};
 use super::context::{Completion, Context, Run};
-use super::loop_scene::LoopScene;
+use super::loop_scene;
 use super::loop_trace::loop_trace;
 use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
@@ -128,7 +128,7 @@ fn on_host(
     folder: &mut ResultFolder,
     interrupt: &Interrupt,
 ) -> anyhow::Result<(LoopScene, Subject, Vec<Host>)> {
-    let desk = LoopScene::load(&arguments.scene.scene, &arguments.scene.changes(change), &arguments.records)?;
+    let desk = loop_scene::load(&arguments.scene.scene, &arguments.scene.changes(change), &arguments.records)?;
     let file = desk.resolved();
     let names = &["history", "loop", "device", "log"];
     let claim = claim_of_scene("hil", &arguments.scene.scene, &desk.scene, &file, names, &[])?;
