@@ -6,7 +6,7 @@ use crate::{
     fuzz::{self, Inputs},
     hardware, panic_check,
     process::{Beside, cargo, cargo_in, host, run as done},
-    size,
+    python, size,
     steps::Steps,
     stop::Stop,
     tools,
@@ -71,7 +71,10 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     steps.step("rest of the tests' build", || built_tests.wait())?;
     steps.step("tests", || tests(root, &built, fuzz_seconds.is_some()))?;
     match fuzz_seconds {
-        Some(seconds) => steps.step("fuzzing", || fuzz::run(root, None, seconds, Inputs::Same)),
+        Some(seconds) => {
+            python::run(root, &mut steps, "dev")?;
+            steps.step("fuzzing", || fuzz::run(root, None, seconds, Inputs::Same))
+        }
         None => steps.step("fuzz targets", || fuzz::check(root)),
     }
 }
