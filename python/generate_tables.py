@@ -1,4 +1,4 @@
-"""Writes sprag/_tables.py: the tables of a scene as frozen values, from scenes/scene.schema.json. Run it after a key has changed."""
+"""Writes sprag/_tables: the tables of a scene as frozen values, from scenes/scene.schema.json. Run it after a key has changed."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from typing import Any
 Schema = dict[str, Any]
 
 SCHEMA = Path(__file__).parent / "../scenes/scene.schema.json"
-OUT = Path(__file__).parent / "sprag" / "_tables.py"
+OUT = Path(__file__).parent / "sprag" / "_tables"
 
-HEAD = '''"""The tables of a scene as frozen values. Made by generate_tables.py from the schema of scenes: do not edit."""
+HEAD = '''"""{title} as frozen values. Made by generate_tables.py from the schema of scenes: do not edit."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-from ._table import Table
+from .._table import Table
 '''
 
 # What motions of a kind have, as `sprag_sim::scene::ground` refuses the others.
@@ -100,7 +100,7 @@ def table(
     schema: Schema,
     path: str,
     *,
-    summary: str,
+    summary: str = "",
     fixed: dict[str, str] | None = None,
     keys: list[str] | None = None,
     tables: dict[str, str] | None = None,
@@ -110,7 +110,7 @@ def table(
     required = [key for key in schema.get("required", []) if key in properties]
     order = required + [key for key in properties if key not in required]
     lines = ["", "", "@dataclass(frozen=True, kw_only=True, repr=False)", f"class {name}(Table):"]
-    summary = summary.replace("`", "")
+    summary = (summary or schema["description"]).replace("`", "")
     if order:
         lines += [f'    """{summary}', "", "    Attributes", "    ----------"]
         for key in order:
@@ -136,77 +136,71 @@ def described(schema: Schema, word: str) -> str:
     return next(choice["description"] for choice in schema["oneOf"] if choice["const"] == word)
 
 
-def source() -> str:
+def sources() -> dict[str, str]:
+    """The files, by name."""
     scene = json.loads(SCHEMA.read_text(encoding="utf-8"))["properties"]
     device, ground = scene["device"]["items"], scene["ground"]["items"]
-    parts = [table("Block", scene["block"], "block", summary=scene["block"]["description"])]
+    controller = scene["controller"]["properties"]
+    sensors = controller["sensors"]["properties"]
     inner = {
-        "flywheels": ("Flywheel", device["properties"]["flywheels"]["items"]),
-        "flywheel": ("FlywheelLosses", device["properties"]["flywheel"]),
-        "clutch": ("Clutch", device["properties"]["clutch"]),
-        "rack": ("Rack", device["properties"]["rack"]),
-        "actuation": ("Actuation", device["properties"]["actuation"]),
-        "weight": ("Weight", device["properties"]["weight"]),
+        "flywheels": "Flywheel",
+        "flywheel": "FlywheelLosses",
+        "clutch": "Clutch",
+        "rack": "Rack",
+        "actuation": "Actuation",
+        "weight": "Weight",
     }
-    for key, (name, schema) in inner.items():
-        place = "device.flywheels.0" if key == "flywheels" else f"device.{key}"
-        parts.append(table(name, schema, place, summary=schema["description"]))
-    tables = {key: name for key, (name, _) in inner.items()}
+    structure = [table("Block", scene["block"], "block")]
+    for key, name in inner.items():
+        listed = key == "flywheels"
+        schema = device["properties"][key]
+        structure.append(table(name, schema["items"] if listed else schema, f"device.{key}" + ".0" * listed))
     for name, kind in DEVICES.items():
         summary = described(device["properties"]["kind"], kind)
         keys = ["name"] if kind == "none" else None
-        parts.append(table(name, device, "device", summary=summary, fixed={"kind": kind}, keys=keys, tables=tables))
+        structure.append(table(name, device, "device", summary=summary, fixed={"kind": kind}, keys=keys, tables=inner))
+    motions = []
     for name, (kind, keys) in MOTIONS.items():
         summary = described(ground["properties"]["motion"], kind)
-        parts.append(table(name, ground, "ground", summary=summary, fixed={"motion": kind}, keys=[*keys, "scale", "start_s"]))
-    parts.append(table("Duration", scene["run"], "run", summary=scene["run"]["description"]))
-    parts.append(table("Accuracy", scene["accuracy"], "accuracy", summary=scene["accuracy"]["description"]))
-    gear = scene["checks"]["properties"]["gear"]
-    parts.append(table("Gear", gear, "checks.gear", summary=gear["description"]))
-    parts.append(table("Checks", scene["checks"], "checks", summary=scene["checks"]["description"], tables={"gear": "Gear"}))
-    controller = scene["controller"]["properties"]
-    parts.append(table("Belief", controller["belief"], "controller.belief", summary=controller["belief"]["description"]))
-    sensors = controller["sensors"]["properties"]
-    kinds = {
-        "gyroscope": "Gyroscope",
-        "block_accelerometer": "Accelerometer",
-        "ground_accelerometer": "Accelerometer",
-        "encoder": "Encoder",
-    }
-    for key, name in kinds.items():
-        if key == "ground_accelerometer":
-            continue
+        motions.append(table(name, ground, "ground", summary=summary, fixed={"motion": kind}, keys=[*keys, "scale", "start_s"]))
+    following = [
+        table("Duration", scene["run"], "run"),
+        table("Accuracy", scene["accuracy"], "accuracy"),
+        table("Gear", scene["checks"]["properties"]["gear"], "checks.gear"),
+        table("Checks", scene["checks"], "checks", tables={"gear": "Gear"}),
+        table("Output", scene["output"], "output", summary="What is kept of a run.", keys=["interval_s", "energy"]),
+    ]
+    own = [("gyroscope", "Gyroscope"), ("block_accelerometer", "Accelerometer"), ("encoder", "Encoder")]
+    kinds = {**dict(own), "ground_accelerometer": "Accelerometer"}
+    control = [table("Belief", controller["belief"], "controller.belief")]
+    for key, name in own:
         schema = next(choice for choice in sensors[key]["anyOf"] if "properties" in choice)
-        summary = f"{name} with keys of its own."
-        parts.append(table(name, schema, f"controller.sensors.{key}", summary=summary))
-    parts.append(
-        table(
-            "Sensors",
-            controller["sensors"],
-            "controller.sensors",
-            summary=controller["sensors"]["description"],
-            tables=kinds,
-        )
-    )
-    parts.append(
-        table(
-            "Controller",
-            scene["controller"],
-            "controller",
-            summary="Controller of the clutches.",
-            tables={"belief": "Belief", "sensors": "Sensors"},
-        )
-    )
-    parts.append(table("Output", scene["output"], "output", summary="What is kept of a run.", keys=["interval_s", "energy"]))
-    names = {
-        "Device": list(DEVICES),
-        "Motion": list(MOTIONS),
+        control.append(table(name, schema, f"controller.sensors.{key}", summary=f"{name} with keys of its own."))
+    control.append(table("Sensors", controller["sensors"], "controller.sensors", tables=kinds))
+    inside = {"belief": "Belief", "sensors": "Sensors"}
+    control.append(table("Controller", scene["controller"], "controller", summary="Controller of the clutches.", tables=inside))
+    return {
+        "structure.py": file("Blocks and devices", structure, f"\n\nDevice = {' | '.join(DEVICES)}\n"),
+        "motion.py": file("Ground motions", motions, f"\n\nMotion = {' | '.join(MOTIONS)}\n"),
+        "following.py": file("How a motion is followed", following),
+        "control.py": file("Controllers and their sensors", control),
     }
-    unions = "".join(f"\n\n{name} = {' | '.join(kinds)}" for name, kinds in names.items())
-    return HEAD + "\n".join(parts) + "\n" + unions + "\n"
+
+
+def file(title: str, tables: list[str], end: str = "") -> str:
+    text = HEAD.replace("{title}", title) + "\n".join(tables) + "\n" + end
+    if "Sequence[" not in text:
+        text = text.replace("from collections.abc import Sequence\n", "")
+    return text if "Literal[" in text else text.replace(", Literal", "")
+
+
+def main() -> None:
+    for name, text in sources().items():
+        if "--check" not in sys.argv[1:]:
+            (OUT / name).write_text(text, encoding="utf-8")
+        elif (OUT / name).read_text(encoding="utf-8") != text:
+            sys.exit(f"{name} is not what the schema says: run {__file__}")
 
 
 if __name__ == "__main__":
-    if "--check" in sys.argv[1:]:
-        sys.exit(0 if OUT.read_text(encoding="utf-8") == source() else f"{OUT.name} is not what the schema says: run {__file__}")
-    OUT.write_text(source(), encoding="utf-8")
+    main()

@@ -5,12 +5,13 @@ values never change, compare, hash and pickle.
 """
 
 from . import errors
-from ._core import Record, Situation, __version__
+from ._core import DemandModel, Fragility, Record, Situation, __version__, demand, fragility
 from ._loop import ClosedLoop, Law, Wish, closed_loop
 from ._map import Map, map
 from ._outcome import Outcome
 from ._run import ErrorEstimate, Run, simulate
 from ._scene import Axis, Ground, RecordedMotion, Scene
+from ._study import Cloud, Columns, Optimum, Study, accuracy, cloud, optimise
 from ._tables import (
     Accelerometer,
     Accuracy,
@@ -54,16 +55,20 @@ __all__ = [
     "BoardError",
     "Checks",
     "ClosedLoop",
+    "Cloud",
     "Clutch",
     "ClutchedPair",
+    "Columns",
     "Controller",
     "Cosine",
+    "DemandModel",
     "Device",
     "Duration",
     "Encoder",
     "ErrorEstimate",
     "Flywheel",
     "FlywheelLosses",
+    "Fragility",
     "Gear",
     "Ground",
     "Gyroscope",
@@ -75,6 +80,7 @@ __all__ = [
     "MavroeidisPapageorgiou",
     "Motion",
     "NoDevice",
+    "Optimum",
     "Outcome",
     "Output",
     "Rack",
@@ -88,11 +94,17 @@ __all__ = [
     "Sensors",
     "Sine",
     "Situation",
+    "Study",
     "Weight",
     "Wish",
     "__version__",
+    "accuracy",
     "closed_loop",
+    "cloud",
+    "demand",
     "errors",
+    "fragility",
     "map",
+    "optimise",
     "simulate",
 ]

@@ -106,6 +106,14 @@ class _Records:
         return plain(value)
 
 
+def named(records: Iterable[Record]) -> list[tuple[str, Record]]:
+    """Records with names that differ."""
+    names = _Records()
+    for record in records:
+        names.name(record)
+    return list(names.named.items())
+
+
 def _listed(value: Any) -> list[Any]:
     return list(value) if isinstance(value, (list, tuple)) else [value]
 

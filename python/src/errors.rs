@@ -12,6 +12,8 @@ use sprag_sim::scene::SceneError;
 use sprag_sim::scene::error::Key;
 use sprag_sim::scene::ground::GroundError;
 use sprag_sim::simulation::RunError;
+use sprag_studies::accuracy_study::study::StudyError as AccuracyError;
+use sprag_studies::cloud::study::StudyError as CloudError;
 use sprag_studies::map::study::MapError;
 
 /// `sprag.InputError`: what is wrong, and where it is known the key, its value and what it may be.
@@ -41,6 +43,11 @@ fn raised<'py>(py: Python<'py>, name: &str, arguments: impl pyo3::call::PyCallAr
 pub fn range(key: &str, value: impl Display, range: &str) -> PyErr {
     let value = value.to_string();
     input(&format!("{key} is {value}, but must be {range}"), Some(key), Some(&value), Some(range))
+}
+
+/// `sprag.InputError` for a `key` that is `needed`.
+pub fn missing(key: &str, needed: &str) -> PyErr {
+    input(&format!("{key} is missing: {needed}"), Some(key), None, Some(needed))
 }
 
 /// `sprag.InputError` with a message alone.
@@ -125,6 +132,24 @@ impl Raise for MapError {
             MapError::Ground(error) => error.raise(),
             MapError::Interrupted => PyKeyboardInterrupt::new_err(()),
             MapError::Run { .. } | MapError::Block { .. } | MapError::Rows(_) => failed(self),
+        }
+    }
+}
+
+impl Raise for CloudError {
+    fn raise(self) -> PyErr {
+        match self {
+            CloudError::File(error) => error.raise(),
+            CloudError::Structure { index, .. } => input(&self.to_string(), Some(&format!("structure.{index}.set")), None, None),
+        }
+    }
+}
+
+impl Raise for AccuracyError {
+    fn raise(self) -> PyErr {
+        match self {
+            AccuracyError::Parameter(error) => error.raise(),
+            AccuracyError::Interrupted => PyKeyboardInterrupt::new_err(()),
         }
     }
 }

@@ -1,16 +1,20 @@
 //! The native module of the Python package `sprag`: what Python cannot do itself, over the packages of the host.
 //!
-//! - [`errors`]: exceptions; [`value`]: values of Python as TOML; [`long_call`]: work without the interpreter's lock.
-//! - [`record`], [`scene`]: what is simulated; [`run`], [`map`], [`closed_loop`]: what comes of it; [`law`]: clutch laws in Python.
+//! - `errors`: exceptions; `value`: values of Python as TOML; `columns`: tables as arrays; `long_call`: work without the interpreter's lock.
+//! - `record`, `scene`: what is simulated; `run`, `map`, `closed_loop`: what comes of it; `law`: clutch laws in Python.
+//! - `study`: studies over many records; `fits`: demand models and fragilities.
 
 mod closed_loop;
+mod columns;
 mod errors;
+mod fits;
 mod law;
 mod long_call;
 mod map;
 mod record;
 mod run;
 mod scene;
+mod study;
 mod value;
 
 use pyo3::prelude::*;
@@ -22,6 +26,8 @@ mod _core {
     #[pymodule_export]
     use crate::closed_loop::closed_loop;
     #[pymodule_export]
+    use crate::fits::{DemandModel, Fragility, demand, fragility};
+    #[pymodule_export]
     use crate::law::Situation;
     #[pymodule_export]
     use crate::map::overturning_map;
@@ -30,7 +36,9 @@ mod _core {
     #[pymodule_export]
     use crate::run::simulate;
     #[pymodule_export]
-    use crate::scene::{Scene, check_table};
+    use crate::scene::{Scene, change, check_table};
+    #[pymodule_export]
+    use crate::study::{Study, accuracy, cloud, optimise};
 
     /// The command `sprag` with the words of a command line; its exit code.
     #[pyfunction]

@@ -28,7 +28,7 @@ pub struct Scene {
 }
 
 /// Records in memory, and what the scene calls them.
-type Named = Vec<(String, Py<Record>)>;
+pub type Named = Vec<(String, Py<Record>)>;
 
 impl Scene {
     fn of(py: Python<'_>, table: Table, read: SimScene, folder: PathBuf, records: Named) -> Scene {
@@ -70,13 +70,9 @@ impl Scene {
 
     /// With `value` for the key with dots, and `records` in the place of its own; None leaves the key out.
     fn set(&self, py: Python<'_>, key: &str, value: &Bound<'_, PyAny>, records: Named) -> PyResult<Scene> {
-        if key.is_empty() || key.contains(|c: char| c == '=' || c.is_whitespace()) {
-            return Err(range("key", format_args!("{key:?}"), "a key such as block.size_m"));
-        }
-        let given = if value.is_none() { String::new() } else { self::value(value)?.to_string() };
         let mut table = self.table.clone();
         let origin = &self.scene.origin;
-        overrides::apply(&mut table, &format!("{key}={given}"), origin).map_err(|error| error.raise())?;
+        overrides::apply(&mut table, &change(key, value)?, origin).map_err(|error| error.raise())?;
         let read = SimScene::of_table(table.clone(), origin, &[]).map_err(|error| error.raise())?;
         Ok(Scene::of(py, table, read, self.scene.folder.clone(), records))
     }
@@ -149,6 +145,19 @@ impl Scene {
     fn uplift_threshold_g(&self) -> f64 {
         self.scene.uplift_threshold()
     }
+}
+
+/// KEY=VALUE, as the command line has a change of a scene; None leaves the key out.
+///
+/// # Errors
+/// `InputError` for what is no key.
+#[pyfunction]
+pub fn change(key: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
+    if key.is_empty() || key.contains(|c: char| c == '=' || c.is_whitespace()) {
+        return Err(range("key", format_args!("{key:?}"), "a key such as block.size_m"));
+    }
+    let value = if value.is_none() { String::new() } else { self::value(value)?.to_string() };
+    Ok(format!("{key}={value}"))
 }
 
 /// Tables of a scene that can be read on their own.

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-Command = Callable[..., list[dict[str, str]]]
+Rows = list[dict[str, str]]
+Command = Callable[..., Callable[[str], Rows]]
 
 
 @pytest.fixture(scope="session")
@@ -18,12 +19,16 @@ def scenes() -> Path:
 
 @pytest.fixture
 def command(tmp_path: Path) -> Command:
-    """Runs the command `sprag`, and reads the table that it writes."""
+    """Runs the command `sprag`, and gives a function that reads one of the tables that it wrote."""
 
-    def run(table: str, *words: str | Path) -> list[dict[str, str]]:
-        program = Path(sys.executable).parent / "sprag"
-        subprocess.run([program, *words, "--out", tmp_path / "out"], check=True, capture_output=True)
-        with (tmp_path / "out" / table).open(newline="") as file:
-            return list(csv.DictReader(file))
+    def run(*words: str | Path) -> Callable[[str], Rows]:
+        program, folder = Path(sys.executable).parent / "sprag", tmp_path / "out"
+        subprocess.run([program, *words, "--formats", "csv", "--out", folder], check=True, capture_output=True)
+
+        def read(table: str) -> Rows:
+            with (folder / f"{table}.csv").open(newline="") as file:
+                return list(csv.DictReader(file))
+
+        return read
 
     return run

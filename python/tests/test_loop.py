@@ -25,7 +25,7 @@ def resisting(at: sprag.Situation) -> bool:
 
 
 def test_histories_are_those_of_the_command(scene: sprag.Scene, own: sprag.ClosedLoop, scenes: Path, command) -> None:
-    rows = command("history.csv", "loop", scenes / "controller.toml", "--set", "controller.law=resisting-predicted")
+    rows = command("loop", scenes / "controller.toml", "--set", "controller.law=resisting-predicted")("history")
     columns = own.columns
     for name in ["ground_m_s2", "rotation_rad", "velocity_rad_s", "push_1_s2"]:
         assert [float(row[name]) for row in rows] == columns[name].tolist(), name

@@ -11,7 +11,7 @@ import sprag
 
 def test_a_map_is_that_of_the_command(scenes: Path, command) -> None:
     path = scenes / "figure08.toml"
-    rows = command("map.csv", "map", path)
+    rows = command("map", path)("map")
     made = sprag.map(sprag.Scene.read(path))
     names = {outcome.name.lower().replace("_", "-"): outcome for outcome in sprag.Outcome}
     assert [names[row["outcome"]] for row in rows] == made.outcome.ravel().tolist()

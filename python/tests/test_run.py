@@ -17,7 +17,7 @@ import sprag
 
 def test_histories_are_those_of_the_command(scenes: Path, command) -> None:
     path = scenes / "near_fault.toml"
-    rows = command("history.csv", "simulate", path)
+    rows = command("simulate", path)("history")
     for run in sprag.simulate(sprag.Scene.read(path)):
         own = [row for row in rows if row["device"] == run.device]
         columns = {
