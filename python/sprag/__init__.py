@@ -5,6 +5,7 @@ values never change, compare, hash and pickle.
 """
 
 from . import errors
+from ._board import Board, BoardLoop
 from ._core import DemandModel, Fragility, Record, Situation, __version__, demand, fragility
 from ._loop import ClosedLoop, Law, Wish, closed_loop
 from ._map import Map, map
@@ -52,7 +53,9 @@ __all__ = [
     "Axis",
     "Belief",
     "Block",
+    "Board",
     "BoardError",
+    "BoardLoop",
     "Checks",
     "ClosedLoop",
     "Cloud",

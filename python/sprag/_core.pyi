@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Callable, Sequence
-from typing import Any, final
+from typing import Any, Protocol, final
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +16,10 @@ __all__ = [
     "Study",
     "__version__",
     "accuracy",
+    "board_info",
+    "board_log",
+    "board_loop",
+    "board_settings",
     "change",
     "check_table",
     "closed_loop",
@@ -239,6 +243,16 @@ class Study:
     @property
     def warnings(self) -> list[str]: ...
 
+class _Place(Protocol):
+    @property
+    def port(self) -> str | None: ...
+    @property
+    def image(self) -> str | os.PathLike[str] | None: ...
+
+def board_info(place: _Place) -> str: ...
+def board_settings(place: _Place, changes: Sequence[tuple[str, str]], store: bool) -> str: ...
+def board_log(place: _Place) -> dict[str, Any]: ...
+def board_loop(place: _Place, scene: Scene, device: int | None, seed: int | None) -> dict[str, Any]: ...
 def demand(*, intensity: npt.ArrayLike, demand: npt.ArrayLike) -> DemandModel: ...
 def fragility(*, intensity: npt.ArrayLike, overturned: npt.ArrayLike, of: npt.ArrayLike | None = None) -> Fragility: ...
 def change(key: str, value: Any) -> str: ...

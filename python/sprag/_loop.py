@@ -87,6 +87,35 @@ class ClosedLoop(Result):
         return frame
 
 
+def number_of(scene: Scene, device: int | str | None) -> int | None:
+    """The number of a device of a scene."""
+    if isinstance(device, str):
+        if device not in scene.devices:
+            raise InputError(
+                f"device is {device!r}, but must be one of {', '.join(scene.devices)}", "device", device, ", ".join(scene.devices)
+            )
+        return scene.devices.index(device)
+    return device
+
+
+def loop_of(native: dict[str, Any], scene: Scene) -> ClosedLoop:
+    """A closed loop as it comes from the native module."""
+    summary = json.loads(native.pop("summary"))
+    digest, ideal = native.pop("digest"), native.pop("ideal_pair")
+    error = summary.get("error_estimate")
+    return ClosedLoop(
+        device=summary["device"],
+        outcome=Outcome.named(summary["outcome"]),
+        peak_rotation=summary["peak_rotation"],
+        error=None if error is None else ErrorEstimate(**error),
+        columns=native,
+        decisions_digest=digest,
+        summary=summary,
+        ideal_pair=run_of(ideal, scene),
+        scene=scene,
+    )
+
+
 def closed_loop(
     scene: Scene,
     *,
@@ -119,24 +148,5 @@ def closed_loop(
     RunError
         For a motion that cannot be followed.
     """
-    if isinstance(device, str):
-        if device not in scene.devices:
-            raise InputError(
-                f"device is {device!r}, but must be one of {', '.join(scene.devices)}", "device", device, ", ".join(scene.devices)
-            )
-        device = scene.devices.index(device)
-    native = _core.closed_loop(scene._native, device=device, seed=seed, law=law, predicts=predicts)
-    summary = json.loads(native.pop("summary"))
-    digest, ideal = native.pop("digest"), native.pop("ideal_pair")
-    error = summary.get("error_estimate")
-    return ClosedLoop(
-        device=summary["device"],
-        outcome=Outcome.named(summary["outcome"]),
-        peak_rotation=summary["peak_rotation"],
-        error=None if error is None else ErrorEstimate(**error),
-        columns=native,
-        decisions_digest=digest,
-        summary=summary,
-        ideal_pair=run_of(ideal, scene),
-        scene=scene,
-    )
+    native = _core.closed_loop(scene._native, device=number_of(scene, device), seed=seed, law=law, predicts=predicts)
+    return loop_of(native, scene)

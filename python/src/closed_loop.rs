@@ -5,6 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sprag_shared::math::fnv::Fnv;
 use sprag_shared::structure::block::GRAVITY;
+use sprag_sim::accuracy::Closeness;
 use sprag_sim::closed_loop::report::{LoopReport, clutches};
 use sprag_sim::closed_loop::run::Tick;
 use sprag_sim::closed_loop::{LoopFailure, LoopScene};
@@ -31,12 +32,7 @@ pub fn closed_loop<'py>(
     law: Option<Py<PyAny>>,
     predicts: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let desk = LoopScene::new(scene.scene.clone()).map_err(|error| error.raise())?;
-    let index = device.unwrap_or(desk.pairs[0]);
-    if !desk.pairs.contains(&index) {
-        return Err(range("device", index, &format!("the number of a clutched pair: one of {:?}", desk.pairs)));
-    }
-    let seed = seed.unwrap_or(desk.controller.sensors.seed());
+    let LoopOf { desk, index, seed } = LoopOf::new(scene, device, seed)?;
     let report = match law {
         None => long_call(py, |interrupt| run(&desk, index, seed, interrupt, None))?,
         // The function needs the interpreter at every tick.
@@ -50,17 +46,46 @@ pub fn closed_loop<'py>(
             report
         }
     };
-    dict(py, report.map_err(|failure| failure.raise())?)
+    dict(py, report.map_err(|failure| failure.raise())?.1)
 }
 
-/// The loop as `sprag loop` runs it.
-fn run(
+/// One loop of a scene.
+pub struct LoopOf {
+    /// The scene.
+    pub desk: LoopScene,
+    /// Number of the device.
+    pub index: usize,
+    /// Of the sensors' errors and noise.
+    pub seed: u64,
+}
+
+impl LoopOf {
+    /// Over device number `device` of `scene`, the first clutched pair without one, with the scene's own seed without one.
+    ///
+    /// # Errors
+    /// `InputError`.
+    pub fn new(scene: &Scene, device: Option<usize>, seed: Option<u64>) -> PyResult<LoopOf> {
+        let desk = LoopScene::new(scene.scene.clone()).map_err(|error| error.raise())?;
+        let index = device.unwrap_or(desk.pairs[0]);
+        if !desk.pairs.contains(&index) {
+            return Err(range("device", index, &format!("the number of a clutched pair: one of {:?}", desk.pairs)));
+        }
+        let seed = seed.unwrap_or(desk.controller.sensors.seed());
+        Ok(LoopOf { desk, index, seed })
+    }
+}
+
+/// The loop as `sprag loop` runs it, and how closely that follows the plant.
+///
+/// # Errors
+/// [`LoopFailure`].
+pub fn run(
     desk: &LoopScene,
     index: usize,
     seed: u64,
     interrupt: &Interrupt,
     law: Option<&PythonLaw>,
-) -> Result<LoopReport, LoopFailure> {
+) -> Result<(Option<Closeness>, LoopReport), LoopFailure> {
     let task = desk.task(index, seed, interrupt);
     let (task, error, looped) = match law {
         None => task.answered::<Vec<Tick>>()?,
@@ -71,10 +96,14 @@ fn run(
     if law.is_some() {
         "python".clone_into(&mut report.summary.law);
     }
-    Ok(report)
+    Ok((task.closeness, report))
 }
 
-fn dict(py: Python<'_>, report: LoopReport) -> PyResult<Bound<'_, PyDict>> {
+/// A loop as Python has it.
+///
+/// # Errors
+/// Those of the interpreter.
+pub fn dict(py: Python<'_>, report: LoopReport) -> PyResult<Bound<'_, PyDict>> {
     let dict = PyDict::new(py);
     dict.set_item("summary", serde_json::to_string(&report.summary).map_err(refused)?)?;
     let mut hash = Fnv::default();

@@ -4,6 +4,7 @@ use std::fmt::Display;
 
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
+use sprag_cli::board::line::DeviceError;
 use sprag_shared::structure::error::ParameterError;
 use sprag_sim::closed_loop::LoopFailure;
 use sprag_sim::closed_loop::run::LoopError;
@@ -31,6 +32,11 @@ fn input(message: &str, key: Option<&str>, value: Option<&str>, range: Option<&s
 /// `sprag.RunError`: valid input from which no result came.
 pub fn failed(message: impl Display) -> PyErr {
     Python::attach(|py| raised(py, "RunError", (message.to_string(),)))
+}
+
+/// `sprag.BoardError`: a board that does not answer, or refuses.
+pub fn silent(error: DeviceError) -> PyErr {
+    Python::attach(|py| raised(py, "BoardError", (error.to_string(),)))
 }
 
 /// The exception `name` of the package.

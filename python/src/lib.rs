@@ -2,8 +2,9 @@
 //!
 //! - `errors`: exceptions; `value`: values of Python as TOML; `columns`: tables as arrays; `long_call`: work without the interpreter's lock.
 //! - `record`, `scene`: what is simulated; `run`, `map`, `closed_loop`: what comes of it; `law`: clutch laws in Python.
-//! - `study`: studies over many records; `fits`: demand models and fragilities.
+//! - `study`: studies over many records; `fits`: demand models and fragilities; `board`: boards and emulators.
 
+mod board;
 mod closed_loop;
 mod columns;
 mod errors;
@@ -23,6 +24,8 @@ use pyo3::prelude::*;
 mod _core {
     use pyo3::prelude::*;
 
+    #[pymodule_export]
+    use crate::board::{board_info, board_log, board_loop, board_settings};
     #[pymodule_export]
     use crate::closed_loop::closed_loop;
     #[pymodule_export]

@@ -147,7 +147,7 @@ fn run(task: Task) -> Result<(), Stop> {
         Task::BoardImage { what: Counted::Ticks } => board_image::measure(root, "ticks"),
         Task::BoardImage { what: Counted::Profile } => board_image::measure(root, "profile"),
         Task::Hardware => hardware::run(root, &mut Steps::default()),
-        Task::Python { dist } => python::run(root, &mut Steps::default(), if dist { "dist" } else { "dev" }),
+        Task::Python { dist } => python::run(root, &mut Steps::default(), if dist { "dist" } else { "dev" }, None),
         Task::Figures { program } => figures::run(root, program.as_deref()),
         Task::Fuzz { target, seconds } => fuzz::run(root, target.as_deref(), seconds, Inputs::New),
     }

@@ -1,6 +1,7 @@
 //! The Python package: its wheel, and its tests in an environment that has nothing else.
 
 use crate::{
+    firmware::Built,
     process::{cargo, run as done},
     steps::Steps,
     stop::Stop,
@@ -17,11 +18,12 @@ const FOLDER: &str = "python";
 /// Folder of the wheels that are built.
 const WHEELS: &str = "target/wheels";
 
-/// Lints the package, builds its wheel by `profile` of its workspace, installs that into an empty environment and tests it there.
+/// Lints the package, builds its wheel by `profile` of its workspace, installs that into an empty environment and tests it there, with the
+/// firmware too where images are `built`.
 ///
 /// # Errors
 /// At the first check that fails, or if there is no Python or no package index.
-pub fn run(root: &Path, steps: &mut Steps, profile: &str) -> Result<(), Stop> {
+pub fn run(root: &Path, steps: &mut Steps, profile: &str, built: Option<&Built>) -> Result<(), Stop> {
     let folder = root.join(FOLDER);
     steps.step("lints, python's native module", || {
         done(&mut cargo(&folder, &["fmt", "--check"]))?;
@@ -37,7 +39,8 @@ pub fn run(root: &Path, steps: &mut Steps, profile: &str) -> Result<(), Stop> {
         Ok(python)
     })?;
     // From the root, where Python finds the package that is installed and not the folder's, which lacks its native module.
-    let check = |words: &[&str]| done(Command::new(&python).current_dir(root).args(words));
+    let images = || built.into_iter().flat_map(Built::variables);
+    let check = |words: &[&str]| done(Command::new(&python).current_dir(root).args(words).envs(images()));
     steps.step("lints, python", || {
         check(&["python/generate_tables.py", "--check"])?;
         check(&["-m", "ruff", "check", FOLDER])?;

@@ -72,7 +72,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     steps.step("tests", || tests(root, &built, fuzz_seconds.is_some()))?;
     match fuzz_seconds {
         Some(seconds) => {
-            python::run(root, &mut steps, "dev")?;
+            python::run(root, &mut steps, "dev", Some(&built))?;
             steps.step("fuzzing", || fuzz::run(root, None, seconds, Inputs::Same))
         }
         None => steps.step("fuzz targets", || fuzz::check(root)),

@@ -182,3 +182,10 @@ impl<L: Line> Session<L> {
         self.send(&Request::Rehearse(mishap)).map(|_| ())
     }
 }
+
+/// A firmware in words.
+pub fn firmware(identity: &Identity) -> String {
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).trim_end_matches('\0').to_owned();
+    let [major, minor, patch] = identity.version;
+    format!("{} {major}.{minor}.{patch} ({})", text(&identity.board), text(&identity.build))
+}

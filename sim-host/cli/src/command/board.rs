@@ -14,7 +14,7 @@ use sprag_shared::link::{Identity, Request, State};
 use sprag_shared::settings::{Item, Settings};
 use sprag_sim::interrupt::Interrupt;
 
-use super::board_line::{Connected, LineArguments, connect, firmware};
+use super::board_line::{Connected, LineArguments, connect};
 use super::board_record::{self, RecordArguments};
 use super::context::{Completion, Context, Interrupted, Run};
 use super::loop_scene;
@@ -22,7 +22,7 @@ use super::out_arguments::OverwriteArguments;
 use super::record_arguments::SceneRecordArguments;
 use crate::board::event_table::{rows, table, what};
 use crate::board::line::{DeviceError, Line};
-use crate::board::session::Session;
+use crate::board::session::{Session, firmware};
 use crate::board::strip_chart::StripChart;
 use crate::board::{parameters, recordings, setting_text};
 

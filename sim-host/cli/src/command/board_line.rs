@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args};
-use sprag_shared::link::Identity;
 
 use crate::board::emulator::{Emulator, Way};
 use crate::board::image;
@@ -76,11 +75,4 @@ pub fn connect(arguments: &LineArguments) -> Result<Connected, DeviceError> {
     let log = arguments.log.as_ref().map(|_| Log::new(&image)).transpose()?;
     let emulator = Emulator::start(&image, arguments.way, log.as_ref().map(Log::path).as_deref())?;
     Ok(Connected { line: Box::new(emulator), log })
-}
-
-/// A firmware in words.
-pub fn firmware(identity: &Identity) -> String {
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).trim_end_matches('\0').to_owned();
-    let [major, minor, patch] = identity.version;
-    format!("{} {major}.{minor}.{patch} ({})", text(&identity.board), text(&identity.build))
 }
