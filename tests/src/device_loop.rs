@@ -10,7 +10,7 @@ use sprag_cli::board::faulty::{Direction, Fate, FaultyLine};
 use sprag_cli::board::image::Image;
 use sprag_cli::board::parameters;
 use sprag_cli::board::session::Session;
-use sprag_cli::command::loop_scene::LoopScene;
+use sprag_cli::command::loop_scene;
 use sprag_cli::command::record_arguments::SceneRecordArguments;
 use sprag_shared::control::controller::{Circumstances, Decision};
 use sprag_shared::control::monitor::fault::Fault;
@@ -18,11 +18,11 @@ use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::{Phase, Requests};
 use sprag_shared::link::{Identity, Mishap, Started, State};
 use sprag_shared::settings::Settings;
-use sprag_sim::closed_loop::LoopTask;
 use sprag_sim::closed_loop::disturbance::Disturbance;
 use sprag_sim::closed_loop::driver::Driver;
 use sprag_sim::closed_loop::plant::Extremes;
 use sprag_sim::closed_loop::run::{Ending, Tick};
+use sprag_sim::closed_loop::{LoopScene, LoopTask};
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::sensor::{Sensors, Truth};
 
@@ -34,7 +34,7 @@ pub fn scene_file(name: &str) -> PathBuf {
 /// A scene with changes.
 pub fn scene(name: &str, set: &[&str]) -> LoopScene {
     let set: Vec<String> = set.iter().map(|&set| set.to_owned()).collect();
-    LoopScene::load(&scene_file(name), &set, &SceneRecordArguments::default()).unwrap()
+    loop_scene::load(&scene_file(name), &set, &SceneRecordArguments::default()).unwrap()
 }
 
 /// The scene `controller.toml` with a sine pulse (ω/p = 4, 3 thresholds) in the place of the record, which is over sooner.
@@ -47,7 +47,7 @@ pub fn pulse(set: &[&str]) -> LoopScene {
     let path = folder.path().join("pulse.toml");
     std::fs::write(&path, text.replace(record, sine)).unwrap();
     let set: Vec<String> = ["run.free_time_s=1.5"].iter().chain(set).map(|&set| set.to_owned()).collect();
-    LoopScene::load(&path, &set, &SceneRecordArguments::default()).unwrap()
+    loop_scene::load(&path, &set, &SceneRecordArguments::default()).unwrap()
 }
 
 /// Longer than a clutch of the scene takes to open, s.

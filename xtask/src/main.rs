@@ -15,6 +15,7 @@ mod hardware;
 mod package;
 mod panic_check;
 mod process;
+mod python;
 #[cfg(test)]
 mod rooms;
 mod scratch;
@@ -53,7 +54,8 @@ enum Task {
     /// Every check, in order; stops at the first that fails
     #[command(alias = "ci")]
     Test,
-    /// The same with the exhaustive tests, which otherwise run when what they prove has changed, and each fuzz target from its seeds on
+    /// The same with the exhaustive tests, which otherwise run when what they prove has changed, each fuzz target from its seeds on,
+    /// and the Python package
     Nightly {
         /// How long each fuzz target runs, s; 0 only tries the committed seeds
         #[arg(long, default_value_t = FUZZ_SECONDS)]
@@ -88,6 +90,13 @@ enum Task {
     /// Simulate the coil driver of docs/hardware in ngspice and check the schematic's electrical rules by SKiDL (where Python has it);
     /// fails when an assert or a rule does
     Hardware,
+    /// Build the wheel of the Python package into target/wheels, and check it in an empty environment: lints, types, tests; needs python3 with
+    /// venv and a package index
+    Python {
+        /// Build it for others, with every optimisation, and not quickly for its tests
+        #[arg(long)]
+        dist: bool,
+    },
     /// Print figures of the code: lines without tests, test executables, and of each program that is built the event loops and the bytes
     /// of code by room of the core
     Figures {
@@ -149,6 +158,7 @@ fn run(task: Task) -> Result<(), Stop> {
         Task::BoardImage { what: Counted::Ticks } => board_image::measure(root, "ticks"),
         Task::BoardImage { what: Counted::Profile } => board_image::measure(root, "profile"),
         Task::Hardware => hardware::run(root, &mut Steps::default()),
+        Task::Python { dist } => python::run(root, &mut Steps::default(), if dist { "dist" } else { "dev" }, None),
         Task::Figures { program } => figures::run(root, program.as_deref()),
         Task::Deb => package::deb(root),
         Task::Cluster => cluster::run(root, &test::program(root)),

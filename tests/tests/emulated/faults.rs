@@ -4,12 +4,12 @@
 //! `cargo xtask test` builds. What holds whatever happens is in [`Course::check`].
 
 use sprag_cli::board::faulty::{Direction, Fate};
-use sprag_cli::command::loop_scene::LoopScene;
 use sprag_shared::control::controller::Circumstances;
 use sprag_shared::control::monitor::fault::{Fault, Recovery};
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::sensing::sensor::Sensor;
 use sprag_shared::control::supervisor::Phase;
+use sprag_sim::closed_loop::LoopScene;
 use sprag_sim::closed_loop::disturbance::Disturbance;
 use sprag_studies::loop_study::faults::{ALL, Failing, Injected, Part};
 use sprag_tests::device_loop::{Course, Timed, Trial, faithful, mid_swing, on_the_host, pulse, row};

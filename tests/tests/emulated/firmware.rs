@@ -6,8 +6,8 @@
 use sprag_cli::board::emulator::Way;
 use sprag_cli::board::image::build_bench;
 use sprag_cli::board::report::costs;
-use sprag_cli::command::loop_scene::LoopScene;
 use sprag_shared::control::supervisor::Phase;
+use sprag_sim::closed_loop::LoopScene;
 use sprag_tests::device_loop::{Course, Trial, faithful, on_the_host, pulse, scene};
 use sprag_tests::emulation::{board_firmware, controller_firmware};
 

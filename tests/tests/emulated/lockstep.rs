@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use sprag_cli::board::image::build_bench;
-use sprag_cli::command::loop_scene::LoopScene;
 use sprag_shared::control::law::Wish;
 use sprag_shared::control::supervisor::Phase;
+use sprag_sim::closed_loop::LoopScene;
 use sprag_sim::closed_loop::plant::Extremes;
 use sprag_sim::closed_loop::run::{Ending, Tick};
 use sprag_sim::interrupt::Interrupt;

@@ -5,13 +5,13 @@
 
 use std::path::{Path, PathBuf};
 
-use sprag_cli::command::loop_scene::LoopScene;
 use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::device::retained::MOST_RESTARTS;
 use sprag_shared::link::reset_cause::Cause;
 use sprag_shared::link::{Mishap, Started};
 use sprag_shared::settings::Settings;
+use sprag_sim::closed_loop::LoopScene;
 use sprag_tests::device_loop::{Course, Trial, decides, faithful, mid_swing, on_the_host, pulse, row};
 use sprag_tests::emulation::controller_firmware;
 

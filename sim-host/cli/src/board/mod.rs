@@ -5,9 +5,11 @@
 //! - [`session`]: requests and replies; [`parameters`]: its settings, [`setting_text`]: as text, [`derived`]: those that follow
 //!   from others; [`event_table`]: its event log; [`recordings`]: its flight recorder;
 //! - [`strip_chart`]: its last seconds, drawn in the terminal;
-//! - [`driver`]: it in the place of the host's controller, compared with it at every tick; [`report`]: what that comes to.
+//! - [`driver`]: it in the place of the host's controller, compared with it at every tick; [`device_loop`]: a loop that it closes;
+//!   [`report`]: what that comes to.
 
 pub mod derived;
+pub mod device_loop;
 pub mod driver;
 pub mod emulator;
 pub mod event_table;

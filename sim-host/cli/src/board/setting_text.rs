@@ -231,12 +231,9 @@ mod tests {
     fn of_scene(changes: &[&str]) -> Settings {
         let path = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/controller.toml"));
         let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
-        let desk = crate::command::loop_scene::LoopScene::load(
-            path,
-            &changes,
-            &crate::command::record_arguments::SceneRecordArguments::default(),
-        )
-        .unwrap();
+        let desk =
+            crate::command::loop_scene::load(path, &changes, &crate::command::record_arguments::SceneRecordArguments::default())
+                .unwrap();
         desk.task(0, 1, &sprag_sim::interrupt::Interrupt::default()).settings().unwrap()
     }
 

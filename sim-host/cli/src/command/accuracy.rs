@@ -9,7 +9,7 @@ use sprag_sim::record::warning_lines;
 use sprag_studies::accuracy_study::figure::figures;
 use sprag_studies::accuracy_study::report::{page, row_table};
 use sprag_studies::accuracy_study::row::RowText;
-use sprag_studies::accuracy_study::study::{Extent, study};
+use sprag_studies::accuracy_study::study::{CELLS, Extent, SMALLEST_STEPS, check, study};
 
 use super::context::{Completion, Context, Run};
 use super::out_arguments::{OutputArguments, claim_of_scene};
@@ -32,7 +32,7 @@ pub struct AccuracyCommandArguments {
     #[command(flatten)]
     pub records: SceneRecordArguments,
     /// Cells along each side of the grid of one-cycle pulses that wrong outcomes are counted over, by steps from 1e-3/p on; 0 to 64.
-    #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u8).range(0..=64))]
+    #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u8).range(i64::from(*CELLS.start())..=i64::from(*CELLS.end())))]
     pub cells: u8,
     /// Smallest fixed step, in 1/p; 3e-5 to 0.1.
     #[arg(long, value_name = "STEP", default_value_t = 1e-4, value_parser = smallest_step)]
@@ -50,7 +50,7 @@ pub struct AccuracyCommandArguments {
 
 fn smallest_step(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(step) if (3e-5..=0.1).contains(&step) => Ok(step),
+        Ok(step) if SMALLEST_STEPS.contains(&step) => Ok(step),
         _ => Err("must be a number from 3e-5 to 0.1".to_owned()),
     }
 }
@@ -72,9 +72,7 @@ impl Run for AccuracyCommandArguments {
         let mut scene = self.scene.load(None)?;
         self.records.apply(&mut scene)?;
         let mut warnings = context.warned(scene.warnings());
-        if let Some(what) = scene.first_beyond_ideal() {
-            anyhow::bail!("{}: accuracy is for ideal devices over horizontal ground, and {what} goes beyond them", scene.origin);
-        }
+        check(&scene)?;
         let ground = scene.ground_motions()?;
         let cells = u32::from(self.cells) * u32::from(self.cells);
         let mut claim = claim_of_scene("accuracy", &self.scene.scene, &scene, &scene.file, &NAMES, &[])?;

@@ -18,7 +18,7 @@ use sprag_sim::interrupt::Interrupt;
 use super::board_line::{Connected, LineArguments, connect};
 use super::board_record::{self, RecordArguments};
 use super::context::{Completion, Context, Interrupted, Run, write_json};
-use super::loop_scene::LoopScene;
+use super::loop_scene;
 use super::out_arguments::OverwriteArguments;
 use super::record_arguments::SceneRecordArguments;
 use crate::board::event_table::{LogRow, log_rows, rows, table, what};
@@ -297,7 +297,7 @@ fn report(given: &ParameterArguments, before: &Settings, now: &Settings, out: &m
 }
 
 fn of_scene(path: &Path, context: &mut Context<'_>) -> anyhow::Result<Settings> {
-    let desk = LoopScene::load(path, &[], &SceneRecordArguments::default())?;
+    let desk = loop_scene::load(path, &[], &SceneRecordArguments::default())?;
     context.warned(desk.scene.warnings());
     let Some(&index) = desk.pairs.first() else { return Err(anyhow!("{}: no clutched pair", path.display())) };
     let settings = desk.task(index, desk.controller.sensors.seed(), context.interrupt).settings();

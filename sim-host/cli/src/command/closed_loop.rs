@@ -14,11 +14,11 @@ use sprag_report::progress::Progress;
 use sprag_report::text_table::TextTable;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::accuracy::budget;
-use sprag_sim::closed_loop::LoopFailure;
 use sprag_sim::closed_loop::answered::Looped;
 use sprag_sim::closed_loop::plant::Extremes;
 use sprag_sim::closed_loop::report::{LoopReport, LoopSummary, write_history};
 use sprag_sim::closed_loop::run::{Ending, Tick};
+use sprag_sim::closed_loop::{LoopFailure, LoopScene};
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::warning_lines;
 use sprag_sim::scene::Scene;
@@ -26,7 +26,7 @@ use sprag_studies::statistics::quantile;
 
 use super::accuracy_arguments::AccuracyArguments;
 use super::context::{Completion, Context, Run};
-use super::loop_scene::LoopScene;
+use super::loop_scene;
 use super::loop_trace::loop_trace;
 use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
@@ -133,7 +133,7 @@ fn looped(
     folder: &mut ResultFolder,
     interrupt: &Interrupt,
 ) -> anyhow::Result<(LoopScene, Subject, Vec<LoopReport>)> {
-    let desk = LoopScene::load(&arguments.scene.scene, &arguments.scene.changes(change), &arguments.records)?;
+    let desk = loop_scene::load(&arguments.scene.scene, &arguments.scene.changes(change), &arguments.records)?;
     let file = desk.resolved();
     let names = &["history", "loop", "monte_carlo"];
     let mut claim = claim_of_scene("loop", &arguments.scene.scene, &desk.scene, &file, names, &[])?;

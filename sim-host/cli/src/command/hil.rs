@@ -1,7 +1,6 @@
 //! `sprag hil`: the firmware in closed loop with the simulator's plant and sensors.
 
 use std::io::Write;
-use std::time::Instant;
 
 use clap::Args;
 use sprag_report::output::{ResultFolder, Subject};
@@ -9,10 +8,9 @@ use sprag_report::plot::loop_figure;
 use sprag_report::progress::Progress;
 use sprag_sim::accuracy::Closeness;
 use sprag_sim::closed_loop::answered::Looped;
-use sprag_sim::closed_loop::plant::Extremes;
 use sprag_sim::closed_loop::report::{LoopReport, write_history};
 use sprag_sim::closed_loop::run::Tick;
-use sprag_sim::closed_loop::{LoopFailure, LoopTask};
+use sprag_sim::closed_loop::{LoopFailure, LoopScene, LoopTask};
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::warning_lines;
 use sprag_sim::simulation::ErrorReport;
@@ -21,15 +19,16 @@ use super::accuracy_arguments::AccuracyArguments;
 use super::board_line::{LineArguments, connect};
 use super::closed_loop::{failed, heading, numbered};
 use super::context::{Completion, Context, Run};
-use super::loop_scene::LoopScene;
+use super::loop_scene;
 use super::loop_trace::loop_trace;
 use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
 use super::report::{Report, Runs, SceneInput};
 use super::scene_arguments::SceneArguments;
-use crate::board::driver::{DeviceDriver, DeviceTick, Farewell};
+use crate::board::device_loop::{DeviceLoop, DeviceLoopError};
+use crate::board::driver::{DeviceTick, Farewell};
+use crate::board::info::firmware;
 use crate::board::report::{DeviceSummary, costs, device_ticks};
-use crate::board::session::Session;
 
 /// The same with the firmware, in an emulator or on a board.
 #[derive(Args, Clone, Debug)]
@@ -128,7 +127,7 @@ fn on_host(
     folder: &mut ResultFolder,
     interrupt: &Interrupt,
 ) -> anyhow::Result<(LoopScene, Subject, Vec<Host>)> {
-    let desk = LoopScene::load(&arguments.scene.scene, &arguments.scene.changes(change), &arguments.records)?;
+    let desk = loop_scene::load(&arguments.scene.scene, &arguments.scene.changes(change), &arguments.records)?;
     let file = desk.resolved();
     let names = &["history", "loop", "device", "log"];
     let claim = claim_of_scene("hil", &arguments.scene.scene, &desk.scene, &file, names, &[])?;
@@ -150,23 +149,17 @@ fn one(arguments: &HilArguments, desk: &LoopScene, index: usize, host: Host, int
     let ideal = task.ideal().map_err(failed)?;
     let host_report = LoopReport::new(&task, looped.ending, &looped.extremes.peaks, ideal.clone(), Vec::new());
 
-    let settings = task.settings().map_err(|error| failed(error.into()))?;
-    let own = task.driver(task.controller.clutch_law()).map_err(|error| failed(error.into()))?;
     let device = connect(&arguments.line)?;
-    let session = Session::new(device.line);
-    let mut driver = DeviceDriver::attach(session, &settings, own)?;
-    let (mut seen, mut extremes) = (Vec::new(), Extremes::default());
     let running = Progress::uncounted("running the loop over the device");
-    let begun = Instant::now();
-    let ending = task.run_with(&mut driver, &mut (), &mut extremes, &mut seen);
-    let seconds = begun.elapsed().as_secs_f64();
+    let closed = DeviceLoop::run(&task, device.line, ideal);
     running.finish();
-    // A device that has gone explains whatever became of the loop.
-    let Farewell { ticks, state, identity, .. } = driver.finish()?;
-    let ending = ending.map_err(failed)?;
-    let mut report = LoopReport::new(&task, ending, &extremes.peaks, ideal, seen);
+    let DeviceLoop { mut report, farewell, took } = closed.map_err(|error| match error {
+        DeviceLoopError::Loop(failure) => failed(failure),
+        DeviceLoopError::Device(error) => error.into(),
+    })?;
+    let Farewell { ticks, state, identity, .. } = farewell;
     report.summary.error = error;
-    let ticks_per_second = ticks.len() as f64 / seconds;
+    let ticks_per_second = ticks.len() as f64 / took.as_secs_f64();
     let cost = costs(&ticks);
     let summary = DeviceSummary {
         closed: report.summary.clone(),
@@ -179,7 +172,7 @@ fn one(arguments: &HilArguments, desk: &LoopScene, index: usize, host: Host, int
         instructions_per_tick: cost.map(|cost| cost.0),
         instructions_per_tick_worst: cost.map(|cost| cost.1),
         stack_bytes: state.stack,
-        firmware: crate::board::info::firmware(&identity),
+        firmware: firmware(&identity),
     };
     let log = device.log.map(|log| log.read()).transpose()?;
     Ok(DeviceRun { report, summary, ticks, host: looped.ticks, log })

@@ -3,6 +3,7 @@
 //! Between two ticks the plant is integrated, and that errs; what the controller decides of it is part of the loop, so a decision that falls
 //! otherwise for an error of the plant shows in the estimate.
 
+use sprag_shared::control::law::Law;
 use sprag_shared::motion::state::Phase;
 use sprag_shared::observers::outcome::Outcome;
 
@@ -11,7 +12,7 @@ use super::assemble::LoopFailure;
 use super::plant::Extremes;
 use super::run::{Ending, TickObserver};
 use crate::accuracy::answer::{Comparable, answer};
-use crate::accuracy::{Accuracy, Answer, Compared};
+use crate::accuracy::{Answer, Compared};
 use crate::simulation::ErrorReport;
 
 /// One closed loop, with what was seen of it.
@@ -51,13 +52,10 @@ impl<T> Comparable for Looped<T> {
 }
 
 impl<'a> LoopTask<'a> {
-    /// Runs the loop, and shows its ticks to a new `T`.
-    ///
-    /// # Errors
-    /// [`LoopFailure`].
-    pub fn looped<T: TickObserver + Default>(&self) -> Result<Looped<T>, LoopFailure> {
+    /// Runs the loop by `law`, and shows its ticks to a new `T`.
+    fn looped<T: TickObserver + Default>(&self, law: impl Law + 'static) -> Result<Looped<T>, LoopFailure> {
         let (mut extremes, mut ticks) = (Extremes::default(), T::default());
-        let ending = self.run(&mut extremes, &mut ticks)?;
+        let ending = self.run_with(&mut *self.driver(law)?, &mut (), &mut extremes, &mut ticks)?;
         Ok(Looped { ending, extremes, ticks, slenderness: self.scene.block.slenderness() })
     }
 
@@ -67,17 +65,24 @@ impl<'a> LoopTask<'a> {
     /// # Errors
     /// [`LoopFailure`].
     pub fn answered<T: TickObserver + Default>(self) -> Result<(LoopTask<'a>, Option<ErrorReport>, Looped<T>), LoopFailure> {
-        let Some(level) = self.scene.file.accuracy.level else {
-            let looped = self.looped()?;
-            return Ok((self, None, looped));
-        };
-        let found: Answer<Looped<T>> = self.answer(level)?;
-        let task = LoopTask { closeness: Some(found.closeness), ..self };
-        Ok((task, Some(ErrorReport::of(&found)), found.result))
+        self.answered_by(|| self.controller.clutch_law())
     }
 
-    /// Runs the loop as accurately as `level` asks.
-    fn answer<T: TickObserver + Default>(&self, level: Accuracy) -> Result<Answer<Looped<T>>, LoopFailure> {
-        answer(level, |closeness| LoopTask { closeness: Some(closeness), ..*self }.looped())
+    /// [`LoopTask::answered`] with any law, which is made anew for each run.
+    ///
+    /// # Errors
+    /// [`LoopFailure`].
+    pub fn answered_by<T: TickObserver + Default, L: Law + 'static>(
+        self,
+        law: impl Fn() -> L,
+    ) -> Result<(LoopTask<'a>, Option<ErrorReport>, Looped<T>), LoopFailure> {
+        let Some(level) = self.scene.file.accuracy.level else {
+            let looped = self.looped(law())?;
+            return Ok((self, None, looped));
+        };
+        let closer = |closeness| LoopTask { closeness: Some(closeness), ..self }.looped(law());
+        let found: Answer<Looped<T>> = answer(level, closer)?;
+        let task = LoopTask { closeness: Some(found.closeness), ..self };
+        Ok((task, Some(ErrorReport::of(&found)), found.result))
     }
 }

@@ -8,6 +8,7 @@ pub mod disturbance;
 pub mod driver;
 pub mod feedback;
 mod gains;
+pub mod loop_scene;
 pub mod plant;
 pub mod report;
 pub mod run;
@@ -15,3 +16,4 @@ mod supervision;
 mod truth;
 
 pub use assemble::{LoopFailure, LoopTask};
+pub use loop_scene::LoopScene;

@@ -27,6 +27,22 @@ fn a_clean_motion_raises_nothing() {
 }
 
 #[test]
+fn samples_in_memory_are_the_record_of_a_file_that_holds_them() {
+    let of = |step, samples| Record::of_samples("m.txt", step, Units::StandardGravity, samples);
+    let record = of(0.01, vec![0.0, 0.1, -0.2]).unwrap();
+    let options = ReadOptions { units: Some(Units::StandardGravity), time_step_s: Some(0.01), ..ReadOptions::default() };
+    let file = Record::parse("m.txt", b"0.0 0.1 -0.2", &options).unwrap();
+    assert_eq!(
+        (&record.acceleration_m_s2, record.time_step_s, &record.warnings),
+        (&file.acceleration_m_s2, 0.01, &file.warnings)
+    );
+    for samples in [vec![], vec![0.0], vec![0.0, f64::NAN], vec![f64::INFINITY, 0.0], vec![0.0, 2e4]] {
+        assert!(of(0.01, samples).is_err());
+    }
+    assert!([0.0, -0.01, f64::NAN, 2.0].iter().all(|&step| of(step, vec![0.0, 1.0]).is_err()));
+}
+
+#[test]
 fn a_single_sample_spike_is_found_where_it_is() {
     let mut values = clean();
     values[700] += 6.0;

@@ -18,6 +18,8 @@ pub enum Format {
     Table,
     /// Text with acceleration values only, any number per line.
     Values,
+    /// No file: samples in memory.
+    Array,
 }
 
 impl Format {
@@ -29,6 +31,7 @@ impl Format {
             Format::SimCenterJson => "SimCenter JSON",
             Format::Table => "table",
             Format::Values => "values",
+            Format::Array => "array",
         }
     }
 }

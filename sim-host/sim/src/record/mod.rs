@@ -166,6 +166,16 @@ impl Record {
         finish(name, contents, options)
     }
 
+    /// A record of `samples` in memory, in `units`, every `time_step_s`; `name` is what messages call it.
+    ///
+    /// # Errors
+    ///
+    /// [`RecordError`] for fewer than two samples, one that is not finite or too large, and a time step outside [`TIME_STEP_RANGE_S`].
+    pub fn of_samples(name: &str, time_step_s: f64, units: Units, samples: Vec<f64>) -> Result<Record, RecordError> {
+        let options = ReadOptions { time_step_s: Some(time_step_s), ..ReadOptions::default() };
+        finish(name, Contents { values: samples, units: Some(units), ..Contents::new(Format::Array) }, &options)
+    }
+
     /// Time from the first to the last sample (s).
     pub fn duration_s(&self) -> f64 {
         self.acceleration_m_s2.len().saturating_sub(1) as f64 * self.time_step_s
@@ -232,7 +242,9 @@ fn finish(name: &str, contents: Contents, options: &ReadOptions) -> Result<Recor
         warnings.push(Warning::ComponentNotUsed { asked: asked.to_string() });
     }
     let acceleration_m_s2: Vec<f64> = contents.values.iter().map(|value| units.to_m_s2(*value)).collect();
-    if let Some(sample) = acceleration_m_s2.iter().position(|value| value.abs() > MAXIMUM_ACCELERATION_M_S2) {
+    // What is not a number is not below it either.
+    let allowed = |value: &f64| value.abs() <= MAXIMUM_ACCELERATION_M_S2;
+    if let Some(sample) = acceleration_m_s2.iter().position(|value| !allowed(value)) {
         let value = acceleration_m_s2[sample];
         return Err(RecordError::AccelerationTooLarge {
             file: file(),

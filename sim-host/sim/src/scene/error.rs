@@ -28,6 +28,8 @@ pub enum SceneError {
         origin: String,
         /// Line, from 1.
         line: Option<usize>,
+        /// Key, with dots, where it is known.
+        key: Option<String>,
         /// What is wrong.
         message: String,
     },
@@ -112,13 +114,14 @@ impl SceneError {
         let message = one_line(message);
         let path = dotted(path);
         let words = in_words(&message).or_else(|| with_what_is_meant(&message));
+        let key = (!matches!(path.as_str(), "" | ".")).then(|| path.clone());
         let message = match (words, path.as_str()) {
             (None, "" | ".") => message,
             (None, path) => format!("{path}: {message}"),
             (Some(words), "" | ".") => format!("the scene {words}"),
             (Some(words), path) => format!("{path} {words}"),
         };
-        SceneError::Syntax { origin: origin.to_owned(), line, message }
+        SceneError::Syntax { origin: origin.to_owned(), line, key, message }
     }
 }
 

@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize};
 use serde_with::skip_serializing_none;
 use sprag_shared::ground::harmonic::MavroeidisPapageorgiou;
 use sprag_shared::ground::{AnySegment, Harmonics, Linear, Ricker};
-use sprag_shared::structure::block::{Block, GRAVITY};
+use sprag_shared::structure::block::GRAVITY;
 
+use super::Scene;
 use super::error::{KeyPath, SceneError};
 use super::schema::KeyOf;
 use crate::ground_motion::Component;
@@ -200,16 +201,15 @@ impl GroundTable {
         )
     }
 
-    /// The motion's smooth pieces, for a block that uplifts at `uplift` (g); what was read of a record goes to `records`.
+    /// The motion's smooth pieces, for the block of `scene`; what was read of a record goes to `records`.
     pub(super) fn component(
         &self,
-        block: &Block,
-        uplift: f64,
-        (folder, direction): (&Path, Direction),
+        scene: &Scene,
+        direction: Direction,
         key: &dyn Fn(&str) -> KeyPath,
         records: &mut Vec<RecordSummary>,
     ) -> Result<Component, GroundError> {
-        let p = block.frequency_parameter();
+        let (p, uplift) = (scene.block.frequency_parameter(), scene.uplift_threshold());
         let amplitude = self.scale
             * self.amplitude_ratio.map_or_else(
                 || self.amplitude_g.unwrap_or_else(|| self.amplitude_m_s2.unwrap_or_default() / GRAVITY),
@@ -243,7 +243,7 @@ impl GroundTable {
                 one(wavelet.duration(), AnySegment::ThreeSines(wavelet.harmonics()))
             }
             Motion::Record => {
-                let record = self.record(folder, direction, key)?;
+                let record = self.record(scene, direction, key)?;
                 records.extend(self.file.as_ref().map(|file| RecordSummary::of(&record, file.display())));
                 Component::record(
                     self.start_s,
@@ -263,19 +263,23 @@ impl GroundTable {
     ///
     /// # Errors
     /// [`GroundError`] when no file is named, or it cannot be read.
-    pub fn record(&self, folder: &Path, direction: Direction, key: &KeyOf<'_>) -> Result<Record, GroundError> {
+    pub fn record(&self, scene: &Scene, direction: Direction, key: &KeyOf<'_>) -> Result<Record, GroundError> {
         let needed = match direction {
             Direction::Horizontal => "a record file here, or --record FILE",
             Direction::Vertical => "a record file here, or --record-vertical FILE",
         };
-        let file = self.path(folder).ok_or_else(|| key("file").missing(needed))?;
+        let given = |file: &PathBuf| scene.given.iter().find(|record| Path::new(&record.name) == file);
+        let file = self.path(&scene.folder).ok_or_else(|| key("file").missing(needed))?;
         let options = ReadOptions {
             units: self.units.as_ref().and_then(|units| units.parse().ok()),
             time_step_s: self.time_step_s,
             component: self.component.as_deref().map(RecordComponent::from),
             resample_to_s: self.resample_to_s,
         };
-        let record = Record::read(file, &options).map_err(|error| GroundError::Record { key: error.key().map(key), error })?;
+        let record = match self.file.as_ref().and_then(given) {
+            Some(record) => record.clone(),
+            None => Record::read(file, &options).map_err(|error| GroundError::Record { key: error.key().map(key), error })?,
+        };
         Ok(if direction == Direction::Horizontal { record.as_horizontal() } else { record })
     }
 }

@@ -18,6 +18,7 @@ mod warnings;
 pub mod weight;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use sprag_shared::structure::block::{Block, Geometry};
 use sprag_shared::structure::drivetrain::Engagement;
@@ -28,6 +29,8 @@ pub use device::SceneDevice;
 pub use error::SceneError;
 use ground::Direction;
 use schema::{DeviceTable, SceneFile};
+
+use crate::record::Record;
 
 /// Largest scene file that is read, bytes.
 pub const LARGEST_FILE: u64 = 1 << 20;
@@ -50,6 +53,8 @@ pub struct Scene {
     pub origin: String,
     /// Folder that record files are relative to.
     pub folder: PathBuf,
+    /// Records in memory: `file` names one of these before a file of the folder.
+    pub given: Arc<[Record]>,
 }
 
 impl Scene {
@@ -137,7 +142,7 @@ impl Scene {
         if file.ground.is_empty() && file.block.initial_rotation_ratio == 0.0 && file.block.initial_velocity_ratio == 0.0 {
             return Err(key("ground").missing("a [[ground]] table, or block.initial_rotation_ratio for free rocking"));
         }
-        Ok(Scene { file, devices, block, restitution, origin: origin.to_owned(), folder: PathBuf::new() })
+        Ok(Scene { file, devices, block, restitution, origin: origin.to_owned(), folder: PathBuf::new(), given: Arc::default() })
     }
 
     /// The block with device number `index` (below the number of devices).
@@ -164,7 +169,7 @@ impl Scene {
     /// [`SceneError`] names the key of `device` as that of device 0, and what it may be.
     pub fn with_device(&self, device: DeviceTable) -> Result<Scene, SceneError> {
         let scene = Scene::check(SceneFile { device: vec![device], ..self.file.clone() }, &self.origin)?;
-        Ok(Scene { folder: self.folder.clone(), ..scene })
+        Ok(Scene { folder: self.folder.clone(), given: self.given.clone(), ..scene })
     }
 
     /// Full or slender.

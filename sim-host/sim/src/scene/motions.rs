@@ -64,7 +64,7 @@ impl Scene {
     pub fn only_record(&self) -> Result<Option<Record>, GroundError> {
         match (&self.file.ground[..], &self.file.vertical[..]) {
             ([table], []) if table.motion == Motion::Record => {
-                table.record(&self.folder, Direction::Horizontal, &|key| self.key(&format!("ground.0.{key}"))).map(Some)
+                table.record(self, Direction::Horizontal, &|key| self.key(&format!("ground.0.{key}"))).map(Some)
             }
             _ => Ok(None),
         }
@@ -103,7 +103,7 @@ impl Scene {
         };
         let components = tables.iter().enumerate().map(|(index, table)| {
             let key = |key: &str| self.key(&format!("{name}.{index}.{key}"));
-            table.component(&self.block, self.uplift_threshold(), (&self.folder, direction), &key, records)
+            table.component(self, direction, &key, records)
         });
         components.collect()
     }

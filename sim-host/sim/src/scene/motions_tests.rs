@@ -4,6 +4,7 @@ use sprag_shared::ground::GroundSegment;
 
 use super::Scene;
 use super::motions::GroundMotions;
+use crate::record::{ReadOptions, Record};
 
 const SCENE: &str = r#"
 [block]
@@ -38,6 +39,19 @@ fn record(folder: &tempfile::TempDir, scale: f64) -> std::path::PathBuf {
     let file = folder.path().join("up.csv");
     std::fs::write(&file, format!("# time_s,acc_g\n0.0,0\n0.2,{scale}\n0.4,0\n0.6,0\n")).unwrap();
     file
+}
+
+#[test]
+fn a_record_in_memory_goes_before_the_file_that_is_called_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = record(&folder, 0.25);
+    let named = |name: &str| Record { name: name.to_owned(), ..Record::read(&file, &ReadOptions::default()).unwrap() };
+    let mut scene = scene(&["vertical.1.file=nowhere.csv"]).unwrap();
+    assert!(motions(&scene).is_err());
+    scene.given = [named("other.csv"), named("nowhere.csv")].into();
+    let GroundMotions { vertical, records, .. } = motions(&scene).unwrap();
+    // Between 0, 0.2, 0.4, 0.6, 0.8, 1.0 and 1.3 s.
+    assert_eq!((vertical.unwrap().segments().len(), records[0].samples), (6, 4));
 }
 
 #[test]

@@ -1,14 +1,15 @@
 //! Errors, wrong outcomes and times of every way to follow the motions of a scene.
 
+use std::ops::RangeInclusive;
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 use sprag_report::progress::Progress;
 use sprag_shared::structure::error::ParameterError;
 use sprag_sim::interrupt::Interrupt;
-use sprag_sim::scene::Scene;
 use sprag_sim::scene::accuracy::EventTreatment;
 use sprag_sim::scene::motions::GroundMotions;
+use sprag_sim::scene::{Scene, SceneError};
 
 use super::board::Board;
 use super::probe::{Reading, read};
@@ -32,6 +33,12 @@ const REFERENCE: Variant = Variant {
     number: Number::F64Libm,
     setting: Setting::Tolerance(1e-17),
 };
+
+/// What [`Extent::cells`] may be.
+pub const CELLS: RangeInclusive<u8> = 0..=64;
+
+/// What [`Extent::smallest_step`] may be.
+pub const SMALLEST_STEPS: RangeInclusive<f64> = 3e-5..=0.1;
 
 /// What is studied.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +67,16 @@ pub enum StudyError {
     Interrupted,
 }
 
-/// Runs the study of an ideal scene. The times depend on the machine, all else only on the scene.
+/// Refuses a scene that no study can be made of.
+///
+/// # Errors
+/// [`SceneError`] names the key of what is not ideal.
+pub fn check(scene: &Scene) -> Result<(), SceneError> {
+    let refused = |key: String| Err(scene.key(&key).conflict("accuracy is studied for ideal devices over horizontal ground"));
+    scene.first_beyond_ideal().map_or(Ok(()), refused)
+}
+
+/// Runs the study of a scene that [`check`] allows. The times depend on the machine, all else only on the scene.
 ///
 /// # Errors
 /// [`StudyError`].

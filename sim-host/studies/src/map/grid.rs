@@ -194,6 +194,7 @@ impl Grid {
     pub fn scene_at(&self, values: Values) -> Result<Scene, SceneError> {
         let mut scene = Scene::of_table(self.text.clone(), &self.scene.origin, &self.settings(values))?;
         scene.folder.clone_from(&self.scene.folder);
+        scene.given.clone_from(&self.scene.given);
         Ok(scene)
     }
 

@@ -73,6 +73,21 @@ pub fn study(grid: &Grid, progress: &Progress, interrupt: &Interrupt) -> Result<
     if whole { Ok(tally.maps) } else { Err(MapError::Interrupted) }
 }
 
+/// Runs `grid` with every device, and gives each row of the map's table to `each`, in order, with its number.
+///
+/// # Errors
+/// [`MapError`] names the cell.
+pub fn study_rows(grid: &Grid, interrupt: &Interrupt, mut each: impl FnMut(usize, PulseResult)) -> Result<(), MapError> {
+    let progress = Progress::new("cells");
+    let rows = 0..grid.table_rows();
+    progress.begin(rows.len() as u64);
+    let whole = run_rows(grid, rows, None, &mut Tally::new(grid), &progress, interrupt, |part| {
+        part.rows.clone().zip(&part.results).for_each(|(row, result)| each(row, *result));
+        Ok(())
+    })?;
+    if whole { Ok(()) } else { Err(MapError::Interrupted) }
+}
+
 /// Works out what is left of `rows`, adds it there and to `tally`; `false` when it was interrupted.
 ///
 /// # Errors

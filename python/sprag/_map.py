@@ -1,0 +1,107 @@
+"""Overturning maps."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._outcome import Outcome
+from ._result import Result, extra
+from ._scene import Axis, Scene
+
+if TYPE_CHECKING:
+    import matplotlib.axes
+    import xarray
+
+Floats = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Map(Result):
+    """Outcomes and peaks of blocks over one key of a scene, or two.
+
+    Attributes
+    ----------
+    devices
+        Names of the devices.
+    x_key, y_key
+        Keys of the axes; `y_key` is None for a cut along x.
+    x, y
+        Values of the axes; one that is NaN for a cut.
+    outcome
+        An Outcome by device, y and x.
+    peak_rotation
+        max |θ|/α by device, y and x; NaN where overturned.
+    peak_acceleration
+        max |θ̈|/(p²α) by device, y and x; NaN where overturned.
+    scene
+        The scene.
+    """
+
+    devices: tuple[str, ...]
+    x_key: str
+    y_key: str | None
+    x: Floats = field(repr=False)
+    y: Floats = field(repr=False)
+    outcome: npt.NDArray[np.uint8] = field(repr=False)
+    peak_rotation: Floats = field(repr=False)
+    peak_acceleration: Floats = field(repr=False)
+    scene: Scene = field(repr=False)
+
+    __hash__ = Result.__hash__
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The map with its axes as coordinates, with units and where it comes from; arrays are not copied."""
+        dimensions = ("device", self.y_key or "cut", self.x_key)
+        codes = {outcome.name.lower().replace("_", "-"): int(outcome) for outcome in Outcome}
+        variables = {
+            "outcome": (dimensions, self.outcome, {"flag_values": list(codes.values()), "flag_meanings": " ".join(codes)}),
+            "peak_rotation": (dimensions, self.peak_rotation, {"units": "1", "long_name": "max |θ|/α"}),
+            "peak_acceleration": (dimensions, self.peak_acceleration, {"units": "1", "long_name": "max |θ̈|/(p²α)"}),
+        }
+        coordinates = dict(zip(dimensions, (list(self.devices), self.y, self.x), strict=True))
+        dataset: xarray.Dataset = extra("xarray").Dataset(variables, coords=coordinates, attrs=self.provenance())
+        return dataset
+
+    def plot(self, ax: matplotlib.axes.Axes | None = None, *, device: int = 0) -> matplotlib.axes.Axes:
+        """Draws the outcomes of a device."""
+        if ax is None:
+            ax = extra("matplotlib.pyplot").subplots()[1]
+        assert ax is not None
+        y = self.y if self.y_key else np.zeros(1)
+        ax.pcolormesh(self.x, y, self.outcome[device], vmin=0, vmax=3, shading="nearest")
+        ax.set_xlabel(self.x_key)
+        ax.set_ylabel(self.y_key or "")
+        ax.set_title(self.devices[device])
+        return ax
+
+
+def map(scene: Scene, *, x: Axis | None = None, y: Axis | None = None, threads: int | None = None) -> Map:
+    """Outcomes and peaks of every device of a scene over one of its keys, or two.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    x, y
+        Axes across and up, in the place of the scene's `[map]`; with `x` alone the map is a cut.
+    threads
+        Threads; one a core by default. Results do not depend on it.
+
+    Raises
+    ------
+    InputError
+        For a key that does not exist, or a value outside its range.
+    RunError
+        For a motion that cannot be followed, with the cell.
+    """
+    if x is not None:
+        scene = scene.set("map", {"x": x._keys()} | ({} if y is None else {"y": y._keys()}))
+    elif y is not None:
+        scene = scene.set("map.y", y)
+    native = _core.overturning_map(scene._native, threads=threads)
+    return Map(devices=scene.devices, scene=scene, **{"y": np.full(1, np.nan), "y_key": None, **native})

@@ -1,0 +1,148 @@
+//! A controller in closed loop with the plant, its sensors and its clutches.
+
+use numpy::{Element, IntoPyArray as _};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use sprag_shared::math::fnv::Fnv;
+use sprag_shared::structure::block::GRAVITY;
+use sprag_sim::accuracy::Closeness;
+use sprag_sim::closed_loop::report::{LoopReport, clutches};
+use sprag_sim::closed_loop::run::Tick;
+use sprag_sim::closed_loop::{LoopFailure, LoopScene};
+use sprag_sim::interrupt::Interrupt;
+
+use crate::errors::{Raise as _, range, refused};
+use crate::law::PythonLaw;
+use crate::long_call::long_call;
+use crate::run::as_dict;
+use crate::scene::Scene;
+
+/// Runs the loop over device number `device`, the first clutched pair without one, by the law of the scene or a function. A dict: its summary
+/// as JSON, an array of each column of its history, and the run of the ideal pair without a controller.
+///
+/// # Errors
+/// `InputError`, `RunError`, and what the function raises.
+#[pyfunction]
+#[pyo3(signature = (scene, *, device = None, seed = None, law = None, predicts = true))]
+pub fn closed_loop<'py>(
+    py: Python<'py>,
+    scene: &Scene,
+    device: Option<usize>,
+    seed: Option<u64>,
+    law: Option<Py<PyAny>>,
+    predicts: bool,
+) -> PyResult<Bound<'py, PyDict>> {
+    let LoopOf { desk, index, seed } = LoopOf::new(scene, device, seed)?;
+    let report = match law {
+        None => long_call(py, |interrupt| run(&desk, index, seed, interrupt, None))?,
+        // The function needs the interpreter at every tick.
+        Some(function) => {
+            let interrupt = Interrupt::default();
+            let law = PythonLaw::new(function, predicts, &interrupt);
+            let report = run(&desk, index, seed, &interrupt, Some(&law));
+            if let Some(error) = law.failure() {
+                return Err(error);
+            }
+            report
+        }
+    };
+    dict(py, report.map_err(|failure| failure.raise())?.1)
+}
+
+/// One loop of a scene.
+pub struct LoopOf {
+    /// The scene.
+    pub desk: LoopScene,
+    /// Number of the device.
+    pub index: usize,
+    /// Of the sensors' errors and noise.
+    pub seed: u64,
+}
+
+impl LoopOf {
+    /// Over device number `device` of `scene`, the first clutched pair without one, with the scene's own seed without one.
+    ///
+    /// # Errors
+    /// `InputError`.
+    pub fn new(scene: &Scene, device: Option<usize>, seed: Option<u64>) -> PyResult<LoopOf> {
+        let desk = LoopScene::new(scene.scene.clone()).map_err(|error| error.raise())?;
+        let index = device.unwrap_or(desk.pairs[0]);
+        if !desk.pairs.contains(&index) {
+            return Err(range("device", index, &format!("the number of a clutched pair: one of {:?}", desk.pairs)));
+        }
+        let seed = seed.unwrap_or(desk.controller.sensors.seed());
+        Ok(LoopOf { desk, index, seed })
+    }
+}
+
+/// The loop as `sprag loop` runs it, and how closely that follows the plant.
+///
+/// # Errors
+/// [`LoopFailure`].
+pub fn run(
+    desk: &LoopScene,
+    index: usize,
+    seed: u64,
+    interrupt: &Interrupt,
+    law: Option<&PythonLaw>,
+) -> Result<(Option<Closeness>, LoopReport), LoopFailure> {
+    let task = desk.task(index, seed, interrupt);
+    let (task, error, looped) = match law {
+        None => task.answered::<Vec<Tick>>()?,
+        Some(law) => task.answered_by::<Vec<Tick>, _>(|| law.clone())?,
+    };
+    let mut report = LoopReport::new(&task, looped.ending, &looped.extremes.peaks, task.ideal()?, looped.ticks);
+    report.summary.error = error;
+    if law.is_some() {
+        "python".clone_into(&mut report.summary.law);
+    }
+    Ok((task.closeness, report))
+}
+
+/// A loop as Python has it.
+///
+/// # Errors
+/// Those of the interpreter.
+pub fn dict(py: Python<'_>, report: LoopReport) -> PyResult<Bound<'_, PyDict>> {
+    let dict = PyDict::new(py);
+    dict.set_item("summary", serde_json::to_string(&report.summary).map_err(refused)?)?;
+    let mut hash = Fnv::default();
+    report.ticks.iter().for_each(|tick| tick.decision.feed(&mut hash));
+    dict.set_item("digest", hash.value())?;
+    let columns = Columns { dict: &dict, ticks: &report.ticks };
+    columns.add("t", |tick| tick.plant.time)?;
+    columns.add("ground_m_s2", |tick| tick.plant.ground[0] * GRAVITY)?;
+    columns.add("rotation_rad", |tick| tick.plant.motion.rotation)?;
+    columns.add("velocity_rad_s", |tick| tick.plant.motion.velocity)?;
+    columns.add("push_1_s2", |tick| tick.plant.push)?;
+    columns.add("rotation_estimated_rad", |tick| tick.decision.estimate.rotation)?;
+    columns.add("velocity_estimated_rad_s", |tick| tick.decision.estimate.velocity)?;
+    columns.add("push_estimated_1_s2", |tick| tick.decision.estimate.push)?;
+    columns.add("standing_estimated", |tick| tick.decision.estimate.standing)?;
+    columns.add("gyroscope_rad_s", |tick| tick.sample.gyroscope.value)?;
+    columns.add("block_accelerometer_along_m_s2", |tick| tick.sample.block_accelerometer[0].value)?;
+    columns.add("block_accelerometer_up_m_s2", |tick| tick.sample.block_accelerometer[1].value)?;
+    columns.add("ground_accelerometer_along_m_s2", |tick| tick.sample.ground_accelerometer[0].value)?;
+    columns.add("ground_accelerometer_up_m_s2", |tick| tick.sample.ground_accelerometer[1].value)?;
+    columns.add("encoder_counts", |tick| tick.sample.encoder.counts)?;
+    columns.add("wish", |tick| tick.decision.wish as u8)?;
+    columns.add("command", |tick| clutches(tick.decision.command))?;
+    columns.add("engaged", |tick| clutches(tick.plant.engaged))?;
+    columns.add("ideal", |tick| tick.ideal)?;
+    columns.add("state", |tick| tick.decision.phase as u8)?;
+    columns.add("fault", |tick| tick.decision.fault.map_or(0, |fault| fault.code()))?;
+    dict.set_item("ideal_pair", as_dict(py, report.ideal)?)?;
+    Ok(dict)
+}
+
+/// A dict whose items are quantities of every tick.
+struct Columns<'a, 'py> {
+    dict: &'a Bound<'py, PyDict>,
+    ticks: &'a [Tick],
+}
+
+impl Columns<'_, '_> {
+    fn add<T: Element>(&self, name: &str, pick: impl Fn(&Tick) -> T) -> PyResult<()> {
+        self.dict.set_item(name, self.ticks.iter().map(pick).collect::<Vec<T>>().into_pyarray(self.dict.py()))
+    }
+}

@@ -1,0 +1,68 @@
+//! The native module of the Python package `sprag`: what Python cannot do itself, over the packages of the host.
+//!
+//! - `errors`: exceptions; `value`: values of Python as TOML; `columns`: tables as arrays; `long_call`: work without the interpreter's lock.
+//! - `record`, `scene`: what is simulated; `run`, `map`, `closed_loop`: what comes of it; `law`: clutch laws in Python.
+//! - `study`: studies over many records; `fits`: demand models and fragilities; `board`: boards and emulators.
+
+mod board;
+mod closed_loop;
+mod columns;
+mod errors;
+mod fits;
+mod law;
+mod long_call;
+mod map;
+mod record;
+mod run;
+mod scene;
+mod study;
+mod value;
+
+use pyo3::prelude::*;
+
+#[pymodule(gil_used = false)]
+mod _core {
+    use pyo3::prelude::*;
+
+    #[pymodule_export]
+    use crate::board::{board_info, board_log, board_loop, board_settings};
+    #[pymodule_export]
+    use crate::closed_loop::closed_loop;
+    #[pymodule_export]
+    use crate::fits::{DemandModel, Fragility, demand, fragility};
+    #[pymodule_export]
+    use crate::law::Situation;
+    #[pymodule_export]
+    use crate::map::overturning_map;
+    #[pymodule_export]
+    use crate::record::Record;
+    #[pymodule_export]
+    use crate::run::simulate;
+    #[pymodule_export]
+    use crate::scene::{Scene, change, check_table};
+    #[pymodule_export]
+    use crate::study::{Study, accuracy, cloud, optimise};
+
+    /// The command `sprag` with the words of a command line; its exit code.
+    #[pyfunction]
+    fn main(py: Python<'_>, words: Vec<std::ffi::OsString>) -> i32 {
+        py.detach(|| sprag_cli::run(words))
+    }
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}
+
+/// Threads for one call, which end with it; one a core without a number.
+///
+/// # Errors
+/// `InputError` for a number of threads that cannot be had.
+fn threads(number: Option<usize>) -> PyResult<rayon::ThreadPool> {
+    if number.is_some_and(|number| !(1..=1024).contains(&number)) {
+        return Err(errors::range("threads", number.unwrap_or_default(), "a whole number from 1 to 1024"));
+    }
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(number.unwrap_or(0)).build();
+    pool.map_err(|error| errors::failed(format!("the threads cannot be started: {error}")))
+}

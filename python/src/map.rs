@@ -1,0 +1,59 @@
+//! Overturning maps.
+
+use numpy::{IntoPyArray as _, PyArrayMethods as _};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use sprag_shared::observers::outcome::Outcome;
+use sprag_studies::map::grid::Grid;
+use sprag_studies::map::study::study_rows;
+
+use crate::errors::Raise as _;
+use crate::long_call::long_call;
+use crate::scene::Scene;
+use crate::threads;
+
+/// Outcomes and peaks of every device of a scene over the axes of its `[map]`: a dict of axes and arrays by device, y and x.
+///
+/// # Errors
+/// `InputError` and `RunError`.
+#[pyfunction]
+#[pyo3(signature = (scene, *, threads = None))]
+pub fn overturning_map<'py>(py: Python<'py>, scene: &Scene, threads: Option<usize>) -> PyResult<Bound<'py, PyDict>> {
+    let pool = self::threads(threads)?;
+    let made = long_call(py, |interrupt| {
+        let grid = Grid::new(scene.scene.clone(), scene.table.clone()).map_err(|error| error.raise())?;
+        let rows = grid.table_rows();
+        let mut outcomes = Vec::with_capacity(rows);
+        let [mut rotations, mut accelerations] = [Vec::with_capacity(rows), Vec::with_capacity(rows)];
+        let made = pool.install(|| {
+            study_rows(&grid, interrupt, |_, result| {
+                outcomes.push(code(result.outcome));
+                rotations.push(result.peak_rotation);
+                accelerations.push(result.peak_acceleration);
+            })
+        });
+        made.map_err(|error| error.raise())?;
+        PyResult::Ok((grid, outcomes, rotations, accelerations))
+    })?;
+    let (grid, outcomes, rotations, accelerations) = made?;
+    let shape = [grid.scene.devices.len(), grid.rows(), grid.columns()];
+    let dict = PyDict::new(py);
+    dict.set_item("x_key", &grid.map.x.key)?;
+    dict.set_item("x", (0..grid.columns()).map(|cell| grid.map.x.value(cell)).collect::<Vec<f64>>().into_pyarray(py))?;
+    if let Some(y) = &grid.map.y {
+        dict.set_item("y_key", &y.key)?;
+        dict.set_item("y", (0..y.cells).map(|cell| y.value(cell)).collect::<Vec<f64>>().into_pyarray(py))?;
+    }
+    dict.set_item("outcome", outcomes.into_pyarray(py).reshape(shape)?)?;
+    dict.set_item("peak_rotation", rotations.into_pyarray(py).reshape(shape)?)?;
+    dict.set_item("peak_acceleration", accelerations.into_pyarray(py).reshape(shape)?)?;
+    Ok(dict)
+}
+
+/// Outcomes by their codes.
+pub const OUTCOMES: [Outcome; 4] =
+    [Outcome::NoRocking, Outcome::Safe, Outcome::OverturnedWithoutImpact, Outcome::OverturnedAfterImpact];
+
+fn code(outcome: Outcome) -> u8 {
+    OUTCOMES.iter().position(|known| *known == outcome).unwrap_or_default() as u8
+}

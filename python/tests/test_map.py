@@ -1,0 +1,89 @@
+"""Maps: the command's bits, whatever the threads, and arrays that nobody copies."""
+
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import sprag
+
+
+def test_a_map_is_that_of_the_command(scenes: Path, command) -> None:
+    path = scenes / "figure08.toml"
+    rows = command("map", path)("map")
+    made = sprag.map(sprag.Scene.read(path))
+    names = {outcome.name.lower().replace("_", "-"): outcome for outcome in sprag.Outcome}
+    assert [names[row["outcome"]] for row in rows] == made.outcome.ravel().tolist()
+    for name, values in {"peak_rotation": made.peak_rotation, "peak_acceleration": made.peak_acceleration}.items():
+        expected = np.array([float(row[name] or "nan") for row in rows])
+        assert np.array_equal(expected, values.ravel(), equal_nan=True), name
+    assert [float(row[made.x_key]) for row in rows[: len(made.x)]] == made.x.tolist()
+    assert made.y_key is not None
+    assert float(rows[-1][made.y_key]) == made.y[-1]
+
+
+def test_threads_change_no_bit(scenes: Path) -> None:
+    scene = sprag.Scene.read(scenes / "figure08.toml")
+    assert sprag.map(scene, threads=1) == sprag.map(scene, threads=2)
+
+
+def test_a_cut_has_one_axis(scenes: Path) -> None:
+    scene = sprag.Scene.read(scenes / "near_fault.toml")
+    cut = sprag.map(scene, x=sprag.Axis(key="block.size_m", start=1.0, stop=4.0, cells=4, logarithmic=True))
+    assert (cut.y_key, cut.outcome.shape) == (None, (3, 1, 4))
+    assert cut.x == pytest.approx([1.0, 4 ** (1 / 3), 4 ** (2 / 3), 4.0], rel=1e-12)
+    for column, size in enumerate(cut.x):
+        runs = sprag.simulate(scene.set("block.size_m", size))
+        assert [run.outcome for run in runs] == cut.outcome[:, 0, column].tolist()
+        assert [run.peak_rotation for run in runs if run.peak_rotation] == pytest.approx(
+            [peak for peak in cut.peak_rotation[:, 0, column] if not np.isnan(peak)], rel=1e-9
+        )
+
+
+def test_records_in_memory_are_in_every_cell(scenes: Path) -> None:
+    record = sprag.Record.read(scenes / "near_fault.csv")
+    block = sprag.Block(size_m=2.0, slenderness_deg=10.0)
+    scene = sprag.Scene(block=block, ground=record)
+    cut = sprag.map(scene, x=sprag.Axis(key="ground.0.scale", start=0.5, stop=1.0, cells=2))
+    (run,) = sprag.simulate(scene)
+    assert cut.outcome[0, 0, 1] == run.outcome
+    # A device with a memory is simulated cell by cell.
+    device = sprag.ClutchedPair(mass_ratio=0.5, engagement="rigid")
+    sprag.map(scene.set("device.0", device), x=sprag.Axis(key="block.size_m", start=1.0, stop=2.0, cells=2))
+
+
+def test_arrays_are_handed_over_and_not_copied(scenes: Path) -> None:
+    made = sprag.map(sprag.Scene.read(scenes / "figure08.toml"))
+    dataset = made.to_xarray()
+    for array in [made.outcome, made.peak_rotation, made.peak_acceleration]:
+        assert not array.flags.owndata
+    assert np.shares_memory(dataset.peak_rotation.values, made.peak_rotation)
+    assert np.shares_memory(dataset.outcome.values, made.outcome)
+    assert dataset.attrs["sprag_version"] == sprag.__version__
+    assert sprag.Scene.parse(dataset.attrs["scene"]) == made.scene.set("title", made.scene.to_dict()["title"]) or dataset.attrs["scene"]
+    assert pickle.loads(pickle.dumps(made)) == made
+
+
+@pytest.mark.parametrize(
+    ("axis", "key"),
+    [
+        ({"key": "block.colour"}, "block.colour"),
+        ({"key": "block.size_m", "start": -1.0}, "block.size_m"),
+        ({"start": 5.0}, "map.x.to"),
+        ({"cells": 1}, "map.x.cells"),
+        ({"stop": float("nan")}, "map.x.to"),
+    ],
+)
+def test_axes_that_cannot_be_are_refused(scenes: Path, axis: dict[str, object], key: str) -> None:
+    scene = sprag.Scene.read(scenes / "near_fault.toml")
+    with pytest.raises(sprag.InputError) as raised:
+        sprag.map(scene, x=sprag.Axis(**{"key": "block.size_m", "start": 1.0, "stop": 3.0, "cells": 3, **axis}))
+    assert raised.value.key == key
+
+
+@pytest.mark.parametrize("threads", [0, 5000])
+def test_threads_that_cannot_be_are_refused(scenes: Path, threads: int) -> None:
+    with pytest.raises(sprag.InputError) as raised:
+        sprag.map(sprag.Scene.read(scenes / "figure08.toml"), threads=threads)
+    assert raised.value.key == "threads"

@@ -1,0 +1,44 @@
+"""The package as a whole: what it imports, its command, and its documents."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import sprag
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_nothing_is_imported_that_is_not_asked_for() -> None:
+    code = "import sys, sprag; print([name for name in ('pandas', 'xarray', 'matplotlib', 'pyarrow') if name in sys.modules])"
+    assert subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout == "[]\n"
+
+
+def test_every_name_has_a_docstring() -> None:
+    for name in sprag.__all__:
+        value = getattr(sprag, name)
+        assert name in ("__version__", "Ground", "Motion", "Device", "Law") or value.__doc__, name
+        for member, own in vars(value).items() if isinstance(value, type) else ():
+            if not member.startswith("_") and callable(own):
+                assert own.__doc__, f"{name}.{member}"
+
+
+def test_the_wheel_has_the_command() -> None:
+    program = Path(sys.executable).parent / "sprag"
+    shown = subprocess.run([program, "--version"], check=True, capture_output=True, text=True).stdout
+    assert shown == f"sprag {sprag.__version__}\n"
+    wrong = subprocess.run([program, "simulate", "absent.toml"], check=False, capture_output=True, text=True)
+    assert (wrong.returncode, wrong.stdout) == (2, "")
+    assert wrong.stderr.startswith("sprag: absent.toml:")
+    assert wrong.stderr.count("\n") == 1
+
+
+def test_examples_of_the_page_run(tmp_path: Path) -> None:
+    page = (ROOT / "docs/python.md").read_text(encoding="utf-8")
+    examples = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    for code in examples:
+        subprocess.run([sys.executable, "-c", code], check=True, cwd=tmp_path, env=os.environ | {"MPLBACKEND": "agg"})
+    assert len(examples) == 2
+    assert (tmp_path / "run.png").stat().st_size > 10_000

@@ -1,0 +1,136 @@
+"""Scenes: from pieces, from TOML, changed, and what is refused."""
+
+import dataclasses
+import pickle
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import sprag
+
+PIER = sprag.Block(size_m=2.0, slenderness_deg=10.0)
+
+
+def test_pieces_are_the_toml_that_says_the_same() -> None:
+    pieces = sprag.Scene(
+        block=PIER,
+        device=[sprag.NoDevice(), sprag.ClutchedPair(mass_ratio=0.5)],
+        ground=sprag.Ricker(amplitude_g=0.5, frequency_hz=1.2),
+        duration=sprag.Duration(free_time_s=1.0),
+    )
+    text = """
+    block = { size_m = 2.0, slenderness_deg = 10.0 }
+    device = [{ kind = "none" }, { kind = "clutched-pair", mass_ratio = 0.5 }]
+    ground = [{ motion = "ricker", amplitude_g = 0.5, frequency_hz = 1.2 }]
+    run = { free_time_s = 1.0 }
+    """
+    parsed = sprag.Scene.parse(text)
+    assert [run.digest() for run in sprag.simulate(pieces)] == [run.digest() for run in sprag.simulate(parsed)]
+    assert sprag.Scene.parse(pieces.to_toml()).to_dict() == pieces.to_dict() == parsed.to_dict()
+    assert pieces.devices == ("none", "clutched pair")
+
+
+def test_every_scene_of_the_repository_is_read(scenes: Path) -> None:
+    for path in scenes.glob("*.toml"):
+        if path.stem not in ("cloud", "optimise"):
+            scene = sprag.Scene.read(path)
+            copy = pickle.loads(pickle.dumps(scene))
+            assert copy == scene
+            assert hash(copy) == hash(scene)
+            assert scene.set("title", "other") != scene
+
+
+def test_a_scene_is_changed_by_making_another() -> None:
+    scene = sprag.Scene(block=PIER, ground=sprag.Sine(amplitude_g=0.3, frequency_hz=1.0))
+    larger = scene.set("block.size_m", 3.0)
+    assert (scene.size_m, larger.size_m) == (2.0, 3.0)
+    assert scene.set("device.1", sprag.Inerter(mass_ratio=0.5)).devices == ("none", "inerter")
+    assert larger.set("block.mass_kg", 1.0).set("block.mass_kg", None) == larger
+    assert scene.set("title", 'a "quoted"\nname').to_dict()["title"] == 'a "quoted"\nname'
+    with pytest.raises(AttributeError, match="never changes"):
+        scene.title = "other"
+
+
+def test_records_in_memory_shake_as_their_files_do(scenes: Path) -> None:
+    scene = sprag.Scene.read(scenes / "near_fault.toml")
+    record = sprag.Record.read(scenes / "near_fault.csv")
+    scale = scene.to_dict()["ground"][0]["scale"]
+    given = scene.set("ground.0", sprag.RecordedMotion(record=record, scale=scale))
+    assert [run.digest() for run in sprag.simulate(given)] == [run.digest() for run in sprag.simulate(scene)]
+    copy = pickle.loads(pickle.dumps(given))
+    assert sprag.simulate(copy) == sprag.simulate(given)
+    # Two records of one name are two records.
+    sum_of_two = sprag.Scene(block=PIER, ground=[sprag.Record([0, 1, 0], time_step_s=0.1), sprag.Record([0, 2, 0], time_step_s=0.1)])
+    (run,) = sprag.simulate(sum_of_two.set("output.interval_s", 1e-4))
+    assert run.ground_m_s2.max() == pytest.approx(3.0, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "refused"),
+    [
+        ("block.size_m", -1.0, "block.size_m"),
+        ("block.siz_m", 1.0, "block.siz_m"),
+        ("block.size_m", "large", "block.size_m"),
+        ("device.0.mass_ratio", 0.5, "device.0.mass_ratio"),
+        ("ground.5.scale", 2.0, "ground.5.scale"),
+        ("ground", [], "ground"),
+        ("a=b", 1, "key"),
+        ("", 1, "key"),
+    ],
+)
+def test_changes_that_cannot_be_are_refused_by_key(key: str, value: object, refused: str) -> None:
+    scene = sprag.Scene(block=PIER, ground=sprag.Sine(amplitude_g=0.3, frequency_hz=1.0))
+    with pytest.raises(sprag.InputError) as raised:
+        scene.set(key, value)
+    assert raised.value.key == refused
+
+
+def test_a_text_is_refused_with_its_line() -> None:
+    with pytest.raises(sprag.InputError, match=r"scene:3: .*`size_m`"):
+        sprag.Scene.parse("\n[block]\nsiz_m = 2.0\nslenderness_deg = 10.0\n")
+    with pytest.raises(sprag.InputError):
+        sprag.Scene.read("absent.toml")
+
+
+SIMPLE = st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=8)
+VALUES = st.recursive(
+    SIMPLE, lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=5), inner, max_size=3), max_leaves=6
+)
+KEYS = st.sampled_from(
+    ["block", "block.size_m", "device", "device.0", "device.0.kind", "ground.0.scale", "run", "output.interval_s", "map"]
+)
+
+
+@given(KEYS, VALUES)
+def test_any_value_is_taken_or_refused_in_one_way(key: str, value: Any) -> None:
+    scene = sprag.Scene(block=PIER, ground=sprag.Sine(amplitude_g=0.3, frequency_hz=1.0))
+    try:
+        changed = scene.set(key, value)
+    except (sprag.InputError, TypeError, OverflowError) as error:
+        assert "\n" not in str(error)
+    else:
+        assert sprag.Scene.parse(changed.to_toml()).to_dict() == changed.to_dict()
+
+
+@given(st.text(alphabet=st.sampled_from("[]{}=.,'\"# \nabckdemv0123\x00é"), max_size=60))
+def test_any_text_is_a_scene_a_study_or_one_error(text: str) -> None:
+    for read in [sprag.Scene.parse, sprag.Study]:
+        with pytest.raises(sprag.InputError) as raised:
+            read(text)
+        assert "\n" not in str(raised.value)
+
+
+@given(st.text(max_size=8), st.floats(), st.floats(), st.integers(-5, 200_000), st.booleans())
+def test_any_axis_is_refused_or_made(key: str, start: float, stop: float, cells: int, logarithmic: bool) -> None:
+    scene = sprag.Scene(block=PIER, ground=sprag.Sine(amplitude_g=0.3, frequency_hz=1.0))
+    axis = sprag.Axis(key=key, start=start, stop=stop, cells=min(cells, 3), logarithmic=logarithmic)
+    for whose in [axis, dataclasses.replace(axis, key="block.size_m")]:
+        try:
+            made = sprag.map(scene, x=whose, threads=1)
+        except sprag.InputError as error:
+            assert "\n" not in str(error)
+        else:
+            assert made.outcome.shape == (1, 1, whose.cells)
