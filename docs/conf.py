@@ -1,11 +1,26 @@
-"""Settings of the site of documents, for Sphinx."""
+"""Settings of the site of documents, for Sphinx: `cargo xtask site` builds it."""
 
 from __future__ import annotations
 
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import sprag
+from sphinx.application import Sphinx
+
 project = "Sprag"
-extensions = ["myst_parser"]
-# A page without its tables.
-exclude_patterns = ["accuracy/page.md"]
+version = sprag.__version__
+extensions = [
+    "myst_parser",
+    "numpydoc",
+    "sphinx.ext.autodoc",
+]
+exclude_patterns = [
+    # A page without its tables.
+    "accuracy/page.md",
+]
 
 html_theme = "pydata_sphinx_theme"
 html_title = "Sprag"
@@ -15,3 +30,43 @@ html_show_sourcelink = False
 
 # As on code hosts, so that links to headings work in both places.
 myst_heading_anchors = 3
+
+autodoc_member_order = "bysource"
+autodoc_typehints_format = "short"
+# What is documented is listed by autodoc.
+numpydoc_show_class_members = False
+# Of packages whose own documents are elsewhere.
+nitpick_ignore_regex = [("py:.*", r"(collections|enum|matplotlib|np|npt|numpy|os|pandas|xarray)\..*")]
+
+
+def help_of(*words: str) -> str:
+    """What `sprag WORDS --help` prints, 100 columns wide."""
+    program = Path(sys.executable).with_name("sprag")
+    return subprocess.run([program, *words, "--help"], capture_output=True, check=True, text=True, encoding="utf-8").stdout
+
+
+def commands_in(text: str) -> list[str]:
+    """The commands that a help lists before its options."""
+    return re.findall(r"^  ([a-z][a-z-]*)  ", text.split("\nOptions:")[0].split("Usage:")[1], re.MULTILINE)
+
+
+def write_commands(folder: Path) -> None:
+    """Writes a page a command: its help, and those of its own commands."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for command in commands_in(help_of()):
+        text = help_of(command)
+        parts = [f"# sprag {command}", f"```text\n{text}```"]
+        for inner in commands_in(text):
+            parts += [f"## sprag {command} {inner}", f"```text\n{help_of(command, inner)}```"]
+        (folder / f"{command}.md").write_text("\n\n".join(parts) + "\n", encoding="utf-8")
+
+
+def keep_bars(app: Sphinx, what: str, name: str, of: object, options: object, lines: list[str]) -> None:
+    """Leaves the bars of |θ| in a docstring, which would be a substitution."""
+    lines[:] = [line.replace("|", r"\|") for line in lines]
+
+
+def setup(app: Sphinx) -> None:
+    """Makes the pages that are not committed."""
+    write_commands(Path(__file__).with_name("made") / "commands")
+    app.connect("autodoc-process-docstring", keep_bars)

@@ -1,0 +1,50 @@
+//! The site of documents: docs by Sphinx, and the Rust packages beside it.
+
+use crate::{
+    process::{cargo, run as done, target_folder},
+    python,
+    scratch::empty,
+    steps::Steps,
+    stop::Stop,
+    tools,
+};
+use std::{path::Path, process::Command};
+
+/// Folder of the sources.
+const SOURCES: &str = "docs";
+
+/// Folder of the sources that the build makes: pages of commands.
+const MADE: &str = "docs/made";
+
+/// Folder of the site.
+const SITE: &str = "target/site";
+
+/// Builds the site, every warning an error, and follows all links within it.
+///
+/// # Errors
+/// If a page has a mistake or a link leads nowhere; if there is no Python or no package index.
+pub fn run(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
+    let python = steps.step("environment, site", || {
+        let python = tools::python_of(root, "target/site-python", "docs/requirements.txt", &[])?;
+        let wheel = python::last_wheel(root)?;
+        done(Command::new(&python).args(["-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps"]).arg(wheel))?;
+        Ok(python)
+    })?;
+    let site = root.join(SITE);
+    steps.step("site", || {
+        empty(&root.join(MADE))?;
+        empty(&site)?;
+        let mut build = Command::new(python.with_file_name("sphinx-build"));
+        build.current_dir(root).args(["--nitpicky", "--fail-on-warning", "--keep-going", "--quiet", "--fresh-env"]);
+        done(build.args(["--doctree-dir", "target/site-pages", SOURCES, SITE]))
+    })?;
+    steps.step("site, Rust packages", || {
+        done(&mut cargo(root, &["doc", "--workspace", "--no-deps"]))?;
+        done(Command::new("cp").arg("-R").arg(target_folder(root).join("doc")).arg(site.join("rust")))
+    })?;
+    steps.step("links of the site", || {
+        let mut follow = Command::new(python.with_file_name("linkchecker"));
+        // Rustdoc checks its own links.
+        done(follow.current_dir(&site).args(["--no-status", "--no-warnings", "--no-follow-url", "/rust/", "index.html"]))
+    })
+}
