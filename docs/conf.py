@@ -16,10 +16,12 @@ extensions = [
     "myst_parser",
     "numpydoc",
     "sphinx.ext.autodoc",
+    "sphinx_gallery.gen_gallery",
 ]
 exclude_patterns = [
     # A page without its tables.
     "accuracy/page.md",
+    "gallery",
 ]
 
 html_theme = "pydata_sphinx_theme"
@@ -37,6 +39,17 @@ autodoc_typehints_format = "short"
 numpydoc_show_class_members = False
 # Of packages whose own documents are elsewhere.
 nitpick_ignore_regex = [("py:.*", r"(collections|enum|matplotlib|np|npt|numpy|os|pandas|xarray)\..*")]
+
+sphinx_gallery_conf = {
+    "examples_dirs": "gallery",
+    "gallery_dirs": "made/gallery",
+    "filename_pattern": "/",
+    "within_subsection_order": "FileNameSortKey",
+    "abort_on_example_error": True,
+    "download_all_examples": False,
+    "show_signature": False,
+    "write_computation_times": False,
+}
 
 
 def help_of(*words: str) -> str:

@@ -96,7 +96,8 @@ enum Task {
         #[arg(long)]
         dist: bool,
     },
-    /// Build the documents as a site into target/site and follow its links; needs python3 with venv and a package index
+    /// Build the documents as a site into target/site, run the examples of its gallery and follow its links; needs python3 with venv and a
+    /// package index
     Site,
     /// Print figures of the code: lines without tests, test executables, and of each program that is built the event loops and the bytes
     /// of code by room of the core

@@ -1,4 +1,4 @@
-//! The site of documents: docs by Sphinx, and the Rust packages beside it.
+//! The site of documents: docs by Sphinx, with the gallery run anew, and the Rust packages beside it.
 
 use crate::{
     process::{cargo, run as done, target_folder},
@@ -13,7 +13,7 @@ use std::{path::Path, process::Command};
 /// Folder of the sources.
 const SOURCES: &str = "docs";
 
-/// Folder of the sources that the build makes: pages of commands.
+/// Folder of the sources that the build makes: pages of commands, and of examples with their pictures.
 const MADE: &str = "docs/made";
 
 /// Folder of the site.
@@ -22,7 +22,7 @@ const SITE: &str = "target/site";
 /// Builds the site, every warning an error, and follows all links within it.
 ///
 /// # Errors
-/// If a page has a mistake or a link leads nowhere; if there is no Python or no package index.
+/// If an example fails, a page has a mistake or a link leads nowhere; if there is no Python or no package index.
 pub fn run(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
     let python = steps.step("environment, site", || {
         let python = tools::python_of(root, "target/site-python", "docs/requirements.txt", &[])?;
