@@ -13,6 +13,7 @@ from sphinx.application import Sphinx
 project = "Sprag"
 version = sprag.__version__
 extensions = [
+    "matplotlib.sphinxext.plot_directive",
     "myst_parser",
     "numpydoc",
     "sphinx.ext.autodoc",
@@ -22,6 +23,8 @@ exclude_patterns = [
     # A page without its tables.
     "accuracy/page.md",
     "gallery",
+    # A table within another page.
+    "made/glossary.md",
 ]
 
 html_theme = "pydata_sphinx_theme"
@@ -32,6 +35,7 @@ html_show_sourcelink = False
 
 # As on code hosts, so that links to headings work in both places.
 myst_heading_anchors = 3
+myst_enable_extensions = ["deflist"]
 
 autodoc_member_order = "bysource"
 autodoc_typehints_format = "short"
@@ -39,6 +43,10 @@ autodoc_typehints_format = "short"
 numpydoc_show_class_members = False
 # Of packages whose own documents are elsewhere.
 nitpick_ignore_regex = [("py:.*", r"(collections|enum|matplotlib|np|npt|numpy|os|pandas|xarray)\..*")]
+
+plot_formats = ["svg"]
+plot_html_show_formats = False
+plot_html_show_source_link = False
 
 sphinx_gallery_conf = {
     "examples_dirs": "gallery",
@@ -74,6 +82,13 @@ def write_commands(folder: Path) -> None:
         (folder / f"{command}.md").write_text("\n\n".join(parts) + "\n", encoding="utf-8")
 
 
+def write_glossary(file: Path) -> None:
+    """Writes the glossary that the core's first page has, without its links into the code."""
+    page = (Path(__file__).parent.parent / "shared/src/lib.rs").read_text(encoding="utf-8")
+    table = [line.removeprefix("//! ") for line in page.split("# Glossary")[1].splitlines() if line.startswith("//! |")]
+    file.write_text(re.sub(r"\[(`[^`]+`)\]", r"\1", "\n".join(table)) + "\n", encoding="utf-8")
+
+
 def keep_bars(app: Sphinx, what: str, name: str, of: object, options: object, lines: list[str]) -> None:
     """Leaves the bars of |θ| in a docstring, which would be a substitution."""
     lines[:] = [line.replace("|", r"\|") for line in lines]
@@ -81,5 +96,7 @@ def keep_bars(app: Sphinx, what: str, name: str, of: object, options: object, li
 
 def setup(app: Sphinx) -> None:
     """Makes the pages that are not committed."""
-    write_commands(Path(__file__).with_name("made") / "commands")
+    made = Path(__file__).with_name("made")
+    write_commands(made / "commands")
+    write_glossary(made / "glossary.md")
     app.connect("autodoc-process-docstring", keep_bars)

@@ -45,7 +45,7 @@ pub fn run(root: &Path, steps: &mut Steps, profile: &str, built: Option<&Built>)
         check(&["python/generate_tables.py", "--check"])?;
         for words in [&["-m", "ruff", "check"][..], &["-m", "ruff", "format", "--check"]] {
             check(&[words, &[FOLDER]].concat())?;
-            check(&[words, &["--config", "python/pyproject.toml", "docs/conf.py", "docs/gallery"]].concat())?;
+            check(&[words, &["--config", "python/pyproject.toml", "docs/conf.py", "docs/gallery", "docs/reference"]].concat())?;
         }
         Ok(())
     })?;
