@@ -10,6 +10,8 @@ from pathlib import Path
 import sprag
 from sphinx.application import Sphinx
 
+sys.path.insert(0, str(Path(__file__).parent))
+
 project = "Sprag"
 version = sprag.__version__
 extensions = [
@@ -17,6 +19,7 @@ extensions = [
     "myst_parser",
     "numpydoc",
     "sphinx.ext.autodoc",
+    "native_types",
     "sphinx_gallery.gen_gallery",
 ]
 exclude_patterns = [
