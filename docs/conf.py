@@ -9,6 +9,7 @@ from pathlib import Path
 
 import sprag
 from sphinx.application import Sphinx
+from sphinx.errors import ExtensionError
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -32,7 +33,7 @@ exclude_patterns = [
 
 html_theme = "pydata_sphinx_theme"
 html_title = "Sprag"
-html_theme_options = {"show_toc_level": 2, "header_links_before_dropdown": 6}
+html_theme_options = {"header_links_before_dropdown": 6}
 html_show_copyright = False
 html_show_sourcelink = False
 
@@ -41,6 +42,7 @@ myst_heading_anchors = 3
 myst_enable_extensions = ["deflist"]
 
 autodoc_member_order = "bysource"
+maximum_signature_line_length = 100
 autodoc_typehints_format = "short"
 # What is documented is listed by autodoc.
 numpydoc_show_class_members = False
@@ -55,6 +57,7 @@ sphinx_gallery_conf = {
     "examples_dirs": "gallery",
     "gallery_dirs": "made/gallery",
     "filename_pattern": "/",
+    "subsection_order": [f"gallery/{part}" for part in ("pulses", "records", "devices", "trust")],
     "within_subsection_order": "FileNameSortKey",
     "abort_on_example_error": True,
     "download_all_examples": False,
@@ -85,6 +88,14 @@ def write_commands(folder: Path) -> None:
         (folder / f"{command}.md").write_text("\n\n".join(parts) + "\n", encoding="utf-8")
 
 
+def every_name(page: Path) -> None:
+    """Fails where the reference of the package lacks a name that it has, but for types that are other names of those."""
+    there = set(re.findall(r"auto\w+:: sprag\.(\w+)", page.read_text(encoding="utf-8")))
+    lacking = set(sprag.__all__) - there - {"Device", "Ground", "Law", "Motion", "__version__", "errors"}
+    if lacking:
+        raise ExtensionError(f"{page.name} lacks {', '.join(sorted(lacking))}")
+
+
 def write_glossary(file: Path) -> None:
     """Writes the glossary that the core's first page has, without its links into the code."""
     page = (Path(__file__).parent.parent / "shared/src/lib.rs").read_text(encoding="utf-8")
@@ -99,6 +110,7 @@ def keep_bars(app: Sphinx, what: str, name: str, of: object, options: object, li
 
 def setup(app: Sphinx) -> None:
     """Makes the pages that are not committed."""
+    every_name(Path(__file__).with_name("reference") / "python.md")
     made = Path(__file__).with_name("made")
     write_commands(made / "commands")
     write_glossary(made / "glossary.md")

@@ -94,7 +94,7 @@ def inerter(axis: Axes) -> None:
     axis.text(2.55, -0.1, "$F_1$", ha="center")
     formula = r"$F_1 = m_r\,(\ddot u_2 - \ddot u_1)$" + "\n" + r"$m_r = \frac{1}{2}\,m_{w1} R_1^2/\rho_1^2$,  $\sigma = m_r/m$"
     axis.text(0, -1.2, formula, ha="center", va="top", linespacing=1.7)
-    axis.set(title="inerter: rack, pinion, flywheel", xlim=(-2.6, 3.1), ylim=(-2.5, 3.4))
+    axis.set(title="inerter: rack, pinion, flywheel", xlim=(-2.6, 3.1), ylim=(-2.6, 2.3))
 
 
 def pair(axis: Axes) -> None:
@@ -120,9 +120,9 @@ def pair(axis: Axes) -> None:
     axis.set(title="clutched pair, from above", xlim=(-2.8, 2.8), ylim=(-2.5, 3.4))
 
 
-figure, axes = plt.subplots(1, 3, figsize=(12, 5.2), layout="constrained")
-for axis, draw in zip(axes, (block, inerter, pair), strict=True):
-    draw(axis)
-    axis.set_aspect("equal")
-    axis.axis("off")
+figure, axes = plt.subplot_mosaic([["block", "inerter"], ["block", "pair"]], figsize=(8, 7), layout="constrained")
+for name, draw in {"block": block, "inerter": inerter, "pair": pair}.items():
+    draw(axes[name])
+    axes[name].set_aspect("equal")
+    axes[name].axis("off")
 plt.show()
