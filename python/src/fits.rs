@@ -131,8 +131,10 @@ impl DemandModel {
 
 /// Fits the demand model of runs that did not overturn.
 ///
-/// # Errors
-/// `InputError` for fewer than three points, one that is not positive and finite, and intensities that are all equal.
+/// Raises
+/// ------
+/// InputError
+///     For fewer than three points, one that is not positive and finite, and intensities that are all equal.
 #[pyfunction]
 #[pyo3(signature = (*, intensity, demand))]
 pub fn demand(intensity: &Bound<'_, PyAny>, demand: &Bound<'_, PyAny>) -> PyResult<DemandModel> {
@@ -270,8 +272,10 @@ impl Fragility {
 
 /// Fits the fragility of runs: `overturned` of `of` runs at each intensity, of 1 by default.
 ///
-/// # Errors
-/// `InputError` without a run, and for an intensity that is not positive and finite.
+/// Raises
+/// ------
+/// InputError
+///     Without a run, and for an intensity that is not positive and finite.
 #[pyfunction]
 #[pyo3(signature = (*, intensity, overturned, of = None))]
 pub fn fragility(

@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 import sprag
 
 ROOT = Path(__file__).parents[2]
@@ -35,10 +37,20 @@ def test_the_wheel_has_the_command() -> None:
     assert wrong.stderr.count("\n") == 1
 
 
-def test_examples_of_the_page_run(tmp_path: Path) -> None:
-    page = (ROOT / "docs/python.md").read_text(encoding="utf-8")
-    examples = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
-    for code in examples:
-        subprocess.run([sys.executable, "-c", code], check=True, cwd=tmp_path, env=os.environ | {"MPLBACKEND": "agg"})
-    assert len(examples) == 2
-    assert (tmp_path / "run.png").stat().st_size > 10_000
+@pytest.mark.parametrize(
+    ("page", "number", "picture"),
+    [
+        ("python", 2, "run.png"),
+        ("start/researcher", 3, "out/figure10/history.svg"),
+        ("start/structural-engineer", 5, "out/cloud-cloud/fragility.svg"),
+    ],
+)
+def test_examples_of_a_page_run(tmp_path: Path, page: str, number: int, picture: str) -> None:
+    text = (ROOT / f"docs/{page}.md").read_text(encoding="utf-8")
+    examples = re.findall(r"```(python|sh)\n(.*?)```", text, re.DOTALL)
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    for language, code in examples:
+        words = [sys.executable, "-c"] if language == "python" else ["bash", "-euc"]
+        subprocess.run([*words, code], check=True, cwd=tmp_path, env=os.environ | {"MPLBACKEND": "agg", "PATH": path})
+    assert len(examples) == number
+    assert (tmp_path / picture).stat().st_size > 10_000

@@ -49,8 +49,8 @@ pub fn run(root: &Path) -> Result<(), Stop> {
         let page = folder.join("accuracy.md");
         let text = read(&page)?;
         // The heading is the page's own.
-        let tables = text.split_once("\n\n").map_or("", |(_, tables)| tables).replace("\n## ", "\n#### ");
-        parts.push((scene, tables.trim().replacen("## ", "#### ", 1)));
+        let tables = text.split_once("\n\n").map_or("", |(_, tables)| tables).replace("\n## ", "\n### ");
+        parts.push((scene, tables.trim().replacen("## ", "### ", 1)));
         for file in [page, folder.join("summary.json")] {
             fs::remove_file(&file).map_err(|error| Stop::failed(format!("{}: {error}", file.display())))?;
         }

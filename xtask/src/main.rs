@@ -20,6 +20,7 @@ mod python;
 mod rooms;
 mod scratch;
 mod seal;
+mod site;
 mod size;
 mod steps;
 mod stop;
@@ -55,7 +56,7 @@ enum Task {
     #[command(alias = "ci")]
     Test,
     /// The same with the exhaustive tests, which otherwise run when what they prove has changed, each fuzz target from its seeds on,
-    /// and the Python package
+    /// the Python package and the site of documents
     Nightly {
         /// How long each fuzz target runs, s; 0 only tries the committed seeds
         #[arg(long, default_value_t = FUZZ_SECONDS)]
@@ -97,6 +98,9 @@ enum Task {
         #[arg(long)]
         dist: bool,
     },
+    /// Build the documents as a site into target/site, run the examples of its gallery and follow its links; needs python3 with venv and a
+    /// package index
+    Site,
     /// Print figures of the code: lines without tests, test executables, and of each program that is built the event loops and the bytes
     /// of code by room of the core
     Figures {
@@ -159,6 +163,7 @@ fn run(task: Task) -> Result<(), Stop> {
         Task::BoardImage { what: Counted::Profile } => board_image::measure(root, "profile"),
         Task::Hardware => hardware::run(root, &mut Steps::default()),
         Task::Python { dist } => python::run(root, &mut Steps::default(), if dist { "dist" } else { "dev" }, None),
+        Task::Site => site::run(root, &mut Steps::default()),
         Task::Figures { program } => figures::run(root, program.as_deref()),
         Task::Deb => package::deb(root),
         Task::Cluster => cluster::run(root, &test::program(root)),

@@ -43,8 +43,12 @@ pub fn run(root: &Path, steps: &mut Steps, profile: &str, built: Option<&Built>)
     let check = |words: &[&str]| done(Command::new(&python).current_dir(root).args(words).envs(images()));
     steps.step("lints, python", || {
         check(&["python/generate_tables.py", "--check"])?;
-        check(&["-m", "ruff", "check", FOLDER])?;
-        check(&["-m", "ruff", "format", "--check", FOLDER])
+        let site = ["--config=python/pyproject.toml", "--exclude=docs/accuracy,docs/hardware,docs/made", "docs"];
+        for words in [&["-m", "ruff", "check"][..], &["-m", "ruff", "format", "--check"]] {
+            check(&[words, &[FOLDER]].concat())?;
+            check(&[words, &site].concat())?;
+        }
+        Ok(())
     })?;
     steps.step("types, python", || {
         check(&["-m", "mypy", "--config-file", "python/pyproject.toml", "--package", "sprag"])?;
@@ -60,6 +64,17 @@ fn wheel(root: &Path, profile: &str) -> Result<PathBuf, Stop> {
     let _ = std::fs::remove_dir_all(&wheels);
     let mut build = Command::new(python.with_file_name("maturin"));
     done(build.current_dir(root.join(FOLDER)).args(["build", "--locked", "--profile", profile, "--out"]).arg(&wheels))?;
-    let built = std::fs::read_dir(&wheels).ok().and_then(|mut files| files.next()?.ok());
-    built.map(|file| file.path()).ok_or_else(|| Stop::failed(format!("there is no wheel in {WHEELS}")))
+    built(&wheels).ok_or_else(|| Stop::failed(format!("there is no wheel in {WHEELS}")))
+}
+
+/// The wheel that was built last; where there is none, a new one.
+///
+/// # Errors
+/// If it cannot be built.
+pub fn last_wheel(root: &Path) -> Result<PathBuf, Stop> {
+    built(&root.join(WHEELS)).map_or_else(|| wheel(root, "dev"), Ok)
+}
+
+fn built(wheels: &Path) -> Option<PathBuf> {
+    Some(std::fs::read_dir(wheels).ok()?.next()?.ok()?.path())
 }

@@ -6,7 +6,7 @@ use crate::{
     fuzz::{self, Inputs},
     hardware, package, panic_check,
     process::{Beside, cargo, cargo_in, host, run as done, target_folder},
-    python, size,
+    python, site, size,
     steps::Steps,
     stop::Stop,
     tools,
@@ -75,6 +75,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
         Some(seconds) => {
             steps.step("installed program", || package::try_installed(root))?;
             python::run(root, &mut steps, "dev", Some(&built))?;
+            site::run(root, &mut steps)?;
             steps.step("fuzzing", || fuzz::run(root, None, seconds, Inputs::Same))
         }
         None => steps.step("fuzz targets", || fuzz::check(root)),
