@@ -96,11 +96,11 @@ impl Run for AccuracyCommandArguments {
         report.summary(input, &ground.records, &warnings, &claim.subject, answer)?;
         report.table("accuracy", &row_table(&runs))?;
         let page = page(title, &rows, &devices);
-        report.page("accuracy.md", &page)?;
+        report.page("accuracy.md", &page.markdown())?;
         for (name, figure) in figures(title, &rows, &devices)? {
             report.picture(name, Ok(figure))?;
         }
-        report.print(page);
+        report.print(page.for_terminal());
         report.finish(context)
     }
 }

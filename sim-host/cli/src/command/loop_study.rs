@@ -119,14 +119,14 @@ impl Run for LoopStudyArguments {
         let mut report = Report::new("loop-study", &folder, &self.output)?;
         let (version, schema_version) = (VERSION, SCHEMA_VERSION);
         report.document(&page, &Page { subject: &subject, version, schema_version, records: &read, warnings: &warnings })?;
-        report.page(&format!("{name}.md"), &made.text)?;
+        report.page(&format!("{name}.md"), &made.page.markdown())?;
         for (name, table) in &made.tables {
             report.table(name, table)?;
         }
         for (name, svg) in made.figures {
             report.picture(&name, Ok(svg))?;
         }
-        report.print(made.text);
+        report.print(made.page.for_terminal());
         report.accuracy(worst);
         report.finish(context)
     }

@@ -1,8 +1,7 @@
 //! The tables of a study.
 
-use std::fmt::Write as _;
-
 use sprag_report::columns::{Column, FieldTable, Fields, Table};
+use sprag_report::page::Page;
 use sprag_report::text_table::TextTable;
 
 use super::row::{Row, RowText, order};
@@ -43,9 +42,9 @@ fn floor(number: Number) -> f64 {
     }
 }
 
-/// A table in Markdown for every device: what each family of variants needs to be this accurate, and where it ends.
-pub fn page(title: &str, rows: &[Row], devices: &[String]) -> String {
-    let mut page = format!("# {title}: what accuracy costs\n");
+/// A table for every device: what each family of variants needs to be this accurate, and where it ends.
+pub fn page(title: &str, rows: &[Row], devices: &[String]) -> Page {
+    let mut page = Page::new(&format!("{title}: what accuracy costs"));
     for (index, device) in devices.iter().enumerate() {
         let of_device: Vec<&Row> = rows.iter().filter(|row| row.device == index).collect();
         let mut families: Vec<Family> = Vec::new();
@@ -55,7 +54,7 @@ pub fn page(title: &str, rows: &[Row], devices: &[String]) -> String {
             }
         }
         let fastest = of_device.iter().map(|row| row.nanoseconds).fold(f64::INFINITY, f64::min);
-        let _ = writeln!(page, "\n## {device}\n");
+        page.section(device);
         let headings = ["method", "order", "1e-2", "1e-4", "1e-6", "1e-9", "smallest error", "wrong outcomes", "cycles a step"];
         let mut table = TextTable::new(1, headings);
         for family in families {
@@ -86,8 +85,8 @@ pub fn page(title: &str, rows: &[Row], devices: &[String]) -> String {
             let costs = [1e-2, 1e-4, 1e-6, 1e-9].map(cost);
             table.row([&[family.to_string(), order][..], &costs, &[smallest, wrong, cycles]].concat());
         }
-        page += &table.markdown();
-        let _ = writeln!(page, "\nTimes are multiples of the fastest run, {fastest:.0} ns to a simulated second.");
+        page.table(table);
+        page.paragraph(&format!("Times are multiples of the fastest run, {fastest:.0} ns to a simulated second."));
     }
     page
 }
