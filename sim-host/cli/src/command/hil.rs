@@ -27,8 +27,8 @@ use super::report::{Report, Runs, SceneInput};
 use super::scene_arguments::SceneArguments;
 use crate::board::device_loop::{DeviceLoop, DeviceLoopError};
 use crate::board::driver::{DeviceTick, Farewell};
-use crate::board::report::{DeviceSummary, costs, device_ticks};
 use crate::board::info::firmware;
+use crate::board::report::{DeviceSummary, costs, device_ticks};
 
 /// The same with the firmware, in an emulator or on a board.
 #[derive(Args, Clone, Debug)]
