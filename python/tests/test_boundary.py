@@ -63,11 +63,11 @@ def test_files_that_are_open_or_closed_are_no_paths(tmp_path: Path) -> None:
     path.touch()
     with path.open() as file:
         for _ in ("open", "closed"):
-            for read in [sprag.Record.read, sprag.Scene.read, sprag.Study.read]:
+            for read in [sprag.Record.read, sprag.Scene.read, sprag.Study.read, sprag.Plan.read]:
                 with pytest.raises(TypeError):
                     read(file)
             file.close()
-    for read in [sprag.Record.read, sprag.Scene.read, sprag.Study.read]:
+    for read in [sprag.Record.read, sprag.Scene.read, sprag.Study.read, sprag.Plan.read]:
         for name in [tmp_path, path, tmp_path / "absent", "\0", ""]:
             with pytest.raises(sprag.InputError) as raised:
                 read(name)
