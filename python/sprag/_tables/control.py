@@ -276,7 +276,7 @@ class Controller(Table):
     safe_state
         State of the clutches after a fault; engaged by default.
     feedback
-        What tells the controller which clutches are engaged; position by default.
+        What shows the controller which clutches are engaged; position by default.
     closing_lag_s
         Time from a current that engages to a closed clutch, with feedback by current; from 0 to 1; 0.0 by
         default.
