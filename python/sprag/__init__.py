@@ -11,6 +11,7 @@ from ._core import DemandModel, Fragility, Record, Situation, __version__, deman
 from ._loop import ClosedLoop, Law, Wish, closed_loop
 from ._map import Map, map
 from ._outcome import Outcome
+from ._plan import Plan, collect, plan, run_part
 from ._run import ErrorEstimate, Run, simulate
 from ._scene import Axis, Ground, RecordedMotion, Scene
 from ._study import Cloud, Optimum, Study, accuracy, cloud, optimise
@@ -87,6 +88,7 @@ __all__ = [
     "Optimum",
     "Outcome",
     "Output",
+    "Plan",
     "Rack",
     "Record",
     "RecordedMotion",
@@ -105,10 +107,13 @@ __all__ = [
     "accuracy",
     "closed_loop",
     "cloud",
+    "collect",
     "demand",
     "errors",
     "fragility",
     "map",
     "optimise",
+    "plan",
+    "run_part",
     "simulate",
 ]

@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any, Protocol, final
 
 import numpy as np
@@ -27,8 +28,10 @@ __all__ = [
     "demand",
     "fragility",
     "main",
+    "missing_parts",
     "optimise",
     "overturning_map",
+    "plan",
     "simulate",
 ]
 
@@ -270,4 +273,6 @@ def closed_loop(
     law: Callable[[Situation], int] | None = None,
     predicts: bool = True,
 ) -> dict[str, Any]: ...
+def plan(folder: str | os.PathLike[str]) -> tuple[str, int, int, Path]: ...
+def missing_parts(folder: str | os.PathLike[str]) -> list[int]: ...
 def main(words: Sequence[str]) -> int: ...

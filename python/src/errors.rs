@@ -18,7 +18,7 @@ use sprag_studies::cloud::study::StudyError as CloudError;
 use sprag_studies::map::study::MapError;
 
 /// `sprag.InputError`: what is wrong, and where it is known the key, its value and what it may be.
-fn input(message: &str, key: Option<&str>, value: Option<&str>, range: Option<&str>) -> PyErr {
+pub fn input(message: &str, key: Option<&str>, value: Option<&str>, range: Option<&str>) -> PyErr {
     Python::attach(|py| {
         // A value that is a number is given as one.
         let value = value.map(|text| match text.parse::<f64>() {

@@ -2,7 +2,7 @@
 //!
 //! - `errors`: exceptions; `value`: values of Python as TOML; `columns`: tables as arrays; `long_call`: work without the interpreter's lock.
 //! - `record`, `scene`: what is simulated; `run`, `map`, `closed_loop`: what comes of it; `law`: clutch laws in Python.
-//! - `study`: studies over many records; `fits`: demand models and fragilities; `board`: boards and emulators.
+//! - `study`: studies over many records; `fits`: demand models and fragilities; `plan`: studies in parts; `board`: boards and emulators.
 
 mod board;
 mod closed_loop;
@@ -12,6 +12,7 @@ mod fits;
 mod law;
 mod long_call;
 mod map;
+mod plan;
 mod record;
 mod run;
 mod scene;
@@ -34,6 +35,8 @@ mod _core {
     use crate::law::Situation;
     #[pymodule_export]
     use crate::map::overturning_map;
+    #[pymodule_export]
+    use crate::plan::{missing_parts, plan};
     #[pymodule_export]
     use crate::record::Record;
     #[pymodule_export]

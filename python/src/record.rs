@@ -9,7 +9,7 @@ use sprag_shared::math::fnv::Fnv;
 use sprag_sim::record::intensity::{cumulative_absolute_velocity_m_s, uniform_duration_s};
 use sprag_sim::record::{Component, Header, Intensity, ReadOptions, Record as SimRecord, Units};
 
-use crate::errors::{Raise as _, range, refused};
+use crate::errors::{Raise as _, input, range};
 use crate::long_call::long_call;
 
 /// Recorded ground acceleration with equal time steps, in SI units; linear between its samples.
@@ -55,14 +55,26 @@ fn units_of(name: &str) -> PyResult<Units> {
 }
 
 /// A copy of a one-dimensional array of numbers, whatever it is made of.
-pub fn numbers(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<f64>> {
-    let array = object.py().import("numpy")?.call_method1("asarray", (object, "float64"));
-    let array = array.map_err(|error| refused(format_args!("{name} must be an array of numbers: {error}")))?;
+pub fn numbers<'py>(object: &Bound<'py, PyAny>, name: &str) -> PyResult<Vec<f64>> {
+    let numpy = object.py().import("numpy")?;
+    let refused = |reason: &Bound<'_, PyAny>| {
+        let range = "an array of real numbers";
+        input(&format!("{name} must be {range}: {reason}"), Some(name), None, Some(range))
+    };
+    let of = |object: &Bound<'py, PyAny>, dtype: Option<&str>| {
+        numpy.call_method1("asarray", (object, dtype)).map_err(|error| refused(error.value(object.py())))
+    };
+    let array = of(object, None)?;
     let shape: Vec<usize> = array.getattr("shape")?.extract()?;
     if shape.len() != 1 {
         return Err(range(name, format_args!("of shape {shape:?}"), "one-dimensional"));
     }
-    Ok(array.extract::<PyReadonlyArray1<'_, f64>>()?.as_array().to_vec())
+    // Texts, times and the real parts of complex numbers would be taken for numbers.
+    let dtype = array.getattr("dtype")?;
+    if !"biufO".contains(&dtype.getattr("kind")?.extract::<String>()?) {
+        return Err(refused(&dtype));
+    }
+    Ok(of(&array, Some("float64"))?.extract::<PyReadonlyArray1<'_, f64>>()?.as_array().to_vec())
 }
 
 #[pymethods]

@@ -98,6 +98,9 @@ enum Task {
         #[arg(long)]
         dist: bool,
     },
+    /// Build the wheels of the Python package for any Linux with glibc 2.17 or later, on x86_64 and aarch64, into target/wheels, and check the
+    /// one of this machine in an empty environment; needs python3 with venv and a package index
+    Wheels,
     /// Build the documents as a site into target/site, run the examples of its gallery and follow its links; needs python3 with venv and a
     /// package index
     Site,
@@ -163,6 +166,7 @@ fn run(task: Task) -> Result<(), Stop> {
         Task::BoardImage { what: Counted::Profile } => board_image::measure(root, "profile"),
         Task::Hardware => hardware::run(root, &mut Steps::default()),
         Task::Python { dist } => python::run(root, &mut Steps::default(), if dist { "dist" } else { "dev" }, None),
+        Task::Wheels => python::wheels(root, &mut Steps::default()),
         Task::Site => site::run(root, &mut Steps::default()),
         Task::Figures { program } => figures::run(root, program.as_deref()),
         Task::Deb => package::deb(root),

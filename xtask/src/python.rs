@@ -2,7 +2,8 @@
 
 use crate::{
     firmware::Built,
-    process::{cargo, run as done},
+    process::{cargo, output, run as done},
+    scratch::empty,
     steps::Steps,
     stop::Stop,
     tools,
@@ -18,6 +19,12 @@ const FOLDER: &str = "python";
 /// Folder of the wheels that are built.
 const WHEELS: &str = "target/wheels";
 
+/// Environment of the tools that build them.
+const BUILDER: &str = "target/python-build";
+
+/// Machines that wheels are built for here, by Rust's and the package index's name.
+const MACHINES: [&str; 2] = ["x86_64", "aarch64"];
+
 /// Lints the package, builds its wheel by `profile` of its workspace, installs that into an empty environment and tests it there, with the
 /// firmware too where images are `built`.
 ///
@@ -29,7 +36,38 @@ pub fn run(root: &Path, steps: &mut Steps, profile: &str, built: Option<&Built>)
         done(&mut cargo(&folder, &["fmt", "--check"]))?;
         done(&mut cargo(&folder, &["clippy", "--locked", "--profile", profile, "--", "-D", "warnings"]))
     })?;
-    let wheel = steps.step("wheel", || wheel(root, profile))?;
+    let wheel = steps.step("wheel", || own_wheel(root, profile))?;
+    check(root, steps, &wheel, built)
+}
+
+/// Builds wheels that any Linux with glibc 2.17 or later loads, for x86_64 and aarch64, and checks the one of this machine.
+///
+/// # Errors
+/// At the first check that fails, or if there is no Python or no package index.
+pub fn wheels(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
+    let python = steps.step("tools", || tools::python_of(root, BUILDER, "python/requirements-wheels.txt", &[]))?;
+    let built = steps.step("wheels", || {
+        empty(&root.join(WHEELS))?;
+        MACHINES.iter().map(|machine| portable(root, &python, machine)).collect::<Result<Vec<_>, _>>()
+    })?;
+    let own = MACHINES.iter().zip(built).find(|(machine, _)| **machine == std::env::consts::ARCH);
+    own.map_or(Ok(()), |(_, wheel)| check(root, steps, &wheel, None))
+}
+
+/// Builds a wheel by Zig's C compiler and linker, which have every version of glibc.
+fn portable(root: &Path, python: &Path, machine: &str) -> Result<PathBuf, Stop> {
+    let target = format!("{machine}-unknown-linux-gnu");
+    tools::need_target(root, &target)?;
+    let options = ["--profile", "dist", "--zig", "--compatibility", "manylinux2014", "--target", &target];
+    let wheel = wheel(root, python, machine, &options)?;
+    let shown = output(Command::new(python.with_file_name("auditwheel")).arg("show").arg(&wheel))?;
+    println!("{shown}");
+    let wanted = format!("manylinux_2_17_{machine}");
+    if shown.contains(&wanted) { Ok(wheel) } else { Err(Stop::failed(format!("{}: it is not {wanted}", wheel.display()))) }
+}
+
+/// Installs a wheel into an empty environment and checks it there: lints, types, tests.
+fn check(root: &Path, steps: &mut Steps, wheel: &Path, built: Option<&Built>) -> Result<(), Stop> {
     let python = steps.step("environment", || {
         let place = root.join("target/python-wheel");
         done(Command::new("python3").args(["-m", "venv", "--clear"]).arg(&place))?;
@@ -57,24 +95,35 @@ pub fn run(root: &Path, steps: &mut Steps, profile: &str, built: Option<&Built>)
     steps.step("tests, python", || check(&["-m", "pytest", "--quiet", "--import-mode", "importlib", "python/tests"]))
 }
 
-/// Builds the wheel.
-fn wheel(root: &Path, profile: &str) -> Result<PathBuf, Stop> {
-    let python = tools::python_of(root, "target/python-build", "python/requirements.txt", &[])?;
-    let wheels = root.join(WHEELS);
-    let _ = std::fs::remove_dir_all(&wheels);
-    let mut build = Command::new(python.with_file_name("maturin"));
-    done(build.current_dir(root.join(FOLDER)).args(["build", "--locked", "--profile", profile, "--out"]).arg(&wheels))?;
-    built(&wheels).ok_or_else(|| Stop::failed(format!("there is no wheel in {WHEELS}")))
-}
-
-/// The wheel that was built last; where there is none, a new one.
+/// The wheel for this machine that was built last; where there is none, a new one.
 ///
 /// # Errors
 /// If it cannot be built.
 pub fn last_wheel(root: &Path) -> Result<PathBuf, Stop> {
-    built(&root.join(WHEELS)).map_or_else(|| wheel(root, "dev"), Ok)
+    found(root, std::env::consts::ARCH).map_or_else(|| own_wheel(root, "dev"), Ok)
 }
 
-fn built(wheels: &Path) -> Option<PathBuf> {
-    Some(std::fs::read_dir(wheels).ok()?.next()?.ok()?.path())
+/// Builds a wheel for this machine, and removes all others.
+fn own_wheel(root: &Path, profile: &str) -> Result<PathBuf, Stop> {
+    let python = tools::python_of(root, BUILDER, "python/requirements.txt", &[])?;
+    empty(&root.join(WHEELS))?;
+    wheel(root, &python, "", &["--profile", profile])
+}
+
+/// Builds a wheel with the tools beside `python`, and gives the path of that of a `machine`.
+fn wheel(root: &Path, python: &Path, machine: &str, options: &[&str]) -> Result<PathBuf, Stop> {
+    let mut build = Command::new(python.with_file_name("maturin"));
+    build.current_dir(root.join(FOLDER)).args(["build", "--locked", "--out"]).arg(root.join(WHEELS)).args(options);
+    // The Python that has Zig is the first.
+    let others = std::env::var_os("PATH").unwrap_or_default();
+    let folders = python.parent().into_iter().map(Path::to_owned).chain(std::env::split_paths(&others));
+    let path = std::env::join_paths(folders).map_err(|error| Stop::usage(format!("PATH: {error}")))?;
+    done(build.env("PATH", path))?;
+    found(root, machine).ok_or_else(|| Stop::failed(format!("there is no wheel in {WHEELS}")))
+}
+
+/// A wheel for a `machine` among those that are built.
+fn found(root: &Path, machine: &str) -> Option<PathBuf> {
+    let built = std::fs::read_dir(root.join(WHEELS)).ok()?.flatten().map(|file| file.path());
+    built.into_iter().find(|path| path.to_string_lossy().ends_with(&format!("{machine}.whl")))
 }

@@ -112,6 +112,11 @@ impl Division {
         file.is_ok_and(|file| parquet_text(file, KEY).is_ok_and(|key| key.as_ref() == Some(&self.key)))
     }
 
+    /// Numbers of the parts that are not there.
+    pub fn missing(&self, folder: &Path) -> Vec<u32> {
+        (1..=self.parts).filter(|part| !self.has(folder, *part)).collect()
+    }
+
     /// Puts the rows of a part, which are in `scratch` as CSV, into their place in `folder`. Two processes that do so at once write the
     /// same bytes.
     ///
@@ -134,7 +139,7 @@ impl Division {
     /// # Errors
     /// [`LongRunError::Parts`] names the first part that is missing.
     pub fn unpack(&self, folder: &Path, rows: &Divisible, scratch: &Path) -> Result<(), LongRunError> {
-        let missing: Vec<u32> = (1..=self.parts).filter(|part| !self.has(folder, *part)).collect();
+        let missing = self.missing(folder);
         if let Some(first) = missing.first() {
             let path = self.part_file(folder, *first);
             return Err(LongRunError::Parts { path, missing: missing.len(), parts: self.parts });

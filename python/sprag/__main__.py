@@ -13,3 +13,7 @@ def main() -> None:
     # The program waits for Ctrl-C itself.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     sys.exit(_core.main(["sprag", *sys.argv[1:]]))
+
+
+if __name__ == "__main__":
+    main()
