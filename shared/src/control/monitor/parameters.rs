@@ -15,7 +15,7 @@ pub struct SensorLimits {
     /// Without a new reading for this long it is stale, s; above 0, up to 10.
     pub stale_time: f32,
     /// Bit-identical readings (of every axis, three times at least) for this long are stuck, s; 0 to 10, 0 to switch this off.
-    /// See [`stuck_time`].
+    /// Longest time without a new value, s: [`stuck_time`].
     pub stuck_time: f32,
     /// The same while the block moves, so that a sensor without noise may be constant at rest.
     pub stuck_time_moving: f32,
@@ -28,7 +28,7 @@ pub struct SensorLimits {
 /// What the encoder is allowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EncoderLimits {
-    /// As of the other sensors.
+    /// Longest time without a reading, s, as of the other sensors.
     pub stale_time: f32,
     /// Counts per rad of the block, the mean of its lever times counts per metre of the rack; 0 where it is not to be compared with the
     /// gyroscope. Magnitude up to 1e9.

@@ -44,10 +44,10 @@ pub struct Recording {
     pub torn: usize,
 }
 
-/// How the recorder is.
+/// State of the flight recorder.
 ///
 /// # Errors
-/// As [`Session::ask`].
+/// The errors of [`Session::ask`].
 pub fn state<L: Line>(session: &mut Session<L>) -> Result<RecorderState, DeviceError> {
     match session.ask(&Request::Recorder)? {
         Reply::Recorder(state) => Ok(state),
@@ -74,10 +74,10 @@ fn bytes<L: Line>(session: &mut Session<L>, offset: u32, length: usize) -> Resul
     Ok(Some(bytes))
 }
 
-/// Which recordings there are.
+/// Recordings in flash, by number and part.
 ///
 /// # Errors
-/// As [`Session::ask`].
+/// The errors of [`Session::ask`].
 pub fn list<L: Line>(session: &mut Session<L>) -> Result<Parts, DeviceError> {
     let state = state(session)?;
     let end = if state.goes_round { state.pages } else { state.pages.min(state.next.saturating_add(1)) };
@@ -104,7 +104,7 @@ pub fn list<L: Line>(session: &mut Session<L>) -> Result<Parts, DeviceError> {
 /// Every tick of a part. `progress` is given how many of its pages have come.
 ///
 /// # Errors
-/// As [`Session::ask`].
+/// The errors of [`Session::ask`].
 pub fn read<L: Line>(
     session: &mut Session<L>,
     (number, part): Key,

@@ -147,7 +147,7 @@ pub fn run(given: &RecordArguments, out: &mut impl Write, interrupt: &Interrupt)
     })
 }
 
-/// Those that are asked for.
+/// Parts that are asked for.
 fn chosen<'a>(given: &RecordArguments, parts: &'a Parts) -> anyhow::Result<Vec<(Key, &'a Part)>> {
     let Some(newest) = parts.iter().max_by_key(|(_, part)| part.pages.last().map(|(_, header)| header.sequence)) else {
         return Err(anyhow!("it has recorded no earthquake"));

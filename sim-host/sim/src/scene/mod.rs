@@ -92,7 +92,7 @@ impl Scene {
     /// The scene in `table` with overrides (`KEY=VALUE`).
     ///
     /// # Errors
-    /// As [`Scene::parse_with`].
+    /// The errors of [`Scene::parse_with`].
     pub fn of_table(mut table: toml::Table, origin: &str, overrides: &[String]) -> Result<Scene, SceneError> {
         for item in overrides {
             overrides::apply(&mut table, item, origin)?;

@@ -57,7 +57,7 @@ pub enum StudyError {
         origin: String,
         /// Number of the structure, from 0.
         index: usize,
-        /// Why not.
+        /// Error of the scene.
         error: Box<SceneError>,
     },
 }

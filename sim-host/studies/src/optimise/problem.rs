@@ -42,7 +42,7 @@ pub struct Choices<'a> {
 }
 
 impl<'a> Choices<'a> {
-    /// Those of `study`.
+    /// Problems of `study`.
     ///
     /// # Errors
     /// [`SceneError`] names the key of the study, its value and what it may be.
