@@ -152,7 +152,7 @@ impl Device {
     pub fn new(beginning: &Beginning, retained: Option<&Retained>) -> Device {
         let Beginning { settings, controller, barred } = beginning;
         let restarts = retained.map_or(0, |retained| retained.restarts.saturating_add(1));
-        let may = |state: &&Retained| state.deciding && restarts <= MOST_RESTARTS && (barred.is_none() || state.attached.is_some());
+        let may = |last: &&Retained| last.deciding && restarts <= MOST_RESTARTS && (barred.is_none() || last.attached.is_some());
         Device {
             settings: *settings,
             check: settings.check(),

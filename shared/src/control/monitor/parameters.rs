@@ -15,7 +15,7 @@ pub struct SensorLimits {
     /// Without a new reading for this long it is stale, s; above 0, up to 10.
     pub stale_time: f32,
     /// Bit-identical readings (of every axis, three times at least) for this long are stuck, s; 0 to 10, 0 to switch this off.
-    /// Longest time without a new value, s: [`stuck_time`].
+    /// See [`stuck_time`].
     pub stuck_time: f32,
     /// The same while the block moves, so that a sensor without noise may be constant at rest.
     pub stuck_time_moving: f32,

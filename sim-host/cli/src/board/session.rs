@@ -174,7 +174,7 @@ impl<L: Line> Session<L> {
         self.ticks.pop_front()
     }
 
-    /// Makes something go wrong; the device does not answer.
+    /// Injects a fault; the device does not answer.
     ///
     /// # Errors
     /// The errors of the line.

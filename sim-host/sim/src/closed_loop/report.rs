@@ -29,7 +29,7 @@ pub struct FaultEntry {
 pub struct Scatter {
     /// Specimens.
     pub specimens: usize,
-    /// Number of these runs that overturned.
+    /// Number of specimens that overturned.
     pub overturned: usize,
     /// 5th percentile of max |θ|/α of the others.
     pub peak_rotation_05: Option<f64>,

@@ -165,7 +165,7 @@ pub struct Records<'a> {
 }
 
 impl<'a> Records<'a> {
-    /// Motions of records.
+    /// Records of a study, read from their files.
     ///
     /// # Errors
     /// [`StudyError`] names the first file that cannot be read.
