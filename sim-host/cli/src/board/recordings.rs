@@ -11,10 +11,10 @@ use super::line::{DeviceError, Line, RefusalText};
 use super::session::Session;
 
 /// Parts of recordings, as their pages say.
-pub type Parts = BTreeMap<Key, Part>;
+pub type Parts = BTreeMap<PartNumbers, Part>;
 
 /// Number of an earthquake, and of a part of its recording.
-pub type Key = (u16, u8);
+pub type PartNumbers = (u16, u8);
 
 /// Pages of a part, without their records.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -107,7 +107,7 @@ pub fn list<L: Line>(session: &mut Session<L>) -> Result<Parts, DeviceError> {
 /// The errors of [`Session::ask`].
 pub fn read<L: Line>(
     session: &mut Session<L>,
-    (number, part): Key,
+    (number, part): PartNumbers,
     pages: &[(u32, Header)],
     mut progress: impl FnMut(usize),
 ) -> Result<Recording, DeviceError> {
