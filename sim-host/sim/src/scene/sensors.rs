@@ -11,7 +11,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_with::skip_serializing_none;
 
-use super::error::{KeyPath, SceneError};
+use super::error::SceneError;
 use super::schema::KeyOf;
 use crate::sensor::preset::{self, Preset};
 use crate::sensor::{Inertial, Suite};
@@ -110,7 +110,6 @@ fn part<P: Copy, T: Change<P>>(
 fn find<P: Copy>(presets: &'static [Preset<P>], name: &str, place: &str, key: &KeyOf<'_>) -> Result<P, SceneError> {
     preset::find(presets, name).ok_or_else(|| {
         let known: Vec<String> = preset::names(presets).map(|name| format!("\"{name}\"")).collect();
-        let KeyPath { origin, key } = key(place);
-        SceneError::Range { origin, key, value: format!("\"{name}\""), range: format!("one of {}", known.join(", ")) }
+        key(place).outside(format!("\"{name}\""), &format!("one of {}", known.join(", ")))
     })
 }
