@@ -33,7 +33,7 @@ const FORGET_TIME: u8 = 1;
 /// Of [`ASKED`]: the sensors are to test themselves.
 const TEST_SENSORS: u8 = 2;
 
-/// What is added to the next tick in a rehearsal, counts.
+/// Delay of the next tick by fault injection, counts.
 #[cfg(feature = "board-qemu")]
 pub static DAWDLE: core::sync::atomic::AtomicU32 = core::sync::atomic::AtomicU32::new(0);
 

@@ -1,4 +1,4 @@
-//! Why the program stopped, kept over the reset that follows; and stopping itself: the coils first.
+//! Why the program stopped, retained over the reset that follows; and stopping itself: the coils first.
 
 use core::arch::global_asm;
 use core::panic::PanicInfo;
@@ -12,7 +12,7 @@ use sprag_shared::device::Device;
 use sprag_shared::link::Started;
 use sprag_shared::link::reset_cause::Cause;
 
-/// Bytes of a file's name that are kept.
+/// Bytes of a file's name that are retained.
 pub const NAME: usize = 32;
 
 /// What is reported after the start.
@@ -71,7 +71,7 @@ pub fn take(chip: Cause) -> LastWords {
     LastWords { cause, place: record.place, length: record.length.min(NAME as u32) as u8, file: record.file }
 }
 
-/// Coils to the safe state, reason kept, reset.
+/// Coils to the safe state, reason retained, reset.
 pub fn leave(cause: Cause, place: u32, file: &[u8]) -> ! {
     cortex_m::interrupt::disable();
     Selected::force_coils(safe_state());

@@ -69,7 +69,7 @@ mod app {
         let highest = store.note_firmware(identity::VERSION);
         let survived = words.cause.keeps_memory();
         let kept = if survived { memory::load() } else { None };
-        // Only a rehearsal continues with the host it had.
+        // Only an image for fault injection continues with the host it had.
         let kept = kept.map(|kept| if cfg!(feature = "board-qemu") { kept } else { kept.alone() });
         let device = start(context.local.device, settings.as_ref(), kept.as_ref());
         if let Some(slots) = memory::load_log(survived) {

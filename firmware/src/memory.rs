@@ -50,26 +50,26 @@ fn copies() -> [[u32; RETAINED_WORDS]; 2] {
     KEPT.each_ref().map(|copy| unsafe { copy.read() })
 }
 
-/// What was kept over the reset, if it has survived.
+/// State retained over the reset, if it has survived.
 pub fn load() -> Option<Retained> {
     let copies = copies();
     Retained::of(copies.get(latest(&copies)?.0)?)
 }
 
-/// Keeps what shall be there after a reset.
+/// Keeper of the state that is retained over a reset.
 pub struct Keeper {
     last: Option<Retained>,
     turn: u8,
 }
 
 impl Keeper {
-    /// That leaves the latest of what was kept before for as long as it has written nothing whole.
+    /// A keeper that leaves the latest copy as it is until it has written a whole one.
     pub fn new() -> Keeper {
         // Which copy a turn is written to follows from its number.
         Keeper { last: None, turn: latest(&copies()).map_or(0, |(_, turn)| turn) }
     }
 
-    /// Keeps `kept`, unless it is kept already.
+    /// Stores `kept`, unless it is stored already.
     pub fn save(&mut self, kept: &Retained) {
         if self.last.as_ref() == Some(kept) {
             return;
@@ -95,19 +95,19 @@ pub fn load_log(survived: bool) -> Option<Slots> {
     None
 }
 
-/// Keeps what is new in the event log.
+/// Keeper of what is new in the event log.
 pub struct LogKeeper {
-    /// Entries that are kept, counted from the first that there ever was.
+    /// Entries that are stored, counted from the first that there ever was.
     kept: u32,
 }
 
 impl LogKeeper {
-    /// That has kept nothing but what came before the last start.
+    /// A keeper that has stored nothing since the last start.
     pub const fn new() -> LogKeeper {
         LogKeeper { kept: 0 }
     }
 
-    /// Keeps the entries that have come since.
+    /// Stores the entries that have come since.
     pub fn save(&mut self, device: &Device) {
         if device.log_count() == self.kept {
             return;
@@ -122,7 +122,7 @@ impl LogKeeper {
     }
 }
 
-/// Forgets what was kept.
+/// Clears the retained state.
 #[cfg(feature = "board-qemu")]
 pub fn forget() {
     load_log(false);

@@ -10,7 +10,7 @@ use sprag_sim::interrupt::Interrupt;
 /// Time between two looks for Ctrl-C.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Whether the work has ended, told to who waits for it.
+/// Whether the work has ended, as reported to the thread that waits for it.
 #[derive(Default)]
 struct Ended(Mutex<bool>, Condvar);
 

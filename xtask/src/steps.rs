@@ -13,7 +13,7 @@ impl Steps {
     /// Announces a step, does it and keeps its time.
     ///
     /// # Errors
-    /// Those of the step.
+    /// The errors of the step.
     pub fn step<T>(&mut self, name: &'static str, work: impl FnOnce() -> Result<T, Stop>) -> Result<T, Stop> {
         println!("\n== {name}");
         let start = Instant::now();

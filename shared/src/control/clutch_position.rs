@@ -1,6 +1,6 @@
 //! Where the clutches are, by the currents through their coils.
 //!
-//! A board without limit switches tells that the current has passed a threshold. The armature has closed some time after that, and opens some
+//! A board without limit switches reports that the current has passed a threshold. The armature has closed some time after that, and opens some
 //! time after the current has died; with a limit switch both lags are 0. The time from the beginning of a pulse to the dip that a closing
 //! armature makes in its current grows with wear, cold and a low supply: it is averaged, and what it differs from the expected one by is added
 //! to the horizon over which the motion is predicted.
@@ -24,7 +24,7 @@ pub struct ClutchLag {
     pub closing_time: f32,
 }
 
-/// What is known of the clutches.
+/// State of the clutches' positions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ClutchPositions {
     engaged: [bool; 2],
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn a_closing_time_that_has_moved_is_told_once_and_added() {
+    fn a_closing_time_that_has_moved_is_reported_once_and_added() {
         let lag = ClutchLag { closing: 0, opening: 0, closing_time: 0.02 };
         let mut state = ClutchPositions::default();
         assert_eq!(lag.follow(&mut state, [Some(0.02), None]), None);
@@ -124,8 +124,8 @@ mod tests {
         // A single one says little.
         assert_eq!(lag.follow(&mut state, [None, Some(0.03)]), None);
         assert!((state.late(&lag) - 0.0025).abs() < 1e-6);
-        let told: std::vec::Vec<_> = (0..20).filter_map(|_| lag.follow(&mut state, [None, Some(0.03)])).collect();
-        assert_eq!(told, [Wheel::Second]);
+        let reported: std::vec::Vec<_> = (0..20).filter_map(|_| lag.follow(&mut state, [None, Some(0.03)])).collect();
+        assert_eq!(reported, [Wheel::Second]);
         assert!((state.late(&lag) - 0.01).abs() < 1e-4);
         let mut unknown = ClutchPositions::default();
         assert_eq!(ClutchLag::default().follow(&mut unknown, [Some(1.0); 2]), None);

@@ -61,20 +61,20 @@ pub struct Controller<L = ClutchLaw> {
 /// From a tick to the moment at which its command has moved a clutch, s; 0 to 10.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Horizons {
-    /// That shall be engaged.
+    /// Horizon of a flywheel to be engaged.
     pub engagement: f32,
-    /// That shall be released.
+    /// Horizon of a flywheel to be released.
     pub release: f32,
 }
 
 impl Horizons {
-    /// Where both take `time` (s).
+    /// Horizons of engagement and release that both take `time` (s).
     pub const fn of(time: f32) -> Horizons {
         Horizons { engagement: time, release: time }
     }
 }
 
-/// Its state.
+/// State of the controller.
 #[derive(Clone, Debug)]
 #[repr(C)]
 pub struct ControllerState {
@@ -101,7 +101,7 @@ impl ControllerState {
         self.supervisor.log.push(entry);
     }
 
-    /// Goes on with the log of before a reset, of which there have been `count` entries ever; its own has none yet.
+    /// Continues the log of before a reset, of which there have been `count` entries ever; its own has none yet.
     pub fn continue_log(&mut self, entries: impl Iterator<Item = Entry>, count: u32) {
         self.supervisor.log.go_on(entries, count);
     }
@@ -117,12 +117,12 @@ impl ControllerState {
     }
 }
 
-/// What a tick is told beside the readings.
+/// Inputs of a tick besides the readings.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Circumstances {
     /// How late the tick came, s; 0 in time.
     pub lateness: f32,
-    /// What an operator asks for.
+    /// Requests of an operator.
     pub requests: Requests,
     /// What the coils' currents say, …
     pub coils: CoilReports,
@@ -130,14 +130,14 @@ pub struct Circumstances {
     pub closed: [Option<f32>; 2],
 }
 
-/// What a tick comes to.
+/// Decision of a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Decision {
     /// Whether each clutch shall be engaged.
     pub command: [bool; 2],
     /// The motion now.
     pub estimate: Estimate,
-    /// What the law wanted.
+    /// Command that the law requests.
     pub wish: Wish,
     /// State of the controller.
     pub phase: Phase,
@@ -193,7 +193,7 @@ impl<L: Law> Controller<L> {
         supervisor.restart();
     }
 
-    /// Goes on after a reset in mid-motion, with the `calibration` of before, flywheels that had these `spins`, and the first `sample` after
+    /// Resumes after a reset in mid-motion, with the `calibration` of before, flywheels that had these `spins`, and the first `sample` after
     /// it. Whether the block stands or rocks, and where, is what encoder and gyroscope say.
     pub fn resume(&self, state: &mut ControllerState, calibration: &Calibration, spins: [f32; 2], sample: &Sample) {
         let counts = sample.encoder.counts.wrapping_sub(calibration.encoder_zero);

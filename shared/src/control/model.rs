@@ -28,7 +28,7 @@ pub struct ModelParameters {
     pub uplift: f32,
     /// k = σ/λ of one flywheel; 0 or more.
     pub coupling: f32,
-    /// A flywheel that is engaged exchanges momentum with the block and goes on spinning when released.
+    /// A flywheel that is engaged exchanges momentum with the block and keeps spinning when released.
     pub wheels_spin: bool,
     /// Rate at which the speed of a released flywheel decays, 1/s; 0 or more, …
     pub decay: f32,

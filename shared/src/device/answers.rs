@@ -13,7 +13,7 @@ use crate::settings::store::Store;
 use crate::settings::{COUNT, LAYOUT, SettingError};
 
 impl Device {
-    /// Answers a request, and changes settings where it asks to: for those that have no task that must go on meanwhile.
+    /// Answers a request, and changes settings where it asks to: for those that have no task that must run meanwhile.
     pub fn answer_storing<F: NorFlash>(&mut self, request: &Request, store: &mut Store<F>, around: &Surroundings) -> Answer {
         match self.answer(request, around) {
             Answer::Change(change) => {

@@ -11,7 +11,7 @@ pub const MOST_STARTS: u8 = 10;
 /// Settings, the controller that they describe, and why it may not run without a host.
 #[derive(Clone, Debug)]
 pub struct Beginning {
-    /// Those in flash, or the defaults.
+    /// Settings in flash, or the defaults.
     pub settings: Settings,
     /// Theirs.
     pub controller: Controller,
@@ -20,14 +20,14 @@ pub struct Beginning {
 }
 
 impl Beginning {
-    /// With the settings `found` in flash, after the resets that `kept` counts, on a board that ticks at most once in `least_period`, s.
+    /// With the settings `found` in flash, after the resets that `retained` counts, on a board that ticks at most once in `least_period`, s.
     ///
     /// Settings that the board cannot run count as none. Those that are given up leave their safe state behind. `None` if the defaults are
     /// no controller, which is not so.
-    pub fn of(found: Option<&Settings>, kept: Option<&Retained>, least_period: f32) -> Option<Beginning> {
+    pub fn of(found: Option<&Settings>, retained: Option<&Retained>, least_period: f32) -> Option<Beginning> {
         let able = found.filter(|settings| settings.period() >= least_period);
         let own = able.and_then(|settings| Some((settings, Controller::of(settings).ok()?)));
-        let given_up = kept.is_some_and(|kept| kept.restarts >= MOST_STARTS);
+        let given_up = retained.is_some_and(|retained| retained.restarts >= MOST_STARTS);
         let mut defaults = Settings::default();
         let barred = match own {
             Some((settings, controller)) if !given_up => {

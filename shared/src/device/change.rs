@@ -1,6 +1,6 @@
 //! Other settings, in three steps: what is asked for, what it comes to, and its taking effect.
 //!
-//! Checks, checksums and flash take milliseconds, so the second step is done while the control task goes on; the other two copy words.
+//! Checks, checksums and flash take milliseconds, so the second step is done while the control task runs; the other two copy words.
 
 use super::answers::refusal;
 use super::{Answer, Device};
@@ -77,7 +77,7 @@ impl Device {
         }
     }
 
-    /// Goes on after [`Answer::Change`].
+    /// Continues after [`Answer::Change`].
     pub fn install(&mut self, change: Change, prepared: &Result<Prepared, Refusal>) -> Answer {
         let prepared = match prepared {
             Ok(prepared) => prepared,
@@ -121,7 +121,7 @@ impl Device {
         } else if barred.is_some() && self.attached.is_none() {
             self.restart();
         } else {
-            // Asked twice, or nothing new: the controller goes on.
+            // Asked twice, or nothing new: the controller continues.
             return Answer::Reply(done);
         }
         Answer::Restarted(done)

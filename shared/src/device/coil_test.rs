@@ -21,10 +21,10 @@ const CLOSED: f32 = 0.8;
 /// Pull-in times after which the current has fallen to the holding one.
 const SETTLING: u32 = 2;
 
-/// Of which coil.
+/// Coil of a test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoilDesign {
-    /// How it is driven.
+    /// Drive of the coil.
     pub peak_hold: PeakHold,
     /// Current from which its clutch counts as engaged, A.
     pub threshold: f32,

@@ -14,7 +14,7 @@ pub const VOLTS_PER_COUNT: f32 = 3.3 / 4096.0 * DIVIDER;
 /// Looks in a row that must find something wrong.
 const WRONG_LOOKS: u16 = 4;
 
-/// Looks in a row that must find the supply right before it is told of anew: a minute, a look every fourth tick at 2 kHz.
+/// Looks in a row that must find the supply right before it is reported anew: a minute, a look every fourth tick at 2 kHz.
 const RIGHT_SUPPLY: u16 = 30_000;
 /// The same of the temperature: a minute, a look every 256th tick.
 const RIGHT_TEMPERATURE: u16 = 470;
@@ -59,24 +59,24 @@ impl Conditions {
 struct Alarm {
     /// Looks in a row that have found it wrong.
     wrong: u16,
-    /// Looks that must find it right before it is told anew.
-    until_told: u16,
+    /// Looks that must find it right before it is reported anew.
+    until_reported: u16,
 }
 
 impl Alarm {
-    /// Whether this is to be told now; `anew` is for how many looks it must be right before the next time.
+    /// Whether this is to be reported now; `anew` is for how many looks it must be right before the next time.
     #[inline]
     fn step(&mut self, wrong: bool, anew: u16) -> bool {
         if !wrong {
             self.wrong = 0;
-            self.until_told = self.until_told.saturating_sub(1);
+            self.until_reported = self.until_reported.saturating_sub(1);
             return false;
         }
         self.wrong = self.wrong.saturating_add(1);
         if self.wrong < WRONG_LOOKS {
             return false;
         }
-        core::mem::replace(&mut self.until_told, anew) == 0
+        core::mem::replace(&mut self.until_reported, anew) == 0
     }
 }
 
@@ -97,20 +97,20 @@ mod tests {
     }
 
     #[test]
-    fn a_sag_of_several_looks_is_told_once_a_minute() {
+    fn a_sag_of_several_looks_is_reported_once_a_minute() {
         let mut conditions = conditions();
-        let mut told = 0;
+        let mut reported = 0;
         for minute in 0..3 {
             for look in 0..30_100 {
                 let sags = look % 1000 < 10 && (minute != 1 || look < 100);
-                told += u32::from(conditions.see_supply(if sags { 21.4 } else { 21.8 }));
+                reported += u32::from(conditions.see_supply(if sags { 21.4 } else { 21.8 }));
             }
         }
-        assert_eq!(told, 2, "at first, and after a minute that was right");
+        assert_eq!(reported, 2, "at first, and after a minute that was right");
     }
 
     #[test]
-    fn a_spike_or_what_is_not_watched_is_not_told() {
+    fn a_spike_or_what_is_not_watched_is_not_reported() {
         let mut spikes = conditions();
         assert!((0..1000).all(|look| !spikes.see_supply(if look % 4 == 3 { 24.0 } else { 0.0 })));
         let mut unwatched = Conditions { supply_least: 0.0, ..conditions() };
@@ -118,11 +118,11 @@ mod tests {
     }
 
     #[test]
-    fn cold_and_heat_are_told_and_what_lies_between_is_not() {
+    fn cold_and_heat_are_reported_and_what_lies_between_is_not() {
         for (celsius, expected) in [(-20.5, 1), (-19.5, 0), (25.0, 0), (69.5, 0), (70.5, 1)] {
             let mut conditions = conditions();
-            let told = (0..100).filter(|_| conditions.see_temperature(celsius)).count();
-            assert_eq!(told, expected, "{celsius} °C");
+            let reported = (0..100).filter(|_| conditions.see_temperature(celsius)).count();
+            assert_eq!(reported, expected, "{celsius} °C");
         }
     }
 }

@@ -8,7 +8,7 @@ pub struct Extended {
 }
 
 impl Extended {
-    /// Of a counter that has gone on since `counts` was read, over a reset, and has started at 0 before it.
+    /// Of a counter that has continued since `counts` was read, over a reset, and has started at 0 before it.
     pub fn going_on(counts: i32) -> Extended {
         Extended { last: counts as u16, counts }
     }
@@ -27,7 +27,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_counter_goes_on_past_its_ends() {
+    fn a_counter_continues_past_its_ends() {
         let mut extended = Extended::default();
         let counters = [0, 5, 65_535, 65_000, 40_000, 65_000, 20_000, 50_000, 10_000];
         let counts = counters.map(|counter| extended.read(counter));

@@ -31,12 +31,12 @@ pub struct Component {
 }
 
 impl Component {
-    /// Of a gyroscope's counts, rad/s.
+    /// Component of a gyroscope's counts, rad/s.
     pub fn of_rate(axis: Axis) -> Component {
         Component::new(axis, RATE_PER_COUNT)
     }
 
-    /// Of an accelerometer's counts, m/s².
+    /// Component of an accelerometer's counts, m/s².
     pub fn of_acceleration(axis: Axis) -> Component {
         Component::new(axis, ACCELERATION_PER_COUNT)
     }

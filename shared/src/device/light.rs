@@ -11,7 +11,7 @@
 
 use crate::control::supervisor::Phase;
 
-/// Time is counted in slots of 50 ms, so many a second: whole numbers, because seconds in f32 no longer tell two slots apart after ten days.
+/// Time is counted in slots of 50 ms, so many a second: whole numbers, because seconds in f32 no longer distinguish two slots after ten days.
 const SLOTS_PER_SECOND: u32 = 20;
 
 /// Slots of a short flash.
@@ -30,10 +30,10 @@ const LONG_PAUSE: u32 = 50;
 /// For how long, s, the light flickers after a start without the crystal.
 const FLICKER: u32 = 3;
 
-/// What there is to show.
+/// Condition that the light shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shown {
-    /// Of the controller.
+    /// Phase of the controller.
     pub phase: Phase,
     /// Code of its fault, if there is one.
     pub fault: Option<u16>,

@@ -7,7 +7,7 @@ use crate::link::TickSample;
 /// Samples that wait at most.
 const ROOM: usize = 4;
 
-/// Where they wait.
+/// Queue of samples.
 #[derive(Clone, Debug, Default)]
 pub struct Mailbox {
     waiting: Deque<TickSample, ROOM>,
@@ -49,7 +49,7 @@ impl Mailbox {
         self.waiting.is_empty()
     }
 
-    /// How many were not taken.
+    /// Number of samples that were not taken.
     pub fn refused(&self) -> u32 {
         self.refused
     }

@@ -1,4 +1,4 @@
-//! The device around the controller: what it is told over the link, what it keeps over a reset, what it shows.
+//! The device around the controller: what it receives over the link, what it retains over a reset, what it shows.
 //!
 //! Two tasks share it. The control task ticks it and never waits; the link asks it for answers in between.
 //!
@@ -49,7 +49,7 @@ const GOOD_TIME: f32 = 1.0;
 /// After so long without a sample an attached device takes its host to be gone, s.
 pub const HOST_SILENCE: f32 = 5.0;
 
-/// What a device is told about what surrounds it, for [`State`](crate::link::State) and [`Identity`](crate::link::Identity).
+/// What surrounds a device, for [`State`](crate::link::State) and [`Identity`](crate::link::Identity).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Surroundings {
     /// Version of the firmware.
@@ -62,7 +62,7 @@ pub struct Surroundings {
     pub counter_hz: u32,
     /// Shortest period of the controller that the board has time for, s.
     pub least_period: f32,
-    /// The image is for rehearsals.
+    /// Whether the image takes requests for fault injection.
     pub rehearsal: bool,
     /// The commissioning jumper is open: it is not to be changed, tested or attached.
     pub locked: bool,
@@ -72,7 +72,7 @@ pub struct Surroundings {
     pub sealed: bool,
     /// What the flash is protected against.
     pub protection: Protection,
-    /// Why it started.
+    /// Cause of the start.
     pub cause: Cause,
     /// Frames that were not whole or not known.
     pub bad_frames: u32,
@@ -82,19 +82,19 @@ pub struct Surroundings {
     pub stack: u32,
 }
 
-/// What a request comes to.
+/// Answer to a request.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Answer {
     /// To be sent.
     Reply(Reply),
     /// A sample has come: where samples say when a tick is, now is one.
     Sample,
-    /// Other settings: to be [prepared](Change::prepare) from those of [`Device::wanted`] while the control task goes on, and then given to
+    /// Other settings: to be [prepared](Change::prepare) from those of [`Device::wanted`] while the control task runs, and then given to
     /// [`Device::install`].
     Change(Change),
     /// The flight recorder's to answer.
     Recorder,
-    /// To be made to happen.
+    /// A fault to be injected.
     Rehearse(Mishap),
     /// The flash is to be protected.
     Protect,
@@ -146,13 +146,13 @@ pub struct Device {
 }
 
 impl Device {
-    /// As `beginning` says, going on with what has been `kept` over a reset, if anything.
+    /// A device that starts as `beginning` says, and resumes from the state `retained` over a reset, if any.
     // Not inlined, and not a `Result`: the value is large, and must be made where it stays.
     #[inline(never)]
-    pub fn new(beginning: &Beginning, kept: Option<&Retained>) -> Device {
+    pub fn new(beginning: &Beginning, retained: Option<&Retained>) -> Device {
         let Beginning { settings, controller, barred } = beginning;
-        let restarts = kept.map_or(0, |kept| kept.restarts.saturating_add(1));
-        let may = |kept: &&Retained| kept.deciding && restarts <= MOST_RESTARTS && (barred.is_none() || kept.attached.is_some());
+        let restarts = retained.map_or(0, |retained| retained.restarts.saturating_add(1));
+        let may = |last: &&Retained| last.deciding && restarts <= MOST_RESTARTS && (barred.is_none() || last.attached.is_some());
         Device {
             settings: *settings,
             check: settings.check(),
@@ -161,7 +161,7 @@ impl Device {
             doubtful: false,
             lasting: true,
             barred: *barred,
-            resuming: kept.filter(may).copied(),
+            resuming: retained.filter(may).copied(),
             waited: 0,
             decision: Decision::before(controller.supervisor.safe()),
             controller: *controller,
@@ -173,7 +173,7 @@ impl Device {
             ticks: 0,
             good: 0,
             restarts,
-            attached: kept.and_then(|kept| kept.attached),
+            attached: retained.and_then(|retained| retained.attached),
             silent: 0,
             stream: 0,
             until_report: 0,
@@ -229,7 +229,7 @@ impl Device {
         self.attached.is_some() && self.silent as f32 * self.controller.instruments.period > HOST_SILENCE
     }
 
-    /// Whether it goes on where it was before a reset.
+    /// Whether it resumes where it was before a reset.
     pub fn resumes(&self) -> bool {
         self.resuming.is_some()
     }
@@ -265,7 +265,7 @@ impl Device {
         Shown { phase, fault: fault.map(Fault::code), attached: self.attached.is_some() }
     }
 
-    /// What the last tick came to.
+    /// Decision of the last tick.
     pub fn decision(&self) -> &Decision {
         &self.decision
     }
@@ -295,7 +295,7 @@ impl Device {
             return;
         }
         let mut circumstances = Circumstances { lateness, ..Circumstances::default() };
-        let told = match self.attached {
+        let given = match self.attached {
             None => {
                 read(&mut self.sample);
                 circumstances.coils = self.coils.map(|coil| coil.report);
@@ -309,9 +309,9 @@ impl Device {
             Some(Pace::Sample) => self.mailbox.oldest(),
         };
         self.silent = self.silent.saturating_add(1);
-        if let Some(told) = &told {
-            (self.sample, self.number, self.heard, self.silent) = (told.sample, told.number, true, 0);
-            circumstances = told.circumstances();
+        if let Some(given) = &given {
+            (self.sample, self.number, self.heard, self.silent) = (given.sample, given.number, true, 0);
+            circumstances = given.circumstances();
             if lateness > circumstances.lateness {
                 circumstances.lateness = lateness;
             }
@@ -327,7 +327,7 @@ impl Device {
         self.clear = false;
         self.ticks = self.ticks.wrapping_add(1);
         if self.resuming.is_some() {
-            let whole = if self.attached.is_none() { self.controller.supervisor.whole(&self.sample) } else { told.is_some() };
+            let whole = if self.attached.is_none() { self.controller.supervisor.whole(&self.sample) } else { given.is_some() };
             if !self.go_on(whole) {
                 return;
             }
@@ -352,12 +352,12 @@ impl Device {
         self.decision = Decision { phase: Phase::Fault, fault: Some(fault), ..Decision::before(self.safe_command()) };
     }
 
-    /// Goes on where it was before a reset, once there is a `whole` sample; `false` while there is none. Only then is a sensor that gives
+    /// Resumes where it was before a reset, once there is a `whole` sample; `false` while there is none. Only then is a sensor that gives
     /// nothing more stale.
     fn go_on(&mut self, whole: bool) -> bool {
-        let Some(kept) = &self.resuming else { return true };
+        let Some(retained) = &self.resuming else { return true };
         if whole {
-            self.controller.resume(&mut self.state, &kept.calibration, kept.spins, &self.sample);
+            self.controller.resume(&mut self.state, &retained.calibration, retained.spins, &self.sample);
         } else if self.waited < ticks(RESUME_PATIENCE, self.controller.instruments.period) {
             self.waited += 1;
             return false;
@@ -383,15 +383,15 @@ impl Device {
         due.then_some(TickReport { tick: self.ticks, sample: self.number, decision: self.decision, cost, lateness })
     }
 
-    /// What shall survive a reset.
+    /// State to be retained over a reset.
     pub fn retained(&self) -> Retained {
         match &self.resuming {
-            Some(kept) => Retained { restarts: self.restarts, ..*kept },
+            Some(retained) => Retained { restarts: self.restarts, ..*retained },
             None => Retained {
                 calibration: *self.state.calibration(),
                 spins: self.state.spins(),
                 counts: self.sample.encoder.counts,
-                // By other settings it must not go on.
+                // By other settings it must not resume.
                 deciding: self.lasting && matches!(self.decision.phase, Phase::Armed | Phase::Rocking),
                 attached: self.attached,
                 restarts: self.restarts,

@@ -1,17 +1,17 @@
-//! What a device keeps over a reset, so that it goes on where it was in the middle of an earthquake: two copies, written in turn, because
+//! State that a device retains over a reset, so that it resumes where it was in the middle of an earthquake: two copies, written in turn, because
 //! a reset may come in the middle of a word.
 
 use crate::control::sensing::calibration::Calibration;
 use crate::link::Pace;
 use crate::math::fnv::{FOLD_BASIS, fold};
 
-/// Words that it takes.
+/// Words of the retained state.
 pub const RETAINED_WORDS: usize = 12;
 
-/// Resets in a row from which a device goes on; one more, and it starts from the beginning, in its safe state.
+/// Resets in a row from which a device resumes; one more, and it starts from the beginning, in its safe state.
 pub const MOST_RESTARTS: u8 = 5;
 
-/// It, in memory that a reset does not clear.
+/// State retained in memory that a reset does not clear.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Retained {
     /// Biases in use.
@@ -20,7 +20,7 @@ pub struct Retained {
     pub spins: [f32; 2],
     /// Last count of the encoder, which a reset sets to 0.
     pub counts: i32,
-    /// The controller was Armed or Rocking: it may go on.
+    /// The controller was Armed or Rocking: it may resume.
     pub deciding: bool,
     /// Samples come from the link.
     pub attached: Option<Pace>,
@@ -29,7 +29,7 @@ pub struct Retained {
 }
 
 impl Retained {
-    /// What a board that has sensors of its own goes on with: a host that said where the block was may be gone, and the block was another.
+    /// What a board that has sensors of its own resumes with: a host that said where the block was may be gone, and the block was another.
     pub fn alone(self) -> Retained {
         let deciding = self.deciding && self.attached.is_none();
         Retained { deciding, attached: None, ..self }
@@ -151,8 +151,8 @@ mod tests {
     fn it_survives_as_it_was() {
         for attached in [None, Some(Pace::Timer), Some(Pace::Sample)] {
             for deciding in [false, true] {
-                let kept = Retained { attached, deciding, ..retained() };
-                assert_eq!(Retained::of(&kept.words(200)), Some(kept));
+                let expected = Retained { attached, deciding, ..retained() };
+                assert_eq!(Retained::of(&expected.words(200)), Some(expected));
             }
         }
     }

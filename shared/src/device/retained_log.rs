@@ -56,7 +56,7 @@ pub fn survivors(slots: &Slots) -> (impl Iterator<Item = Entry>, u32) {
 }
 
 impl Device {
-    /// Goes on with the event log that has survived a reset for this cause, if one has, and notes the new start in it.
+    /// Continues the event log that has survived a reset for this cause, if one has, and notes the new start in it.
     pub fn remember(&mut self, slots: &Slots, cause: Cause) {
         let (entries, count) = survivors(slots);
         if count > 0 {

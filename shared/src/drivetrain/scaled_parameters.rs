@@ -38,7 +38,7 @@ pub struct ScaledParameters<S> {
     pub rise_time: S,
     /// Stiffness of the clutch, 1/s².
     pub stiffness: S,
-    /// Its damping, 1/s.
+    /// Damping, 1/s.
     pub damping: S,
     /// Half the play over R.
     pub half_play: S,

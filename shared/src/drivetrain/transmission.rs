@@ -207,7 +207,7 @@ pub struct Account<S> {
     pub force: [S; 2],
     /// Friction and inertia of the rack itself, the same way.
     pub rack_force: S,
-    /// Which flywheels are coupled.
+    /// Whether each flywheel is coupled.
     pub engaged: [bool; 2],
     /// Speed of each flywheel as that of a rack moving with it, over R; 1/s.
     pub spin: [S; 2],

@@ -18,7 +18,7 @@ pub enum AnyBody<S> {
 pub enum AnyConfiguration<V> {
     /// δ.
     Slender(V),
-    /// Of the exact block.
+    /// Configuration of the exact block.
     Full(FullConfiguration<V>),
 }
 
@@ -96,36 +96,36 @@ mod tests {
         })
     }
 
-    fn same_bits<B: Body<f32>>(known: &B, told: &AnyBody<f32>) {
+    fn same_bits<B: Body<f32>>(known: &B, any: &AnyBody<f32>) {
         for (side, rotation, velocity, ground) in configurations() {
-            let (own, other) = (known.configuration(side, rotation), told.configuration(side, rotation));
+            let (own, other) = (known.configuration(side, rotation), any.configuration(side, rotation));
             let driving_moment = known.driving_moment(&own, ground);
             let pairs = [
-                (driving_moment, told.driving_moment(&other, ground)),
-                (known.to_terminal(&own, velocity), told.to_terminal(&other, velocity)),
+                (driving_moment, any.driving_moment(&other, ground)),
+                (known.to_terminal(&own, velocity), any.to_terminal(&other, velocity)),
                 (
                     known.terminal_acceleration(&own, velocity, driving_moment),
-                    told.terminal_acceleration(&other, velocity, driving_moment),
+                    any.terminal_acceleration(&other, velocity, driving_moment),
                 ),
                 (
                     known.solve_acceleration(&own, driving_moment, 0.375, velocity),
-                    told.solve_acceleration(&other, driving_moment, 0.375, velocity),
+                    any.solve_acceleration(&other, driving_moment, 0.375, velocity),
                 ),
-                (known.switching(&own, velocity, driving_moment), told.switching(&other, velocity, driving_moment)),
-                (known.paper_power(side, &own, velocity, 0.375), told.paper_power(side, &other, velocity, 0.375)),
-                (known.arm(&own), told.arm(&other)),
-                (known.travel(side, &own), told.travel(side, &other)),
-                (known.factors(&own).0, told.factors(&other).0),
-                (known.factors(&own).1, told.factors(&other).1),
+                (known.switching(&own, velocity, driving_moment), any.switching(&other, velocity, driving_moment)),
+                (known.paper_power(side, &own, velocity, 0.375), any.paper_power(side, &other, velocity, 0.375)),
+                (known.arm(&own), any.arm(&other)),
+                (known.travel(side, &own), any.travel(side, &other)),
+                (known.factors(&own).0, any.factors(&other).0),
+                (known.factors(&own).1, any.factors(&other).1),
             ];
-            for (at, (known, told)) in pairs.into_iter().enumerate() {
-                assert_eq!(known.to_bits(), told.to_bits(), "{at} at {side} {rotation} {velocity}");
+            for (at, (known, any)) in pairs.into_iter().enumerate() {
+                assert_eq!(known.to_bits(), any.to_bits(), "{at} at {side} {rotation} {velocity}");
             }
         }
     }
 
     #[test]
-    fn told_or_known_the_bits_are_the_same() {
+    fn any_or_known_the_bits_are_the_same() {
         let slender = SlenderBody { frequency_squared: 3.678_f32, slenderness: 0.1745, lever: 0.9, vertical: true };
         same_bits(&slender, &AnyBody::Slender(slender));
         let block = FullBlock { frequency_squared: 3.678, slenderness: 0.1745 };

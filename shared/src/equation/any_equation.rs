@@ -27,7 +27,7 @@ pub trait WithEquation<S: Real> {
     /// The result.
     type Output;
 
-    /// Goes on with `equation`.
+    /// Continues with `equation`.
     fn with<E: Switched<S>>(self, equation: &E) -> Self::Output;
 }
 
@@ -43,7 +43,7 @@ macro_rules! known {
 }
 
 impl<S: Real> AnyEquation<S> {
-    /// Goes on with the equation in its own type and kinematics: one choice for all that `next` evaluates.
+    /// Continues with the equation in its own type and kinematics: one choice for all that `next` evaluates.
     #[inline(always)]
     pub fn known<W: WithEquation<S>>(&self, next: W) -> W::Output {
         match self {

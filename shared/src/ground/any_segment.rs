@@ -7,7 +7,7 @@ use crate::math::scalar::Real;
 /// fits the flash.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AnySegment<S> {
-    /// None.
+    /// No ground acceleration.
     Quiet,
     /// A straight line.
     Linear(Linear<S>),

@@ -16,12 +16,12 @@ pub struct Wave<S> {
     pub cosine: S,
 }
 
-/// How ü_g/g goes on from an instant: by the time t after it, it has changed by
+/// Continuation of ü_g/g from an instant: by the time t after it, it has changed by
 ///
 /// slope t + Σ \[ sine (cos ωt − 1) + cosine sin ωt \].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Elementary<S> {
-    /// Of the straight line, g/s.
+    /// Slope of the straight line, g/s.
     pub slope: S,
     waves: [Wave<S>; MOST_WAVES],
     count: usize,
@@ -72,7 +72,7 @@ mod tests {
         })
     }
 
-    fn goes_on(piece: &impl GroundSegment<f64>) {
+    fn continues(piece: &impl GroundSegment<f64>) {
         for start in [0.0, 0.3, 1.7] {
             let motion = piece.elementary(start).unwrap();
             for t in [0.0, 1e-3, 0.4, 2.0] {
@@ -83,15 +83,15 @@ mod tests {
     }
 
     #[test]
-    fn pieces_go_on_as_they_say() {
+    fn pieces_continue_as_they_say() {
         let wavelet = MavroeidisPapageorgiou { velocity_amplitude: 0.9, frequency: 0.5, oscillations: 1.8, phase: 0.6 };
         let line = Linear { start: 0.2, slope: -0.3 };
-        goes_on(&Harmonics::QUIET);
-        goes_on(&line);
-        goes_on(&Harmonics::sine(1.5, 4.0));
-        goes_on(&Harmonics::cosine(0.7, 7.0));
-        goes_on(&wavelet.harmonics());
-        goes_on(&Sum(line, Sum(wavelet.harmonics(), Harmonics::sine(0.3, 11.0))));
+        continues(&Harmonics::QUIET);
+        continues(&line);
+        continues(&Harmonics::sine(1.5, 4.0));
+        continues(&Harmonics::cosine(0.7, 7.0));
+        continues(&wavelet.harmonics());
+        continues(&Sum(line, Sum(wavelet.harmonics(), Harmonics::sine(0.3, 11.0))));
     }
 
     #[test]

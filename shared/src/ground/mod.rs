@@ -38,7 +38,7 @@ pub trait GroundSegment<S: Real> {
         false
     }
 
-    /// How ü_g/g goes on from τ, if it is made of a line and a few sines; the same answer, yes or no, for every τ.
+    /// Continuation of ü_g/g from τ, if it is made of a line and a few sines; the same answer, yes or no, for every τ.
     fn elementary(&self, _time: S) -> Option<Elementary<S>> {
         None
     }

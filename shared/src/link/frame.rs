@@ -25,7 +25,7 @@ pub enum FrameError {
     TooLong,
     /// No COBS, or the checksum is another.
     Damaged,
-    /// Of another [`VERSION`].
+    /// Frame of another [`VERSION`].
     Version(u8),
     /// Whole, but no message that this version knows.
     Unknown,

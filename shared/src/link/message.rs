@@ -24,7 +24,7 @@ pub const RECORDED_PARTS: usize = 3;
 pub enum Request {
     /// Who it is: [`Reply::Identity`].
     Identify,
-    /// How it is: [`Reply::State`].
+    /// Ask for the state: [`Reply::State`].
     State,
     /// Settings from this one on: [`Reply::Words`].
     Read {
@@ -66,13 +66,13 @@ pub enum Request {
     /// Use the device's own sensors again, from a new start of the controller on, with the settings that are in flash. Never refused; nothing
     /// changes in a device that is not attached.
     Detach,
-    /// What the sensors say.
+    /// Readings of the sensors.
     Sample(TickSample),
-    /// Something bad, on purpose; refused by images that are not for rehearsals.
+    /// A fault to inject; refused by images that do not take such requests.
     Rehearse(Mishap),
     /// How the flight recorder is: [`Reply::Recorder`].
     Recorder,
-    /// What it holds: [`Reply::Recorded`].
+    /// Ask for the bytes of the flight recorder: [`Reply::Recorded`].
     Recorded {
         /// Where, bytes from its beginning; a multiple of 8.
         offset: u32,
@@ -104,7 +104,7 @@ pub struct Words {
     pub words: [u32; WORD_BLOCK],
 }
 
-/// One tick's sensors.
+/// Readings of one tick.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TickSample {
     /// Counts up; a number that is not newer than the last is dropped.
@@ -118,14 +118,14 @@ pub struct TickSample {
 }
 
 impl TickSample {
-    /// What the controller is told beside the sample.
+    /// Inputs of the controller besides the sample.
     pub fn circumstances(&self) -> Circumstances {
         let requests = crate::control::supervisor::Requests { clear: self.clear };
         Circumstances { lateness: self.lateness, requests, ..Circumstances::default() }
     }
 }
 
-/// What can be made to go wrong.
+/// Faults that can be injected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Mishap {
     /// The control task takes this much longer at the next tick, counts of the device's counter.
@@ -143,32 +143,32 @@ pub enum Mishap {
 /// From the device.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Reply {
-    /// It has just started; nobody asked.
+    /// Report of a start, unasked.
     Started(Started),
-    /// One tick; nobody asked.
+    /// Report of a tick, unasked.
     Tick(TickReport),
     /// Who it is.
     Identity(Identity),
-    /// How it is.
+    /// State of the device.
     State(State),
     /// Settings.
     Words(Words),
     /// Entries of the event log.
     Log(LogBlock),
-    /// It has been done.
+    /// Acknowledgement of a request that has been done.
     Done(Done),
-    /// It has not been done.
+    /// Refusal of a request.
     Refused(Refusal),
-    /// How the flight recorder is.
+    /// State of the flight recorder.
     Recorder(RecorderState),
-    /// What it holds.
+    /// Bytes of the flight recorder.
     Recorded(Recorded),
 }
 
-/// How a device started.
+/// Report of a start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Started {
-    /// Why.
+    /// Cause of the start.
     pub cause: Cause,
     /// It went on where it was, with the calibration of before.
     pub resumed: bool,
@@ -191,7 +191,7 @@ pub struct TickReport {
     pub tick: u32,
     /// Number of the last sample from the link.
     pub sample: u32,
-    /// What it came to.
+    /// Decision of the tick.
     pub decision: Decision,
     /// What the tick took, counts of the device's counter.
     pub cost: u32,
@@ -216,7 +216,7 @@ pub struct Identity {
     pub layout: u32,
     /// CRC-32 of the settings' words.
     pub check: u32,
-    /// The image is for rehearsals.
+    /// Whether the image takes requests for fault injection.
     pub rehearsal: bool,
     /// Highest version of a firmware that has run on it: above its own, it has gone back to an older one.
     pub highest: [u8; 3],
@@ -233,11 +233,11 @@ pub struct Identity {
 pub struct Protection {
     /// Being read out by a probe.
     pub reading: bool,
-    /// Its program being written.
+    /// Protection against writes to the program.
     pub writing: bool,
 }
 
-/// How a device is.
+/// State of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// The last tick's.
@@ -260,7 +260,7 @@ pub struct State {
     pub lost_reports: u32,
     /// Deepest stack since the start, bytes.
     pub stack: u32,
-    /// Why it started.
+    /// Cause of the last start.
     pub cause: Cause,
     /// A host says what its sensors read: it protects nothing.
     pub attached: Option<Pace>,
@@ -275,7 +275,7 @@ pub struct LogBlock {
     pub count: u8,
     /// Entries that the log has ever had.
     pub total: u32,
-    /// They themselves.
+    /// Entries of the block.
     pub entries: [LogEntry; LOG_BLOCK],
 }
 
@@ -292,7 +292,7 @@ pub struct LogEntry {
     pub kind: [u8; 2],
 }
 
-/// What the flight recorder is doing.
+/// Activity of the flight recorder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum RecorderActivity {
     /// After a start it looks for its last page.
@@ -305,7 +305,7 @@ pub enum RecorderActivity {
     Erasing,
 }
 
-/// How the flight recorder is.
+/// State of the flight recorder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RecorderState {
     /// Pages that there are.
@@ -314,7 +314,7 @@ pub struct RecorderState {
     pub next: u16,
     /// The oldest page makes room for the newest; otherwise what is there is kept.
     pub goes_round: bool,
-    /// What it is doing.
+    /// Activity of the flight recorder.
     pub activity: RecorderActivity,
     /// Ticks since the start that found no room.
     pub lost: u32,
@@ -333,7 +333,7 @@ pub struct Recorded {
     pub bytes: [[u8; 32]; RECORDED_PARTS],
 }
 
-/// What has been done.
+/// Kinds of acknowledgement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Done {
     /// The request.
@@ -342,7 +342,7 @@ pub enum Done {
     Stored,
 }
 
-/// Why something has not been done.
+/// Reasons why a request is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Refusal {
     /// Only at rest: not in this state.

@@ -38,7 +38,7 @@ impl Cause {
         Cause::ClockFailure,
     ];
 
-    /// Whether the memory still holds what it held before: a controller may go on where it was.
+    /// Whether the memory still holds what it held before: a controller may resume where it was.
     pub fn keeps_memory(self) -> bool {
         !matches!(self, Cause::PowerOn | Cause::BrownOut)
     }

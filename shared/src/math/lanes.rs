@@ -6,7 +6,7 @@ use super::scalar::Scalar;
 use super::wide_sine;
 
 /// `N` (1, 2, 4, 8 or 16) numbers that go through the same arithmetic, lane by lane. A plain array: the compiler turns operations on it into
-/// SIMD for whatever machine it is told to build for, and the bits of a lane do not depend on its width or its
+/// SIMD for the machine it builds for, and the bits of a lane do not depend on its width or its
 /// neighbours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]

@@ -22,7 +22,7 @@ pub trait Scalar:
     /// Absolute value.
     fn abs(self) -> Self;
 
-    /// Where `self > other`.
+    /// Mask of the lanes where `self > other`.
     fn exceeds(self, other: Self) -> Self::Mask;
 
     /// `yes` where the mask holds, `no` elsewhere.

@@ -57,7 +57,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_sign_of_zero_is_the_one_it_was_told() {
+    fn a_sign_of_zero_is_the_one_it_was_given() {
         assert_eq!(Sign::of(0.0_f64, Sign::Negative), Sign::Negative);
         assert_eq!(Sign::of(-0.0_f32, Sign::Positive), Sign::Positive);
         assert_eq!(Sign::of(f64::NAN, Sign::Negative), Sign::Negative);

@@ -16,7 +16,7 @@ use super::{sine32, wide_sine};
 
 /// Where the sines of a number type come from.
 pub trait Tier<S>: Copy + Debug + Default + PartialEq + PartialOrd + Send + Sync + 'static {
-    /// What it is called in tables.
+    /// Name in tables.
     const NAME: &'static str;
 
     /// Sine and cosine for |x| ≤ π (rad).

@@ -15,7 +15,7 @@ pub trait Value<S: Scalar>:
     /// The quantity plus a constant.
     fn offset(self, term: S) -> Self;
 
-    /// Its square.
+    /// Square of the value.
     fn square(self) -> Self;
 
     /// Sine and cosine of an angle (rad), |x| ≤ π.

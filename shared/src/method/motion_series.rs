@@ -38,7 +38,7 @@ impl<S: Scalar, const N: usize> MotionSeries<S, N> {
         tape.set(1, 0, velocity);
     }
 
-    /// Goes on by a_k = `acceleration`. Returns θ_{k+2}.
+    /// Appends a_k = `acceleration`. Returns θ_{k+2}.
     #[inline(always)]
     pub fn extend<const SLOTS: usize>(&mut self, tape: &Tape<S, N, SLOTS>, k: usize, acceleration: S) -> S {
         let v = acceleration * S::of(RECIPROCALS[(k + 1) & 63]);
@@ -113,7 +113,7 @@ impl<S: Real, const N: usize> StepSeries<S, N> {
 }
 
 /// Where a series may break off before its last coefficient: two small terms in a row (every other one may vanish by symmetry) leave
-/// nothing that matters behind them, unless the ground's own series goes on: at resonance it cancels against the block's for an order
+/// nothing that matters behind them, unless the ground's own series continues: at resonance it cancels against the block's for an order
 /// or two.
 #[derive(Clone, Copy, Debug)]
 pub struct Truncation<S> {

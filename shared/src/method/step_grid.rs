@@ -18,7 +18,7 @@ fn leap<S: Real>(tick: &mut u32, step: S, time: S, end: S) -> S {
     let mut leap = 1_u32;
     while S::count(*tick) * step <= time {
         if *tick == u32::MAX {
-            // Beyond the count's range steps go on from wherever they are.
+            // Beyond the count's range steps continue from wherever they are.
             return (time + step).smaller(end);
         }
         let ahead = tick.saturating_add(leap);

@@ -36,7 +36,7 @@ impl Outcome {
         Outcome::new(peaks.rocked, peaks.first_impact.is_some(), state.phase == Phase::Overturned)
     }
 
-    /// As tables and files print it.
+    /// Name of the outcome in tables and files.
     pub fn name(self) -> &'static str {
         match self {
             Outcome::NoRocking => "no-rocking",

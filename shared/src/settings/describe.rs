@@ -14,7 +14,7 @@ impl Description {
         &DESCRIPTIONS
     }
 
-    /// Of the parameter at `index`.
+    /// Description of the parameter at `index`.
     pub fn at(index: u16) -> Option<&'static Description> {
         DESCRIPTIONS.get(usize::from(index))
     }
@@ -40,7 +40,7 @@ impl Description {
         Shown { kind: self.kind, word }
     }
 
-    /// What it may be, in words.
+    /// Range of the parameter, in words.
     pub fn range(&self) -> Range<'_> {
         Range(self)
     }

@@ -3,7 +3,7 @@
 use super::Settings;
 use super::table::Item;
 
-/// How a word is to be read.
+/// Type of a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// The bits of an f32; NaN and the infinities are never allowed.
@@ -38,13 +38,13 @@ pub struct Description {
     pub name: &'static str,
     /// SI, `°C`, `g`, `ticks` or `counts`; empty where there is none.
     pub unit: &'static str,
-    /// How its word is read.
+    /// Type of the word.
     pub kind: Kind,
     /// The least word allowed, read as `kind` says.
     pub least: u32,
     /// The largest.
     pub most: u32,
-    /// Its word in [`Settings::default`].
+    /// Word of the parameter in [`Settings::default`].
     pub default: u32,
     /// Who reads it.
     pub used: Use,

@@ -87,7 +87,7 @@ pub(super) fn allows(index: usize, word: u32) -> Option<bool> {
 /// Of what words mean that no name shows; to be raised where a word of the same name comes to mean something else.
 const VERSION: u32 = 1;
 
-/// Tells words of this build from those of another: a digest of the names, kinds and order of the parameters.
+/// Digest of the names, kinds and order of the parameters: distinguishes words of this build from those of another.
 pub const LAYOUT: u32 = {
     let mut digest = fold(fold(FOLD_BASIS, VERSION), COUNT as u32);
     let mut item = 0;

@@ -1,4 +1,4 @@
-//! Everything a controller is told, as one flat table of 32-bit words: to be sent over a serial link, kept in flash, and made into the
+//! All settings of a controller, as one flat table of 32-bit words: to be sent over a serial link, kept in flash, and made into the
 //! very controller, bit for bit, that the host simulates.
 //!
 //! - [`table`]: the parameters; [`kind`]: what each may be; [`describe`]: in words, for the host;
@@ -37,21 +37,21 @@ pub struct Settings {
 pub enum SettingError {
     /// There is no parameter at this index.
     NoSuch {
-        /// Which one was asked for.
+        /// Index that was asked for.
         index: u16,
     },
     /// A word is outside the range of its parameter.
     OutOfRange {
-        /// Of the parameter.
+        /// Index of the parameter.
         index: u16,
-        /// What it was to be.
+        /// Word that was refused.
         word: u32,
     },
     /// Two parameters that do not go together.
     Contradiction {
         /// Of the one that is bound by the other.
         index: u16,
-        /// Of the other.
+        /// Index of the other parameter.
         other: u16,
     },
     /// A controller that no words describe: its parts have different periods or beliefs, or it is supervised in another way than was said.
@@ -109,7 +109,7 @@ impl Settings {
         &self.words
     }
 
-    /// Of words in that order.
+    /// Settings of words in that order.
     ///
     /// # Errors
     /// [`SettingError`] names the first word outside its range.

@@ -19,7 +19,7 @@ pub(super) fn forgets(estimator: &Estimator, instruments: &Instruments, square: 
     decays(deviation_from_one(estimator, instruments, square))
 }
 
-/// F − I: an error that lasts long has an eigenvalue so near to 1 that single precision would not tell.
+/// F − I: an error that lasts long has an eigenvalue so near to 1 that single precision would not show it.
 fn deviation_from_one(estimator: &Estimator, instruments: &Instruments, square: f32) -> Matrix {
     let period = instruments.period;
     let [encoder_delay, gyroscope_delay] = [instruments.encoder_delay, instruments.gyroscope_delay].map(|delay| delay / period);

@@ -19,11 +19,11 @@ macro_rules! parameters {
         }
 
         impl Item {
-            /// All of them, in order.
+            /// All parameters, in order.
             pub const ALL: [Item; COUNT] = [$(Item::$item),*];
         }
 
-        /// How many parameters there are.
+        /// Number of parameters.
         pub const COUNT: usize = [$(Item::$item),*].len();
 
         /// A constant and no static, so that what is made from it at compile time leaves no names behind.

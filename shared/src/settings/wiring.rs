@@ -1,4 +1,4 @@
-//! What a board is told beside its controller: how its sensors are turned, and how its coils are driven. Taken over when it starts.
+//! Settings of a board besides its controller: how its sensors are turned, and how its coils are driven. Taken over when it starts.
 
 use super::{Item, SettingError, Settings};
 
@@ -18,7 +18,7 @@ impl Axis {
         self.word >> 1
     }
 
-    /// It points the other way.
+    /// Whether the axis points the other way.
     pub fn reversed(self) -> bool {
         self.word & 1 == 1
     }
@@ -43,7 +43,7 @@ pub struct Wiring {
     pub block_gyroscope: Axis,
     /// Of the block's accelerometer, horizontal and vertical at rest.
     pub block: [Axis; 2],
-    /// Of the ground's accelerometer.
+    /// Axes of the ground's accelerometer.
     pub ground: [Axis; 2],
     /// Counts fall when θ grows.
     pub encoder_reversed: bool,
@@ -71,7 +71,7 @@ impl Wiring {
         Ok(())
     }
 
-    /// Of `settings`.
+    /// Wiring of `settings`.
     pub fn of(settings: &Settings) -> Wiring {
         let axis = |item| Axis::read(settings, item);
         Wiring {

@@ -50,7 +50,7 @@ impl Block {
     /// A block whose frequency parameter p is 1/s, so that seconds read as times 1/p.
     ///
     /// # Errors
-    /// As [`Block::new`].
+    /// The errors of [`Block::new`].
     pub fn of_unit_frequency(slenderness: f64, inertia_ratio: f64) -> Result<Block, ParameterError> {
         Block::new(GRAVITY / inertia_ratio, slenderness, inertia_ratio)
     }

@@ -2,10 +2,10 @@
 
 use super::mount::Mount;
 
-/// Which device a block carries.
+/// Kind of the device that a block carries.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DeviceKind {
-    /// None.
+    /// No device.
     #[default]
     None,
     /// One inerter, always engaged.
@@ -32,11 +32,11 @@ pub enum KinematicsKind {
 /// A device and how it is mounted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Device {
-    /// Which.
+    /// Kind of the device.
     pub kind: DeviceKind,
     /// σ = inertance / block mass; 0 to 10,000.
     pub mass_ratio: f64,
-    /// Where.
+    /// Mount of the device on the block.
     pub mount: Mount,
     /// Paper or consistent.
     pub kinematics: KinematicsKind,

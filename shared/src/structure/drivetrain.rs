@@ -29,7 +29,7 @@ pub struct FlywheelLosses {
     pub brake_deceleration: f64,
 }
 
-/// How a flywheel is coupled to the rack.
+/// Coupling of a flywheel to the rack.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Engagement {
     /// The paper's: a stopped flywheel is engaged at speed without a loss of momentum, and stops at once when released.
@@ -84,20 +84,20 @@ pub struct Actuation {
     pub dwell: f64,
     /// Probability that an engagement is missed; 0 to 1.
     pub miss_probability: f64,
-    /// Which engagements those are.
+    /// Seed of the engagements that miss.
     pub miss_seed: u64,
 }
 
 /// All of it. The default is the paper's ideal device.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Drivetrain {
-    /// How flywheels are coupled.
+    /// Coupling of the flywheels.
     pub engagement: Engagement,
-    /// What slows them down.
+    /// Losses of the flywheels.
     pub flywheel: FlywheelLosses,
-    /// What the rack meets.
+    /// Losses and mass of the rack.
     pub rack: Rack,
-    /// What delays the clutch.
+    /// Delays of the clutch.
     pub actuation: Actuation,
 }
 

@@ -7,9 +7,9 @@ use core::fmt;
 pub struct ParameterError {
     /// The parameter, as its field is named.
     pub parameter: &'static str,
-    /// What it was.
+    /// Value that was given.
     pub value: f64,
-    /// What it may be.
+    /// Range that is allowed.
     pub range: &'static str,
 }
 

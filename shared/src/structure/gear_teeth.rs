@@ -14,7 +14,7 @@ use super::inertance::{Flywheel, inertance_of_train};
 /// but massless wheels behind it carries nothing.
 ///
 /// # Errors
-/// As [`inertance_of_train`].
+/// The errors of [`inertance_of_train`].
 pub fn tooth_load_ratios(train: &[Flywheel]) -> Result<impl Iterator<Item = f64> + '_, ParameterError> {
     inertance_of_train(train)?;
     let behind = |mesh: usize| inertance_of_train(&train[mesh..]).unwrap_or(0.0);

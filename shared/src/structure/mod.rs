@@ -59,7 +59,7 @@ impl Structure {
     /// The slender model takes α', R' and λ' of the exact formulas and is linear about them.
     ///
     /// # Errors
-    /// [`ParameterError`] names the first parameter of what is carried that is outside its range.
+    /// [`ParameterError`] names the first parameter of the added mass that is outside its range.
     pub fn loaded(&self) -> Result<Structure, ParameterError> {
         self.added_mass.check()?;
         if self.added_mass.is_none() {
@@ -74,7 +74,7 @@ impl Structure {
     /// `vertical`, both ways.
     ///
     /// # Errors
-    /// As [`mount::Mount::lever`].
+    /// The errors of [`mount::Mount::lever`].
     pub fn body<S: Real>(&self, consistent: bool, vertical: bool) -> Result<AnyBody<S>, ParameterError> {
         let (block, mount) = (&self.block, &self.device.mount);
         let (frequency_squared, slenderness) = (S::of(block.frequency_parameter_squared()), S::of(block.slenderness()));
@@ -93,7 +93,7 @@ impl Structure {
     /// η of its impacts, with what it carries.
     ///
     /// # Errors
-    /// As [`Restitution::evaluate`] and [`Structure::loaded`].
+    /// The errors of [`Restitution::evaluate`] and [`Structure::loaded`].
     pub fn restitution(&self) -> Result<f64, ParameterError> {
         let Structure { block, geometry, device, restitution, .. } = self.loaded()?;
         restitution.evaluate(&block, geometry, &device)

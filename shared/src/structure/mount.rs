@@ -54,7 +54,7 @@ impl Mount {
     /// ℓ² of the slender model, where ℓ is a constant: 1, n z/R, or 2 n α.
     ///
     /// # Errors
-    /// As [`Mount::lever`].
+    /// The errors of [`Mount::lever`].
     pub fn slender_lever_squared(&self, block: &Block) -> Result<f64, ParameterError> {
         self.lever(block)?;
         let lever = match *self {
@@ -68,7 +68,7 @@ impl Mount {
     /// ℓ at θ (rad), per R.
     ///
     /// # Errors
-    /// As [`Mount::lever`].
+    /// The errors of [`Mount::lever`].
     pub fn lever_at(&self, block: &Block, geometry: Geometry, rotation: f64) -> Result<f64, ParameterError> {
         if geometry == Geometry::Slender {
             return Ok(math::square_root(self.slender_lever_squared(block)?));

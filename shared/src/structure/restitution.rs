@@ -5,7 +5,7 @@ use super::device::{Device, DeviceKind};
 use super::error::{ParameterError, require};
 use super::mount::Mount;
 
-/// Where η comes from.
+/// Source of the coefficient of restitution η.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Restitution {
     /// η as given, 0 to 1.

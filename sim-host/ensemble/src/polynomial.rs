@@ -28,7 +28,7 @@ const SAG: [f64; 32] = [
 /// What is known of a polynomial on [0, t] without looking inside.
 #[derive(Clone, Copy, Debug)]
 pub struct Shape {
-    /// Its value at t.
+    /// Value of the polynomial at t.
     pub end: Number,
     /// It has no extreme in between.
     pub monotone: Mask,

@@ -33,7 +33,7 @@ pub struct PulsedBlock {
     pub amplitude_ratio: f64,
 }
 
-/// Its outcome, decided without a horizon: a block that stands goes on until it rests.
+/// Outcome of a block, decided without a horizon: a block that stands is followed until it rests.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PulseResult {
     /// Outcome.

@@ -185,7 +185,7 @@ pub(crate) fn run<M: Model, const PAIR: bool>(
                     next += 1;
                 }
                 if at[lane].is_none() {
-                    // Nothing left: whatever the lane goes on with is plain.
+                    // Nothing left: whatever the lane continues with is plain.
                     blocks.hard.set(lane, true);
                 }
             }

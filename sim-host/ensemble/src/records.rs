@@ -61,7 +61,7 @@ impl Lines {
 /// Decision after a weak impact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum AfterWeakImpact {
-    /// It goes on to rock.
+    /// It continues to rock.
     Rocks,
     /// It rests to the end of the record.
     Rests,
@@ -120,7 +120,7 @@ impl<'a, 'b> Lanes<'a, 'b> {
             self.uplift::<M>(lane, first);
             return;
         }
-        // Nothing left: whatever the lane goes on with is plain.
+        // Nothing left: whatever the lane continues with is plain.
         self.blocks.hard.set(lane, true);
     }
 
@@ -191,7 +191,7 @@ impl<'a, 'b> Lanes<'a, 'b> {
             if push.abs() <= 1.0 + DOUBTFUL_UPLIFT {
                 self.blocks.hard.set(lane, true);
             } else if negligible {
-                // The push ends impacts that are too weak to tell apart.
+                // The push ends impacts that are too weak to distinguish.
                 let side = -push_at(time).signum();
                 self.uplift::<M>(lane, Uplift { sample: place.sample, time, side, crossing: false });
                 return AfterWeakImpact::Uplifts;

@@ -118,7 +118,7 @@ impl Results {
     /// Puts every file in its place, and writes to `err` what the reader of the files should know, in a line each.
     ///
     /// # Errors
-    /// As [`Results::commit`].
+    /// The errors of [`Results::commit`].
     pub fn commit_with_notes(mut self, err: &mut impl Write) -> Result<(), OutputError> {
         let notes = std::mem::take(&mut self.notes);
         self.commit()?;

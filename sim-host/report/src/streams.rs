@@ -17,7 +17,7 @@ impl Output {
     /// `result` of writing to standard output, which is remembered.
     ///
     /// # Errors
-    /// That of `result`.
+    /// The errors of `result`.
     pub fn noted<T>(&mut self, result: io::Result<T>) -> io::Result<T> {
         if let Err(error) = &result
             && error.kind() != io::ErrorKind::Interrupted

@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_wider_than_the_room_goes_on_below_with_the_first_words() {
+    fn a_table_wider_than_the_room_continues_below_with_the_first_words() {
         let mut table = TextTable::new(1, ["device", "peak", "impacts", "outcome"]);
         table.row(["pair", "0.25", "12", "safe"].map(str::to_owned).to_vec());
         let text = table.within(22);

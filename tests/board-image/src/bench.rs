@@ -244,7 +244,7 @@ impl Bench {
                 self.asleep = self.lockup || !self.chip().private.waits();
                 continue;
             }
-            self.chip_mut().goes_on = true;
+            self.chip_mut().continues = true;
             self.engine.run(self.program);
             self.program = self.engine.processor().get(Register::Program) & !1;
             if std::mem::take(&mut self.chip_mut().returned) {

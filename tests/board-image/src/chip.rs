@@ -68,7 +68,7 @@ pub struct Chip {
     /// When the bench wants the processor back.
     pub until: u64,
     /// The processor continues, from where it stopped.
-    pub goes_on: bool,
+    pub continues: bool,
     /// 128 KiB.
     pub ram: Memory,
     /// A bit of it that is stuck, from before the first start on.
@@ -150,7 +150,7 @@ impl Chip {
             timer_hz: 16_000_000,
             event: 0,
             until: 0,
-            goes_on: false,
+            continues: false,
             ram: Memory::new(RAM, RAM_LENGTH, 0),
             stuck_bit: None,
             returns: Memory::new(0xFFFF_F000, 0x1000, 0xBF),

@@ -27,8 +27,8 @@ use crate::time::SECOND;
 /// How many times faster than its registers say the line is: what is sent in a period is there in it.
 pub const HASTE: u64 = 100_000;
 
-/// What the host says of a period.
-struct Told {
+/// Inputs of a period, as the host sends them.
+struct Period {
     travel: i64,
     block: Measured,
     ground: Measured,
@@ -36,8 +36,8 @@ struct Told {
     reset: bool,
 }
 
-impl Told {
-    fn of(line: &str) -> Option<Told> {
+impl Period {
+    fn of(line: &str) -> Option<Period> {
         let mut words = line.split_ascii_whitespace();
         let travel = words.next()?.parse().ok()?;
         let mut counts = [0; 12];
@@ -49,7 +49,7 @@ impl Told {
         let reset = words.next() == Some("reset");
         let block = Measured { acceleration: [ax, ay, az], rate: [gx, gy, gz] };
         let ground = Measured { acceleration: [bx, by, bz], rate: [hx, hy, hz] };
-        Some(Told { travel, block, ground, link, reset })
+        Some(Period { travel, block, ground, link, reset })
     }
 }
 
@@ -101,15 +101,15 @@ pub fn serve(image: &Image, input: impl BufRead, mut output: impl Write) -> Resu
     rig.bench.chip_mut().line.haste = HASTE;
     let mut end = rig.bench.now();
     for line in lines {
-        let told = Told::of(&line).ok_or_else(|| format!("not a period: {line}"))?;
+        let given = Period::of(&line).ok_or_else(|| format!("not a period: {line}"))?;
         end += period;
         let now = rig.bench.now();
         let chip = rig.bench.chip_mut();
-        chip.move_rack(told.travel);
-        (chip.buses[0].sensor.measured, chip.buses[1].sensor.measured) = (told.block, told.ground);
+        chip.move_rack(given.travel);
+        (chip.buses[0].sensor.measured, chip.buses[1].sensor.measured) = (given.block, given.ground);
         let clock = chip.rcc.peripheral_hz()[1];
-        chip.line.send(&told.link, clock, now);
-        if told.reset {
+        chip.line.send(&given.link, clock, now);
+        if given.reset {
             rig.bench.reset(Cause::Watchdog);
         }
         let (mut ticks, mut seen) = (0, String::new());

@@ -79,7 +79,7 @@ pub trait Precision: Real {
     /// The same, remembered in `log`.
     ///
     /// # Errors
-    /// As [`follow`].
+    /// The errors of [`follow`].
     fn record(
         structure: &Structure,
         stepping: Stepping<Self>,

@@ -38,7 +38,7 @@ fn structure(geometry: Geometry, kind: DeviceKind, restitution: f64) -> Structur
     }
 }
 
-/// A block let go on quiet ground.
+/// A block released on quiet ground.
 fn released(structure: Structure, rotation: f32, velocity: f32, step: f32, free_time: f32) -> Case<'static> {
     Case {
         structure,

@@ -81,8 +81,8 @@ fn a_sensor_saturated_for_seconds_is_left_alone_until_it_is_good() {
                 });
                 if tape.controller.estimator.required().contains(sensor) {
                     assert_eq!(seen.faults.first().and_then(|fault| fault.sensor()), Some(sensor), "{:?}", seen.faults);
-                    let goes_on = tape.controller.estimator.required().has_substitutes();
-                    assert!(goes_on || seen.decided <= 12, "{sensor}: the law decided for {} ticks", seen.decided);
+                    let continues = tape.controller.estimator.required().has_substitutes();
+                    assert!(continues || seen.decided <= 12, "{sensor}: the law decided for {} ticks", seen.decided);
                 }
                 assert!(seen.complaints.contains(&Fault::Saturated(sensor)), "{:?}", seen.complaints);
                 assert_eq!(seen.last, Phase::Armed, "{sensor} {sign}");
@@ -103,8 +103,8 @@ fn readings_that_are_no_numbers_are_faults_and_the_smallest_numbers_are_not() {
                 let needed = tape.controller.estimator.required().contains(sensor) && sensor != Sensor::Encoder;
                 assert_eq!(seen.faults.first(), Some(&Fault::NotFinite(sensor)).filter(|_| needed), "{sensor} {value}");
                 // Another sensor stands in for one of the model-aided estimator's.
-                let goes_on = tape.controller.estimator.required().has_substitutes();
-                assert_eq!(seen.decided, if needed && !goes_on { 0 } else { 2 });
+                let continues = tape.controller.estimator.required().has_substitutes();
+                assert_eq!(seen.decided, if needed && !continues { 0 } else { 2 });
                 assert_eq!(seen.last, Phase::Armed, "{sensor} {value}");
             }
             // For one tick a rate or an acceleration may well be nothing.
@@ -132,8 +132,8 @@ fn sensors_that_fail_by_turns_keep_the_safe_state() {
                 readings(sample, sensor).iter_mut().for_each(|reading| reading.value = f32::NAN);
             });
             // Another sensor stands in for the first one, until the second fails as well.
-            let goes_on = if required.has_substitutes() { every } else { 0 };
-            assert_eq!(seen.decided, goes_on, "every {every} ticks");
+            let continues = if required.has_substitutes() { every } else { 0 };
+            assert_eq!(seen.decided, continues, "every {every} ticks");
             assert_eq!(seen.faults[0], Fault::NotFinite(needed[0]), "the first cause is kept");
             assert_eq!(seen.last, Phase::Armed, "every {every} ticks");
             let codes = seen.complaints;
@@ -146,8 +146,8 @@ fn sensors_that_fail_by_turns_keep_the_safe_state() {
                 readings(sample, sensor).iter_mut().for_each(|reading| reading.value = f32::INFINITY);
             }
         });
-        let goes_on = if required.has_substitutes() { RATE / 2 } else { 0 };
-        assert_eq!((seen.decided, seen.last), (goes_on, Phase::Armed));
+        let continues = if required.has_substitutes() { RATE / 2 } else { 0 };
+        assert_eq!((seen.decided, seen.last), (continues, Phase::Armed));
     }
 }
 

@@ -123,7 +123,7 @@ fn a_silent_link_puts_the_clutches_into_the_safe_state() {
         let begun = course.at(from);
         let (safe, back) = (course.safe_after(begun), course.back_after(begun));
         let fault = course.ticks[begun..].iter().find_map(|tick| tick.applied.fault);
-        let does = fault.map_or_else(|| "goes on by its model".to_owned(), |fault| format!("Fault {}: {fault}", fault.code()));
+        let does = fault.map_or_else(|| "continues by its model".to_owned(), |fault| format!("Fault {}: {fault}", fault.code()));
         row(
             &format!("no samples for {} ms", 1e3 * silence),
             "frames to the device dropped from mid-swing on",

@@ -80,7 +80,7 @@ fn the_near_fault_motion_is_decided_alike_from_the_same_counts() {
 /// At none of 20 phases does it cost 5 % of the peak.
 #[test]
 #[ignore = "needs Unicorn and the board's image: run by cargo xtask test"]
-fn a_reset_at_any_phase_of_an_earthquake_is_gone_on_from() {
+fn a_reset_at_any_phase_of_an_earthquake_is_resumed_from() {
     let (parts, scene) = (parts(), pulse(&[SENSORS, "run.free_time_s=0.6"]));
     let undisturbed = run(&parts, &scene, None);
     let begin = undisturbed.seen.iter().find(|tick| tick.plant.motion.velocity != 0.0).unwrap().plant.time;

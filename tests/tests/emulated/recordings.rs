@@ -131,7 +131,7 @@ fn a_recording_is_what_the_host_decided() {
 
 #[test]
 #[ignore = "needs the emulator and its images: run by cargo xtask test"]
-fn a_reset_in_motion_is_recorded_in_two_parts_and_the_log_goes_on() {
+fn a_reset_in_motion_is_recorded_in_two_parts_and_the_log_continues() {
     let (host, _) = on_the_host(&pulse(&["run.free_time_s=0.6"]));
     let mut flight = Flight::new(Some(mid_swing(&host)));
     let keys: Vec<(u16, u8)> = flight.parts.keys().copied().collect();

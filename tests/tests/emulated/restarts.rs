@@ -34,14 +34,14 @@ fn instants(scene: &LoopScene) -> [(&'static str, f64); 4] {
     ]
 }
 
-/// A mishap at `time`, with a boot that takes as long as a board's.
+/// A fault injected at `time`, with a boot that takes as long as a board's.
 fn course(image: &Path, scene: &LoopScene, time: f64, mishap: Mishap) -> Course {
     Trial { mishaps: &[(time, mishap)], boot_time: BOOT, ..Trial::new(image, scene) }.run(faithful(), &mut ())
 }
 
 /// It is away in the safe state, then in control again, knowing where the block truly is. How long that took, ms, and how far off it
 /// then is, rad and rad/s.
-fn goes_on(course: &Course, cause: Cause) -> (Started, f64, f64, f64) {
+fn resumed(course: &Course, cause: Cause) -> (Started, f64, f64, f64) {
     let [(number, started)] = course.starts[..] else { panic!("{:?}", course.starts) };
     assert_eq!((started.cause, started.resumed, started.restarts), (cause, true, 1), "{started:?}");
     let begun = number as usize - 1;
@@ -71,23 +71,23 @@ fn stays_safe(course: &Course, back: f64) {
 
 #[test]
 #[ignore = "needs the emulator and its images: run by cargo xtask test"]
-fn a_reset_in_mid_earthquake_is_gone_on_from() {
+fn a_reset_in_mid_earthquake_is_resumed_from() {
     let image = controller_firmware();
     let scene = pulse(&["run.free_time_s=0.75"]);
     for (name, time) in instants(&scene) {
         let course = course(&image, &scene, time, Mishap::Reset);
-        let (_, back, rotation, velocity) = goes_on(&course, Cause::Software);
+        let (_, back, rotation, velocity) = resumed(&course, Cause::Software);
         stays_safe(&course, back);
         row(
             &format!("reset {name}"),
             "Mishap::Reset; the board takes 20 ms to boot",
             &format!(
-                "goes on in Rocking with the calibration of before; off by {rotation:.1e} rad, {velocity:.1e} rad/s; peak |θ|/α {:.4}",
+                "resumes in Rocking with the calibration of before; off by {rotation:.1e} rad, {velocity:.1e} rad/s; peak |θ|/α {:.4}",
                 course.peak
             ),
             Some(0.0),
             Some(back),
-            "a_reset_in_mid_earthquake_is_gone_on_from",
+            "a_reset_in_mid_earthquake_is_resumed_from",
         );
         assert!(back <= 50.0, "{back} ms");
     }
@@ -100,31 +100,31 @@ fn source(name: &str) -> PathBuf {
 
 #[test]
 #[ignore = "needs the emulator and its images: run by cargo xtask test"]
-fn a_panic_tells_where_and_a_hard_fault_too() {
+fn a_panic_reports_where_and_a_hard_fault_too() {
     let image = controller_firmware();
     let scene = pulse(&["run.free_time_s=0.75"]);
     let (_, time) = instants(&scene)[1];
     for (mishap, cause) in [(Mishap::Panic, Cause::Panic), (Mishap::HardFault, Cause::HardFault)] {
         let course = course(&image, &scene, time, mishap);
-        let (started, back, ..) = goes_on(&course, cause);
+        let (started, back, ..) = resumed(&course, cause);
         stays_safe(&course, back);
         let file = String::from_utf8_lossy(&started.file[..usize::from(started.length)]).into_owned();
-        let told = if cause == Cause::Panic {
+        let reported = if cause == Cause::Panic {
             assert!(file.ends_with("link.rs"), "{file}");
             let text = std::fs::read_to_string(source("link.rs")).unwrap();
             assert!(text.lines().nth(started.place as usize - 1).unwrap().contains("panic!(\"rehearsed\")"), "{}", started.place);
-            format!("tells {file}, line {}", started.place)
+            format!("reports {file}, line {}", started.place)
         } else {
             assert!((0x0800_0000..0x0810_0000).contains(&started.place), "{:#x}", started.place);
-            format!("tells the address {:#010x}", started.place)
+            format!("reports the address {:#010x}", started.place)
         };
         row(
             &format!("{cause:?} in mid-swing"),
             &format!("Mishap::{mishap:?}; the board takes 20 ms to boot"),
-            &format!("{told}; goes on in Rocking"),
+            &format!("{reported}; resumes in Rocking"),
             Some(0.0),
             Some(back),
-            "a_panic_tells_where_and_a_hard_fault_too",
+            "a_panic_reports_where_and_a_hard_fault_too",
         );
         assert!(back <= 50.0, "{back} ms");
     }
@@ -163,11 +163,11 @@ fn a_late_tick_is_a_fault_and_a_lost_one_a_reset() {
     assert!(late.back_after(begun).unwrap() > 4000.0 && late.state.phase == Phase::Armed);
 
     let lost = course(&image, &scene, time, Mishap::Dawdle(30 * MILLISECOND));
-    let (_, back, rotation, velocity) = goes_on(&lost, Cause::Watchdog);
+    let (_, back, rotation, velocity) = resumed(&lost, Cause::Watchdog);
     row(
         "a tick takes 30 ms",
         "Mishap::Dawdle in mid-swing; the board takes 20 ms to boot",
-        &format!("the watchdog resets it after 20 ms; goes on in Rocking, off by {rotation:.1e} rad, {velocity:.1e} rad/s"),
+        &format!("the watchdog resets it after 20 ms; resumes in Rocking, off by {rotation:.1e} rad, {velocity:.1e} rad/s"),
         lost.safe_after(lost.at(time)),
         Some(back),
         "a_late_tick_is_a_fault_and_a_lost_one_a_reset",
@@ -196,7 +196,7 @@ fn too_many_restarts_lead_to_a_start_from_the_beginning() {
     row(
         &format!("{count} resets in a row"),
         "Mishap::Reset every 60 ms from mid-swing on",
-        &format!("goes on {} times, then starts from the beginning: self-test and calibration at rest", count - 1),
+        &format!("resumes {} times, then starts from the beginning: self-test and calibration at rest", count - 1),
         course.safe_after(last),
         back,
         "too_many_restarts_lead_to_a_start_from_the_beginning",
@@ -211,7 +211,7 @@ fn too_many_restarts_lead_to_a_start_from_the_beginning() {
 /// With other settings than those by which it was in control it must not take control of a block in motion.
 #[test]
 #[ignore = "needs the emulator and its images: run by cargo xtask test"]
-fn settings_that_a_reset_takes_back_are_not_gone_on_from() {
+fn settings_that_a_reset_takes_back_are_not_resumed_from() {
     let image = controller_firmware();
     let scene = pulse(&["run.free_time_s=0.75"]);
     let (_, time) = instants(&scene)[1];
@@ -229,6 +229,6 @@ fn settings_that_a_reset_takes_back_are_not_gone_on_from() {
         "starts from the beginning with the settings in flash: self-test and calibration at rest",
         course.safe_after(begun),
         course.back_after(begun),
-        "settings_that_a_reset_takes_back_are_not_gone_on_from",
+        "settings_that_a_reset_takes_back_are_not_resumed_from",
     );
 }

@@ -99,7 +99,7 @@ fn bits(dice: &mut Dice) -> f32 {
     f32::from_bits(dice.word())
 }
 
-/// A whole frame with any content, but none that a device is to obey: no rehearsal, no settings with the right check.
+/// A whole frame with any content, but none that a device is to obey: no fault injection, no settings with the right check.
 fn whole(dice: &mut Dice) -> Vec<u8> {
     let reading = |dice: &mut Dice| Reading { value: bits(dice), number: dice.word() };
     let request = match dice.below(14) {

@@ -296,7 +296,7 @@ fn rest_and_uplift_take_turns() {
 }
 
 #[test]
-fn with_full_restitution_free_rocking_goes_on() {
+fn with_full_restitution_free_rocking_continues() {
     for geometry in GEOMETRIES {
         for device in [DeviceKind::None, DeviceKind::Inerter] {
             for start in [1e-3, 0.3, 0.9] {

@@ -79,7 +79,7 @@ fn two_programs_agree_on_random_scenes() {
 }
 
 #[test]
-fn two_programs_agree_on_scenes_that_had_told_them_apart() {
+fn two_programs_agree_on_scenes_that_had_distinguished_them() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/scenes");
     let files: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     let scenes: Vec<_> = files.iter().filter(|path| path.extension().is_some_and(|extension| extension == "toml")).collect();

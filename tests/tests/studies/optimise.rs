@@ -243,7 +243,7 @@ fn an_interrupted_search_has_no_results() {
 
 /// Interrupted twice and resumed, a search makes no run again, and comes to the same.
 #[test]
-fn an_interrupted_search_goes_on() {
+fn an_interrupted_search_resumes() {
     let records = sine_pulses(&[0.3, 0.5], &[0.5, 1.0]);
     let study = study("", records.path());
     let records = StudyRecords::read(&study).unwrap();

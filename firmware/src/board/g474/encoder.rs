@@ -54,7 +54,7 @@ fn timer() -> &'static pac::tim3::RegisterBlock {
 }
 
 impl Encoder {
-    /// Going on from the count that was read last before a reset, or else from 0. The count is copied from now on.
+    /// An encoder that continues from the count that was read last before a reset, or else from 0. The count is copied from now on.
     pub fn new(chip: &pac::Peripherals, last: Option<i32>) -> Encoder {
         if last.is_none() {
             timer().cnt().write(|w| w.cnt().set(0));

@@ -28,7 +28,7 @@ const OLD_BIAS: f32 = 5e-4;
 /// Of a rotation that nobody knows, over R: as good as any.
 const ANYWHERE: f32 = 1.0;
 
-/// For how long a reset loses counts on a board whose counter goes on over it, s, and how many in any case, over R. One that has lost more is
+/// For how long a reset loses counts on a board whose counter continues over it, s, and how many in any case, over R. One that has lost more is
 /// found out by the first impact, and taken for unknown then.
 const RESET_TIME: f32 = 2e-3;
 const RESET_TRAVEL: f32 = 1e-4;

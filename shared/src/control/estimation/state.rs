@@ -46,7 +46,7 @@ impl EstimatorState {
         EstimatorState { rotation, velocity, side, rocks: true, lost: true, reference, ..EstimatorState::default() }
     }
 
-    /// What sensors tell of where θ = 0 is can no longer be believed.
+    /// The sensors' zero of θ can no longer be trusted.
     pub fn doubt(&mut self) {
         (self.lost, self.reference) = (true, Reference::unknown());
     }

@@ -21,14 +21,14 @@ use crate::control::model::Model;
 use serde::{Deserialize, Serialize};
 use signs::Signs;
 
-/// What a law can know.
+/// Inputs of a law.
 #[derive(Clone, Copy, Debug)]
 pub struct Situation<'a> {
     /// The structure as the controller believes it to be.
     pub model: &'a Model,
     /// The motion at the instant at which a command given now takes effect (or now, for a law that does not predict).
     pub estimate: Estimate,
-    /// Its signs, with hysteresis.
+    /// Signs of the motion, with hysteresis.
     pub signs: Signs,
     /// Which clutches are engaged.
     pub engaged: [bool; 2],
@@ -41,7 +41,7 @@ pub struct Situation<'a> {
 /// Fading time of [`Situation::ground_drift`], 1/p.
 pub const DRIFT_TIME: f32 = 3.0;
 
-/// What a law wants.
+/// Request of a law.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Wish {
@@ -56,7 +56,7 @@ pub enum Wish {
 
 /// A rule for the clutches.
 pub trait Law {
-    /// What it wants.
+    /// Request of the law in a situation.
     fn wish(&self, at: &Situation<'_>) -> Wish;
 
     /// It is to be asked about the instant at which its answer takes effect, and not about now.
@@ -90,10 +90,10 @@ impl SignTable {
 
 /// A table of signs, one row of which counts only while the ground has gained velocity: the row of a block that is braked on its way out
 /// while the ground moves against it. Under a pulse, engaging there saves blocks; under the many reversals of a record it costs them, and what
-/// tells the two apart is how long the ground has gone one way.
+/// distinguishes the two is how long the ground has gone one way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GatedTable {
-    /// As [`SignTable`].
+    /// Rows, as in [`SignTable`].
     pub table: u8,
     /// The row that is gated.
     pub row: u8,

@@ -9,13 +9,13 @@ use crate::math::sign::Sign;
 /// Signs at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Signs {
-    /// Of θ.
+    /// Sign of θ.
     pub rotation: Sign,
-    /// Of θ̇.
+    /// Sign of θ̇.
     pub velocity: Sign,
-    /// Of the terminals' acceleration.
+    /// Sign of the terminals' acceleration.
     pub push: Sign,
-    /// Of ü_g.
+    /// Sign of ü_g.
     pub ground: Sign,
     /// ü_g is nothing but noise: it goes neither way.
     pub quiet: bool,

@@ -11,7 +11,7 @@ use crate::math::sign::Sign;
 pub struct TurnsState {
     /// Speeds of the flywheels as racks that moved with them, over R, 1/s.
     pub spins: [f32; 2],
-    /// Which one holds its turn.
+    /// Flywheel whose turn it is.
     pub turn: Option<usize>,
 }
 

@@ -1,4 +1,4 @@
-//! Clutches that do not do what they are told: feedback that disagrees with the command.
+//! Clutches that do not follow their command, as their feedback shows.
 
 use super::fault::{Fault, Wheel};
 use crate::control::ticks::Streak;
@@ -6,7 +6,7 @@ use crate::control::ticks::Streak;
 /// How long feedback may disagree, in ticks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ActuatorMonitor {
-    /// After a change of the command: the clutch moves then, or still moves as an older command told it.
+    /// After a change of the command: the clutch moves then, or still moves as an older command asked.
     pub actuator_ticks: u32,
     /// After that: nothing should move any more, but a position switch may bounce.
     pub feedback_ticks: u32,
@@ -14,7 +14,7 @@ pub struct ActuatorMonitor {
     pub both_allowed: bool,
 }
 
-/// What is known of the clutches.
+/// State of the monitor of the clutches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ActuatorState {
     clutches: [Clutch; 2],

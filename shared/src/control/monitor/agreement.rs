@@ -20,7 +20,7 @@ pub(super) struct AgreementLimits {
     pub delay: f32,
 }
 
-/// How they disagree.
+/// Kind of disagreement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Disagreement {
     /// The gyroscope turns and the count stays.

@@ -33,9 +33,9 @@ pub const CURRENT_TOLERANCE: f32 = 0.3;
 /// What a board reads of a coil at a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CoilReading {
-    /// Its clutch is engaged, as far as the current tells.
+    /// Its clutch is engaged, as far as the current shows.
     pub engaged: bool,
-    /// What else it tells.
+    /// What else the current shows.
     pub report: CoilReport,
     /// The clutch has just been found to have closed so many ticks after the beginning of its pulse.
     pub closed: Option<u32>,

@@ -35,7 +35,7 @@ impl fmt::Display for Wheel {
     }
 }
 
-/// Where an inertial part is.
+/// Place of an inertial part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Place {
@@ -56,7 +56,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// A fault, or the occasion of a warning. Two witnesses that disagree do not tell which of them lies: the sensor of a contradiction is the
+/// A fault, or the occasion of a warning. Two sensors that disagree do not show which of them is wrong: the sensor of a contradiction is the
 /// likelier one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(into = "u16", try_from = "u16")]
@@ -104,7 +104,7 @@ pub enum Fault {
     ClockWrong,
     /// Settings or controller in memory are not what they were when they came into force.
     SettingsDamaged,
-    /// Only a warning: nothing tells whether the program in flash is whole.
+    /// Only a warning: nothing shows whether the program in flash is whole.
     NotSealed,
     /// Only a warning: a newer firmware has run on this board.
     OlderFirmware,

@@ -43,7 +43,7 @@ pub struct Monitor {
     gravity: f32,
 }
 
-/// What is known of the sensors.
+/// State of the monitor of the sensors.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MonitorState {
     gyroscope: Watch,
@@ -54,12 +54,12 @@ pub struct MonitorState {
     findings: Findings,
 }
 
-/// What the rest of the controller knows.
+/// Inputs of the monitor from the rest of the controller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Context<'a> {
     /// Biases.
     pub calibration: &'a Calibration,
-    /// They were measured.
+    /// Whether the biases were measured.
     pub calibrated: bool,
     /// The block has been at rest for long.
     pub at_rest: bool,

@@ -28,7 +28,7 @@ pub struct SensorLimits {
 /// What the encoder is allowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EncoderLimits {
-    /// As of the other sensors.
+    /// Longest time without a reading, s, as of the other sensors.
     pub stale_time: f32,
     /// Counts per rad of the block, the mean of its lever times counts per metre of the rack; 0 where it is not to be compared with the
     /// gyroscope. Magnitude up to 1e9.

@@ -23,7 +23,7 @@ const AVERAGED: u16 = 64;
 pub(in crate::control) struct Scale {
     /// In the order of [`Place::ALL`](super::fault::Place::ALL).
     forces: [Force; 2],
-    /// Found wrong, and told.
+    /// Found wrong, and reported.
     wrong: [bool; 2],
 }
 
@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn a_range_of_twice_or_half_is_found_whatever_the_tilt_and_told_once() {
+    fn a_range_of_twice_or_half_is_found_whatever_the_tilt_and_reported_once() {
         for factor in [0.25, 0.5, 2.0, 4.0] {
             // Upright, and leaning to either side by a right-angled triangle of 3, 4 and 5.
             for upright in [[0.0, 1.0], [0.6, 0.8], [-0.8, 0.6]] {
@@ -104,8 +104,8 @@ mod tests {
                 let mut scale = Scale::default();
                 assert_eq!(looks(&mut scale, force, 63), 0);
                 assert_eq!(looks(&mut scale, force, 1), 1, "{factor} {upright:?}");
-                assert_eq!(looks(&mut scale, force, 2048), 0, "told once");
-                // What has been right again is told anew.
+                assert_eq!(looks(&mut scale, force, 2048), 0, "reported once");
+                // What has been right again is reported anew.
                 assert_eq!(looks(&mut scale, [0.0, 1.0], 64), 0);
                 assert_eq!(looks(&mut scale, force, 64), 1);
             }

@@ -3,7 +3,7 @@
 use super::sample::Sample;
 use serde::{Deserialize, Serialize};
 
-/// What the estimators subtract.
+/// Biases that the estimators subtract.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
     /// Gyroscope at rest, rad/s.
@@ -37,10 +37,10 @@ pub(in crate::control) fn off_gravity(reading: [f32; 2], bias: [f32; 2], gravity
     if along > up { along } else { up }
 }
 
-/// What a new bias may be.
+/// Limits of a new bias.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plausible {
-    /// Of the gyroscope, rad/s.
+    /// Largest bias of the gyroscope, rad/s.
     pub gyroscope: f32,
     /// Of each axis of an accelerometer, m/s².
     pub accelerometer: f32,

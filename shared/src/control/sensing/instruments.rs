@@ -31,7 +31,7 @@ pub struct Instruments {
 }
 
 /// Largest growth of the ground's acceleration that is extrapolated, g/s: a record of 1 g with 20 Hz in it. What grows faster is a
-/// jump, which does not go on.
+/// jump, which does not continue.
 const FASTEST_GROWTH: f32 = 120.0;
 
 /// Largest growth that is tracked, g/s: far beyond any sensor.
@@ -201,7 +201,7 @@ struct Track {
     started: bool,
 }
 
-/// What reading remembers.
+/// State of the readings.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct InstrumentsState {
     /// Of the last readings of gyroscope, encoder, and both accelerometers.
@@ -219,9 +219,9 @@ impl InstrumentsState {
 /// One tick's readings, without their biases; `None` is no new reading.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Measured {
-    /// Of the gyroscope, rad/s.
+    /// Rate of the gyroscope, rad/s.
     pub rate: Option<f32>,
-    /// Of the rack, over R.
+    /// Travel of the rack, over R.
     pub travel: Option<f32>,
     /// Specific force on the block in its own axes, m/s².
     pub block: Option<[f32; 2]>,

@@ -16,9 +16,9 @@ pub struct Required {
 }
 
 impl Required {
-    /// All of them.
+    /// All sensors.
     pub const ALL: Required = Required { gyroscope: true, block_accelerometer: true, ground_accelerometer: true, encoder: true };
-    /// None of them.
+    /// No sensor.
     pub const NONE: Required =
         Required { gyroscope: false, block_accelerometer: false, ground_accelerometer: false, encoder: false };
 
@@ -27,7 +27,7 @@ impl Required {
         [self.gyroscope, self.block_accelerometer, self.ground_accelerometer, self.encoder]
     }
 
-    /// The model-aided estimator's, and so another sensor can take the place of one that is lost: its equation of motion goes on with
+    /// Whether another sensor can take the place of one that is lost, as in the model-aided estimator: its equation of motion continues with
     /// encoder or gyroscope alone, and finds the ground's acceleration from the block's.
     pub fn has_substitutes(&self) -> bool {
         self.flags() == [true, false, true, true]

@@ -1,4 +1,4 @@
-//! What the sensors tell the controller at one tick, in SI units.
+//! Readings of the sensors at one tick, in SI units.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +16,7 @@ pub struct Reading {
 pub struct Count {
     /// Counts since the start, wrapping; they grow with the terminals' travel, which has the sign of θ.
     pub counts: i32,
-    /// As [`Reading::number`].
+    /// Number of the reading, as [`Reading::number`].
     pub number: u32,
 }
 

@@ -5,7 +5,7 @@ use crate::control::monitor::fault::{Fault, Wheel};
 use heapless::Deque;
 use heapless::deque::Iter;
 
-/// What happened.
+/// Kind of an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// The command to engage was sent.
@@ -36,12 +36,12 @@ impl Kind {
     }
 }
 
-/// One entry.
+/// Entry of the event log.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
     /// Tick of the controller, wrapping.
     pub tick: u32,
-    /// What happened.
+    /// Kind of the event.
     pub kind: Kind,
     /// Estimated θ then, rad; whatever the estimator said, so perhaps not finite.
     pub rotation: f32,
@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn a_count_at_its_end_stays_and_the_log_goes_on() {
+    fn a_count_at_its_end_stays_and_the_log_continues() {
         let mut log = EventLog::<4>::new();
         log.count = u32::MAX - 2;
         for tick in u32::MAX - 5..u32::MAX {

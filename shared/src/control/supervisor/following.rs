@@ -17,7 +17,7 @@ pub(super) struct Following {
     pub part: f32,
     /// Counts may have been lost, or nothing been measured at all: the first rest counts in full.
     pub unsure: bool,
-    /// Ticks since one was averaged. Counted here, and not by the number of the tick, which tells how long ago the device was started.
+    /// Ticks since one was averaged. Counted here, and not by the number of the tick, which shows how long ago the device was started.
     waited: u32,
 }
 

@@ -5,7 +5,7 @@ use crate::control::monitor::fault::{Fault, Wheel};
 use crate::control::sensing::sample::Sample;
 use serde::{Deserialize, Serialize};
 
-/// Where the controller stands.
+/// Phase of the controller.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Phase {
@@ -29,14 +29,14 @@ impl Phase {
     pub const ALL: [Phase; 6] = [Phase::Boot, Phase::SelfTest, Phase::Calibrate, Phase::Armed, Phase::Rocking, Phase::Fault];
 }
 
-/// What somebody asks for.
+/// Requests of an operator.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Requests {
     /// Leave Fault, through a new self-test. Taken where it begins, and only at rest: one that comes in motion must be made again.
     pub clear: bool,
 }
 
-/// What the supervisor is told at a tick.
+/// Inputs of the supervisor at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SupervisorInput<'a> {
     /// Sensors and feedback.
@@ -49,9 +49,9 @@ pub struct SupervisorInput<'a> {
     pub estimate: (f32, f32),
     /// How late this tick came, s; 0 or less where it was in time.
     pub lateness: f32,
-    /// What somebody asks for.
+    /// Requests of an operator.
     pub requests: Requests,
-    /// What the coils' currents say.
+    /// Reports of the coils' currents.
     pub coils: CoilReports,
     /// The time in which this clutch closes has just been found to have changed too far.
     pub slower: Option<Wheel>,
@@ -60,18 +60,18 @@ pub struct SupervisorInput<'a> {
 /// What a tick makes of the biases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Biases {
-    /// They are as before.
+    /// Biases as before.
     Kept,
     /// They have been measured, and the controller armed: estimators must start anew, from rest.
     Measured,
-    /// They have followed a drift.
+    /// Biases that have followed a drift.
     Followed,
 }
 
-/// What the supervisor says.
+/// Verdict of the supervisor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict {
-    /// Where the controller stands.
+    /// Phase of the controller.
     pub phase: Phase,
     /// While it stands in Fault, the first cause; else that of the sensor that another one stands in for.
     pub fault: Option<Fault>,

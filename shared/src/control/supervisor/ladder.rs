@@ -1,4 +1,4 @@
-//! What to do without a sensor or a clutch, from the top: another sensor stands in for the one that is lost, and the law goes on; else one
+//! What to do without a sensor or a clutch, from the top: another sensor stands in for the one that is lost, and the law continues; else one
 //! clutch engaged, which needs no sensor; both open only where an engaged clutch is what is wrong.
 //!
 //! `docs/robustness.md` says why: one flywheel engaged for good costs a few percent of the peak, both open a half of it.

@@ -88,7 +88,7 @@ pub struct SupervisorState {
     calibration: Calibration,
     /// The gyroscope's bias was measured.
     calibrated: bool,
-    /// It has gone on after a reset, so that the encoder's zero and the biases are those of before: to be measured again at rest.
+    /// It has resumed after a reset, so that the encoder's zero and the biases are those of before: to be measured again at rest.
     resumed: bool,
     /// The self-test was passed, or is not wanted.
     tested: bool,
@@ -107,7 +107,7 @@ pub struct SupervisorState {
     command_rate: CommandRate,
     ladder: Ladder,
     scale: Scale,
-    /// What happened.
+    /// Event log.
     pub log: EventLog<LOG_ENTRIES>,
 }
 
@@ -164,12 +164,12 @@ impl SupervisorState {
         self.monitor.findings()
     }
 
-    /// What the last tick left.
+    /// Phase after the last tick.
     pub fn phase(&self) -> Phase {
         self.phase
     }
 
-    /// What the estimators subtract.
+    /// Biases that the estimators subtract.
     pub fn calibration(&self) -> &Calibration {
         &self.calibration
     }

@@ -3,7 +3,7 @@
 use crate::control::sensing::calibration::{Calibration, off_gravity};
 use crate::control::sensing::sample::Sample;
 
-/// What counts as motion.
+/// Thresholds of motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct MotionLimits {
     /// rad/s.
@@ -31,7 +31,7 @@ const CREEPING: u32 = 256;
 
 /// For how many ticks nothing has moved.
 ///
-/// Two ways to tell, because a bias is not known before it has been measured: a reading that stays near one value is still, whatever the
+/// Two criteria, because a bias is not known before it has been measured: a reading that stays near one value is still, whatever the
 /// value; and once calibrated, a rate or an acceleration is that of a motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Motion {

@@ -1,4 +1,4 @@
-//! What a supervisor is told about its controller, in SI units.
+//! Parameters of a supervisor, in SI units.
 
 use super::Supervisor;
 use super::following::{EVERY, FOLLOWING_TIME};
@@ -21,7 +21,7 @@ pub enum SafeState {
 }
 
 impl SafeState {
-    /// As commands.
+    /// Commands of the safe state.
     pub fn command(self) -> [bool; 2] {
         match self {
             SafeState::Released => [false; 2],
@@ -35,7 +35,7 @@ impl SafeState {
 pub struct Parameters {
     /// From tick to tick, s; 1e-5 to 0.01. Default 0.5 ms.
     pub period: f32,
-    /// What the sensors are allowed.
+    /// Limits of the sensors.
     pub monitor: MonitorParameters,
     /// Default: all.
     pub required: Required,

@@ -14,7 +14,7 @@ const AGAIN: u32 = 100;
 pub(super) struct ProofTest {
     /// Averages of an armed controller at rest since the last one.
     waited: u32,
-    /// 0 while none goes on; then each clutch opens and engages, one after the other, while the other one is as the law wishes.
+    /// 0 while none runs; then each clutch opens and engages, one after the other, while the other one is as the law wishes.
     step: u8,
 }
 
@@ -38,7 +38,7 @@ impl ProofTest {
         }
     }
 
-    /// Ends the one that goes on, which counts as none.
+    /// Ends the test that runs, which counts as none.
     pub fn end(&mut self) {
         self.step = 0;
     }
@@ -53,7 +53,7 @@ impl Supervisor {
         }
     }
 
-    /// One tick of a test that goes on. The first reading that moves ends it; a clutch that does not follow is a fault as in operation.
+    /// One tick of a test that runs. The first reading that moves ends it; a clutch that does not follow is a fault as in operation.
     #[inline(never)]
     pub(super) fn prove(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) {
         if !(input.standing && state.motion.still(1)) {

@@ -55,7 +55,7 @@ pub struct Header {
 }
 
 impl Header {
-    /// As words.
+    /// Words of the header.
     pub fn words(&self) -> [u32; HEADER_WORDS] {
         let kind = [FORMAT, u8::from(self.attached), self.part, RECORD_BYTES as u8];
         let mut words = [
@@ -116,14 +116,14 @@ pub fn is_blank(bytes: &[u8]) -> bool {
 /// A whole page.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Page<'a> {
-    /// What it says of itself.
+    /// Header of the page.
     pub header: Header,
     /// The recording ends with it.
     pub ends: bool,
     records: &'a [u8],
 }
 
-/// Why bytes are no whole page.
+/// Reasons why bytes are no whole page.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PageError {
     /// Nothing has been written.

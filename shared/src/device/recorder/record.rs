@@ -29,7 +29,7 @@ pub struct Moment {
     pub command: [bool; 2],
     /// Clutches that said that they were engaged.
     pub engaged: [bool; 2],
-    /// Where the controller stood.
+    /// Phase of the controller.
     pub phase: Phase,
     /// The block stood on both toes.
     pub standing: bool,

@@ -124,7 +124,7 @@ impl Ring {
                 self.state = State::Recording;
             }
             State::Waiting => {}
-            // Nothing of what has come meanwhile is lost: it goes on.
+            // Nothing of what has come meanwhile is lost: it continues.
             State::Ending if moves => self.state = State::Recording,
             State::Recording if self.stood >= AFTER || !matches!(phase, Phase::Rocking | Phase::Fault) => {
                 (self.state, self.end) = (State::Ending, self.head);

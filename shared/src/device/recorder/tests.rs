@@ -85,7 +85,7 @@ impl<const SECTOR: usize> NorFlash for Nor<SECTOR> {
     }
 }
 
-/// A device that stands as told, its ring, and its recorder.
+/// A device that stands as given, its ring, and its recorder.
 struct Flown<const SECTOR: usize> {
     device: Device,
     ring: Ring,
@@ -263,7 +263,7 @@ fn a_reset_in_motion_begins_another_part() {
     let parts: Vec<(u16, u8)> = whole(&flash.bytes).iter().map(|page| (page.header.number, page.header.part)).collect();
     assert_eq!((parts[0], parts[parts.len() - 1]), ((1, 0), (2, 0)), "{parts:?}");
     assert!(parts.contains(&(1, 1)), "{parts:?}");
-    // What ended before the reset is not gone on with.
+    // What ended before the reset is not continued.
     let mut flown = Flown::<PAGE>::new(Nor::new(), false, false);
     flown.ticks(20, Phase::Armed, false, 4).ticks(9, Phase::Rocking, true, 4).ticks(AFTER + 600, Phase::Armed, false, 4);
     let mut flown = Flown::new(flown.flash(), false, true);
@@ -299,7 +299,7 @@ fn what_goes_round_keeps_the_new() {
     assert_eq!(pages.len(), 16);
     assert!(pages.windows(2).all(|pair| pair[1].header.sequence == pair[0].header.sequence + 1));
     assert_eq!((pages[15].header.number, pages[15].ends), (40, true));
-    // After a start it goes on where it was.
+    // After a start it continues where it was.
     let mut flown = Flown::new(flash, true, false);
     flown.quake(700);
     let flash = flown.flash();

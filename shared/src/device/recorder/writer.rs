@@ -58,7 +58,7 @@ pub struct Recorder<F> {
     flash: F,
     /// The oldest page makes room for the newest.
     goes_round: bool,
-    /// The device goes on after a reset in motion.
+    /// The device resumes after a reset in motion.
     resumed: bool,
     stage: Stage,
     pending: Pending,
@@ -69,7 +69,7 @@ pub struct Recorder<F> {
     /// The newest header, and whether the recording ended with its page.
     last: Option<Header>,
     ended: bool,
-    /// The recording that goes on was begun by this start of the device.
+    /// The present recording was begun by this start of the device.
     own: bool,
     /// Everything is to be erased, once what is to be kept is there.
     to_be_erased: bool,
@@ -338,7 +338,7 @@ impl<F: NorFlash> Recorder<F> {
         (self.stage, self.next) = (Stage::Looking(0), 0);
     }
 
-    /// How it is.
+    /// State of the flight recorder.
     pub fn state(&self) -> RecorderState {
         let activity = match self.stage {
             _ if self.to_be_erased => RecorderActivity::Erasing,

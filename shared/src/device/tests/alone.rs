@@ -6,8 +6,8 @@ use crate::device::HOST_SILENCE;
 use crate::device::beginning::MOST_STARTS;
 
 /// With what flash holds after resets, if it holds anything.
-fn started(found: Option<&Settings>, kept: Option<&Retained>, least_period: f32) -> Bench {
-    Bench::of(&Beginning::of(found, kept, least_period).unwrap(), kept)
+fn started(found: Option<&Settings>, retained: Option<&Retained>, least_period: f32) -> Bench {
+    Bench::of(&Beginning::of(found, retained, least_period).unwrap(), retained)
 }
 
 /// It does nothing, says why, and nothing but a store mends it.
@@ -48,7 +48,7 @@ fn a_host_may_run_it_without_settings_of_its_own() {
     while bench.device.decision().phase != Phase::Armed {
         number += 1;
         assert!(number < 5000);
-        let sample = TickSample { sample: bench.rig.sample(), ..told(number) };
+        let sample = TickSample { sample: bench.rig.sample(), ..host_sample(number) };
         assert_eq!(bench.answer(Request::Sample(sample)), Answer::Sample);
         bench.device.tick(|_| panic!("its own sensors"), 0.0);
         bench.rig.advance(bench.device.decision().command);
@@ -67,7 +67,7 @@ fn visited() -> (Bench, u32) {
     while bench.device.decision().phase != Phase::Armed {
         number += 1;
         assert!(number < 5000);
-        let sample = TickSample { sample: bench.rig.sample(), ..told(number) };
+        let sample = TickSample { sample: bench.rig.sample(), ..host_sample(number) };
         assert_eq!(bench.answer(Request::Sample(sample)), Answer::Sample);
         bench.device.tick(|_| panic!("its own sensors"), 0.0);
         bench.rig.advance(bench.device.decision().command);
@@ -82,7 +82,7 @@ fn detached_it_is_as_it_was() {
         bench.rig.shakes = rocks;
         while rocks && bench.device.decision().phase != Phase::Rocking {
             number += 1;
-            let sample = TickSample { sample: bench.rig.sample(), ..told(number) };
+            let sample = TickSample { sample: bench.rig.sample(), ..host_sample(number) };
             assert_eq!(bench.answer(Request::Sample(sample)), Answer::Sample);
             bench.device.tick(|_| panic!("its own sensors"), 0.0);
             bench.rig.advance(bench.device.decision().command);
@@ -107,7 +107,7 @@ fn a_host_that_falls_silent_is_left() {
     // A host that says something else is not there for its samples, and one sample is enough.
     assert!(matches!(bench.ask(Request::State), Reply::State(_)));
     assert!(!bench.device.deserted());
-    let sample = TickSample { sample: bench.rig.sample(), ..told(number + 1) };
+    let sample = TickSample { sample: bench.rig.sample(), ..host_sample(number + 1) };
     assert_eq!(bench.answer(Request::Sample(sample)), Answer::Sample);
     for _ in 0..=most {
         bench.device.tick(|_| panic!("its own sensors"), 0.0);
@@ -127,16 +127,16 @@ fn a_host_that_falls_silent_is_left() {
 }
 
 #[test]
-fn what_a_host_said_is_not_gone_on_from_by_a_board() {
+fn what_a_host_said_is_not_resumed_from_by_a_board() {
     let (bench, _) = visited();
-    let kept = Retained::of(&bench.device.retained().words(1)).unwrap();
-    assert_eq!(kept.attached, Some(Pace::Timer));
-    let mut again = Bench::with(&Settings::default(), Some(&kept.alone()));
+    let retained = Retained::of(&bench.device.retained().words(1)).unwrap();
+    assert_eq!(retained.attached, Some(Pace::Timer));
+    let mut again = Bench::with(&Settings::default(), Some(&retained.alone()));
     assert_eq!((again.device.attached(), again.device.resumes(), again.device.restarts()), (None, false, 1));
     again.until(Phase::Armed, 5000);
-    // What it knew of its own it goes on from.
-    let kept = Bench::rocking().device.retained();
-    assert_eq!(kept.alone(), kept);
+    // What it knew of its own it resumes from.
+    let retained = Bench::rocking().device.retained();
+    assert_eq!(retained.alone(), retained);
 }
 
 #[test]
@@ -171,18 +171,18 @@ fn settings_that_end_in_resets_are_given_up() {
     let mut bench = started(Some(&settings), None, 0.0);
     for restart in 1..=MOST_STARTS {
         bench.ticks(40);
-        let kept = bench.device.retained();
-        bench = started(Some(&settings), Some(&kept), 0.0);
+        let retained = bench.device.retained();
+        bench = started(Some(&settings), Some(&retained), 0.0);
         assert_eq!((bench.device.restarts(), bench.device.barred()), (restart, None));
     }
-    let kept = bench.device.retained();
-    bench = started(Some(&settings), Some(&kept), 0.0);
+    let retained = bench.device.retained();
+    bench = started(Some(&settings), Some(&retained), 0.0);
     assert_eq!(*bench.device.settings(), settings, "but for the safe state they are the defaults");
     is_barred(&mut bench, Fault::GivenUp);
     assert_eq!(bench.device.decision().command, [true, false]);
     // However long that has been: they have not become better.
-    let kept = bench.device.retained();
-    bench = started(Some(&settings), Some(&kept), 0.0);
+    let retained = bench.device.retained();
+    bench = started(Some(&settings), Some(&retained), 0.0);
     assert_eq!(bench.device.barred(), Some(Fault::GivenUp));
     // Until somebody stores others, or the same in earnest.
     assert_eq!(

@@ -28,17 +28,17 @@ fn a_fault_of_the_board_stands_until_a_new_start() {
         // The first one stays.
         bench.device.accuse(Fault::SettingsDamaged);
         assert_eq!(bench.device.barred(), Some(fault));
-        let kept = bench.device.retained();
-        let mut again = Bench::with(&Settings::default(), Some(&kept));
+        let retained = bench.device.retained();
+        let mut again = Bench::with(&Settings::default(), Some(&retained));
         assert!(!again.device.resumes());
         again.until(Phase::Armed, 5000);
     }
 }
 
 #[test]
-fn a_reset_in_motion_does_not_go_on_with_a_damaged_program() {
-    let kept = Bench::rocking().device.retained();
-    let mut bench = Bench::with(&Settings::default(), Some(&kept));
+fn a_reset_in_motion_does_not_resume_with_a_damaged_program() {
+    let retained = Bench::rocking().device.retained();
+    let mut bench = Bench::with(&Settings::default(), Some(&retained));
     assert!(bench.device.resumes());
     bench.device.accuse(Fault::ImageDamaged);
     assert!(!bench.device.resumes());

@@ -1,4 +1,4 @@
-//! What a device does when it is asked, and what it goes on with after a reset.
+//! What a device does when it is asked, and what it resumes with after a reset.
 
 use super::{Answer, Device, Surroundings};
 use crate::control::supervisor::Phase;
@@ -33,13 +33,13 @@ impl Bench {
         Bench::with(&Settings::default(), None)
     }
 
-    fn with(settings: &Settings, kept: Option<&Retained>) -> Bench {
-        Bench::of(&Beginning::of(Some(settings), kept, 0.0).unwrap(), kept)
+    fn with(settings: &Settings, retained: Option<&Retained>) -> Bench {
+        Bench::of(&Beginning::of(Some(settings), retained, 0.0).unwrap(), retained)
     }
 
-    fn of(beginning: &Beginning, kept: Option<&Retained>) -> Bench {
+    fn of(beginning: &Beginning, retained: Option<&Retained>) -> Bench {
         let (store, _) = Store::open(Flash::default());
-        Bench { device: Device::new(beginning, kept), store, rig: Rig::new(beginning.controller.model) }
+        Bench { device: Device::new(beginning, retained), store, rig: Rig::new(beginning.controller.model) }
     }
 
     fn answer(&mut self, request: Request) -> Answer {
@@ -150,7 +150,7 @@ fn a_draft_is_nothing_until_it_is_applied() {
     assert_eq!(bench.device.decision().phase, Phase::Boot);
     let Reply::Identity(identity) = bench.ask(Request::Identify) else { panic!() };
     assert_eq!((identity.check, usize::from(identity.settings)), (wanted.check(), COUNT));
-    // A second time it is no news: the controller goes on.
+    // A second time it is no news: the controller continues.
     bench.until(Phase::Armed, 5000);
     assert_eq!(bench.answer(apply), Answer::Reply(DONE));
     assert_eq!(bench.tick(), Phase::Armed);
@@ -235,7 +235,7 @@ fn in_motion_nothing_changes() {
     ] {
         assert_eq!(bench.ask(request), busy, "{request:?}");
     }
-    assert_eq!(bench.ask(Request::Sample(told(1))), Reply::Refused(Refusal::NotHere));
+    assert_eq!(bench.ask(Request::Sample(host_sample(1))), Reply::Refused(Refusal::NotHere));
     // Nobody is attached, so there is nothing to do.
     assert_eq!(bench.answer(Request::Detach), Answer::Reply(DONE));
     let mut untouched = Bench { device: before, store: Store::open(Flash::default()).0, rig: bench.rig.clone() };
@@ -271,7 +271,7 @@ fn sensors_that_test_themselves_are_waited_for() {
     bench.until(Phase::Armed, 5000);
 }
 
-fn told(number: u32) -> TickSample {
+fn host_sample(number: u32) -> TickSample {
     TickSample { number, sample: Default::default(), lateness: 0.0, clear: false }
 }
 
@@ -279,7 +279,7 @@ fn told(number: u32) -> TickSample {
 fn attached_it_ticks_by_samples_from_the_link() {
     for pace in [Pace::Sample, Pace::Timer] {
         let mut bench = Bench::new();
-        assert_eq!(bench.ask(Request::Sample(told(1))), Reply::Refused(Refusal::NotHere));
+        assert_eq!(bench.ask(Request::Sample(host_sample(1))), Reply::Refused(Refusal::NotHere));
         assert_eq!(bench.answer(Request::Attach { pace }), Answer::Restarted(DONE));
         assert_eq!(bench.device.attached(), Some(pace));
         // Before the first sample there is nothing to start with, and its own sensors are not asked.
@@ -289,7 +289,7 @@ fn attached_it_ticks_by_samples_from_the_link() {
         // Twice, late, newer: each number counts once.
         let mut last = 0;
         for (number, expected) in [(5, 5), (5, 5), (4, 5), (6, 6), (1, 6), (100, 100)] {
-            let sample = TickSample { sample: bench.rig.sample(), ..told(number) };
+            let sample = TickSample { sample: bench.rig.sample(), ..host_sample(number) };
             assert_eq!(bench.answer(Request::Sample(sample)), Answer::Sample);
             assert_eq!(bench.device.has_sample(), expected != last);
             if bench.device.has_sample() {
@@ -313,7 +313,7 @@ fn attached_or_not_it_decides_the_same() {
         own.rig.shakes = number > 3000;
         own.tick();
         attached.rig.shakes = number > 3000;
-        let sample = TickSample { sample: attached.rig.sample(), ..told(number) };
+        let sample = TickSample { sample: attached.rig.sample(), ..host_sample(number) };
         assert_eq!(attached.answer(Request::Sample(sample)), Answer::Sample);
         attached.device.tick(|_| panic!("its own sensors"), 0.0);
         attached.rig.advance(attached.device.decision().command);

@@ -4,14 +4,14 @@ use super::*;
 use crate::control::monitor::fault::Fault;
 use crate::control::sensing::sensor::Sensor;
 
-/// What happens to a device at a reset: its memory but for what it keeps is gone, and the encoder goes on from the count that was kept.
+/// What happens to a device at a reset: its memory but for the retained state is gone, and the encoder continues from the retained count.
 fn reset(bench: &Bench) -> Bench {
-    let kept = Retained::of(&bench.device.retained().words(0)).unwrap();
-    Bench { rig: bench.rig.clone(), ..Bench::with(bench.device.settings(), Some(&kept)) }
+    let retained = Retained::of(&bench.device.retained().words(0)).unwrap();
+    Bench { rig: bench.rig.clone(), ..Bench::with(bench.device.settings(), Some(&retained)) }
 }
 
 #[test]
-fn it_goes_on_where_it_was() {
+fn it_resumes_where_it_was() {
     let mut bench = Bench::rocking();
     let mut worst = [0.0_f32; 2];
     // Over half a second, at every phase of the motion.
@@ -119,7 +119,7 @@ fn what_the_encoder_missed_is_made_good_at_rest() {
 }
 
 #[test]
-fn while_it_goes_on_nothing_is_changed() {
+fn while_it_resumes_nothing_is_changed() {
     let mut again = reset(&Bench::rocking());
     let busy = |reply| matches!(reply, Reply::Refused(Refusal::Busy(_)));
     assert!(busy(again.ask(Request::Attach { pace: Pace::Timer })));
@@ -143,8 +143,8 @@ fn where_it_did_not_decide_it_starts_from_the_beginning() {
 fn attached_it_waits_for_a_sample_but_not_for_ever() {
     let mut bench = Bench::new();
     bench.ask(Request::Attach { pace: Pace::Timer });
-    let tell = |bench: &mut Bench, number: u32| {
-        let sample = TickSample { sample: bench.rig.sample(), ..told(number) };
+    let send = |bench: &mut Bench, number: u32| {
+        let sample = TickSample { sample: bench.rig.sample(), ..host_sample(number) };
         assert_eq!(bench.answer(Request::Sample(sample)), Answer::Sample);
         bench.device.tick(|_| panic!("its own sensors"), 0.0);
         bench.rig.advance(bench.device.decision().command);
@@ -153,14 +153,14 @@ fn attached_it_waits_for_a_sample_but_not_for_ever() {
     while bench.device.decision().phase != Phase::Armed {
         number += 1;
         assert!(number < 5000);
-        tell(&mut bench, number);
+        send(&mut bench, number);
     }
-    // It goes on with the sample that comes.
+    // It continues with the sample that comes.
     let mut again = reset(&bench);
     assert_eq!(again.device.attached(), Some(Pace::Timer));
     (0..50).for_each(|_| again.device.tick(|_| panic!("its own sensors"), 0.0));
     assert!(again.device.resumes() && again.device.decision().command == again.device.safe_command());
-    tell(&mut again, number + 1);
+    send(&mut again, number + 1);
     assert!(!again.device.resumes() && again.device.decision().phase == Phase::Rocking);
     assert_eq!(again.device.retained().calibration, bench.device.retained().calibration);
     // Or starts from the beginning, where the sender is gone too.

@@ -1,4 +1,4 @@
-//! A block for a controller to hold: the controller's own model, moved by small steps in f32, on a ground that keeps still until it is told to
+//! A block for a controller to hold: the controller's own model, moved by small steps in f32, on a ground that keeps still until it is commanded to
 //! shake, seen through sensors with biases, noise and steps. The same on every machine, to the last bit: the emulated core has this file as
 //! a module too.
 

@@ -1,4 +1,4 @@
-//! A device that has worked for days: its counts go on past their ends, and nothing that it decides or shows depends on them.
+//! A device that has worked for days: its counts continue past their ends, and nothing that it decides or shows depends on them.
 
 use super::*;
 use crate::device::light::slot_ticks;
@@ -58,7 +58,7 @@ fn restarts_are_forgotten_after_a_second_of_good_work_which_is_counted_no_furthe
 }
 
 #[test]
-fn a_stream_of_the_longest_interval_goes_on() {
+fn a_stream_of_the_longest_interval_continues() {
     let mut bench = Bench::armed();
     bench.ask(Request::Stream { every: u16::MAX });
     let mut reports = Vec::new();
@@ -75,7 +75,7 @@ fn samples_of_the_link_are_numbered_past_the_end() {
     let mut bench = Bench::new();
     bench.ask(Request::Attach { pace: Pace::Sample });
     for number in (u32::MAX - 50..=u32::MAX).chain(0..50) {
-        let sample = TickSample { sample: bench.rig.sample(), ..told(number) };
+        let sample = TickSample { sample: bench.rig.sample(), ..host_sample(number) };
         assert_eq!(bench.answer(Request::Sample(sample)), Answer::Sample);
         bench.device.tick(|_| panic!("its own sensors"), 0.0);
         assert_eq!(bench.device.report(1, 0).map(|report| report.sample), Some(number));

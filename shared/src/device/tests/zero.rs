@@ -23,7 +23,7 @@ impl Bench {
     }
 }
 
-/// Changes of the command, and ticks that do not stand, of a block at rest while `spoil` is told how many ticks it has been so.
+/// Changes of the command, and ticks that do not stand, of a block at rest while `spoil` is given how many ticks it has been so.
 fn at_rest(ticks: u32, spoil: impl Fn(&mut Sample, u32)) -> (u32, u32) {
     let mut bench = Bench::armed();
     bench.ticks(4000);
@@ -103,8 +103,8 @@ fn counts_lost_over_a_reset_are_found_at_an_impact() {
         for boot in [4, 40, 100, 280] {
             let mut bench = Bench::rocking();
             bench.ticks(100 + 37 * phase);
-            let kept = Retained::of(&bench.device.retained().words(0)).unwrap();
-            let mut again = Bench { rig: bench.rig.clone(), ..Bench::with(bench.device.settings(), Some(&kept)) };
+            let retained = Retained::of(&bench.device.retained().words(0)).unwrap();
+            let mut again = Bench { rig: bench.rig.clone(), ..Bench::with(bench.device.settings(), Some(&retained)) };
             let before = again.rig.sample().encoder.counts;
             for _ in 0..boot {
                 again.rig.sample();

@@ -28,7 +28,7 @@ fn good<T: DeserializeOwned>(bytes: &[u8]) -> Vec<Received<T>> {
     heard(bytes).into_iter().filter_map(Result::ok).collect()
 }
 
-/// It arrives as it was sent. The bytes tell every bit of a float, also of those that are not numbers, and the text tells every field.
+/// It arrives as it was sent. The bytes show every bit of a float, also of those that are not numbers, and the text shows every field.
 fn arrives<T: Serialize + DeserializeOwned + core::fmt::Debug>(tag: u8, message: &T) {
     let frame = framed(tag, message);
     assert_eq!(frame.iter().position(|byte| *byte == 0), Some(frame.len() - 1), "one zero, at the end");

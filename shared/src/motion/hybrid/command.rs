@@ -31,7 +31,7 @@ pub struct Actuator<S> {
 }
 
 impl<S: Real> Actuator<S> {
-    /// Of an actuation within its ranges.
+    /// Actuator of an actuation within its ranges.
     pub fn of(actuation: &Actuation) -> Actuator<S> {
         Actuator {
             engagement_delay: S::of(actuation.engagement_delay),

@@ -6,7 +6,7 @@ use crate::math::scalar::Real;
 use crate::motion::state::{Phase, Stopped};
 
 /// Number of events at once that is taken for a graze: a guard touches zero, and rounding decides in which mode
-/// the motion goes on, anew each time.
+/// the motion continues, anew each time.
 pub(super) const MOST_AT_ONCE: u32 = 16;
 
 /// Largest time between events at once, in 1/p.

@@ -320,7 +320,7 @@ impl<S: Real> HybridSystem<S> {
         }
     }
 
-    /// A flywheel has come to a stop; what acts on it decides which way it goes on, if at all.
+    /// A flywheel has come to a stop; what acts on it decides which way it continues, if at all.
     fn stopped(&self, state: &mut HybridState<S>, index: usize) {
         let law = self.law(state);
         let point = self.point(&law, state.motion.side, &self.place(state));

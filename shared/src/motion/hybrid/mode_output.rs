@@ -69,7 +69,7 @@ pub trait WithModeStart<S: Real> {
     /// The result.
     type Output;
 
-    /// Goes on with `known`.
+    /// Continues with `known`.
     fn with<B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
         self,
         known: &KnownModeStart<'_, S, B, D, X, G>,
@@ -77,7 +77,7 @@ pub trait WithModeStart<S: Real> {
 }
 
 impl<S: Real> ModeStart<'_, S> {
-    /// Goes on with block and device in their own types: one choice for all that `next` evaluates.
+    /// Continues with block and device in their own types: one choice for all that `next` evaluates.
     #[inline(always)]
     pub fn known<W: WithModeStart<S>>(&self, next: W) -> W::Output {
         let kind = self.system.transmission.kind;

@@ -32,7 +32,7 @@ impl<S: Real> IdealSystem<S> {
         let ground = segment.acceleration(time);
         self.read_signs(state, ground);
         observer.event(Event::Impact, time, state);
-        // A ground acceleration above the threshold ends impacts too weak for the clock to tell apart: the block uplifts to the other side.
+        // A ground acceleration above the threshold ends impacts too weak for the clock to distinguish: the block uplifts to the other side.
         if self.lifts(ground) {
             let rate = self.released.acceleration(state.side.unit(), S::ZERO, S::ZERO, ground);
             let unresolved = state.side.times(rate) < S::ZERO && time + state.velocity.abs() / rate.abs() == time;

@@ -226,7 +226,7 @@ impl<S: Real> IdealSystem<S> {
                         .switching_zero(from, to, state.terminal_acceleration_sign, acceleration_is_zero)
                         .filter(|&zero| zero <= bound);
                     // Just after a switch rounding may show the old sign as far as a zero of θ̈ that follows at once: only a longer look
-                    // tells that from a switch back.
+                    // distinguishes that from a switch back.
                     if acceleration_zero.is_none() || zero.is_none_or(|zero| zero > (*time + length) * S::EPSILON) {
                         break;
                     }
@@ -268,7 +268,7 @@ impl<S: Real> IdealSystem<S> {
                 return if before == state.side { End::Impact } else { End::Overturned };
             }
             if turns {
-                // It has just turned: back at once would go on without end. The motion shows where it goes.
+                // It has just turned: back at once would repeat without end. The motion shows where it goes.
                 let undecided =
                     self.clutch.follows_signs() && from == S::ZERO && first.velocity == S::ZERO && turn <= stop * S::EPSILON;
                 (interval.to, interval.last) = (turn, at_turn);

@@ -21,12 +21,12 @@ pub struct FreeMotion<I> {
     pub inward: I,
 }
 
-/// How a free motion ends.
+/// Outcome of a free motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settled {
     /// It passes the tip outward, or stops beyond it.
     pub overturned: bool,
-    /// It passes θ = 0 before that.
+    /// Whether it passes θ = 0 before that.
     pub impact: bool,
     /// Largest |θ| of the free motion, rad; until it overturns.
     pub rotation: f64,

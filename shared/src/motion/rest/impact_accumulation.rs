@@ -55,7 +55,7 @@ impl<S: Real> Accumulation<S> {
         if ends <= duration && stands(ends) {
             return Some(ends);
         }
-        // Impacts that hardly take anything would go on through the segment, thousands of them too weak to matter.
+        // Impacts that hardly take anything would continue through the segment, thousands of them too weak to matter.
         let lingers = duration - time > self.swing * S::of(MOST_IDLE_SWINGS);
         (lingers || negligible).then_some(time)
     }

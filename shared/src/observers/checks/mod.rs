@@ -56,7 +56,7 @@ impl<S: Real> Checks<S> {
     /// block carries ([`crate::structure::Structure::loaded`]).
     ///
     /// # Errors
-    /// As [`Mount::lever`].
+    /// The errors of [`Mount::lever`].
     pub fn new(block: &Block, geometry: Geometry, mount: &Mount, account: &Account) -> Result<Checks<S>, ParameterError> {
         let speed = block.frequency_parameter() * block.slenderness();
         Ok(Checks {

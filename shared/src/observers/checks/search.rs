@@ -18,7 +18,7 @@ pub(super) fn largest<S: Real>(span: (S, S), looks: &[S; LOOKS], record: Option<
     let value = |i: usize| looks[i];
     let highest = (1..LOOKS).fold(0, |best, i| if value(i) > value(best) { i } else { best });
     let found = (instant(span, highest), value(highest));
-    // The parabola through the three nearest looks tells whether there may be a record between them.
+    // The parabola through the three nearest looks shows whether there may be a record between them.
     let centre = highest.clamp(1, LOOKS - 2);
     let [left, middle, right] = [centre - 1, centre, centre + 1].map(value);
     let bend = middle + middle - left - right;

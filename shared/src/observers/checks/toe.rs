@@ -62,7 +62,7 @@ pub(super) struct Toe<S> {
 
 impl<S: Real> Toe<S> {
     /// # Errors
-    /// As [`Mount::lever`].
+    /// The errors of [`Mount::lever`].
     pub fn new(block: &Block, geometry: Geometry, mount: &Mount, account: &Account) -> Result<Toe<S>, ParameterError> {
         let TyingPoint { along, across } = mount.lever(block)?;
         let p2 = block.frequency_parameter_squared();

@@ -5,7 +5,7 @@ use crate::math::scalar::Real;
 /// Energies over λmR², 1/s²: what came in, what is there, and what is gone.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Entries<S> {
-    /// What was there at the start.
+    /// Energy at the start.
     pub initial: S,
     /// Work of the ground on block and rack, in the frame that moves with it.
     pub input: S,

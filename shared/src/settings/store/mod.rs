@@ -33,7 +33,7 @@ pub(super) fn checksum(words: &[u32]) -> u32 {
     digest.finalize()
 }
 
-/// Why settings were not stored.
+/// Reasons why settings were not stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StoreError {
     /// A sector has no blank slot. Nothing was changed; [`Store::make_room`] makes room.

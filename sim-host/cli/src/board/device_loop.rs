@@ -22,7 +22,7 @@ pub struct DeviceLoop {
     pub took: Duration,
 }
 
-/// Why a device has closed no loop.
+/// Reasons why a device has closed no loop.
 #[derive(Debug, thiserror::Error)]
 pub enum DeviceLoopError {
     /// The device.

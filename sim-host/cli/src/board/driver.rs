@@ -133,7 +133,7 @@ impl<L: Line> DeviceDriver<L> {
         })
     }
 
-    /// Lets `mishap` happen at a tick, counted from the first one of all.
+    /// Injects `mishap` at a tick, counted from the first one of all.
     #[must_use]
     pub fn with_mishap(mut self, tick: u32, mishap: Mishap) -> Self {
         self.mishaps.push((tick, mishap));

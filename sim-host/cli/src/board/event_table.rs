@@ -69,7 +69,7 @@ pub fn log_rows(entries: &[Entry], period: f32) -> Vec<LogRow> {
     entries.iter().map(row).collect()
 }
 
-/// As a table for programs.
+/// Table of the events for programs.
 pub fn rows(entries: &[Entry], period: f32) -> TextTable {
     let mut table = TextTable::new(0, ["tick", "time_s", "rotation_rad", "velocity_rad_s", "what", "fault_code"]);
     for LogRow { tick, time_s, rotation_rad, velocity_rad_s, what, fault_code } in log_rows(entries, period) {

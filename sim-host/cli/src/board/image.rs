@@ -80,7 +80,7 @@ impl Image {
 /// Builds the firmware for the board and gives the path of its ELF file.
 ///
 /// # Errors
-/// As [`for_emulator`].
+/// The errors of [`for_emulator`].
 pub fn build_board() -> Result<PathBuf, DeviceError> {
     build_in(&folder(), &["--release"], None)
 }

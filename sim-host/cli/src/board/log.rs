@@ -15,7 +15,7 @@ pub struct Log {
 }
 
 impl Log {
-    /// Of the firmware in `image`.
+    /// Log of the firmware in `image`.
     ///
     /// # Errors
     /// [`DeviceError::Build`] where it was built without logs, or for another version of them.

@@ -11,10 +11,10 @@ use super::line::{DeviceError, Line, RefusalText};
 use super::session::Session;
 
 /// Parts of recordings, as their pages say.
-pub type Parts = BTreeMap<Key, Part>;
+pub type Parts = BTreeMap<PartNumbers, Part>;
 
 /// Number of an earthquake, and of a part of its recording.
-pub type Key = (u16, u8);
+pub type PartNumbers = (u16, u8);
 
 /// Pages of a part, without their records.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,10 +44,10 @@ pub struct Recording {
     pub torn: usize,
 }
 
-/// How the recorder is.
+/// State of the flight recorder.
 ///
 /// # Errors
-/// As [`Session::ask`].
+/// The errors of [`Session::ask`].
 pub fn state<L: Line>(session: &mut Session<L>) -> Result<RecorderState, DeviceError> {
     match session.ask(&Request::Recorder)? {
         Reply::Recorder(state) => Ok(state),
@@ -74,10 +74,10 @@ fn bytes<L: Line>(session: &mut Session<L>, offset: u32, length: usize) -> Resul
     Ok(Some(bytes))
 }
 
-/// Which recordings there are.
+/// Recordings in flash, by number and part.
 ///
 /// # Errors
-/// As [`Session::ask`].
+/// The errors of [`Session::ask`].
 pub fn list<L: Line>(session: &mut Session<L>) -> Result<Parts, DeviceError> {
     let state = state(session)?;
     let end = if state.goes_round { state.pages } else { state.pages.min(state.next.saturating_add(1)) };
@@ -104,10 +104,10 @@ pub fn list<L: Line>(session: &mut Session<L>) -> Result<Parts, DeviceError> {
 /// Every tick of a part. `progress` is given how many of its pages have come.
 ///
 /// # Errors
-/// As [`Session::ask`].
+/// The errors of [`Session::ask`].
 pub fn read<L: Line>(
     session: &mut Session<L>,
-    (number, part): Key,
+    (number, part): PartNumbers,
     pages: &[(u32, Header)],
     mut progress: impl FnMut(usize),
 ) -> Result<Recording, DeviceError> {

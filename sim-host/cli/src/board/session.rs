@@ -54,7 +54,7 @@ impl<L: Line> Session<L> {
     /// Sends a request and does not wait for a reply; returns its tag.
     ///
     /// # Errors
-    /// As the line.
+    /// The errors of the line.
     pub fn send(&mut self, request: &Request) -> Result<u8, DeviceError> {
         self.tag = self.tag.checked_add(1).unwrap_or(1);
         let mut frame = [0; MAX_FRAME];
@@ -66,7 +66,7 @@ impl<L: Line> Session<L> {
     /// Takes in what comes within `patience`; the replies among it that were asked for, with their tags.
     ///
     /// # Errors
-    /// As the line.
+    /// The errors of the line.
     pub fn receive(&mut self, patience: Duration) -> Result<Vec<(u8, Reply)>, DeviceError> {
         let mut replies = Vec::new();
         for byte in self.line.receive(patience)? {
@@ -112,7 +112,7 @@ impl<L: Line> Session<L> {
     /// Who it is.
     ///
     /// # Errors
-    /// As [`Session::ask`].
+    /// The errors of [`Session::ask`].
     pub fn identify(&mut self) -> Result<Identity, DeviceError> {
         match self.ask(&Request::Identify)? {
             Reply::Identity(identity) => Ok(identity),
@@ -123,7 +123,7 @@ impl<L: Line> Session<L> {
     /// How it is.
     ///
     /// # Errors
-    /// As [`Session::ask`].
+    /// The errors of [`Session::ask`].
     pub fn state(&mut self) -> Result<State, DeviceError> {
         match self.ask(&Request::State)? {
             Reply::State(state) => Ok(state),
@@ -134,7 +134,7 @@ impl<L: Line> Session<L> {
     /// Asks for something that only has to be done.
     ///
     /// # Errors
-    /// As [`Session::ask`].
+    /// The errors of [`Session::ask`].
     pub fn order(&mut self, request: &Request) -> Result<Done, DeviceError> {
         match self.ask(request)? {
             Reply::Done(done) => Ok(done),
@@ -145,7 +145,7 @@ impl<L: Line> Session<L> {
     /// The event log, oldest first, and how many entries there have ever been.
     ///
     /// # Errors
-    /// As [`Session::ask`].
+    /// The errors of [`Session::ask`].
     pub fn log(&mut self) -> Result<(Vec<Entry>, u32), DeviceError> {
         let (mut entries, mut from) = (Vec::new(), 0);
         loop {
@@ -164,7 +164,7 @@ impl<L: Line> Session<L> {
     /// Sends a sample.
     ///
     /// # Errors
-    /// As the line.
+    /// The errors of the line.
     pub fn sample(&mut self, sample: &TickSample) -> Result<(), DeviceError> {
         self.send(&Request::Sample(*sample)).map(|_| ())
     }
@@ -174,10 +174,10 @@ impl<L: Line> Session<L> {
         self.ticks.pop_front()
     }
 
-    /// Makes something go wrong; the device does not answer.
+    /// Injects a fault; the device does not answer.
     ///
     /// # Errors
-    /// As the line.
+    /// The errors of the line.
     pub fn rehearse(&mut self, mishap: Mishap) -> Result<(), DeviceError> {
         self.send(&Request::Rehearse(mishap)).map(|_| ())
     }

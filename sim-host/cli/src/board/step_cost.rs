@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 
 use sprag_studies::accuracy_study::board::Board;
 
-/// Why nothing was measured.
+/// Reasons why nothing was measured.
 #[derive(Debug, thiserror::Error)]
 pub enum BoardError {
     /// No image.

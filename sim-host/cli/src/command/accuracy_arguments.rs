@@ -32,7 +32,7 @@ impl AccuracyArguments {
     /// Runs `work` with the changes of a scene that these options ask for, as [`AccuracyArguments::levels`].
     ///
     /// # Errors
-    /// Those of `work`.
+    /// The errors of `work`.
     pub fn run<R>(
         &self,
         context: &mut Context<'_>,
@@ -44,7 +44,7 @@ impl AccuracyArguments {
     /// Runs `work` as accurately as these options ask, if they do; within a time budget as accurately as that affords, which is reported.
     ///
     /// # Errors
-    /// Those of `work`.
+    /// The errors of `work`.
     pub fn levels<R>(
         &self,
         context: &mut Context<'_>,

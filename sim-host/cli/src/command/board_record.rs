@@ -22,7 +22,7 @@ use super::context::Interrupted;
 use super::out_arguments::OverwriteArguments;
 use crate::board::line::DeviceError;
 use crate::board::parameters;
-use crate::board::recordings::{self, Key, Part, Parts, Recording};
+use crate::board::recordings::{self, Part, PartNumbers, Parts, Recording};
 
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag board record --port /dev/ttyUSB0\n  \
@@ -79,7 +79,7 @@ struct RecordingRow {
 
 impl RecordingsDocument {
     fn new(state: &RecorderState, parts: &Parts, period: f64) -> RecordingsDocument {
-        let row = |(&(earthquake, part), of): (&Key, &Part)| {
+        let row = |(&(earthquake, part), of): (&PartNumbers, &Part)| {
             let (_, header) = of.pages.first()?;
             Some(RecordingRow {
                 earthquake,
@@ -147,8 +147,8 @@ pub fn run(given: &RecordArguments, out: &mut impl Write, interrupt: &Interrupt)
     })
 }
 
-/// Those that are asked for.
-fn chosen<'a>(given: &RecordArguments, parts: &'a Parts) -> anyhow::Result<Vec<(Key, &'a Part)>> {
+/// Parts that are asked for.
+fn chosen<'a>(given: &RecordArguments, parts: &'a Parts) -> anyhow::Result<Vec<(PartNumbers, &'a Part)>> {
     let Some(newest) = parts.iter().max_by_key(|(_, part)| part.pages.last().map(|(_, header)| header.sequence)) else {
         return Err(anyhow!("it has recorded no earthquake"));
     };

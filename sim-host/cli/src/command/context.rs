@@ -59,7 +59,7 @@ pub struct Context<'a> {
 /// Writes results as JSON.
 ///
 /// # Errors
-/// That of `out`.
+/// The errors of `out`.
 pub fn write_json(results: &impl Serialize, out: &mut impl Write) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *out, results)?;
     writeln!(out)

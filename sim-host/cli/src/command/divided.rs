@@ -48,15 +48,14 @@ pub struct Planned {
     folder: PathBuf,
     division: Division,
     command: Box<dyn Divided>,
-    rows: Divisible,
 }
 
 impl Planned {
-    /// The plan in `folder`, which must still be of the rows that its command makes.
+    /// The plan in `folder`.
     ///
     /// # Errors
-    /// A folder without a plan, another working folder than where it was made, and a scene, record or program that has changed since.
-    pub fn read(folder: &Path, context: &mut Context<'_>) -> anyhow::Result<Planned> {
+    /// A folder without a plan, and another working folder than where it was made.
+    pub fn read(folder: &Path) -> anyhow::Result<Planned> {
         let division = Division::read(folder)?;
         let here = std::env::current_dir().context("the working folder")?;
         // Paths of the command line are relative to it.
@@ -64,21 +63,28 @@ impl Planned {
             bail!("the plan was made in {}: run this there", division.working_folder.display());
         }
         let command = divided(&division.command_line)?;
-        let rows = command.divisible(context)?;
-        division.require(&rows.origin, folder)?;
-        Ok(Planned { folder: folder.to_owned(), division, command, rows })
+        Ok(Planned { folder: folder.to_owned(), division, command })
     }
 
-    /// Makes a part, unless it is there: then the answer is false. Any number of processes may do so at once.
+    /// The rows of the plan, which must still be those that its command makes.
+    fn rows(&self, context: &mut Context<'_>) -> anyhow::Result<Divisible> {
+        let rows = self.command.divisible(context)?;
+        self.division.require(&rows.origin, &self.folder)?;
+        Ok(rows)
+    }
+
+    /// Makes a part, unless it is there: then nothing else is read, and the answer is false. Any number of processes may do so at once.
     ///
     /// # Errors
-    /// A part that there is none of, an interrupt, and rows that cannot be made or kept.
+    /// A part that there is none of, a scene, record or program that has changed since the plan, an interrupt, and rows that cannot be made
+    /// or kept.
     pub fn make(mut self, part: u32, threads: Option<u16>, context: &mut Context<'_>) -> anyhow::Result<bool> {
         let parts = self.division.parts;
         let shard = self.division.shard(part).ok_or_else(|| anyhow!("there is no part {part}: the plan has 1 to {parts}"))?;
         if self.division.has(&self.folder, part) {
             return Ok(false);
         }
+        let rows = self.rows(context)?;
         let scratch = self.scratch()?;
         let (output, of_threads, long_run) = self.command.options();
         output.out = Some(scratch.path().to_owned());
@@ -91,17 +97,18 @@ impl Planned {
         if completion == Completion::Interrupted {
             inner.check_interrupt()?;
         }
-        self.division.keep(&self.folder, part, &self.rows, scratch.path())?;
+        self.division.keep(&self.folder, part, &rows, scratch.path())?;
         Ok(true)
     }
 
     /// Puts all parts together to the results of the command, as if it had not been divided.
     ///
     /// # Errors
-    /// Parts that are missing, and those of the command.
+    /// A scene, record or program that has changed since the plan, parts that are missing, and the errors of the command.
     pub fn collect(mut self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+        let rows = self.rows(context)?;
         let scratch = self.scratch()?;
-        self.division.unpack(&self.folder, &self.rows, scratch.path())?;
+        self.division.unpack(&self.folder, &rows, scratch.path())?;
         let parts = self.division.parts;
         let (_, _, long_run) = self.command.options();
         (long_run.merge, long_run.shards) = (Some(parts), Some(scratch.path().to_owned()));

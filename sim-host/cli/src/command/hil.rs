@@ -39,7 +39,7 @@ use crate::board::report::{DeviceSummary, costs, device_ticks};
     The scene is one for `sprag loop`. --qemu starts the emulator itself, with the firmware that is inside this program; --board-image builds the firmware as it goes to the board, from the clone that this program was built from, and runs it between \
     models of the board's parts, in some minutes. The device gets its settings from the scene. Writes what `sprag loop` \
     writes, the host's own loop as the thick line (the dashed one is the ideal pair), and device.csv with every tick of the device. However \
-    it ends, the device is detached: a board goes on with its own sensors and the settings in its flash. Exit code 1 where a decision is \
+    it ends, the device is detached: a board continues with its own sensors and the settings in its flash. Exit code 1 where a decision is \
     not the host's to the last bit.")]
 pub struct HilArguments {
     /// The scene.

@@ -44,7 +44,7 @@ impl OutputArguments {
     /// The folder for results of `command` on `input`, a scene or study; all that is asked of them is possible.
     ///
     /// # Errors
-    /// As [`OutputArguments::formats`].
+    /// The errors of [`OutputArguments::formats`].
     pub(super) fn folder(&self, input: &Path, command: &str) -> anyhow::Result<ResultFolder> {
         self.formats(command)?;
         let path = self.out.clone().unwrap_or_else(|| {
@@ -57,7 +57,7 @@ impl OutputArguments {
     /// The same for a command that runs as accurately as `accuracy` asks.
     ///
     /// # Errors
-    /// As [`OutputArguments::formats`].
+    /// The errors of [`OutputArguments::formats`].
     pub(super) fn folder_at(&self, input: &Path, command: &str, accuracy: &AccuracyArguments) -> anyhow::Result<ResultFolder> {
         Ok(self.folder(input, command)?.of_any_accuracy(accuracy.is_chosen()))
     }

@@ -27,7 +27,7 @@ pub struct PartArguments {
 
 impl Run for PartArguments {
     fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
-        let planned = Planned::read(&self.folder, context)?;
+        let planned = Planned::read(&self.folder)?;
         let made = planned.make(self.part, self.threads.threads, context)?;
         context.print(format_args!("part {}: {}\n", self.part, if made { "made" } else { "was there" }));
         Ok(Completion::Complete)
@@ -46,6 +46,6 @@ pub struct CollectArguments {
 
 impl Run for CollectArguments {
     fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
-        Planned::read(&self.folder, context)?.collect(context)
+        Planned::read(&self.folder)?.collect(context)
     }
 }

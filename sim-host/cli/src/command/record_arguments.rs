@@ -46,7 +46,7 @@ fn time_step(text: &str) -> Result<f64, String> {
 }
 
 impl ReadArguments {
-    /// As options of the reader.
+    /// Options of the reader.
     pub fn options(&self) -> ReadOptions {
         ReadOptions {
             units: self.units,

@@ -44,7 +44,7 @@ impl Kind {
         }
     }
 
-    /// Its schema as text.
+    /// Schema of the file as text.
     pub fn schema_text(self) -> String {
         format!("{:#}\n", self.schema())
     }

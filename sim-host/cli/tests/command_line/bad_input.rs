@@ -156,7 +156,7 @@ fn bad_input_of_optimise_costs_one_line() {
     line("", &["--records", "a.csv", "--time-budget", "1", "--resume"], &["--time-budget", "--resume"]);
     line("", &records, &["no record could be read", "a.csv"]);
     line("[optimise]\nlimit = 1", &records, &["study.toml:2", "limit"]);
-    line("[optimise]\nlargest_force_ratio = -0.1", &records, &["study.toml: optimise.largest_force_ratio is -0.1", "above 0"]);
+    line("[optimise]\nlargest_force_ratio = -0.1", &records, &["study.toml:2: optimise.largest_force_ratio is -0.1", "above 0"]);
     line("[optimise]\nlaws = ['magic']", &records, &["optimise.laws.0 is \"magic\"", "\"overrunning\""]);
     line("", &["--records", "a.csv", "--set", "accuracy.colour=red"], &["colour"]);
     let method = ["--set", "accuracy.method=runge-kutta-4", "--set", "accuracy.step_s=0.01"];

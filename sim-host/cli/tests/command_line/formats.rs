@@ -135,7 +135,7 @@ fn other_commands_draw_dots_when_asked() {
 }
 
 #[test]
-fn what_the_font_of_pictures_lacks_is_told() {
+fn what_the_font_of_pictures_lacks_is_reported() {
     let folder = tempfile::tempdir().unwrap();
     let scene = scene("near_fault");
     let out = folder.path().to_str().unwrap();

@@ -71,7 +71,7 @@ pub fn grown(folder: &Path, [unfinished, finished]: [&str; 2]) {
 }
 
 #[test]
-fn a_killed_run_goes_on() {
+fn a_killed_run_resumes() {
     let (_root, whole, killed) = folders();
     well(map(&whole, &SLOW).output().unwrap());
     let mut process = map(&killed, &SLOW).args(["--threads", "1"]).stdout(Stdio::null()).spawn().unwrap();
@@ -109,7 +109,7 @@ fn control_c_leaves_what_is_finished() {
 
 /// An optimisation that is killed and resumed leaves the files of one that is not, and no others.
 #[test]
-fn a_killed_optimisation_goes_on() {
+fn a_killed_optimisation_resumes() {
     let (root, whole, killed) = folders();
     let records = folder_of_pulses(root.path());
     let run = |out: &Path, more: &[&str]| {

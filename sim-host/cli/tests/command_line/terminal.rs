@@ -163,7 +163,7 @@ fn stopped(folder: &Path, arguments: &[&str], by: &str, message: &str) -> String
 }
 
 /// The same command with --resume keeps what is in the file of `rows`, also when it is stopped at once.
-fn goes_on(folder: &Path, arguments: &[&str], rows: &str) {
+fn resumes(folder: &Path, arguments: &[&str], rows: &str) {
     let kept = || std::fs::read_to_string(folder.join(rows)).unwrap().lines().count();
     let before = kept();
     let mut again = sprag(folder, 100, &[arguments, &["--resume"]].concat());
@@ -181,7 +181,7 @@ fn ends_well(folder: &Path, arguments: &[&str]) -> String {
 }
 
 #[test]
-fn map_keeps_its_rows_and_goes_on() {
+fn map_keeps_its_rows_and_resumes() {
     let folder = tempfile::tempdir().unwrap();
     let figure = scene("figure08");
     let map = |cells: &'static str, more: &[&'static str]| {
@@ -195,7 +195,7 @@ fn map_keeps_its_rows_and_goes_on() {
         let text = stopped(folder.path(), &arguments, by, "the same command with --resume continues");
         assert!(text.contains("kept"), "{text:?}");
     }
-    goes_on(folder.path(), &large, "map/map.csv.unfinished");
+    resumes(folder.path(), &large, "map/map.csv.unfinished");
 }
 
 #[test]
@@ -211,23 +211,23 @@ fn map_with_boundaries_shows_what_it_traces() {
 }
 
 #[test]
-fn cloud_keeps_its_rows_and_goes_on() {
+fn cloud_keeps_its_rows_and_resumes() {
     let folder = tempfile::tempdir().unwrap();
     records(folder.path(), 4 * MANY);
     let study = scene("cloud");
     let arguments = ["cloud", &study, "--out", "cloud", "--threads", "1", "--records", "records"];
     stopped(folder.path(), &arguments, "termination", "the same command with --resume continues");
-    goes_on(folder.path(), &arguments, "cloud/runs.csv.unfinished");
+    resumes(folder.path(), &arguments, "cloud/runs.csv.unfinished");
 }
 
 #[test]
-fn optimise_keeps_its_rows_and_goes_on() {
+fn optimise_keeps_its_rows_and_resumes() {
     let folder = tempfile::tempdir().unwrap();
     records(folder.path(), 100);
     let study = scene("optimise");
     let arguments = ["optimise", &study, "--out", "optimise", "--threads", "1", "--records", "records"];
     stopped(folder.path(), &arguments, "Ctrl-C", "the same command with --resume continues");
-    goes_on(folder.path(), &arguments, "optimise/tried.csv.unfinished");
+    resumes(folder.path(), &arguments, "optimise/tried.csv.unfinished");
 }
 
 #[test]

@@ -82,7 +82,7 @@ fn a_file_that_is_no_port_or_no_firmware_is_named() {
 /// A linker that finds no library stands for a machine without Unicorn.
 #[cfg(unix)]
 #[test]
-fn a_machine_without_unicorn_is_told_what_to_install() {
+fn a_machine_without_unicorn_is_shown_what_to_install() {
     use std::os::unix::fs::PermissionsExt;
     let folder = tempfile::tempdir().unwrap();
     let linker = folder.path().join("cc");

@@ -35,7 +35,7 @@ impl<R> Fields<R> {
     /// Gives the row of `subject` to `writer`.
     ///
     /// # Errors
-    /// Those of `writer`.
+    /// The errors of `writer`.
     pub fn row(&self, subject: &R, writer: &mut dyn RowWriter) -> Result<(), TableError> {
         let values: Vec<Value<'_>> = self.fields.iter().map(|(_, value)| value(subject)).collect();
         writer.row(&values)

@@ -26,7 +26,7 @@ pub trait Table {
     /// Gives every row to `writer`.
     ///
     /// # Errors
-    /// Those of `writer`.
+    /// The errors of `writer`.
     fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError>;
 }
 

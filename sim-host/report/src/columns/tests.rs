@@ -150,7 +150,7 @@ fn numbers_in_csv_are_the_shortest_that_read_back() {
 }
 
 #[test]
-fn a_csv_file_goes_on_where_it_ended() {
+fn a_csv_file_continues_where_it_ended() {
     let columns = || vec![Column::text("device"), Column::number("peak")];
     let mut writer = CsvWriter::new(columns(), Vec::new()).unwrap();
     writer.row(&["none".into(), 0.5.into()]).unwrap();

@@ -3,11 +3,11 @@
 /// A value in a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value<'a> {
-    /// Of a column of numbers.
+    /// Value of a column of numbers.
     Number(f64),
-    /// Of a column of whole numbers.
+    /// Value of a column of whole numbers.
     Count(u64),
-    /// Of a column of texts.
+    /// Value of a column of texts.
     Text(&'a str),
     /// No value.
     Nothing,

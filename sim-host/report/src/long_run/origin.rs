@@ -39,7 +39,7 @@ pub struct Ledger {
     /// What the rows come from.
     #[serde(flatten)]
     pub origin: Origin,
-    /// Which of them are in the file.
+    /// Shard of the rows in the file.
     pub shard: String,
     /// The command lines that worked on them.
     pub command_lines: Vec<Vec<String>>,

@@ -56,7 +56,7 @@ impl<'a> RowFields<'a> {
     /// The next as a number, or none where it is empty.
     ///
     /// # Errors
-    /// Those of [`RowFields::number`].
+    /// The errors of [`RowFields::number`].
     pub fn maybe(&mut self) -> Result<Option<f64>, String> {
         if self.record.get(self.next).is_none_or(str::is_empty) {
             self.next += 1;
@@ -79,7 +79,7 @@ impl<'a> RowFields<'a> {
     /// The next four as an error; none where the first is empty.
     ///
     /// # Errors
-    /// Those of [`RowFields::number`].
+    /// The errors of [`RowFields::number`].
     pub fn error_estimate(&mut self) -> Result<Option<ErrorEstimate>, String> {
         match self.text() {
             "" => Ok(None),

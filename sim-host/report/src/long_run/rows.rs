@@ -27,7 +27,7 @@ pub struct Plan<'a> {
     pub columns: Vec<String>,
     /// Rows that are never parted.
     pub together: usize,
-    /// Which of the run's rows.
+    /// Shard of the run's rows.
     pub shard: Shard,
     /// What they come from.
     pub origin: Origin,

@@ -26,7 +26,7 @@ fn plan(folder: &Path, shard: Shard, seed: u32) -> Plan<'_> {
 }
 
 /// Begins, and adds `most` rows; the numbers of those that were known.
-fn go_on(plan: &Plan<'_>, start: Start, most: usize) -> Result<(Rows, Vec<usize>), LongRunError> {
+fn run(plan: &Plan<'_>, start: Start, most: usize) -> Result<(Rows, Vec<usize>), LongRunError> {
     let mut known = Vec::new();
     let mut rows = Rows::begin(plan, start, |row, record| {
         known.push(row);
@@ -40,28 +40,28 @@ fn go_on(plan: &Plan<'_>, start: Start, most: usize) -> Result<(Rows, Vec<usize>
 
 fn whole(folder: &Path) -> Vec<u8> {
     let plan = plan(folder, Shard::WHOLE, 1);
-    let path = go_on(&plan, Start::New, ROWS).unwrap().0.finish().unwrap();
+    let path = run(&plan, Start::New, ROWS).unwrap().0.finish().unwrap();
     std::fs::read(path).unwrap()
 }
 
 /// Cut at every byte, a run resumes to the same file; groups of rows that are not whole are made again.
 #[test]
-fn a_run_goes_on_from_any_byte() {
+fn a_run_resumes_from_any_byte() {
     let folder = tempfile::tempdir().unwrap();
     let expected = whole(folder.path());
     let heading = expected.iter().position(|byte| *byte == b'\n').unwrap() + 1;
     let plan = plan(folder.path(), Shard::WHOLE, 1);
     let unfinished = folder.path().join("table.csv.unfinished");
     for length in heading..=expected.len() {
-        drop(go_on(&plan, Start::Restart, 0).unwrap());
+        drop(run(&plan, Start::Restart, 0).unwrap());
         std::fs::write(&unfinished, &expected[..length]).unwrap();
-        let (rows, known) = go_on(&plan, Start::Resume, ROWS).unwrap();
+        let (rows, known) = run(&plan, Start::Resume, ROWS).unwrap();
         let lines = expected[heading..length].iter().filter(|byte| **byte == b'\n').count();
         assert!(known.iter().copied().eq(0..lines / 2 * 2), "{length}: {known:?}");
         assert_eq!(std::fs::read(rows.finish().unwrap()).unwrap(), expected, "{length}");
     }
     // All there: nothing is made again.
-    let (rows, known) = go_on(&plan, Start::Resume, ROWS).unwrap();
+    let (rows, known) = run(&plan, Start::Resume, ROWS).unwrap();
     assert!(rows.left().is_empty() && known.len() == ROWS);
 }
 
@@ -70,7 +70,7 @@ fn shards_merge_to_the_bytes_of_one_run() {
     let folder = tempfile::tempdir().unwrap();
     let expected = whole(folder.path());
     std::fs::remove_file(folder.path().join("table.csv")).unwrap();
-    let merged = |shards| go_on(&plan(folder.path(), Shard::WHOLE, 1), Start::Merge(shards), 0);
+    let merged = |shards| run(&plan(folder.path(), Shard::WHOLE, 1), Start::Merge(shards), 0);
     for shards in [1, 2, 3, 5, 9] {
         for shard in Shard::all(shards) {
             if shards > 1 && !shard.rows(ROWS, 2).is_empty() {
@@ -79,8 +79,8 @@ fn shards_merge_to_the_bytes_of_one_run() {
             }
             // Interrupted once.
             let plan = plan(folder.path(), shard, 1);
-            drop(go_on(&plan, Start::New, 1).unwrap());
-            go_on(&plan, Start::Resume, ROWS).unwrap().0.finish().unwrap();
+            drop(run(&plan, Start::New, 1).unwrap());
+            run(&plan, Start::Resume, ROWS).unwrap().0.finish().unwrap();
         }
         let (rows, known) = merged(shards).unwrap();
         assert_eq!(known.len(), ROWS);
@@ -92,21 +92,21 @@ fn shards_merge_to_the_bytes_of_one_run() {
 fn rows_of_another_run_are_not_mixed() {
     let folder = tempfile::tempdir().unwrap();
     let [ours, other] = [1, 2].map(|seed| plan(folder.path(), Shard::WHOLE, seed));
-    drop(go_on(&ours, Start::New, 4).unwrap());
-    assert!(matches!(go_on(&ours, Start::New, 0).unwrap_err(), LongRunError::Unfinished { .. }));
-    let refused = go_on(&other, Start::Resume, 0).unwrap_err();
+    drop(run(&ours, Start::New, 4).unwrap());
+    assert!(matches!(run(&ours, Start::New, 0).unwrap_err(), LongRunError::Unfinished { .. }));
+    let refused = run(&other, Start::Resume, 0).unwrap_err();
     assert!(refused.to_string().contains("seed differs"), "{refused}");
-    assert_eq!(go_on(&ours, Start::Resume, 0).unwrap().1.len(), 4);
+    assert_eq!(run(&ours, Start::Resume, 0).unwrap().1.len(), 4);
     // A finished run of another origin is no beginning of this one.
-    go_on(&ours, Start::Resume, ROWS).unwrap().0.finish().unwrap();
-    assert_eq!(go_on(&other, Start::Resume, 0).unwrap().1.len(), 0);
+    run(&ours, Start::Resume, ROWS).unwrap().0.finish().unwrap();
+    assert_eq!(run(&other, Start::Resume, 0).unwrap().1.len(), 0);
     // A shard of another run.
     let shard = |seed, index: &str| plan(folder.path(), index.parse().unwrap(), seed);
     for (seed, index) in [(1, "1/2"), (2, "2/2")] {
-        go_on(&shard(seed, index), Start::New, ROWS).unwrap().0.finish().unwrap();
+        run(&shard(seed, index), Start::New, ROWS).unwrap().0.finish().unwrap();
     }
     std::fs::remove_file(folder.path().join("table.csv.unfinished.json")).unwrap();
-    let refused = go_on(&ours, Start::Merge(2), 0).unwrap_err();
+    let refused = run(&ours, Start::Merge(2), 0).unwrap_err();
     assert!(matches!(&refused, LongRunError::OtherRun { path, .. } if path.ends_with("table-2-of-2.run.json")), "{refused}");
 }
 
@@ -121,9 +121,9 @@ fn rows_that_were_changed_are_refused() {
         (format!("{expected}12,x\n"), "row 13: there should be 12 rows only"),
         (expected.replace("row,", "column,"), "the heading differs"),
     ] {
-        drop(go_on(&plan, Start::Restart, 0).unwrap());
+        drop(run(&plan, Start::Restart, 0).unwrap());
         std::fs::write(folder.path().join("table.csv.unfinished"), changed).unwrap();
-        let refused = go_on(&plan, Start::Resume, 0).unwrap_err().to_string();
+        let refused = run(&plan, Start::Resume, 0).unwrap_err().to_string();
         assert!(refused.contains(says), "{refused}");
     }
 }
@@ -133,9 +133,9 @@ fn two_processes_do_not_write_one_file() {
     let folder = tempfile::tempdir().unwrap();
     let expected = whole(folder.path());
     let plan = plan(folder.path(), Shard::WHOLE, 1);
-    let (mut first, _) = go_on(&plan, Start::New, 2).unwrap();
+    let (mut first, _) = run(&plan, Start::New, 2).unwrap();
     for start in [Start::New, Start::Resume, Start::Restart] {
-        let refused = go_on(&plan, start, 2).unwrap_err().to_string();
+        let refused = run(&plan, start, 2).unwrap_err().to_string();
         assert!(refused.contains("another process works on it"), "{start:?}: {refused}");
     }
     for row in first.left() {
@@ -148,7 +148,7 @@ fn two_processes_do_not_write_one_file() {
 /// Runs that begin at once in `folder`, each in its way; gives how many end, all with the bytes `expected`. The others are refused.
 fn together<const RUNS: usize>(folder: &Path, starts: [Start; RUNS], expected: &[u8]) -> usize {
     let run = |start| {
-        let (rows, _) = go_on(&plan(folder, Shard::WHOLE, 1), start, ROWS)?;
+        let (rows, _) = run(&plan(folder, Shard::WHOLE, 1), start, ROWS)?;
         let finished = rows.finish()?;
         Ok::<_, LongRunError>(std::fs::read(finished).unwrap())
     };
@@ -202,7 +202,7 @@ fn a_file_that_is_not_as_it_was_written_is_not_finished() {
         (&|| std::fs::rename(&path, folder.path().join("elsewhere")).unwrap(), "another file is in its place"),
     ];
     for (change, says) in changes {
-        let (rows, _) = go_on(&plan, Start::Restart, ROWS).unwrap();
+        let (rows, _) = run(&plan, Start::Restart, ROWS).unwrap();
         change();
         let refused = rows.finish().unwrap_err();
         assert!(matches!(&refused, LongRunError::Changed { .. }), "{refused}");
@@ -210,6 +210,6 @@ fn a_file_that_is_not_as_it_was_written_is_not_finished() {
         assert!(!folder.path().join("table.csv").exists());
     }
     // One that was cut short: rows that are never parted count together.
-    let (rows, _) = go_on(&plan, Start::Restart, ROWS - 1).unwrap();
+    let (rows, _) = run(&plan, Start::Restart, ROWS - 1).unwrap();
     assert!(rows.finish().unwrap_err().to_string().contains("10 rows for 12"));
 }

@@ -8,7 +8,7 @@ use serde_json::{Map, Value};
 
 use super::OutputError;
 
-/// Which contents a file has.
+/// Digest of the contents of a file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Digest {
     bytes: u64,
@@ -16,7 +16,7 @@ pub struct Digest {
 }
 
 impl Digest {
-    /// Of the file at `path`.
+    /// Digest of the file at `path`.
     ///
     /// # Errors
     /// When it cannot be read.
@@ -24,7 +24,7 @@ impl Digest {
         Ok(Digest::of_bytes(&std::fs::read(path)?))
     }
 
-    /// Of `bytes`.
+    /// Digest of `bytes`.
     pub fn of_bytes(bytes: &[u8]) -> Digest {
         let crc32 = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC).checksum(bytes);
         Digest { bytes: bytes.len() as u64, crc32: format!("{crc32:08x}") }

@@ -9,7 +9,7 @@ impl Results {
     /// Writes `table` to `folder` as NAME.csv and, if `formats` say so, as NAME.parquet, which carries `metadata`.
     ///
     /// # Errors
-    /// Those of [`Results::add`].
+    /// The errors of [`Results::add`].
     pub fn add_table(
         &mut self,
         folder: &Path,
@@ -28,7 +28,7 @@ impl Results {
     /// Writes the finished table at `csv`, which has these columns, as Parquet beside it, as [`Results::add_table`] would have.
     ///
     /// # Errors
-    /// Those of [`Results::add`].
+    /// The errors of [`Results::add`].
     pub fn add_parquet_of(&mut self, csv: &Path, columns: &[Column], metadata: &Metadata) -> Result<(), OutputError> {
         let rows = std::fs::File::open(csv).map_err(|error| OutputError { path: csv.to_owned(), reason: error.to_string() })?;
         self.add(&csv.with_extension("parquet"), |file| {

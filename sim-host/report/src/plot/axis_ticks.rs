@@ -19,7 +19,7 @@ const MOST_END_DIGITS: usize = 9;
 /// Distance that nobody sees (px).
 const UNSEEN_PX: f64 = 0.2;
 
-/// Which way an axis goes.
+/// Direction of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Way {
     /// From left to right: labels stand side by side.
@@ -37,7 +37,7 @@ pub(super) struct Axis {
     pub scale: Scale,
     /// First and last value that has a meaning: both are labelled, and no tick lies beyond.
     pub ends: Option<(f64, f64)>,
-    /// Which way it goes.
+    /// Direction of the axis.
     pub way: Way,
     /// Length (px).
     pub length_px: f64,

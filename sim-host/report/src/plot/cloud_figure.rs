@@ -65,7 +65,7 @@ pub struct CloudSeries {
     pub points: Vec<(f64, f64)>,
     /// The fitted line; empty for none.
     pub line: Vec<(f64, f64)>,
-    /// Its band; empty for none.
+    /// Confidence band of the curve; empty for none.
     pub band: Vec<BandPoint>,
     /// Runs as ticks at both edges.
     pub rug: Option<Rug>,
@@ -76,9 +76,9 @@ pub struct CloudSeries {
 pub struct BandPoint {
     /// Place on the horizontal axis.
     pub at: f64,
-    /// Its lower edge.
+    /// Lower edge of the band.
     pub low: f64,
-    /// Its upper edge.
+    /// Upper edge of the band.
     pub high: f64,
 }
 

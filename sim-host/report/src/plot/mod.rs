@@ -61,7 +61,7 @@ pub use ticks::Scale;
 pub use time_axis::TimeAxis;
 pub use trade_off_figure::{TradeOffFigure, TradeOffMark, TradeOffPanel, TradeOffPoint, trade_off_figure};
 
-/// Why a figure could not be drawn.
+/// Reasons why a figure could not be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PlotError {
     /// The list of histories is empty.

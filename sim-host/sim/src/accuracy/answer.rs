@@ -57,7 +57,7 @@ const NEXT: f64 = 1e-3;
 /// Follows a motion by `run`, and again to learn the error, until that is as small as `accuracy` asks.
 ///
 /// # Errors
-/// Those of `run`.
+/// The errors of `run`.
 pub fn answer<R: Comparable, F>(accuracy: Accuracy, mut run: impl FnMut(Closeness) -> Result<R, F>) -> Result<Answer<R>, F> {
     let mut tolerance = accuracy.tolerance();
     loop {

@@ -46,7 +46,7 @@ impl<R> Afforded<R> {
 /// always run. `clock` is the time since any instant.
 ///
 /// # Errors
-/// Those of `run`.
+/// The errors of `run`.
 pub fn within<R, F>(
     budget: Duration,
     asked: Option<Accuracy>,

@@ -25,7 +25,7 @@ impl<R: Comparable> Answer<R> {
     /// where that method does not come closer. `run` gives none where it cannot follow the motion.
     ///
     /// # Errors
-    /// Those of `run`.
+    /// The errors of `run`.
     pub fn confirm<F>(
         &mut self,
         accuracy: Accuracy,

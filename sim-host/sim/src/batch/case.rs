@@ -136,7 +136,7 @@ impl Case {
     /// Runs the case as accurately as asked, and gives the error.
     ///
     /// # Errors
-    /// Those of [`Case::run`].
+    /// The errors of [`Case::run`].
     pub fn answer(&self, accuracy: Accuracy) -> Result<Answer<CaseResult>, CaseError> {
         answer(accuracy, |closeness| self.run(&*f64::ideal(Method::Adaptive(closeness.tolerance))))
     }

@@ -42,7 +42,7 @@ pub enum TableError {
         line: u64,
         /// Column.
         column: &'static str,
-        /// As written.
+        /// Value as written.
         value: String,
         /// What it may be.
         range: &'static str,
@@ -196,7 +196,7 @@ impl Row<'_> {
 /// same f64; the peaks of an overturned block and the impact of one that had none are empty, and so are their errors.
 ///
 /// # Errors
-/// Those of `out`.
+/// The errors of `out`.
 pub fn write_result(out: &mut impl Write, id: &str, result: &CaseResult, error: Option<&ErrorEstimate>) -> std::io::Result<()> {
     let mut row = csv::Writer::from_writer(Vec::new());
     let number = |value: f64| format!("{value:?}");

@@ -62,7 +62,7 @@ pub struct LoopTask<'a> {
     pub scene: &'a Scene,
     /// Its ground motion.
     pub ground: &'a GroundMotions,
-    /// Which device; a clutched pair.
+    /// Index of the device, a clutched pair.
     pub index: usize,
     /// What drives it.
     pub controller: &'a ControllerTable,
@@ -206,7 +206,7 @@ impl<'a> LoopTask<'a> {
     /// The controller at power-on.
     ///
     /// # Errors
-    /// As [`LoopTask::controller`].
+    /// The errors of [`LoopTask::controller`].
     pub fn driver<L: Law + 'static>(&self, law: L) -> Result<Box<dyn Driver>, ParameterError> {
         Ok(Box::new(Shared::new(self.controller(law)?)))
     }

@@ -28,7 +28,7 @@ pub struct LoopScene {
 }
 
 impl LoopScene {
-    /// Of `scene`, with its records.
+    /// Closed loop of `scene`, with its records.
     ///
     /// # Errors
     /// [`GroundError`] for a scene without a pair that takes commands, one that begins in motion, and a record that cannot be read.

@@ -35,7 +35,7 @@ pub struct Whereabouts {
     pub push: f64,
     /// Ground acceleration in g, horizontal and vertical.
     pub ground: [f64; 2],
-    /// Which clutches are engaged.
+    /// Whether each clutch is engaged.
     pub engaged: [bool; 2],
     /// Speeds of the flywheels over R, 1/s.
     pub spins: [f64; 2],

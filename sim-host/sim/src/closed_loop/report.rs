@@ -29,7 +29,7 @@ pub struct FaultEntry {
 pub struct Scatter {
     /// Specimens.
     pub specimens: usize,
-    /// Of these, overturned.
+    /// Number of specimens that overturned.
     pub overturned: usize,
     /// 5th percentile of max |θ|/α of the others.
     pub peak_rotation_05: Option<f64>,
@@ -90,7 +90,7 @@ pub struct LoopReport {
 }
 
 impl LoopReport {
-    /// Of a loop that has ended.
+    /// Report of a loop that has ended.
     pub fn new(task: &LoopTask<'_>, ending: Ending, peaks: &Peaks<f64>, ideal: DeviceRun, ticks: Vec<Tick>) -> LoopReport {
         let outcome = Outcome::of(&ending.motion, peaks);
         let peak = (!outcome.overturned()).then_some(peaks.rotation / task.scene.block.slenderness());
@@ -174,7 +174,7 @@ const COLUMNS: &str = "device,time_s,ground_m_s2,rotation_rad,velocity_rad_s,pus
 /// Writes one row a tick: truth, estimates, commands and clutches (0 none, 1 first, 2 second, 3 both).
 ///
 /// # Errors
-/// As the writer.
+/// The errors of the writer.
 pub fn write_history(reports: &[LoopReport], mut out: impl Write) -> Result<(), csv::Error> {
     writeln!(out, "{COLUMNS}")?;
     for report in reports {

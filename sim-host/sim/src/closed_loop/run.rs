@@ -18,7 +18,7 @@ use crate::sensor::{Sensors, Suite, Truth};
 /// Clock of a loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clock {
-    /// Of the control tick, s.
+    /// Period of the control tick, s.
     pub period: f64,
     /// Pieces of a period at whose ends the sensors see the plant; 1 or more.
     pub substeps: u32,
@@ -100,7 +100,7 @@ pub struct ClosedLoop<'a> {
     pub clock: Clock,
     /// Sensors.
     pub suite: &'a Suite,
-    /// Of their noise and scatter.
+    /// Seed of the noise and scatter of the sensors.
     pub seed: u64,
     /// What shows the controller which clutches are engaged.
     pub feedback: Feedback,

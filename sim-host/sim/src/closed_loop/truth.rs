@@ -15,7 +15,7 @@ use crate::sensor::Truth;
 pub struct Places {
     /// R of the loaded block, m.
     pub size: f64,
-    /// Its p², 1/s².
+    /// p² of the block, 1/s².
     pub frequency_squared: f64,
 }
 

@@ -4,7 +4,7 @@ use sprag_shared::structure::block::Geometry;
 
 use super::{Effect, settings};
 
-/// Which equation of the block.
+/// Equation of motion of the block: full or slender.
 pub const GEOMETRY: Effect = Effect {
     name: "geometry",
     summary: "the exact block, or its linearisation for small angles",

@@ -38,7 +38,7 @@ pub struct Effects {
 }
 
 impl Effects {
-    /// Those of the whole scene.
+    /// Effects of the whole scene.
     pub fn of_scene(scene: &Scene) -> Effects {
         Effects::among(scene, 0, false)
     }
@@ -65,9 +65,9 @@ impl Effects {
 pub struct Explanation {
     /// Name of the device.
     pub device: String,
-    /// Its kind, as scenes spell it.
+    /// Kind of the device, as scenes spell it.
     pub kind: &'static str,
-    /// Its own effects.
+    /// Effects of the device.
     pub effects: Effects,
     /// Equations and rules.
     pub sections: Vec<Section>,

@@ -57,7 +57,7 @@ pub fn find(name: &str) -> Option<&'static Effect> {
 }
 
 impl Effect {
-    /// Its keys, described.
+    /// Descriptions of the keys of the effect.
     pub fn described_keys(&self) -> impl Iterator<Item = &'static Key> {
         described(self.keys)
     }

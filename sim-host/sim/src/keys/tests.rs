@@ -24,7 +24,7 @@ fn ranges_are_in_words_with_the_unit_of_the_key() {
         ("device.N.clutch.damping_n_s_m", "0 N s/m or more"),
         ("device.N.actuation.miss_seed", "a whole number"),
         ("controller.engaged_at_rest", "true or false"),
-        ("controller.sensors.gyroscope", "a text or a table"),
+        ("controller.sensors.gyroscope", "\"ideal\", \"icm-42688-p\", \"bmi088\", \"adis16470\", \"mpu-6050\" or a table"),
         ("map.x.cells", "from 2 to 100000"),
     ] {
         assert_eq!(scene_key(path).range, range, "{path}");

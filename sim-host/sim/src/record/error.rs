@@ -4,7 +4,7 @@ use std::io;
 
 use super::units::Units;
 
-/// Why a record could not be read.
+/// Reasons why a record could not be read.
 ///
 /// Every message is one line that names the file, the line where there is one, the offending value and what is
 /// allowed.

@@ -225,7 +225,7 @@ impl ControllerTable {
     /// The sensors; `origin` is the scene's name in messages.
     ///
     /// # Errors
-    /// As [`ControllerTable::check`].
+    /// The errors of [`ControllerTable::check`].
     pub fn suite(&self, origin: &str) -> Result<Suite, SceneError> {
         self.check(&|key: &str| KeyPath { origin: origin.to_owned(), key: key.to_owned() })
     }

@@ -1,18 +1,29 @@
 //! TOML documents as the types of a scene or a study.
 
-use serde_path_to_error::{Path, Segment, Track};
+use serde_path_to_error::{Segment, Track};
+use sprag_shared::structure::error::Number;
 use toml::de::{DeArray, DeTable};
 
-use super::error::{KeyPath, SceneError};
+use super::error::SceneError;
 use crate::keys::Described;
 use crate::keys::bounds::{Outside, outside};
 
 /// Reads `T` from the TOML `text` of a file called `origin`.
 ///
 /// # Errors
-/// [`SceneError::Syntax`] with the line and the key, [`SceneError::Range`] with the key.
+/// [`SceneError::Syntax`] and [`SceneError::Range`] with the line and the key.
 pub fn from_text<T: Described>(text: &str, origin: &str) -> Result<T, SceneError> {
     read(table(text, origin)?, origin, |path| line_of(text, path))
+}
+
+/// `error` with the line of its key in the TOML `text` of its file, if it is about a range.
+pub fn with_line(mut error: SceneError, text: &str) -> SceneError {
+    if let SceneError::Range { line: line @ None, key, .. } = &mut error {
+        // Below a key a parameter may be named, after a colon.
+        let key = key.split(':').next().unwrap_or_default();
+        *line = line_of(text, &key.split('.').map(str::to_owned).collect::<Vec<_>>());
+    }
+    error
 }
 
 /// Reads `T` from a table that is no longer what the file `origin` says, so that only keys are named.
@@ -34,7 +45,7 @@ pub fn table(text: &str, origin: &str) -> Result<toml::Table, SceneError> {
     })
 }
 
-fn read<T: Described>(table: toml::Table, origin: &str, line: impl FnOnce(&Path) -> Option<usize>) -> Result<T, SceneError> {
+fn read<T: Described>(table: toml::Table, origin: &str, line: impl Fn(&[String]) -> Option<usize>) -> Result<T, SceneError> {
     let outside = outside(&table, T::schema());
     let mut track = Track::new();
     let tracked = serde_path_to_error::Deserializer::new(toml::Value::Table(table), &mut track);
@@ -47,29 +58,39 @@ fn read<T: Described>(table: toml::Table, origin: &str, line: impl FnOnce(&Path)
         // Where toml knows no line it says below the message in which key.
         let message = error.to_string();
         let message = message.split_once("\nin `").map_or(message.as_str(), |(message, _)| message);
-        SceneError::syntax(origin, line(&path), &path.to_string(), message)
+        let keys: Vec<String> = path.iter().map_while(key_of).collect();
+        SceneError::syntax(origin, line(&keys), &path.to_string(), message)
     })?;
     match outside {
         None => Ok(document),
         Some(Outside { path, value, range }) => {
-            Err(KeyPath { origin: origin.to_owned(), key: path.join(".") }.range(value, &range))
+            let line = line(&path);
+            let (origin, key, value) = (origin.to_owned(), path.join("."), Number(value).to_string());
+            Err(SceneError::Range { origin, line, key, value, range })
         }
     }
 }
 
+/// The name of a key or the number of an element.
+fn key_of(segment: &Segment) -> Option<String> {
+    match segment {
+        Segment::Map { key } => Some(key.clone()),
+        Segment::Seq { index } => Some(index.to_string()),
+        Segment::Enum { .. } | Segment::Unknown => None,
+    }
+}
+
 /// The line of `text`, from 1, with the last key of `path` that it has.
-fn line_of(text: &str, path: &Path) -> Option<usize> {
+fn line_of(text: &str, path: &[String]) -> Option<usize> {
     let document = DeTable::parse(text).ok()?;
     let mut at = None;
     let mut table = Some(document.get_ref());
     let mut list: Option<&DeArray<'_>> = None;
-    for segment in path.iter() {
-        let value = match segment {
-            Segment::Map { key } => {
-                table.and_then(|table| table.get_key_value(key.as_str())).map(|(name, value)| (name.span(), value))
-            }
-            Segment::Seq { index } => list.and_then(|list| list.get(*index)).map(|value| (value.span(), value)),
-            Segment::Enum { .. } | Segment::Unknown => None,
+    for part in path {
+        let value = match (table, list) {
+            (Some(table), _) => table.get_key_value(part.as_str()).map(|(name, value)| (name.span(), value)),
+            (None, Some(list)) => part.parse().ok().and_then(|index: usize| list.get(index)).map(|value| (value.span(), value)),
+            (None, None) => None,
         };
         let Some((span, value)) = value else { break };
         at = Some(span.start);

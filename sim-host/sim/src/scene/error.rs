@@ -22,7 +22,7 @@ pub enum SceneError {
         bytes: u64,
     },
     /// Not TOML, an unknown key, or a value of another kind.
-    #[error("{origin}{}: {message}", line.map_or_else(String::new, |line| format!(":{line}")))]
+    #[error("{}: {message}", place(origin, *line))]
     Syntax {
         /// File.
         origin: String,
@@ -34,10 +34,12 @@ pub enum SceneError {
         message: String,
     },
     /// A value outside its range.
-    #[error("{origin}: {key} is {value}, but must be {range}")]
+    #[error("{}: {key} is {value}, but must be {range}", place(origin, *line))]
     Range {
         /// File.
         origin: String,
+        /// Line, from 1, where the value is as the file has it.
+        line: Option<usize>,
         /// Key.
         key: String,
         /// Value.
@@ -79,13 +81,18 @@ pub struct KeyPath {
 impl KeyPath {
     /// `value` is outside `range`.
     pub fn range(self, value: f64, range: &str) -> SceneError {
-        SceneError::Range { origin: self.origin, key: self.key, value: Number(value).to_string(), range: range.to_owned() }
+        self.outside(Number(value).to_string(), range)
     }
 
     /// A parameter below this key is outside its range.
     pub fn parameter(self, error: &ParameterError) -> SceneError {
         let key = format!("{}: {}", self.key, error.parameter);
-        SceneError::Range { origin: self.origin, key, value: Number(error.value).to_string(), range: error.range.to_owned() }
+        KeyPath { key, ..self }.range(error.value, error.range)
+    }
+
+    /// `value`, as messages show it, is outside `range`.
+    pub fn outside(self, value: String, range: &str) -> SceneError {
+        SceneError::Range { origin: self.origin, line: None, key: self.key, value, range: range.to_owned() }
     }
 
     /// Something is needed here.
@@ -172,6 +179,11 @@ fn in_words(message: &str) -> Option<String> {
         other => other,
     };
     Some(format!("is {found}, but must be {wanted}"))
+}
+
+/// `origin`, with the line where it is known.
+fn place(origin: &str, line: Option<usize>) -> String {
+    line.map_or_else(|| origin.to_owned(), |line| format!("{origin}:{line}"))
 }
 
 /// Folds a message into one line.

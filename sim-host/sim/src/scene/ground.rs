@@ -184,12 +184,7 @@ impl GroundTable {
         if let Some(units) = &self.units
             && units.parse::<Units>().is_err()
         {
-            return Err(SceneError::Range {
-                origin: key("units").origin,
-                key: key("units").key,
-                value: format!("{units:?}"),
-                range: Units::ALLOWED.to_owned(),
-            });
+            return Err(key("units").outside(format!("{units:?}"), Units::ALLOWED));
         }
         Ok(())
     }

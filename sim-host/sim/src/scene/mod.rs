@@ -84,7 +84,8 @@ impl Scene {
     /// As [`Scene::parse`], and for an override that names no key.
     pub fn parse_with(text: &str, origin: &str, overrides: &[String]) -> Result<Scene, SceneError> {
         if overrides.is_empty() {
-            return Scene::check(document::from_text(text, origin)?, origin);
+            let checked = Scene::check(document::from_text(text, origin)?, origin);
+            return checked.map_err(|error| document::with_line(error, text));
         }
         Scene::of_table(document::table(text, origin)?, origin, overrides)
     }
@@ -92,7 +93,7 @@ impl Scene {
     /// The scene in `table` with overrides (`KEY=VALUE`).
     ///
     /// # Errors
-    /// As [`Scene::parse_with`].
+    /// The errors of [`Scene::parse_with`].
     pub fn of_table(mut table: toml::Table, origin: &str, overrides: &[String]) -> Result<Scene, SceneError> {
         for item in overrides {
             overrides::apply(&mut table, item, origin)?;

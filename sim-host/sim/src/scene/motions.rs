@@ -73,7 +73,7 @@ impl Scene {
     /// The horizontal one of [`Scene::ground_motions`].
     ///
     /// # Errors
-    /// Those of [`Scene::ground_motions`].
+    /// The errors of [`Scene::ground_motions`].
     pub fn ground_motion(&self) -> Result<GroundMotion, GroundError> {
         Ok(self.ground_motions()?.horizontal)
     }

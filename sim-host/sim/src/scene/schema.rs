@@ -173,12 +173,8 @@ impl BlockTable {
             RestitutionValue::Number(eta) => Ok(Restitution::Constant(*eta)),
             RestitutionValue::Word(word) if word == "geometric" => Ok(Restitution::Geometric),
             RestitutionValue::Word(word) if word == "momentum-balance" => Ok(Restitution::MomentumBalance),
-            RestitutionValue::Word(word) => Err(SceneError::Range {
-                origin: key("").origin,
-                key: "block.restitution".to_owned(),
-                value: format!("{word:?}"),
-                range: "a number from 0 to 1, \"geometric\" or \"momentum-balance\"".to_owned(),
-            }),
+            RestitutionValue::Word(word) => Err(key("block.restitution")
+                .outside(format!("{word:?}"), "a number from 0 to 1, \"geometric\" or \"momentum-balance\"")),
         }
     }
 }

@@ -11,7 +11,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_with::skip_serializing_none;
 
-use super::error::{KeyPath, SceneError};
+use super::error::SceneError;
 use super::schema::KeyOf;
 use crate::sensor::preset::{self, Preset};
 use crate::sensor::{Inertial, Suite};
@@ -29,7 +29,7 @@ const SEED: u64 = 1;
 #[serde(deny_unknown_fields, default)]
 pub struct SensorsTable {
     /// All sensors by one name; each can be replaced by the keys below.
-    #[schemars(example = &"icm-42688-p")]
+    #[schemars(example = &"icm-42688-p", extend("enum" = preset::names(preset::SUITES).collect::<Vec<_>>()))]
     pub suite: Option<String>,
     /// Gyroscope on the block, by name or by table.
     pub gyroscope: Option<NameOr<GyroscopeTable>>,
@@ -54,10 +54,9 @@ impl SensorsTable {
             Some(name) => find(preset::SUITES, name, "sensors.suite", key)?,
             None => Suite::IDEAL,
         };
-        let gyroscope = part(self.gyroscope.as_ref(), suite.gyroscope, preset::GYROSCOPES, "sensors.gyroscope", key)?;
-        let accelerometer = |table: &Option<NameOr<AccelerometerTable>>, start: Inertial, place: &str| {
-            part(table.as_ref(), start, preset::ACCELEROMETERS, place, key)
-        };
+        let gyroscope = part(self.gyroscope.as_ref(), suite.gyroscope, "sensors.gyroscope", key)?;
+        let accelerometer =
+            |table: &Option<NameOr<AccelerometerTable>>, start: Inertial, place: &str| part(table.as_ref(), start, place, key);
         Ok(Suite {
             gyroscope,
             block_accelerometer: accelerometer(
@@ -70,7 +69,7 @@ impl SensorsTable {
                 suite.ground_accelerometer,
                 "sensors.ground_accelerometer",
             )?,
-            encoder: part(self.encoder.as_ref(), suite.encoder, preset::ENCODERS, "sensors.encoder", key)?,
+            encoder: part(self.encoder.as_ref(), suite.encoder, "sensors.encoder", key)?,
         })
     }
 
@@ -80,26 +79,29 @@ impl SensorsTable {
     }
 }
 
-/// A table that changes a preset of kind `P`.
-trait Change<P> {
+/// A table that changes a preset.
+pub trait Change {
+    /// Parameters of a part.
+    type Part: Copy + 'static;
+    /// Parts by name.
+    const PRESETS: &'static [Preset<Self::Part>];
+
+    /// Name of the preset that the table starts from.
     fn preset(&self) -> Option<&str>;
     /// `start` with the table's keys; `place` is the table's own key.
-    fn change(&self, start: P, place: &str, key: &KeyOf<'_>) -> Result<P, SceneError>;
+    ///
+    /// # Errors
+    /// [`SceneError`] names the key.
+    fn change(&self, start: Self::Part, place: &str, key: &KeyOf<'_>) -> Result<Self::Part, SceneError>;
 }
 
-fn part<P: Copy, T: Change<P>>(
-    given: Option<&NameOr<T>>,
-    start: P,
-    presets: &'static [Preset<P>],
-    place: &str,
-    key: &KeyOf<'_>,
-) -> Result<P, SceneError> {
+fn part<T: Change>(given: Option<&NameOr<T>>, start: T::Part, place: &str, key: &KeyOf<'_>) -> Result<T::Part, SceneError> {
     match given {
         None => Ok(start),
-        Some(NameOr::Name(name)) => find(presets, name, place, key),
+        Some(NameOr::Name(name)) => find(T::PRESETS, name, place, key),
         Some(NameOr::Table(table)) => {
             let start = match table.preset() {
-                Some(name) => find(presets, name, &format!("{place}.preset"), key)?,
+                Some(name) => find(T::PRESETS, name, &format!("{place}.preset"), key)?,
                 None => start,
             };
             table.change(start, place, key)
@@ -110,7 +112,6 @@ fn part<P: Copy, T: Change<P>>(
 fn find<P: Copy>(presets: &'static [Preset<P>], name: &str, place: &str, key: &KeyOf<'_>) -> Result<P, SceneError> {
     preset::find(presets, name).ok_or_else(|| {
         let known: Vec<String> = preset::names(presets).map(|name| format!("\"{name}\"")).collect();
-        let KeyPath { origin, key } = key(place);
-        SceneError::Range { origin, key, value: format!("\"{name}\""), range: format!("one of {}", known.join(", ")) }
+        key(place).outside(format!("\"{name}\""), &format!("one of {}", known.join(", ")))
     })
 }

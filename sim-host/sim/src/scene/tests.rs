@@ -42,6 +42,23 @@ fn defaults_are_the_papers() {
 }
 
 #[test]
+fn a_value_outside_its_range_is_named_with_its_line() {
+    let restitution = "restitution = \"bouncy\"\nslenderness_deg = 10.0";
+    let record = "motion = \"record\"\nfile = \"a.csv\"\nunits = \"furlongs\"";
+    for (written, wrong, message) in [
+        ("size_m = 2.0", "size_m = 0", "scene.toml:4: block.size_m is 0, but must be from 0.001 to 10000 m"),
+        ("slenderness_deg = 10.0", restitution, "scene.toml:5: block.restitution is \"bouncy\""),
+        ("mass_ratio = 0.5", "mass_ratio = -0.5", "scene.toml:10: device.1.mass_ratio is -0.5"),
+        (&SCENE[SCENE.find("motion").unwrap()..], record, "scene.toml:14: ground.0.units is \"furlongs\""),
+    ] {
+        let error = Scene::parse(&SCENE.replace(written, wrong), "scene.toml").unwrap_err().to_string();
+        assert!(error.starts_with(message), "{error}");
+    }
+    // A value of the command line has none.
+    assert!(refused(&["block.size_m=0"]).starts_with("scene.toml: block.size_m is 0"));
+}
+
+#[test]
 fn an_error_names_the_key_the_value_and_what_it_may_be() {
     for (item, key, range) in [
         ("block.slenderness_deg=90", "block.slenderness_deg is 90", "below 90 degrees"),

@@ -118,7 +118,7 @@ fn switching_one_imperfection_leaves_the_others() {
 }
 
 #[test]
-fn readings_do_not_depend_on_how_often_the_truth_is_told() {
+fn readings_do_not_depend_on_how_often_the_truth_is_given() {
     let sampling = Sampling { rate: 8000.0, jitter: 1e-5, latency: 3.9e-3, synchronous: false };
     let suite = with(Inertial { noise_density: 1e-3, bandwidth: 200.0, sampling, ..Inertial::IDEAL });
     let read = |pieces: u32| {

@@ -89,7 +89,7 @@ impl<'a> Course<'a> {
         Limits { overturned: self.angle(bound), events: MOST_ARCS }
     }
 
-    /// Follows `state` to the end; `goes_on` is asked before every segment.
+    /// Follows `state` to the end; `continues` is asked before every segment.
     ///
     /// # Errors
     /// [`Stopped`] by the core. An answer of `false` ends the run early, without an error.
@@ -99,7 +99,7 @@ impl<'a> Course<'a> {
         method: &dyn IdealLoop<S>,
         state: &mut BlockState<S>,
         observer: &mut O,
-        mut goes_on: impl FnMut() -> bool,
+        mut continues: impl FnMut() -> bool,
     ) -> Result<(), Stopped>
     where
         S: Real,
@@ -108,7 +108,7 @@ impl<'a> Course<'a> {
         // The bound of a record falls rarely, and a limit costs an arctangent.
         let (mut bound, mut limits) = (f64::NAN, self.limits(0.0));
         for segment in self.ground.segments() {
-            if state.phase == Phase::Overturned || !goes_on() {
+            if state.phase == Phase::Overturned || !continues() {
                 return Ok(());
             }
             observer.segment(segment.start, Some(segment));
@@ -121,7 +121,7 @@ impl<'a> Course<'a> {
             let piece = segment.shape.to();
             method.advance(system, state, &piece, duration, &limits, observer).map_err(|end| end.after(segment.start))?;
         }
-        if state.phase == Phase::Overturned || !goes_on() {
+        if state.phase == Phase::Overturned || !continues() {
             return Ok(());
         }
         observer.segment(self.ground.duration(), None);
@@ -133,14 +133,14 @@ impl<'a> Course<'a> {
     /// Follows a device with a memory as [`Course::follow`] an ideal one, and reports every swing to `observer`.
     ///
     /// # Errors
-    /// Those of [`Course::follow`].
+    /// The errors of [`Course::follow`].
     pub fn follow_machine<S, O>(
         &self,
         machine: &HybridSystem<S>,
         integrator: &dyn HybridLoop<S>,
         state: &mut HybridState<S>,
         observer: &mut O,
-        mut goes_on: impl FnMut() -> bool,
+        mut continues: impl FnMut() -> bool,
     ) -> Result<(), Stopped>
     where
         S: Real,
@@ -150,7 +150,7 @@ impl<'a> Course<'a> {
         let limits = |bound: f64| Limits { events: MOST_EVENTS, overturned: self.machine_angle(machine, bound, lightest) };
         let vertical = self.vertical.map(GroundMotion::segments);
         for (index, segment) in self.ground.segments().iter().enumerate() {
-            if state.motion.phase == Phase::Overturned || !goes_on() {
+            if state.motion.phase == Phase::Overturned || !continues() {
                 return Ok(());
             }
             observer.segment(segment.start, Some(segment));
@@ -160,7 +160,7 @@ impl<'a> Course<'a> {
             let (duration, limits) = (S::of(segment.duration), limits(segment.bound));
             integrator.advance(machine, state, shaking, duration, &limits, observer).map_err(|end| end.after(segment.start))?;
         }
-        if state.motion.phase == Phase::Overturned || !goes_on() {
+        if state.motion.phase == Phase::Overturned || !continues() {
             return Ok(());
         }
         observer.segment(self.ground.duration(), None);

@@ -31,14 +31,14 @@ fn with_method<S: sprag_loops::Precision>(task: &Task<'_>, method: Method<S>) ->
         let [ground, _] = task.ground_at_start();
         state = system.released_at(S::of(rotation), S::of(velocity), S::of(ground));
     }
-    let mut goes_on = || !task.interrupt.is_set();
+    let mut continues = || !task.interrupt.is_set();
     let accuracy = &task.scene.file.accuracy;
     if let (EventTreatment::StepEnd, Some(step)) = (accuracy.events, task.step()) {
         // Per R the terminals' acceleration; σ of the loaded block weighs on the bare one.
         let coupling = loaded.device.mass_ratio / loaded.block.inertia_ratio();
         let force_scale = coupling * task.force_scale(&loaded);
         let steps = Steps { method: accuracy.method, step, interval: task.interval, force_scale };
-        let trace = step_end::follow(&course, &system, &steps, (state.rotation, state.velocity), &mut goes_on);
+        let trace = step_end::follow(&course, &system, &steps, (state.rotation, state.velocity), &mut continues);
         if task.interrupt.is_set() {
             return Err(Failure::Interrupted);
         }
@@ -51,7 +51,7 @@ fn with_method<S: sprag_loops::Precision>(task: &Task<'_>, method: Method<S>) ->
     let still = SumSegment::QUIET;
     let mut watched =
         Watched { engaged: system.engaged, clutch: system.clutch, coupling, segment: still, observer: &mut watchers };
-    course.follow(&system, &*S::ideal(method), &mut state, &mut watched, goes_on).map_err(Failure::Stopped)?;
+    course.follow(&system, &*S::ideal(method), &mut state, &mut watched, continues).map_err(Failure::Stopped)?;
     if task.interrupt.is_set() {
         return Err(Failure::Interrupted);
     }

@@ -88,7 +88,7 @@ pub fn simulate(scene: &Scene, ground: &GroundMotions, interrupt: &Interrupt) ->
 /// As [`simulate`], for studies, which report no forces and impulses: they are looked at where the scene has `[checks]` only.
 ///
 /// # Errors
-/// Those of [`simulate`].
+/// The errors of [`simulate`].
 pub fn simulate_for_study(scene: &Scene, ground: &GroundMotions, interrupt: &Interrupt) -> Result<Vec<DeviceRun>, RunError> {
     runs(scene, ground, false, interrupt)
 }

@@ -48,15 +48,15 @@ pub struct Trace<S> {
     pub peak_force: f64,
 }
 
-/// Follows a block from rest, or from `start` (θ, θ̇), until the end of the course or `goes_on` says no.
+/// Follows a block from rest, or from `start` (θ, θ̇), until the end of the course or `continues` says no.
 pub fn follow<S: Real>(
     course: &Course<'_>,
     system: &IdealSystem<S>,
     steps: &Steps,
     start: (S, S),
-    goes_on: &mut dyn FnMut() -> bool,
+    continues: &mut dyn FnMut() -> bool,
 ) -> Trace<S> {
-    system.engaged.known(Follow { course, system, steps, start, goes_on })
+    system.engaged.known(Follow { course, system, steps, start, continues })
 }
 
 struct Follow<'a, S> {
@@ -64,7 +64,7 @@ struct Follow<'a, S> {
     system: &'a IdealSystem<S>,
     steps: &'a Steps,
     start: (S, S),
-    goes_on: &'a mut dyn FnMut() -> bool,
+    continues: &'a mut dyn FnMut() -> bool,
 }
 
 impl<S: Real> WithEquation<S> for Follow<'_, S> {
@@ -79,7 +79,7 @@ impl<S: Real> WithEquation<S> for Follow<'_, S> {
 }
 
 fn trace<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, clutch: ClutchRule, follow: Follow<'_, S>) -> Trace<S> {
-    let Follow { course, steps, start, goes_on, .. } = follow;
+    let Follow { course, steps, start, continues, .. } = follow;
     let mut trace = Trace::default();
     let mut state = TimeSteppingState::at_rest();
     (state.rotation, state.velocity) = start;
@@ -95,7 +95,7 @@ fn trace<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, clutch: ClutchRule
         let h = S::of(steps.step);
         let (mut time, mut tick) = (S::ZERO, 0);
         let duration = S::of(duration);
-        while time < duration && goes_on() {
+        while time < duration && continues() {
             tick += 1;
             let end = (S::count(tick) * h).smaller(duration);
             let (push, push_at_end) = (piece.acceleration(time), piece.acceleration(end));

@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn looks_tell_methods_events_and_precisions_apart() {
+    fn looks_distinguish_methods_events_and_precisions() {
         let families: Vec<Family> = variants(true, 0.0).iter().map(Variant::family).collect();
         for one in &families {
             for other in &families {

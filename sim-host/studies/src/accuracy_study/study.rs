@@ -56,7 +56,7 @@ struct Device {
     grid: Vec<(Subject, Reading)>,
 }
 
-/// Why there are no results.
+/// Reasons why there are no results.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StudyError {
     /// A parameter that the core refuses.

@@ -18,7 +18,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// As tables and files print it.
+    /// Name in tables and files.
     pub fn name(self) -> &'static str {
         match self {
             Method::SemiImplicitEuler => "semi-implicit-euler",
@@ -45,7 +45,7 @@ pub enum Number {
 }
 
 impl Number {
-    /// All of them.
+    /// All number types.
     pub const ALL: [Number; 5] = [Number::F64Libm, Number::F64Own, Number::F32Own, Number::F32Libm, Number::F32Micromath];
 
     /// "f64" or "f32".

@@ -16,7 +16,7 @@ pub struct DemandRatio {
     pub device: String,
     /// The first device.
     pub over: String,
-    /// Of what.
+    /// Demand that is compared.
     pub demand: Demand,
     /// Of the medians of both power laws, over the intensities that both were fitted to.
     pub medians: Option<MedianRatio>,

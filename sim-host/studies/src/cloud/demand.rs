@@ -21,7 +21,7 @@ impl Demand {
     /// Both, as in the two parts of Figure 15.
     pub const ALL: [Demand; 2] = [Demand::PeakRotation, Demand::PeakAcceleration];
 
-    /// As tables name it.
+    /// Name of the demand in tables.
     pub fn name(self) -> &'static str {
         match self {
             Demand::PeakRotation => "peak-rotation",
@@ -75,17 +75,17 @@ pub struct DemandModel {
     pub device_index: usize,
     /// The device.
     pub device: String,
-    /// Of what.
+    /// Demand of the law.
     pub demand: Demand,
     /// IM.
     pub measure: Measure,
     /// Number of all runs.
     pub runs: usize,
-    /// Those that are not in the law.
+    /// Runs that are not in the law.
     pub left_out: LeftOut,
     /// The law; null where there is none.
     pub law: Option<PowerLaw>,
-    /// Why there is none.
+    /// Reason why there is no law.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     /// Smallest and largest intensity in it.

@@ -22,7 +22,7 @@ fn title(study: &Study) -> FigureTitle {
 /// `demand.svg`: rotations left, accelerations right, a row for each structure; `None` where nothing rocks and stands.
 ///
 /// # Errors
-/// As [`cloud_figure`].
+/// The errors of [`cloud_figure`].
 pub fn demand_picture(study: &Study, findings: &Findings) -> Result<Option<String>, PlotError> {
     let mut panels = Vec::new();
     for (number, structure) in study.structures.iter().enumerate() {
@@ -72,7 +72,7 @@ fn demand_series(study: &Study, model: &DemandModel) -> CloudSeries {
 /// `fragility.svg`: a panel for each structure; `None` where no run has a value of the measure.
 ///
 /// # Errors
-/// As [`cloud_figure`].
+/// The errors of [`cloud_figure`].
 pub fn fragility_picture(study: &Study, findings: &Findings) -> Result<Option<String>, PlotError> {
     let mut panels = Vec::new();
     for (number, structure) in study.structures.iter().enumerate() {

@@ -27,7 +27,7 @@ pub struct Outcomes {
     pub overturned_without_impact: usize,
     /// It overturns after one or more.
     pub overturned_after_impact: usize,
-    /// Those that failed.
+    /// Number of runs that failed.
     pub failed: usize,
 }
 

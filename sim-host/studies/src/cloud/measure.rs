@@ -21,7 +21,7 @@ pub struct BlockScales {
 }
 
 impl BlockScales {
-    /// Those of the block of `scene`.
+    /// Scales of the block of `scene`.
     pub fn of(scene: &Scene) -> BlockScales {
         BlockScales {
             frequency_parameter_1_s: scene.block.frequency_parameter(),
@@ -112,7 +112,7 @@ impl Measure {
         }
     }
 
-    /// Its formula as text.
+    /// Formula of the measure as text.
     pub fn formula(self) -> &'static str {
         match self {
             Measure::UniformDuration => "p t_uni",

@@ -28,7 +28,7 @@ pub struct DeviceFragility {
     pub measure: Measure,
     /// Runs in it.
     pub runs: usize,
-    /// Those that overturned.
+    /// Number of runs that overturned.
     pub overturned: usize,
     /// Runs that failed, and are not in it.
     pub failed: usize,

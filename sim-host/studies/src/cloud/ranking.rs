@@ -14,7 +14,7 @@ pub struct Ranking {
     pub structure: String,
     /// The device.
     pub device: String,
-    /// Of what.
+    /// Demand that the measures are ranked by.
     pub demand: Demand,
     /// Runs in it: those in which the block rocks and stands and no measure is 0, so that all measures predict the same demands.
     pub runs: usize,
@@ -24,7 +24,7 @@ pub struct Ranking {
 }
 
 impl Ranking {
-    /// That of `measures` by `runs`.
+    /// Ranking of `measures` by `runs`.
     pub fn of(runs: &[&Run], structure: &str, device: &str, demand: Demand, measures: &[Measure]) -> Ranking {
         let usable = |run: &&Run| measures.iter().all(|measure| run.measure(*measure) > 0.0);
         let (runs, demands): (Vec<&Run>, Vec<f64>) =

@@ -41,7 +41,7 @@ pub struct Run {
 /// What a run came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
-    /// Its outcome.
+    /// Outcome of the run.
     pub outcome: Outcome,
     /// max |θ|/α; `None` when overturned.
     pub peak_rotation: Option<f64>,
@@ -56,7 +56,7 @@ pub struct Answer {
 }
 
 impl Run {
-    /// Its value of `measure`.
+    /// Value of `measure` in the run.
     pub fn measure(&self, measure: Measure) -> f64 {
         Measure::ALL.into_iter().zip(self.measures).find(|(other, _)| *other == measure).map_or(0.0, |(_, value)| value)
     }
@@ -92,7 +92,7 @@ const MOST_TOGETHER: usize = 256;
 pub struct RunList<'a> {
     /// The study.
     pub study: &'a Study,
-    /// Its records.
+    /// Records of the study.
     pub records: &'a [StudyRecord],
     shakings: Vec<Shaking<'a>>,
     left_out: Vec<String>,
@@ -101,7 +101,7 @@ pub struct RunList<'a> {
 }
 
 impl<'a> RunList<'a> {
-    /// Of `study` under `records`.
+    /// Runs of `study` under `records`.
     pub fn new(study: &'a Study, records: &'a [StudyRecord]) -> RunList<'a> {
         let mut left_out = Vec::new();
         let mut shakings = Vec::new();
@@ -169,7 +169,7 @@ impl<'a> RunList<'a> {
     /// Neither the number of threads nor their order changes a bit of the runs. `false` when it was interrupted.
     ///
     /// # Errors
-    /// Those of `keep`.
+    /// The errors of `keep`.
     pub fn work_through<E: Send>(
         &self,
         rows: Range<usize>,

@@ -21,12 +21,12 @@ pub const MOST_STRUCTURES: usize = 64;
 /// A structure of a study.
 #[derive(Clone, Debug, Serialize)]
 pub struct StudyStructure {
-    /// Its name.
+    /// Name of the structure.
     pub name: String,
     /// What its measures are relative to.
     #[serde(flatten)]
     pub scales: BlockScales,
-    /// As resolved.
+    /// Scene as resolved.
     #[serde(rename = "scene", serialize_with = "file_of")]
     pub scene: Scene,
 }

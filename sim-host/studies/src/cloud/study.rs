@@ -57,7 +57,7 @@ pub enum StudyError {
         origin: String,
         /// Number of the structure, from 0.
         index: usize,
-        /// Why not.
+        /// Error of the scene.
         error: Box<SceneError>,
     },
 }
@@ -77,7 +77,7 @@ impl Study {
     /// [`Study::load`] of `text`, a file called `origin` in `folder`.
     ///
     /// # Errors
-    /// As there.
+    /// The errors of [`Study::load`].
     pub fn parse(
         text: &str,
         origin: &str,
@@ -186,12 +186,7 @@ fn scaling(file: &StudyFile, key: &dyn Fn(&str) -> KeyPath) -> Result<Scaling, S
 fn check_names(asked: &[String], structures: &[StudyStructure], key: KeyPath) -> Result<(), SceneError> {
     let names: Vec<&str> = structures.iter().map(|structure| structure.name.as_str()).collect();
     match asked.iter().find(|name| !names.contains(&name.as_str())) {
-        Some(name) => Err(SceneError::Range {
-            origin: key.origin,
-            key: key.key,
-            value: format!("{name:?}"),
-            range: format!("among the structures {}", names.join(", ")),
-        }),
+        Some(name) => Err(key.outside(format!("{name:?}"), &format!("among the structures {}", names.join(", ")))),
         None => Ok(()),
     }
 }
@@ -224,9 +219,7 @@ fn read_options(table: &RecordTable, scene: &Scene) -> ReadOptions {
 /// Units of `table`, if they can be meant.
 pub(super) fn check_units(units: Option<&str>, table: &str, key: &dyn Fn(&str) -> KeyPath) -> Result<(), SceneError> {
     if let Some(units) = units.filter(|units| units.parse::<Units>().is_err()) {
-        let KeyPath { origin, key } = key(&format!("{table}.units"));
-        let range = Units::ALLOWED.to_owned();
-        return Err(SceneError::Range { origin, key, value: format!("{units:?}"), range });
+        return Err(key(&format!("{table}.units")).outside(format!("{units:?}"), Units::ALLOWED));
     }
     Ok(())
 }

@@ -26,7 +26,7 @@ pub struct Variant {
     pub name: String,
     /// Keys of the scene.
     pub overrides: Vec<String>,
-    /// Of the sensors.
+    /// Seed of the sensors.
     pub seed: u64,
 }
 
@@ -75,7 +75,7 @@ pub struct LoopResult {
     pub ending: Ending,
 }
 
-/// Why a study ended early.
+/// Reasons why a study ended early.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     /// A scene that the study wrote.
@@ -89,7 +89,7 @@ pub enum StudyError {
     Loop {
         /// Motion and variant.
         motion: String,
-        /// Why.
+        /// Failure of the loop.
         failure: LoopFailure,
     },
     /// Ctrl-C.
@@ -146,7 +146,7 @@ pub struct Conditions<'a> {
 }
 
 impl<'a> Conditions<'a> {
-    /// Of a study that begins.
+    /// Conditions of a study that begins.
     pub fn new(accuracy: Option<Accuracy>, interrupt: &'a Interrupt) -> Conditions<'a> {
         Conditions { accuracy, interrupt, worst: Mutex::default() }
     }
@@ -242,7 +242,7 @@ pub fn all<J: Sync, R: Send>(
 /// Does `work` for every pair of a motion and a variant, in parallel; results by variant, then by motion.
 ///
 /// # Errors
-/// As [`all`].
+/// The errors of [`all`].
 pub fn each<R: Send>(
     motions: &[Motion],
     variants: &[Variant],

@@ -49,7 +49,7 @@ pub enum Part {
     Encoder,
 }
 
-/// All that are tried.
+/// All failures that are tried.
 pub const ALL: [Failing; 16] = [
     Failing::Stale(Part::Gyroscope),
     Failing::Stale(Part::Ground),

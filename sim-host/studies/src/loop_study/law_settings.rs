@@ -66,7 +66,7 @@ impl Setting {
     /// Which of [`Setting::clutches`] are the typical ones.
     pub const TYPICAL: std::ops::Range<usize> = 1..3;
 
-    /// As a variant.
+    /// Variant with these settings.
     pub fn variant(&self) -> Variant {
         let mut variant = Variant::new(&self.name, &[&format!("block.slenderness_deg={:?}", self.slenderness_deg)]);
         variant.overrides.extend_from_slice(&self.overrides);

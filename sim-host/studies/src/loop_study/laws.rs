@@ -201,7 +201,7 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
 
     report.section("Clutches as they are");
     report.paragraph(&format!(
-        "Consistent kinematics, a clutch with a jolt, flywheels that go on spinning (braked: at 2 m/s² once released), the sensors of an \
+        "Consistent kinematics, a clutch with a jolt, flywheels that keep spinning (braked: at 2 m/s² once released), the sensors of an \
          ADIS16470, 1 kHz. {SPECIMENS} specimens of the sensors, each under motions of its own, the same for all laws. Overturned, in \
          percent, and difference to Eq. 10 in percentage points, with 95 % bands over the specimens."
     ));
@@ -279,7 +279,7 @@ fn takes_over(pairs: &[Pairs], pulses: usize) -> bool {
 /// Which law is best for which motions.
 fn conclude(report: &mut Report, kinds: &[Kind], winners: &[Clutch]) {
     report.section("Which law for which motions");
-    report.paragraph("The law with the fewest overturned blocks, and those that the specimens do not tell apart from it.");
+    report.paragraph("The law with the fewest overturned blocks, and those that the specimens do not distinguish from it.");
     let headings = std::iter::once("motions".to_owned()).chain(winners.iter().map(|(name, _)| name.clone()));
     let mut table = TextTable::new(1 + winners.len(), headings);
     for (index, kind) in kinds.iter().enumerate() {

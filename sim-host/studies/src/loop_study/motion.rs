@@ -101,7 +101,7 @@ pub enum Family {
 }
 
 impl Family {
-    /// Those of the studies.
+    /// All families of the studies.
     pub const ALL: [Family; 7] = [
         Family::Shape("sine"),
         Family::Shape("cosine"),
@@ -165,7 +165,7 @@ pub struct Records<'a> {
 }
 
 impl<'a> Records<'a> {
-    /// Of records.
+    /// Records of a study, read from their files.
     ///
     /// # Errors
     /// [`StudyError`] names the first file that cannot be read.

@@ -36,7 +36,7 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Of loops with the ideal pair.
+    /// Comparison of loops with the ideal pair.
     pub fn of(loops: &[super::bench::LoopResult], ideals: &[(Outcome, f64)]) -> Comparison {
         Comparison::beside(loops.iter().map(|closed| (closed.outcome, closed.peak)), ideals)
     }
@@ -63,7 +63,7 @@ impl Comparison {
         quantile(&self.changes.iter().map(|change| change.abs()).collect::<Vec<f64>>(), share).unwrap_or(f64::NAN)
     }
 
-    /// As cells of a table.
+    /// Cells of a table.
     pub fn cells(&self) -> Vec<String> {
         vec![
             number(quantile(&self.changes, 0.5).map(|change| 100.0 * change), 3),

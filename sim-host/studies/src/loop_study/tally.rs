@@ -15,7 +15,7 @@ pub struct Mean {
 }
 
 impl Mean {
-    /// Of `values`, one a specimen.
+    /// Mean of `values`, one a specimen.
     pub fn of(values: &[f64]) -> Mean {
         let count = values.len() as f64;
         let value = values.iter().sum::<f64>() / count;
@@ -94,7 +94,7 @@ impl Pairs {
         Pairs { less: count(-1), more: count(1) }
     }
 
-    /// Both together.
+    /// Sum of both tallies.
     #[must_use]
     pub fn plus(self, other: Pairs) -> Pairs {
         Pairs { less: self.less + other.less, more: self.more + other.more }
@@ -123,7 +123,7 @@ impl Pairs {
         Pairs { less: self.more, more: self.less }.fewer()
     }
 
-    /// As a cell of a table.
+    /// Cell of a table.
     pub fn cell(&self) -> String {
         let chance = self.chance();
         let chance = if chance < 0.001 { "< 0.001".to_owned() } else { number(chance, 3) };

@@ -40,7 +40,7 @@ pub struct Boundary {
 /// The boundaries of one device's map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundaries {
-    /// Its name.
+    /// Name of the device.
     pub device: String,
     /// In order of their outcomes.
     pub boundaries: Vec<Boundary>,

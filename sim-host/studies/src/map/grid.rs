@@ -18,7 +18,7 @@ use toml::Table;
 pub struct Grid {
     /// The scene as it is without the axes' values.
     pub scene: Scene,
-    /// Its axes.
+    /// Axes of the grid.
     pub map: MapTable,
     text: Table,
     /// For every device, how a cell's block follows from the scene's own; none where cells are read anew as scenes.

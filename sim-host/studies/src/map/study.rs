@@ -20,7 +20,7 @@ use super::grid::{Grid, Subject, Values};
 use super::table::Labels;
 use super::tally::{DeviceMap, Tally};
 
-/// Why a map could not be made.
+/// Reasons why a map could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum MapError {
     /// The scene, or that of a cell.
@@ -34,7 +34,7 @@ pub enum MapError {
     Run {
         /// Values of the axes.
         place: String,
-        /// Why.
+        /// Error of the run.
         error: RunError,
     },
     /// A block that cannot be followed.
@@ -44,7 +44,7 @@ pub enum MapError {
         device: String,
         /// Values of the axes.
         place: String,
-        /// Why.
+        /// Error of the case.
         error: CaseError,
     },
     /// Rows that cannot be kept, or resumed.

@@ -30,7 +30,7 @@ pub struct Labels {
 }
 
 impl Labels {
-    /// Of the cells of `grid`.
+    /// Table of the cells of `grid`.
     ///
     /// # Errors
     /// When a name cannot be written.

@@ -34,12 +34,12 @@ impl Counts {
         } += 1;
     }
 
-    /// That overturn.
+    /// Number of cells that overturn.
     pub fn overturned(&self) -> usize {
         self.overturned_without_impact + self.overturned_after_impact
     }
 
-    /// All.
+    /// Number of all cells.
     pub fn cells(&self) -> usize {
         self.no_rocking + self.safe + self.overturned()
     }
@@ -48,7 +48,7 @@ impl Counts {
 /// The map of one device.
 #[derive(Clone, Debug)]
 pub struct DeviceMap {
-    /// Its name.
+    /// Name of the device.
     pub device: String,
     /// Outcomes of all cells.
     pub counts: Counts,
@@ -103,7 +103,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Of no cell yet.
+    /// Tally of no cell yet.
     pub fn new(grid: &Grid) -> Tally {
         let most = if grid.rows() == 1 { grid.columns() } else { MOST_SHOWN };
         let (columns, rows) = (Shown::new(grid.columns(), most), Shown::new(grid.rows(), most));

@@ -42,7 +42,7 @@ pub struct Design {
 pub struct Score {
     /// Motions with a response.
     pub motions: usize,
-    /// Those that overturn the block.
+    /// Number of motions that overturn the block.
     pub overturned: usize,
     /// Motions without a response.
     pub failed: usize,

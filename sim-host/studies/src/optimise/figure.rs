@@ -13,7 +13,7 @@ use crate::cloud::pages::percent;
 /// The picture: overturning against force, and against stroke where that is limited.
 ///
 /// # Errors
-/// As [`trade_off_figure`].
+/// The errors of [`trade_off_figure`].
 pub fn trade_off_picture(problem: &Problem<'_>, findings: &Findings) -> Result<String, PlotError> {
     let choices = &problem.choices;
     let quantities = Quantity::ALL.into_iter().filter(|quantity| *quantity == Quantity::Force || choices.limits.stroke.is_some());

@@ -22,7 +22,7 @@ pub struct Row {
     pub mass_ratio: Option<f64>,
     /// Motions with a response.
     pub motions: usize,
-    /// Those that overturn the block.
+    /// Number of motions that overturn the block.
     pub overturned: usize,
     /// Motions without a response.
     pub failed: usize,

@@ -45,8 +45,7 @@ pub(super) fn laws(names: &[String], scene: &Scene, key: &KeyPath) -> Result<Vec
             let ideal = IDEAL_LAWS.iter().map(|name| format!("\"{name}\""));
             let mut all: Vec<String> = ideal.collect();
             all.extend(known.filter(|name| !all.contains(name)).collect::<Vec<_>>());
-            let KeyPath { origin, key } = key();
-            SceneError::Range { origin, key, value: format!("{name:?}"), range: format!("among {}", all.join(", ")) }
+            key().outside(format!("{name:?}"), &format!("among {}", all.join(", ")))
         })?;
         if device.kind == Kind::None {
             return Err(key().conflict(&format!("the device \"{name}\" of the scene has no inerter")));

@@ -15,7 +15,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Both.
+    /// Both quantities.
     pub const ALL: [Quantity; 2] = [Quantity::Force, Quantity::Stroke];
 
     /// In the markup of [`sprag_report::plot::Chart::x_title`], of the quantile `share` of the motions.

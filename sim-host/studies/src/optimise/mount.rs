@@ -49,7 +49,7 @@ impl MountEntry {
 }
 
 impl DescribedMount {
-    /// That of `device`.
+    /// Mount of `device`.
     pub fn of(device: &DeviceTable) -> DescribedMount {
         DescribedMount {
             mount: device.mount.unwrap_or_default(),

@@ -42,7 +42,7 @@ pub struct Choices<'a> {
 }
 
 impl<'a> Choices<'a> {
-    /// Those of `study`.
+    /// Choices of `study`.
     ///
     /// # Errors
     /// [`SceneError`] names the key of the study, its value and what it may be.
@@ -77,12 +77,10 @@ fn structure<'a>(study: &'a Study, table: &OptimiseTable, key: KeyPath) -> Resul
     match (&table.structure, &study.structures[..]) {
         (None, [only]) => Ok(only),
         (None, _) => Err(key.missing(&format!("which of the structures {} gets the device", names()))),
-        (Some(name), all) => all.iter().find(|structure| structure.name == *name).ok_or_else(|| SceneError::Range {
-            origin: key.origin,
-            key: key.key,
-            value: format!("{name:?}"),
-            range: format!("among the structures {}", names()),
-        }),
+        (Some(name), all) => all
+            .iter()
+            .find(|structure| structure.name == *name)
+            .ok_or_else(|| key.outside(format!("{name:?}"), &format!("among the structures {}", names()))),
     }
 }
 

@@ -7,7 +7,7 @@ use sprag_sim::simulation::DeviceRun;
 /// A response.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
-    /// Its outcome.
+    /// Outcome of the run.
     pub outcome: Outcome,
     /// max |θ|/α; `None` when overturned.
     pub peak_rotation: Option<f64>,
@@ -20,7 +20,7 @@ pub struct Response {
 }
 
 impl Response {
-    /// Of a run with checks.
+    /// Response of a run with checks.
     pub fn of(run: &DeviceRun) -> Response {
         Response {
             outcome: run.outcome,

@@ -30,7 +30,7 @@ pub struct Crossing {
 /// each candidate, in their order, and is asked for none twice. The designs come by law and mount, and by mass ratio.
 ///
 /// # Errors
-/// Those of `evaluate`.
+/// The errors of `evaluate`.
 pub fn search<E>(
     curves: usize,
     grid: &[f64],

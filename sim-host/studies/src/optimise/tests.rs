@@ -111,7 +111,7 @@ fn what_is_wrong_is_named_with_its_key_its_value_and_its_range() {
         ("laws = ['rigid']\nmounts = ['base-corners']", "optimise.laws: none of them can be; rigid, base-corners: "),
     ] {
         let message = refusal(&format!("[optimise]\n{keys}"));
-        assert!(message.starts_with("study.toml: ") && message.contains(expected), "{keys}: {message}");
+        assert!(message.starts_with("study.toml:") && message.contains(expected), "{keys}: {message}");
         assert!(!message.contains('\n'), "{message}");
     }
     let syntax = |keys: &str| parsed(&format!("[optimise]\n{keys}")).unwrap_err().to_string();

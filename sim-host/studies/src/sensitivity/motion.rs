@@ -14,9 +14,9 @@ use super::variants::VERTICAL_RATIO;
 pub struct StudyMotion {
     /// The scene's own, and not a record in its place.
     pub own: bool,
-    /// As tables print it.
+    /// Name in tables.
     pub name: String,
-    /// As the scene has it.
+    /// Ground motion of the scene.
     pub ground: GroundMotions,
     /// With a vertical motion beside it, or why there is none.
     pub with_vertical: Result<GroundMotions, String>,
@@ -37,7 +37,7 @@ impl StudyMotion {
     /// The scene's own motion; `None` when it is a record that the scene does not name.
     ///
     /// # Errors
-    /// As [`Scene::ground_motions`].
+    /// The errors of [`Scene::ground_motions`].
     pub fn own(scene: &Scene) -> Result<Option<StudyMotion>, GroundError> {
         if scene.file.ground.iter().any(|table| table.motion == Motion::Record && table.file.is_none()) {
             return Ok(None);

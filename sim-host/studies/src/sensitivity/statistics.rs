@@ -55,7 +55,7 @@ pub struct OwnMotion {
     pub peak_base: Option<f64>,
     /// With the variant; null when overturned.
     pub peak_variant: Option<f64>,
-    /// Which way the outcome changed.
+    /// Direction in which the outcome changed.
     #[serde(skip)]
     pub flip: Option<Flip>,
 }

@@ -18,7 +18,7 @@ pub const ROCKS_FROM: f64 = 0.05;
 /// What a run comes to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
-    /// Its outcome.
+    /// Outcome of the run.
     pub outcome: Outcome,
     /// max |θ|/α; `None` when overturned.
     pub peak: Option<f64>,
@@ -41,7 +41,7 @@ pub struct Comparison {
     pub answer: Answer,
 }
 
-/// Which way an outcome changed.
+/// Direction in which an outcome changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flip {
     /// The block stood and now overturns.
@@ -181,7 +181,7 @@ impl Study {
     }
 }
 
-/// Why there is no answer.
+/// Reasons why there is no answer.
 #[derive(Clone, Debug, PartialEq)]
 enum Missing {
     Interrupted,

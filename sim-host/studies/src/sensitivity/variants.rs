@@ -216,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn names_tell_variants_apart() {
+    fn names_distinguish_variants() {
         let labels: std::collections::BTreeSet<String> = VARIANTS.iter().map(Variant::label).collect();
         assert_eq!(labels.len(), VARIANTS.len());
     }

@@ -117,7 +117,7 @@ mod tests {
 
     /// Equal in g and Hz is not equal in ratios once the block is another one.
     #[test]
-    fn another_block_under_the_same_pulse_is_told() {
+    fn another_block_under_the_same_pulse_is_reported() {
         let of = |size: f64| {
             let scene = scene(&format!("size_m = {size}, slenderness_deg = 10.0"), "amplitude_g = 0.3, frequency_hz = 1.0");
             groups(&scene).unwrap()

@@ -76,7 +76,7 @@ pub struct CurveBand {
     pub band: Band,
 }
 
-/// Why runs have no bands.
+/// Reasons why runs have no bands.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BootstrapError {
     /// Too few or too many resamples.
@@ -101,7 +101,7 @@ pub enum BootstrapError {
     Resample {
         /// Its number, from 0.
         index: usize,
-        /// Why not.
+        /// Error of the fragility curve.
         error: FragilityError,
     },
 }

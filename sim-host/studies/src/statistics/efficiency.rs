@@ -49,12 +49,12 @@ pub struct RankedMeasure {
 pub struct UnfittedMeasure {
     /// Its name.
     pub name: String,
-    /// Why.
+    /// Reason why the measure has no law.
     #[serde(serialize_with = "in_words")]
     pub reason: UnfittedReason,
 }
 
-/// Why a measure has no law.
+/// Reasons why a measure has no law.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum UnfittedReason {
     /// It does not have one value for each demand.

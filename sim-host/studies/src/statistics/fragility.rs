@@ -59,7 +59,7 @@ pub enum Fragility {
         intensity: f64,
         /// Runs there.
         number: u64,
-        /// Those that overturned.
+        /// Number of runs that overturned.
         overturned: u64,
     },
     /// Overturning does not become likelier with intensity: the likelihood over β > 0 rises as β → ∞, and a negative β is none.

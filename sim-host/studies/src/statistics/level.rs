@@ -30,7 +30,7 @@ impl Level {
         if value > 0.0 && value < 1.0 { Ok(Level(value)) } else { Err(LevelError { value }) }
     }
 
-    /// Its value.
+    /// Value of the level.
     pub fn value(self) -> f64 {
         self.0
     }

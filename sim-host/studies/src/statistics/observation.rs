@@ -54,7 +54,7 @@ pub enum ObservationError {
 pub(super) struct Stripe {
     /// The intensity; the lowest of those that are one.
     pub intensity: f64,
-    /// Its logarithm.
+    /// Logarithm of the intensity.
     pub ln_intensity: f64,
     /// Runs that overturned.
     pub overturned: u64,

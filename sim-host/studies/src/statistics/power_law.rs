@@ -44,7 +44,7 @@ pub struct PowerLaw {
     pub spread_ln_intensity: f64,
 }
 
-/// Why points have no power law.
+/// Reasons why points have no power law.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PowerLawError {
     /// Too few of them, or more than can be counted.

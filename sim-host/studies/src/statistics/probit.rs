@@ -157,7 +157,7 @@ fn estimates(line: Line, at: &Curvature, middle: f64, half: f64) -> Maximum {
 }
 
 impl Maximum {
-    /// Of μ and β.
+    /// Standard errors of μ and β.
     pub fn standard_errors(&self) -> [f64; 2] {
         [square_root(self.covariance[0][0]), square_root(self.covariance[1][1])]
     }

@@ -109,7 +109,7 @@ impl Guest for Chip {
 
     fn block(&mut self, processor: &Processor, address: u32, size: u32) -> bool {
         // The first block since the processor continued is carried out in any case: whoever asks for steps gets on.
-        if !std::mem::take(&mut self.goes_on) && self.stops(processor) {
+        if !std::mem::take(&mut self.continues) && self.stops(processor) {
             return true;
         }
         if self.trail.len() == TRAIL {

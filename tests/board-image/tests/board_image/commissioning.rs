@@ -118,7 +118,7 @@ fn erase(model: Model, mut store: impl FnMut(u32, u32)) {
 }
 
 #[test]
-fn an_older_firmware_than_one_that_has_run_is_told() {
+fn an_older_firmware_than_one_that_has_run_is_reported() {
     for model in Model::ALL {
         let mut rig = begun(model, Some(&Settings::default()));
         let own = identity(&mut rig);

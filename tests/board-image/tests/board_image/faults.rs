@@ -67,7 +67,7 @@ fn registers(start: &Started) -> [u32; 4] {
 
 /// B8: at every depth at which the stack ends, in a function or at the entry of an interrupt, the coils are switched off before anything else.
 #[test]
-fn a_stack_that_ends_releases_the_coils_and_is_told() {
+fn a_stack_that_ends_releases_the_coils_and_is_reported() {
     const UNSTACKED: u32 = 1 << 12;
     const PRECISE: u32 = 1 << 9;
     let mut kinds = [0; 2];

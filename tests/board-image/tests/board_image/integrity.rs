@@ -88,7 +88,7 @@ fn a_bit_of_the_program_that_turns_in_operation_is_a_fault_within_seconds() {
 
 /// An image without a seal runs, and says so.
 #[test]
-fn a_program_without_a_seal_is_told() {
+fn a_program_without_a_seal_is_reported() {
     let mut image = image_for(Model::F405);
     for (_, bytes) in &mut image.segments {
         if let Some(place) = bytes.windows(4).position(|window| window == 0x5EA1_ED01_u32.to_le_bytes()) {

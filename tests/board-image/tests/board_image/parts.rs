@@ -65,7 +65,7 @@ fn a_reset_while_the_board_is_armed_tests_no_part() {
 
 /// C6: both parts in another range than they are read with, each by the registers as it should be: they contradict nothing.
 #[test]
-fn accelerometers_that_measure_twice_too_much_are_told_within_ten_seconds() {
+fn accelerometers_that_measure_twice_too_much_are_reported_within_ten_seconds() {
     let mut rig = armed(Model::F405, |_| ());
     rig.gravity = 8192.0;
     for _ in 0..20 {

@@ -122,7 +122,7 @@ fn a_power_cut_in_a_page_leaves_the_pages_before() {
 }
 
 #[test]
-fn a_reset_in_motion_goes_on_in_another_part_and_the_log_says_so() {
+fn a_reset_in_motion_continues_in_another_part_and_the_log_says_so() {
     for model in Model::ALL {
         let mut rig = rocking(&image_for(model), 900);
         rig.reset(Cause::Watchdog);

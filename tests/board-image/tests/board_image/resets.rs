@@ -42,7 +42,7 @@ fn back(rig: &mut Rig) -> (f64, f64) {
 
 /// A1: by the watchdog, at so many phases of a swing of 1.05 s.
 #[test]
-fn a_reset_in_motion_is_gone_on_from_within_50_ms() {
+fn a_reset_in_motion_is_resumed_from_within_50_ms() {
     for (model, phases) in [(Model::F405, 20), (Model::G474, 5)] {
         let image = image_for(model);
         let mut worst = (0.0_f64, 0.0_f64);

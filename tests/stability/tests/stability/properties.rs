@@ -158,7 +158,7 @@ fn orderly<S: Precision>(structure: &Structure, motion: &Motion) -> Result<(), T
     Ok(())
 }
 
-/// Let go on quiet ground.
+/// Released on quiet ground.
 fn losing<S: Precision>(structure: &Structure, tilt: f64) -> Result<(), TestCaseError> {
     let mut structure = *structure;
     structure.device.mount = Mount::CentreOfMass;

@@ -37,7 +37,7 @@ fn ledgers_close() {
 
 /// Scenes in which two programs had differed (`scenes/`, whose first lines say by what): this one runs them.
 #[test]
-fn scenes_that_told_programs_apart_run() {
+fn scenes_that_distinguished_programs_run() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/scenes");
     let mut count = 0;
     for entry in std::fs::read_dir(&folder).expect("a folder").flatten() {

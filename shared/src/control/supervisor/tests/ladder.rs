@@ -24,7 +24,7 @@ fn another_sensor_stands_in_for_one_that_is_lost() {
             let (tick, fault) = rig.found(10, spoil).unwrap();
             assert_eq!((fault, rig.state.phase() == Phase::Fault), (Fault::Stale(sensor), false), "{tick}");
             let verdict = rig.spoilt(spoil);
-            assert_eq!((verdict.command, verdict.fault), ([false, true], Some(fault)), "the law goes on, and it is told");
+            assert_eq!((verdict.command, verdict.fault), ([false, true], Some(fault)), "the law continues and reports the fault");
             let index = Sensor::ALL.iter().position(|other| *other == sensor).unwrap();
             assert_eq!(rig.state.trusted(), core::array::from_fn(|other| other != index));
             assert_eq!(rig.complaints(), [Kind::Warning(fault.code())]);

@@ -41,14 +41,14 @@ fn from_boot_to_rocking_and_back() {
 }
 
 #[test]
-fn estimators_are_told_once() {
+fn estimators_get_the_biases_once() {
     let mut rig = Rig::new(&parameters());
-    let told: Vec<bool> = (0..5000)
+    let armed: Vec<bool> = (0..5000)
         .map(|_| rig.step())
         .filter(|verdict| verdict.biases == Biases::Measured)
         .map(|v| v.phase == Phase::Armed)
         .collect();
-    assert_eq!(told, [true]);
+    assert_eq!(armed, [true]);
 }
 
 #[test]

@@ -31,7 +31,7 @@ fn a_wrong_range_of_both_accelerometers_is_a_warning_and_nothing_more() {
     }
 }
 
-/// A range that was wrong from the start: it is not required, so nothing else but a refused bias tells.
+/// A range that was wrong from the start: it is not required, so nothing else but a refused bias shows it.
 #[test]
 fn a_wrong_range_from_the_start_is_a_warning() {
     let mut rig = Rig::new(&parameters());

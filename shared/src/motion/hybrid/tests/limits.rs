@@ -128,7 +128,7 @@ fn a_rigid_clutch_that_closes_at_speed_exchanges_momentum() {
     }
 }
 
-/// A flywheel that has kept its speed takes less from the block than one that has stopped, and a braked one lies between.
+/// A flywheel that has retained its speed takes less from the block than one that has stopped, and a braked one lies between.
 #[test]
 fn a_flywheel_that_still_spins_costs_less() {
     let shake = engaging_at_speed(Geometry::Full);

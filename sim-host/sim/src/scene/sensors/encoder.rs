@@ -8,7 +8,8 @@ use super::super::error::SceneError;
 use super::super::schema::KeyOf;
 use super::Change;
 use super::sampling::{SamplingKeys, change_sampling};
-use crate::sensor::{Encoder, preset};
+use crate::sensor::Encoder;
+use crate::sensor::preset::{self, Preset};
 
 /// `encoder`: a preset and what differs from it.
 #[skip_serializing_none]
@@ -16,7 +17,7 @@ use crate::sensor::{Encoder, preset};
 #[serde(deny_unknown_fields, default)]
 pub struct EncoderTable {
     /// Encoder that the other keys change; the suite's without the key.
-    #[schemars(example = &"amt102-v")]
+    #[schemars(example = &"amt102-v", extend("enum" = preset::names(preset::ENCODERS).collect::<Vec<_>>()))]
     pub preset: Option<String>,
     /// Travel per count; or give `counts_per_revolution` and `pinion_radius_m`.
     #[schemars(range(min = 1e-9, max = 0.01))]
@@ -43,7 +44,10 @@ pub struct EncoderTable {
     pub latency_s: Option<f64>,
 }
 
-impl Change<Encoder> for EncoderTable {
+impl Change for EncoderTable {
+    type Part = Encoder;
+    const PRESETS: &'static [Preset<Encoder>] = preset::ENCODERS;
+
     fn preset(&self) -> Option<&str> {
         self.preset.as_deref()
     }

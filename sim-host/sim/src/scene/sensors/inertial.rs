@@ -10,7 +10,7 @@ use super::super::schema::KeyOf;
 use super::Change;
 use super::sampling::{SamplingKeys, change_sampling};
 use crate::sensor::Inertial;
-use crate::sensor::preset::{DEGREE, MILLI_G};
+use crate::sensor::preset::{self, DEGREE, MILLI_G, Preset};
 
 /// `gyroscope`: a preset and what differs from it. Bias, scale error and misalignment are standard deviations over specimens.
 #[skip_serializing_none]
@@ -18,7 +18,7 @@ use crate::sensor::preset::{DEGREE, MILLI_G};
 #[serde(deny_unknown_fields, default)]
 pub struct GyroscopeTable {
     /// Gyroscope that the other keys change; the suite's without the key.
-    #[schemars(example = &"icm-42688-p")]
+    #[schemars(example = &"icm-42688-p", extend("enum" = preset::names(preset::GYROSCOPES).collect::<Vec<_>>()))]
     pub preset: Option<String>,
     /// Noise density, one-sided.
     #[schemars(range(min = 0.0, max = 10.0))]
@@ -69,7 +69,7 @@ pub struct GyroscopeTable {
 #[serde(deny_unknown_fields, default)]
 pub struct AccelerometerTable {
     /// Accelerometer that the other keys change; the suite's without the key.
-    #[schemars(example = &"icm-42688-p")]
+    #[schemars(example = &"icm-42688-p", extend("enum" = preset::names(preset::ACCELEROMETERS).collect::<Vec<_>>()))]
     pub preset: Option<String>,
     /// Noise density, one-sided.
     #[schemars(range(min = 0.0, max = 1e6))]
@@ -148,7 +148,10 @@ fn change_inertial(
     Ok(sensor)
 }
 
-impl Change<Inertial> for GyroscopeTable {
+impl Change for GyroscopeTable {
+    type Part = Inertial;
+    const PRESETS: &'static [Preset<Inertial>] = preset::GYROSCOPES;
+
     fn preset(&self) -> Option<&str> {
         self.preset.as_deref()
     }
@@ -171,7 +174,10 @@ impl Change<Inertial> for GyroscopeTable {
     }
 }
 
-impl Change<Inertial> for AccelerometerTable {
+impl Change for AccelerometerTable {
+    type Part = Inertial;
+    const PRESETS: &'static [Preset<Inertial>] = preset::ACCELEROMETERS;
+
     fn preset(&self) -> Option<&str> {
         self.preset.as_deref()
     }

@@ -8,11 +8,16 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
+use super::Change;
+use crate::sensor::preset;
+
 /// A preset's name, or a table that starts from one.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
+#[schemars(bound = "T: JsonSchema + Change")]
 pub enum NameOr<T> {
     /// The preset as it is.
+    #[schemars(extend("enum" = preset::names(T::PRESETS).collect::<Vec<_>>()))]
     Name(String),
     /// With keys of its own.
     Table(T),

@@ -198,7 +198,7 @@ fn noise(x: f64, y: f64) -> u8 {
 }
 
 #[test]
-fn noise_ends_with_the_budget_and_is_told() {
+fn noise_ends_with_the_budget_and_is_reported() {
     for budget in [0, 1, 10, 500, 20_000] {
         let noise = traced(1e-6, budget, noise);
         assert!(noise.unresolved.squares > 0 && noise.unresolved.largest >= 1.0, "{:?}", noise.unresolved);

@@ -45,7 +45,7 @@ pub struct Traced<O> {
 /// coarser is reported. The same input gives the same result.
 ///
 /// # Errors
-/// Those of `evaluate`.
+/// The errors of `evaluate`.
 pub fn trace<O, E>(
     columns: usize,
     grid: &[O],

@@ -135,7 +135,7 @@ impl Candidate {
     /// The whole controller, for an ideal pair.
     ///
     /// # Errors
-    /// As [`Candidate::controller`].
+    /// The errors of [`Candidate::controller`].
     pub fn paper(&self) -> Result<Controller, fmt::Error> {
         self.controller(KinematicsKind::Paper, &Drivetrain::default()).map_err(|_| fmt::Error)
     }
@@ -143,7 +143,7 @@ impl Candidate {
     /// The whole controller, for flywheels that spin.
     ///
     /// # Errors
-    /// As [`Candidate::controller`].
+    /// The errors of [`Candidate::controller`].
     pub fn consistent(&self) -> Result<Controller, fmt::Error> {
         let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 5.0 };
         let rigid = Drivetrain { engagement: Engagement::Rigid, flywheel, ..Drivetrain::default() };
