@@ -67,12 +67,16 @@ fn first_overturning_amplitudes_lie_in_the_brackets_of_another_program() {
     }
 }
 
-/// Blocks that pass α and that the pulse brings back, in the lanes and scene by scene.
+/// Blocks that pass α and that the pulse brings back: in the lanes, scene by scene, and as devices with a memory are.
 #[test]
 fn blocks_that_pass_their_slenderness_and_come_back_are_overturned_by_one_definition() {
     for (size, amplitudes_found, peaks) in [(0.25, [2.705, 2.715], 1.54..1.58), (0.5, [3.985, 4.065], 1.44..1.51)] {
-        // A tolerance of its own takes a scene out of the lanes.
-        for slow in ["", "accuracy.level = 'tight'\nrun.free_time_ratio = 60.0"] {
+        // A tolerance of its own takes a scene out of the lanes, and any vertical ground motion asks for the integrator of devices.
+        for slow in [
+            "",
+            "accuracy.level = 'tight'\nrun.free_time_ratio = 60.0",
+            "vertical = [{ motion = 'sine', amplitude_g = 1e-9, frequency_hz = 2.0 }]\nrun.free_time_ratio = 60.0",
+        ] {
             let results = |changes: &str| {
                 let grid = amplitudes(size, &format!("{changes}\n{slow}"));
                 results_at(&grid, 0, &amplitudes_found.map(|amplitude| (amplitude, None)), &Interrupt::default()).expect("blocks")
