@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -80,7 +80,14 @@ class Map(Result):
         return ax
 
 
-def map(scene: Scene, *, x: Axis | None = None, y: Axis | None = None, threads: int | None = None) -> Map:
+def map(
+    scene: Scene,
+    *,
+    x: Axis | None = None,
+    y: Axis | None = None,
+    overturned_at: Literal["no-return", "slenderness"] | None = None,
+    threads: int | None = None,
+) -> Map:
     """Outcomes and peaks of every device of a scene over one of its keys, or two.
 
     Parameters
@@ -88,7 +95,10 @@ def map(scene: Scene, *, x: Axis | None = None, y: Axis | None = None, threads: 
     scene
         The scene.
     x, y
-        Axes across and up, in the place of the scene's `[map]`; with `x` alone the map is a cut.
+        Axes across and up, in the place of the scene's; with `x` alone the map is a cut.
+    overturned_at
+        Rotation |θ| at which a block counts as overturned, in the place of the scene's: where the ground can no longer bring it back
+        ("no-return", the default of scenes), or α ("slenderness").
     threads
         Threads; one a core by default. Results do not depend on it.
 
@@ -100,8 +110,11 @@ def map(scene: Scene, *, x: Axis | None = None, y: Axis | None = None, threads: 
         For a motion that cannot be followed, with the cell.
     """
     if x is not None:
-        scene = scene.set("map", {"x": x._keys()} | ({} if y is None else {"y": y._keys()}))
+        kept = scene.to_dict().get("map", {}).get("overturned_at", "no-return")
+        scene = scene.set("map", {"x": x._keys(), "overturned_at": kept} | ({} if y is None else {"y": y._keys()}))
     elif y is not None:
         scene = scene.set("map.y", y)
+    if overturned_at is not None:
+        scene = scene.set("map.overturned_at", overturned_at)
     native = _core.overturning_map(scene._native, threads=threads)
     return Map(devices=scene.devices, scene=scene, **{"y": np.full(1, np.nan), "y_key": None, **native})

@@ -65,6 +65,21 @@ def test_arrays_are_handed_over_and_not_copied(scenes: Path) -> None:
     assert pickle.loads(pickle.dumps(made)) == made
 
 
+def test_a_block_that_passes_its_slenderness_and_comes_back_is_overturned_if_asked() -> None:
+    block = sprag.Block(size_m=0.25, slenderness_deg=np.rad2deg(0.2), restitution="geometric")
+    scene = sprag.Scene(block=block, ground=sprag.Sine(amplitude_ratio=1.0, frequency_hz=2.0))
+    x = sprag.Axis(key="ground.0.amplitude_ratio", start=2.70, stop=2.72, cells=3)
+    comes_back = sprag.map(scene, x=x)
+    assert (comes_back.outcome == sprag.Outcome.SAFE).all()
+    assert (comes_back.peak_rotation > 1.5).all()
+    overturned = sprag.map(scene, x=x, overturned_at="slenderness")
+    assert (overturned.outcome >= sprag.Outcome.OVERTURNED_WITHOUT_IMPACT).all()
+    assert sprag.map(overturned.scene, x=x) == overturned
+    with pytest.raises(sprag.InputError) as raised:
+        sprag.map(scene, x=x, overturned_at="tip")
+    assert raised.value.key == "map.overturned_at"
+
+
 @pytest.mark.parametrize(
     ("axis", "key"),
     [

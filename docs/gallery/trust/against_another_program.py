@@ -7,8 +7,9 @@ one sine of 0.5 s that overturns Housner's block (α = 0.2, :math:`\eta = 1 - 1.
 with two audits of its events. Sprag's amplitudes, by bisection, lie in all four brackets; the block of 4 m stands up to the end of the
 search in both.
 
-It counts a block as overturned when it reaches α; Sprag when it cannot come back. That makes no difference to the *first* amplitude, but
-further up the pulse brings some blocks back that have passed α: the last line below is one.
+It counts a block as overturned when it reaches α; Sprag when it cannot come back, or, in a map, when it reaches α if it is asked to. That
+makes no difference to the *first* amplitude, but further up the pulse brings some blocks back that have passed α: the last lines below have
+one by both definitions.
 """
 
 import math
@@ -57,6 +58,10 @@ back = response(0.25, 2.71)
 print(f"R = 0.25 m at 2.71: {back.message}, peak {back.peak_rotation:.2f} α")
 assert not back.outcome.overturned
 assert back.peak_rotation > 1
+axis_of_map = sprag.Axis(key="ground.0.amplitude_ratio", start=2.70, stop=2.72, cells=3)
+for definition in ["no-return", "slenderness"]:
+    found = sprag.map(back.scene, x=axis_of_map, overturned_at=definition).outcome
+    print(f"R = 0.25 m at 2.70, 2.71 and 2.72, {definition}: {[sprag.Outcome(code).name for code in found.ravel()]}")
 axis.set_yticks(range(len(BRACKETS)), labels=[f"R = {size:g} m" for size in BRACKETS])
 axis.set(xlabel="distance from the middle of its bracket, in half widths of 4.9e-6", xlim=(-2, 2), ylim=(-0.6, 3.6))
 axis.legend(loc="upper right")

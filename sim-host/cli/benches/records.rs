@@ -85,7 +85,7 @@ fn main() {
 fn after(asked: &[ShakenBlock<'_>], structures: &[Structure], motions: usize) -> Vec<Option<Shaken>> {
     let found = shake(asked, Registers::Widest);
     let whole = |(index, found): (usize, Option<Shaken>)| {
-        found?.after(&structures[index / motions], asked[index].samples.duration(), FREE_TIME).ok()
+        found?.after(&asked[index].plain, &structures[index / motions], asked[index].samples.duration(), FREE_TIME).ok()
     };
     found.into_iter().enumerate().map(whole).collect()
 }

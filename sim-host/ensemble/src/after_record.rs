@@ -7,17 +7,24 @@ use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::Geometry;
 
 use crate::alone::{CaseError, TERMS, TIGHT};
+use crate::plain::PlainBlock;
 use crate::shaken::Shaken;
 
 /// Swings that the free time may have; from their first impact on they are summed in closed form.
 const MOST_EVENTS: u32 = 1_000_000;
 
 impl Shaken {
-    /// Its state `free_time` (s) after its record, which ended at `duration` (s).
+    /// Its state, that of `plain`, whose structure is `structure`, `free_time` (s) after its record, which ended at `duration` (s).
     ///
     /// # Errors
     /// The core's.
-    pub fn after(mut self, structure: &Structure, duration: f64, free_time: f64) -> Result<Shaken, CaseError> {
+    pub fn after(
+        mut self,
+        plain: &PlainBlock,
+        structure: &Structure,
+        duration: f64,
+        free_time: f64,
+    ) -> Result<Shaken, CaseError> {
         if self.phase != Phase::Rocking {
             return Ok(self);
         }
@@ -26,10 +33,10 @@ impl Shaken {
         let Shaken { rotation, velocity, impacts, mut peaks, .. } = self;
         let mut state = system.released_at(rotation, velocity, 0.0);
         state.impacts = impacts;
-        let overturned = match structure.geometry {
+        let overturned = plain.overturned_at(match structure.geometry {
             Geometry::Full => core::f64::consts::FRAC_PI_2,
             Geometry::Slender => structure.geometry.point_of_no_return(structure.block.slenderness(), 0.0),
-        };
+        });
         let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
         system.advance(
             &method,

@@ -83,7 +83,8 @@ impl PulsedBlock {
             PulseShape::Sine => Harmonics::sine(amplitude, frequency_ratio),
             PulseShape::Cosine => Harmonics::cosine(amplitude, frequency_ratio),
         };
-        let overturned = structure.geometry.point_of_no_return(structure.block.slenderness(), amplitude.abs());
+        let no_return = structure.geometry.point_of_no_return(structure.block.slenderness(), amplitude.abs());
+        let overturned = self.plain.overturned_at(no_return);
         let (mut state, mut peaks) = (BlockState::default(), Peaks::default());
         let limits = Limits { overturned, events: 1_000_000 };
         system.advance(method, &mut state, &ground, TAU / frequency_ratio, &limits, &mut peaks)?;

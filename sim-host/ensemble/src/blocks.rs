@@ -49,7 +49,7 @@ pub struct Blocks {
     pub impact: Mask,
     /// Has just passed it with more than [`Bounds::counted`].
     pub counted: Mask,
-    /// Has passed the point of no return.
+    /// Has passed [`Bounds::overturned`].
     pub overturned: Mask,
     /// Has just passed it so slowly that impacts accumulate.
     pub weak: Mask,
@@ -83,8 +83,8 @@ pub struct Bounds {
     pub coupling: Number,
     /// Restitution η.
     pub restitution: Number,
-    /// |θ| beyond which an outward motion does not return, rad.
-    pub no_return: Number,
+    /// |θ| at which an outward motion counts as overturned, rad.
+    pub overturned: Number,
     /// θ̇ after an impact below which impacts accumulate, rad.
     pub weak: Number,
     /// θ̇ with which an impact must come in to be counted, rad.
@@ -97,7 +97,7 @@ impl Bounds {
     /// A harmless block, whose motions idle lanes go through.
     pub(crate) fn harmless() -> Bounds {
         let (zero, one) = (number(0.0), number(1.0));
-        Bounds { slenderness: one, coupling: zero, restitution: zero, no_return: one, weak: zero, counted: zero, tolerance: one }
+        Bounds { slenderness: one, coupling: zero, restitution: zero, overturned: one, weak: zero, counted: zero, tolerance: one }
     }
 
     /// Another block in `lane`, which does not return from beyond `no_return` (rad).
@@ -106,7 +106,7 @@ impl Bounds {
         self.slenderness.0[lane] = slenderness;
         self.coupling.0[lane] = coupling;
         self.restitution.0[lane] = restitution;
-        self.no_return.0[lane] = no_return;
+        self.overturned.0[lane] = block.overturned_at(no_return);
         self.weak.0[lane] = WEAK_IMPACT * slenderness;
         self.counted.0[lane] = COUNTED_SPEED * slenderness;
         self.tolerance.0[lane] = TOLERANCE * slenderness;
@@ -230,7 +230,7 @@ impl Blocks {
     pub fn arrive(&mut self, arrival: Arrival, bounds: &Bounds) {
         let Arrival { rotation, velocity, hit, turned, rate_zero, passed } = arrival;
         self.peak_rotation = self.peak_rotation.larger(rotation);
-        self.overturned = self.overturned | (self.outward & rotation.exceeds(bounds.no_return));
+        self.overturned = self.overturned | (self.outward & rotation.exceeds(bounds.overturned));
         let after = velocity * bounds.restitution;
         self.counted = hit & !bounds.counted.exceeds(velocity.abs());
         self.weak = hit & bounds.weak.exceeds(after.abs());

@@ -18,12 +18,19 @@ pub struct PlainBlock {
     pub coupling: f64,
     /// Restitution η.
     pub restitution: f64,
+    /// Counts as overturned when |θ| reaches α, even if the ground would bring it back.
+    pub overturned_at_slenderness: bool,
 }
 
 impl PlainBlock {
     /// κ k on quiet ground while it moves outward and while it moves inward.
     pub(crate) fn couplings<const PAIR: bool>(&self) -> (f64, f64) {
         (if PAIR { 0.0 } else { self.coupling }, self.coupling)
+    }
+
+    /// |θ| (rad) at which an outward motion counts as overturned, of one that does not return from beyond `no_return` (rad).
+    pub(crate) fn overturned_at(&self, no_return: f64) -> f64 {
+        if self.overturned_at_slenderness { self.slenderness } else { no_return }
     }
 
     /// Whether the lanes may take it: parameters as the core would accept them.
@@ -48,6 +55,7 @@ impl PlainBlock {
             slenderness: block.slenderness(),
             coupling,
             restitution,
+            overturned_at_slenderness: false,
         })
     }
 }

@@ -139,7 +139,8 @@ impl<'a, 'b> Lanes<'a, 'b> {
         (self.lines.start.0[lane], self.lines.end.0[lane]) = (block.at(sample), block.at(sample + 1));
         if M::GEOMETRY == Geometry::Slender {
             // A slender block has no ground to lie on: it has overturned when no ground acceleration still to come brings it back.
-            self.bounds.no_return.0[lane] = block.plain.slenderness + block.factor.abs() * block.samples.bounds[sample];
+            let no_return = block.plain.slenderness + block.factor.abs() * block.samples.bounds[sample];
+            self.bounds.overturned.0[lane] = block.plain.overturned_at(no_return);
         }
     }
 
@@ -287,7 +288,7 @@ pub(crate) fn run<M: Model, const PAIR: bool>(shaken: &[ShakenBlock<'_>], result
                 None
             } else if lanes.blocks.overturned.at(lane) {
                 let start = lanes.lines.time.0[lane] - went.0[lane];
-                let passed = passes(&series, lane, went.0[lane], lanes.bounds.no_return.0[lane]);
+                let passed = passes(&series, lane, went.0[lane], lanes.bounds.overturned.0[lane]);
                 place.peaks.ended = Some(lanes.seconds(&place, start + passed));
                 Some(Phase::Overturned)
             } else if rest.at(lane) {

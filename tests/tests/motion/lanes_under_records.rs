@@ -84,7 +84,9 @@ fn blocks_under_records_do_what_they_do_alone() {
                         left += 1;
                         continue;
                     };
-                    let found = found.after(&structure, samples.duration(), FREE_TIME).unwrap();
+                    let found = found
+                        .after(&PlainBlock::of_structure(&structure).unwrap(), &structure, samples.duration(), FREE_TIME)
+                        .unwrap();
                     let record = Component::record(0.0, STEP, samples.values().iter().map(|value| factor * value));
                     let ground = GroundMotion::sum(&[record]);
                     let (state, peaks) = alone(&structure, &ground);

@@ -7,5 +7,6 @@ mod maps;
 mod needs_cells;
 mod needs_records;
 mod optimise;
+mod other_programs;
 mod refine;
 mod similarity;

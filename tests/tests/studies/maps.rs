@@ -55,19 +55,31 @@ fn maps_do_not_depend_on_threads() {
     }
 }
 
-/// A cell of a map is the scene of that cell, simulated: lanes and cells that are read one by one agree.
+/// A cell of a map is the scene of that cell, simulated: lanes and cells that are read one by one agree, whatever is called overturned.
 #[test]
 fn a_cell_is_its_scene() {
-    let fast = grid("figure08.toml", &["map.x.cells=7", "map.y.cells=6"]);
-    // A tolerance of its own takes a scene out of the lanes.
-    let slow = grid("figure08.toml", &["map.x.cells=7", "map.y.cells=6", "accuracy.level=\"tight\"", "run.free_time_ratio=60.0"]);
     let run = |grid: &Grid| study(grid, &Progress::new("cells"), &Interrupt::default()).expect("a map");
-    for (fast, slow) in run(&fast).iter().zip(&run(&slow)) {
-        for (cell, (fast, slow)) in fast.shown.iter().zip(&slow.shown).enumerate() {
-            assert_eq!(fast.outcome, slow.outcome, "cell {cell}");
-            let close = |a: f64, b: f64| a.is_nan() && b.is_nan() || (a - b).abs() <= 1e-9 * b;
-            assert!(close(fast.peak_rotation, slow.peak_rotation), "cell {cell}: {fast:?} {slow:?}");
-            assert!(close(fast.peak_acceleration, slow.peak_acceleration), "cell {cell}: {fast:?} {slow:?}");
+    let sine = ("figure08.toml", ["map.x.cells=7", "map.y.cells=6", "run={free_time_ratio=60.0}"]);
+    let x = "map={x={key=\"ground.0.scale\",from=1.0,to=6.0,cells=24}}";
+    let record = ("near_fault.toml", [x, "block.size_m=4.0", "run={free_time_ratio=60.0}"]);
+    for (scene, changes) in [sine, record] {
+        let mut overturned = Vec::new();
+        for at in ["map.overturned_at=\"no-return\"", "map.overturned_at=\"slenderness\""] {
+            let fast = run(&grid(scene, &[&changes[..], &[at]].concat()));
+            // A tolerance of its own takes a scene out of the lanes.
+            let slow =
+                run(&grid(scene, &[&changes[..], &[at, "accuracy.level=\"tight\"", "run={free_time_ratio=60.0}"]].concat()));
+            for (fast, slow) in fast.iter().zip(&slow) {
+                for (cell, (fast, slow)) in fast.shown.iter().zip(&slow.shown).enumerate() {
+                    assert_eq!(fast.outcome, slow.outcome, "{scene} {at} cell {cell}");
+                    let close = |a: f64, b: f64| a.is_nan() && b.is_nan() || (a - b).abs() <= 1e-9 * b;
+                    assert!(close(fast.peak_rotation, slow.peak_rotation), "cell {cell}: {fast:?} {slow:?}");
+                    assert!(close(fast.peak_acceleration, slow.peak_acceleration), "cell {cell}: {fast:?} {slow:?}");
+                }
+            }
+            overturned.push(fast.iter().map(|map| map.counts.overturned()).sum::<usize>());
         }
+        println!("{scene}: {overturned:?} overturned by the two definitions");
+        assert!(overturned[0] > 0 && overturned[1] >= overturned[0], "{scene}: {overturned:?}");
     }
 }

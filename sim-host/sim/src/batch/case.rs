@@ -165,6 +165,7 @@ impl From<&Case> for PulsedBlock {
             slenderness: case.slenderness,
             coupling: if case.device == DeviceKind::None { 0.0 } else { case.mass_ratio / RECTANGLE_INERTIA_RATIO },
             restitution: case.restitution,
+            overturned_at_slenderness: false,
         };
         let Case { pulse, frequency_ratio, amplitude_ratio, .. } = *case;
         PulsedBlock { plain, pulse, frequency_ratio, amplitude_ratio }

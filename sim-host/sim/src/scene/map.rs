@@ -1,4 +1,4 @@
-//! `[map]`: the two axes of an overturning map.
+//! `[map]`: the two axes of an overturning map, and what it calls overturned.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -19,6 +19,25 @@ pub struct MapTable {
     /// Axis up; without it the map is a cut along x.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub y: Option<AxisTable>,
+    /// Rotation |θ| at which a block counts as overturned.
+    #[serde(default, skip_serializing_if = "is_no_return")]
+    #[schemars(extend("default" = OverturnedAt::NoReturn))]
+    pub overturned_at: OverturnedAt,
+}
+
+/// Rotation |θ| at which a block counts as overturned.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum OverturnedAt {
+    /// Where the ground can no longer bring it back.
+    #[default]
+    NoReturn,
+    /// α, even if the ground would bring it back.
+    Slenderness,
+}
+
+fn is_no_return(at: &OverturnedAt) -> bool {
+    *at == OverturnedAt::NoReturn
 }
 
 /// One axis.

@@ -28,6 +28,7 @@ use sprag_shared::structure::{Restitution, Structure};
 pub use device::SceneDevice;
 pub use error::SceneError;
 use ground::Direction;
+use map::OverturnedAt;
 use schema::{DeviceTable, SceneFile};
 
 use crate::record::Record;
@@ -55,6 +56,8 @@ pub struct Scene {
     pub folder: PathBuf,
     /// Records in memory: `file` names one of these before a file of the folder.
     pub given: Arc<[Record]>,
+    /// |θ| at which a block counts as overturned; a map's cells have `map.overturned_at`, everything else the default.
+    pub overturned_at: OverturnedAt,
 }
 
 impl Scene {
@@ -143,7 +146,16 @@ impl Scene {
         if file.ground.is_empty() && file.block.initial_rotation_ratio == 0.0 && file.block.initial_velocity_ratio == 0.0 {
             return Err(key("ground").missing("a [[ground]] table, or block.initial_rotation_ratio for free rocking"));
         }
-        Ok(Scene { file, devices, block, restitution, origin: origin.to_owned(), folder: PathBuf::new(), given: Arc::default() })
+        Ok(Scene {
+            file,
+            devices,
+            block,
+            restitution,
+            origin: origin.to_owned(),
+            folder: PathBuf::new(),
+            given: Arc::default(),
+            overturned_at: OverturnedAt::default(),
+        })
     }
 
     /// The block with device number `index` (below the number of devices).

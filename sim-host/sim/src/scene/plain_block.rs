@@ -4,6 +4,7 @@ use sprag_ensemble::plain::PlainBlock;
 
 use super::Scene;
 use super::accuracy::{AccuracyTable, MethodName};
+use super::map::OverturnedAt;
 
 impl Scene {
     /// The block with device number `device`, if lanes know it; whatever the ground does.
@@ -18,6 +19,7 @@ impl Scene {
             && file.block.initial_rotation_ratio == 0.0
             && file.block.initial_velocity_ratio == 0.0
             && carrier.is_ideal();
-        if plain { PlainBlock::of_structure(&self.structure(device)) } else { None }
+        let block = PlainBlock::of_structure(&self.structure(device)).filter(|_| plain)?;
+        Some(PlainBlock { overturned_at_slenderness: self.overturned_at == OverturnedAt::Slenderness, ..block })
     }
 }

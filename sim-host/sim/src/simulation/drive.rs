@@ -38,6 +38,8 @@ pub enum Overturning {
     Proven,
     /// When it lies on the ground (full model); the slender model has no ground, so there it is the proof.
     Reached,
+    /// When |θ| reaches α, even if the ground would bring it back.
+    Slenderness,
 }
 
 /// What to follow, and for how long.
@@ -67,6 +69,7 @@ impl<'a> Course<'a> {
     pub fn angle<S: Real>(&self, bound: f64) -> S {
         S::of(match (self.overturning, self.geometry) {
             (Overturning::Reached, Geometry::Full) => core::f64::consts::FRAC_PI_2,
+            (Overturning::Slenderness, _) => self.block.slenderness(),
             _ => self.geometry.point_of_no_return(self.block.slenderness(), bound),
         })
     }

@@ -25,6 +25,7 @@ use crate::interrupt::Interrupt;
 use crate::scene::Scene;
 use crate::scene::accuracy::{AccuracyTable, MethodName};
 use crate::scene::device::SceneDevice;
+use crate::scene::map::OverturnedAt;
 use crate::scene::motions::GroundMotions;
 
 /// Samples of a history when the scene names no interval.
@@ -223,7 +224,10 @@ impl<'a> Task<'a> {
             ground: &self.ground.horizontal,
             vertical: self.ground.vertical.as_ref(),
             free_time: self.scene.free_time_s(),
-            overturning: Overturning::Reached,
+            overturning: match self.scene.overturned_at {
+                OverturnedAt::NoReturn => Overturning::Reached,
+                OverturnedAt::Slenderness => Overturning::Slenderness,
+            },
         }
     }
 

@@ -293,7 +293,7 @@ impl Subject<'_> {
         let blocks: Vec<ShakenBlock<'_>> = shakings.iter().map(block).collect();
         let structure = scene.structure(0);
         let after = |(block, found): (&ShakenBlock<'_>, Option<Shaken>)| {
-            let shaken = found?.after(&structure, block.samples.duration(), scene.free_time_s()).ok()?;
+            let shaken = found?.after(&plain, &structure, block.samples.duration(), scene.free_time_s()).ok()?;
             Some(Answer::shaken(&shaken, scene, block.samples.duration()))
         };
         blocks.iter().zip(shake(&blocks, Registers::Widest)).map(after).collect()

@@ -8,7 +8,7 @@ use sprag_report::plot::{
 };
 use sprag_shared::math;
 use sprag_shared::observers::outcome::Outcome;
-use sprag_sim::scene::map::{AxisTable, ScaleName};
+use sprag_sim::scene::map::{AxisTable, OverturnedAt, ScaleName};
 
 use super::grid::Grid;
 use super::tally::{DeviceMap, Shown, Tally};
@@ -107,7 +107,9 @@ fn title(grid: &Grid, what: &str) -> FigureTitle {
     let corners: Vec<_> = corners.into_iter().filter_map(|(column, row)| grid.scene_of(column, row).ok()).collect();
     let parts = [grid.scene.file.title.as_str(), what];
     let text = parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(": ");
-    FigureTitle { text, conditions: heading::of_scenes(&corners.iter().collect::<Vec<_>>()) }
+    let mut conditions = heading::of_scenes(&corners.iter().collect::<Vec<_>>());
+    conditions.extend((grid.map.overturned_at == OverturnedAt::Slenderness).then(|| "overturned at |*θ*| = α".to_owned()));
+    FigureTitle { text, conditions }
 }
 
 /// Peaks along the only axis, a line a device, broken where the block overturns.

@@ -71,11 +71,12 @@ impl Grid {
     ///
     /// # Errors
     /// [`SceneError`] when the scene has no axes, or a value at a corner of the map is outside its range.
-    pub fn new(scene: Scene, text: Table) -> Result<Grid, SceneError> {
+    pub fn new(mut scene: Scene, text: Table) -> Result<Grid, SceneError> {
         let key = |key: &str| sprag_sim::scene::error::KeyPath { origin: scene.origin.clone(), key: key.to_owned() };
         let Some(map) = scene.file.map.clone() else {
             return Err(key("map.x").missing("a [map] table with an axis x, or --x KEY=FROM:TO:CELLS"));
         };
+        scene.overturned_at = map.overturned_at;
         let mut grid = Grid { direct: Vec::new(), record: None, scene, map, text };
         // Keys that the scene does not know are refused here, as in a file. Ranges are intervals: what holds at the corners holds
         // between them.
@@ -195,6 +196,7 @@ impl Grid {
         let mut scene = Scene::of_table(self.text.clone(), &self.scene.origin, &self.settings(values))?;
         scene.folder.clone_from(&self.scene.folder);
         scene.given.clone_from(&self.scene.given);
+        scene.overturned_at = self.scene.overturned_at;
         Ok(scene)
     }
 

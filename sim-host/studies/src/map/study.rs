@@ -191,7 +191,8 @@ pub fn results_at(grid: &Grid, device: usize, places: &[Values], interrupt: &Int
     }
     for ((block, found), (index, scene)) in shaken.iter().zip(shake(&shaken, Registers::Widest)).zip(shaken_places) {
         let only = scene.only(device);
-        let after = |found: Shaken| found.after(&only.structure(0), block.samples.duration(), only.free_time_s()).ok();
+        let after =
+            |found: Shaken| found.after(&block.plain, &only.structure(0), block.samples.duration(), only.free_time_s()).ok();
         results[index] = match found.and_then(after) {
             Some(found) => PulseResult::of_shaken(&found, &only.block),
             None => simulated(&only, || grid.place(places[index]), interrupt)?,
