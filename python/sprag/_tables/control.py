@@ -89,7 +89,7 @@ class Gyroscope(Table):
 
     _path: ClassVar[str] = "controller.sensors.gyroscope"
 
-    preset: str | None = None
+    preset: Literal["ideal", "icm-42688-p", "bmi088", "adis16470", "mpu-6050"] | None = None
     noise_density_deg_s_rthz: float | None = None
     bias_deg_s: float | None = None
     drift_deg_s: float | None = None
@@ -151,7 +151,7 @@ class Accelerometer(Table):
 
     _path: ClassVar[str] = "controller.sensors.block_accelerometer"
 
-    preset: str | None = None
+    preset: Literal["ideal", "icm-42688-p", "bmi088", "adis16470", "adxl355", "mpu-6050"] | None = None
     noise_density_ug_rthz: float | None = None
     bias_mg: float | None = None
     drift_mg: float | None = None
@@ -201,7 +201,7 @@ class Encoder(Table):
 
     _path: ClassVar[str] = "controller.sensors.encoder"
 
-    preset: str | None = None
+    preset: Literal["ideal", "lm10", "lm10-1um", "lm10-10um", "amt102-v"] | None = None
     resolution_m: float | None = None
     counts_per_revolution: float | None = None
     pinion_radius_m: float | None = None
@@ -239,7 +239,7 @@ class Sensors(Table):
 
     _path: ClassVar[str] = "controller.sensors"
 
-    suite: str | None = None
+    suite: Literal["ideal", "icm-42688-p", "bmi088", "adis16470", "mpu-6050"] | None = None
     gyroscope: Gyroscope | str | None = None
     block_accelerometer: Accelerometer | str | None = None
     ground_accelerometer: Accelerometer | str | None = None
