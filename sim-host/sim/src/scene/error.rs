@@ -132,9 +132,10 @@ impl SceneError {
     }
 }
 
-/// `device.1.kind` for `device[1].kind`, as `--set` and every other message have it.
+/// `device.1.kind` for `device[1].kind`, as `--set` and every other message have it, on one line whatever its keys are.
 fn dotted(path: &str) -> String {
-    path.replace('[', ".").replace(']', "")
+    let shown = |letter: char| if letter.is_control() { letter.escape_default().to_string() } else { letter.to_string() };
+    path.replace('[', ".").replace(']', "").chars().map(shown).collect()
 }
 
 /// A complaint about a key or a word that does not exist, with the one that may be meant; `None` where none is near, and for any other.

@@ -59,6 +59,13 @@ fn a_value_outside_its_range_is_named_with_its_line() {
 }
 
 #[test]
+fn a_key_with_a_line_break_is_named_on_one_line() {
+    let error =
+        Scene::parse(&SCENE.replace("size_m = 2.0", "size_m = 2.0\n\"a\\nb\" = 1"), "scene.toml").unwrap_err().to_string();
+    assert!(error.starts_with(r"scene.toml:5: block.a\nb: unknown") && !error.contains('\n'), "{error}");
+}
+
+#[test]
 fn an_error_names_the_key_the_value_and_what_it_may_be() {
     for (item, key, range) in [
         ("block.slenderness_deg=90", "block.slenderness_deg is 90", "below 90 degrees"),

@@ -89,7 +89,7 @@ impl Subject {
 
     /// The slender block has closed forms under lines and sines.
     pub fn has_closed_form(&self) -> bool {
-        let closed = |segment: &AnySegment<f64>| !matches!(segment, AnySegment::Ricker(_));
+        let closed = |segment: &AnySegment<f64>| segment.elementary(0.0).is_some();
         let known = |shape: &SumSegment<f64>| match shape {
             SumSegment::Single(segment) => closed(segment),
             SumSegment::Several(parts) => parts.iter().all(|(_, part)| closed(part)),
