@@ -42,12 +42,14 @@ myst_heading_anchors = 3
 myst_enable_extensions = ["deflist"]
 
 autodoc_member_order = "bysource"
+# Only to run on a cluster.
+autodoc_mock_imports = ["distributed"]
 maximum_signature_line_length = 100
 autodoc_typehints_format = "short"
 # What is documented is listed by autodoc.
 numpydoc_show_class_members = False
 # Of packages whose own documents are elsewhere.
-nitpick_ignore_regex = [("py:.*", r"(collections|enum|matplotlib|np|npt|numpy|os|pandas|xarray)\..*")]
+nitpick_ignore_regex = [("py:.*", r"(collections|distributed|enum|matplotlib|np|npt|numpy|os|pandas|pathlib|xarray)\..*")]
 
 plot_formats = ["svg"]
 plot_html_show_formats = False
