@@ -11,7 +11,7 @@ use core::{fmt, hint::black_box};
 use sprag_shared::{
     equation::{
         Equation, FullBlock, FullInerter, SlenderBlock, any_equation::AnyEquation, body::FullBody, clutch_rule::ClutchRule,
-        lever::CentreOfMass,
+        lever::CentreOfMass, switched::Switched,
     },
     ground::Harmonics,
     math::{scalar::Real, sine32},
@@ -57,14 +57,14 @@ const fn slender(inertia: f32) -> SlenderBlock<f32> {
     SlenderBlock { frequency_squared, slenderness: SLENDERNESS, inertia, lever: 1.0 }
 }
 
-const fn detected<E>(released: E, engaged: E, uplift: f32) -> TimeStepping<f32, E> {
+const fn stepped<E>(released: E, engaged: E, uplift: f32) -> TimeStepping<f32, E> {
     TimeStepping { released, engaged, restitution: RESTITUTION, uplift }
 }
 
-/// What every step takes.
-struct Step {
-    ground: [f32; 3],
-    length: f32,
+/// ü_g/g at the start, the middle and the end of a step, and its length (s).
+struct Step<S> {
+    ground: [S; 3],
+    length: S,
 }
 
 /// With kinematics that the compiler knows, as [`AnyEquation::known`](sprag_shared::equation::any_equation::AnyEquation::known) hands a block
@@ -77,28 +77,33 @@ fn paper<S: Real>(block: &WithInerter<S>) -> WithInerter<S> {
 
 /// Clutch by the signs at the start, four evaluations, impact by the sign at the end.
 #[inline(never)]
-fn detected_full(block: &WithInerter<f32>, state: &mut TimeSteppingState<f32>, step: &Step) {
+fn detected<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, state: &mut TimeSteppingState<S>, step: &Step<S>) {
+    *state = block.runge_kutta_4(*state, step.ground, step.length);
+}
+
+#[inline(never)]
+fn detected_euler<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, state: &mut TimeSteppingState<S>, step: &Step<S>) {
+    *state = block.semi_implicit_euler(*state, step.ground[0], step.length);
+}
+
+#[inline(never)]
+fn detected_inerter<S: Real>(block: &WithInerter<S>, state: &mut TimeSteppingState<S>, step: &Step<S>) {
     *state = paper(block).runge_kutta_4(*state, step.ground, step.length);
 }
 
 #[inline(never)]
-fn detected_full_euler(block: &WithInerter<f32>, state: &mut TimeSteppingState<f32>, step: &Step) {
+fn detected_inerter_euler<S: Real>(block: &WithInerter<S>, state: &mut TimeSteppingState<S>, step: &Step<S>) {
     *state = paper(block).semi_implicit_euler(*state, step.ground[0], step.length);
-}
-
-#[inline(never)]
-fn detected_slender(block: &TimeStepping<f32, SlenderBlock<f32>>, state: &mut TimeSteppingState<f32>, step: &Step) {
-    *state = block.runge_kutta_4(*state, step.ground, step.length);
 }
 
 /// Four evaluations and nothing else.
 #[inline(never)]
-fn smooth<E: Equation<f32>>(equation: &E, state: &mut TimeSteppingState<f32>, step: &Step) {
+fn smooth<E: Equation<f32>>(equation: &E, state: &mut TimeSteppingState<f32>, step: &Step<f32>) {
     evaluate(equation, state, step);
 }
 
 #[inline(always)]
-fn evaluate<E: Equation<f32>>(equation: &E, state: &mut TimeSteppingState<f32>, step: &Step) {
+fn evaluate<E: Equation<f32>>(equation: &E, state: &mut TimeSteppingState<f32>, step: &Step<f32>) {
     let TimeSteppingState { rotation, velocity, side } = *state;
     let first = equation.acceleration(side, rotation, velocity, step.ground[0]);
     (state.rotation, state.velocity) = runge_kutta_4(equation, side, (rotation, velocity), first, step.ground, step.length);
@@ -106,7 +111,7 @@ fn evaluate<E: Equation<f32>>(equation: &E, state: &mut TimeSteppingState<f32>, 
 
 /// The same with an inerter.
 #[inline(never)]
-fn smooth_full(equation: &Inerter, state: &mut TimeSteppingState<f32>, step: &Step) {
+fn smooth_full(equation: &Inerter, state: &mut TimeSteppingState<f32>, step: &Step<f32>) {
     evaluate(&equation.with_kinematics(false), state, step);
 }
 
@@ -169,13 +174,13 @@ fn count(counter: &mut impl FnMut() -> u32, work: impl FnOnce()) -> u32 {
 pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> fmt::Result {
     let state = black_box(TimeSteppingState { rotation: 0.08, velocity: 0.21, side: 1.0 });
     let step = black_box(Step { ground: [-0.31, -0.32, -0.33], length: STEP });
-    let full = black_box(detected(inerter(0.0), inerter(COUPLING), UPLIFT));
-    let slender = black_box(detected(slender(1.0), slender(1.0 + COUPLING), SLENDERNESS));
+    let full = black_box(stepped(inerter(0.0), inerter(COUPLING), UPLIFT));
+    let slender = black_box(stepped(slender(1.0), slender(1.0 + COUPLING), SLENDERNESS));
 
     let mut line = |name: &str, instructions: u32| writeln!(out, "kernel {name} {instructions}");
     line("nothing", count(counter, || ()))?;
     let mut end = state;
-    line("rk4-full-clutched-pair", count(counter, || detected_full(&full, &mut end, &step)))?;
+    line("rk4-full-clutched-pair", count(counter, || detected_inerter(&full, &mut end, &step)))?;
     black_box(end);
     end = state;
     line("rk4-full-engaged-only", count(counter, || smooth_full(&full.engaged, &mut end, &step)))?;
@@ -184,13 +189,13 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
     line("rk4-full-no-inerter", count(counter, || smooth(&full.released.body.block, &mut end, &step)))?;
     black_box(end);
     end = state;
-    line("rk4-slender-clutched-pair", count(counter, || detected_slender(&slender, &mut end, &step)))?;
+    line("rk4-slender-clutched-pair", count(counter, || detected(&slender, &mut end, &step)))?;
     black_box(end);
     end = state;
     line("rk4-slender-engaged-only", count(counter, || smooth(&slender.engaged, &mut end, &step)))?;
     black_box(end);
     end = state;
-    line("euler-full-clutched-pair", count(counter, || detected_full_euler(&full, &mut end, &step)))?;
+    line("euler-full-clutched-pair", count(counter, || detected_inerter_euler(&full, &mut end, &step)))?;
     black_box(end);
 
     let x = black_box(0.7_f32);

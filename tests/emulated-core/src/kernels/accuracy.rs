@@ -9,7 +9,7 @@
 //!
 //! Taylor steps are ten times as long as the others. A tier is no part of the slender model, so there its cost is the same for all.
 
-use super::{RESTITUTION, STEP, Tally, WithInerter, count, mean, paper};
+use super::{RESTITUTION, STEP, Step, Tally, count, detected, detected_euler, detected_inerter, detected_inerter_euler, mean};
 use crate::watcher::Watcher;
 use core::{f64::consts::FRAC_PI_2, fmt, hint::black_box};
 use sprag_case::{Case, CaseError, FixedMethod, Ground, GroundPiece, Initially, Shape};
@@ -65,32 +65,6 @@ fn slender<S: Real>(inertia: f32) -> SlenderBlock<S> {
         inertia: S::of(inertia.into()),
         lever: S::ONE,
     }
-}
-
-/// ü_g/g at the start, the middle and the end of a step, and its length (s).
-struct Step<S> {
-    ground: [S; 3],
-    length: S,
-}
-
-#[inline(never)]
-fn runge_kutta_4<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, state: &mut TimeSteppingState<S>, step: &Step<S>) {
-    *state = block.runge_kutta_4(*state, step.ground, step.length);
-}
-
-#[inline(never)]
-fn euler<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, state: &mut TimeSteppingState<S>, step: &Step<S>) {
-    *state = block.semi_implicit_euler(*state, step.ground[0], step.length);
-}
-
-#[inline(never)]
-fn paper_runge_kutta_4<S: Real>(block: &WithInerter<S>, state: &mut TimeSteppingState<S>, step: &Step<S>) {
-    *state = paper(block).runge_kutta_4(*state, step.ground, step.length);
-}
-
-#[inline(never)]
-fn paper_euler<S: Real>(block: &WithInerter<S>, state: &mut TimeSteppingState<S>, step: &Step<S>) {
-    *state = paper(block).semi_implicit_euler(*state, step.ground[0], step.length);
 }
 
 /// One step of `method` whose events are seen at its end.
@@ -208,11 +182,11 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
     macro_rules! full_and_slender {
         ($precision:literal, $number:ty, $tier:literal) => {
             step_end!($precision, $number, $tier:
-                euler "euler" "none" "full" (full(), full()),
-                paper_euler "euler" "clutched-pair" "full" (inerter(0.0), inerter(super::COUPLING)),
-                runge_kutta_4 "rk4" "none" "full" (full(), full()),
-                paper_runge_kutta_4 "rk4" "clutched-pair" "full" (inerter(0.0), inerter(super::COUPLING)),
-                runge_kutta_4 "rk4" "clutched-pair" "slender" (slender(1.0), slender(1.0 + super::COUPLING)),
+                detected_euler "euler" "none" "full" (full(), full()),
+                detected_inerter_euler "euler" "clutched-pair" "full" (inerter(0.0), inerter(super::COUPLING)),
+                detected "rk4" "none" "full" (full(), full()),
+                detected_inerter "rk4" "clutched-pair" "full" (inerter(0.0), inerter(super::COUPLING)),
+                detected "rk4" "clutched-pair" "slender" (slender(1.0), slender(1.0 + super::COUPLING)),
             );
         };
     }
@@ -222,9 +196,9 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
     full_and_slender!("f64", Tiered<f64, OwnPolynomial>, "own-polynomial");
     full_and_slender!("f64", Tiered<f64, Libm>, "libm");
     step_end!("f32", Tiered<f32, OwnPolynomial>, "own-polynomial":
-        euler "euler" "none" "slender" (slender(1.0), slender(1.0)),
-        euler "euler" "clutched-pair" "slender" (slender(1.0), slender(1.0 + super::COUPLING)),
-        runge_kutta_4 "rk4" "none" "slender" (slender(1.0), slender(1.0)),
+        detected_euler "euler" "none" "slender" (slender(1.0), slender(1.0)),
+        detected_euler "euler" "clutched-pair" "slender" (slender(1.0), slender(1.0 + super::COUPLING)),
+        detected "rk4" "none" "slender" (slender(1.0), slender(1.0)),
     );
 
     const METHODS: [(FixedMethod, &str); 3] =
