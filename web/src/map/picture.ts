@@ -1,0 +1,68 @@
+/** A map as a file: SVG and PNG. */
+import { escaped } from "../elements";
+import { hex } from "./classes";
+import { heightOf, plotOf } from "./drawing";
+import type { Entry } from "./painting";
+import type { Panel } from "./panel";
+
+const PANEL_PX = 380;
+const HEADING_PX = 64;
+const LEGEND_PX = 30;
+const ENTRY_PX = 190;
+/** Dots a pixel of PNG, and least dots of the cells in SVG: programs smooth images that they enlarge. */
+const DOTS = 3;
+
+/** An SVG document of `panels` side by side, with title and legend. */
+export function mapSvg(title: string, panels: readonly { name: string; panel: Panel }[], legend: readonly Entry[]): string {
+  const plot = plotOf(PANEL_PX);
+  const width = PANEL_PX * panels.length;
+  const across = Math.max(Math.floor(width / ENTRY_PX), 1);
+  const body = HEADING_PX + heightOf(plot);
+  const height = body + LEGEND_PX * Math.ceil(legend.length / across) + 10;
+  const letters = 'fill="currentColor" font-family="system-ui, sans-serif"';
+  const drawn = panels.map(({ name, panel }, index) => {
+    const image = `<image x="${plot.left}" y="${plot.top}" width="${plot.width}" height="${plot.height}" preserveAspectRatio="none" href="${dataUrl(panel.canvas)}"/>`;
+    return (
+      `<g transform="translate(${index * PANEL_PX} ${HEADING_PX})">${panel.hasCells ? image : ""}${panel.svg(plot)}` +
+      `<text x="${plot.left}" y="-8" font-size="13" ${letters}>${escaped(name)}</text></g>`
+    );
+  });
+  const entries = legend.map(({ name, colour }, index) => {
+    const [x, y] = [16 + (index % across) * ENTRY_PX, body + LEGEND_PX * Math.floor(index / across)];
+    return (
+      `<rect x="${x}" y="${y}" width="16" height="16" fill="${hex(colour)}" stroke="currentColor" stroke-width="0.5"/>` +
+      `<text x="${x + 22}" y="${y + 12}" font-size="12" ${letters}>${escaped(name)}</text>`
+    );
+  });
+  return (
+    `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" color="#222222">` +
+    `<rect width="100%" height="100%" fill="#ffffff"/><text x="16" y="28" font-size="16" ${letters}>${escaped(title)}</text>` +
+    `${drawn.join("")}${entries.join("")}</svg>\n`
+  );
+}
+
+/** `svg` as PNG. */
+export async function svgToPng(svg: string): Promise<Blob> {
+  const image = new Image();
+  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
+  await image.decode();
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [image.width * DOTS, image.height * DOTS];
+  canvas.getContext("2d")?.drawImage(image, 0, 0, canvas.width, canvas.height);
+  return new Promise((resolve, reject) => {
+    canvas.toBlob((blob) => (blob === null ? reject(new Error("PNG could not be written")) : resolve(blob)), "image/png");
+  });
+}
+
+/** The cells as PNG, every cell of several dots. */
+function dataUrl(cells: HTMLCanvasElement): string {
+  const factor = Math.max(Math.ceil((DOTS * PANEL_PX) / Math.max(cells.width, cells.height)), 1);
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [cells.width * factor, cells.height * factor];
+  const context = canvas.getContext("2d");
+  if (context !== null) {
+    context.imageSmoothingEnabled = false;
+    context.drawImage(cells, 0, 0, canvas.width, canvas.height);
+  }
+  return canvas.toDataURL("image/png");
+}

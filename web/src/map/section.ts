@@ -1,0 +1,273 @@
+/** The map below the block: which block comes through which motion, every point to be played. */
+import "./map.css";
+import type { About, Engine, Key } from "../engine";
+import { button, download, element, labelled, select } from "../elements";
+import type { Store } from "../store";
+import { texts } from "../texts";
+import { mountView } from "../view";
+import { type Axes, AxesForm } from "./axes_form";
+import { axisToml, mapIdentity, suggestedPair, valueOf } from "./axis";
+import { Filling } from "./filling";
+import { keyName } from "./key_name";
+import type { Place } from "./panel";
+import { mapSvg, svgToPng } from "./picture";
+import { Playing } from "./playing";
+import { Sheet, outcomesOf } from "./sheet";
+import { mapCsv } from "./table";
+import { shortText } from "./ticks";
+
+const words = texts.views.map;
+const LIVE = "map-live";
+
+/** The section. */
+class MapSection {
+  private readonly engine: Engine;
+  private readonly store: Store;
+  private readonly playing: Playing;
+  private readonly form: AxesForm;
+  private readonly fillButton = button(words.fill, () => this.fillOrStop());
+  private readonly show = select(Object.entries(words.shows), (shown) => this.sheet?.show(shown === "peak" ? "peak" : "outcome"));
+  private readonly boundaries = button(words.boundaries, () => void this.toggleBoundaries());
+  private readonly progress = element("progress", { at: { max: "1", value: "0", "aria-label": words.title } });
+  private readonly note = element("span", { class: "map-note" });
+  private readonly place = element("div", { class: "map-place" });
+  private readonly live = element("p", { at: { id: LIVE, role: "status" } });
+  private readonly choice = element("div", { class: "map-choice" });
+  private readonly downloads: HTMLElement;
+  private about: About | null = null;
+  private keys: Key[] = [];
+  private filling: Filling | null = null;
+  private identity = "";
+  private sheet: Sheet | null = null;
+  private cursor: Place | null = null;
+  private latest = 0;
+  private inSight = false;
+
+  constructor(root: HTMLElement, engine: Engine, store: Store) {
+    [this.engine, this.store] = [engine, store];
+    this.playing = new Playing(engine, store);
+    this.form = new AxesForm(
+      (axes) => this.setAxes(axes),
+      (line) => store.fail(line),
+    );
+    this.boundaries.setAttribute("aria-pressed", "false");
+    this.downloads = this.downloadButtons();
+    const row = element("div", {
+      class: "map-row",
+      children: [this.fillButton, this.progress, this.note, labelled(words.show, this.show), this.boundaries, this.downloads],
+    });
+    this.choice.append(
+      element("span", { text: words.playing }),
+      button(words.use, () => this.take()),
+      button(words.back, () => this.back()),
+    );
+    root.classList.add("map");
+    root.append(element("p", { text: words.about }), this.form.root, row, this.place, this.live, this.choice);
+    store.subscribe("scene", () => void this.sceneChanged());
+    new IntersectionObserver((entries) => {
+      this.inSight = entries.some((entry) => entry.isIntersecting);
+      this.fillIfSeen();
+    }).observe(root);
+    void this.sceneChanged();
+  }
+
+  /** Keeps the map where the new scene is a point of it, and starts another one where it is not. */
+  private async sceneChanged(): Promise<void> {
+    this.choice.hidden = !this.store.isPreview;
+    const { source } = this.store;
+    if (this.store.isPreview || source.text === "") {
+      return;
+    }
+    this.latest += 1;
+    const number = this.latest;
+    try {
+      const [about, keys] = await Promise.all([this.engine.about(source), this.engine.keys(source)]);
+      if (number !== this.latest) {
+        return;
+      }
+      [this.about, this.keys] = [about, keys];
+      this.form.show(about.map ?? suggestedPair(keys), keys);
+      await this.renew(about);
+    } catch {
+      // The store runs the same scene and says what is wrong with it.
+    }
+  }
+
+  private async renew(about: About): Promise<void> {
+    const { source } = this.store;
+    const axes = about.map === null ? [] : [about.map.x, ...(about.map.y === null ? [] : [about.map.y])];
+    const identity = about.map === null ? "" : mapIdentity(about.resolved, axes, source.records);
+    if (identity !== this.identity || this.filling === null) {
+      this.filling?.stop();
+      this.playing.forget();
+      [this.filling, this.sheet, this.cursor, this.identity] = [null, null, null, identity];
+      this.place.replaceChildren();
+      this.live.textContent = about.map === null ? words.noMap : "";
+      this.boundaries.setAttribute("aria-pressed", "false");
+      if (about.map !== null) {
+        const filling = await Filling.of(this.engine, source, about.map, about.resolved);
+        if (identity !== this.identity) {
+          return;
+        }
+        this.filling = filling;
+        this.sheet = new Sheet(filling, this.keys, LIVE, {
+          point: (place) => this.point(place),
+          take: () => this.take(),
+          back: () => this.back(),
+          cursor: () => this.cursor,
+        });
+        this.sheet.show(this.show.value === "peak" ? "peak" : "outcome");
+        this.place.replaceChildren(this.sheet.root);
+      }
+      this.showProgress();
+      this.fillIfSeen();
+    }
+    this.mark();
+  }
+
+  /** A map out of sight waits. */
+  private fillIfSeen(): void {
+    if (this.inSight && this.filling !== null && this.filling.share === 0 && !this.filling.running && !this.filling.stopped) {
+      void this.fill(this.filling);
+    }
+  }
+
+  private async fill(filling: Filling): Promise<void> {
+    try {
+      const ended = filling.fill(this.engine, () => {
+        this.sheet?.later();
+        this.showProgress();
+      });
+      this.showProgress();
+      await ended;
+    } catch (problem) {
+      this.store.fail(problem);
+    }
+    this.showProgress();
+  }
+
+  private fillOrStop(): void {
+    const { filling, about } = this;
+    if (filling?.running === true) {
+      filling.stop();
+      this.showProgress();
+    } else if (about?.map === null && this.form.shown !== null) {
+      this.inSight = true;
+      this.setAxes(this.form.shown);
+    } else if (filling !== null && about !== null) {
+      this.inSight = true;
+      this.filling = null;
+      void this.renew(about);
+    }
+  }
+
+  private setAxes({ x, y }: Axes): void {
+    const without = this.about?.map?.y != null ? ["map.y="] : [];
+    this.store.setSetting(`map.x=${axisToml(x)}`, ...(y === null ? without : [`map.y=${axisToml(y)}`]));
+  }
+
+  private showProgress(): void {
+    const { filling } = this;
+    const running = filling?.running === true;
+    const share = filling?.share ?? 0;
+    this.progress.value = share;
+    this.progress.hidden = !running;
+    const text = running ? words.stop : words.fill;
+    if (this.fillButton.textContent !== text) {
+      this.fillButton.textContent = text;
+    }
+    const cells = filling === null ? 0 : filling.about.x.length * filling.about.y.length;
+    this.note.textContent =
+      filling === null || share === 0
+        ? ""
+        : filling.whole && !running
+          ? words.whole(cells, filling.seconds.toFixed(2))
+          : `${words.filled(Math.floor(100 * share))}${filling.stopped ? `, ${words.stopped}` : ""}`;
+    this.boundaries.disabled = filling === null || !filling.whole || running || filling.axes.y === null;
+    this.boundaries.title = this.boundaries.disabled ? words.noBoundaries : "";
+    this.downloads.hidden = share === 0;
+  }
+
+  private async toggleBoundaries(): Promise<void> {
+    const { filling, sheet } = this;
+    if (filling === null || sheet === null) {
+      return;
+    }
+    const shown = this.boundaries.getAttribute("aria-pressed") !== "true";
+    this.boundaries.setAttribute("aria-pressed", String(shown));
+    try {
+      if (shown && filling.boundaries === null) {
+        this.note.textContent = words.tracing;
+        await filling.trace(this.engine);
+        this.showProgress();
+      }
+      sheet.drawBoundaries(this.boundaries.getAttribute("aria-pressed") === "true");
+    } catch (problem) {
+      this.boundaries.setAttribute("aria-pressed", "false");
+      this.showProgress();
+      this.store.fail(problem);
+    }
+  }
+
+  private point(place: Place): void {
+    const { filling, cursor } = this;
+    if (filling === null || (cursor?.column === place.column && cursor.row === place.row)) {
+      return;
+    }
+    this.cursor = place;
+    this.mark();
+    const { about } = filling;
+    const value = (key: string, number: number): string => `${keyName(key, this.keys)} ${shortText(number)}`;
+    const values = [value(about.xKey, about.x[place.column] ?? Number.NaN)];
+    if (about.yKey !== null) {
+      values.push(value(about.yKey, about.y[place.row] ?? Number.NaN));
+    }
+    this.live.textContent = words.place(
+      values.join(", "),
+      outcomesOf(filling, place, (peak) => words.peakOf(shortText(peak))),
+    );
+    this.playing.soon(filling, place);
+  }
+
+  private take(): void {
+    if (this.filling !== null && this.cursor !== null) {
+      void this.playing.take(this.filling, this.cursor);
+    }
+  }
+
+  private back(): void {
+    this.playing.forget();
+    this.cursor = null;
+    this.live.textContent = "";
+    this.store.unplay();
+    this.mark();
+  }
+
+  private mark(): void {
+    const map = this.about?.map ?? null;
+    const value = (key: string): number | null => valueOf(this.about?.resolved, key);
+    const x = map === null ? null : value(map.x.key);
+    this.sheet?.mark(this.cursor, map === null || x === null ? null : { x, y: map.y === null ? null : value(map.y.key) });
+  }
+
+  private downloadButtons(): HTMLElement {
+    const svg = (): string => (this.sheet === null ? "" : mapSvg(this.about?.title ?? "", this.sheet.panels, this.sheet.legend));
+    const file = (name: string, content: () => Promise<Blob> | Blob): HTMLButtonElement =>
+      button(name, () => {
+        void Promise.resolve()
+          .then(content)
+          .then((blob) => download(name, blob))
+          .catch((problem: unknown) => this.store.fail(problem));
+      });
+    return element("span", {
+      class: "map-downloads",
+      children: [
+        file(words.csv, () => new Blob(this.filling === null ? [] : [mapCsv(this.filling)], { type: "text/csv" })),
+        file(words.svg, () => new Blob([svg()], { type: "image/svg+xml" })),
+        file(words.png, () => svgToPng(svg())),
+      ],
+    });
+  }
+}
+
+mountView("map", words.title, (root, engine, store) => void new MapSection(root, engine, store));
