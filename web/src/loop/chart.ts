@@ -15,7 +15,6 @@ export interface Curve {
 
 /** What a chart shows besides its curves. */
 export interface Frame {
-  label: string;
   heightPx: number;
   /** Half the height of the vertical axis around 0, or the names of lanes one above the other. */
   vertical: number | readonly string[];
@@ -30,7 +29,7 @@ export interface Frame {
 /** Cursor and zoom of all charts of loops. */
 const TOGETHER = "loop";
 /** Room for numbers and names of lanes (px). */
-const LEFT_PX = 84;
+const LEFT_PX = 76;
 const FAULT_COLOUR = "#c0307f";
 
 /** A chart in `root`. */
@@ -52,19 +51,15 @@ export function chartIn(root: HTMLElement, time: Float64Array, curves: readonly 
         stroke: ink,
         grid: { stroke: faint },
         ticks: { stroke: faint },
-        label: texts.views.loop.time,
-        labelSize: 18,
         size: 30,
-        labelFont: "12px system-ui",
+        ...(lanes === null ? {} : { label: texts.views.loop.time, labelSize: 18, labelFont: "12px system-ui" }),
       },
       {
         stroke: ink,
         grid: { stroke: faint, show: lanes === null },
         ticks: { stroke: faint, show: lanes === null },
         size: LEFT_PX,
-        ...(lanes === null
-          ? { label: frame.label, labelSize: 18, size: LEFT_PX - 18, labelFont: "12px system-ui" }
-          : { splits: () => middles, values: () => [...lanes] }),
+        ...(lanes === null ? {} : { splits: () => middles, values: () => [...lanes] }),
       },
     ],
     series: [

@@ -37,8 +37,9 @@ export class LoopCharts {
     this.charts.forEach((chart) => chart.destroy());
     this.root.replaceChildren();
     const chart = (label: string, drawn: Curve[], own: Pick<Frame, "heightPx" | "vertical"> & Partial<Frame>): void => {
-      const place = this.root.appendChild(element("div", { class: "loop-chart", at: { role: "img", "aria-label": label } }));
-      this.charts.push(chartIn(place, curves.time, drawn, { label, faults, pointed: this.pointed, ...own }));
+      const place = element("div", { at: { role: "img", "aria-label": label } });
+      this.root.append(element("figure", { class: "loop-chart", children: [element("figcaption", { text: label }), place] }));
+      this.charts.push(chartIn(place, curves.time, drawn, { faults, pointed: this.pointed, ...own }));
     };
     this.charts = [];
     const [rotation, rotationEstimated, rotationIdeal] = curves.rotation;

@@ -25,10 +25,13 @@ const TITLE_PX = 12;
 /** Least distance between labels (px): across, up. */
 const LABEL_PX = [56, 34] as const;
 
-/** The place of the cells in a panel `width` px wide. */
-export function plotOf(width: number): Plot {
+/** Height over width: of cells, of curves. */
+const SHAPE = { cells: 0.8, curves: 0.45 };
+
+/** The place of cells or curves in a panel `width` px wide. */
+export function plotOf(width: number, what: keyof typeof SHAPE): Plot {
   const across = Math.max(width - ROOM.left - ROOM.right, 40);
-  return { left: ROOM.left, top: ROOM.top, width: across, height: Math.round(across * 0.8) };
+  return { left: ROOM.left, top: ROOM.top, width: across, height: Math.round(across * SHAPE[what]) };
 }
 
 /** Height of the panel of `plot` (px). */
@@ -66,6 +69,11 @@ export function axesSvg(plot: Plot, x: DrawnAxis, y: DrawnAxis): string {
   );
 }
 
+/** `drawn`, without what lies outside the plot. */
+export function insideSvg({ left, top, width, height }: Plot, drawn: string): string {
+  return `<svg x="${left}" y="${top}" width="${width}" height="${height}" viewBox="${left} ${top} ${width} ${height}">${drawn}</svg>`;
+}
+
 /** Boundaries between outcomes: dark lines with a light edge, which are seen on all colours. */
 export function boundariesSvg(plot: Plot, x: Span, y: Span, boundaries: readonly Boundary[]): string {
   const at = (vertices: Float64Array, index: number): string =>
@@ -100,9 +108,9 @@ export function curveSvg(plot: Plot, x: Span, y: Span, xs: Float64Array, ys: Flo
 /** A ring around a place (0 to 1 on both axes), seen on all colours; dashed for the scene, whole for the cursor. */
 export function ringSvg(plot: Plot, across: number, up: number, dashed: boolean): string {
   const [x, y] = [px(plot.left + across * plot.width), px(plot.top + (1 - up) * plot.height)];
-  const ring = (colour: string, width: number): string =>
-    `<circle cx="${x}" cy="${y}" r="7" fill="none" stroke="${colour}" stroke-width="${width}"${dashed ? ' stroke-dasharray="3 2.5"' : ""}/>`;
-  return ring("#ffffff", 4) + ring("#111111", 2);
+  const ring = (colour: string, width: number, dashes: string): string =>
+    `<circle cx="${x}" cy="${y}" r="7" fill="none" stroke="${colour}" stroke-width="${width}" stroke-dasharray="${dashes}"/>`;
+  return ring("#ffffff", 4, "none") + ring("#111111", 2, dashed ? "3 2.5" : "none");
 }
 
 function px(value: number): number {

@@ -1,7 +1,7 @@
 /** The map of one device: cells on a canvas, axes and marks above them, and who points at a cell. */
 import { element } from "../elements";
 import { texts } from "../texts";
-import { type DrawnAxis, type Plot, axesSvg, heightOf, plotOf, ringSvg } from "./drawing";
+import { type DrawnAxis, type Plot, axesSvg, heightOf, insideSvg, plotOf, ringSvg } from "./drawing";
 
 /** A cell by its place. */
 export interface Place {
@@ -37,7 +37,7 @@ export class Panel {
   private readonly rows: number;
   private readonly x: DrawnAxis;
   private readonly y: DrawnAxis;
-  private plot: Plot = plotOf(320);
+  private plot: Plot;
   /** What is drawn between axes and marks: boundaries, curves. */
   private over: (plot: Plot) => string = () => "";
   /** Whether there are cells, and not curves. */
@@ -47,6 +47,7 @@ export class Panel {
   constructor(device: string, columns: number, rows: number, x: DrawnAxis, y: DrawnAxis, describedBy: string, reaction: Reaction) {
     [this.columns, this.rows, this.x, this.y] = [columns, rows, x, y];
     this.hasCells = rows > 1;
+    this.plot = this.plotOf(320);
     [this.canvas.width, this.canvas.height] = [columns, rows];
     this.lines.setAttribute("aria-hidden", "true");
     this.marks.setAttribute("aria-hidden", "true");
@@ -87,9 +88,14 @@ export class Panel {
     this.drawMarks();
   }
 
+  /** Where cells or curves are in a picture of this width. */
+  plotOf(width: number): Plot {
+    return plotOf(width, this.hasCells ? "cells" : "curves");
+  }
+
   /** Axes and what is above the cells, in `plot`. */
   svg(plot: Plot): string {
-    return axesSvg(plot, this.x, this.y) + this.over(plot);
+    return axesSvg(plot, this.x, this.y) + insideSvg(plot, this.over(plot));
   }
 
   private layOut(): void {
@@ -97,7 +103,7 @@ export class Panel {
     if (width < 60) {
       return;
     }
-    this.plot = plotOf(width);
+    this.plot = this.plotOf(width);
     const { left, top, width: across, height } = this.plot;
     this.plotArea.style.height = `${heightOf(this.plot)}px`;
     this.canvas.style.cssText = `left:${left}px;top:${top}px;width:${across}px;height:${height}px`;

@@ -1,11 +1,12 @@
 /** A map as a file: SVG and PNG. */
 import { escaped } from "../elements";
 import { hex } from "./classes";
-import { heightOf, plotOf } from "./drawing";
+import { heightOf } from "./drawing";
 import type { Entry } from "./painting";
 import type { Panel } from "./panel";
 
 const PANEL_PX = 380;
+const CURVES_PX = 720;
 const HEADING_PX = 64;
 const LEGEND_PX = 30;
 const ENTRY_PX = 190;
@@ -14,8 +15,13 @@ const DOTS = 3;
 
 /** An SVG document of `panels` side by side, with title and legend. */
 export function mapSvg(title: string, panels: readonly { name: string; panel: Panel }[], legend: readonly Entry[]): string {
-  const plot = plotOf(PANEL_PX);
-  const width = PANEL_PX * panels.length;
+  const [first] = panels;
+  if (first === undefined) {
+    return "";
+  }
+  const panelPx = first.panel.hasCells ? PANEL_PX : CURVES_PX;
+  const plot = first.panel.plotOf(panelPx);
+  const width = panelPx * panels.length;
   const across = Math.max(Math.floor(width / ENTRY_PX), 1);
   const body = HEADING_PX + heightOf(plot);
   const height = body + LEGEND_PX * Math.ceil(legend.length / across) + 10;
@@ -23,7 +29,7 @@ export function mapSvg(title: string, panels: readonly { name: string; panel: Pa
   const drawn = panels.map(({ name, panel }, index) => {
     const image = `<image x="${plot.left}" y="${plot.top}" width="${plot.width}" height="${plot.height}" preserveAspectRatio="none" href="${dataUrl(panel.canvas)}"/>`;
     return (
-      `<g transform="translate(${index * PANEL_PX} ${HEADING_PX})">${panel.hasCells ? image : ""}${panel.svg(plot)}` +
+      `<g transform="translate(${index * panelPx} ${HEADING_PX})">${panel.hasCells ? image : ""}${panel.svg(plot)}` +
       `<text x="${plot.left}" y="-8" font-size="13" ${letters}>${escaped(name)}</text></g>`
     );
   });

@@ -34,6 +34,8 @@ class MapSection {
   private readonly live = element("p", { at: { id: LIVE, role: "status" } });
   private readonly choice = element("div", { class: "map-choice" });
   private readonly downloads: HTMLElement;
+  /** What a cut has not. */
+  private readonly onlyOfCells: HTMLElement[];
   private about: About | null = null;
   private keys: Key[] = [];
   private filling: Filling | null = null;
@@ -52,9 +54,11 @@ class MapSection {
     );
     this.boundaries.setAttribute("aria-pressed", "false");
     this.downloads = this.downloadButtons();
+    const shows = labelled(words.show, this.show);
+    this.onlyOfCells = [shows, this.boundaries];
     const row = element("div", {
       class: "map-row",
-      children: [this.fillButton, this.progress, this.note, labelled(words.show, this.show), this.boundaries, this.downloads],
+      children: [this.fillButton, this.progress, this.note, shows, this.boundaries, this.downloads],
     });
     this.choice.append(
       element("span", { text: words.playing }),
@@ -183,7 +187,8 @@ class MapSection {
         : filling.whole && !running
           ? words.whole(cells, filling.seconds.toFixed(2))
           : `${words.filled(Math.floor(100 * share))}${filling.stopped ? `, ${words.stopped}` : ""}`;
-    this.boundaries.disabled = filling === null || !filling.whole || running || filling.axes.y === null;
+    this.boundaries.disabled = filling === null || !filling.whole || running;
+    this.onlyOfCells.forEach((control) => (control.hidden = filling?.axes.y === null));
     this.boundaries.title = this.boundaries.disabled ? words.noBoundaries : "";
     this.downloads.hidden = share === 0;
   }
