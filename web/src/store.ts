@@ -3,12 +3,23 @@
  * part; nobody asks the engine for a run but this file.
  */
 import type { Engine, Run, Source } from "./engine";
+import { mayMoveByItself } from "./motion_preference";
 
 /**
  * What a subscriber hears of: `scene` (source or what is played), `run` (a new run), `working` (a run begins or ends), `time` (the cursor
  * moves), `playing` (starts, stops or changes speed), `selected` (another device), `message` (a failure is shown or dismissed).
  */
 export type Topic = "scene" | "run" | "working" | "time" | "playing" | "selected" | "message";
+
+const FALL_S = 1.2;
+
+function endOf(run: Run): number {
+  const ends = run.responses.map(({ timeS, summary }) => {
+    const falls = String(summary["outcome"]).startsWith("overturned");
+    return (timeS.at(-1) ?? 0) + (falls ? FALL_S : 0);
+  });
+  return Math.max(0, ...ends);
+}
 
 /** The state of the page. */
 export class Store {
@@ -18,10 +29,14 @@ export class Store {
   private preview: Source | null = null;
   private latestRun: Run | null = null;
   private cursorS = 0;
-  private device = 0;
+  private endS = 0;
+  /** The last one, mostly the pair, until another is chosen. */
+  private device = Infinity;
   private isPlaying = false;
   private factor = 1;
   private failure = "";
+  private remark = "";
+  private restarts: boolean | null = null;
   private wanted: Source | null = null;
   private isWorking = false;
   private pending = new Map<string, string>();
@@ -70,9 +85,9 @@ export class Store {
     }
   }
 
-  /** End of the longest response of the run (s). */
+  /** End of the longest response of the run, and time to see an overturned block go down (s). */
   get durationS(): number {
-    return Math.max(0, ...(this.latestRun?.responses.map((response) => response.timeS.at(-1) ?? 0) ?? []));
+    return this.endS;
   }
 
   /** Whether the cursor moves by itself. */
@@ -99,7 +114,7 @@ export class Store {
 
   /** Number of the device whose forces and clutch are shown in the histories. */
   get selected(): number {
-    return this.device;
+    return Math.max(Math.min(this.device, (this.latestRun?.responses.length ?? 1) - 1), 0);
   }
 
   set selected(device: number) {
@@ -110,6 +125,11 @@ export class Store {
   /** What went wrong last, one line; empty when nothing did or it was dismissed. */
   get message(): string {
     return this.failure;
+  }
+
+  /** Sets the cursor to the beginning with the next run, and plays it if `plays`. */
+  restart(plays = mayMoveByItself()): void {
+    this.restarts = plays;
   }
 
   /** Makes `source` the scene and runs it. */
@@ -170,6 +190,12 @@ export class Store {
     this.notify("message");
   }
 
+  /** Shows a line that the run that is under way does not take away. */
+  failLater(line: string): void {
+    this.remark = line;
+    this.fail(line);
+  }
+
   /** Takes the line of `fail` away. */
   dismiss(): void {
     if (this.failure !== "") {
@@ -208,6 +234,14 @@ export class Store {
     this.isSetting = false;
   }
 
+  private begin(): void {
+    if (this.restarts !== null && this.wanted === null) {
+      this.time = 0;
+      this.playing = this.restarts;
+      this.restarts = null;
+    }
+  }
+
   /** Runs `source`; of those that come meanwhile only the last. */
   private want(source: Source): void {
     this.wanted = source;
@@ -225,12 +259,14 @@ export class Store {
       try {
         const run = await this.engine.simulate(source);
         this.latestRun = run;
+        this.endS = endOf(run);
         this.cursorS = Math.min(this.cursorS, this.durationS);
-        this.device = Math.min(this.device, Math.max(run.responses.length - 1, 0));
-        if (this.wanted === null) {
+        if (this.wanted === null && this.remark === "") {
           this.dismiss();
         }
+        this.remark = "";
         this.notify("run");
+        this.begin();
       } catch (problem) {
         if (this.wanted === null) {
           this.fail(problem);
