@@ -1,5 +1,6 @@
 /** Law, estimator, sensors, delay: the controller of a scene. */
-import { element, labelled, numberInput, select } from "../elements";
+import { choice, el } from "../dom";
+import { numberBox } from "../number_box";
 import { texts } from "../texts";
 
 const words = texts.views.loop;
@@ -26,32 +27,27 @@ export class ControllerForm {
 
   /** `set` gets a setting `KEY=VALUE`. */
   constructor(set: (setting: string) => void) {
-    const choose = (names: Record<string, string>, key: string): HTMLSelectElement =>
-      select(Object.entries(names), (value) => set(`controller.${key}="${value}"`));
-    this.law = choose(words.laws, "law");
-    this.estimator = choose(words.estimators, "estimator");
-    this.suite = choose(words.suites, "sensors.suite");
-    this.latency = numberInput({ min: "0", max: "100", step: "any" }, (milliseconds) => set(`controller.latency_s=${milliseconds / 1000}`));
-    this.rate = numberInput({ min: "100", max: "100000" }, (rate) => set(`controller.rate_hz=${rate}`));
-    this.seed = numberInput({ min: "0", step: "1" }, (seed) => set(`controller.sensors.seed=${seed}`));
-    const controls = [
-      labelled(words.law, this.law),
-      labelled(words.estimator, this.estimator),
-      labelled(words.suite, this.suite),
-      labelled(words.latency, this.latency),
-      labelled(words.rate, this.rate),
-      labelled(words.seed, this.seed),
-    ];
-    this.root = element("fieldset", { children: [element("legend", { text: words.title }), ...controls] });
+    const list = (label: string, names: Record<string, string>, key: string) =>
+      choice(label, Object.entries(names), (value) => set(`controller.${key}="${value}"`));
+    const law = list(words.law, words.laws, "law");
+    const estimator = list(words.estimator, words.estimators, "estimator");
+    const suite = list(words.suite, words.suites, "sensors.suite");
+    const latency = numberBox(words.latency, { min: 0, max: 100 }, (milliseconds) => set(`controller.latency_s=${milliseconds / 1000}`));
+    const rate = numberBox(words.rate, { min: 100, max: 100_000 }, (hertz) => set(`controller.rate_hz=${hertz}`));
+    const seed = numberBox(words.seed, { min: 0, whole: true }, (number) => set(`controller.sensors.seed=${number}`));
+    [this.law, this.estimator, this.suite] = [law.select, estimator.select, suite.select];
+    [this.latency, this.rate, this.seed] = [latency.input, rate.input, seed.input];
+    const fields = [law, estimator, suite, latency, rate, seed].map((one) => one.root);
+    this.root = el("fieldset", {}, el("legend", { textContent: words.settings }), ...fields);
   }
 
   /** Shows the values of a resolved scene. */
   show(resolved: unknown): void {
     const controller = part(resolved, "controller");
     const sensors = part(controller, "sensors");
-    choose(this.law, part(controller, "law"));
-    choose(this.estimator, part(controller, "estimator"));
-    choose(this.suite, part(sensors, "suite"));
+    showChoice(this.law, part(controller, "law"));
+    showChoice(this.estimator, part(controller, "estimator"));
+    showChoice(this.suite, part(sensors, "suite"));
     const number = (value: unknown, scale: number): string =>
       typeof value === "number" ? String(Number((scale * value).toPrecision(12))) : "";
     this.latency.value = number(part(controller, "latency_s"), 1000);
@@ -61,10 +57,10 @@ export class ControllerForm {
 }
 
 /** A value that the list does not have (sensors one by one) is the scene's own. */
-function choose(list: HTMLSelectElement, value: unknown): void {
+function showChoice(list: HTMLSelectElement, value: unknown): void {
   list.querySelector('option[value=""]')?.remove();
   if (![...list.options].some((option) => option.value === value)) {
-    list.prepend(element("option", { text: words.unset, at: { value: "", disabled: "" } }));
+    list.prepend(el("option", { textContent: words.unset, value: "", disabled: true }));
   }
   list.value = typeof value === "string" ? value : "";
 }

@@ -1,6 +1,7 @@
 /** Faults that the user puts in. */
 import type { Injected } from "../engine";
-import { button, element, labelled, numberInput, select, setChoices } from "../elements";
+import { button, choice, el } from "../dom";
+import { numberBox, setChoices } from "../number_box";
 import { texts } from "../texts";
 import { shortText } from "../map/ticks";
 
@@ -14,23 +15,17 @@ export class InjectionForm {
   private faults: readonly { name: string; text: string }[] = [];
   private readonly kind: HTMLSelectElement;
   private readonly at: HTMLInputElement;
-  private readonly list = element("ul", { class: "loop-injected", at: { "aria-label": words.injected } });
+  private readonly list = el("ul", { className: "loop-injected", ariaLabel: words.injected });
   private readonly changed: () => void;
 
   constructor(changed: () => void) {
     this.changed = changed;
-    this.kind = select([], () => undefined);
-    this.at = numberInput({ min: "0" }, () => undefined);
+    const kind = choice(words.injectKind, [], () => undefined);
+    const at = numberBox(words.injectAt, { min: 0 }, () => undefined);
+    [this.kind, this.at] = [kind.select, at.input];
     this.at.value = "1";
-    this.root = element("fieldset", {
-      children: [
-        element("legend", { text: words.inject }),
-        labelled(words.injectKind, this.kind),
-        labelled(words.injectAt, this.at),
-        button(words.injectButton, () => this.add()),
-        this.list,
-      ],
-    });
+    const inject = button(words.injectButton, () => this.add());
+    this.root = el("fieldset", {}, el("legend", { textContent: words.inject }), kind.root, at.root, inject, this.list);
   }
 
   /** Offers `faults`. */
@@ -60,8 +55,8 @@ export class InjectionForm {
     const item = (one: Injected): HTMLElement => {
       const text = this.faults.find(({ name }) => name === one.fault)?.text ?? one.fault;
       const withdraw = button("×", () => this.set(this.injected.filter((other) => other !== one)));
-      withdraw.setAttribute("aria-label", words.withdraw(text));
-      return element("li", { children: [words.at(text, shortText(one.atS)), " ", withdraw] });
+      withdraw.ariaLabel = words.withdraw(text);
+      return el("li", {}, words.at(text, shortText(one.atS)), " ", withdraw);
     };
     this.list.replaceChildren(...injected.map(item));
     this.changed();

@@ -1,7 +1,8 @@
 /** What the law wants of the true motion, the command, the clutches and the supervisor's state, as bars over time. */
 import type uPlot from "uplot";
 import type { Loop } from "../engine";
-import { element } from "../elements";
+import { el } from "../dom";
+import { legendItem } from "../map/legend";
 import { texts } from "../texts";
 import { type Stretch, stretches } from "./series";
 
@@ -53,9 +54,7 @@ export function laneKey(): HTMLElement {
     [WHEELS[1], words.wheels[2] ?? ""],
     [FAULT, words.fault],
   ] as const;
-  const item = ([colour, name]: readonly [string, string]): HTMLElement =>
-    element("li", { children: [element("span", { class: "map-swatch", at: { style: `background:${colour}` } }), name] });
-  return element("ul", { class: "map-legend", children: entries.map(item) });
+  return el("ul", { className: "key" }, ...entries.map(([colour, name]) => legendItem({ name, colour })));
 }
 
 function drawLane(chart: uPlot, lane: Lane, from: number): void {

@@ -1,7 +1,7 @@
 /** Histories of a closed loop: truth and estimates, and lanes. */
 import type uPlot from "uplot";
 import type { About, Loop } from "../engine";
-import { element } from "../elements";
+import { el } from "../dom";
 import { texts } from "../texts";
 import { type Curve, type Frame, chartIn } from "./chart";
 import { laneKey, laneNames, lanePainter } from "./lanes";
@@ -18,7 +18,7 @@ const IDEAL = "#0072b2";
 
 /** The charts. */
 export class LoopCharts {
-  readonly root = element("div", { class: "loop-charts", at: { role: "group", "aria-label": words.charts } });
+  readonly root = el("div", { role: "group", ariaLabel: words.charts });
   private charts: uPlot[] = [];
   private readonly pointed: (seconds: number) => void;
 
@@ -37,8 +37,8 @@ export class LoopCharts {
     this.charts.forEach((chart) => chart.destroy());
     this.root.replaceChildren();
     const chart = (label: string, drawn: Curve[], own: Pick<Frame, "heightPx" | "vertical"> & Partial<Frame>): void => {
-      const place = element("div", { at: { role: "img", "aria-label": label } });
-      this.root.append(element("figure", { class: "loop-chart", children: [element("figcaption", { text: label }), place] }));
+      const place = el("div", { role: "img", ariaLabel: label });
+      this.root.append(el("figure", { className: "loop-chart" }, el("figcaption", { textContent: label }), place));
       this.charts.push(chartIn(place, curves.time, drawn, { faults, pointed: this.pointed, ...own }));
     };
     this.charts = [];

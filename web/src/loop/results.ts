@@ -1,6 +1,6 @@
 /** What a closed loop came to, and its event log, as tables. */
 import type { Loop } from "../engine";
-import { element } from "../elements";
+import { el } from "../dom";
 import { texts } from "../texts";
 import { OUTCOME_NAMES } from "../map/classes";
 import { shortText } from "../map/ticks";
@@ -52,7 +52,7 @@ export function resultTable(loop: Loop): HTMLTableElement {
 export function faultLog(loop: Loop): HTMLElement {
   const faults = faultsOf(loop);
   if (faults.length === 0) {
-    return element("p", { text: `${words.log}: ${words.noFaults}` });
+    return el("p", { textContent: `${words.log}: ${words.noFaults}` });
   }
   return grid(
     words.log,
@@ -63,18 +63,17 @@ export function faultLog(loop: Loop): HTMLElement {
 
 /** A table with a caption; the first column is the head of its row. */
 export function grid(caption: string, columns: readonly string[], rows: readonly (readonly string[])[]): HTMLTableElement {
-  const head = columns.map((column) => (column === "" ? element("td") : element("th", { text: column, at: { scope: "col" } })));
-  const line = (row: readonly string[]): HTMLElement =>
-    element("tr", {
-      children: row.map((text, index) => (index === 0 ? element("th", { text, at: { scope: "row" } }) : element("td", { text }))),
-    });
-  return element("table", {
-    children: [
-      element("caption", { text: caption }),
-      element("thead", { children: [element("tr", { children: head })] }),
-      element("tbody", { children: rows.map(line) }),
-    ],
-  });
+  const cell = (textContent: string): HTMLElement => el("td", { textContent });
+  const heading = (textContent: string, scope: string): HTMLElement => el("th", { textContent, scope });
+  const head = columns.map((column) => (column === "" ? el("td") : heading(column, "col")));
+  const line = ([first = "", ...others]: readonly string[]): HTMLElement => el("tr", {}, heading(first, "row"), ...others.map(cell));
+  return el(
+    "table",
+    {},
+    el("caption", { textContent: caption }),
+    el("thead", {}, el("tr", {}, ...head)),
+    el("tbody", {}, ...rows.map(line)),
+  );
 }
 
 function outcome(name: unknown): string {

@@ -1,7 +1,7 @@
 /** The controller in closed loop: the code of the firmware, its estimates beside the truth, its commands and its faults. */
 import "./loop.css";
 import type { About, Engine, Loop, Source } from "../engine";
-import { button, download, element } from "../elements";
+import { button, download, el, say } from "../dom";
 import type { Store } from "../store";
 import { texts } from "../texts";
 import { mountView } from "../view";
@@ -23,9 +23,9 @@ class LoopSection {
   private readonly body: HTMLElement;
   private readonly form: ControllerForm;
   private readonly injection: InjectionForm;
-  private readonly status = element("p", { at: { role: "status" } });
-  private readonly tables = element("div", { class: "loop-tables" });
-  private readonly downloads = element("div", { class: "map-downloads" });
+  private readonly status = el("p", { role: "status" });
+  private readonly tables = el("div", { className: "loop-tables" });
+  private readonly downloads = el("div", { className: "buttons", hidden: true });
   private readonly charts: LoopCharts;
   private timer = 0;
   private latest = 0;
@@ -41,27 +41,18 @@ class LoopSection {
     this.charts = new LoopCharts((seconds) => {
       store.time = seconds;
     });
-    this.none = element("div", {
-      children: [element("p", { text: words.none }), button(words.add, () => store.setSetting(...FIRST_CONTROLLER))],
-    });
+    const add = button(words.add, () => store.setSetting(...FIRST_CONTROLLER));
+    this.none = el("div", {}, el("p", { textContent: words.none }), add);
     const remove = button(words.remove, () => store.setSetting("controller="));
-    this.body = element("div", {
-      children: [
-        element("div", { class: "loop-forms", children: [this.form.root, this.injection.root] }),
-        this.status,
-        this.tables,
-        this.charts.root,
-        this.downloads,
-        remove,
-      ],
-    });
+    const forms = el("div", { className: "loop-forms" }, this.form.root, this.injection.root);
+    this.body = el("div", {}, forms, this.status, this.tables, this.charts.root, this.downloads, remove);
     this.body.hidden = true;
     this.downloads.append(
       button(words.csv, () => this.save(words.csv, "text/csv", (loop) => loop.csv)),
       button(words.svg, () => this.save(words.svg, "image/svg+xml", (loop) => loop.svg)),
     );
     root.classList.add("loop");
-    root.append(element("p", { text: words.about }), this.none, this.body);
+    root.append(el("p", { className: "hint", textContent: words.about }), this.none, this.body);
     store.subscribe("scene", () => this.soon());
     store.subscribe("time", () => {
       if (this.inSight) {
@@ -120,13 +111,13 @@ class LoopSection {
     while (this.wanted && this.current !== null) {
       this.wanted = false;
       const { about, source } = this.current;
-      this.status.textContent = words.working;
+      say(this.status, words.working);
       try {
         const loop = await this.engine.loop(source, this.injection.injected);
         this.show(loop, about);
-        this.status.textContent = "";
+        say(this.status, "");
       } catch (problem) {
-        this.status.textContent = `${words.failed} ${problem instanceof Error ? problem.message : String(problem)}`;
+        say(this.status, `${words.failed} ${problem instanceof Error ? problem.message : String(problem)}`);
       }
     }
     this.running = false;
@@ -134,6 +125,7 @@ class LoopSection {
 
   private show(loop: Loop, about: About): void {
     this.loop = loop;
+    this.downloads.hidden = false;
     this.tables.replaceChildren(resultTable(loop), faultLog(loop));
     this.charts.show(
       loop,
@@ -145,7 +137,7 @@ class LoopSection {
 
   private save(name: string, type: string, text: (loop: Loop) => string): void {
     if (this.loop !== null) {
-      download(name, new Blob([text(this.loop)], { type }));
+      download(name, text(this.loop), type);
     }
   }
 }

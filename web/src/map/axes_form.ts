@@ -1,6 +1,7 @@
 /** Which quantities the map is drawn over. */
 import type { Axis, Key } from "../engine";
-import { element, labelled, numberInput, select, setChoices } from "../elements";
+import { choice, el } from "../dom";
+import { numberBox, setChoices } from "../number_box";
 import { texts } from "../texts";
 import { MOST_CELLS, isAxis, suggested } from "./axis";
 import { keyName } from "./key_name";
@@ -38,7 +39,7 @@ export class AxesForm {
       return found === undefined ? null : suggested(found);
     };
     this.fields = { x: new Fields("x", key, (axis) => change("x", axis)), y: new Fields("y", key, (axis) => change("y", axis)) };
-    this.root = element("div", { class: "map-axes", children: [this.fields.x.root, this.fields.y.root] });
+    this.root = el("div", { className: "map-axes" }, this.fields.x.root, this.fields.y.root);
   }
 
   /** The axes that are shown; null where the scene cannot have any. */
@@ -75,21 +76,14 @@ class Fields {
         changed({ ...this.axis, ...part });
       }
     };
-    this.key = select([], (key) => changed(suggest(key)));
-    this.from = numberInput({}, (from) => change({ from }));
-    this.to = numberInput({}, (to) => change({ to }));
-    this.cells = numberInput({ min: "2", max: String(MOST_CELLS), step: "1" }, (cells) => change({ cells }));
-    this.scale = select(Object.entries(words.scales), (scale) => change({ scale: scale === "logarithmic" ? scale : "linear" }));
-    this.root = element("fieldset", {
-      children: [
-        element("legend", { text: words.axis[which] }),
-        labelled(words.key, this.key),
-        labelled(words.from, this.from),
-        labelled(words.to, this.to),
-        labelled(words.cells, this.cells),
-        labelled(words.scale, this.scale),
-      ],
-    });
+    const key = choice(words.key, [], (name) => changed(suggest(name)));
+    const from = numberBox(words.from, {}, (value) => change({ from: value }));
+    const to = numberBox(words.to, {}, (value) => change({ to: value }));
+    const cells = numberBox(words.cells, { min: 2, max: MOST_CELLS, whole: true }, (value) => change({ cells: value }));
+    const scale = choice(words.scale, Object.entries(words.scales), (name) => change({ scale: name === "logarithmic" ? name : "linear" }));
+    [this.key, this.scale, this.from, this.to, this.cells] = [key.select, scale.select, from.input, to.input, cells.input];
+    const legend = el("legend", { textContent: words.axis[which] });
+    this.root = el("fieldset", {}, legend, key.root, from.root, to.root, cells.root, scale.root);
   }
 
   show(axis: Axis | null, keys: readonly Key[], other: string | null): void {

@@ -57,12 +57,7 @@ export function bandColour(band: number, bands: number): Colour {
   return [mix(0), mix(1), mix(2)];
 }
 
-/** As CSS and SVG have it. */
-export function css([red, green, blue]: Colour): string {
-  return `rgb(${red} ${green} ${blue})`;
-}
-
-/** As SVG of any program has it. */
+/** As pages and pictures have it. */
 export function hex(colour: Colour): string {
   return `#${colour.map((part) => part.toString(16).padStart(2, "0")).join("")}`;
 }

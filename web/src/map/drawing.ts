@@ -1,6 +1,5 @@
 /** The parts of a map that are lines and letters, as SVG: for the page and for the file alike. */
 import type { Boundary } from "../engine";
-import { escaped } from "../elements";
 import type { Span } from "./ticks";
 
 /** An axis as it is drawn. */
@@ -111,6 +110,11 @@ export function ringSvg(plot: Plot, across: number, up: number, dashed: boolean)
   const ring = (colour: string, width: number, dashes: string): string =>
     `<circle cx="${x}" cy="${y}" r="7" fill="none" stroke="${colour}" stroke-width="${width}" stroke-dasharray="${dashes}"/>`;
   return ring("#ffffff", 4, "none") + ring("#111111", 2, dashed ? "3 2.5" : "none");
+}
+
+/** `text` where SVG is written by hand. */
+export function escaped(text: string): string {
+  return text.replace(/[&<>"]/g, (character) => `&#${character.charCodeAt(0)};`);
 }
 
 function px(value: number): number {

@@ -1,5 +1,5 @@
 /** The map of one device: cells on a canvas, axes and marks above them, and who points at a cell. */
-import { element } from "../elements";
+import { el } from "../dom";
 import { texts } from "../texts";
 import { type DrawnAxis, type Plot, axesSvg, heightOf, insideSvg, plotOf, ringSvg } from "./drawing";
 
@@ -28,8 +28,8 @@ const STRIDE = 8;
 export class Panel {
   readonly root: HTMLElement;
   /** One dot a cell. */
-  readonly canvas = element("canvas", { at: { "aria-hidden": "true" } });
-  private readonly share = element("span", { class: "map-share" });
+  readonly canvas = el("canvas", { ariaHidden: "true" });
+  private readonly share = el("span", { className: "map-share" });
   private readonly plotArea: HTMLElement;
   private readonly lines = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   private readonly marks = document.createElementNS("http://www.w3.org/2000/svg", "svg");
@@ -51,15 +51,16 @@ export class Panel {
     [this.canvas.width, this.canvas.height] = [columns, rows];
     this.lines.setAttribute("aria-hidden", "true");
     this.marks.setAttribute("aria-hidden", "true");
-    this.plotArea = element("div", {
-      class: "map-plot",
-      at: { tabindex: "0", role: "application", "aria-label": texts.views.map.panel(device), "aria-describedby": describedBy },
-      children: [this.canvas, this.lines, this.marks],
-    });
-    this.root = element("figure", {
-      class: "map-panel",
-      children: [element("figcaption", { children: [element("strong", { text: device }), this.share] }), this.plotArea],
-    });
+    this.plotArea = el(
+      "div",
+      { className: "map-plot", tabIndex: 0, role: "application", ariaLabel: texts.views.map.panel(device) },
+      this.canvas,
+      this.lines,
+      this.marks,
+    );
+    this.plotArea.setAttribute("aria-describedby", describedBy);
+    const caption = el("figcaption", {}, el("strong", { textContent: device }), this.share);
+    this.root = el("figure", { className: "map-panel" }, caption, this.plotArea);
     this.listen(reaction);
     new ResizeObserver(() => this.layOut()).observe(this.plotArea);
   }

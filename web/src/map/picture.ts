@@ -1,16 +1,14 @@
-/** A map as a file: SVG and PNG. */
-import { escaped } from "../elements";
-import { hex } from "./classes";
-import { heightOf } from "./drawing";
-import type { Entry } from "./painting";
+/** A map as an SVG document. */
+import { escaped, heightOf } from "./drawing";
+import { type Entry, SWATCH_PX, swatchSvg } from "./legend";
 import type { Panel } from "./panel";
 
 const PANEL_PX = 380;
 const CURVES_PX = 720;
 const HEADING_PX = 64;
 const LEGEND_PX = 30;
-const ENTRY_PX = 190;
-/** Dots a pixel of PNG, and least dots of the cells in SVG: programs smooth images that they enlarge. */
+const ENTRY_PX = 210;
+/** Least dots of the cells a pixel: programs smooth images that they enlarge. */
 const DOTS = 3;
 
 /** An SVG document of `panels` side by side, with title and legend. */
@@ -24,7 +22,7 @@ export function mapSvg(title: string, panels: readonly { name: string; panel: Pa
   const width = panelPx * panels.length;
   const across = Math.max(Math.floor(width / ENTRY_PX), 1);
   const body = HEADING_PX + heightOf(plot);
-  const height = body + LEGEND_PX * Math.ceil(legend.length / across) + 10;
+  const height = body + LEGEND_PX * Math.ceil(legend.length / across) + 14;
   const letters = 'fill="currentColor" font-family="system-ui, sans-serif"';
   const drawn = panels.map(({ name, panel }, index) => {
     const image = `<image x="${plot.left}" y="${plot.top}" width="${plot.width}" height="${plot.height}" preserveAspectRatio="none" href="${dataUrl(panel.canvas)}"/>`;
@@ -33,11 +31,11 @@ export function mapSvg(title: string, panels: readonly { name: string; panel: Pa
       `<text x="${plot.left}" y="-8" font-size="13" ${letters}>${escaped(name)}</text></g>`
     );
   });
-  const entries = legend.map(({ name, colour }, index) => {
-    const [x, y] = [16 + (index % across) * ENTRY_PX, body + LEGEND_PX * Math.floor(index / across)];
+  const entries = legend.map((entry, index) => {
+    const [x, y] = [16 + (index % across) * ENTRY_PX, body + 8 + LEGEND_PX * Math.floor(index / across)];
     return (
-      `<rect x="${x}" y="${y}" width="16" height="16" fill="${hex(colour)}" stroke="currentColor" stroke-width="0.5"/>` +
-      `<text x="${x + 22}" y="${y + 12}" font-size="12" ${letters}>${escaped(name)}</text>`
+      `<g transform="translate(${x} ${y})">${swatchSvg(entry)}` +
+      `<text x="${SWATCH_PX.width + 6}" y="12" font-size="12" ${letters}>${escaped(entry.name)}</text></g>`
     );
   });
   return (
@@ -45,19 +43,6 @@ export function mapSvg(title: string, panels: readonly { name: string; panel: Pa
     `<rect width="100%" height="100%" fill="#ffffff"/><text x="16" y="28" font-size="16" ${letters}>${escaped(title)}</text>` +
     `${drawn.join("")}${entries.join("")}</svg>\n`
   );
-}
-
-/** `svg` as PNG. */
-export async function svgToPng(svg: string): Promise<Blob> {
-  const image = new Image();
-  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
-  await image.decode();
-  const canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = [image.width * DOTS, image.height * DOTS];
-  canvas.getContext("2d")?.drawImage(image, 0, 0, canvas.width, canvas.height);
-  return new Promise((resolve, reject) => {
-    canvas.toBlob((blob) => (blob === null ? reject(new Error("PNG could not be written")) : resolve(blob)), "image/png");
-  });
 }
 
 /** The cells as PNG, every cell of several dots. */

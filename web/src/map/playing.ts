@@ -61,8 +61,6 @@ export class Playing {
         return false;
       }
       this.store.play(source);
-      this.store.time = 0;
-      this.store.playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
       return true;
     } catch (problem) {
       this.store.fail(problem);

@@ -1,7 +1,9 @@
 /** The map below the block: which block comes through which motion, every point to be played. */
 import "./map.css";
+import { Stage } from "../block/stage";
+import { button, choice, download, el, say } from "../dom";
 import type { About, Engine, Key } from "../engine";
-import { button, download, element, labelled, select } from "../elements";
+import { pngOf } from "../scene/png";
 import type { Store } from "../store";
 import { texts } from "../texts";
 import { mountView } from "../view";
@@ -10,7 +12,7 @@ import { axisToml, mapIdentity, suggestedPair, valueOf } from "./axis";
 import { Filling } from "./filling";
 import { keyName } from "./key_name";
 import type { Place } from "./panel";
-import { mapSvg, svgToPng } from "./picture";
+import { mapSvg } from "./picture";
 import { Playing } from "./playing";
 import { Sheet, outcomesOf } from "./sheet";
 import { mapCsv } from "./table";
@@ -26,13 +28,13 @@ class MapSection {
   private readonly playing: Playing;
   private readonly form: AxesForm;
   private readonly fillButton = button(words.fill, () => this.fillOrStop());
-  private readonly show = select(Object.entries(words.shows), (shown) => this.sheet?.show(shown === "peak" ? "peak" : "outcome"));
+  private readonly shows = choice(words.show, Object.entries(words.shows), () => this.sheet?.show(this.shown()));
   private readonly boundaries = button(words.boundaries, () => void this.toggleBoundaries());
-  private readonly progress = element("progress", { at: { max: "1", value: "0", "aria-label": words.title } });
-  private readonly note = element("span", { class: "map-note" });
-  private readonly place = element("div", { class: "map-place" });
-  private readonly live = element("p", { at: { id: LIVE, role: "status" } });
-  private readonly choice = element("div", { class: "map-choice" });
+  private readonly progress = el("progress", { max: 1, value: 0, ariaLabel: words.title });
+  private readonly note = el("span");
+  private readonly place = el("div");
+  private readonly live = el("p", { id: LIVE, role: "status" });
+  private readonly played = el("div", { hidden: true });
   private readonly downloads: HTMLElement;
   /** What a cut has not. */
   private readonly onlyOfCells: HTMLElement[];
@@ -52,21 +54,13 @@ class MapSection {
       (axes) => this.setAxes(axes),
       (line) => store.fail(line),
     );
-    this.boundaries.setAttribute("aria-pressed", "false");
+    this.boundaries.ariaPressed = "false";
     this.downloads = this.downloadButtons();
-    const shows = labelled(words.show, this.show);
-    this.onlyOfCells = [shows, this.boundaries];
-    const row = element("div", {
-      class: "map-row",
-      children: [this.fillButton, this.progress, this.note, shows, this.boundaries, this.downloads],
-    });
-    this.choice.append(
-      element("span", { text: words.playing }),
-      button(words.use, () => this.take()),
-      button(words.back, () => this.back()),
-    );
-    root.classList.add("map");
-    root.append(element("p", { text: words.about }), this.form.root, row, this.place, this.live, this.choice);
+    this.onlyOfCells = [this.shows.root, this.boundaries];
+    this.buildPlayed();
+    const row = el("div", { className: "buttons" }, this.fillButton, this.progress, this.note, ...this.onlyOfCells, this.downloads);
+    const about = el("p", { className: "hint", textContent: words.about });
+    root.append(about, this.form.root, row, this.place, this.live, this.played);
     store.subscribe("scene", () => void this.sceneChanged());
     new IntersectionObserver((entries) => {
       this.inSight = entries.some((entry) => entry.isIntersecting);
@@ -75,9 +69,26 @@ class MapSection {
     void this.sceneChanged();
   }
 
+  private shown(): "outcome" | "peak" {
+    return this.shows.select.value === "peak" ? "peak" : "outcome";
+  }
+
+  /** The block of the cell at the cursor, where the eye is, and what can be done with it. */
+  private buildPlayed(): void {
+    const stage = new Stage(this.store);
+    const frame = el("div", { className: "frame" }, stage.canvas);
+    stage.observe(frame);
+    const line = el("p", { className: "notice" }, words.playing);
+    line.append(
+      button(words.use, () => this.take()),
+      button(words.back, () => this.back()),
+    );
+    this.played.append(line, frame);
+  }
+
   /** Keeps the map where the new scene is a point of it, and starts another one where it is not. */
   private async sceneChanged(): Promise<void> {
-    this.choice.hidden = !this.store.isPreview;
+    this.played.hidden = !this.store.isPreview;
     const { source } = this.store;
     if (this.store.isPreview || source.text === "") {
       return;
@@ -106,8 +117,8 @@ class MapSection {
       this.playing.forget();
       [this.filling, this.sheet, this.cursor, this.identity] = [null, null, null, identity];
       this.place.replaceChildren();
-      this.live.textContent = about.map === null ? words.noMap : "";
-      this.boundaries.setAttribute("aria-pressed", "false");
+      say(this.live, about.map === null ? words.noMap : "");
+      this.boundaries.ariaPressed = "false";
       if (about.map !== null) {
         const filling = await Filling.of(this.engine, source, about.map, about.resolved);
         if (identity !== this.identity) {
@@ -120,7 +131,7 @@ class MapSection {
           back: () => this.back(),
           cursor: () => this.cursor,
         });
-        this.sheet.show(this.show.value === "peak" ? "peak" : "outcome");
+        this.sheet.show(this.shown());
         this.place.replaceChildren(this.sheet.root);
       }
       this.showProgress();
@@ -176,10 +187,7 @@ class MapSection {
     const share = filling?.share ?? 0;
     this.progress.value = share;
     this.progress.hidden = !running;
-    const text = running ? words.stop : words.fill;
-    if (this.fillButton.textContent !== text) {
-      this.fillButton.textContent = text;
-    }
+    say(this.fillButton, running ? words.stop : words.fill);
     const cells = filling === null ? 0 : filling.about.x.length * filling.about.y.length;
     this.note.textContent =
       filling === null || share === 0
@@ -198,17 +206,17 @@ class MapSection {
     if (filling === null || sheet === null) {
       return;
     }
-    const shown = this.boundaries.getAttribute("aria-pressed") !== "true";
-    this.boundaries.setAttribute("aria-pressed", String(shown));
+    const shown = this.boundaries.ariaPressed !== "true";
+    this.boundaries.ariaPressed = String(shown);
     try {
       if (shown && filling.boundaries === null) {
         this.note.textContent = words.tracing;
         await filling.trace(this.engine);
         this.showProgress();
       }
-      sheet.drawBoundaries(this.boundaries.getAttribute("aria-pressed") === "true");
+      sheet.drawBoundaries(this.boundaries.ariaPressed === "true");
     } catch (problem) {
-      this.boundaries.setAttribute("aria-pressed", "false");
+      this.boundaries.ariaPressed = "false";
       this.showProgress();
       this.store.fail(problem);
     }
@@ -257,21 +265,19 @@ class MapSection {
 
   private downloadButtons(): HTMLElement {
     const svg = (): string => (this.sheet === null ? "" : mapSvg(this.about?.title ?? "", this.sheet.panels, this.sheet.legend));
-    const file = (name: string, content: () => Promise<Blob> | Blob): HTMLButtonElement =>
-      button(name, () => {
-        void Promise.resolve()
-          .then(content)
-          .then((blob) => download(name, blob))
-          .catch((problem: unknown) => this.store.fail(problem));
-      });
-    return element("span", {
-      class: "map-downloads",
-      children: [
-        file(words.csv, () => new Blob(this.filling === null ? [] : [mapCsv(this.filling)], { type: "text/csv" })),
-        file(words.svg, () => new Blob([svg()], { type: "image/svg+xml" })),
-        file(words.png, () => svgToPng(svg())),
-      ],
-    });
+    const png = (): void => {
+      pngOf(svg()).then(
+        (picture) => download(words.png, picture, "image/png"),
+        () => this.store.fail(texts.page.scene.pngFailed),
+      );
+    };
+    return el(
+      "span",
+      { className: "buttons" },
+      button(words.csv, () => this.filling !== null && download(words.csv, mapCsv(this.filling), "text/csv")),
+      button(words.svg, () => download(words.svg, svg(), "image/svg+xml")),
+      button(words.png, png),
+    );
   }
 }
 

@@ -1,39 +1,40 @@
 /** What is seen of a map: panels side by side, and their legend. */
 import type { Key } from "../engine";
-import { element } from "../elements";
+import { drawSoon } from "../clock";
+import { el } from "../dom";
 import { texts } from "../texts";
-import { LIGHT_TO_DARK, css } from "./classes";
+import { LIGHT_TO_DARK } from "./classes";
 import { type DrawnAxis, boundariesSvg, curveSvg } from "./drawing";
 import type { Filling } from "./filling";
 import { keyName } from "./key_name";
-import { type Entry, Painter, type Shown } from "./painting";
+import { type Entry, legendItem } from "./legend";
+import { Painter, type Shown } from "./painting";
 import { Panel, type Place, type Reaction } from "./panel";
 import { Span } from "./ticks";
 
 const words = texts.views.map;
 
-/** Colours and dashes of curves, one a device: Okabe and Ito's for colour-blind readers, dashes for grey print. */
-const CURVES: readonly (readonly [string, string])[] = [
-  ["currentColor", "none"],
-  ["#d55e00", "6 2.5"],
-  ["#0072b2", "10 2.5 1.5 2.5"],
-  ["#009e73", "1.8 1.8"],
-  ["#cc79a7", "14 4"],
-];
+/** Colours of curves in files and on pages, dark or light: Okabe and Ito's for colour-blind readers; dashes for grey print. */
+const COLOURS = ["currentColor", "#d55e00", "#0072b2", "#009e73", "#cc79a7"] as const;
+const DASHES = ["none", "6 2.5", "10 2.5 1.5 2.5", "1.8 1.8", "14 4"] as const;
+
+function curveLook(device: number): { colour: string; dashes: string } {
+  return { colour: COLOURS[device % COLOURS.length] ?? "", dashes: DASHES[device % DASHES.length] ?? "" };
+}
 
 /** Panels of a map that is being filled. */
 export class Sheet {
-  readonly root = element("div", { class: "map-sheet" });
+  readonly root = el("div");
   readonly panels: { name: string; panel: Panel }[] = [];
   /** What the colours of the legend are. */
   legend: Entry[] = [];
   private readonly filling: Filling;
   private readonly x: DrawnAxis;
   private y: DrawnAxis;
-  private readonly legendList = element("ul", { class: "map-legend", at: { "aria-label": words.legend } });
+  private readonly legendList = el("ul", { className: "key", ariaLabel: words.legend });
   private readonly images: ImageData[] = [];
   private shown: Shown = "outcome";
-  private frame = 0;
+  private readonly drawNow = (): void => this.draw();
 
   constructor(filling: Filling, keys: readonly Key[], describedBy: string, reaction: Reaction) {
     this.filling = filling;
@@ -54,7 +55,7 @@ export class Sheet {
         this.images.push(new ImageData(about.x.length, about.y.length));
       });
     }
-    const grid = element("div", { class: "map-panels", children: this.panels.map((one) => one.panel.root) });
+    const grid = el("div", { className: "map-panels" }, ...this.panels.map((one) => one.panel.root));
     this.root.append(grid, this.legendList);
     this.draw();
   }
@@ -66,14 +67,7 @@ export class Sheet {
   }
 
   /** Draws at the next frame, however often it is called until then. */
-  later(): void {
-    if (this.frame === 0) {
-      this.frame = requestAnimationFrame(() => {
-        this.frame = 0;
-        this.draw();
-      });
-    }
-  }
+  readonly later = (): void => drawSoon(this.drawNow);
 
   /** Marks the cell of the cursor, and the scene where its values are on the map. */
   mark(cursor: Place | null, scene: { x: number; y: number | null } | null): void {
@@ -123,36 +117,20 @@ export class Sheet {
     this.panels[0]?.panel.setOver((plot) =>
       this.filling.fields
         .map((field, device) => {
-          const [colour, dashes] = CURVES[device % CURVES.length] ?? ["currentColor", "none"];
+          const { colour, dashes } = curveLook(device);
           return curveSvg(plot, this.x.span, this.y.span, this.filling.about.x, field.peak, colour, dashes);
         })
         .join(""),
     );
-    this.setKey();
+    this.setLegend(this.filling.about.devices.map((name, device) => ({ name, ...curveLook(device) })));
   }
 
   private setLegend(entries: Entry[]): void {
     const same = entries.length === this.legend.length && entries.every(({ name }, index) => name === this.legend[index]?.name);
     this.legend = entries;
     if (!same) {
-      const swatch = ({ colour }: Entry): HTMLElement =>
-        element("span", { class: "map-swatch", at: { style: `background:${css(colour)}` } });
-      this.legendList.replaceChildren(...entries.map((entry) => element("li", { children: [swatch(entry), entry.name] })));
+      this.legendList.replaceChildren(...entries.map(legendItem));
     }
-  }
-
-  /** The key of a cut: a line a device. */
-  private setKey(): void {
-    if (this.legendList.childElementCount > 0) {
-      return;
-    }
-    const items = this.filling.about.devices.map((device, index) => {
-      const [colour, dashes] = CURVES[index % CURVES.length] ?? ["currentColor", "none"];
-      const line = element("span", { class: "map-line" });
-      line.innerHTML = `<svg width="34" height="8" aria-hidden="true"><path d="M1 4H33" fill="none" stroke="${colour}" stroke-width="2" stroke-dasharray="${dashes}"/></svg>`;
-      return element("li", { children: [line, device] });
-    });
-    this.legendList.replaceChildren(...items);
   }
 }
 

@@ -1,7 +1,7 @@
 /** Why the page can be believed: version, errors, and digests that anybody can compute again. */
 import "./trust.css";
 import type { DigestCheck, Engine } from "../engine";
-import { button, element } from "../elements";
+import { button, el } from "../dom";
 import { grid } from "../loop/results";
 import type { Store } from "../store";
 import { texts } from "../texts";
@@ -15,12 +15,12 @@ const ASK = 'accuracy={ level = "normal" }';
 
 function mount(root: HTMLElement, engine: Engine, store: Store): void {
   root.classList.add("trust");
-  const facts = element("dl");
+  const facts = el("dl");
   const ask = button(words.ask, () => store.setSetting(ASK));
-  const digests = element("div", { class: "trust-digests" });
-  const status = element("p", { at: { role: "status" } });
+  const digests = el("div");
+  const status = el("p", { role: "status" });
   const compute = button(words.compute, () => void computeDigests());
-  root.append(element("p", { text: words.about }), facts, ask, compute, status, digests);
+  root.append(el("p", { className: "hint", textContent: words.about }), facts, ask, compute, status, digests);
 
   async function computeDigests(): Promise<void> {
     compute.disabled = true;
@@ -48,7 +48,7 @@ function mount(root: HTMLElement, engine: Engine, store: Store): void {
       ...(run === null ? [] : [[words.digest, run.digest] as [string, string]]),
       ...errors.map(({ device, error }) => [words.error(device), error ?? words.noError] as [string, string]),
     ];
-    facts.replaceChildren(...rows.flatMap(([name, value]) => [element("dt", { text: name }), element("dd", { text: value })]));
+    facts.replaceChildren(...rows.flatMap(([name, value]) => [el("dt", { textContent: name }), el("dd", { textContent: value })]));
   }
   store.subscribe("run", showFacts);
   store.subscribe("message", showFacts);

@@ -64,6 +64,7 @@ export const views = {
   } as Record<string, string>,
   loop: {
     title: "Controller",
+    settings: "Law and sensors",
     about: "The firmware’s own code closes the loop: sensors with noise, an estimator, a clutch law and a supervisor, tick by tick.",
     none: "This scene has no controller. It needs a clutched pair.",
     add: "Add a controller",
