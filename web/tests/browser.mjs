@@ -78,7 +78,7 @@ export async function keep(page, name) {
 }
 
 /** Waits until `found()` gives something that is true, and returns it; fails after `seconds` with `what`. */
-export async function until(what, found, seconds = 60) {
+export async function until(what, found, seconds = 30) {
   const end = Date.now() + 1000 * seconds;
   for (;;) {
     const value = await found();
