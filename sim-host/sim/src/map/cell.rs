@@ -1,11 +1,12 @@
 //! What becomes of the blocks of a map, many at once.
 
+use std::fmt::Display;
+
 use sprag_ensemble::machine::{Registers, run, shake};
-use sprag_ensemble::pulsed::PulseResult;
+use sprag_ensemble::pulsed::{PulseResult, PulsedBlock};
 use sprag_ensemble::shaken::Shaken;
 
 use super::grid::{Grid, Subject, Values};
-use crate::batch::case::CaseError;
 use crate::interrupt::Interrupt;
 use crate::scene::ground::GroundError;
 use crate::scene::{Scene, SceneError};
@@ -36,7 +37,7 @@ pub enum CellError {
         /// Values of the axes.
         place: String,
         /// Error of the case.
-        error: CaseError,
+        error: String,
     },
     /// Ctrl-C.
     #[error("interrupted")]
@@ -49,6 +50,20 @@ pub enum CellError {
 /// # Errors
 /// [`CellError`] names the place.
 pub fn results_at(grid: &Grid, device: usize, places: &[Values], interrupt: &Interrupt) -> Result<Vec<PulseResult>, CellError> {
+    results_by(grid, device, places, interrupt, |pulsed| run(pulsed, Registers::Widest))
+}
+
+/// [`results_at`] with `pulses` to follow the blocks under pulses, wherever it does; its error has the number of the block.
+///
+/// # Errors
+/// [`CellError`] names the place.
+pub fn results_by<E: Display>(
+    grid: &Grid,
+    device: usize,
+    places: &[Values],
+    interrupt: &Interrupt,
+    pulses: impl FnOnce(&[PulsedBlock]) -> Result<Vec<PulseResult>, (usize, E)>,
+) -> Result<Vec<PulseResult>, CellError> {
     let mut results = vec![PulseResult::NO_ROCKING; places.len()];
     let (mut pulsed, mut pulsed_places) = (Vec::with_capacity(places.len()), Vec::with_capacity(places.len()));
     let (mut shaken, mut shaken_places) = (Vec::new(), Vec::new());
@@ -70,9 +85,9 @@ pub fn results_at(grid: &Grid, device: usize, places: &[Values], interrupt: &Int
         }
     }
     let name = &grid.scene.devices[device].name;
-    let found = run(&pulsed, Registers::Widest).map_err(|(index, error)| {
+    let found = pulses(&pulsed).map_err(|(index, error)| {
         let place = grid.place(places[pulsed_places[index]]);
-        CellError::Block { device: name.clone(), place, error }
+        CellError::Block { device: name.clone(), place, error: error.to_string() }
     })?;
     for (result, index) in found.into_iter().zip(pulsed_places) {
         results[index] = result;

@@ -174,7 +174,7 @@ impl Grid {
     }
 
     /// KEY=VALUE of both axes; values read back to the same f64.
-    fn settings(&self, (x, y): Values) -> Vec<String> {
+    pub fn settings(&self, (x, y): Values) -> Vec<String> {
         let setting = |axis: &AxisTable, value: f64| format!("{}={value:?}", axis.key);
         let mut settings = vec![setting(&self.map.x, x)];
         settings.extend(self.map.y.iter().zip(y).map(|(axis, value)| setting(axis, value)));
