@@ -45,6 +45,7 @@ function build(engine: Engine): Store {
 
 async function start(): Promise<void> {
   document.title = texts.page.title;
+  document.documentElement.lang = texts.page.language;
   const waiting = document.querySelector("#waiting");
   if (waiting) {
     waiting.textContent = texts.page.loading;
