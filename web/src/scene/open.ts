@@ -1,0 +1,59 @@
+/** Opens the scene of the page's address, or the first one; keeps the address up to date. */
+import { debounce } from "../dom";
+import type { RecordFile, Source } from "../engine";
+import { startText } from "../start";
+import type { Store } from "../store";
+import { texts } from "../texts";
+import { isPacked, pack, unpack } from "./address";
+
+const QUIET_MS = 400;
+
+/** Opens what the address says, now and whenever it is changed by hand, and writes every other scene into it. */
+export async function openAddress(store: Store): Promise<void> {
+  let written = "";
+  const write = async () => {
+    const { text } = store.source;
+    const fragment = text === startText ? "" : ((await pack(text)) ?? "");
+    // The scene may have changed while it was packed.
+    if (text === store.source.text && fragment !== location.hash) {
+      written = fragment;
+      history.replaceState(null, "", fragment === "" ? location.pathname + location.search : fragment);
+    }
+  };
+  addEventListener("hashchange", () => {
+    if (isPacked(location.hash) && location.hash !== written) {
+      void read(store, location.hash);
+    }
+  });
+  if (isPacked(location.hash)) {
+    await read(store, location.hash);
+  } else {
+    store.setSource({ text: startText, records: [] });
+  }
+  store.subscribe(
+    "scene",
+    debounce(QUIET_MS, () => void write().catch((problem: unknown) => store.fail(problem))),
+  );
+}
+
+async function read(store: Store, fragment: string): Promise<void> {
+  const text = await unpack(fragment).catch(() => null);
+  const source = text === null ? { text: startText, records: [] } : await withRecords(store, text);
+  store.restart();
+  store.setSource(source);
+  if (text === null) {
+    store.failLater(texts.page.scene.broken);
+  }
+}
+
+/** The scene with the records that it names and that are at hand: those of the examples, and those of the scene before. */
+async function withRecords(store: Store, text: string): Promise<Source> {
+  const shipped = (await store.engine.examples()).flatMap(({ records }) => records);
+  const atHand = new Map<string, RecordFile>([...shipped, ...store.source.records].map((file) => [file.name, file]));
+  const named = Array.from(text.matchAll(/^\s*file\s*=\s*["'](.+?)["']/gm), ([, name]) => name ?? "");
+  const missing = named.find((name) => !atHand.has(name));
+  if (missing !== undefined) {
+    store.failLater(texts.page.scene.missing(missing));
+  }
+  return { text, records: named.flatMap((name) => atHand.get(name) ?? []) };
+}

@@ -1,0 +1,279 @@
+/**
+ * The state of the page: the scene, what is played, its run, the cursor and the last failure. Whoever shows a part of it subscribes to that
+ * part; nobody asks the engine for a run but this file.
+ */
+import type { Engine, Run, Source } from "./engine";
+import { mayMoveByItself } from "./motion_preference";
+
+/**
+ * What a subscriber hears of: `scene` (source or what is played), `run` (a new run), `working` (a run begins or ends), `time` (the cursor
+ * moves), `playing` (starts, stops or changes speed), `selected` (another device), `message` (a failure is shown or dismissed).
+ */
+export type Topic = "scene" | "run" | "working" | "time" | "playing" | "selected" | "message";
+
+const FALL_S = 1.2;
+
+function endOf(run: Run): number {
+  const ends = run.responses.map(({ timeS, summary }) => {
+    const falls = String(summary["outcome"]).startsWith("overturned");
+    return (timeS.at(-1) ?? 0) + (falls ? FALL_S : 0);
+  });
+  return Math.max(0, ...ends);
+}
+
+/** The state of the page. */
+export class Store {
+  /** Version, examples, keys and everything else that is computed. */
+  readonly engine: Engine;
+  private scene: Source = { text: "", records: [] };
+  private preview: Source | null = null;
+  private latestRun: Run | null = null;
+  private cursorS = 0;
+  private endS = 0;
+  /** The last one, mostly the pair, until another is chosen. */
+  private device = Infinity;
+  private isPlaying = false;
+  private factor = 1;
+  private failure = "";
+  private remark = "";
+  private restarts: boolean | null = null;
+  private wanted: Source | null = null;
+  private isWorking = false;
+  private pending = new Map<string, string>();
+  private isSetting = false;
+  private readonly subscribers = new Map<Topic, Set<() => void>>();
+
+  constructor(engine: Engine) {
+    this.engine = engine;
+  }
+
+  /** The scene. It stays while another block is played. */
+  get source(): Source {
+    return this.scene;
+  }
+
+  /** What is run and shown: the scene, or the block that is played in its place. */
+  get played(): Source {
+    return this.preview ?? this.scene;
+  }
+
+  /** Whether a block is played in the place of the scene. */
+  get isPreview(): boolean {
+    return this.preview !== null;
+  }
+
+  /** The last run that ended well; null before the first. */
+  get run(): Run | null {
+    return this.latestRun;
+  }
+
+  /** Whether a run is under way. */
+  get working(): boolean {
+    return this.isWorking;
+  }
+
+  /** Cursor of animation and histories (s), from 0 to `durationS`. */
+  get time(): number {
+    return this.cursorS;
+  }
+
+  set time(seconds: number) {
+    const within = Math.min(Math.max(seconds, 0), this.durationS);
+    if (within !== this.cursorS) {
+      this.cursorS = within;
+      this.notify("time");
+    }
+  }
+
+  /** End of the longest response of the run, and time to see an overturned block go down (s). */
+  get durationS(): number {
+    return this.endS;
+  }
+
+  /** Whether the cursor moves by itself. */
+  get playing(): boolean {
+    return this.isPlaying;
+  }
+
+  set playing(playing: boolean) {
+    if (playing !== this.isPlaying) {
+      this.isPlaying = playing;
+      this.notify("playing");
+    }
+  }
+
+  /** Seconds of motion a second: 1, or less in slow motion. */
+  get speed(): number {
+    return this.factor;
+  }
+
+  set speed(factor: number) {
+    this.factor = factor;
+    this.notify("playing");
+  }
+
+  /** Number of the device whose forces and clutch are shown in the histories. */
+  get selected(): number {
+    return Math.max(Math.min(this.device, (this.latestRun?.responses.length ?? 1) - 1), 0);
+  }
+
+  set selected(device: number) {
+    this.device = device;
+    this.notify("selected");
+  }
+
+  /** What went wrong last, one line; empty when nothing did or it was dismissed. */
+  get message(): string {
+    return this.failure;
+  }
+
+  /** Sets the cursor to the beginning with the next run, and plays it if `plays`. */
+  restart(plays = mayMoveByItself()): void {
+    this.restarts = plays;
+  }
+
+  /** Makes `source` the scene and runs it. */
+  setSource(source: Source): void {
+    this.pending.clear();
+    this.scene = source;
+    this.preview = null;
+    this.notify("scene");
+    this.want(source);
+  }
+
+  /** Changes values of the scene: `block.size_m=2`. While a change is under way, the latest value of a key is kept. */
+  setSetting(...settings: string[]): void {
+    for (const setting of settings) {
+      const key = setting.slice(0, setting.indexOf("="));
+      this.pending.delete(key);
+      this.pending.set(key, setting);
+    }
+    void this.applySettings();
+  }
+
+  /** Plays another block without replacing the scene: the cell of a map below the pointer. */
+  play(source: Source): void {
+    this.preview = source;
+    this.notify("scene");
+    this.want(source);
+  }
+
+  /** Ends `play`: the scene is shown again. */
+  unplay(): void {
+    if (this.preview !== null) {
+      this.setSource(this.scene);
+    }
+  }
+
+  /** Makes what is played the scene. */
+  fix(): void {
+    if (this.preview !== null) {
+      this.scene = this.preview;
+      this.preview = null;
+      this.notify("scene");
+    }
+  }
+
+  /** Calls `changed` at every change of `topic`, until the function that is returned is called. */
+  subscribe(topic: Topic, changed: () => void): () => void {
+    const set = this.subscribers.get(topic) ?? new Set();
+    this.subscribers.set(topic, set.add(changed));
+    return () => set.delete(changed);
+  }
+
+  /** Shows one line about what went wrong; an `AbortError` is no failure. */
+  fail(problem: unknown): void {
+    if (problem instanceof DOMException && problem.name === "AbortError") {
+      return;
+    }
+    this.failure = problem instanceof Error ? problem.message : String(problem);
+    this.notify("message");
+  }
+
+  /** Shows a line that the run that is under way does not take away. */
+  failLater(line: string): void {
+    this.remark = line;
+    this.fail(line);
+  }
+
+  /** Takes the line of `fail` away. */
+  dismiss(): void {
+    if (this.failure !== "") {
+      this.failure = "";
+      this.notify("message");
+    }
+  }
+
+  private notify(topic: Topic): void {
+    this.subscribers.get(topic)?.forEach((changed) => changed());
+  }
+
+  private async applySettings(): Promise<void> {
+    if (this.isSetting) {
+      return;
+    }
+    this.isSetting = true;
+    while (this.pending.size > 0) {
+      const base = this.scene;
+      const settings = [...this.pending.values()];
+      this.pending.clear();
+      try {
+        const text = await this.engine.set(base, settings);
+        if (base === this.scene) {
+          const later = new Map(this.pending);
+          this.setSource({ text, records: base.records });
+          this.pending = later;
+        }
+      } catch (problem) {
+        this.fail(problem);
+        // Controls go back to what the scene says.
+        this.notify("scene");
+        this.notify("run");
+      }
+    }
+    this.isSetting = false;
+  }
+
+  private begin(): void {
+    if (this.restarts !== null && this.wanted === null) {
+      this.time = 0;
+      this.playing = this.restarts;
+      this.restarts = null;
+    }
+  }
+
+  /** Runs `source`; of those that come meanwhile only the last. */
+  private want(source: Source): void {
+    this.wanted = source;
+    if (!this.isWorking) {
+      void this.runWanted();
+    }
+  }
+
+  private async runWanted(): Promise<void> {
+    this.isWorking = true;
+    this.notify("working");
+    while (this.wanted !== null) {
+      const source = this.wanted;
+      this.wanted = null;
+      try {
+        const run = await this.engine.simulate(source);
+        this.latestRun = run;
+        this.endS = endOf(run);
+        this.cursorS = Math.min(this.cursorS, this.durationS);
+        if (this.wanted === null && this.remark === "") {
+          this.dismiss();
+        }
+        this.remark = "";
+        this.notify("run");
+        this.begin();
+      } catch (problem) {
+        if (this.wanted === null) {
+          this.fail(problem);
+        }
+      }
+    }
+    this.isWorking = false;
+    this.notify("working");
+  }
+}

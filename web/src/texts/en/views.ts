@@ -1,0 +1,2 @@
+/** English texts of map, controller and trust. */
+export const views = {};

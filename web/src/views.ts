@@ -1,0 +1,2 @@
+/** The sections below the histories, in their order: each module calls `mountView`. */
+export {};
