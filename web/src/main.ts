@@ -45,19 +45,24 @@ function build(engine: Engine): Store {
 
 async function start(): Promise<void> {
   document.title = texts.page.title;
+  document.documentElement.lang = texts.page.language;
   const waiting = document.querySelector("#waiting");
   if (waiting) {
     waiting.textContent = texts.page.loading;
   }
+  let engine: Engine;
   try {
-    await openAddress(build(await createEngine()));
+    engine = await createEngine();
   } catch (problem) {
     const why = problem instanceof Error ? problem.message : String(problem);
     document.body.replaceChildren(
       header(),
       el("main", {}, el("p", { className: "failure", role: "alert", textContent: texts.page.noEngine(why) })),
     );
+    return;
   }
+  const store = build(engine);
+  await openAddress(store).catch((problem: unknown) => store.fail(problem));
 }
 
 void start();

@@ -1,7 +1,6 @@
 /** Records of the user, dropped on the page or chosen: they become the ground motion of the scene, and stay on this machine. */
 import { button, choice, el, say } from "./dom";
-import { inline } from "./controls/draft";
-import { listOf } from "./block/geometry";
+import { groundSettings } from "./controls/draft";
 import type { RecordAbout, RecordFile } from "./engine";
 import type { Store } from "./store";
 import { texts } from "./texts";
@@ -89,17 +88,12 @@ async function shake(store: Store, file: RecordFile, options: { units?: string; 
   const table = {
     motion: "record",
     file: file.name,
+    scale: 1,
     ...(options.units === undefined ? {} : { units: options.units }),
     ...(options.timeStepS === undefined ? {} : { time_step_s: options.timeStepS }),
   };
   const records = [...source.records.filter(({ name }) => name !== file.name), file];
-  const settings = [`ground=${inline([table])}`];
-  const map = JSON.stringify(store.run?.about.map ?? null);
-  if (/"(ground|vertical)\./.test(map) && listOf(store.run?.about.resolved, "ground")[0]?.["motion"] !== "record") {
-    // A map over the amplitude or frequency of a pulse has nothing to go over with a record.
-    settings.push("map=");
-  }
-  const text = await engine.set({ text: source.text, records }, settings);
+  const text = await engine.set({ text: source.text, records }, groundSettings(store.run?.about ?? null, [table]));
   store.restart();
   store.setSource({ text, records });
 }

@@ -24,4 +24,8 @@ frequency_hz = 1.25
 
 [run]
 free_time_s = 6.0
+
+[map]
+x = { key = "ground.0.frequency_hz", from = 0.5, to = 3.0, cells = 128 }
+y = { key = "ground.0.amplitude_m_s2", from = 1.0, to = 10.0, cells = 128 }
 `;

@@ -1,14 +1,17 @@
 /** The block as a handle: tilt it by pointer or arrow keys and let go, and it rocks freely without ground motion. */
-import type { Source } from "../engine";
+import { groundSettings } from "../controls/draft";
+import type { About, Source } from "../engine";
 import { say } from "../dom";
 import type { Store } from "../store";
 import { texts } from "../texts";
-import { listOf, tableOf } from "./geometry";
+import { listOf } from "./geometry";
 import type { Stage } from "./stage";
 
 /** Largest tilt, θ/α: a block that is let go beyond 1 overturns. */
 const MOST = 1.3;
 const KEY_STEP = 0.05;
+
+let shaken: Source | null = null;
 
 /** Makes the canvas of `stage`, within the focusable `frame`, a handle; `hint` says how far the block is tilted. */
 export function makeHandle(stage: Stage, frame: HTMLElement, hint: HTMLElement, store: Store): void {
@@ -96,27 +99,19 @@ function release(store: Store, ratio: number, shown: () => void): void {
   const stop = [store.subscribe("run", finish), store.subscribe("message", () => store.message !== "" && finish())];
   store.restart(true);
   const before = store.source;
-  const { resolved } = store.run?.about ?? {};
-  if (listOf(resolved, "ground").length > 0) {
+  const about = store.run?.about ?? null;
+  if (listOf(about?.resolved, "ground").length > 0) {
     shaken = before;
   }
-  store.setSetting(...settingsOfRelease(resolved, ratio));
+  store.setSetting(...settingsOfRelease(about, ratio));
 }
-
-let shaken: Source | null = null;
 
 /** The scene as it was before its ground motion was taken away by letting a block go; null where none was. */
 export function shakenBefore(): Source | null {
   return shaken;
 }
 
-function settingsOfRelease(resolved: unknown, ratio: number): string[] {
-  const settings = [`block.initial_rotation_ratio=${ratio}`, "block.initial_velocity_ratio=0", "ground=[]"];
-  if (listOf(resolved, "vertical").length > 0) {
-    settings.push("vertical=[]");
-  }
-  const map = tableOf(tableOf(resolved)["map"]);
-  const overGround = ["x", "y"].some((axis) => /^(ground|vertical)\./.test(String(tableOf(map[axis])["key"] ?? "")));
-  // A map over the ground motion has nothing to go over without one.
-  return overGround ? [...settings, "map="] : settings;
+function settingsOfRelease(about: About | null, ratio: number): string[] {
+  const vertical = listOf(about?.resolved, "vertical").length > 0 ? ["vertical=[]"] : [];
+  return [`block.initial_rotation_ratio=${ratio}`, "block.initial_velocity_ratio=0", ...groundSettings(about, []), ...vertical];
 }

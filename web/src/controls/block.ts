@@ -19,9 +19,7 @@ export function fieldset(legend: string, ...children: HTMLElement[]): HTMLElemen
 /** The controls of the block. */
 export function blockControls(draft: Draft): Group {
   const words = texts.page.controls;
-  const size = numberField({ label: words.size, from: 0.2, to: 10, step: 0.05 }, (value) =>
-    draft.setBlock("size_m", value, ["frequency_parameter_1_s"]),
-  );
+  const size = numberField({ label: words.size, from: 0.2, to: 10, step: 0.05 }, (value) => draft.setSize(value));
   const slenderness = numberField({ label: words.slenderness, from: 2, to: 40, step: 0.25 }, (value) =>
     draft.setBlock("slenderness_deg", value),
   );

@@ -1,6 +1,8 @@
 /**
  * What the controls show and change: tables of the scene with every default. A change is made here first, so that the next one stands on it
  * although the run that shows it is still under way.
+ *
+ * Controls are in SI units; a value is written by the key that the scene has for it, since that may be an axis of its map.
  */
 import { listOf, numberOf, tableOf } from "../block/geometry";
 import type { About } from "../engine";
@@ -8,6 +10,9 @@ import type { Store } from "../store";
 
 /** A table of a scene. */
 export type Table = Record<string, unknown>;
+
+/** A key that may state a quantity, and the SI value of its 1. */
+type Unit = [key: string, si: number];
 
 const G = 9.80665;
 
@@ -29,38 +34,27 @@ export class Draft {
     this.grounds = listOf(resolved, "ground");
   }
 
-  /** Sets a key of the block; `instead` are keys that say the same and go. */
-  setBlock(key: string, value: unknown, instead: string[] = []): void {
-    this.block = change(
-      this.block,
-      key,
-      value,
-      instead,
-      (table) => this.store.setSetting(`block=${inline(table)}`),
-      () => this.store.setSetting(`block.${key}=${inline(value)}`),
-    );
+  /** Sets a key of the block. */
+  setBlock(key: string, value: number): void {
+    this.block = { ...this.block, [key]: value };
+    this.store.setSetting(`block.${key}=${inline(value)}`);
   }
 
-  /** Sets keys of all devices that `has` picks. */
-  setDevices(has: (table: Table) => boolean, key: string, value: unknown, instead: string[] = []): void {
-    this.devices.forEach((table, index) => {
-      if (has(table)) {
-        this.setDevice(index, key, value, instead);
-      }
-    });
+  /** Sets the size R (m), by p where the scene says that. */
+  setSize(sizeM: number): void {
+    if (numberOf(this.block, "frequency_parameter_1_s") === null) {
+      this.setBlock("size_m", sizeM);
+    } else {
+      const inertia = numberOf(this.block, "inertia_ratio") ?? 4 / 3;
+      this.setBlock("frequency_parameter_1_s", rounded(Math.sqrt(G / (inertia * sizeM))));
+    }
   }
 
-  /** Sets a key of a device. */
-  setDevice(index: number, key: string, value: unknown, instead: string[] = []): void {
-    const table = this.devices[index] ?? {};
-    this.devices[index] = change(
-      table,
-      key,
-      value,
-      instead,
-      (whole) => this.store.setSetting(`device.${index}=${inline(whole)}`),
-      () => this.store.setSetting(`device.${index}.${key}=${inline(value)}`),
-    );
+  /** Sets a key of all devices that `has` picks. */
+  setDevices(has: (table: Table) => boolean, key: string, value: unknown): void {
+    this.devices = this.devices.map((table) => (has(table) ? { ...table, [key]: value } : table));
+    const settings = this.devices.flatMap((table, index) => (has(table) ? [`device.${index}.${key}=${inline(value)}`] : []));
+    this.store.setSetting(...settings);
   }
 
   /** Sets the list of devices. */
@@ -69,63 +63,66 @@ export class Draft {
     this.store.setSetting(`device=${inline(devices)}`);
   }
 
-  /** Sets a key of the first ground motion. */
-  setGround(key: string, value: unknown, instead: string[] = []): void {
+  /** A quantity of the first ground motion in SI units; null where it has none. */
+  ground(quantity: Quantity): number | null {
     const table = this.grounds[0] ?? {};
-    this.grounds[0] = change(
-      table,
-      key,
-      value,
-      instead,
-      (whole) => this.store.setSetting(`ground.0=${inline(whole)}`),
-      () => this.store.setSetting(`ground.0.${key}=${inline(value)}`),
-    );
+    const [key, si] = this.unitOf(quantity) ?? [quantity, 1];
+    const value = numberOf(table, key);
+    return value === null ? null : rounded(value * si);
+  }
+
+  /** Sets a quantity of the first ground motion. */
+  setGround(quantity: Quantity, value: number): void {
+    const [key, si] = this.unitOf(quantity) ?? [quantity, 1];
+    const stated = rounded(value / si);
+    this.grounds = this.grounds.map((table, index) => (index === 0 ? { ...table, [key]: stated } : table));
+    this.store.setSetting(`ground.0.${key}=${inline(stated)}`);
+  }
+
+  /** Sets the kind of the first ground motion; everything else of it stays. */
+  setMotion(motion: string): void {
+    this.grounds = this.grounds.map((table, index) => (index === 0 ? { ...table, motion } : table));
+    this.store.setSetting(`ground.0.motion=${inline(motion)}`);
   }
 
   /** Sets the list of ground motions. */
   replaceGrounds(grounds: Table[]): void {
     this.grounds = grounds;
-    this.store.setSetting(`ground=${inline(grounds)}`);
+    this.store.setSetting(...groundSettings(this.about, grounds));
   }
 
-  /** Amplitude of the first ground motion (m/s²), whatever key states it; null without one. */
-  amplitudeMS2(): number | null {
+  private unitOf(quantity: Quantity): Unit | undefined {
     const table = this.grounds[0] ?? {};
-    const [ratio, g] = [numberOf(table, "amplitude_ratio"), numberOf(table, "amplitude_g")];
-    return (
-      numberOf(table, "amplitude_m_s2") ?? (g !== null ? g * G : ratio !== null ? ratio * (this.about?.upliftThresholdG ?? 0) * G : null)
-    );
-  }
-
-  /** Frequency of the first ground motion (Hz). */
-  frequencyHz(): number | null {
-    const table = this.grounds[0] ?? {};
-    const ratio = numberOf(table, "frequency_ratio");
-    return numberOf(table, "frequency_hz") ?? (ratio === null ? null : (ratio * this.p()) / (2 * Math.PI));
-  }
-
-  /** Duration of the first ground motion (s). */
-  durationS(): number | null {
-    const table = this.grounds[0] ?? {};
-    const ratio = numberOf(table, "duration_ratio");
-    return numberOf(table, "duration_s") ?? (ratio === null ? null : ratio / this.p());
-  }
-
-  private p(): number {
-    return this.about?.frequencyParameter1S ?? 1;
+    const p = this.about?.frequencyParameter1S ?? 1;
+    const ratios: Partial<Record<Quantity, Unit[]>> = {
+      amplitude_m_s2: [
+        ["amplitude_g", G],
+        ["amplitude_ratio", (this.about?.upliftThresholdG ?? 0) * G],
+      ],
+      frequency_hz: [["frequency_ratio", p / (2 * Math.PI)]],
+      duration_s: [["duration_ratio", 1 / p]],
+    };
+    const units: Unit[] = [[quantity, 1], ...(ratios[quantity] ?? [])];
+    return units.find(([key]) => numberOf(table, key) !== null);
   }
 }
 
-/** The table with the key changed: by the whole table where keys have to go with it, since a key that is not there cannot be left out. */
-function change(table: Table, key: string, value: unknown, instead: string[], whole: (table: Table) => void, single: () => void): Table {
-  const kept = Object.entries(table).filter(([name]) => !instead.includes(name));
-  const changed = { ...Object.fromEntries(kept), [key]: value };
-  if (kept.length < Object.keys(table).length) {
-    whole(changed);
-  } else {
-    single();
-  }
-  return changed;
+/** Quantities of a ground motion that have a control, by their keys in SI units. */
+export type Quantity = "amplitude_m_s2" | "velocity_amplitude_m_s" | "frequency_hz" | "duration_s" | "scale";
+
+/** The settings that make `grounds` the ground motions; a map over a value that they do not have goes. */
+export function groundSettings(about: About | null, grounds: Table[]): string[] {
+  const axes = about?.map ? [about.map.x, about.map.y].flatMap((axis) => axis ?? []) : [];
+  const lost = axes.some(({ key }) => {
+    const [list, index, name] = key.split(".");
+    return list === "ground" && grounds[Number(index)]?.[name ?? ""] === undefined;
+  });
+  return [`ground=${inline(grounds)}`, ...(lost ? ["map="] : [])];
+}
+
+/** A number without the last digits, which a conversion has made up. */
+function rounded(value: number): number {
+  return Number(value.toPrecision(12));
 }
 
 /** A value as TOML in one line; what is null is left out. */

@@ -10,6 +10,8 @@ import { spans, type Samples } from "./align";
 import { chart, type Chart, type Curve, type Marks } from "./chart";
 
 const G = 9.80665;
+/** Rotation θ/α up to which an overturning block is drawn. */
+const LOST = 1.25;
 const NONE: Marks = { tints: [], ticksS: new Float64Array(), guides: [0] };
 
 /** The section of the histories. */
@@ -67,7 +69,10 @@ function showRun(charts: readonly [Chart, Chart, Chart, Chart], run: Run, select
     guides: [0],
   };
   const curves = (values: (response: Response) => Float64Array) =>
-    responses.map((response, index) => curve(response.timeS, values(response), index, index === selected));
+    responses.map((response, index) => {
+      const count = shownSamples(response, alpha);
+      return curve(response.timeS.subarray(0, count), values(response).subarray(0, count), index, index === selected);
+    });
   const longest = responses.reduce((best, next) => ((next.timeS.at(-1) ?? 0) > (best.timeS.at(-1) ?? 0) ? next : best), chosen);
   const ground: Curve = {
     ...samples(longest.timeS, scaled(longest.groundMS2, 1 / G)),
@@ -89,6 +94,14 @@ function showRun(charts: readonly [Chart, Chart, Chart, Chart], run: Run, select
     endS,
   );
   forceChart.show(curves(force), { ...marks, ticksS: NONE.ticksS }, endS);
+}
+
+/** How many samples are drawn: the fall of a block that is lost would make everything else small. */
+function shownSamples({ rotationRad, summary }: Response, alpha: number): number {
+  if (!String(summary["outcome"]).startsWith("overturned")) {
+    return rotationRad.length;
+  }
+  return Math.min(rotationRad.findLastIndex((rotation) => Math.abs(rotation) < LOST * alpha) + 2, rotationRad.length);
 }
 
 /** Both flywheels' force; one at most is engaged. */

@@ -37,13 +37,11 @@ export async function openAddress(store: Store): Promise<void> {
 }
 
 async function read(store: Store, fragment: string): Promise<void> {
-  try {
-    const text = await unpack(fragment);
-    store.restart();
-    store.setSource(await withRecords(store, text));
-  } catch {
-    store.restart();
-    store.setSource({ text: startText, records: [] });
+  const text = await unpack(fragment).catch(() => null);
+  const source = text === null ? { text: startText, records: [] } : await withRecords(store, text);
+  store.restart();
+  store.setSource(source);
+  if (text === null) {
     store.failLater(texts.page.scene.broken);
   }
 }

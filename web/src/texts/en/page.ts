@@ -12,6 +12,7 @@ const outcome = (name: string) => OUTCOMES[name] ?? name.replaceAll("-", " ");
 
 /** What the page says. Functions put values into a sentence. */
 export const page = {
+  language: "en",
   title: "Sprag: rocking blocks with inerters and clutches",
   tagline: "A rigid block rocks in an earthquake. Flywheels, coupled by a clutch only while they resist, keep it from falling.",
   local: "Everything is computed on this machine, by the same code as in the firmware. Nothing leaves it.",
