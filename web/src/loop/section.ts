@@ -95,8 +95,8 @@ class LoopSection {
         this.form.show(about.resolved);
         await this.run();
       }
-    } catch {
-      // The store runs the same scene and says what is wrong with it.
+    } catch (problem) {
+      this.store.fail(problem);
     }
   }
 

@@ -64,10 +64,10 @@ export function mapSettings({ x, y }: { x: Axis; y: Axis | null }, resolved: unk
   return typeof at === "string" ? [...settings, `map.overturned_at="${at}"`] : settings;
 }
 
-/** `scene` without the values that the axes set, and without what no cell depends on: equal for scenes with the same map. */
-export function mapIdentity(resolved: unknown, axes: readonly Axis[], records: readonly { name: string }[]): string {
+/** A resolved scene without the values that the axes set, and without what no cell depends on: equal for scenes with the same map. */
+export function mapIdentity({ x, y }: { x: Axis; y: Axis | null }, resolved: unknown, records: readonly { name: string }[]): string {
   const copy: unknown = structuredClone(resolved);
-  for (const { key } of axes) {
+  for (const { key } of y === null ? [x] : [x, y]) {
     const parts = key.split(".");
     const last = parts.pop() ?? "";
     const place = lookUp(copy, parts.join("."));

@@ -96,22 +96,23 @@ class MapSection {
     this.latest += 1;
     const number = this.latest;
     try {
-      const [about, keys] = await Promise.all([this.engine.about(source), this.engine.keys(source)]);
+      const [found, keys] = await Promise.all([this.engine.about(source), this.engine.keys(source)]);
       if (number !== this.latest) {
         return;
       }
+      // The core leaves out what a scene does not have.
+      const about = { ...found, map: found.map ? { x: found.map.x, y: found.map.y ?? null } : null };
       [this.about, this.keys] = [about, keys];
       this.form.show(about.map ?? suggestedPair(keys), keys);
       await this.renew(about);
-    } catch {
-      // The store runs the same scene and says what is wrong with it.
+    } catch (problem) {
+      this.store.fail(problem);
     }
   }
 
   private async renew(about: About): Promise<void> {
     const { source } = this.store;
-    const axes = about.map === null ? [] : [about.map.x, ...(about.map.y === null ? [] : [about.map.y])];
-    const identity = about.map === null ? "" : mapIdentity(about.resolved, axes, source.records);
+    const identity = about.map === null ? "" : mapIdentity(about.map, about.resolved, source.records);
     if (identity !== this.identity || this.filling === null) {
       this.filling?.stop();
       this.playing.forget();
