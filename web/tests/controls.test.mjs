@@ -121,6 +121,6 @@ test("results are downloaded", async (t) => {
   assert.match((await file(toml)).toString(), /\[block\]/);
   const lines = (await file(csv)).toString().trim().split("\n");
   assert.ok(lines.length > 100 && lines.every((line) => line.split(",").length === lines[0].split(",").length));
-  assert.match((await file(svg)).toString(), /^<svg[^]*<\/svg>\s*$/);
+  assert.match((await file(svg)).toString(), /^(<\?xml[^>]*>\s*)?<svg[^]*<\/svg>\s*$/);
   assert.equal((await file(png)).subarray(1, 4).toString(), "PNG");
 });
