@@ -8,6 +8,7 @@ use sprag_cli::board::line::DeviceError;
 use sprag_shared::structure::error::ParameterError;
 use sprag_sim::closed_loop::LoopFailure;
 use sprag_sim::closed_loop::run::LoopError;
+use sprag_sim::map::cell::CellError;
 use sprag_sim::record::RecordError;
 use sprag_sim::scene::SceneError;
 use sprag_sim::scene::error::KeyPath;
@@ -134,10 +135,19 @@ impl Raise for RunError {
 impl Raise for MapError {
     fn raise(self) -> PyErr {
         match self {
-            MapError::Scene(error) => error.raise(),
-            MapError::Ground(error) => error.raise(),
-            MapError::Interrupted => PyKeyboardInterrupt::new_err(()),
-            MapError::Run { .. } | MapError::Block { .. } | MapError::Rows(_) => failed(self),
+            MapError::Cell(error) => error.raise(),
+            MapError::Rows(_) => failed(self),
+        }
+    }
+}
+
+impl Raise for CellError {
+    fn raise(self) -> PyErr {
+        match self {
+            CellError::Scene(error) => error.raise(),
+            CellError::Ground(error) => error.raise(),
+            CellError::Interrupted => PyKeyboardInterrupt::new_err(()),
+            CellError::Run { .. } | CellError::Block { .. } => failed(self),
         }
     }
 }

@@ -4,7 +4,7 @@ use numpy::{IntoPyArray as _, PyArrayMethods as _};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sprag_shared::observers::outcome::Outcome;
-use sprag_studies::map::grid::Grid;
+use sprag_sim::map::grid::Grid;
 use sprag_studies::map::study::study_rows;
 
 use crate::errors::Raise as _;

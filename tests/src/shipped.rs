@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use sprag_sim::map::grid::Grid;
 use sprag_sim::scene::{Scene, document, overrides, text_of};
 use sprag_sim::simulation::DeviceRun;
-use sprag_studies::map::grid::Grid;
 use sprag_studies::similarity::compare::Response;
 use sprag_studies::similarity::groups::{Group, groups};
 

@@ -5,16 +5,25 @@
 //! - [`output`]: files, whole or not at all; [`long_run`]: work that is split, interrupted and resumed.
 //! - [`progress`], [`streams`], [`signals`]: what a user sees of a command while it runs, and how it is stopped.
 //! - [`part`]: what the program may be built without.
+//!
+//! Without the feature `host` there are only tables in memory and figures, which need neither files nor threads nor a terminal.
 
 pub mod band;
 pub mod columns;
 pub mod heading;
+#[cfg(feature = "host")]
 pub mod long_run;
+#[cfg(feature = "host")]
 pub mod output;
+#[cfg(feature = "host")]
 pub mod page;
 pub mod part;
 pub mod plot;
+#[cfg(feature = "host")]
 pub mod progress;
+#[cfg(feature = "host")]
 pub mod signals;
+#[cfg(feature = "host")]
 pub mod streams;
+#[cfg(feature = "host")]
 pub mod text_table;

@@ -2,7 +2,7 @@
 //! thread or reads a clock, so that it also runs where there is neither.
 //!
 //! - [`scene`], [`record`], [`ground_motion`], [`synthesis`]: what is simulated.
-//! - [`simulation`]: one scene, every device; [`batch`]: one dimensionless case; [`accuracy`]: as accurate as asked, and how accurate that is.
+//! - [`simulation`]: one scene, every device; [`batch`]: one dimensionless case; [`map`]: a scene over two of its keys; [`accuracy`]: as accurate as asked, and how accurate that is.
 //! - [`sensor`], [`closed_loop`]: the controller that is flashed, with the sensors and the plant that it has on the host.
 //! - [`effect`]: what a scene may ask for, and what follows from it; [`history`]: the response sampled in time; [`csv_field`]: a name in a table; [`interrupt`]: a request to
 //!   stop.
@@ -17,6 +17,7 @@ pub mod ground_motion;
 pub mod history;
 pub mod interrupt;
 pub mod keys;
+pub mod map;
 pub mod record;
 pub mod scene;
 pub mod sensor;

@@ -2,12 +2,13 @@
 
 use sprag_report::progress::Progress;
 use sprag_shared::equation::clutch_rule::wheel_for;
+use sprag_sim::closed_loop::failing::{ALL, Failing, Part};
 use sprag_sim::closed_loop::plant::Extremes;
 use sprag_sim::closed_loop::run::Tick;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::controller::{EstimatorName, LawName};
 use sprag_studies::loop_study::bench::{Conditions, Variant, each, run_ideal, run_loop, with_loop};
-use sprag_studies::loop_study::faults::{self, Failing, INSTANTS, Instant, Part};
+use sprag_studies::loop_study::faults::{self, INSTANTS, Instant};
 use sprag_studies::loop_study::ideal_limit;
 use sprag_studies::loop_study::motion::{Motion, grid};
 use sprag_studies::loop_study::practice::Comparison;
@@ -167,7 +168,7 @@ fn faults_are_detected_and_do_no_harm() {
     let (progress, interrupt) = quiet();
     let conditions = Conditions::new(None, &interrupt);
     let results = faults::results(&progress, &conditions).unwrap();
-    for (failing, row) in faults::ALL.iter().zip(&results) {
+    for (failing, row) in ALL.iter().zip(&results) {
         for (instant, result) in INSTANTS.iter().zip(row) {
             assert_eq!(result.harm, [false; 3], "{failing:?} {instant:?}: {result:?}");
             if *failing == Failing::Contradicts(Part::Ground) && *instant != Instant::Rest {
@@ -183,7 +184,7 @@ fn faults_are_detected_and_do_no_harm() {
             assert!(exempt || time <= 0.005, "{failing:?} {instant:?}: {time} s");
         }
     }
-    let stuck = faults::ALL.iter().position(|failing| *failing == Failing::Stuck(Part::Encoder)).unwrap();
+    let stuck = ALL.iter().position(|failing| *failing == Failing::Stuck(Part::Encoder)).unwrap();
     for result in &results[stuck][2..] {
         assert!(result.detected.clone().unwrap().0 <= 0.005, "an encoder that is stuck in motion");
     }

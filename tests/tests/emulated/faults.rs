@@ -11,7 +11,7 @@ use sprag_shared::control::sensing::sensor::Sensor;
 use sprag_shared::control::supervisor::Phase;
 use sprag_sim::closed_loop::LoopScene;
 use sprag_sim::closed_loop::disturbance::Disturbance;
-use sprag_studies::loop_study::faults::{ALL, Failing, Injected, Part};
+use sprag_sim::closed_loop::failing::{ALL, Failing, Injected, Part};
 use sprag_tests::device_loop::{Course, Timed, Trial, faithful, mid_swing, on_the_host, pulse, row};
 use sprag_tests::dice::Dice;
 use sprag_tests::emulation::controller_firmware;

@@ -2,7 +2,7 @@
 
 use sprag_report::progress::Progress;
 use sprag_sim::interrupt::Interrupt;
-use sprag_studies::map::grid::Grid;
+use sprag_sim::map::grid::Grid;
 use sprag_studies::map::study::study;
 use sprag_studies::map::table::Labels;
 use sprag_studies::map::tally::Counts;

@@ -3,10 +3,12 @@
 use sprag_report::progress::Progress;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::interrupt::Interrupt;
+use sprag_sim::map::boundaries::{Boundary, EVALUATIONS};
+use sprag_sim::map::cell::results_at;
+use sprag_sim::map::grid::Grid;
 use sprag_sim::scene::{Scene, document};
-use sprag_studies::map::boundaries::{Boundary, EVALUATIONS, refine};
-use sprag_studies::map::grid::Grid;
-use sprag_studies::map::study::{results_at, study};
+use sprag_studies::map::boundaries::refine;
+use sprag_studies::map::study::study;
 
 /// R (m), and where the first overturning amplitude a_g/(g tan α) of the full block with α = 0.2 and η = 1 − 1.5 sin²α lies under one sine
 /// of 0.5 s, g = 9.80665 m/s². From github.com/Numerics-in-Motion/blocks, `under-this-pulse/data/transitions.csv`: DOP853 at two

@@ -7,11 +7,13 @@ use sprag_report::progress::Progress;
 use sprag_shared::math::{asin, exp, ln, square_root};
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::interrupt::Interrupt;
+use sprag_sim::map::boundaries::{Boundaries, Boundary, EVALUATIONS, TOLERANCE};
+use sprag_sim::map::cell::results_at;
+use sprag_sim::map::grid::{Grid, Values};
 use sprag_sim::scene::map::{AxisTable, ScaleName};
-use sprag_studies::map::boundaries::{Boundaries, Boundary, EVALUATIONS, TOLERANCE, refine};
+use sprag_studies::map::boundaries::refine;
 use sprag_studies::map::boundary_table::boundary_table;
-use sprag_studies::map::grid::{Grid, Values};
-use sprag_studies::map::study::{results_at, study};
+use sprag_studies::map::study::study;
 use sprag_tests::boundary;
 use sprag_tests::shipped::grid;
 

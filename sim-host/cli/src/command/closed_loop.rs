@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use sprag_report::heading::of_scene;
 use sprag_report::output::{ResultFolder, Subject};
-use sprag_report::plot::{FigureTitle, loop_figure};
+use sprag_report::plot::{FigureTitle, LoopTrace, loop_figure};
 use sprag_report::progress::Progress;
 use sprag_report::text_table::TextTable;
 use sprag_shared::observers::outcome::Outcome;
@@ -27,7 +27,6 @@ use sprag_studies::statistics::quantile;
 use super::accuracy_arguments::AccuracyArguments;
 use super::context::{Completion, Context, Run};
 use super::loop_scene;
-use super::loop_trace::loop_trace;
 use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
 use super::report::{Report, SceneInput};
@@ -108,7 +107,7 @@ impl Run for LoopArguments {
         report.summary(input, &desk.ground.records, &warnings, &subject, answer)?;
         report.file("history.csv", |file| write_history(&reports, file).map_err(std::io::Error::other))?;
         for (number, closed) in reports.iter().enumerate() {
-            let picture = loop_figure(heading(&desk.scene, closed), &loop_trace(closed, &desk.scene.block));
+            let picture = loop_figure(heading(&desk.scene, closed), &LoopTrace::of(closed, &desk.scene.block));
             report.picture(&numbered("loop", number), picture)?;
         }
         runs.iter().for_each(|run| report.print(run));

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use clap::Args;
 use sprag_report::output::{ResultFolder, Subject};
-use sprag_report::plot::loop_figure;
+use sprag_report::plot::{LoopTrace, loop_figure};
 use sprag_report::progress::Progress;
 use sprag_sim::accuracy::Closeness;
 use sprag_sim::closed_loop::answered::Looped;
@@ -20,7 +20,6 @@ use super::board_line::{LineArguments, connect};
 use super::closed_loop::{failed, heading, numbered};
 use super::context::{Completion, Context, Run};
 use super::loop_scene;
-use super::loop_trace::loop_trace;
 use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
 use super::report::{Report, Runs, SceneInput};
@@ -77,7 +76,7 @@ impl Run for HilArguments {
         let mut report = Report::new("hil", &folder, &self.output)?;
         let (mut reports, mut summaries, mut ticks) = (Vec::new(), Vec::new(), Vec::new());
         for (number, run) in runs.into_iter().enumerate() {
-            let mut trace = loop_trace(&run.report, &desk.scene.block);
+            let mut trace = LoopTrace::of(&run.report, &desk.scene.block);
             let alpha = desk.scene.block.slenderness();
             trace.rotation_host = run.host.iter().map(|tick| (tick.plant.time, tick.plant.motion.rotation / alpha)).collect();
             report.picture(&numbered("loop", number), loop_figure(heading(&desk.scene, &run.report), &trace))?;

@@ -10,17 +10,18 @@ use sprag_report::long_run::rows::{Plan, Rows};
 use sprag_report::long_run::shard::Shard;
 use sprag_report::progress::Progress;
 use sprag_report::text_table::{TextTable, number};
+use sprag_sim::map::boundaries::{Boundaries, EVALUATIONS};
+use sprag_sim::map::cell::CellError;
+use sprag_sim::map::grid::Grid;
 use sprag_sim::record::{RecordSummary, warning_lines};
 use sprag_sim::scene::ground::GroundTable;
 use sprag_sim::scene::map::AxisTable;
 use sprag_sim::scene::schema::SceneFile;
 use sprag_sim::scene::{Scene, SceneError, document, text_of};
-use sprag_studies::map::boundaries::{Boundaries, EVALUATIONS};
 use sprag_studies::map::boundary_figure;
 use sprag_studies::map::boundary_table::boundary_table;
 use sprag_studies::map::figures::figures;
-use sprag_studies::map::grid::Grid;
-use sprag_studies::map::study::{MapError, study_to};
+use sprag_studies::map::study::study_to;
 use sprag_studies::map::table::{Labels, columns};
 use sprag_studies::map::tally::{Counts, DeviceMap, Tally};
 
@@ -96,8 +97,8 @@ struct DeviceSummary<'a> {
 }
 
 impl<'a> DeviceSummary<'a> {
-    fn of(map: &'a DeviceMap, boundaries: Option<&Boundaries>) -> DeviceSummary<'a> {
-        let refined = boundaries.map(BoundarySummary::of);
+    fn of(map: &'a DeviceMap, boundaries: Option<(&Boundaries, &f64)>) -> DeviceSummary<'a> {
+        let refined = boundaries.map(|(boundaries, seconds)| BoundarySummary::of(boundaries, *seconds));
         DeviceSummary { device: &map.device, cells: map.counts.cells(), counts: map.counts, seconds: map.seconds, refined }
     }
 }
@@ -145,10 +146,11 @@ impl Run for MapArguments {
             return Ok(Completion::Complete);
         }
         let trace = || trace(&grid, &tally.maps, self.evaluations, interrupt);
-        let boundaries = if self.refine { pool.install(trace)? } else { Vec::new() };
+        let (boundaries, seconds) = if self.refine { pool.install(trace)? } else { Default::default() };
         let mut report = Report::new("map", &folder, &self.output)?;
         let maps = tally.maps.iter().enumerate();
-        let runs: Vec<_> = maps.map(|(device, map)| DeviceSummary::of(map, boundaries.get(device))).collect();
+        let runs: Vec<_> =
+            maps.map(|(device, map)| DeviceSummary::of(map, boundaries.get(device).zip(seconds.get(device)))).collect();
         let input = SceneInput { scene: &file };
         report.made_by(input)?;
         report.summary(input, &records, &warnings, &subject, Runs { runs: &runs })?;
@@ -162,7 +164,7 @@ impl Run for MapArguments {
             if let Some(picture) = boundary_figure::figure(&grid, &tally, &boundaries).transpose() {
                 report.picture("boundaries", picture)?;
             }
-            print_boundaries(&mut report, &boundaries);
+            print_boundaries(&mut report, &boundaries, &seconds);
         }
         report.finish(context)
     }
@@ -184,7 +186,7 @@ impl Divided for MapArguments {
 }
 
 /// The records of the first cell, by the names that `file` has for them.
-fn records(grid: &Grid, file: &SceneFile) -> Result<Vec<RecordSummary>, MapError> {
+fn records(grid: &Grid, file: &SceneFile) -> Result<Vec<RecordSummary>, CellError> {
     let mut first = grid.scene_of(0, 0)?;
     let as_written = |tables: &mut [GroundTable], written: &[GroundTable]| {
         for (table, written) in tables.iter_mut().zip(written) {

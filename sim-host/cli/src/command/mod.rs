@@ -26,8 +26,6 @@ pub mod long_run_arguments;
 pub mod loop_scene;
 #[cfg(feature = "effects")]
 pub mod loop_study;
-#[cfg(feature = "effects")]
-mod loop_trace;
 pub mod manual;
 pub mod map;
 mod map_boundaries;

@@ -24,6 +24,8 @@ mod lane;
 mod layer;
 mod legend;
 mod loop_figure;
+#[cfg(feature = "effects")]
+mod loop_trace;
 mod map_curve;
 mod marker;
 mod palette;

@@ -1,34 +1,17 @@
 //! Widths of texts, in the font of PNG pictures: most sans-serif fonts that show SVG are narrower.
 
-use std::sync::LazyLock;
-
-use skrifa::charmap::Charmap;
-use skrifa::instance::{LocationRef, Size};
-use skrifa::metrics::GlyphMetrics;
-use skrifa::{FontRef, MetadataProvider};
+include!(concat!(env!("OUT_DIR"), "/widths.rs"));
 
 /// Of a character that the font does not have, relative to the font size.
 const MISSING: f32 = 1.0;
 
-/// Characters and widths (for a font size of 1) of a font.
-struct Face {
-    characters: Charmap<'static>,
-    widths: GlyphMetrics<'static>,
-}
-
-/// `None` should the font be unreadable; texts are then taken to be as wide as they can be.
-static UPRIGHT: LazyLock<Option<Face>> = LazyLock::new(|| {
-    let font = FontRef::new(dejavu::sans::regular()).ok()?;
-    Some(Face { characters: font.charmap(), widths: font.glyph_metrics(Size::new(1.0), LocationRef::default()) })
-});
-
 /// Width of `text` in pixels at `font_px`.
 pub(super) fn text_width_px(text: &str, font_px: f64) -> f64 {
     let of = |character: char| {
-        let face = UPRIGHT.as_ref()?;
-        face.widths.advance_width(face.characters.map(character)?)
+        let found = WIDTHS.binary_search_by_key(&u32::from(character), |(character, _)| *character);
+        found.map_or(MISSING, |index| f32::from(WIDTHS[index].1) / UNITS)
     };
-    text.chars().map(|character| f64::from(of(character).unwrap_or(MISSING))).sum::<f64>() * font_px
+    text.chars().map(|character| f64::from(of(character))).sum::<f64>() * font_px
 }
 
 #[cfg(test)]

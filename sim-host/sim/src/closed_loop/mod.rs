@@ -6,6 +6,7 @@ pub mod decisions;
 mod design;
 pub mod disturbance;
 pub mod driver;
+pub mod failing;
 pub mod feedback;
 mod gains;
 pub mod loop_scene;

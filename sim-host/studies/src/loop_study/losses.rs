@@ -3,10 +3,11 @@
 use sprag_report::progress::Progress;
 use sprag_report::text_table::TextTable;
 use sprag_shared::observers::outcome::Outcome;
+use sprag_sim::closed_loop::failing::{Failing, Injected, Part};
 use sprag_sim::closed_loop::plant::Extremes;
 
 use super::bench::{Conditions, StudyError, Variant, each, with_loop};
-use super::faults::{Failing, Injected, Part, instants};
+use super::faults::instants;
 use super::motion::{Motion, grid};
 use super::practice::{COLUMNS, Comparison};
 use super::report::Report;

@@ -1,74 +1,22 @@
-//! The boundaries of a map: where one outcome gives way to another, to a relative 1e-6 of the axes' values.
-
-use std::time::Instant;
+//! The boundaries of a map, on all cores.
 
 use rayon::prelude::*;
 use sprag_report::progress::Progress;
-use sprag_shared::math;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::interrupt::Interrupt;
-use sprag_sim::scene::map::{AxisTable, ScaleName};
-
-use super::grid::{Grid, Values};
-use super::refine::{Polyline, Position, Tolerance, trace};
-use super::study::{MapError, results_at};
-
-/// How closely boundaries are followed, relative to the value of either axis.
-pub const TOLERANCE: f64 = 1e-6;
-
-/// The part of a linear axis's span below which values count as this part of it: nothing is relative to zero.
-pub const NEAR_ZERO: f64 = 1e-3;
-
-/// Evaluations of one device, unless the user has others.
-pub const EVALUATIONS: usize = 2_000_000;
+use sprag_sim::map::boundaries::{self, Boundaries};
+use sprag_sim::map::cell::{CellError, results_at};
+use sprag_sim::map::grid::{Grid, Values};
 
 /// Blocks of a batch that one task takes, at most and at least.
 const MOST_AT_ONCE: usize = 2048;
 const LEAST_AT_ONCE: usize = 8;
 
-/// A boundary between two outcomes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Boundary {
-    /// Outcome on the left of a walk along the vertices, x to the right and y up. In a cut: at smaller x.
-    pub left: Outcome,
-    /// Outcome on the right. In a cut: at larger x.
-    pub right: Outcome,
-    /// Values of the axes; the first is the last of a closed boundary. In a cut: one.
-    pub vertices: Vec<Values>,
-}
-
-/// The boundaries of one device's map.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Boundaries {
-    /// Name of the device.
-    pub device: String,
-    /// In order of their outcomes.
-    pub boundaries: Vec<Boundary>,
-    /// Blocks that were followed beside those of the grid.
-    pub evaluations: usize,
-    /// Squares (in a cut: intervals) in which the boundaries were not followed to the tolerance, since evaluations ran out.
-    pub unresolved: usize,
-    /// Width of the largest of them relative to the value of its axis, as the tolerance is; 0 without any.
-    pub unresolved_width: f64,
-    /// Time that it took, s.
-    pub seconds: f64,
-}
-
-impl Boundaries {
-    /// Vertices of all boundaries.
-    pub fn vertices(&self) -> usize {
-        self.boundaries.iter().map(|boundary| boundary.vertices.len()).sum()
-    }
-}
-
-/// Traces the boundaries of the map of `device`, whose cells have `outcomes`, row by row from the lowest, with no more than `evaluations`
-/// further blocks, on rayon's threads; results do not depend on how many there are.
-///
-/// A boundary that separates two neighbouring cells is followed wherever it leads. An island or a bay that no cell lies in and that is
-/// not met on the way is not found.
+/// Traces the boundaries of the map of `device` as [`boundaries::refine`] does, on rayon's threads; results do not depend on how many there
+/// are.
 ///
 /// # Errors
-/// [`MapError`] names the place.
+/// [`CellError`] names the place.
 pub fn refine(
     grid: &Grid,
     device: usize,
@@ -76,69 +24,19 @@ pub fn refine(
     evaluations: usize,
     progress: &Progress,
     interrupt: &Interrupt,
-) -> Result<Boundaries, MapError> {
-    let start = Instant::now();
-    let values = |place: &Position| grid.values_at(place.column, place.row);
-    let evaluate = |places: &[Position]| {
+) -> Result<Boundaries, CellError> {
+    boundaries::refine(grid, device, outcomes, evaluations, |places: &[Values]| {
         progress.begin(places.len() as u64);
-        let places: Vec<Values> = places.iter().map(values).collect();
         let share = places.len().div_ceil(4 * rayon::current_num_threads()).clamp(LEAST_AT_ONCE, MOST_AT_ONCE);
         let parts = places.par_chunks(share).map(|part| {
             if interrupt.is_set() {
-                return Err(MapError::Interrupted);
+                return Err(CellError::Interrupted);
             }
             let results = results_at(grid, device, part, interrupt)?;
             progress.advance(part.len() as u64);
             Ok(results.iter().map(|result| result.outcome).collect())
         });
         let parts: Vec<Vec<Outcome>> = parts.collect::<Result<_, _>>()?;
-        Ok::<_, MapError>(parts.concat())
-    };
-    let tolerance = Tolerance { columns: shares(&grid.map.x), rows: grid.map.y.as_ref().map(shares).unwrap_or_default() };
-    let traced = trace(grid.columns(), outcomes, tolerance, evaluations, evaluate)?;
-    let boundary = |Polyline { left, right, vertices }: &Polyline<Outcome>| Boundary {
-        left: *left,
-        right: *right,
-        vertices: vertices.iter().map(values).collect(),
-    };
-    Ok(Boundaries {
-        device: grid.scene.devices[device].name.clone(),
-        boundaries: traced.polylines.iter().map(boundary).collect(),
-        evaluations: traced.evaluations,
-        unresolved: traced.unresolved.squares,
-        unresolved_width: traced.unresolved.largest * TOLERANCE,
-        seconds: start.elapsed().as_secs_f64(),
+        Ok(parts.concat())
     })
-}
-
-/// The tolerance between neighbouring cells of `axis`, as a share of the way from one to the next.
-fn shares(axis: &AxisTable) -> Vec<f64> {
-    let floor = NEAR_ZERO * (axis.to - axis.from);
-    let share = |index: usize| {
-        let (low, high) = (axis.value(index), axis.value(index + 1));
-        match axis.scale {
-            ScaleName::Linear => {
-                // An interval around zero is as near to it as any.
-                let least = if low < 0.0 && high > 0.0 { 0.0 } else { low.abs().min(high.abs()) };
-                TOLERANCE * least.max(floor) / (high - low)
-            }
-            ScaleName::Logarithmic => TOLERANCE / math::ln(high / low),
-        }
-    };
-    (0..axis.cells - 1).map(share).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn tolerances_are_relative_to_values_and_near_zero_to_the_span() {
-        let linear: AxisTable = "block.restitution=-1:3:5".parse().unwrap();
-        let expected = [4e-9, 4e-9, 1e-6, 2e-6];
-        assert!(shares(&linear).iter().zip(expected).all(|(share, expected)| (share / expected - 1.0).abs() < 1e-12));
-        let logarithmic: AxisTable = "block.size_m=0.1:10:3:log".parse().unwrap();
-        let expected = TOLERANCE / math::ln(10.0);
-        assert!(shares(&logarithmic).iter().all(|share| (share / expected - 1.0).abs() < 1e-12));
-    }
 }

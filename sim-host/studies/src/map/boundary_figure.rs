@@ -6,11 +6,11 @@ use sprag_shared::math;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::scene::map::{AxisTable, ScaleName};
 
-use super::boundaries::{Boundaries, Boundary};
 use super::figures::small_multiples;
-use super::grid::{Grid, Values};
 use super::regions::{Piece, regions};
 use super::tally::Tally;
+use sprag_sim::map::boundaries::{Boundaries, Boundary};
+use sprag_sim::map::grid::{Grid, Values};
 
 /// Every pair of outcomes that a boundary may separate, with its name in the legend; the place is that of its look.
 const PAIRS: [(Outcome, Outcome, &str); 6] = [

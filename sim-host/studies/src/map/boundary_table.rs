@@ -3,8 +3,8 @@
 use sprag_report::columns::{Column, FieldTable, Fields, Table};
 use sprag_sim::scene::map::MapTable;
 
-use super::boundaries::{Boundaries, Boundary};
-use super::grid::{Grid, Values};
+use sprag_sim::map::boundaries::{Boundaries, Boundary};
+use sprag_sim::map::grid::{Grid, Values};
 
 /// A vertex of a boundary.
 struct VertexRow<'m> {

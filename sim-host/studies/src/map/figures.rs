@@ -10,8 +10,8 @@ use sprag_shared::math;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::scene::map::{AxisTable, OverturnedAt, ScaleName};
 
-use super::grid::Grid;
 use super::tally::{DeviceMap, Shown, Tally};
+use sprag_sim::map::grid::Grid;
 
 /// A peak of a cell.
 type Peak = fn(&PulseResult) -> f64;

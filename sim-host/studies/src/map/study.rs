@@ -3,56 +3,27 @@
 use std::ops::Range;
 use std::time::Instant;
 
-use sprag_ensemble::machine::{Registers, run, shake};
 use sprag_ensemble::pulsed::PulseResult;
-use sprag_ensemble::shaken::Shaken;
 use sprag_report::long_run::error::LongRunError;
 use sprag_report::long_run::in_order::in_order;
 use sprag_report::long_run::rows::Rows;
 use sprag_report::progress::Progress;
-use sprag_sim::batch::case::CaseError;
 use sprag_sim::interrupt::Interrupt;
-use sprag_sim::scene::ground::GroundError;
-use sprag_sim::scene::{Scene, SceneError};
-use sprag_sim::simulation::{DeviceRun, RunError, simulate_for_study};
+use sprag_sim::map::cell::{CellError, results_at};
+use sprag_sim::map::grid::{Grid, Values};
 
-use super::grid::{Grid, Subject, Values};
 use super::table::Labels;
 use super::tally::{DeviceMap, Tally};
 
 /// Reasons why a map could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum MapError {
-    /// The scene, or that of a cell.
+    /// A cell.
     #[error("{0}")]
-    Scene(#[from] SceneError),
-    /// The ground motion of a cell.
-    #[error("{0}")]
-    Ground(#[from] GroundError),
-    /// A scene that cannot be simulated.
-    #[error("{place}: {error}")]
-    Run {
-        /// Values of the axes.
-        place: String,
-        /// Error of the run.
-        error: RunError,
-    },
-    /// A block that cannot be followed.
-    #[error("{device}, {place}: {error}")]
-    Block {
-        /// Device.
-        device: String,
-        /// Values of the axes.
-        place: String,
-        /// Error of the case.
-        error: CaseError,
-    },
+    Cell(#[from] CellError),
     /// Rows that cannot be kept, or resumed.
     #[error("{0}")]
     Rows(#[from] LongRunError),
-    /// Ctrl-C.
-    #[error("interrupted")]
-    Interrupted,
 }
 
 /// A part of a device's cells, worked out.
@@ -70,7 +41,7 @@ pub fn study(grid: &Grid, progress: &Progress, interrupt: &Interrupt) -> Result<
     let mut tally = Tally::new(grid);
     progress.begin(grid.table_rows() as u64);
     let whole = run_rows(grid, 0..grid.table_rows(), None, &mut tally, progress, interrupt, |_| Ok(()))?;
-    if whole { Ok(tally.maps) } else { Err(MapError::Interrupted) }
+    if whole { Ok(tally.maps) } else { Err(CellError::Interrupted.into()) }
 }
 
 /// Runs `grid` with every device, and gives each row of the map's table to `each`, in order, with its number.
@@ -85,7 +56,7 @@ pub fn study_rows(grid: &Grid, interrupt: &Interrupt, mut each: impl FnMut(usize
         part.rows.clone().zip(&part.results).for_each(|(row, result)| each(row, *result));
         Ok(())
     })?;
-    if whole { Ok(()) } else { Err(MapError::Interrupted) }
+    if whole { Ok(()) } else { Err(CellError::Interrupted.into()) }
 }
 
 /// Works out what is left of `rows`, adds it there and to `tally`; `false` when it was interrupted.
@@ -131,7 +102,7 @@ fn run_rows(
             let cells = rows.start - first..rows.end - first;
             let places: Vec<Values> = cells.map(|cell| grid.values(cell % grid.columns(), cell / grid.columns())).collect();
             let results = match results_at(grid, device, &places, interrupt) {
-                Err(MapError::Interrupted) => return Ok(None),
+                Err(CellError::Interrupted) => return Ok(None),
                 results => results?,
             };
             let mut text = Vec::new();
@@ -153,66 +124,4 @@ fn run_rows(
         }
     }
     Ok(true)
-}
-
-/// What becomes of the block with device `device` at `places`: of those that are blocks under a pulse or a record side by side, of the others
-/// one by one.
-///
-/// # Errors
-/// [`MapError`] names the place.
-pub fn results_at(grid: &Grid, device: usize, places: &[Values], interrupt: &Interrupt) -> Result<Vec<PulseResult>, MapError> {
-    let mut results = vec![PulseResult::NO_ROCKING; places.len()];
-    let (mut pulsed, mut pulsed_places) = (Vec::with_capacity(places.len()), Vec::with_capacity(places.len()));
-    let (mut shaken, mut shaken_places) = (Vec::new(), Vec::new());
-    for (index, &values) in places.iter().enumerate() {
-        let scene = match grid.subject(device, values)? {
-            Subject::Pulsed(block) => {
-                pulsed.push(block);
-                pulsed_places.push(index);
-                continue;
-            }
-            Subject::Scene(scene) => scene,
-        };
-        match grid.shaken(&scene, device) {
-            Some(block) => {
-                shaken.push(block);
-                shaken_places.push((index, scene));
-            }
-            None => results[index] = simulated(&scene.only(device), || grid.place(values), interrupt)?,
-        }
-    }
-    let name = &grid.scene.devices[device].name;
-    let found = run(&pulsed, Registers::Widest).map_err(|(index, error)| {
-        let place = grid.place(places[pulsed_places[index]]);
-        MapError::Block { device: name.clone(), place, error }
-    })?;
-    for (result, index) in found.into_iter().zip(pulsed_places) {
-        results[index] = result;
-    }
-    for ((block, found), (index, scene)) in shaken.iter().zip(shake(&shaken, Registers::Widest)).zip(shaken_places) {
-        let only = scene.only(device);
-        let after =
-            |found: Shaken| found.after(&block.plain, &only.structure(0), block.samples.duration(), only.free_time_s()).ok();
-        results[index] = match found.and_then(after) {
-            Some(found) => PulseResult::of_shaken(&found, &only.block),
-            None => simulated(&only, || grid.place(places[index]), interrupt)?,
-        };
-    }
-    Ok(results)
-}
-
-/// A block simulated as the scene that it is, which has one device; `place` says where it is on the map.
-fn simulated(scene: &Scene, place: impl Fn() -> String, interrupt: &Interrupt) -> Result<PulseResult, MapError> {
-    let ground = scene.ground_motions()?;
-    let runs = simulate_for_study(scene, &ground, interrupt).map_err(|error| match error {
-        RunError::Interrupted => MapError::Interrupted,
-        error => MapError::Run { place: place(), error },
-    })?;
-    let found = |peak: Option<f64>| peak.unwrap_or(f64::NAN);
-    let result = |run: &DeviceRun| PulseResult {
-        outcome: run.outcome,
-        peak_rotation: found(run.peak_rotation),
-        peak_acceleration: found(run.peak_acceleration),
-    };
-    Ok(runs.first().map_or(PulseResult::NO_ROCKING, result))
 }

@@ -6,7 +6,7 @@ use sprag_report::columns::{Column, TableError};
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::csv_field::quoted;
 
-use super::grid::Grid;
+use sprag_sim::map::grid::Grid;
 
 /// `device`, the keys of the axes, `outcome`, `peak_rotation` and `peak_acceleration`: peaks max|θ|/α and max|θ̈|/(p²α), empty when overturned;
 /// numbers read back to the same f64. Devices one after another, of each cells row by row from the lowest, each from the left.

@@ -4,7 +4,7 @@ use serde::Serialize;
 use sprag_ensemble::pulsed::PulseResult;
 use sprag_shared::observers::outcome::Outcome;
 
-use super::grid::Grid;
+use sprag_sim::map::grid::Grid;
 
 /// Cells that a picture shows along an axis, at most: more than a page can print. A cut, which is a line, shows all.
 const MOST_SHOWN: usize = 1024;

@@ -6,12 +6,13 @@ use sprag_ensemble::pulsed::PulsedBlock;
 use sprag_ensemble::shaken::{Samples, ShakenBlock};
 use sprag_shared::structure::block::GRAVITY;
 use sprag_shared::structure::mount::Mount;
-use sprag_sim::batch::case::PulseShape;
-use sprag_sim::scene::ground::Motion;
-use sprag_sim::scene::map::{AxisTable, MapTable};
-use sprag_sim::scene::schema::RestitutionValue;
-use sprag_sim::scene::{Scene, SceneError};
 use toml::Table;
+
+use crate::batch::case::PulseShape;
+use crate::scene::ground::Motion;
+use crate::scene::map::{AxisTable, MapTable};
+use crate::scene::schema::RestitutionValue;
+use crate::scene::{Scene, SceneError};
 
 /// A scene with the axes of its map.
 #[derive(Clone, Debug)]
@@ -72,7 +73,7 @@ impl Grid {
     /// # Errors
     /// [`SceneError`] when the scene has no axes, or a value at a corner of the map is outside its range.
     pub fn new(mut scene: Scene, text: Table) -> Result<Grid, SceneError> {
-        let key = |key: &str| sprag_sim::scene::error::KeyPath { origin: scene.origin.clone(), key: key.to_owned() };
+        let key = |key: &str| crate::scene::error::KeyPath { origin: scene.origin.clone(), key: key.to_owned() };
         let Some(map) = scene.file.map.clone() else {
             return Err(key("map.x").missing("a [map] table with an axis x, or --x KEY=FROM:TO:CELLS"));
         };
@@ -110,7 +111,7 @@ impl Grid {
     }
 
     /// Cells of device `device` that one task works on: so many that their lanes are full, or one where each is a simulation.
-    pub(super) fn task(&self, device: usize) -> usize {
+    pub fn task(&self, device: usize) -> usize {
         match (&self.direct[device], pulsed(&self.scene, device), &self.record) {
             (Some(_), ..) => 2048,
             (None, Some(_), _) => 256,
@@ -173,7 +174,7 @@ impl Grid {
     }
 
     /// KEY=VALUE of both axes; values read back to the same f64.
-    fn settings(&self, (x, y): Values) -> Vec<String> {
+    pub fn settings(&self, (x, y): Values) -> Vec<String> {
         let setting = |axis: &AxisTable, value: f64| format!("{}={value:?}", axis.key);
         let mut settings = vec![setting(&self.map.x, x)];
         settings.extend(self.map.y.iter().zip(y).map(|(axis, value)| setting(axis, value)));

@@ -1,0 +1,47 @@
+//! The bits that shipped scenes come to on every machine: this page, the command, the firmware.
+
+use serde::Serialize;
+
+use crate::closed_loop;
+use crate::examples::{EXAMPLES, near_fault};
+use crate::run;
+use crate::scene::{PageError, PageScene};
+
+/// What the firmware decides and the command computes, checked against both where they are built.
+const EXPECTED: &str = include_str!("../../../scenes/digests.csv");
+
+/// A digest as it is computed here, and as it is elsewhere.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DigestCheck {
+    /// Scene and what is looked at.
+    pub scene: String,
+    /// Here.
+    pub computed: String,
+    /// Elsewhere.
+    pub expected: String,
+}
+
+/// Computes all of them.
+///
+/// # Errors
+/// [`PageError`] for a scene that cannot be run.
+pub fn digests() -> Result<Vec<DigestCheck>, PageError> {
+    let lines = EXPECTED
+        .lines()
+        .skip(1)
+        .filter_map(|line| line.split_once(',').and_then(|(name, rest)| Some((name, rest.split_once(',')?))));
+    let mut checks = Vec::new();
+    for (name, (decisions, motion)) in lines {
+        let text = EXAMPLES.iter().find(|example| example.name == name).map(|example| example.text);
+        let scene = PageScene::new(text.ok_or_else(|| PageError::Failed(format!("no example {name}")))?, &[near_fault()])?;
+        let ticks = closed_loop::report(&scene.scene, &[])?.ticks;
+        let of = |what: &str, computed, expected: &str| DigestCheck {
+            scene: format!("{name}, {what}"),
+            computed,
+            expected: expected.to_owned(),
+        };
+        checks.push(of("decisions (f32)", closed_loop::digest(&ticks), decisions));
+        checks.push(of("responses (f64)", run::digest(&run::responses(&scene.scene)?), motion));
+    }
+    Ok(checks)
+}
