@@ -56,9 +56,5 @@ async function withRecords(store: Store, text: string): Promise<Source> {
   const shipped = (await store.engine.examples()).flatMap(({ records }) => records);
   const atHand = new Map<string, RecordFile>([...shipped, ...store.source.records].map((file) => [file.name, file]));
   const named = recordsOf(text);
-  const missing = named.find((name) => !atHand.has(name));
-  if (missing !== undefined) {
-    store.failLater(texts.page.scene.missing(missing));
-  }
   return { text, records: named.flatMap((name) => atHand.get(name) ?? []) };
 }

@@ -164,7 +164,6 @@ export const page = {
     linkRecords: "The link has the scene, but not its own record: whoever opens it needs the file too.",
     tooLong: "The scene is too long for an address; hand on the file instead.",
     broken: "The address of this page has no scene that can be read (it may have been cut off); here is the first example instead.",
-    missing: (name: string) => `The scene of this address is shaken by ${name}, which is not here; drop that file on the page.`,
     download: "Download",
     toml: "scene.toml",
     csv: "history.csv",
