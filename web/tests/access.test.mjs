@@ -49,10 +49,7 @@ for (const width of [360, 1024, 2560]) {
 
 test("every control has a name, and is reached by Tab with a focus that is seen", async (t) => {
   const page = await full(t, {});
-  await page.evaluate(() => {
-    scrollTo(0, 0);
-    document.activeElement?.blur();
-  });
+  await page.getByLabel(words.theme.label, { exact: true }).focus();
   const count = await page
     .locator("button:visible:enabled, select:visible:enabled, input:visible:enabled, textarea:visible, [tabindex='0']:visible")
     .count();

@@ -140,5 +140,6 @@ test("axes, scale, bands, cut and boundaries", async (t) => {
   await up.getByLabel(words.key).selectOption("");
   await until("one panel for a cut", async () => (await panels(page).count()) === 1);
   await until("a curve a device", async () => (await panels(page).first().locator("svg path").count()) >= 3);
+  await filled(page);
   await keep(page, "cut");
 });

@@ -112,6 +112,13 @@ export function ringSvg(plot: Plot, across: number, up: number, dashed: boolean)
   return ring("#ffffff", 4, "none") + ring("#111111", 2, dashed ? "3 2.5" : "none");
 }
 
+/** An upright line at a place of a cut (0 to 1); dashed for the scene, whole for the cursor. */
+export function uprightSvg(plot: Plot, across: number, dashed: boolean): string {
+  const x = px(plot.left + across * plot.width);
+  const dashes = dashed ? "3 2.5" : "none";
+  return `<path d="M${x} ${plot.top}V${plot.top + plot.height}" stroke="currentColor" stroke-dasharray="${dashes}"/>`;
+}
+
 /** `text` where SVG is written by hand. */
 export function escaped(text: string): string {
   return text.replace(/[&<>"]/g, (character) => `&#${character.charCodeAt(0)};`);

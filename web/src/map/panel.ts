@@ -1,7 +1,7 @@
 /** The map of one device: cells on a canvas, axes and marks above them, and who points at a cell. */
 import { el } from "../dom";
 import { texts } from "../texts";
-import { type DrawnAxis, type Plot, axesSvg, heightOf, insideSvg, plotOf, ringSvg } from "./drawing";
+import { type DrawnAxis, type Plot, axesSvg, heightOf, insideSvg, plotOf, ringSvg, uprightSvg } from "./drawing";
 
 /** A cell by its place. */
 export interface Place {
@@ -117,7 +117,9 @@ export class Panel {
   }
 
   private drawMarks(): void {
-    this.marks.innerHTML = this.rings.map(({ across, up, dashed }) => ringSvg(this.plot, across, up, dashed)).join("");
+    this.marks.innerHTML = this.rings
+      .map(({ across, up, dashed }) => (this.hasCells ? ringSvg(this.plot, across, up, dashed) : uprightSvg(this.plot, across, dashed)))
+      .join("");
   }
 
   private listen(reaction: Reaction): void {

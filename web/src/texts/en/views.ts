@@ -42,7 +42,7 @@ export const views = {
     csv: "map.csv",
     svg: "map.svg",
     png: "map.png",
-    legend: "Colours",
+    legend: "What the colours of the map mean",
   },
   /** Names of keys, with N for numbers of tables; another key goes by its own words. */
   quantities: {
