@@ -33,7 +33,6 @@ function build(engine: Engine): Store {
   catchAll(store);
   startClock(store);
   const stage = el("section", { className: "card", id: "block" }, el("h2", { textContent: texts.page.block.heading }), blockPanel(store));
-  stage.append(el("p", { className: "hint", textContent: texts.page.block.legend }));
   const controls = el("section", { className: "card", id: "controls" }, controlPanel(store));
   const main = el("main", { id: "main" }, el("div", { className: "top" }, stage, controls, historyPanel(store)));
   document.body.replaceChildren(header(), statusLine(store), main, ...document.querySelectorAll<HTMLElement>(".veil"));

@@ -2,6 +2,7 @@
 import { button, choice, el, say } from "./dom";
 import { groundSettings } from "./controls/draft";
 import type { RecordAbout, RecordFile } from "./engine";
+import { recordsOf } from "./scene/open";
 import type { Store } from "./store";
 import { texts } from "./texts";
 
@@ -82,7 +83,7 @@ function describe(about: RecordAbout): string {
   return [texts.page.records.about(name, format, units, samples, timeStepS, pgaMS2, pgvMS), ...warnings].join(". ");
 }
 
-/** Makes the record the only ground motion of the scene. */
+/** Makes the record the only ground motion of the scene, but where the scene names it already. */
 async function shake(store: Store, file: RecordFile, options: { units?: string; timeStepS?: number }): Promise<void> {
   const { source, engine } = store;
   const table = {
@@ -93,7 +94,11 @@ async function shake(store: Store, file: RecordFile, options: { units?: string; 
     ...(options.timeStepS === undefined ? {} : { time_step_s: options.timeStepS }),
   };
   const records = [...source.records.filter(({ name }) => name !== file.name), file];
-  const text = await engine.set({ text: source.text, records }, groundSettings(store.run?.about ?? null, [table]));
+  // What was said of units and time step has to go into the scene.
+  const waitsForIt = recordsOf(source.text).includes(file.name) && Object.keys(options).length === 0;
+  const text = waitsForIt
+    ? source.text
+    : await engine.set({ text: source.text, records }, groundSettings(store.run?.about ?? null, [table]));
   store.restart();
   store.setSource({ text, records });
 }

@@ -190,7 +190,7 @@ export class Store {
     this.notify("message");
   }
 
-  /** Shows a line that the run that is under way does not take away. */
+  /** Shows a line that neither the success nor the failure of the run that is under way takes away. */
   failLater(line: string): void {
     this.remark = line;
     this.fail(line);
@@ -268,9 +268,10 @@ export class Store {
         this.notify("run");
         this.begin();
       } catch (problem) {
-        if (this.wanted === null) {
+        if (this.wanted === null && this.remark === "") {
           this.fail(problem);
         }
+        this.remark = "";
       }
     }
     this.isWorking = false;

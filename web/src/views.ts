@@ -1,2 +1,4 @@
 /** The sections below the histories, in their order: each module calls `mountView`. */
-export {};
+import "./map/section";
+import "./loop/section";
+import "./trust/section";

@@ -25,7 +25,7 @@ export function blockPanel(store: Store): HTMLElement {
     }
   });
   startByItself(store);
-  return el("div", { className: "block" }, frame, hint, preview(store), again(store), transport(store), results(store));
+  return el("div", { className: "block" }, frame, hint, preview(store), again(store), transport(store), results(store), stage.legend);
 }
 
 /** Plays what is new from its beginning; where the motion is still under way, it goes on with what has changed. */

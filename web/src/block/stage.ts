@@ -1,7 +1,7 @@
 /** The canvas with all devices side by side: how it is divided, and what a frame draws. */
 import { drawSoon } from "../clock";
 import { deviceLook, surface } from "../colours";
-import { el } from "../dom";
+import { el, say } from "../dom";
 import type { Store } from "../store";
 import { texts } from "../texts";
 import { onTheme } from "../theme";
@@ -25,9 +25,12 @@ const LABEL_PX = 38;
 /** The canvas of the blocks. */
 export class Stage {
   readonly canvas = el("canvas", { className: "stage" });
+  /** What is to scale in the picture. */
+  readonly legend = el("p", { className: "hint" });
   private readonly context = this.canvas.getContext("2d");
   private motion: Motion | null = null;
   private layout: Layout | null = null;
+  private groundScale = 1;
   private tiltRad: number | null = null;
   private readonly pose: Pose = { rotationRad: 0, firstRad: 0, secondRad: 0, engaged: 0, overturned: false };
   private readonly draw = () => this.frame();
@@ -86,6 +89,9 @@ export class Stage {
   private take(): void {
     const { run } = this.store;
     this.motion = run && motionOf(run);
+    const shape = this.motion?.devices[0]?.shape;
+    this.groundScale = shape ? Math.min(1, roomForGroundM(shape) / Math.max(this.motion?.groundPeakM ?? 0, 1e-9)) : 1;
+    say(this.legend, texts.page.block.legend(this.groundScale));
     if (run) {
       this.canvas.setAttribute("aria-label", texts.page.block.picture(run));
     }
@@ -109,14 +115,13 @@ export class Stage {
     drawSoon(this.draw);
   }
 
-  /** Middle of the base of a device (CSS px), pixels a metre, displacement of the ground as drawn (m), and its scale. */
-  private origin(index: number, shape: Shape, layout: Layout, motion: Motion): [number, number, number, number, number] {
+  /** Middle of the base of a device (CSS px), pixels a metre, displacement of the ground as drawn (m). */
+  private origin(index: number, shape: Shape, layout: Layout, motion: Motion): [number, number, number, number] {
     const column = index % layout.columns;
     const row = Math.floor(index / layout.columns);
-    const reduced = Math.min(1, roomForGroundM(shape) / Math.max(motion.groundPeakM, 1e-9));
-    const ground = this.tiltRad === null ? valueAt(motion.groundS, motion.groundM, this.store.time) * reduced : 0;
+    const ground = this.tiltRad === null ? valueAt(motion.groundS, motion.groundM, this.store.time) * this.groundScale : 0;
     const x = (column + 0.5) * layout.slotWidth + ground * layout.scale;
-    return [x, (row + 1) * layout.slotHeight - depthM(shape) * layout.scale, layout.scale, ground, reduced];
+    return [x, (row + 1) * layout.slotHeight - depthM(shape) * layout.scale, layout.scale, ground];
   }
 
   private frame(): void {
@@ -131,7 +136,7 @@ export class Stage {
     motion.devices.forEach((device, index) => {
       const { shape } = device;
       const look = deviceLook(index);
-      const [x, y, scale, ground, reduced] = this.origin(index, shape, layout, motion);
+      const [x, y, scale, ground] = this.origin(index, shape, layout, motion);
       poseAt(device, store.time, this.pose);
       if (this.tiltRad !== null) {
         Object.assign(this.pose, { rotationRad: this.tiltRad, engaged: 0, overturned: false, firstRad: 0, secondRad: 0 });
@@ -146,11 +151,11 @@ export class Stage {
       context.scale(scale, -scale);
       drawDevice(context, shape, this.pose, colours, look.colour, 1 / scale, ground, layout.slotWidth / scale);
       context.restore();
-      this.label(index, left, top, reduced, colours.ink, colours.muted, look.colour);
+      this.label(index, left, top, colours.ink, colours.muted, look.colour);
     });
   }
 
-  private label(index: number, left: number, top: number, reduced: number, ink: string, muted: string, accent: string): void {
+  private label(index: number, left: number, top: number, ink: string, muted: string, accent: string): void {
     const { context, motion, store, pose } = this;
     const device = motion?.devices[index];
     const alpha = store.run?.about.slendernessRad ?? 1;
@@ -165,12 +170,6 @@ export class Stage {
     context.font = "12px system-ui, sans-serif";
     context.fillStyle = muted;
     context.fillText(texts.page.block.state(pose.rotationRad / alpha, pose.overturned), left + 23, top + 33);
-    if (reduced < 0.995 && index === 0 && this.tiltRad === null) {
-      const text = texts.page.block.groundScale(reduced);
-      context.textAlign = "right";
-      context.fillText(text, (this.layout?.width ?? 0) - 6, top + 17);
-      context.textAlign = "left";
-    }
   }
 }
 

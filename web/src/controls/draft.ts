@@ -115,7 +115,7 @@ export function groundSettings(about: About | null, grounds: Table[]): string[] 
   const axes = about?.map ? [about.map.x, about.map.y].flatMap((axis) => axis ?? []) : [];
   const lost = axes.some(({ key }) => {
     const [list, index, name] = key.split(".");
-    return list === "ground" && grounds[Number(index)]?.[name ?? ""] === undefined;
+    return list === "ground" && (grounds[Number(index)]?.[name ?? ""] ?? null) === null;
   });
   return [`ground=${inline(grounds)}`, ...(lost ? ["map="] : [])];
 }

@@ -46,14 +46,15 @@ async function read(store: Store, fragment: string): Promise<void> {
   }
 }
 
+/** The record files that a scene names. */
+export function recordsOf(text: string): string[] {
+  return Array.from(text.matchAll(/\bfile\s*=\s*["'](.+?)["']/g), ([, name]) => name ?? "");
+}
+
 /** The scene with the records that it names and that are at hand: those of the examples, and those of the scene before. */
 async function withRecords(store: Store, text: string): Promise<Source> {
   const shipped = (await store.engine.examples()).flatMap(({ records }) => records);
   const atHand = new Map<string, RecordFile>([...shipped, ...store.source.records].map((file) => [file.name, file]));
-  const named = Array.from(text.matchAll(/^\s*file\s*=\s*["'](.+?)["']/gm), ([, name]) => name ?? "");
-  const missing = named.find((name) => !atHand.has(name));
-  if (missing !== undefined) {
-    store.failLater(texts.page.scene.missing(missing));
-  }
+  const named = recordsOf(text);
   return { text, records: named.flatMap((name) => atHand.get(name) ?? []) };
 }

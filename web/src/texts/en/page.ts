@@ -34,7 +34,6 @@ export const page = {
     tilted: (ratio: number) =>
       `Held at θ/α = ${ratio.toFixed(2)}${Math.abs(ratio) > 1 ? ", beyond the tip" : ""}. Let go, or press Enter; Escape puts it back.`,
     state: (ratio: number, overturned: boolean) => (overturned ? "overturned" : `θ/α = ${ratio.toFixed(2)}`),
-    groundScale: (part: number) => `ground motion drawn at 1 : ${(1 / part).toFixed(1)}`,
     picture: (run: Run) =>
       `${run.about.title || "Scene"}. ${run.responses
         .map(({ device, summary }) => {
@@ -42,7 +41,8 @@ export const page = {
           return `${device}: ${outcome(String(summary["outcome"]))}${typeof peak === "number" ? `, peak rotation ${peak.toFixed(2)} of α` : ""}`;
         })
         .join("; ")}.`,
-    legend: "To scale. A flywheel is a plate of the block's material and thickness with σ times its mass; filled: engaged, hollow: free.",
+    legend: (ground: number) =>
+      `To scale${ground < 0.995 ? `, but the ground moves at 1 : ${(1 / ground).toFixed(1)}` : ""}. A flywheel is a plate of the block's material and thickness with σ times its mass; filled: engaged, hollow: free.`,
     preview: "This is another block than that of the scene.",
     fix: "Make it the scene",
     unplay: "Back to the scene",
@@ -164,7 +164,6 @@ export const page = {
     linkRecords: "The link has the scene, but not its own record: whoever opens it needs the file too.",
     tooLong: "The scene is too long for an address; hand on the file instead.",
     broken: "The address of this page has no scene that can be read (it may have been cut off); here is the first example instead.",
-    missing: (name: string) => `The scene of this address is shaken by ${name}, which is not here; drop that file on the page.`,
     download: "Download",
     toml: "scene.toml",
     csv: "history.csv",

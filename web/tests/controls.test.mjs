@@ -1,0 +1,126 @@
+// Every control is used.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { downloaded, keep, open, texts, until } from "./browser.mjs";
+import { EXAMPLES, alert, anotherDigest, choose, shownDigest, thisDigest } from "./shell.mjs";
+
+const words = texts.page;
+
+test("every number of block and ground changes the run, and its first value brings it back", async (t) => {
+  const page = await open(t);
+  const first = await anotherDigest(page, null);
+  const { size, slenderness, restitution, massRatio, amplitude, frequency } = words.controls;
+  for (const name of [size, slenderness, restitution, massRatio, amplitude, frequency]) {
+    const typed = page.getByRole("spinbutton", { name, exact: true });
+    const own = await typed.inputValue();
+    assert.notEqual(own, "", name);
+    await typed.fill(String(Number(own) * 0.93));
+    await typed.press("Tab");
+    await anotherDigest(page, first);
+    await typed.fill(own);
+    await typed.press("Tab");
+    await thisDigest(page, first);
+    const slider = page.getByRole("slider", { name, exact: true });
+    await slider.focus();
+    await page.keyboard.press("ArrowRight");
+    await anotherDigest(page, first);
+    await typed.fill(own);
+    await typed.press("Tab");
+    await thisDigest(page, first);
+  }
+});
+
+test("the block is dragged, let go, and shaken again", async (t) => {
+  const page = await open(t);
+  const first = await anotherDigest(page, null);
+  const block = page.getByRole("application", { name: words.block.handle });
+  await block.focus();
+  for (let step = 0; step < 4; step += 1) {
+    await page.keyboard.press("ArrowRight");
+  }
+  await page.keyboard.press("Enter");
+  const free = await anotherDigest(page, first);
+  assert.notEqual(free, first);
+  await page.getByRole("button", { name: words.block.shake }).click();
+  await thisDigest(page, first);
+});
+
+test("time goes where it is put, from event to event, and to the end", async (t) => {
+  const page = await open(t);
+  await anotherDigest(page, null);
+  const place = page.getByLabel(words.transport.time, { exact: true });
+  const at = async () => Number(await place.inputValue());
+  const { next, previous } = words.transport;
+  await place.focus();
+  await page.keyboard.press("Home");
+  await until("the beginning", async () => (await at()) === 0);
+  const times = [];
+  for (let step = 0; step < 3; step += 1) {
+    await page.getByRole("button", { name: next, exact: true }).click();
+    await page.waitForTimeout(60);
+    times.push(await at());
+  }
+  assert.ok(times[0] > 0 && times[1] >= times[0] && times[2] >= times[1], times.join());
+  await page.getByRole("button", { name: previous, exact: true }).click();
+  await until("the event before", async () => (await at()) <= times[2]);
+});
+
+test("every button, list and number of the page can be used without harm", async (t) => {
+  const page = await open(t, { permissions: ["clipboard-read", "clipboard-write"] });
+  await choose(page, EXAMPLES.controller);
+  const selector = "button:visible:enabled, select:visible:enabled, input:visible:enabled:not([type=file])";
+  const done = new Set();
+  for (let round = 0; round < 400; round += 1) {
+    // What a control does may add and remove others: one at a time, each name once.
+    const found = await page.locator(selector).evaluateAll(
+      (all, done) => {
+        const name = (element) =>
+          `${element.tagName} ${element.type} ${element.getAttribute("aria-label") ?? element.labels?.[0]?.textContent ?? element.textContent}`;
+        const index = all.findIndex((element) => !done.includes(name(element)));
+        return index < 0 ? null : { index, name: name(all[index]) };
+      },
+      [...done],
+    );
+    if (found === null) {
+      break;
+    }
+    done.add(found.name);
+    const control = page.locator(selector).nth(found.index);
+    const [tag, type] = found.name.split(" ");
+    if (tag === "BUTTON") {
+      await control.click({ timeout: 5000 }).catch(() => undefined);
+    } else if (tag === "SELECT") {
+      const values = await control.locator("option:enabled").evaluateAll((options) => options.map((option) => option.value));
+      await control.selectOption(values.at(-1)).catch(() => undefined);
+    } else if (type === "checkbox") {
+      await control.click();
+    } else {
+      await control.focus();
+      await page.keyboard.press("ArrowUp");
+      await page.keyboard.press("Tab");
+    }
+  }
+  assert.ok(done.size > 40, `${done.size} controls used`);
+  await keep(page, "after-every-control");
+  // Whatever they did, the page still runs a scene.
+  await choose(page, EXAMPLES.nearFault);
+  const digest = await shownDigest(page);
+  assert.match(digest, /^[0-9a-f]{16}$/);
+  assert.equal((await alert(page).innerText()).trim(), "");
+});
+
+test("results are downloaded", async (t) => {
+  const page = await open(t);
+  await anotherDigest(page, null);
+  const { toml, csv, svg, png } = words.scene;
+  const file = async (name) => {
+    const { name: suggested, bytes } = await downloaded(page, page.getByRole("button", { name, exact: true }));
+    assert.equal(suggested, name);
+    return bytes;
+  };
+  assert.match((await file(toml)).toString(), /\[block\]/);
+  const lines = (await file(csv)).toString().trim().split("\n");
+  assert.ok(lines.length > 100 && lines.every((line) => line.split(",").length === lines[0].split(",").length));
+  assert.match((await file(svg)).toString(), /^(<\?xml[^>]*>\s*)?<svg[^]*<\/svg>\s*$/);
+  assert.equal((await file(png)).subarray(1, 4).toString(), "PNG");
+});

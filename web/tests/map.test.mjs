@@ -1,0 +1,144 @@
+// The map: filled, read, played, fixed, kept.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { downloaded, keep, open, texts, until } from "./browser.mjs";
+import { colours, digest, filled, panels, said, sections } from "./views.mjs";
+import { EXAMPLES, choose } from "./shell.mjs";
+
+const words = texts.views.map;
+const OVERTURNED = ["54 20 38 255", "213 94 0 255"];
+
+/** Rows of a CSV file as objects; no field of a map has a comma. */
+function rows(bytes) {
+  const [head, ...lines] = bytes
+    .toString()
+    .trim()
+    .split("\n")
+    .map((line) => line.split(","));
+  return lines.map((line) => Object.fromEntries(head.map((name, index) => [name, line[index]])));
+}
+
+test("cells, shares, table and pictures of a map say the same", async (t) => {
+  const page = await open(t);
+  await choose(page, EXAMPLES.figure08);
+  await filled(page);
+  const { map } = sections(page);
+  const table = await downloaded(page, map.getByRole("button", { name: words.csv }));
+  assert.equal(table.name, "map.csv");
+  const all = rows(table.bytes);
+  const devices = [...new Set(all.map((row) => row.device))];
+  assert.equal(await panels(page).count(), devices.length);
+  for (const [index, device] of devices.entries()) {
+    const own = all.filter((row) => row.device === device);
+    const fallen = own.filter((row) => row.outcome.startsWith("overturned"));
+    const counts = await colours(panels(page).nth(index));
+    const dark = OVERTURNED.reduce((sum, colour) => sum + (counts[colour] ?? 0), 0);
+    assert.equal(dark, fallen.length, `${device}: as many dark dots as overturned rows`);
+    assert.equal(
+      Object.values(counts).reduce((sum, count) => sum + count),
+      own.length,
+    );
+    assert.ok(fallen.length > 0 && fallen.length < own.length);
+    assert.ok(own.every((row) => (row.peak_rotation === "") === row.outcome.startsWith("overturned")));
+    const share = words.share(((100 * fallen.length) / own.length).toFixed(1));
+    assert.equal((await map.getByText(share, { exact: true }).count()) > 0, true, share);
+  }
+  const svg = (await downloaded(page, map.getByRole("button", { name: words.svg }))).bytes.toString();
+  assert.equal(svg.match(/<image /g).length, devices.length);
+  assert.ok(devices.every((device) => svg.includes(`>${device}<`)) && svg.startsWith("<svg xmlns="));
+  const png = (await downloaded(page, map.getByRole("button", { name: words.png }))).bytes;
+  assert.deepEqual(
+    [...png.subarray(1, 4)],
+    [..."PNG"].map((letter) => letter.charCodeAt(0)),
+  );
+  assert.ok(png.readUInt32BE(16) > 1000, "wide enough for print");
+  await keep(page, "map");
+});
+
+test("a cell under the pointer is played, and a click makes it the scene", async (t) => {
+  const page = await open(t);
+  await choose(page, EXAMPLES.figure08);
+  await filled(page);
+  const before = await digest(page);
+  const panel = panels(page).first();
+  const box = await panel.locator("canvas").boundingBox();
+  await page.mouse.move(box.x + 0.8 * box.width, box.y + 0.3 * box.height);
+  await until("an outcome", async () => /ω_g\/p .*: .*(rocks|overturns|no rocking)/.test(await said(page).textContent()));
+  const { map } = sections(page);
+  await until("a block that is played", () => map.getByRole("button", { name: words.use }).isVisible());
+  const played = await until("another run", async () => {
+    const now = await digest(page);
+    return now !== before && now;
+  });
+  await map.getByRole("button", { name: words.back }).click();
+  await until("the scene again", async () => (await digest(page)) === before);
+  await page.mouse.move(box.x + 0.8 * box.width + 1, box.y + 0.3 * box.height);
+  await page.mouse.click(box.x + 0.8 * box.width, box.y + 0.3 * box.height);
+  await until("the same block as the scene", async () => (await digest(page)) === played);
+  await until("no block in the place of the scene", async () => !(await map.getByRole("button", { name: words.use }).isVisible()));
+  // The scene is another point of the same map: nothing is filled again.
+  assert.equal(await map.getByText(/cells a device, in/).count(), 1);
+});
+
+test("arrow keys move over cells, Enter takes one", async (t) => {
+  const page = await open(t);
+  await choose(page, EXAMPLES.figure08);
+  await filled(page);
+  const before = await digest(page);
+  await panels(page).nth(1).focus();
+  await page.keyboard.press("ArrowRight");
+  const first = await said(page).textContent();
+  assert.notEqual(first, "");
+  await page.keyboard.press("Shift+ArrowUp");
+  const second = await said(page).textContent();
+  assert.notEqual(second, first);
+  await page.keyboard.press("ArrowDown");
+  assert.notEqual(await said(page).textContent(), second);
+  await page.keyboard.press("Enter");
+  await until(
+    "the block as the scene",
+    async () => (await digest(page)) !== before && !(await sections(page).map.getByRole("button", { name: words.use }).isVisible()),
+  );
+});
+
+test("axes, scale, bands, cut and boundaries", async (t) => {
+  const page = await open(t);
+  await choose(page, EXAMPLES.figure08);
+  await filled(page);
+  const { map } = sections(page);
+  const up = map.getByRole("group", { name: words.axis.y });
+  const across = map.getByRole("group", { name: words.axis.x });
+  const outcomes = await colours(panels(page).first());
+  await map.getByLabel(words.show).selectOption("peak");
+  await until("bands", async () => Object.keys(await colours(panels(page).first())).length > Object.keys(outcomes).length);
+  await map.getByLabel(words.show).selectOption("outcome");
+
+  await map.getByRole("button", { name: words.boundaries }).click();
+  await until("boundaries", async () => (await panels(page).first().locator("svg path").count()) > 0);
+  await keep(page, "boundaries");
+
+  await across.getByLabel(words.cells).fill("40");
+  await across.getByLabel(words.cells).press("Tab");
+  await until("a narrower map", () =>
+    panels(page)
+      .first()
+      .locator("canvas")
+      .evaluate((canvas) => canvas.width === 40),
+  );
+  await across.getByLabel(words.scale).selectOption("logarithmic");
+  await until("ticks of equal factors", () =>
+    panels(page)
+      .first()
+      .locator("svg text", { hasText: /^0\.5$/ })
+      .count(),
+  );
+  await filled(page);
+  await across.getByLabel(words.from).fill("99");
+  await across.getByLabel(words.from).press("Tab");
+  await until("a line about the axis", () => page.getByText(words.wrongAxis).isVisible());
+
+  await up.getByLabel(words.key).selectOption("");
+  await until("one panel for a cut", async () => (await panels(page).count()) === 1);
+  await until("a curve a device", async () => (await panels(page).first().locator("svg path").count()) >= 3);
+  await keep(page, "cut");
+});

@@ -1,0 +1,147 @@
+/** Parts of the page that need no browser: what is drawn of a run, what an address holds, what a control writes. */
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { createServer } from "vite";
+
+let server;
+const load = (module) => server.ssrLoadModule(`/src/${module}.ts`);
+
+before(async () => {
+  const root = fileURLToPath(new URL("..", import.meta.url));
+  server = await createServer({ root, server: { middlewareMode: true, hmr: false, ws: false }, appType: "custom", logLevel: "error" });
+});
+after(() => server.close());
+
+test("curves over one axis keep every sample, also two of one time", async () => {
+  const { align } = await load("histories/align");
+  const curves = [
+    { timeS: Float64Array.of(0, 1, 1, 3), values: Float64Array.of(5, 6, 7, 8) },
+    { timeS: Float64Array.of(0, 0.5, 1), values: Float64Array.of(1, 2, 3) },
+  ];
+  const [times, ...columns] = align(curves);
+  assert.deepEqual(
+    times,
+    [...times].sort((a, b) => a - b),
+  );
+  for (const [index, { timeS, values }] of curves.entries()) {
+    const kept = times.flatMap((time, row) => (columns[index][row] === null ? [] : [[time, columns[index][row]]]));
+    assert.deepEqual(
+      kept,
+      Array.from(timeS, (time, i) => [time, values[i]]),
+    );
+  }
+});
+
+test("spans begin and end where the engaged flywheel changes", async () => {
+  const { spans } = await load("histories/align");
+  const timeS = Float64Array.of(0, 1, 2, 3, 4);
+  assert.deepEqual(spans(timeS, Uint8Array.of(0, 1, 1, 2, 1), 1), [
+    [1, 3],
+    [4, 4],
+  ]);
+  assert.deepEqual(spans(timeS, Uint8Array.of(0, 1, 1, 2, 1), 2), [[3, 4]]);
+});
+
+test("an address gives its scene back, and refuses what was cut off, changed or blown up", async () => {
+  const { pack, unpack } = await load("scene/address");
+  const text = 'title = "σ, η and 🧱"\n[block]\nslenderness_deg = 10.0\n'.repeat(40);
+  const fragment = await pack(text);
+  assert.match(fragment, /^#s=[\w-]+$/);
+  assert.ok(fragment.length < text.length / 4);
+  assert.equal(await unpack(fragment), text);
+  for (const broken of [fragment.slice(0, -9), "#s=", "#s=!!!", `#s=AAAA${fragment.slice(3)}`]) {
+    await assert.rejects(unpack(broken), broken);
+  }
+  const { deflateRawSync } = await import("node:zlib");
+  await assert.rejects(unpack(`#s=${deflateRawSync(Buffer.alloc(50_000_000, 35)).toString("base64url")}`), RangeError);
+  assert.equal(await pack("#".repeat(300_000)), null);
+});
+
+test("ground that is pushed and stopped ends where kinematics says", async () => {
+  const { displacement } = await load("block/motion");
+  // 2 m/s² for 1 s, −2 m/s² for 1 s, then rest: 2 m.
+  const timeS = Float64Array.from({ length: 4001 }, (_, i) => i / 1000);
+  const push = (time) => (time < 1 ? 2 : time < 2 ? -2 : 0);
+  const moved = displacement(timeS, timeS.map(push));
+  assert.ok(Math.abs(moved.at(-1) - 2) < 0.01, `${moved.at(-1)}`);
+  // The same with an error of its baseline of 0.1 m/s²: some 0.2 m would be added in 2 s, and more in every second after.
+  const drifting = displacement(
+    timeS,
+    timeS.map((time) => (time < 2 ? push(time) + 0.1 : 0)),
+  );
+  assert.ok(Math.abs(drifting.at(-1) - 2) < 0.02, `${drifting.at(-1)}`);
+});
+
+test("a block turns about the toe that it stands on", async () => {
+  const { placed, travel } = await load("block/geometry");
+  const shape = { halfWidthM: 0.3, halfHeightM: 2, mount: { at: "height", heightM: 2 } };
+  for (const rotation of [-0.2, -1e-9, 0, 1e-9, 0.15, Math.PI / 2]) {
+    const toe = rotation < 0 ? -0.3 : 0.3;
+    assert.deepEqual(
+      placed(shape, rotation, toe, 0).map((x) => Math.round(1e12 * x) / 1e12 + 0),
+      [toe, 0],
+    );
+    const [x, y] = placed(shape, rotation, 0, 2);
+    assert.ok(Math.abs(Math.hypot(x - toe, y) - Math.hypot(0.3, 2)) < 1e-12);
+    assert.ok(Math.abs(travel(shape, rotation) + travel(shape, -rotation)) < 1e-12);
+  }
+  // To the right by a positive rotation, and on its side at a right angle.
+  assert.ok(travel(shape, 0.1) > 0);
+  assert.ok(Math.abs(placed(shape, Math.PI / 2, 0.3, 4)[1]) < 1e-12);
+});
+
+test("steps go to the next and the previous event and stop at the ends", async () => {
+  const { eventFrom, eventsOf } = await load("block/events");
+  const events = eventsOf({
+    impactsS: Float64Array.of(1, 2),
+    timeS: Float64Array.of(0, 1.5, 3),
+    engaged: Uint8Array.of(0, 2, 2),
+  });
+  assert.deepEqual(
+    events.map(({ timeS, kind }) => [timeS, kind]),
+    [
+      [1, "impact"],
+      [1.5, 2],
+      [2, "impact"],
+    ],
+  );
+  assert.equal(eventFrom(events, 1, 1).timeS, 1.5);
+  assert.equal(eventFrom(events, 1.5, -1).timeS, 1);
+  assert.equal(eventFrom(events, 2, 1), null);
+  assert.equal(eventFrom(events, 1, -1), null);
+});
+
+test("a control writes the key that the scene has, and a map over a lost key goes", async () => {
+  const { Draft, groundSettings } = await load("controls/draft");
+  const settings = [];
+  const about = {
+    resolved: {
+      block: { frequency_parameter_1_s: 1, slenderness_deg: 20, inertia_ratio: 4 / 3 },
+      device: [],
+      ground: [{ motion: "sine", amplitude_ratio: 2, frequency_hz: 1 }],
+    },
+    frequencyParameter1S: 1,
+    upliftThresholdG: 0.25,
+    map: { x: { key: "ground.0.amplitude_ratio" }, y: null },
+  };
+  const draft = new Draft({ run: { about }, setSetting: (...given) => settings.push(...given) });
+  draft.take();
+  assert.equal(draft.ground("amplitude_m_s2"), 4.903325);
+  draft.setGround("amplitude_m_s2", 2.4516625);
+  draft.setGround("frequency_hz", 2);
+  // p = √(3g/(4R)): p = 1/s is 7.355 m, and R = 1.8387 m has p = 2/s.
+  draft.setSize((3 * 9.80665) / 16);
+  assert.deepEqual(settings, ["ground.0.amplitude_ratio=1", "ground.0.frequency_hz=2", "block.frequency_parameter_1_s=2"]);
+  assert.ok(groundSettings(about, []).includes("map="));
+  assert.ok(!groundSettings(about, [{ motion: "cosine", amplitude_ratio: 3 }]).includes("map="));
+});
+
+test("values are written as TOML in one line", async () => {
+  const { inline } = await load("controls/draft");
+  assert.equal(
+    inline([{ motion: "record", file: 'a "b".csv', units: null, scale: 1.5 }]),
+    '[{ motion = "record", file = "a \\"b\\".csv", scale = 1.5 }]',
+  );
+  assert.equal(inline([]), "[]");
+});

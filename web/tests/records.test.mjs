@@ -1,0 +1,65 @@
+// Own records: dropped, refused, and never sent anywhere.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { open, scene, texts, until } from "./browser.mjs";
+import { EXAMPLES, alert, anotherDigest, choose, drop, shownDigest, thisDigest, toml } from "./shell.mjs";
+
+const words = texts.page.records;
+
+/** A near-harmonic motion of 3 s with 2 m/s² that starts and ends at rest. */
+const MOTION = `time_s,acceleration_m_s2\n${Array.from({ length: 301 }, (_, index) => {
+  const time = index / 100;
+  return `${time.toFixed(2)},${(2 * Math.sin((2 * Math.PI * time) / 1.5) * Math.sin((Math.PI * time) / 3) ** 2).toFixed(6)}`;
+}).join("\n")}\n`;
+
+async function opened(t) {
+  const page = await open(t);
+  return { page, before: await anotherDigest(page, null) };
+}
+
+test("a record that is dropped shakes the block", async (t) => {
+  const { page, before } = await opened(t);
+  await drop(page, "own.csv", MOTION);
+  await anotherDigest(page, before);
+  assert.match(await toml(page).inputValue(), /file = "own.csv"/);
+  await until("what the record is", () => page.getByText(/own\.csv: .*301 samples of 0\.01 s/).count());
+});
+
+test("the shipped record, dropped, gives the digest of the shipped scene", async (t) => {
+  const { page } = await opened(t);
+  await choose(page, EXAMPLES.nearFault);
+  const shipped = await shownDigest(page);
+  const bytes = await scene("near_fault.csv");
+  await choose(page, EXAMPLES.figure08);
+  await choose(page, EXAMPLES.nearFault);
+  await drop(page, "near_fault.csv", bytes.toString());
+  await thisDigest(page, shipped);
+});
+
+test("units are asked for where a record has none", async (t) => {
+  const { page, before } = await opened(t);
+  await drop(page, "bare.txt", MOTION.replace(/^.*\n/, "").replace(/^.*,/gm, ""));
+  await until("the question", () => page.getByLabel(words.units).isVisible());
+  assert.equal(await shownDigest(page), before, "nothing is lost");
+  await page.getByLabel(words.units).selectOption({ index: 1 });
+  await page.getByLabel(words.step).fill("0.01");
+  await page.getByRole("button", { name: words.again }).click();
+  await anotherDigest(page, before);
+});
+
+for (const [what, name, content, line] of [
+  ["a binary file", "picture.at2", Uint8Array.from({ length: 5000 }, (_, index) => (index * 7919) % 256), /picture\.at2/],
+  ["an empty file", "empty.csv", "", /empty\.csv/],
+  ["a file of 200 MB", "huge.csv", 200, /huge\.csv.*200 MB/],
+]) {
+  test(`${what} gives one line and takes nothing away`, async (t) => {
+    const { page, before } = await opened(t);
+    await drop(page, name, content);
+    await until("a line", async () => line.test(await page.locator("body").innerText()));
+    const said = (await alert(page).allInnerTexts()).join("\n");
+    assert.ok(said.trim().split("\n").length <= 3, said);
+    assert.equal(await shownDigest(page), before);
+    await drop(page, "own.csv", MOTION);
+    await anotherDigest(page, before);
+  });
+}
