@@ -8,7 +8,7 @@ import { chromium } from "playwright-core";
 import { runnerImport } from "vite";
 
 const web = fileURLToPath(new URL("..", import.meta.url));
-const dist = process.env.SPRAG_PAGE ?? join(web, "dist");
+const dist = process.env.SPRAG_PAGE || join(web, "dist");
 const SUB_PATH = "/some/where/";
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm", ".svg": "image/svg+xml" };
 
@@ -37,7 +37,7 @@ async function serve() {
 export async function open(t, { args = [], hash = "", prepare, mayFail = false, ...options } = {}) {
   const server = await serve();
   const browser = await chromium.launch({
-    executablePath: process.env.SPRAG_CHROMIUM ?? "/usr/bin/chromium",
+    executablePath: process.env.SPRAG_CHROMIUM || "/usr/bin/chromium",
     args: ["--no-sandbox", ...args],
   });
   const context = await browser.newContext({ viewport: { width: 1024, height: 900 }, acceptDownloads: true, ...options });

@@ -41,6 +41,7 @@ test("without SIMD the page says so, and every bit is the same", async (t) => {
   for (const options of [{}, noSimd]) {
     const page = await open(t, options);
     const { trust } = sections(page);
+    await until("what runs", () => trust.getByText(words.simd, { exact: true }).count());
     const simd = await trust.getByText(words.simdYes, { exact: true }).count();
     assert.equal(simd, options === noSimd ? 0 : 1);
     assert.equal(await trust.getByText(words.simdNo, { exact: true }).count(), 1 - simd);

@@ -69,11 +69,9 @@ export class Filling {
 
   /** Traces the boundaries of all devices. */
   async trace(engine: Engine): Promise<void> {
-    const found: Boundary[][] = [];
-    for (const [device, field] of this.fields.entries()) {
-      found.push(await engine.boundaries(this.source, device, field.outcome, this.abort.signal));
-    }
-    this.boundaries = found;
+    this.boundaries = await Promise.all(
+      this.fields.map((field, device) => engine.boundaries(this.source, device, field.outcome, this.abort.signal)),
+    );
   }
 
   /** Ends filling and tracing. */

@@ -96,12 +96,10 @@ class MapSection {
     this.latest += 1;
     const number = this.latest;
     try {
-      const [found, keys] = await Promise.all([this.engine.about(source), this.engine.keys(source)]);
+      const [about, keys] = await Promise.all([this.engine.about(source), this.engine.keys(source)]);
       if (number !== this.latest) {
         return;
       }
-      // The core leaves out what a scene does not have.
-      const about = { ...found, map: found.map ? { x: found.map.x, y: found.map.y ?? null } : null };
       [this.about, this.keys] = [about, keys];
       this.form.show(about.map ?? suggestedPair(keys), keys);
       await this.renew(about);
