@@ -2,7 +2,7 @@
 
 use crate::{
     firmware::Built,
-    process::{cargo, output, run as done},
+    process::{Beside, cargo, output, run as done},
     scratch::empty,
     steps::Steps,
     stop::Stop,
@@ -14,7 +14,7 @@ use std::{
 };
 
 /// Folder of the package.
-const FOLDER: &str = "python";
+pub const FOLDER: &str = "python";
 
 /// Folder of the wheels that are built.
 const WHEELS: &str = "target/wheels";
@@ -25,19 +25,34 @@ const BUILDER: &str = "target/python-build";
 /// Machines that wheels are built for here, by Rust's and the package index's name.
 const MACHINES: [&str; 2] = ["x86_64", "aarch64"];
 
-/// Lints the package, builds its wheel by `profile` of its workspace, installs that into an empty environment and tests it there, with the
-/// firmware too where images are `built`.
-///
-/// # Errors
-/// At the first check that fails, or if there is no Python or no package index.
-pub fn run(root: &Path, steps: &mut Steps, profile: &str, built: Option<&Built>) -> Result<(), Stop> {
-    let folder = root.join(FOLDER);
-    steps.step("lints, python's native module", || {
-        done(&mut cargo(&folder, &["fmt", "--check"]))?;
-        done(&mut cargo(&folder, &["clippy", "--locked", "--profile", profile, "--", "-D", "warnings"]))
-    })?;
-    let wheel = steps.step("wheel", || own_wheel(root, profile))?;
-    check(root, steps, &wheel, built)
+/// The lints of the native module and the wheel of this machine, while they run beside other steps.
+#[derive(Debug)]
+pub struct Started {
+    lints: Beside,
+    wheel: Beside,
+}
+
+impl Started {
+    /// Starts both, by `profile` of the package's workspace. They wait for whatever builds in the target folder.
+    ///
+    /// # Errors
+    /// If there is no Python or no package index.
+    pub fn new(root: &Path, profile: &str) -> Result<Started, Stop> {
+        let wheel = Beside::start(&mut own_wheel(root, profile)?)?;
+        let lints = ["clippy", "--locked", "--profile", profile, "--", "-D", "warnings"];
+        let lints = Beside::start(&mut cargo(&root.join(FOLDER), &lints))?;
+        Ok(Started { lints, wheel })
+    }
+
+    /// Installs the wheel into an empty environment and tests it there, with the firmware too where images are `built`.
+    ///
+    /// # Errors
+    /// At the first check that fails.
+    pub fn check(self, root: &Path, steps: &mut Steps, built: Option<&Built>) -> Result<(), Stop> {
+        steps.step("rest of python's wheel", || self.wheel.wait())?;
+        steps.step("rest of the lints of python's native module", || self.lints.wait())?;
+        check(root, steps, &found(root, "")?, built)
+    }
 }
 
 /// Builds wheels that any Linux with glibc 2.17 or later loads, for x86_64 and aarch64, and checks the one of this machine.
@@ -59,7 +74,8 @@ fn portable(root: &Path, python: &Path, machine: &str) -> Result<PathBuf, Stop> 
     let target = format!("{machine}-unknown-linux-gnu");
     tools::need_target(root, &target)?;
     let options = ["--profile", "dist", "--zig", "--compatibility", "manylinux2014", "--target", &target];
-    let wheel = wheel(root, python, machine, &options)?;
+    done(&mut maturin(root, python, &options)?)?;
+    let wheel = found(root, machine)?;
     let shown = output(Command::new(python.with_file_name("auditwheel")).arg("show").arg(&wheel))?;
     println!("{shown}");
     let wanted = format!("manylinux_2_17_{machine}");
@@ -95,35 +111,35 @@ fn check(root: &Path, steps: &mut Steps, wheel: &Path, built: Option<&Built>) ->
     steps.step("tests, python", || check(&["-m", "pytest", "--quiet", "--import-mode", "importlib", "python/tests"]))
 }
 
-/// The wheel for this machine that was built last; where there is none, a new one.
+/// The wheel for this machine that was built last.
 ///
 /// # Errors
-/// If it cannot be built.
+/// If there is none.
 pub fn last_wheel(root: &Path) -> Result<PathBuf, Stop> {
-    found(root, std::env::consts::ARCH).map_or_else(|| own_wheel(root, "dev"), Ok)
+    found(root, std::env::consts::ARCH)
 }
 
-/// Builds a wheel for this machine, and removes all others.
-fn own_wheel(root: &Path, profile: &str) -> Result<PathBuf, Stop> {
+/// The command that builds a wheel for this machine; all others are removed.
+fn own_wheel(root: &Path, profile: &str) -> Result<Command, Stop> {
     let python = tools::python_of(root, BUILDER, "python/requirements.txt", &[])?;
     empty(&root.join(WHEELS))?;
-    wheel(root, &python, "", &["--profile", profile])
+    maturin(root, &python, &["--profile", profile])
 }
 
-/// Builds a wheel with the tools beside `python`, and gives the path of that of a `machine`.
-fn wheel(root: &Path, python: &Path, machine: &str, options: &[&str]) -> Result<PathBuf, Stop> {
+/// The command that builds a wheel with the tools beside `python`.
+fn maturin(root: &Path, python: &Path, options: &[&str]) -> Result<Command, Stop> {
     let mut build = Command::new(python.with_file_name("maturin"));
     build.current_dir(root.join(FOLDER)).args(["build", "--locked", "--out"]).arg(root.join(WHEELS)).args(options);
     // The Python that has Zig is the first.
     let others = std::env::var_os("PATH").unwrap_or_default();
     let folders = python.parent().into_iter().map(Path::to_owned).chain(std::env::split_paths(&others));
-    let path = std::env::join_paths(folders).map_err(|error| Stop::usage(format!("PATH: {error}")))?;
-    done(build.env("PATH", path))?;
-    found(root, machine).ok_or_else(|| Stop::failed(format!("there is no wheel in {WHEELS}")))
+    build.env("PATH", std::env::join_paths(folders).map_err(|error| Stop::usage(format!("PATH: {error}")))?);
+    Ok(build)
 }
 
 /// A wheel for a `machine` among those that are built.
-fn found(root: &Path, machine: &str) -> Option<PathBuf> {
-    let built = std::fs::read_dir(root.join(WHEELS)).ok()?.flatten().map(|file| file.path());
-    built.into_iter().find(|path| path.to_string_lossy().ends_with(&format!("{machine}.whl")))
+fn found(root: &Path, machine: &str) -> Result<PathBuf, Stop> {
+    let built = std::fs::read_dir(root.join(WHEELS)).into_iter().flatten().flatten().map(|file| file.path());
+    let mut of_machine = built.filter(|path| path.to_string_lossy().ends_with(&format!("{machine}.whl")));
+    of_machine.next().ok_or_else(|| Stop::failed(format!("there is no wheel in {WHEELS}: `cargo xtask python`")))
 }

@@ -30,7 +30,8 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     })?;
     steps.step("format", || {
         done(&mut cargo(root, &["fmt", "--all", "--check"]))?;
-        done(&mut cargo_in(root, BOARD.workspace, &["fmt", "--all", "--check"]))
+        done(&mut cargo_in(root, BOARD.workspace, &["fmt", "--all", "--check"]))?;
+        done(&mut cargo_in(root, python::FOLDER, &["fmt", "--check"]))
     })?;
     steps.step("lints, host", || done(&mut cargo(root, &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])))?;
     // Not the tests: they are of the whole program.
@@ -54,6 +55,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     })?;
     // No step until they are needed keeps both processors busy.
     let built_tests = Beside::start(&mut cargo(root, &["test", "--workspace", "--no-run"]))?;
+    let python = steps.step("tools, python", || Ok(python::Started::new(root, "dev")))?;
     let built = images(root, &mut steps, false)?;
     steps.step("tests, drivers", || {
         // The workspace's own target is the board's.
@@ -71,11 +73,16 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     steps.step("rest of the tests' build", || built_tests.wait())?;
     steps.step("tests", || tests(root, &built, fuzz_seconds.is_some()))?;
     steps.step("Slurm array", || cluster::run(root, &program(root)))?;
+    match python {
+        Ok(python) => {
+            python.check(root, &mut steps, Some(&built))?;
+            site::run(root, &mut steps)?;
+        }
+        Err(stop) => println!("-- checks not run: the Python package, the site: {stop}"),
+    }
     match fuzz_seconds {
         Some(seconds) => {
             steps.step("installed program", || package::try_installed(root))?;
-            python::run(root, &mut steps, "dev", Some(&built))?;
-            site::run(root, &mut steps)?;
             steps.step("fuzzing", || fuzz::run(root, None, seconds, Inputs::Same))
         }
         None => steps.step("fuzz targets", || fuzz::check(root)),
