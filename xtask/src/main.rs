@@ -165,9 +165,7 @@ fn run(task: Task) -> Result<(), Stop> {
         Task::BoardImage { what: Counted::Ticks } => board_image::measure(root, "ticks"),
         Task::BoardImage { what: Counted::Profile } => board_image::measure(root, "profile"),
         Task::Hardware => hardware::run(root, &mut Steps::default()),
-        Task::Python { dist } => {
-            python::Started::new(root, if dist { "dist" } else { "dev" })?.check(root, &mut Steps::default(), None)
-        }
+        Task::Python { dist } => python::Started::new(root, dist)?.check(root, &mut Steps::default(), None),
         Task::Wheels => python::wheels(root, &mut Steps::default()),
         Task::Site => site::run(root, &mut Steps::default()),
         Task::Figures { program } => figures::run(root, program.as_deref()),

@@ -2,19 +2,20 @@
 
 use crate::{
     firmware::Built,
-    process::{Beside, cargo, output, run as done},
+    process::{Beside, output, run as done},
     scratch::empty,
     steps::Steps,
     stop::Stop,
     tools,
 };
 use std::{
+    fs, io,
     path::{Path, PathBuf},
     process::Command,
 };
 
 /// Folder of the package.
-pub const FOLDER: &str = "python";
+const FOLDER: &str = "python";
 
 /// Folder of the wheels that are built.
 const WHEELS: &str = "target/wheels";
@@ -25,23 +26,24 @@ const BUILDER: &str = "target/python-build";
 /// Machines that wheels are built for here, by Rust's and the package index's name.
 const MACHINES: [&str; 2] = ["x86_64", "aarch64"];
 
-/// The lints of the native module and the wheel of this machine, while they run beside other steps.
+/// The wheel of this machine, while it is built beside other steps.
 #[derive(Debug)]
-pub struct Started {
-    lints: Beside,
-    wheel: Beside,
-}
+pub struct Started(Beside);
 
 impl Started {
-    /// Starts both, by `profile` of the package's workspace. They wait for whatever builds in the target folder.
+    /// Starts the build: with every optimisation for `others`, else of what the tests are built of. It waits for whatever builds in the
+    /// target folder; all other wheels are removed.
     ///
     /// # Errors
     /// If there is no Python or no package index.
-    pub fn new(root: &Path, profile: &str) -> Result<Started, Stop> {
-        let wheel = Beside::start(&mut own_wheel(root, profile)?)?;
-        let lints = ["clippy", "--locked", "--profile", profile, "--", "-D", "warnings"];
-        let lints = Beside::start(&mut cargo(&root.join(FOLDER), &lints))?;
-        Ok(Started { lints, wheel })
+    pub fn new(root: &Path, others: bool) -> Result<Started, Stop> {
+        let python = tools::python_of(root, BUILDER, "python/requirements.txt", &[])?;
+        empty(&root.join(WHEELS))?;
+        let mut build = maturin(root, &python, &["--profile", if others { "dist" } else { "dev" }])?;
+        if !others {
+            build.arg("--config").arg(tests_profile(root)?);
+        }
+        Beside::start(&mut build).map(Started)
     }
 
     /// Installs the wheel into an empty environment and tests it there, with the firmware too where images are `built`.
@@ -49,10 +51,22 @@ impl Started {
     /// # Errors
     /// At the first check that fails.
     pub fn check(self, root: &Path, steps: &mut Steps, built: Option<&Built>) -> Result<(), Stop> {
-        steps.step("rest of python's wheel", || self.wheel.wait())?;
-        steps.step("rest of the lints of python's native module", || self.lints.wait())?;
-        check(root, steps, &found(root, "")?, built)
+        steps.step("rest of python's wheel", || self.0.wait())?;
+        check(root, steps, &last_wheel(root)?, built)
     }
+}
+
+/// A file of settings that makes `dev` the profile of tests, which no other build can name.
+fn tests_profile(root: &Path) -> Result<PathBuf, Stop> {
+    let cannot = |error: io::Error| Stop::failed(format!("the tests' profile: {error}"));
+    let manifest = fs::read_to_string(root.join("Cargo.toml")).map_err(cannot)?;
+    let mut settings = String::new();
+    for part in manifest.split("\n[").filter_map(|part| part.strip_prefix("profile.test")) {
+        settings.push_str(&format!("[profile.dev{part}\n"));
+    }
+    let file = root.join(WHEELS).join("profile.toml");
+    fs::write(&file, settings).map_err(cannot)?;
+    Ok(file)
 }
 
 /// Builds wheels that any Linux with glibc 2.17 or later loads, for x86_64 and aarch64, and checks the one of this machine.
@@ -119,13 +133,6 @@ pub fn last_wheel(root: &Path) -> Result<PathBuf, Stop> {
     found(root, std::env::consts::ARCH)
 }
 
-/// The command that builds a wheel for this machine; all others are removed.
-fn own_wheel(root: &Path, profile: &str) -> Result<Command, Stop> {
-    let python = tools::python_of(root, BUILDER, "python/requirements.txt", &[])?;
-    empty(&root.join(WHEELS))?;
-    maturin(root, &python, &["--profile", profile])
-}
-
 /// The command that builds a wheel with the tools beside `python`.
 fn maturin(root: &Path, python: &Path, options: &[&str]) -> Result<Command, Stop> {
     let mut build = Command::new(python.with_file_name("maturin"));
@@ -139,7 +146,7 @@ fn maturin(root: &Path, python: &Path, options: &[&str]) -> Result<Command, Stop
 
 /// A wheel for a `machine` among those that are built.
 fn found(root: &Path, machine: &str) -> Result<PathBuf, Stop> {
-    let built = std::fs::read_dir(root.join(WHEELS)).into_iter().flatten().flatten().map(|file| file.path());
+    let built = fs::read_dir(root.join(WHEELS)).into_iter().flatten().flatten().map(|file| file.path());
     let mut of_machine = built.filter(|path| path.to_string_lossy().ends_with(&format!("{machine}.whl")));
     of_machine.next().ok_or_else(|| Stop::failed(format!("there is no wheel in {WHEELS}: `cargo xtask python`")))
 }

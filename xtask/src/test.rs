@@ -30,8 +30,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     })?;
     steps.step("format", || {
         done(&mut cargo(root, &["fmt", "--all", "--check"]))?;
-        done(&mut cargo_in(root, BOARD.workspace, &["fmt", "--all", "--check"]))?;
-        done(&mut cargo_in(root, python::FOLDER, &["fmt", "--check"]))
+        done(&mut cargo_in(root, BOARD.workspace, &["fmt", "--all", "--check"]))
     })?;
     steps.step("lints, host", || done(&mut cargo(root, &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])))?;
     // Not the tests: they are of the whole program.
@@ -55,7 +54,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     })?;
     // No step until they are needed keeps both processors busy.
     let built_tests = Beside::start(&mut cargo(root, &["test", "--workspace", "--no-run"]))?;
-    let python = steps.step("tools, python", || Ok(python::Started::new(root, "dev")))?;
+    let python = steps.step("tools, python", || Ok(python::Started::new(root, false)))?;
     let built = images(root, &mut steps, false)?;
     steps.step("tests, drivers", || {
         // The workspace's own target is the board's.
