@@ -7,13 +7,13 @@ mod cluster;
 #[cfg(test)]
 mod documentation_links;
 mod effects;
-mod exhaustive;
 mod figures;
 mod firmware;
 mod fuzz;
 mod hardware;
 mod package;
 mod panic_check;
+mod passed;
 mod process;
 mod python;
 #[cfg(test)]
@@ -55,8 +55,8 @@ enum Task {
     /// Every check, in order; stops at the first that fails
     #[command(alias = "ci")]
     Test,
-    /// The same with the exhaustive tests, which otherwise run when what they prove has changed, each fuzz target from its seeds on,
-    /// the Python package and the site of documents
+    /// The same with the exhaustive tests and the checks of docs/hardware, which otherwise run when what they depend on has changed, the
+    /// installed program, and each fuzz target from its seeds on
     Nightly {
         /// How long each fuzz target runs, s; 0 only tries the committed seeds
         #[arg(long, default_value_t = FUZZ_SECONDS)]
@@ -164,7 +164,7 @@ fn run(task: Task) -> Result<(), Stop> {
         Task::Ticks => ticks::run(root),
         Task::BoardImage { what: Counted::Ticks } => board_image::measure(root, "ticks"),
         Task::BoardImage { what: Counted::Profile } => board_image::measure(root, "profile"),
-        Task::Hardware => hardware::run(root, &mut Steps::default()),
+        Task::Hardware => hardware::run(root, &mut Steps::default(), true),
         Task::Python { dist } => python::Started::new(root, dist)?.check(root, &mut Steps::default(), None),
         Task::Wheels => python::wheels(root, &mut Steps::default()),
         Task::Site => site::run(root, &mut Steps::default()),
