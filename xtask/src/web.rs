@@ -35,10 +35,10 @@ const MODULES: [(&str, &str, &str, &[&str]); 3] = [
 /// At the first check that fails, or if there is no Node, no browser or no package index.
 pub fn run(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
     let folder = root.join(FOLDER);
-    steps.step("tools, page", || {
+    let path = steps.step("tools, page", || {
         tools::need_target(root, TARGET)?;
         tools::need_browser()?;
-        tools::need_node()
+        tools::path_with_node(root)
     })?;
     steps.step("lints, page", || {
         done(&mut cargo(&folder, &["fmt", "--all", "--check"]))?;
@@ -50,7 +50,7 @@ pub fn run(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
         empty(&folder.join("src/core"))?;
         MODULES.iter().try_for_each(|module| build(&folder, module))
     })?;
-    let npm = |words: &[&str]| done(Command::new("npm").current_dir(&folder).args(words));
+    let npm = |words: &[&str]| done(Command::new("npm").current_dir(&folder).env("PATH", &path).args(words));
     steps.step("page", || {
         npm(&["ci", "--no-audit", "--no-fund"])?;
         npm(&["run", "check"])?;
