@@ -1,7 +1,7 @@
 //! The page: its core as WebAssembly, its files, and its tests in a browser.
 
 use crate::{
-    process::{cargo, run as done},
+    process::{cargo, output, run as done},
     scratch::empty,
     steps::Steps,
     stop::Stop,
@@ -58,6 +58,39 @@ pub fn run(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
         npm(&["run", "build"])
     })?;
     steps.step("tests, page", || npm(&["test"]))
+}
+
+/// Prints cells a second of the page's lanes on one core and their ratios to those of a program: with SIMD to the registers that every machine
+/// of this target has, without to one block at a time.
+///
+/// # Errors
+/// If something cannot be built, or there is no Node.
+pub fn speed(root: &Path) -> Result<(), Stop> {
+    let folder = root.join(FOLDER);
+    MODULES.iter().try_for_each(|module| build(&folder, module))?;
+    let native = output(&mut cargo(root, &["bench", "--quiet", "--package", "sprag-cli", "--bench", "maps"]))?;
+    let path = tools::path_with_node(root)?;
+    let page = output(Command::new("node").current_dir(&folder).env("PATH", path).arg("benches/lanes.mjs"))?;
+    println!("{native}");
+    println!("cells a second of the page on one core; of a program's in brackets");
+    println!("{:8} {:>34} {:>34}", "geometry", "SIMD / baseline registers", "no SIMD / one block at a time");
+    for line in page.lines() {
+        let [geometry, simd, plain] = line.split(' ').collect::<Vec<_>>()[..] else { continue };
+        let all = native.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
+        let found = all
+            .into_iter()
+            .find(|words| words.first().is_some_and(|name| name.eq_ignore_ascii_case(geometry)) && words.get(1) == Some(&"all"));
+        // Device, widest and its ratio, baseline and its ratio, core.
+        let [_, _, _, _, baseline, _, core] = found.unwrap_or_default()[..] else {
+            return Err(Stop::failed(format!("the benchmark has no row for {geometry}")));
+        };
+        let ratio = |own: &str, native: &str| {
+            let [own_rate, native_rate] = [own, native].map(|text| text.parse::<f64>().unwrap_or(f64::NAN));
+            format!("{own} ({:.2} of {native})", own_rate / native_rate)
+        };
+        println!("{geometry:8} {:>34} {:>34}", ratio(simd, baseline), ratio(plain, core));
+    }
+    Ok(())
 }
 
 /// Builds a module, and writes its JavaScript beside it.
