@@ -68,12 +68,16 @@ class Map(Result):
         return dataset
 
     def plot(self, ax: matplotlib.axes.Axes | None = None, *, device: int = 0) -> matplotlib.axes.Axes:
-        """Draws the outcomes of a device."""
+        """Draws the outcomes of a device, each in its colour and named for a legend (`ax.legend()`)."""
         if ax is None:
             ax = extra("matplotlib.pyplot").subplots()[1]
         assert ax is not None
         y = self.y if self.y_key else np.zeros(1)
-        ax.pcolormesh(self.x, y, self.outcome[device], vmin=0, vmax=3, shading="nearest")
+        colours = extra("matplotlib.colors").ListedColormap([outcome.colour for outcome in Outcome])
+        ax.pcolormesh(self.x, y, self.outcome[device], cmap=colours, vmin=0, vmax=3, shading="nearest")
+        for outcome in Outcome:
+            # A square that is nowhere: the legend's.
+            ax.scatter([], [], marker="s", color=outcome.colour, edgecolors="0.6", label=outcome.words)
         ax.set_xlabel(self.x_key)
         ax.set_ylabel(self.y_key or "")
         ax.set_title(self.devices[device])

@@ -26,3 +26,13 @@ class Outcome(IntEnum):
     def overturned(self) -> bool:
         """Whether the block lies down."""
         return self >= Outcome.OVERTURNED_WITHOUT_IMPACT
+
+    @property
+    def colour(self) -> str:
+        """Colour in pictures, for colour-blind readers too."""
+        return ("#ffffff", "#d9e6f2", "#3b3b5c", "#d9822b")[self]
+
+    @property
+    def words(self) -> str:
+        """As a legend has it."""
+        return self.name.lower().replace("_", " ")

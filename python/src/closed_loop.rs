@@ -3,12 +3,12 @@
 use numpy::{Element, IntoPyArray as _};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use sprag_shared::math::fnv::Fnv;
 use sprag_shared::structure::block::GRAVITY;
 use sprag_sim::accuracy::Closeness;
 use sprag_sim::closed_loop::report::{LoopReport, clutches};
 use sprag_sim::closed_loop::run::Tick;
 use sprag_sim::closed_loop::{LoopFailure, LoopScene};
+use sprag_sim::digest::of_decisions;
 use sprag_sim::interrupt::Interrupt;
 
 use crate::errors::{Raise as _, range, refused};
@@ -106,9 +106,7 @@ pub fn run(
 pub fn dict(py: Python<'_>, report: LoopReport) -> PyResult<Bound<'_, PyDict>> {
     let dict = PyDict::new(py);
     dict.set_item("summary", serde_json::to_string(&report.summary).map_err(refused)?)?;
-    let mut hash = Fnv::default();
-    report.ticks.iter().for_each(|tick| tick.decision.feed(&mut hash));
-    dict.set_item("digest", hash.value())?;
+    dict.set_item("digest", of_decisions(&report.ticks))?;
     let columns = Columns { dict: &dict, ticks: &report.ticks };
     columns.add("t", |tick| tick.plant.time)?;
     columns.add("ground_m_s2", |tick| tick.plant.ground[0] * GRAVITY)?;

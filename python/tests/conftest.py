@@ -7,6 +7,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
+
+# A check does not fail by chance.
+settings.register_profile("check", derandomize=True)
+settings.load_profile("check")
 
 Rows = list[dict[str, str]]
 Command = Callable[..., Callable[[str], Rows]]

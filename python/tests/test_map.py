@@ -28,6 +28,17 @@ def test_threads_change_no_bit(scenes: Path) -> None:
     assert sprag.map(scene, threads=1) == sprag.map(scene, threads=2)
 
 
+def test_a_picture_shows_and_names_every_outcome(scenes: Path) -> None:
+    colors = pytest.importorskip("matplotlib.colors")
+    made = sprag.map(sprag.Scene.read(scenes / "figure08.toml"))
+    axes = made.plot(device=2)
+    assert axes.get_legend_handles_labels()[1] == [outcome.words for outcome in sprag.Outcome]
+    cells = axes.collections[0]
+    shown = cells.cmap(cells.norm(cells.get_array()))[..., :3]
+    wanted = np.array([colors.to_rgb(outcome.colour) for outcome in sprag.Outcome])
+    assert np.allclose(shown, wanted[made.outcome[2]])
+
+
 def test_a_cut_has_one_axis(scenes: Path) -> None:
     scene = sprag.Scene.read(scenes / "near_fault.toml")
     cut = sprag.map(scene, x=sprag.Axis(key="block.size_m", start=1.0, stop=4.0, cells=4, logarithmic=True))

@@ -7,6 +7,7 @@ pub mod board_loop;
 pub mod board_mirror;
 pub mod device_loop;
 pub mod dice;
+pub mod digests;
 pub mod emulation;
 #[path = "../../shared/src/device/tests/flash.rs"]
 pub mod flash;

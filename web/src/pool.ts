@@ -2,7 +2,21 @@
 import lanesUrl from "./core/lanes/sprag_lanes_bg.wasm?url";
 import lanesSimdUrl from "./core/lanes-simd/sprag_lanes_bg.wasm?url";
 import pageUrl from "./core/page/sprag_page_bg.wasm?url";
-import type { About, Boundary, Cells, DigestCheck, Engine, Key, Loop, MapAbout, RecordAbout, RecordFile, Response, Run, Source } from "./engine";
+import type {
+  About,
+  Boundary,
+  Cells,
+  DigestCheck,
+  Engine,
+  Key,
+  Loop,
+  MapAbout,
+  RecordAbout,
+  RecordFile,
+  Response,
+  Run,
+  Source,
+} from "./engine";
 import { fillMap } from "./pool/fill_map";
 import { Workers } from "./pool/workers";
 

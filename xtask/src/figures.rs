@@ -1,8 +1,11 @@
 //! Figures of the code itself: lines, test executables, event loops and their size.
 
-use crate::stop::Stop;
-use cargo_metadata::MetadataCommand;
+use crate::{
+    process::{cargo, output, target_folder},
+    stop::Stop,
+};
 use object::{Object as _, ObjectSymbol as _, SymbolKind};
+use serde_json::Value;
 use std::{
     collections::{BTreeMap, BTreeSet},
     fs, io,
@@ -37,11 +40,14 @@ pub fn run(root: &Path, program: Option<&str>) -> Result<(), Stop> {
         println!("{count:>10}  {folder}");
         total += count;
     }
-    let about = MetadataCommand::new().current_dir(root).no_deps().exec().map_err(|error| Stop::failed(error.to_string()))?;
-    let tests = about.packages.iter().flat_map(|package| &package.targets).filter(|target| target.test).count();
+    let about = output(&mut cargo(root, &["metadata", "--no-deps", "--format-version", "1"]))?;
+    let about: Value = serde_json::from_str(&about).map_err(|error| Stop::failed(error.to_string()))?;
+    let packages = about["packages"].as_array().into_iter().flatten();
+    let tests =
+        packages.filter_map(|package| package["targets"].as_array()).flatten().filter(|target| target["test"] == true).count();
     println!("{total:>10}  total\n{tests:>10}  test executables");
     for (name, built_by) in PROGRAMS {
-        let path = about.target_directory.as_std_path().join(name);
+        let path = target_folder(root).join(name);
         if path.is_file() { show(name, &path)? } else { println!("{name} is not built: `{built_by}`") }
     }
     Ok(())

@@ -59,12 +59,11 @@ pub fn run(root: &Path, only: Option<&str>, seconds: u32, inputs: Inputs) -> Res
     Ok(())
 }
 
-/// Checks that the targets still compile, without the instrumentation that makes building them slow.
+/// Checks that the targets still compile, without libFuzzer and the instrumentation that make building them slow.
 ///
 /// # Errors
 /// If one does not.
 pub fn check(root: &Path) -> Result<(), Stop> {
-    tools::need_cxx()?;
     // In the root's folder, which has the libraries of others checked already.
     done(cargo_in(root, WORKSPACE, &["check", "--all-targets"]).env("CARGO_TARGET_DIR", target_folder(root)))
 }
@@ -73,7 +72,7 @@ pub fn check(root: &Path) -> Result<(), Stop> {
 fn build(root: &Path) -> Result<Vec<(String, PathBuf)>, Stop> {
     let host = host(root)?;
     // Naming the target keeps the flags away from build scripts, which could not be linked with them.
-    let mut command = cargo_in(root, WORKSPACE, &["build", "--release", "--target", &host]);
+    let mut command = cargo_in(root, WORKSPACE, &["build", "--release", "--features", "run", "--target", &host]);
     command.env("CARGO_ENCODED_RUSTFLAGS", INSTRUMENTATION.join("\u{1f}"));
     let mut targets: Vec<_> = executables(&mut command, &[])?
         .into_iter()

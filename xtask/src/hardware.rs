@@ -7,18 +7,25 @@ mod failures;
 mod fits_firmware;
 mod schematic;
 
-use crate::{steps::Steps, stop::Stop, tools};
+use crate::{passed::Passed, steps::Steps, stop::Stop, tools};
 use std::path::Path;
 
 /// Folder of the coil driver's circuits.
 const COIL: &str = "docs/hardware/coil";
 
-/// Simulates the coil driver and checks the schematic.
+/// The checks of the coil driver.
+const COIL_CHECKS: Passed = Passed { sources: &[COIL, "xtask/src/hardware/coil.rs"], file: "xtask/src/hardware/coil.passed" };
+
+/// The checks of the schematic.
+const SCHEMATIC_CHECKS: Passed =
+    Passed { sources: &[schematic::FOLDER, "xtask/src/hardware/schematic.rs"], file: "xtask/src/hardware/schematic.passed" };
+
+/// Simulates the coil driver and checks the schematic, unless they have passed as they are and not `all` shall run.
 ///
 /// # Errors
 /// At the first check that fails, or if a tool is missing.
-pub fn run(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
+pub fn run(root: &Path, steps: &mut Steps, all: bool) -> Result<(), Stop> {
     tools::need_circuit_simulator()?;
-    steps.step("coil driver", || coil::check(&root.join(COIL)))?;
-    steps.step("schematic", || schematic::check(root))
+    steps.step("coil driver", || COIL_CHECKS.or(root, all, || coil::check(&root.join(COIL)).map(|()| true)))?;
+    steps.step("schematic", || SCHEMATIC_CHECKS.or(root, all, || schematic::check(root)))
 }

@@ -7,13 +7,13 @@ mod cluster;
 #[cfg(test)]
 mod documentation_links;
 mod effects;
-mod exhaustive;
 mod figures;
 mod firmware;
 mod fuzz;
 mod hardware;
 mod package;
 mod panic_check;
+mod passed;
 mod process;
 mod python;
 #[cfg(test)]
@@ -28,6 +28,7 @@ mod summary;
 mod test;
 mod ticks;
 mod tools;
+mod web;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use fuzz::Inputs;
@@ -55,8 +56,8 @@ enum Task {
     /// Every check, in order; stops at the first that fails
     #[command(alias = "ci")]
     Test,
-    /// The same with the exhaustive tests, which otherwise run when what they prove has changed, each fuzz target from its seeds on,
-    /// the Python package and the site of documents
+    /// The same with the exhaustive tests and the checks of docs/hardware, which otherwise run when what they depend on has changed, the
+    /// installed program, and each fuzz target from its seeds on
     Nightly {
         /// How long each fuzz target runs, s; 0 only tries the committed seeds
         #[arg(long, default_value_t = FUZZ_SECONDS)]
@@ -104,6 +105,12 @@ enum Task {
     /// Build the documents as a site into target/site, run the examples of its gallery and follow its links; needs python3 with venv and a
     /// package index
     Site,
+    /// Build the page into web/dist and test it in a browser; needs Chromium, Node or a package index, and the registry of Node's packages
+    Web {
+        /// Build, and instead of the tests print how fast the lanes are against those of this machine's programs
+        #[arg(long)]
+        speed: bool,
+    },
     /// Print figures of the code: lines without tests, test executables, and of each program that is built the event loops and the bytes
     /// of code by room of the core
     Figures {
@@ -164,10 +171,12 @@ fn run(task: Task) -> Result<(), Stop> {
         Task::Ticks => ticks::run(root),
         Task::BoardImage { what: Counted::Ticks } => board_image::measure(root, "ticks"),
         Task::BoardImage { what: Counted::Profile } => board_image::measure(root, "profile"),
-        Task::Hardware => hardware::run(root, &mut Steps::default()),
-        Task::Python { dist } => python::run(root, &mut Steps::default(), if dist { "dist" } else { "dev" }, None),
+        Task::Hardware => hardware::run(root, &mut Steps::default(), true),
+        Task::Python { dist } => python::Started::new(root, dist)?.check(root, &mut Steps::default(), None),
         Task::Wheels => python::wheels(root, &mut Steps::default()),
         Task::Site => site::run(root, &mut Steps::default()),
+        Task::Web { speed: false } => web::run(root, &mut Steps::default()),
+        Task::Web { speed: true } => web::speed(root),
         Task::Figures { program } => figures::run(root, program.as_deref()),
         Task::Deb => package::deb(root),
         Task::Cluster => cluster::run(root, &test::program(root)),

@@ -1,7 +1,7 @@
 //! Starting other programs.
 
 use crate::stop::Stop;
-use cargo_metadata::Message;
+use serde_json::{Deserializer, Value};
 use std::{
     ffi::OsString,
     io::{self, BufRead as _, BufReader, Read as _, Write as _},
@@ -164,8 +164,8 @@ pub fn executables(build: &mut Command, to_compiler: &[String]) -> Result<Vec<Pa
         build.arg("--").args(to_compiler);
     }
     let messages = output(build)?;
-    let executable = |message| if let Ok(Message::CompilerArtifact(built)) = message { built.executable } else { None };
-    Ok(Message::parse_stream(messages.as_bytes()).filter_map(executable).map(PathBuf::from).collect())
+    let messages = Deserializer::from_str(&messages).into_iter::<Value>().flatten();
+    Ok(messages.filter_map(|message| message["executable"].as_str().map(PathBuf::from)).collect())
 }
 
 /// Whether a program is there and answers.

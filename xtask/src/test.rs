@@ -1,10 +1,11 @@
 //! Every check of the project, in the order in which they are cheapest to fail.
 
 use crate::{
-    board_image, cluster, exhaustive,
+    board_image, cluster,
     firmware::{BOARD, Built, LINTED, TARGET},
     fuzz::{self, Inputs},
     hardware, package, panic_check,
+    passed::Passed,
     process::{Beside, cargo, cargo_in, host, run as done, target_folder},
     python, site, size,
     steps::Steps,
@@ -16,7 +17,17 @@ use std::path::{Path, PathBuf};
 /// The target of programs in a browser.
 const PAGE: &str = "wasm32-unknown-unknown";
 
-/// Runs every check; where `fuzz_seconds` are given, the installed program too, and each fuzz target for so long.
+/// The tests that prove a bound of the core's arithmetic by trying every input.
+const EXHAUSTIVE: Passed = Passed {
+    sources: &["shared/src/math", "tests/tests/motion/sine_exhaustive.rs"],
+    file: "tests/tests/motion/sine_exhaustive.passed",
+};
+
+/// The part of the name that all these tests have in common.
+const EXHAUSTIVE_NAME: &str = "exhaustive::every_";
+
+/// Runs every check; where `fuzz_seconds` are given, those too that have passed with the same sources before, the installed program, and each
+/// fuzz target for so long.
 ///
 /// # Errors
 /// At the first check that fails.
@@ -54,6 +65,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     })?;
     // No step until they are needed keeps both processors busy.
     let built_tests = Beside::start(&mut cargo(root, &["test", "--workspace", "--no-run"]))?;
+    let python = steps.step("tools, python", || Ok(python::Started::new(root, false)))?;
     let built = images(root, &mut steps, false)?;
     steps.step("tests, drivers", || {
         // The workspace's own target is the board's.
@@ -66,16 +78,21 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
             &["clippy", "--package", "sprag-drivers", "--all-targets", "--target", &host, "--", "-D", "warnings"],
         ))
     })?;
-    hardware::run(root, &mut steps)?;
+    hardware::run(root, &mut steps, fuzz_seconds.is_some())?;
     steps.step("tests, board image", || board_image::tests(root, &built))?;
     steps.step("rest of the tests' build", || built_tests.wait())?;
     steps.step("tests", || tests(root, &built, fuzz_seconds.is_some()))?;
     steps.step("Slurm array", || cluster::run(root, &program(root)))?;
+    match python {
+        Ok(python) => {
+            python.check(root, &mut steps, Some(&built))?;
+            site::run(root, &mut steps)?;
+        }
+        Err(stop) => println!("-- checks not run: the Python package, the site: {stop}"),
+    }
     match fuzz_seconds {
         Some(seconds) => {
             steps.step("installed program", || package::try_installed(root))?;
-            python::run(root, &mut steps, "dev", Some(&built))?;
-            site::run(root, &mut steps)?;
             steps.step("fuzzing", || fuzz::run(root, None, seconds, Inputs::Same))
         }
         None => steps.step("fuzz targets", || fuzz::check(root)),
@@ -98,17 +115,17 @@ fn tests(root: &Path, built: &Built, all: bool) -> Result<(), Stop> {
         Ok(python) => _ = command.env("SPRAG_PYTHON", python),
         Err(stop) => lacking.push(("needs_python", stop.to_string())),
     }
-    let sources = exhaustive::checksum(root)?;
-    let passed = !all && exhaustive::passed(root, &sources);
+    let sources = EXHAUSTIVE.checksum(root)?;
+    let passed = !all && EXHAUSTIVE.holds(root, &sources);
     if passed {
-        lacking.push((exhaustive::NAME, "passed with the same sources before".to_owned()));
+        lacking.push((EXHAUSTIVE_NAME, "passed with the same sources before".to_owned()));
     }
     for (need, _) in &lacking {
         command.args(["--skip", need]);
     }
     let result = done(&mut command);
     if result.is_ok() && !passed {
-        exhaustive::keep(root, &sources)?;
+        EXHAUSTIVE.keep(root, &sources)?;
     }
     for (need, why) in lacking {
         println!("-- tests not run: {need}: {why}");

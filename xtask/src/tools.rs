@@ -5,6 +5,7 @@ use crate::{
     stop::Stop,
 };
 use std::{
+    ffi::OsString,
     path::{Path, PathBuf},
     process::Command,
 };
@@ -78,6 +79,33 @@ pub fn need_cxx() -> Result<(), Stop> {
     let own = std::env::var("CXX").unwrap_or_default();
     let candidates: &[&str] = if own.is_empty() { &["c++"] } else { &[&own] };
     need("g++", candidates)
+}
+
+/// Makes sure that there is a browser, which `SPRAG_CHROMIUM` names where it is not Debian's Chromium.
+///
+/// # Errors
+/// If there is none and none can be installed.
+pub fn need_browser() -> Result<(), Stop> {
+    let own = std::env::var("SPRAG_CHROMIUM").unwrap_or_default();
+    let candidates: &[&str] = if own.is_empty() { &["chromium"] } else { &[&own] };
+    need("chromium", candidates)
+}
+
+/// The search path of programs with a Node that the page's tools run on: this machine's, or where that is older, one of the package index.
+///
+/// # Errors
+/// If there is neither.
+pub fn path_with_node(root: &Path) -> Result<OsString, Stop> {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    // The oldest one that Vite runs on.
+    const NEW_ENOUGH: &str =
+        "const [a, b] = process.versions.node.split('.').map(Number); process.exit(a > 20 || a == 20 && b >= 19 ? 0 : 1)";
+    if answers("node", &["-e", NEW_ENOUGH]) && answers("npm", &["--version"]) {
+        return Ok(path);
+    }
+    let python = python_of(root, "target/page-node", "web/requirements.txt", &[])?;
+    let folders = python.parent().into_iter().map(Path::to_owned).chain(std::env::split_paths(&path));
+    std::env::join_paths(folders).map_err(|error| Stop::usage(format!("PATH: {error}")))
 }
 
 /// A Python with the packages that the file `requirements` lists, in a virtual environment of its own.

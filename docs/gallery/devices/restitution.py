@@ -10,8 +10,6 @@ sine, over restitution and amplitude?
 import matplotlib.pyplot as plt
 import numpy as np
 import sprag
-from matplotlib.colors import ListedColormap
-from matplotlib.patches import Patch
 
 SLENDERNESS = np.radians(15.0)
 
@@ -26,14 +24,11 @@ outcomes = sprag.map(
     y=sprag.Axis(key="ground.0.amplitude_g", start=0.25, stop=1.5, cells=126),
 )
 
-colours = {"no rocking": "white", "safe": "#d9e6f2", "overturned without impact": "#3b3b5c", "overturned after impact": "#d9822b"}
 figure, axes = plt.subplots(1, 3, figsize=(10, 4), sharey=True, layout="constrained")
 for device, axis in enumerate(axes):
-    axis.pcolormesh(outcomes.x, outcomes.y, outcomes.outcome[device], cmap=ListedColormap(list(colours.values())), vmin=0, vmax=3)
+    outcomes.plot(axis, device=device)
     axis.axvline(1 - 1.5 * np.sin(SLENDERNESS) ** 2, color="k", linestyle="--", linewidth=1)
-    axis.set(title=outcomes.devices[device], xlabel="restitution $\\eta$")
+    axis.set(title=outcomes.devices[device], xlabel="restitution $\\eta$", ylabel="")
 axes[0].set_ylabel("amplitude (g)")
-figure.legend(
-    handles=[Patch(facecolor=colour, label=name) for name, colour in list(colours.items())[1:]], loc="outside lower center", ncols=3
-)
+figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
 plt.show()

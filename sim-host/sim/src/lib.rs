@@ -4,7 +4,7 @@
 //! - [`scene`], [`record`], [`ground_motion`], [`synthesis`]: what is simulated.
 //! - [`simulation`]: one scene, every device; [`batch`]: one dimensionless case; [`map`]: a scene over two of its keys; [`accuracy`]: as accurate as asked, and how accurate that is.
 //! - [`sensor`], [`closed_loop`]: the controller that is flashed, with the sensors and the plant that it has on the host.
-//! - [`effect`]: what a scene may ask for, and what follows from it; [`history`]: the response sampled in time; [`csv_field`]: a name in a table; [`interrupt`]: a request to
+//! - [`effect`]: what a scene may ask for, and what follows from it; [`history`]: the response sampled in time; [`digest`]: whether two are the same to the last bit; [`csv_field`]: a name in a table; [`interrupt`]: a request to
 //!   stop.
 
 pub mod accuracy;
@@ -12,6 +12,7 @@ pub mod batch;
 #[cfg(feature = "effects")]
 pub mod closed_loop;
 pub mod csv_field;
+pub mod digest;
 pub mod effect;
 pub mod ground_motion;
 pub mod history;

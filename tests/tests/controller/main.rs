@@ -3,6 +3,7 @@
 mod bad_frames;
 mod closed_loop;
 mod controller_hard_cases;
+mod digests;
 mod feedback;
 mod ladder;
 mod let_go;

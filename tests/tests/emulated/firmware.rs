@@ -8,16 +8,18 @@ use sprag_cli::board::image::build_bench;
 use sprag_cli::board::report::costs;
 use sprag_shared::control::supervisor::Phase;
 use sprag_sim::closed_loop::LoopScene;
+use sprag_sim::digest::of_decisions;
 use sprag_tests::device_loop::{Course, Trial, faithful, on_the_host, pulse, scene};
+use sprag_tests::digests::of_scene;
 use sprag_tests::emulation::{board_firmware, controller_firmware};
 
 /// Runs `scene` on the device in the emulator and on the host.
-fn one_code(name: &str, scene: &LoopScene, way: Way) {
-    compare(name, &Trial { way, ..Trial::new(&controller_firmware(), scene) });
+fn one_code(name: &str, scene: &LoopScene, way: Way) -> Course {
+    compare(name, &Trial { way, ..Trial::new(&controller_firmware(), scene) })
 }
 
 /// Runs a trial on its device and on the host.
-fn compare(name: &str, trial: &Trial<'_>) {
+fn compare(name: &str, trial: &Trial<'_>) -> Course {
     let (host, peak) = on_the_host(trial.scene);
     let begun = std::time::Instant::now();
     let course = trial.run(faithful(), &mut ());
@@ -42,6 +44,14 @@ fn compare(name: &str, trial: &Trial<'_>) {
         course.state.stack,
         course.ticks.len() as f64 / seconds
     );
+    course
+}
+
+/// Runs a scene of `scenes/digests.csv` on the device, the host and by the digest that every other machine has of it.
+fn everywhere(name: &str) {
+    let course = one_code(name, &scene(&format!("{name}.toml"), &[]), Way::Streams);
+    let decisions = of_decisions(&course.seen);
+    assert_eq!(decisions, of_scene(name).decisions, "{name}: {decisions:016x}");
 }
 
 /// Changes of command.
@@ -52,19 +62,19 @@ fn commands(course: &Course) -> usize {
 #[test]
 #[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn figure_5_is_the_same_on_the_device() {
-    one_code("Figure 5", &scene("figure05.toml", &[]), Way::Streams);
+    everywhere("figure05");
 }
 
 #[test]
 #[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn figure_10_is_the_same_on_the_device() {
-    one_code("Figure 10", &scene("figure10.toml", &[]), Way::Streams);
+    everywhere("figure10");
 }
 
 #[test]
 #[ignore = "needs the emulator and its images: run by cargo xtask test"]
 fn the_near_fault_motion_is_the_same_on_the_device() {
-    one_code("near fault", &scene("near_fault.toml", &["run.free_time_s=0.5"]), Way::Streams);
+    everywhere("near_fault");
 }
 
 /// Byte by byte through the emulated USART1, each sample a tick.

@@ -5,7 +5,6 @@ use sprag_report::plot::{LoopTrace, loop_figure};
 use sprag_shared::control::controller::Circumstances;
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::Phase;
-use sprag_shared::math::fnv::Fnv;
 use sprag_shared::structure::block::GRAVITY;
 use sprag_sim::closed_loop::disturbance::Disturbance;
 use sprag_sim::closed_loop::failing::{ALL, Injected};
@@ -13,6 +12,7 @@ use sprag_sim::closed_loop::plant::Extremes;
 use sprag_sim::closed_loop::report::{LoopReport, clutches, write_history};
 use sprag_sim::closed_loop::run::Tick;
 use sprag_sim::closed_loop::{LoopFailure, LoopScene};
+use sprag_sim::digest::of_decisions;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
 
@@ -68,17 +68,10 @@ pub fn closed_loop(scene: &Scene, faults: &[(String, f64)]) -> Result<Columns, P
         ("states", Column::Texts(Phase::ALL.iter().map(|state| format!("{state:?}").to_lowercase()).collect())),
         ("fault", Column::LongCodes(ticks.iter().map(fault).collect())),
         ("idealPair", Column::Columns(response(&report.ideal)?)),
-        ("digest", Column::Text(digest(ticks))),
+        ("digest", Column::Text(format!("{:016x}", of_decisions(ticks)))),
         ("csv", Column::Text(String::from_utf8(csv).map_err(PageError::failed)?)),
         ("svg", Column::Text(figure)),
     ])
-}
-
-/// [`Fnv`] over every decision, as 16 hexadecimal digits; the firmware's decisions have the same.
-pub fn digest(ticks: &[Tick]) -> String {
-    let mut hash = Fnv::default();
-    ticks.iter().for_each(|tick| tick.decision.feed(&mut hash));
-    format!("{:016x}", hash.value())
 }
 
 /// The loop of [`closed_loop`] with all its ticks.

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use sprag_sim::digest::{of_decisions, of_responses};
+
 use crate::closed_loop;
 use crate::examples::{EXAMPLES, near_fault};
 use crate::run;
@@ -40,8 +42,8 @@ pub fn digests() -> Result<Vec<DigestCheck>, PageError> {
             computed,
             expected: expected.to_owned(),
         };
-        checks.push(of("decisions (f32)", closed_loop::digest(&ticks), decisions));
-        checks.push(of("responses (f64)", run::digest(&run::responses(&scene.scene)?), motion));
+        checks.push(of("decisions (f32)", of_decisions(&ticks), decisions));
+        checks.push(of("responses (f64)", of_responses(&run::responses(&scene.scene)?), motion));
     }
     Ok(checks)
 }

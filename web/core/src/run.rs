@@ -2,7 +2,7 @@
 
 use sprag_report::heading::title;
 use sprag_report::plot::{TimeAxis, history_figure};
-use sprag_shared::math::fnv::Fnv;
+use sprag_sim::digest::of_responses;
 use sprag_sim::history::{History, Sample, write_csv};
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
@@ -18,7 +18,7 @@ use crate::scene::PageError;
 /// [`PageError`] for a motion that cannot be followed.
 pub fn run(scene: &Scene) -> Result<Columns, PageError> {
     let runs = responses(scene)?;
-    let digest = digest(&runs);
+    let digest = format!("{:016x}", of_responses(&runs));
     let each = runs.iter().map(response).collect::<Result<_, _>>()?;
     let histories: Vec<History> = runs.into_iter().map(|run| run.history).collect();
     let mut csv = Vec::new();
@@ -43,16 +43,6 @@ pub fn run(scene: &Scene) -> Result<Columns, PageError> {
 pub fn responses(scene: &Scene) -> Result<Vec<DeviceRun>, PageError> {
     let ground = scene.ground_motions().map_err(PageError::failed)?;
     simulate(scene, &ground, &Interrupt::default()).map_err(PageError::failed)
-}
-
-/// [`Fnv`] over θ and θ̇ of every sample, as 16 hexadecimal digits.
-pub fn digest(runs: &[DeviceRun]) -> String {
-    let mut hash = Fnv::default();
-    for sample in runs.iter().flat_map(|run| &run.history.samples) {
-        hash.number(sample.rotation_rad);
-        hash.number(sample.velocity_rad_s);
-    }
-    format!("{:016x}", hash.value())
 }
 
 /// A response as a table; its summary is JSON.

@@ -59,11 +59,15 @@ function showRun(charts: readonly [Chart, Chart, Chart, Chart], run: Run, select
   }
   const alpha = about.slendernessRad;
   const speed = about.frequencyParameter1S * alpha;
+  const count = shownSamples(chosen, alpha);
   const marks: Marks = {
     tints: ([1, 2] as const).map((flywheel) => ({
       colour: flywheelTint(flywheel),
       // An inerter is engaged all the time; a tint would say nothing.
-      spans: about.devices[selected]?.kind === "clutched-pair" ? spans(chosen.timeS, chosen.engaged, flywheel) : [],
+      spans:
+        about.devices[selected]?.kind === "clutched-pair"
+          ? spans(chosen.timeS.subarray(0, count), chosen.engaged.subarray(0, count), flywheel)
+          : [],
     })),
     ticksS: chosen.impactsS,
     guides: [0],

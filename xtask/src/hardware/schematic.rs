@@ -3,20 +3,21 @@
 use crate::{process::run, stop::Stop, tools};
 use std::{fs, path::Path};
 
-const SCHEMATIC: &str = "docs/hardware/schematic";
+/// Folder of the schematic.
+pub const FOLDER: &str = "docs/hardware/schematic";
 
-/// Checks the rules and that what is in the repository is what the schematic makes; says so where this machine cannot have the packages.
+/// Checks the rules and that what is in the repository is what the schematic makes. Where this machine cannot have the packages, it
+/// says so and gives `false`.
 ///
 /// # Errors
 /// If a rule is violated or a file is another.
-pub fn check(root: &Path) -> Result<(), Stop> {
-    let source = root.join(SCHEMATIC);
-    let python = match tools::python_of(root, "target/python-schematic", &format!("{SCHEMATIC}/requirements.txt"), &["--no-deps"])
-    {
+pub fn check(root: &Path) -> Result<bool, Stop> {
+    let source = root.join(FOLDER);
+    let python = match tools::python_of(root, "target/python-schematic", &format!("{FOLDER}/requirements.txt"), &["--no-deps"]) {
         Ok(python) => python,
         Err(stop) => {
             println!("-- schematic not checked: {stop}");
-            return Ok(());
+            return Ok(false);
         }
     };
     let made = root.join("target/schematic");
@@ -34,5 +35,5 @@ pub fn check(root: &Path) -> Result<(), Stop> {
             return Err(Stop::failed(format!("{} is not what board.py makes: copy it from {}", path.display(), made.display())));
         }
     }
-    Ok(())
+    Ok(true)
 }

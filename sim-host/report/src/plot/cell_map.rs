@@ -207,7 +207,7 @@ mod tests {
 
     use super::*;
     use crate::plot::Cell;
-    use crate::plot::synthetic::assert_drawn;
+    use crate::plot::assert_drawn;
 
     fn map(title: &str, columns: usize, rows: usize) -> CellMap {
         let cell = |index: usize| match (index % columns + index / columns, index % columns) {

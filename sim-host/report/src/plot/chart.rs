@@ -270,7 +270,7 @@ impl<'a> Looks<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::synthetic::assert_drawn;
+    use crate::plot::assert_drawn;
 
     fn line(name: &str, exponent: i32) -> Line {
         let points = (0..10).map(|k| (f64::from(1 << k), 1e-2 * (0..k * exponent).fold(1.0, |value, _| 0.5 * value)));

@@ -224,7 +224,7 @@ impl CloudSeries {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::synthetic::assert_drawn;
+    use crate::plot::assert_drawn;
 
     fn demand() -> CloudFigure {
         let series = |device: usize| CloudSeries {

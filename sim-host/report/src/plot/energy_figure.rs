@@ -196,7 +196,7 @@ fn keys(ledgers: &[Vec<(f64, Shares)>], layers: &[Layer]) -> [Vec<LegendEntry>; 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::synthetic::assert_drawn;
+    use crate::plot::assert_drawn;
     use sprag_shared::observers::outcome::Outcome;
     use sprag_sim::history::History;
     use sprag_sim::simulation::demand::Impulses;

@@ -87,7 +87,10 @@ pub fn history_figure(title: impl Into<FigureTitle>, histories: &[History], axes
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::synthetic::{assert_drawn, at_rest, overturning, safe, with_clutched_pair, with_inerter};
+    use crate::plot::{
+        assert_drawn,
+        synthetic::{at_rest, overturning, safe, with_clutched_pair, with_inerter},
+    };
 
     fn three() -> Vec<History> {
         vec![

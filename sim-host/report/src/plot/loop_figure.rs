@@ -192,7 +192,7 @@ fn scale_with_estimate(values: &[f64], estimated: &[f64]) -> Range<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::synthetic::assert_drawn;
+    use crate::plot::assert_drawn;
 
     /// Two seconds at `count` samples; no dynamics behind them.
     fn trace(count: usize) -> LoopTrace {

@@ -10,7 +10,6 @@ mod cloud_figure;
 mod curve;
 mod decimate;
 mod device_trace;
-#[cfg(any(test, feature = "testing"))]
 #[cfg_attr(not(feature = "png"), path = "no_drawn.rs")]
 mod drawn;
 mod energy_figure;
@@ -38,8 +37,8 @@ mod recording_figure;
 mod rug;
 mod sensitivity_figure;
 mod stack;
-#[cfg(any(test, feature = "testing"))]
-pub mod synthetic;
+#[cfg(test)]
+mod synthetic;
 mod text_width;
 mod ticks;
 mod time_axis;
@@ -49,6 +48,7 @@ pub use cell::{Cell, Class, band};
 pub use cell_map::{CellMap, CellMaps, cell_map_figure};
 pub use chart::{Chart, ChartKey, ChartPanel, Line, LineLook, chart_figure};
 pub use cloud_figure::{BandPoint, CloudFigure, CloudPanel, CloudSeries, cloud_figure};
+pub use drawn::assert_drawn;
 pub use energy_figure::energy_figure;
 pub use figure_title::FigureTitle;
 pub use formula::literal;

@@ -104,7 +104,7 @@ fn check(trace: &RecordingTrace) -> Result<(), PlotError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::synthetic::assert_drawn;
+    use crate::plot::assert_drawn;
 
     #[test]
     fn a_recording_is_well_formed_and_shows_what_it_has() {

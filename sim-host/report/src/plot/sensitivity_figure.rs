@@ -279,7 +279,7 @@ fn keys(devices: &[String], rows: &[SensitivityRow]) -> [Vec<LegendEntry>; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::synthetic::assert_drawn;
+    use crate::plot::assert_drawn;
 
     fn rows() -> Vec<SensitivityRow> {
         let lane = |device: usize, change: f64| SensitivityLane {

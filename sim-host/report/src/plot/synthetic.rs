@@ -1,6 +1,5 @@
-//! For the tests of the figures: checks of SVG text, and responses that are half waves of growing or shrinking height.
+//! For the tests of the figures: responses that are half waves of growing or shrinking height.
 
-pub use super::drawn::assert_drawn;
 use sprag_sim::history::{History, Sample};
 
 const ALPHA_RAD: f64 = 0.15;

@@ -196,7 +196,7 @@ impl TradeOffPanel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::synthetic::assert_drawn;
+    use crate::plot::assert_drawn;
 
     fn figure(panels: usize) -> TradeOffFigure {
         let point = |k: u32| TradeOffPoint {

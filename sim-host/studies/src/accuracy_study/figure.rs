@@ -191,7 +191,7 @@ mod tests {
     use super::*;
     use crate::accuracy_study::board::BoardCost;
     use crate::accuracy_study::variant::{Variant, variants};
-    use sprag_report::plot::synthetic::assert_drawn;
+    use sprag_report::plot::assert_drawn;
 
     /// The rows of a table that `sprag accuracy` has written, and the names of its devices.
     fn read(table: &Path) -> (Vec<Row>, Vec<String>) {

@@ -75,7 +75,7 @@ export const page = {
 
   results: {
     caption: "Results; the chosen device's clutch and impacts are marked in the histories",
-    columns: ["Device", "Outcome", "Peak θ/α", "Impacts", "Clutch switches", "Peak force/weight"],
+    columns: ["Device", "Outcome", "Peak θ/α", "Impacts", "Clutch switches", "Peak F/(mg)"],
   },
 
   controls: {

@@ -1,0 +1,108 @@
+//! The page: its core as WebAssembly, its files, and its tests in a browser.
+
+use crate::{
+    process::{cargo, output, run as done},
+    scratch::empty,
+    steps::Steps,
+    stop::Stop,
+    tools,
+};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+/// Folder of the page.
+pub const FOLDER: &str = "web";
+
+/// The target of programs in a browser.
+const TARGET: &str = "wasm32-unknown-unknown";
+
+/// What a browser's registers of 128 bits are called.
+const SIMD: &str = "target.wasm32-unknown-unknown.rustflags=[\"-Ctarget-feature=+simd128\"]";
+
+/// Modules: folder of the page's sources, package, file, further words of cargo. The lanes are built twice, for browsers without SIMD too.
+const MODULES: [(&str, &str, &str, &[&str]); 3] = [
+    ("page", "sprag-page", "sprag_page", &[]),
+    ("lanes", "sprag-page-lanes", "sprag_lanes", &[]),
+    ("lanes-simd", "sprag-page-lanes", "sprag_lanes", &["--config", SIMD]),
+];
+
+/// Builds the page into web/dist, and tests it in a browser.
+///
+/// # Errors
+/// At the first check that fails, or if there is no Node, no browser or no package index.
+pub fn run(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
+    let folder = root.join(FOLDER);
+    let path = steps.step("tools, page", || {
+        tools::need_target(root, TARGET)?;
+        tools::need_browser()?;
+        tools::path_with_node(root)
+    })?;
+    steps.step("lints, page", || {
+        done(&mut cargo(&folder, &["fmt", "--all", "--check"]))?;
+        let args = ["clippy", "--locked", "--package", "sprag-page", "--package", "sprag-page-lanes", "--target", TARGET];
+        done(cargo(&folder, &args).args(["--", "-D", "warnings"]))?;
+        done(&mut cargo(&folder, &["clippy", "--locked", "--package", "sprag-page-bindings", "--", "-D", "warnings"]))
+    })?;
+    steps.step("core of the page", || {
+        empty(&folder.join("src/core"))?;
+        MODULES.iter().try_for_each(|module| build(&folder, module))
+    })?;
+    let npm = |words: &[&str]| done(Command::new("npm").current_dir(&folder).env("PATH", &path).args(words));
+    steps.step("page", || {
+        npm(&["ci", "--no-audit", "--no-fund"])?;
+        npm(&["run", "check"])?;
+        npm(&["run", "types"])?;
+        npm(&["run", "build"])
+    })?;
+    steps.step("tests, page", || npm(&["test"]))
+}
+
+/// Prints cells a second of the page's lanes on one core and their ratios to those of a program: with SIMD to the registers that every machine
+/// of this target has, without to one block at a time.
+///
+/// # Errors
+/// If something cannot be built, or there is no Node.
+pub fn speed(root: &Path) -> Result<(), Stop> {
+    let folder = root.join(FOLDER);
+    MODULES.iter().try_for_each(|module| build(&folder, module))?;
+    let native = output(&mut cargo(root, &["bench", "--quiet", "--package", "sprag-cli", "--bench", "maps"]))?;
+    let path = tools::path_with_node(root)?;
+    let page = output(Command::new("node").current_dir(&folder).env("PATH", path).arg("benches/lanes.mjs"))?;
+    println!("{native}");
+    println!("cells a second of the page on one core; of a program's in brackets");
+    println!("{:8} {:>34} {:>34}", "geometry", "SIMD / baseline registers", "no SIMD / one block at a time");
+    for line in page.lines() {
+        let [geometry, simd, plain] = line.split(' ').collect::<Vec<_>>()[..] else { continue };
+        let all = native.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
+        let found = all
+            .into_iter()
+            .find(|words| words.first().is_some_and(|name| name.eq_ignore_ascii_case(geometry)) && words.get(1) == Some(&"all"));
+        // Device, widest and its ratio, baseline and its ratio, core.
+        let [_, _, _, _, baseline, _, core] = found.unwrap_or_default()[..] else {
+            return Err(Stop::failed(format!("the benchmark has no row for {geometry}")));
+        };
+        let ratio = |own: &str, native: &str| {
+            let [own_rate, native_rate] = [own, native].map(|text| text.parse::<f64>().unwrap_or(f64::NAN));
+            format!("{own} ({:.2} of {native})", own_rate / native_rate)
+        };
+        println!("{geometry:8} {:>34} {:>34}", ratio(simd, baseline), ratio(plain, core));
+    }
+    Ok(())
+}
+
+/// Builds a module, and writes its JavaScript beside it.
+fn build(folder: &Path, (name, package, file, words): &(&str, &str, &str, &[&str])) -> Result<(), Stop> {
+    done(cargo(folder, &["build", "--locked", "--release", "--package", package, "--target", TARGET]).args(*words))?;
+    let module = target(folder).join(TARGET).join("release").join(file).with_extension("wasm");
+    let place = folder.join("src/core").join(name);
+    fs::create_dir_all(&place).map_err(|error| Stop::failed(format!("{}: {error}", place.display())))?;
+    done(cargo(folder, &["run", "--locked", "--quiet", "--package", "sprag-page-bindings", "--"]).arg(module).arg(place))
+}
+
+/// The folder that the page's workspace is built in.
+fn target(folder: &Path) -> PathBuf {
+    folder.join(std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()))
+}
