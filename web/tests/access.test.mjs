@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { AxeBuilder } from "@axe-core/playwright";
 import { keep, open, texts, until } from "./browser.mjs";
-import { EXAMPLES, anotherDigest, choose, shownDigest } from "./shell.mjs";
+import { EXAMPLES, anotherDigest, choose, shownDigest, toml } from "./shell.mjs";
 import { filled, panels, said, sections } from "./views.mjs";
 
 const words = texts.page;
@@ -14,7 +14,16 @@ async function full(t, options) {
   await choose(page, EXAMPLES.controller);
   await sections(page).loop.scrollIntoViewIfNeeded();
   await until("a closed loop", () => sections(page).loop.getByText(texts.views.loop.result, { exact: true }).count());
-  await sections(page).map.getByRole("button", { name: texts.views.map.fill }).click();
+  const { map: words } = texts.views;
+  for (const axis of [words.axis.x, words.axis.y]) {
+    const cells = sections(page).map.getByRole("group", { name: axis }).getByLabel(words.cells);
+    await cells.fill("24");
+    await cells.press("Tab");
+    await until(
+      "a map of this size",
+      async () => (await toml(page).inputValue()).split("cells = 24").length > (axis === words.axis.y ? 2 : 1),
+    );
+  }
   await filled(page);
   await sections(page).trust.getByRole("button", { name: texts.views.trust.compute }).click();
   await until("digests", () => sections(page).trust.getByRole("table").count());

@@ -88,7 +88,11 @@ test("arrow keys move over cells, Enter takes one", async (t) => {
   await panels(page).nth(1).focus();
   await page.keyboard.press("ArrowRight");
   const first = await said(page).textContent();
-  assert.notEqual(first, "");
+  const values = first
+    .match(/ω_g\/p ([\d.]+), .*?([\d.]+): /)
+    .slice(1, 3)
+    .map(Number);
+  assert.ok(values[0] > 3 && values[0] < 3.3 && Math.abs(values[1] - 3) < 0.1, `one cell to the right of the scene, 3 and 3: ${first}`);
   await page.keyboard.press("Shift+ArrowUp");
   const second = await said(page).textContent();
   assert.notEqual(second, first);
@@ -142,4 +146,24 @@ test("axes, scale, bands, cut and boundaries", async (t) => {
   await until("a curve a device", async () => (await panels(page).first().locator("svg path").count()) >= 3);
   await filled(page);
   await keep(page, "cut");
+});
+
+test("a map is stopped, filled again, and dropped for another scene", async (t) => {
+  const page = await open(t);
+  await choose(page, EXAMPLES.nearFault);
+  const { map } = sections(page);
+  const fill = map.getByRole("button", { name: words.fill, exact: true });
+  await map.scrollIntoViewIfNeeded();
+  await fill.click();
+  await until("some cells, not all", () => map.getByText(/^([1-9]|[1-8]\d) % of the cells known$/).count());
+  await map.getByRole("button", { name: words.stop, exact: true }).click();
+  const stopped = await until("a stopped map", () => map.getByText(new RegExp(`, ${words.stopped}$`)).textContent());
+  await page.waitForTimeout(500);
+  assert.equal(await map.getByText(new RegExp(`, ${words.stopped}$`)).textContent(), stopped, "no cell comes any more");
+  await fill.click();
+  await until("a map that is filled again", () => map.getByRole("button", { name: words.stop, exact: true }).count());
+  await choose(page, EXAMPLES.figure08);
+  await filled(page);
+  assert.equal(await map.getByText(words.whole(64 * 64, "").slice(0, 12)).count(), 1, "the map of the other scene");
+  assert.equal(await panels(page).count(), 3);
 });

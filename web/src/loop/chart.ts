@@ -69,7 +69,7 @@ export function chartIn(root: HTMLElement, time: Float64Array, curves: readonly 
         stroke: () => (colour === "" ? ink() : colour),
         width,
         ...(dashes === undefined ? {} : { dash: dashes }),
-        value: (_: uPlot, value: number | null) => (value === null ? "" : value.toFixed(4)),
+        value: (_: uPlot, value: number | null) => (value === null ? "" : value.toFixed(4).replace(/^-(?=[0.]+$)/, "")),
         points: { show: false },
       })),
     ],

@@ -1,21 +1,19 @@
 /** The map below the block: which block comes through which motion, every point to be played. */
 import "./map.css";
 import { Stage } from "../block/stage";
-import { button, choice, download, el, say } from "../dom";
+import { button, choice, el, say } from "../dom";
 import type { About, Engine, Key } from "../engine";
-import { pngOf } from "../scene/png";
 import type { Store } from "../store";
 import { texts } from "../texts";
 import { mountView } from "../view";
 import { type Axes, AxesForm } from "./axes_form";
 import { axisToml, mapIdentity, suggestedPair, valueOf } from "./axis";
+import { mapDownloads } from "./downloads";
 import { Filling } from "./filling";
 import { keyName } from "./key_name";
 import type { Place } from "./panel";
-import { mapSvg } from "./picture";
 import { Playing } from "./playing";
 import { Sheet, outcomesOf } from "./sheet";
-import { mapCsv } from "./table";
 import { shortText } from "./ticks";
 
 const words = texts.views.map;
@@ -55,7 +53,9 @@ class MapSection {
       (line) => store.fail(line),
     );
     this.boundaries.ariaPressed = "false";
-    this.downloads = this.downloadButtons();
+    this.downloads = mapDownloads(store, () =>
+      this.filling === null || this.sheet === null ? null : { title: this.about?.title ?? "", filling: this.filling, sheet: this.sheet },
+    );
     this.onlyOfCells = [this.shows.root, this.boundaries];
     this.buildPlayed();
     const row = el("div", { className: "buttons" }, this.fillButton, this.progress, this.note, ...this.onlyOfCells, this.downloads);
@@ -128,7 +128,7 @@ class MapSection {
           point: (place) => this.point(place),
           take: () => this.take(),
           back: () => this.back(),
-          cursor: () => this.cursor,
+          cursor: () => this.cursor ?? this.ownCell(),
         });
         this.sheet.show(this.shown());
         this.place.replaceChildren(this.sheet.root);
@@ -255,28 +255,27 @@ class MapSection {
     this.mark();
   }
 
-  private mark(): void {
+  /** What the axes' quantities are in the scene; null where it has not both of them. */
+  private ownValues(): { x: number; y: number | null } | null {
     const map = this.about?.map ?? null;
     const value = (key: string): number | null => valueOf(this.about?.resolved, key);
-    const x = map === null ? null : value(map.x.key);
-    this.sheet?.mark(this.cursor, map === null || x === null ? null : { x, y: map.y === null ? null : value(map.y.key) });
+    const [x, y] = map === null ? [null, null] : [value(map.x.key), map.y === null ? null : value(map.y.key)];
+    return x === null || (map?.y != null && y === null) ? null : { x, y };
   }
 
-  private downloadButtons(): HTMLElement {
-    const svg = (): string => (this.sheet === null ? "" : mapSvg(this.about?.title ?? "", this.sheet.panels, this.sheet.legend));
-    const png = (): void => {
-      pngOf(svg()).then(
-        (picture) => download(words.png, picture, "image/png"),
-        () => this.store.fail(texts.page.scene.pngFailed),
-      );
-    };
-    return el(
-      "span",
-      { className: "buttons" },
-      button(words.csv, () => this.filling !== null && download(words.csv, mapCsv(this.filling), "text/csv")),
-      button(words.svg, () => download(words.svg, svg(), "image/svg+xml")),
-      button(words.png, png),
-    );
+  /** The cell next to the scene. */
+  private ownCell(): Place | null {
+    const [own, about] = [this.ownValues(), this.filling?.about];
+    if (own === null || about === undefined) {
+      return null;
+    }
+    const nearest = (values: Float64Array, wanted: number): number =>
+      values.reduce((best, value, index) => (Math.abs(value - wanted) < Math.abs((values[best] ?? 0) - wanted) ? index : best), 0);
+    return { column: nearest(about.x, own.x), row: own.y === null ? 0 : nearest(about.y, own.y) };
+  }
+
+  private mark(): void {
+    this.sheet?.mark(this.cursor, this.ownValues());
   }
 }
 
