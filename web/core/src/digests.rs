@@ -35,7 +35,7 @@ pub fn digests() -> Result<Vec<DigestCheck>, PageError> {
     let mut checks = Vec::new();
     for (name, (decisions, motion)) in lines {
         let text = EXAMPLES.iter().find(|example| example.name == name).map(|example| example.text);
-        let scene = PageScene::new(text.ok_or_else(|| PageError::Failed(format!("no example {name}")))?, &[near_fault()])?;
+        let scene = PageScene::new(text.ok_or_else(|| PageError::Failed(format!("no example {name}")))?, &[near_fault()?])?;
         let ticks = closed_loop::report(&scene.scene, &[])?.ticks;
         let of = |what: &str, computed, expected: &str| DigestCheck {
             scene: format!("{name}, {what}"),
