@@ -11,14 +11,18 @@ fn main() {
     // Both are of this build alone, so that nothing but a broken package of the font ends it here.
     let font = FontRef::new(dejavu::sans::regular()).expect("the font can be read");
     let metrics = font.glyph_metrics(Size::unscaled(), LocationRef::default());
-    let mut widths: Vec<(u32, f32)> =
-        font.charmap().mappings().filter_map(|(character, glyph)| Some((character, metrics.advance_width(glyph)?))).collect();
+    let width = |(character, glyph)| Some((u16::try_from(character).ok()?, metrics.advance_width(glyph)?));
+    let mut widths: Vec<(u16, f32)> = font.charmap().mappings().filter_map(width).collect();
     widths.sort_by_key(|(character, _)| *character);
     let mut table = format!(
         "/// Units of a font size of 1.\nconst UNITS: f32 = {}_f32;\n",
         font.metrics(Size::unscaled(), LocationRef::default()).units_per_em
     );
-    _ = writeln!(table, "/// Characters and their widths, in units.\nstatic WIDTHS: [(u32, u16); {}] = [", widths.len());
+    _ = writeln!(
+        table,
+        "/// Characters of the basic plane and their widths, in units.\nstatic WIDTHS: [(u16, u16); {}] = [",
+        widths.len()
+    );
     for (character, width) in widths {
         _ = write!(table, "({character},{width}),");
     }

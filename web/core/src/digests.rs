@@ -28,22 +28,20 @@ pub struct DigestCheck {
 /// # Errors
 /// [`PageError`] for a scene that cannot be run.
 pub fn digests() -> Result<Vec<DigestCheck>, PageError> {
-    let lines = EXPECTED
-        .lines()
-        .skip(1)
-        .filter_map(|line| line.split_once(',').and_then(|(name, rest)| Some((name, rest.split_once(',')?))));
     let mut checks = Vec::new();
-    for (name, (decisions, motion)) in lines {
+    for line in EXPECTED.lines().skip(1) {
+        let [name, decisions, responses] = line.split(',').collect::<Vec<_>>()[..] else { continue };
         let text = EXAMPLES.iter().find(|example| example.name == name).map(|example| example.text);
-        let scene = PageScene::new(text.ok_or_else(|| PageError::Failed(format!("no example {name}")))?, &[near_fault()])?;
-        let ticks = closed_loop::report(&scene.scene, &[])?.ticks;
-        let of = |what: &str, computed, expected: &str| DigestCheck {
+        let text = text.ok_or_else(|| PageError::Failed(format!("no example {name}")))?;
+        let scene = PageScene::new(text, &[near_fault()?])?.scene;
+        let ticks = closed_loop::report(&scene, &[])?.ticks;
+        let of = |what: &str, computed: u64, expected: &str| DigestCheck {
             scene: format!("{name}, {what}"),
-            computed,
+            computed: format!("{computed:016x}"),
             expected: expected.to_owned(),
         };
         checks.push(of("decisions (f32)", of_decisions(&ticks), decisions));
-        checks.push(of("responses (f64)", of_responses(&run::responses(&scene.scene)?), motion));
+        checks.push(of("responses (f64)", of_responses(&run::responses(&scene)?), responses));
     }
     Ok(checks)
 }

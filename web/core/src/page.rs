@@ -42,9 +42,12 @@ pub fn examples() -> Result<String, JsError> {
 }
 
 /// The record that shipped scenes name `near_fault.csv`.
+///
+/// # Errors
+/// None in practice.
 #[wasm_bindgen]
-pub fn near_fault_csv() -> Vec<u8> {
-    near_fault().bytes
+pub fn near_fault_csv() -> Result<Vec<u8>, JsError> {
+    Ok(near_fault().map_err(raise)?.bytes)
 }
 
 /// What a record says of itself, as JSON.

@@ -8,7 +8,7 @@ const MISSING: f32 = 1.0;
 /// Width of `text` in pixels at `font_px`.
 pub(super) fn text_width_px(text: &str, font_px: f64) -> f64 {
     let of = |character: char| {
-        let found = WIDTHS.binary_search_by_key(&u32::from(character), |(character, _)| *character);
+        let found = WIDTHS.binary_search_by_key(&u32::from(character), |(character, _)| u32::from(*character));
         found.map_or(MISSING, |index| f32::from(WIDTHS[index].1) / UNITS)
     };
     text.chars().map(|character| f64::from(of(character))).sum::<f64>() * font_px
