@@ -10,12 +10,9 @@ use crate::{
     python, site, size,
     steps::Steps,
     stop::Stop,
-    tools,
+    tools, web,
 };
 use std::path::{Path, PathBuf};
-
-/// The target of programs in a browser.
-const PAGE: &str = "wasm32-unknown-unknown";
 
 /// The tests that prove a bound of the core's arithmetic by trying every input.
 const EXHAUSTIVE: Passed = Passed {
@@ -51,11 +48,6 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
             done(cargo(root, &args).args(["--", "-D", "warnings"]))
         })
     })?;
-    steps.step("lints, page", || {
-        tools::need_target(root, PAGE)?;
-        let args = ["clippy", "--package", "sprag-sim", "--no-default-features", "--features", "effects", "--target", PAGE];
-        done(cargo(root, &args).args(["--", "-D", "warnings"]))
-    })?;
     steps.step("lints, board", || {
         LINTED.iter().try_for_each(|image| done(image.cargo(root, "clippy").args(["--", "-D", "warnings"])))
     })?;
@@ -90,6 +82,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
         }
         Err(stop) => println!("-- checks not run: the Python package, the site: {stop}"),
     }
+    web::run(root, &mut steps)?;
     match fuzz_seconds {
         Some(seconds) => {
             steps.step("installed program", || package::try_installed(root))?;

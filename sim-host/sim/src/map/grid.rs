@@ -1,13 +1,12 @@
 //! The cells of a map: which blocks they are.
 
-use std::f64::consts::TAU;
-
 use sprag_ensemble::pulsed::PulsedBlock;
 use sprag_ensemble::shaken::{Samples, ShakenBlock};
-use sprag_shared::structure::block::GRAVITY;
+use sprag_shared::structure::block::Block;
 use sprag_shared::structure::mount::Mount;
 use toml::Table;
 
+use super::pulse::Pulse;
 use crate::batch::case::PulseShape;
 use crate::scene::ground::Motion;
 use crate::scene::map::{AxisTable, MapTable};
@@ -40,25 +39,25 @@ pub(super) enum Subject {
     Scene(Box<Scene>),
 }
 
-/// A dimensionless block and the quantities of it that the axes set.
+/// A block under a pulse and the quantities of it that the axes set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Direct {
     base: PulsedBlock,
+    block: Block,
+    pulse: Pulse,
     x: Quantity,
     y: Option<Quantity>,
-    /// λ.
-    inertia_ratio: f64,
-    /// `ground.0.scale`, which amplitudes are multiplied by.
-    scale: f64,
 }
 
-/// A quantity of a [`PulsedBlock`], by the key that sets it.
+/// A quantity of a block under a pulse, by the key that sets it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Quantity {
-    /// `ground.0.frequency_ratio`.
+    /// `ground.0.frequency_ratio` or `frequency_hz`, whichever the scene has.
     Frequency,
-    /// `ground.0.amplitude_ratio`.
+    /// `ground.0.amplitude_ratio`, `amplitude_g` or `amplitude_m_s2`.
     Amplitude,
+    /// `block.size_m`.
+    Size,
     /// `block.slenderness_deg`.
     Slenderness,
     /// `block.restitution`.
@@ -136,16 +135,11 @@ impl Grid {
     /// # Errors
     /// [`SceneError`] for a value outside its range.
     pub(super) fn subject(&self, device: usize, values: Values) -> Result<Subject, SceneError> {
-        let Some(direct) = &self.direct[device] else {
-            let scene = self.scene_at(values)?;
-            return Ok(pulsed(&scene, device).map_or_else(|| Subject::Scene(Box::new(scene)), Subject::Pulsed));
-        };
-        let mut block = direct.base;
-        direct.set(&mut block, device, direct.x, values.0);
-        if let (Some(quantity), Some(value)) = (direct.y, values.1) {
-            direct.set(&mut block, device, quantity, value);
+        if let Some(block) = self.direct[device].and_then(|direct| direct.at(device, values)) {
+            return Ok(Subject::Pulsed(block));
         }
-        Ok(Subject::Pulsed(block))
+        let scene = self.scene_at(values)?;
+        Ok(pulsed(&scene, device).map_or_else(|| Subject::Scene(Box::new(scene)), Subject::Pulsed))
     }
 
     /// The block of `scene`, at a place of the map, with device `device` under the record that shakes all of it, if there is one.
@@ -204,24 +198,18 @@ impl Grid {
     fn direct(&self, device: usize) -> Option<Direct> {
         let base = pulsed(&self.scene, device)?;
         let file = &self.scene.file;
+        let pulse = Pulse::of(&file.ground[0])?;
+        // Whatever else depends on the block or its device is read anew.
+        let plain = matches!(file.block.restitution, RestitutionValue::Number(_))
+            && self.scene.devices[device].device.mount == Mount::CentreOfMass;
         let quantity = |axis: &AxisTable| {
-            let ground = &file.ground[0];
-            let resolved = &self.scene.devices[device].device;
             Some(match axis.key.split('.').collect::<Vec<_>>()[..] {
-                ["ground", "0", "frequency_ratio"] => Quantity::Frequency,
-                ["ground", "0", "amplitude_ratio"] => Quantity::Amplitude,
-                // Whatever else depends on α is read anew.
-                ["block", "slenderness_deg"]
-                    if ground.amplitude_ratio.is_some()
-                        && matches!(file.block.restitution, RestitutionValue::Number(_))
-                        && resolved.mount == Mount::CentreOfMass =>
-                {
-                    Quantity::Slenderness
-                }
+                ["ground", "0", key] if key == pulse.frequency.key() => Quantity::Frequency,
+                ["ground", "0", key] if key == pulse.amplitude.key() => Quantity::Amplitude,
+                ["block", "size_m"] if plain && file.block.size_m.is_some() => Quantity::Size,
+                ["block", "slenderness_deg"] if plain => Quantity::Slenderness,
                 ["block", "restitution"] => Quantity::Restitution,
-                ["device", index, "mass_ratio"] if resolved.mount == Mount::CentreOfMass => {
-                    Quantity::MassRatio(index.parse().ok()?)
-                }
+                ["device", index, "mass_ratio"] if plain => Quantity::MassRatio(index.parse().ok()?),
                 _ => return None,
             })
         };
@@ -229,22 +217,30 @@ impl Grid {
             Some(axis) => Some(quantity(axis)?),
             None => None,
         };
-        let inertia_ratio = file.block.inertia_ratio;
-        Some(Direct { base, x: quantity(&self.map.x)?, y, inertia_ratio, scale: file.ground[0].scale })
+        Some(Direct { base, block: self.scene.block, pulse, x: quantity(&self.map.x)?, y })
     }
 }
 
 impl Direct {
-    /// Sets one quantity of `block`, which carries device number `device`.
-    fn set(&self, block: &mut PulsedBlock, device: usize, quantity: Quantity, value: f64) {
-        match quantity {
-            Quantity::Frequency => block.frequency_ratio = value,
-            Quantity::Amplitude => block.amplitude_ratio = self.scale * value,
-            Quantity::Slenderness => block.plain.slenderness = value.to_radians(),
-            Quantity::Restitution => block.plain.restitution = value,
-            Quantity::MassRatio(index) if index == device => block.plain.coupling = value / self.inertia_ratio,
-            Quantity::MassRatio(_) => {}
+    /// The block that carries device number `device` where the axes have `values`; none where it is no block.
+    fn at(&self, device: usize, values: Values) -> Option<PulsedBlock> {
+        let Direct { mut base, mut pulse, .. } = *self;
+        let (mut size, ratio) = (self.block.size(), self.block.inertia_ratio());
+        for (quantity, value) in [(Some(self.x), Some(values.0)), (self.y, values.1)] {
+            let (Some(quantity), Some(value)) = (quantity, value) else { continue };
+            match quantity {
+                Quantity::Frequency => pulse.frequency.set(value),
+                Quantity::Amplitude => pulse.amplitude.set(value),
+                Quantity::Size => size = value,
+                Quantity::Slenderness => base.plain.slenderness = value.to_radians(),
+                Quantity::Restitution => base.plain.restitution = value,
+                Quantity::MassRatio(index) if index == device => base.plain.coupling = value / ratio,
+                Quantity::MassRatio(_) => {}
+            }
         }
+        let block = Block::new(size, base.plain.slenderness, ratio).ok()?;
+        (base.frequency_ratio, base.amplitude_ratio) = pulse.ratios(&block, base.plain.geometry);
+        Some(base)
     }
 }
 
@@ -260,19 +256,16 @@ pub fn pulsed(scene: &Scene, device: usize) -> Option<PulsedBlock> {
     if ground.start_s != 0.0 {
         return None;
     }
-    let plain = scene.plain_block(device)?;
-    let p = scene.block.frequency_parameter();
-    let amplitude = match (ground.amplitude_ratio, ground.amplitude_g, ground.amplitude_m_s2) {
-        (Some(ratio), ..) => ratio,
-        (_, Some(g), _) => g / scene.uplift_threshold(),
-        (.., m_s2) => m_s2? / GRAVITY / scene.uplift_threshold(),
-    };
-    let frequency_ratio = ground.frequency_ratio.or(ground.frequency_hz.map(|hertz| hertz * TAU / p))?;
-    Some(PulsedBlock { plain, pulse, frequency_ratio, amplitude_ratio: ground.scale * amplitude })
+    let (frequency_ratio, amplitude_ratio) = Pulse::of(ground)?.ratios(&scene.block, scene.geometry());
+    Some(PulsedBlock { plain: scene.plain_block(device)?, pulse, frequency_ratio, amplitude_ratio })
 }
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
+    use sprag_shared::structure::block::GRAVITY;
+
     use super::*;
 
     const SCENE: &str = "
@@ -281,23 +274,41 @@ mod tests {
         ground = [{ motion = 'cosine', amplitude_ratio = 3.0, frequency_ratio = 2.0, scale = -2.0 }]
     ";
 
+    const UNITS: &str = "
+        block = { size_m = 2.0, slenderness_deg = 12.0, restitution = 0.8 }
+        device = [{ kind = 'none' }, { kind = 'clutched-pair', mass_ratio = 0.6 }]
+        ground = [{ motion = 'sine', amplitude_g = 0.5, frequency_hz = 1.2, scale = 1.5 }]
+    ";
+
     fn grid(axes: &str) -> Result<Grid, SceneError> {
-        let text: Table = toml::from_str(&format!("{SCENE}\n{axes}")).unwrap();
+        grid_of(SCENE, axes)
+    }
+
+    fn grid_of(scene: &str, axes: &str) -> Result<Grid, SceneError> {
+        let text: Table = toml::from_str(&format!("{scene}\n{axes}")).unwrap();
         Grid::new(Scene::of_table(text.clone(), "scene", &[])?, text)
     }
 
     /// A cell made from the scene's own block is the cell read as a scene.
     #[test]
     fn the_short_way_to_a_cell_is_the_long_one() {
-        for (x, y) in [
-            ("ground.0.frequency_ratio", "ground.0.amplitude_ratio"),
-            ("block.slenderness_deg", "block.restitution"),
-            ("device.1.mass_ratio", "block.slenderness_deg"),
+        let metres = UNITS.replace("amplitude_g", "amplitude_m_s2");
+        for (scene, x, y) in [
+            (SCENE, "ground.0.frequency_ratio", "ground.0.amplitude_ratio"),
+            (SCENE, "block.slenderness_deg", "block.restitution"),
+            (SCENE, "device.1.mass_ratio", "block.slenderness_deg"),
+            (UNITS, "ground.0.frequency_hz", "ground.0.amplitude_g"),
+            (UNITS, "block.size_m", "block.slenderness_deg"),
+            (UNITS, "block.size_m", "ground.0.frequency_hz"),
+            (&metres, "block.slenderness_deg", "ground.0.amplitude_m_s2"),
         ] {
-            let grid = grid(&format!(
-                "map.x = {{ key = '{x}', from = 0.3, to = 0.9, cells = 4 }}
+            let grid = grid_of(
+                scene,
+                &format!(
+                    "map.x = {{ key = '{x}', from = 0.3, to = 0.9, cells = 4 }}
                  map.y = {{ key = '{y}', from = 0.2, to = 0.7, cells = 3, scale = 'logarithmic' }}"
-            ))
+                ),
+            )
             .unwrap();
             assert!(grid.direct.iter().all(Option::is_some));
             for (device, column, row) in [(0, 0, 0), (1, 2, 1), (0, 3, 2), (1, 3, 0)] {
@@ -308,6 +319,19 @@ mod tests {
                     assert_eq!(Some(short), long, "{x} {y}");
                 }
             }
+        }
+    }
+
+    /// A restitution that depends on the block and its device, and a flywheel elsewhere, are read anew with them.
+    #[test]
+    fn what_depends_on_more_than_its_key_takes_the_long_way() {
+        let axes = "map.x = { key = 'device.1.mass_ratio', from = 0.3, to = 0.9, cells = 4 }";
+        for scene in [
+            SCENE.replace("restitution = 0.8", "restitution = 'momentum-balance'"),
+            SCENE.replace("mass_ratio = 0.6", "mass_ratio = 0.6, mount = 'tying-point', mount_height_m = 1.0"),
+        ] {
+            let grid = grid_of(&scene, axes).unwrap();
+            assert_eq!(grid.direct[1], None);
         }
     }
 

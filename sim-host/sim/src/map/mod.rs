@@ -6,4 +6,5 @@
 pub mod boundaries;
 pub mod cell;
 pub mod grid;
+mod pulse;
 pub mod refine;
