@@ -148,6 +148,23 @@ test("axes, scale, bands, cut and boundaries", async (t) => {
   await keep(page, "cut");
 });
 
+test("two axes that are changed at once are both changed", async (t) => {
+  const page = await open(t);
+  await choose(page, EXAMPLES.figure08);
+  const { map } = sections(page);
+  await map.scrollIntoViewIfNeeded();
+  await filled(page);
+  // Without a pause between them: the scene has not answered to the first when the second comes.
+  await map.getByRole("group", { name: words.axis.x }).evaluate((group) => {
+    for (const fieldset of group.parentElement.children) {
+      const cells = [...fieldset.querySelectorAll("input")].at(-1);
+      cells.value = "30";
+      cells.dispatchEvent(new Event("change"));
+    }
+  });
+  await until("a map of 30 x 30", () => map.getByText(/^900 cells a device, in/).count());
+});
+
 test("a map is stopped, filled again, and dropped for another scene", async (t) => {
   const page = await open(t);
   await choose(page, EXAMPLES.nearFault);

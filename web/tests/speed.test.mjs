@@ -1,7 +1,7 @@
 // Times are reported; only what no slow machine excuses is a fault.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { open, texts } from "./browser.mjs";
+import { open, texts, until } from "./browser.mjs";
 import { EXAMPLES, anotherDigest, choose } from "./shell.mjs";
 import { filled, sections } from "./views.mjs";
 
@@ -33,7 +33,7 @@ test("the animation goes on while a map is filled", async (t) => {
     await cells.press("Tab");
   }
   await filled(page);
-  await map.getByText(words.whole(256 * 256, "").slice(0, 20)).waitFor();
+  await until("the larger map", () => map.getByText(/^65,536 cells a device, in/).count());
   const times = await page.evaluate(() => window.frame_times);
   const steps = times
     .slice(1)

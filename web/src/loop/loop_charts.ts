@@ -35,6 +35,8 @@ export class LoopCharts {
   show(loop: Loop, about: About, faults: readonly number[]): void {
     const curves = curvesOf(loop, about);
     this.charts.forEach((chart) => chart.destroy());
+    // What is below stays where it is meanwhile.
+    this.root.style.minHeight = `${this.root.offsetHeight}px`;
     this.root.replaceChildren();
     const chart = (label: string, drawn: Curve[], own: Pick<Frame, "heightPx" | "vertical"> & Partial<Frame>): void => {
       const place = el("div", { role: "img", ariaLabel: label });
@@ -56,6 +58,7 @@ export class LoopCharts {
     }
     chart(words.lanes, [], { heightPx: LANES_PX, vertical: laneNames(), below: lanePainter(loop) });
     this.root.append(laneKey());
+    this.root.style.minHeight = "";
   }
 
   /** Puts the cursor at `seconds`, unless the user points at a chart. */

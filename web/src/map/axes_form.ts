@@ -32,6 +32,8 @@ export class AxesForm {
         refused(words.wrongAxis);
         return;
       }
+      // The next change may come before the scene has this one.
+      this.show(axes, this.keys);
       chosen(axes);
     };
     const key = (name: string): Axis | null => {

@@ -115,10 +115,12 @@ class MapSection {
       this.filling?.stop();
       this.playing.forget();
       [this.filling, this.sheet, this.cursor, this.identity] = [null, null, null, identity];
-      this.place.replaceChildren();
       say(this.live, about.map === null ? words.noMap : "");
       this.boundaries.ariaPressed = "false";
-      if (about.map !== null) {
+      if (about.map === null) {
+        this.place.replaceChildren();
+      } else {
+        // The panels before stay until there are others, so that nothing jumps.
         const filling = await Filling.of(this.engine, source, about.map, about.resolved);
         if (identity !== this.identity) {
           return;
