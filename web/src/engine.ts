@@ -93,6 +93,8 @@ export interface Cells {
   outcome: Uint8Array;
   /** max |θ|/α; NaN where overturned. */
   peakRotation: Float64Array;
+  /** max |θ̈|/(p²α); NaN where overturned. */
+  peakAcceleration: Float64Array;
 }
 
 export interface MapAbout {

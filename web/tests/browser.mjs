@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { createServer } from "node:http";
 import { mkdir, readFile } from "node:fs/promises";
+import { after } from "node:test";
 import { extname, join, normalize } from "node:path";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
@@ -30,17 +31,23 @@ async function serve() {
   return server;
 }
 
+let started;
+
+/** One browser for all tests of a file, which have contexts of their own. */
+function browser() {
+  started ??= chromium.launch({ executablePath: process.env.SPRAG_CHROMIUM || "/usr/bin/chromium", args: ["--no-sandbox"] });
+  return started;
+}
+
+after(async () => (await started)?.close());
+
 /**
- * Opens the page once for a test `t`, which closes it. `options`: those of a browser context, `args` of Chromium, `hash` of the address,
+ * Opens the page once for a test `t`, which closes it. `options`: those of a browser context, `hash` of the address,
  * `prepare(page)` before the page is loaded, `mayFail`: errors on the console are no fault. The page has `faults`, what went wrong in it.
  */
-export async function open(t, { args = [], hash = "", prepare, mayFail = false, ...options } = {}) {
+export async function open(t, { hash = "", prepare, mayFail = false, ...options } = {}) {
   const server = await serve();
-  const browser = await chromium.launch({
-    executablePath: process.env.SPRAG_CHROMIUM || "/usr/bin/chromium",
-    args: ["--no-sandbox", ...args],
-  });
-  const context = await browser.newContext({ viewport: { width: 1024, height: 900 }, acceptDownloads: true, ...options });
+  const context = await (await browser()).newContext({ viewport: { width: 1024, height: 900 }, acceptDownloads: true, ...options });
   const page = await context.newPage();
   const faults = [];
   page.on("pageerror", (error) => faults.push(error.stack ?? error.message));
@@ -56,7 +63,7 @@ export async function open(t, { args = [], hash = "", prepare, mayFail = false, 
     }
   });
   t.after(async () => {
-    await browser.close();
+    await context.close();
     server.close();
     if (!mayFail) {
       assert.deepEqual(faults, [], "the page reports no errors and asks nobody else for anything");

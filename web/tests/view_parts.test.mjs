@@ -21,6 +21,7 @@ const cells = (numbers, of) => ({
   cells: Uint32Array.from(numbers),
   outcome: Uint8Array.from(numbers, of),
   peakRotation: Float64Array.from(numbers, () => 0.5),
+  peakAcceleration: Float64Array.from(numbers, () => 1.5),
 });
 
 /** Numbers of the cells at every `width`th column and row that are not at every `2 width`th, or are, if `all`. */
@@ -150,14 +151,15 @@ test("the table of a map reads back to the same numbers", () => {
     cells: Uint32Array.of(0, 1, 2, 3, 5),
     outcome: Uint8Array.of(0, 1, 2, 3, 1),
     peakRotation: Float64Array.of(0, 1 / 3, NaN, NaN, 2),
+    peakAcceleration: Float64Array.of(0, 1.5, NaN, NaN, 3),
   });
   const csv = mapCsv({ about: { devices: ['a, "b"'], x, y, xKey: "block.size_m", yKey: "ground.0.scale" }, fields: [field] });
   const lines = csv.trim().split("\n");
-  assert.equal(lines[0], "device,block.size_m,ground.0.scale,outcome,peak_rotation");
+  assert.equal(lines[0], "device,block.size_m,ground.0.scale,outcome,peak_rotation,peak_acceleration");
   assert.equal(lines.length, 6, "a cell that is not known is left out");
-  assert.deepEqual(lines.slice(1, 3), ['"a, ""b""",1.0,2.5,no-rocking,0.0', '"a, ""b""",0.1,2.5,safe,0.3333333333333333']);
-  assert.equal(lines[3], '"a, ""b""",1e-7,2.5,overturned-without-impact,');
-  assert.equal(lines[4], '"a, ""b""",1.0,1e17,overturned-after-impact,');
+  assert.deepEqual(lines.slice(1, 3), ['"a, ""b""",1.0,2.5,no-rocking,0.0,0.0', '"a, ""b""",0.1,2.5,safe,0.3333333333333333,1.5']);
+  assert.equal(lines[3], '"a, ""b""",1e-7,2.5,overturned-without-impact,,');
+  assert.equal(lines[4], '"a, ""b""",1.0,1e17,overturned-after-impact,,');
 });
 
 test("the ideal pair is on its own lines between its samples", () => {

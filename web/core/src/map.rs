@@ -60,6 +60,7 @@ pub fn cells(grid: &Grid, device: usize, cells: &[u32], lanes: Lanes<'_>) -> Res
     Ok(vec![
         ("outcome", Column::Codes(results.iter().map(|result| code(result.outcome)).collect())),
         ("peakRotation", Column::Numbers(results.iter().map(|result| result.peak_rotation).collect())),
+        ("peakAcceleration", Column::Numbers(results.iter().map(|result| result.peak_acceleration).collect())),
     ])
 }
 

@@ -16,6 +16,8 @@ export class Field {
   readonly outcome: Uint8Array;
   /** Their max |θ|/α; NaN where overturned. */
   readonly peak: Float64Array;
+  /** Their max |θ̈|/(p²α); NaN where overturned. */
+  readonly acceleration: Float64Array;
   /** Number of the cell that is shown in the place of each; meaningless where `width` is 0. */
   readonly shown: Uint32Array;
   /** Width of the neighbourhood that the shown cell stands for; 1 for the cell itself, 0 for none. */
@@ -33,6 +35,7 @@ export class Field {
     this.rows = rows;
     this.outcome = new Uint8Array(count).fill(UNKNOWN);
     this.peak = new Float64Array(count).fill(Number.NaN);
+    this.acceleration = new Float64Array(count).fill(Number.NaN);
     this.shown = new Uint32Array(count);
     this.width = new Uint8Array(count);
   }
@@ -52,6 +55,7 @@ export class Field {
       }
       this.outcome[cell] = outcome;
       this.peak[cell] = peak;
+      this.acceleration[cell] = part.peakAcceleration[index] ?? Number.NaN;
       if (!overturned(outcome) && peak > this.largest) {
         this.largest = peak;
       }

@@ -4,11 +4,13 @@ import { UNKNOWN } from "./field";
 import type { Filling } from "./filling";
 
 /**
- * `device`, the keys of the axes, `outcome` and `peak_rotation` as in map.csv of `sprag map`: devices one after another, of each cells row by
+ * The columns of map.csv of `sprag map`: devices one after another, of each cells row by
  * row from the lowest, each from the left. Cells that are not known are left out.
  */
 export function mapCsv({ about, fields }: Filling): string {
-  const lines = [["device", about.xKey, ...(about.yKey === null ? [] : [about.yKey]), "outcome", "peak_rotation"].join(",")];
+  const lines = [
+    ["device", about.xKey, ...(about.yKey === null ? [] : [about.yKey]), "outcome", "peak_rotation", "peak_acceleration"].join(","),
+  ];
   fields.forEach((field, device) => {
     const name = quoted(about.devices[device] ?? "");
     field.outcome.forEach((outcome, cell) => {
@@ -16,8 +18,8 @@ export function mapCsv({ about, fields }: Filling): string {
         return;
       }
       const y = about.yKey === null ? "" : `,${number(about.y[Math.floor(cell / field.columns)] ?? Number.NaN)}`;
-      const peak = overturned(outcome) ? "" : number(field.peak[cell] ?? Number.NaN);
-      lines.push(`${name},${number(about.x[cell % field.columns] ?? Number.NaN)}${y},${OUTCOME_NAMES[outcome] ?? ""},${peak}`);
+      const peaks = [field.peak, field.acceleration].map((all) => (overturned(outcome) ? "" : number(all[cell] ?? Number.NaN)));
+      lines.push(`${name},${number(about.x[cell % field.columns] ?? Number.NaN)}${y},${OUTCOME_NAMES[outcome] ?? ""},${peaks.join(",")}`);
     });
   });
   return `${lines.join("\n")}\n`;
