@@ -38,7 +38,8 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     })?;
     steps.step("format", || {
         done(&mut cargo(root, &["fmt", "--all", "--check"]))?;
-        done(&mut cargo_in(root, BOARD.workspace, &["fmt", "--all", "--check"]))
+        done(&mut cargo_in(root, BOARD.workspace, &["fmt", "--all", "--check"]))?;
+        done(&mut cargo_in(root, web::BINDINGS, &["fmt", "--check"]))
     })?;
     steps.step("lints, host", || done(&mut cargo(root, &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])))?;
     // Not the tests: they are of the whole program.

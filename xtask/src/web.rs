@@ -1,20 +1,22 @@
 //! The page: its core as WebAssembly, its files, and its tests in a browser.
 
 use crate::{
-    process::{cargo, output, run as done},
+    process::{cargo, cargo_in, output, run as done, target_folder},
     scratch::empty,
     steps::Steps,
     stop::Stop,
     tools,
 };
-use std::{
-    fs,
-    path::{Path, PathBuf},
-    process::Command,
-};
+use std::{fs, path::Path, process::Command};
 
 /// Folder of the page.
-pub const FOLDER: &str = "web";
+const FOLDER: &str = "web";
+
+/// Workspace of what writes the JavaScript of a module.
+pub const BINDINGS: &str = "web/bindings";
+
+/// Profile of the modules.
+const PROFILE: &str = "page";
 
 /// The target of programs in a browser.
 const TARGET: &str = "wasm32-unknown-unknown";
@@ -40,15 +42,9 @@ pub fn run(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
         tools::need_browser()?;
         tools::path_with_node(root)
     })?;
-    steps.step("lints, page", || {
-        done(&mut cargo(&folder, &["fmt", "--all", "--check"]))?;
-        let args = ["clippy", "--locked", "--package", "sprag-page", "--package", "sprag-page-lanes", "--target", TARGET];
-        done(cargo(&folder, &args).args(["--", "-D", "warnings"]))?;
-        done(&mut cargo(&folder, &["clippy", "--locked", "--package", "sprag-page-bindings", "--", "-D", "warnings"]))
-    })?;
     steps.step("core of the page", || {
         empty(&folder.join("src/core"))?;
-        MODULES.iter().try_for_each(|module| build(&folder, module))
+        MODULES.iter().try_for_each(|module| build(root, module))
     })?;
     let npm = |words: &[&str]| done(Command::new("npm").current_dir(&folder).env("PATH", &path).args(words));
     steps.step("page", || {
@@ -67,7 +63,7 @@ pub fn run(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
 /// If something cannot be built, or there is no Node.
 pub fn speed(root: &Path) -> Result<(), Stop> {
     let folder = root.join(FOLDER);
-    MODULES.iter().try_for_each(|module| build(&folder, module))?;
+    MODULES.iter().try_for_each(|module| build(root, module))?;
     let native = output(&mut cargo(root, &["bench", "--quiet", "--package", "sprag-cli", "--bench", "maps"]))?;
     let path = tools::path_with_node(root)?;
     let page = output(Command::new("node").current_dir(&folder).env("PATH", path).arg("benches/lanes.mjs"))?;
@@ -94,15 +90,10 @@ pub fn speed(root: &Path) -> Result<(), Stop> {
 }
 
 /// Builds a module, and writes its JavaScript beside it.
-fn build(folder: &Path, (name, package, file, words): &(&str, &str, &str, &[&str])) -> Result<(), Stop> {
-    done(cargo(folder, &["build", "--locked", "--release", "--package", package, "--target", TARGET]).args(*words))?;
-    let module = target(folder).join(TARGET).join("release").join(file).with_extension("wasm");
-    let place = folder.join("src/core").join(name);
+fn build(root: &Path, (name, package, file, words): &(&str, &str, &str, &[&str])) -> Result<(), Stop> {
+    done(cargo(root, &["build", "--profile", PROFILE, "--package", package, "--target", TARGET]).args(*words))?;
+    let module = target_folder(root).join(TARGET).join(PROFILE).join(file).with_extension("wasm");
+    let place = root.join(FOLDER).join("src/core").join(name);
     fs::create_dir_all(&place).map_err(|error| Stop::failed(format!("{}: {error}", place.display())))?;
-    done(cargo(folder, &["run", "--locked", "--quiet", "--package", "sprag-page-bindings", "--"]).arg(module).arg(place))
-}
-
-/// The folder that the page's workspace is built in.
-fn target(folder: &Path) -> PathBuf {
-    folder.join(std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()))
+    done(cargo_in(root, BINDINGS, &["run", "--locked", "--quiet", "--"]).arg(module).arg(place))
 }
