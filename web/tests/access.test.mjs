@@ -40,6 +40,7 @@ for (const colorScheme of ["light", "dark"]) {
     );
     assert.deepEqual(named, []);
     await keep(page, `page-1024-${colorScheme}`);
+    await keep(page, `block-section-${colorScheme}`, page.locator(".top"));
   });
 }
 

@@ -75,12 +75,13 @@ export async function open(t, { hash = "", prepare, mayFail = false, ...options 
   return page;
 }
 
-/** Keeps a picture of the page in the folder that SPRAG_SCREENSHOTS names. */
-export async function keep(page, name) {
+/** Keeps a picture of the whole page, or of `part` of it alone, in the folder that SPRAG_SCREENSHOTS names. */
+export async function keep(page, name, part) {
   const folder = process.env.SPRAG_SCREENSHOTS;
   if (folder) {
     await mkdir(folder, { recursive: true });
-    await page.screenshot({ path: join(folder, `${name}.png`), fullPage: true });
+    const path = join(folder, `${name}.png`);
+    await (part ? part.screenshot({ path }) : page.screenshot({ path, fullPage: true }));
   }
 }
 

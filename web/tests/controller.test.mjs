@@ -106,6 +106,7 @@ test("an injected fault is found after it began, logged, and withdrawn", async (
   assert.ok(parseFloat(time) >= 8 && parseFloat(time) < 10, `found at ${time} s`);
   assert.ok(Number(code) > 0 && fault.length > 5, `${code} ${fault}`);
   await keep(page, "controller");
+  await keep(page, "controller-section", sections(page).loop);
   await loop.getByRole("button", { name: words.withdraw(failing) }).click();
   await until("no fault again", () => loop.getByText(words.noFaults).count());
   assert.equal(await digest(page), first);

@@ -120,6 +120,7 @@ test("axes, scale, bands, cut and boundaries", async (t) => {
   await map.getByRole("button", { name: words.boundaries }).click();
   await until("boundaries", async () => (await panels(page).first().locator("svg path").count()) > 0);
   await keep(page, "boundaries");
+  await keep(page, "map-section", sections(page).map);
 
   await across.getByLabel(words.cells).fill("40");
   await across.getByLabel(words.cells).press("Tab");

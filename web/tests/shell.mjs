@@ -10,7 +10,8 @@ export const EXAMPLES = { figure08: "Figure 8", nearFault: "Near-fault motion", 
 export async function choose(page, title) {
   const list = page.getByLabel(words.controls.example, { exact: true });
   await until("a list of examples", async () => (await list.locator("option", { hasText: title }).count()) > 0);
-  const before = await shownDigest(page);
+  // The first run may still be under way, and would be taken for this one.
+  const before = await until("a run", () => shownDigest(page));
   await list.selectOption({ label: title });
   await until(`a run of ${title}`, async () => (await toml(page).inputValue()).includes(title) && (await shownDigest(page)) !== before);
 }
