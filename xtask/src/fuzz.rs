@@ -2,7 +2,7 @@
 //! flags that cargo-fuzz uses without a sanitizer, so that nothing but a C++ compiler needs installing.
 
 use crate::{
-    process::{cargo_in, executables, filtered, host, run as done, target_folder},
+    process::{cargo_in, executables, filtered, host, target_folder},
     stop::Stop,
     tools,
 };
@@ -59,13 +59,12 @@ pub fn run(root: &Path, only: Option<&str>, seconds: u32, inputs: Inputs) -> Res
     Ok(())
 }
 
-/// Checks that the targets still compile, without libFuzzer and the instrumentation that make building them slow.
-///
-/// # Errors
-/// If one does not.
-pub fn check(root: &Path) -> Result<(), Stop> {
-    // In the root's folder, which has the libraries of others checked already.
-    done(cargo_in(root, WORKSPACE, &["check", "--all-targets"]).env("CARGO_TARGET_DIR", target_folder(root)))
+/// The command that checks whether the targets still compile, without libFuzzer and the instrumentation that make building them slow.
+pub fn check(root: &Path) -> Command {
+    let mut command = cargo_in(root, WORKSPACE, &["check", "--all-targets"]);
+    // The root's folder has the libraries of others checked already.
+    command.env("CARGO_TARGET_DIR", target_folder(root));
+    command
 }
 
 /// Builds all targets and gives their names, in order, and programs.

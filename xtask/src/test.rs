@@ -41,6 +41,15 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
         done(&mut cargo_in(root, BOARD.workspace, &["fmt", "--all", "--check"]))?;
         done(&mut cargo_in(root, web::BINDINGS, &["fmt", "--check"]))
     })?;
+    // The firmware and the page's bindings have target folders of their own, in which these wait for one another.
+    let others: Vec<_> = LINTED
+        .iter()
+        .map(|image| Beside::start(image.cargo(root, "clippy").args(["--", "-D", "warnings"])))
+        .chain([
+            Beside::start(BOARD.cargo(root, "doc").arg("--no-deps").env("RUSTDOCFLAGS", "-D warnings")),
+            Beside::start(&mut cargo_in(root, web::BINDINGS, &["build", "--locked"])),
+        ])
+        .collect::<Result<_, Stop>>()?;
     steps.step("lints, host", || done(&mut cargo(root, &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])))?;
     // Not the tests: they are of the whole program.
     steps.step("lints, parts of host", || {
@@ -49,13 +58,8 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
             done(cargo(root, &args).args(["--", "-D", "warnings"]))
         })
     })?;
-    steps.step("lints, board", || {
-        LINTED.iter().try_for_each(|image| done(image.cargo(root, "clippy").args(["--", "-D", "warnings"])))
-    })?;
-    steps.step("documentation", || {
-        done(cargo(root, &["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))?;
-        done(BOARD.cargo(root, "doc").arg("--no-deps").env("RUSTDOCFLAGS", "-D warnings"))
-    })?;
+    steps.step("documentation", || done(cargo(root, &["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings")))?;
+    steps.step("rest of board's lints and documentation, of bindings", || others.into_iter().try_for_each(Beside::wait))?;
     // No step until they are needed keeps both processors busy.
     let built_tests = Beside::start(&mut cargo(root, &["test", "--workspace", "--no-run"]))?;
     let python = steps.step("tools, python", || Ok(python::Started::new(root, false)))?;
@@ -74,7 +78,9 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     hardware::run(root, &mut steps, fuzz_seconds.is_some())?;
     steps.step("tests, board image", || board_image::tests(root, &built))?;
     steps.step("rest of the tests' build", || built_tests.wait())?;
+    let fuzz_targets = Beside::start(&mut fuzz::check(root))?;
     steps.step("tests", || tests(root, &built, fuzz_seconds.is_some()))?;
+    steps.step("rest of fuzz targets", || fuzz_targets.wait())?;
     steps.step("Slurm array", || cluster::run(root, &program(root)))?;
     match python {
         Ok(python) => {
@@ -89,7 +95,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
             steps.step("installed program", || package::try_installed(root))?;
             steps.step("fuzzing", || fuzz::run(root, None, seconds, Inputs::Same))
         }
-        None => steps.step("fuzz targets", || fuzz::check(root)),
+        None => Ok(()),
     }
 }
 
