@@ -3,6 +3,7 @@ import type uPlot from "uplot";
 import type { About, Loop } from "../engine";
 import { el } from "../dom";
 import { texts } from "../texts";
+import { onTheme } from "../theme";
 import { type Curve, type Frame, chartIn } from "./chart";
 import { laneKey, laneNames, lanePainter } from "./lanes";
 import { curvesOf, largest } from "./series";
@@ -25,10 +26,7 @@ export class LoopCharts {
   /** `pointed` gets the time that the user points at. */
   constructor(pointed: (seconds: number) => void) {
     this.pointed = pointed;
-    const redraw = (): void => this.charts.forEach((chart) => chart.redraw(false));
-    // Colours of the page change.
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
-    new MutationObserver(redraw).observe(document.documentElement, { attributes: true });
+    onTheme(() => this.charts.forEach((chart) => chart.redraw(false)));
   }
 
   /** Shows `loop` of a scene, with marks at the times of faults. */
