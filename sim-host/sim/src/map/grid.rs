@@ -326,12 +326,20 @@ mod tests {
     #[test]
     fn what_depends_on_more_than_its_key_takes_the_long_way() {
         let axes = "map.x = { key = 'device.1.mass_ratio', from = 0.3, to = 0.9, cells = 4 }";
+        let inerter = SCENE.replace("clutched-pair", "inerter");
         for scene in [
-            SCENE.replace("restitution = 0.8", "restitution = 'momentum-balance'"),
-            SCENE.replace("mass_ratio = 0.6", "mass_ratio = 0.6, mount = 'tying-point', mount_height_m = 1.0"),
+            inerter.replace("restitution = 0.8", "restitution = 'momentum-balance'"),
+            inerter.replace("mass_ratio = 0.6", "mass_ratio = 0.6, mount = 'tying-point', mount_height_m = 1.0"),
         ] {
             let grid = grid_of(&scene, axes).unwrap();
-            assert_eq!(grid.direct[1], None);
+            for column in 0..4 {
+                let values = grid.values(column, 0);
+                let found = match grid.subject(1, values).unwrap() {
+                    Subject::Pulsed(block) => Some(block),
+                    Subject::Scene(_) => None,
+                };
+                assert_eq!(found, pulsed(&grid.scene_at(values).unwrap(), 1), "{scene}");
+            }
         }
     }
 
