@@ -31,7 +31,7 @@ pub use same_file::{is_at, is_standard_output};
 pub use subject::{Digest, Subject, difference};
 pub use summary::{Maker, SCHEMA_VERSION, Summary, VERSION, Versioned};
 use target::Written;
-pub use target::claim_file;
+pub use target::{claim_file, open_stream, remove_unfinished};
 
 /// What to do about results that are there.
 const REPLACE: &str = "--overwrite replaces it, or give another place for the new one";
@@ -51,7 +51,8 @@ pub struct OutputError {
 }
 
 impl OutputError {
-    fn new(path: &Path, error: &io::Error) -> OutputError {
+    /// The result at `path`, for `error`.
+    pub fn new(path: &Path, error: &io::Error) -> OutputError {
         OutputError { path: path.to_owned(), reason: format!("cannot be written: {error}") }
     }
 }
@@ -75,10 +76,23 @@ impl Results {
         path: &Path,
         fill: impl FnOnce(&mut BufWriter<&mut std::fs::File>) -> io::Result<()>,
     ) -> Result<(), OutputError> {
+        self.add_by(path, |file| fill(file).map_err(|error| OutputError::new(path, &error)))
+    }
+
+    /// Writes `path` through `fill`, which fails for reasons of its own too, as [`Results::add`] does.
+    ///
+    /// # Errors
+    /// Those of `fill` and of [`Results::add`].
+    pub fn add_by<E: From<OutputError>>(
+        &mut self,
+        path: &Path,
+        fill: impl FnOnce(&mut BufWriter<&mut std::fs::File>) -> Result<(), E>,
+    ) -> Result<(), E> {
         let failed = |error: io::Error| OutputError::new(path, &error);
         let mut written = Written::new(path)?;
         let mut writer = BufWriter::new(written.file());
-        fill(&mut writer).and_then(|()| writer.flush()).map_err(failed)?;
+        fill(&mut writer)?;
+        writer.flush().map_err(failed)?;
         drop(writer);
         written.seal().map_err(failed)?;
         self.files.push(written);

@@ -7,7 +7,7 @@ use std::time::Duration;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use sprag_sim::interrupt::Interrupt;
 
-use crate::output::remove_empty_folders;
+use crate::output::{remove_empty_folders, remove_unfinished};
 use crate::progress::without_bar;
 
 /// How long interrupted work may take to end by itself.
@@ -30,6 +30,7 @@ pub fn interrupt() -> Interrupt {
         // Nothing is drawn any more after the last line.
         without_bar(|| {
             if seen.report(&mut std::io::stderr()) {
+                remove_unfinished();
                 remove_empty_folders();
                 std::process::exit(seen.exit_code());
             }

@@ -58,6 +58,12 @@ pub enum TableError {
         /// What belongs there.
         kind: Kind,
     },
+    /// A row of a CSV file that is longer than any row of numbers.
+    #[error("line {line}: a row of more than 1 MiB begins there")]
+    LongRow {
+        /// From 1, where it begins.
+        line: u64,
+    },
     /// A CSV file that cannot be written or read.
     #[error("{0}")]
     Csv(#[from] csv::Error),

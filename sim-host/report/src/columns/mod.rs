@@ -17,6 +17,7 @@ mod parquet_writer;
 mod table;
 #[cfg(all(test, feature = "parquet"))]
 mod tests;
+mod text_rows;
 mod value;
 
 pub use column::{Column, Kind, Shown};
@@ -25,7 +26,8 @@ pub use csv_writer::CsvWriter;
 pub use error::TableError;
 pub use fields::{FieldTable, Fields};
 pub use metadata::{Metadata, metadata_of};
-pub use parquet_reader::{parquet_text, read_parquet};
+pub use parquet_reader::{ParquetTexts, parquet_text, read_parquet};
 pub use parquet_writer::ParquetWriter;
 pub use table::{RowWriter, Table, write_csv, write_parquet};
+pub use text_rows::TextRows;
 pub use value::Value;

@@ -2,8 +2,10 @@
 
 use std::fs::File;
 
+use csv::StringRecord;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
+use parquet::record::reader::RowIter;
 
 use super::column::Column;
 use super::error::TableError;
@@ -34,6 +36,43 @@ pub fn read_parquet(file: File, columns: &[Column], writer: &mut dyn RowWriter) 
         rows += 1;
     }
     Ok(rows)
+}
+
+/// Rows of a Parquet file of any columns, read one by one as texts.
+pub struct ParquetTexts {
+    pub(super) titles: StringRecord,
+    rows: RowIter<'static>,
+    /// Rows of the file.
+    pub length: u64,
+    /// Rows that are read.
+    pub(super) read: u64,
+}
+
+impl ParquetTexts {
+    pub(super) fn new(file: File) -> Result<ParquetTexts, TableError> {
+        let reader = SerializedFileReader::new(file)?;
+        let file = reader.metadata().file_metadata();
+        let titles = file.schema().get_fields().iter().map(|field| field.name()).collect::<Vec<_>>().into();
+        let length = u64::try_from(file.num_rows()).unwrap_or(0);
+        Ok(ParquetTexts { titles, rows: RowIter::from_file_into(Box::new(reader)), length, read: 0 })
+    }
+
+    /// Reads the next row, if there is one; numbers are written so that they read back to the same value.
+    pub(super) fn read(&mut self, texts: &mut StringRecord) -> Result<bool, TableError> {
+        let Some(row) = self.rows.next() else { return Ok(false) };
+        texts.clear();
+        for (_, field) in row?.get_column_iter() {
+            match field {
+                Field::Null => texts.push_field(""),
+                Field::Str(text) => texts.push_field(text),
+                Field::Double(number) => texts.push_field(&format!("{number:?}")),
+                Field::Float(number) => texts.push_field(&format!("{:?}", f64::from(*number))),
+                other => texts.push_field(&other.to_string()),
+            }
+        }
+        self.read += 1;
+        Ok(true)
+    }
 }
 
 /// The text that the Parquet file `file` has of itself under `name`.

@@ -188,3 +188,32 @@ fn bad_files_are_refused_with_their_line() {
     let cut = refused("device,peak,impacts\nnone,,1\nnone,0.");
     assert!(cut.contains("line: 3"), "{cut}");
 }
+
+#[test]
+fn either_format_reads_as_the_same_texts() {
+    let path = tempfile::NamedTempFile::new().unwrap();
+    let table = Samples(1000);
+    std::fs::write(path.path(), parquet(&table)).unwrap();
+    let csv = csv(&table);
+    let expected = fields(&csv);
+    let of_parquet = TextRows::of_parquet(std::fs::File::open(path.path()).unwrap()).unwrap();
+    for (mut rows, end) in [(TextRows::of_csv(std::io::Cursor::new(csv.clone())), csv.len() as u64), (of_parquet, 1000)] {
+        assert!(rows.titles().unwrap().iter().eq(table.columns().iter().map(|column| column.name.as_str())));
+        let mut row = csv::StringRecord::new();
+        for expected in &expected {
+            assert!(rows.read(&mut row).unwrap() && row.iter().eq(expected), "{row:?}");
+        }
+        assert!(!rows.read(&mut row).unwrap());
+        assert_eq!(rows.done(), end);
+    }
+}
+
+#[test]
+fn a_row_without_an_end_is_refused() {
+    let endless = std::io::Read::chain(&b"device\none\n\""[..], std::io::repeat(b'\n'));
+    let mut rows = TextRows::of_csv(endless);
+    let mut row = csv::StringRecord::new();
+    assert!(rows.read(&mut row).unwrap());
+    assert!(matches!(rows.read(&mut row), Err(TableError::LongRow { line: 3 })));
+    assert!(matches!(TextRows::of_csv(std::io::repeat(0)).titles(), Err(TableError::LongRow { line: 1 })));
+}

@@ -18,17 +18,21 @@ pub fn is_at(file: &File, path: &Path) -> bool {
     identity(&open) == identity(&there)
 }
 
-/// Whether `path` leads to where this process's standard output goes.
-#[cfg(unix)]
+/// Whether `path` is `-`, or leads to where this process's standard output goes.
 pub fn is_standard_output(path: &Path) -> bool {
+    path == Path::new("-") || leads_to_standard_output(path)
+}
+
+#[cfg(unix)]
+fn leads_to_standard_output(path: &Path) -> bool {
     use std::os::fd::AsFd;
     let (Ok(descriptor), Ok(there)) = (std::io::stdout().as_fd().try_clone_to_owned(), path.metadata()) else { return false };
     File::from(descriptor).metadata().is_ok_and(|data| identity(&data) == identity(&there))
 }
 
-/// Whether `path` leads to where this process's standard output goes: a system without names for it has none that do.
+/// A system without names for it has none that do.
 #[cfg(not(unix))]
-pub fn is_standard_output(_path: &Path) -> bool {
+fn leads_to_standard_output(_path: &Path) -> bool {
     false
 }
 

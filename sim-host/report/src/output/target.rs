@@ -3,6 +3,7 @@
 use std::fs::{File, Metadata, OpenOptions};
 use std::io::{self, BufReader, Seek, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use tempfile::NamedTempFile;
 
@@ -11,6 +12,15 @@ use super::{OutputError, REPLACE};
 
 /// Most links that lead from one to another.
 const MOST_LINKS: usize = 40;
+
+/// Every file beside its place that this process has made, for [`remove_unfinished`].
+static BESIDE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Removes the files of this process that are not in their places: for a process that ends where it is.
+pub fn remove_unfinished() {
+    let beside = BESIDE.lock().unwrap_or_else(PoisonError::into_inner);
+    beside.iter().for_each(|file| _ = std::fs::remove_file(file));
+}
 
 /// Where a result goes.
 #[derive(Debug)]
@@ -86,6 +96,7 @@ impl Written {
             path: path.to_owned(),
             reason: format!("cannot be written: its folder does not exist or may not be written ({})", error.kind()),
         })?;
+        BESIDE.lock().unwrap_or_else(PoisonError::into_inner).push(file.path().to_owned());
         if let Some(present) = present {
             // The owner first, since a change of it takes rights away; it is kept where that is allowed.
             #[cfg(unix)]
@@ -138,6 +149,17 @@ fn through(file: &mut File, path: &Path) -> io::Result<()> {
     let mut out = OpenOptions::new().write(true).open(path)?;
     io::copy(file, &mut out)?;
     out.flush()
+}
+
+/// The device or pipe at `path`, which takes a result as it comes; none where the result is a file.
+///
+/// # Errors
+/// [`OutputError`] when it cannot be written.
+pub fn open_stream(path: &Path) -> Result<Option<File>, OutputError> {
+    match Target::of(path)? {
+        Target::File { .. } => Ok(None),
+        Target::Stream => OpenOptions::new().write(true).open(path).map(Some).map_err(|error| OutputError::new(path, &error)),
+    }
 }
 
 /// Refuses `path` as the one result of a command when it cannot be written, when it is one of `inputs`, and when a file is there that is not

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::{Claim, OutputError, ResultFolder, Results, Subject, claim_file};
+use super::{Claim, OutputError, ResultFolder, Results, Subject, claim_file, is_standard_output, open_stream};
 
 fn written(path: &Path, text: &str) -> Result<(), OutputError> {
     let mut results = Results::default();
@@ -106,6 +106,8 @@ fn one_file_is_replaced_by_its_like_or_when_asked_and_never_when_it_is_read() {
     fs::write(&path, "").unwrap();
     claim_file(&path, &[], false, |_| false).unwrap();
     claim_file(Path::new("/dev/null"), &[Path::new("/dev/null")], false, |_| false).unwrap();
+    assert!(open_stream(Path::new("/dev/null")).unwrap().is_some() && open_stream(&path).unwrap().is_none());
+    assert!(is_standard_output(Path::new("-")) && !is_standard_output(&path));
     assert_eq!(names(folder.path()), ["file", "link"]);
 }
 
