@@ -1,36 +1,45 @@
 //! `sprag batch`: many independent cases, one a row.
 
-use std::io::{BufReader, Read, Write};
-use std::path::PathBuf;
+use std::fs::File;
+use std::io::{self, BufReader, BufWriter, ErrorKind, Write};
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use anyhow::anyhow;
+use anyhow::{anyhow, bail};
 use clap::Args;
+use csv::StringRecord;
+use rayon::ThreadPool;
 use rayon::prelude::*;
 use sprag_loops::{Method, Precision};
-use sprag_report::output::{Results, claim_file};
+use sprag_report::columns::Column;
+use sprag_report::output::{OutputError, Results, claim_file, is_standard_output, open_stream};
+use sprag_report::part::Part;
 use sprag_report::progress::Progress;
 use sprag_sim::accuracy::answer::Comparable;
-use sprag_sim::accuracy::{Accuracy, ErrorEstimate, budget};
-use sprag_sim::batch::case::{Case, CaseError, CaseResult};
-use sprag_sim::batch::table::{CASE_COLUMNS, ERROR_COLUMNS, RESULT_COLUMNS, read_cases, shown, write_result};
+use sprag_sim::accuracy::{Accuracy, budget};
+use sprag_sim::batch::case::Case;
+use sprag_sim::batch::table::{CASE_COLUMNS, ERROR_COLUMNS, RESULT_COLUMNS, shown};
+use sprag_sim::interrupt::Interrupt;
 
 use super::accuracy_arguments::AccuracyArguments;
-use super::context::{Completion, Context, Run};
+use super::batch_cases::{CaseFile, CaseReader, Cases, is_parquet};
+use super::batch_results::{Chunk, Sink, are_of, columns};
+use super::context::{Completion, Context, Interrupted, Run};
 use super::out_arguments::OverwriteArguments;
 use super::thread_arguments::ThreadArguments;
 
 /// Run many dimensionless blocks under one-cycle pulses.
 #[derive(Args, Clone, Debug)]
-#[command(after_help = format!("Example:\n  sprag batch cases.csv --out results.csv\n\nA case file has the columns\n  {CASE_COLUMNS}\n\
+#[command(after_help = format!("Examples:\n  sprag batch cases.csv --out results.csv\n  \
+    sprag batch cases.parquet --out results.parquet\n  generate | sprag batch - --out - | evaluate\n\nA case file has the columns\n  {CASE_COLUMNS}\n\
     and the result file\n  {RESULT_COLUMNS}\nwith times in 1/p from the pulse's start; with --accuracy or --time-budget also\n  {ERROR_COLUMNS}\n\
-    Rows keep their order, whatever the number of threads."))]
+    Rows keep their order, whatever the number of threads. They are read and written in a stream, in constant memory."))]
 pub struct BatchArguments {
-    /// Case file: a block and a pulse in each row.
-    #[arg(value_name = "CASES.csv")]
+    /// Case file, CSV or Parquet by its ending, or - for standard input: a block and a pulse in each row.
+    #[arg(value_name = "CASES")]
     pub cases: PathBuf,
-    /// File for the results, a row for each case.
-    #[arg(long, value_name = "RESULTS.csv")]
+    /// File for the results, CSV or Parquet by its ending, or - for standard output: a row for each case.
+    #[arg(long, value_name = "RESULTS")]
     pub out: PathBuf,
     /// What may be replaced.
     #[command(flatten)]
@@ -53,22 +62,40 @@ fn tolerance(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Largest case file that is read, bytes: some ten million cases.
-const LARGEST_FILE: u64 = 1 << 30;
-
 /// Cases that one task works on before it looks up.
-const CHUNK: usize = 256;
+const CHUNK: usize = 64;
 
-/// Cases that are tried to learn what a level of accuracy costs.
+/// Cases a thread that are in memory at one time.
+const WINDOW: usize = 64 * CHUNK;
+
+/// Most cases that are tried to learn what a level of accuracy costs.
 const SAMPLE: usize = 512;
 
-/// A result, with its error where that is asked for.
-type Row = (CaseResult, Option<ErrorEstimate>);
+/// Some of `cases`, evenly spread, and for how many each of them stands.
+fn sample(cases: &mut Cases) -> anyhow::Result<(Vec<Case>, f64)> {
+    let (mut some, mut step, mut count) = (Vec::new(), 1, 0_u64);
+    cases.each(|_, case| {
+        // A full sample has every `step`-th case up to this one, and so has its half every other of them.
+        if count.is_multiple_of(step) {
+            if some.len() == SAMPLE {
+                some = some.drain(..).step_by(2).collect();
+                step *= 2;
+            }
+            some.push(case);
+        }
+        count += 1;
+        true
+    })?;
+    let share = count as f64 / some.len().max(1) as f64;
+    Ok((some, share))
+}
 
-/// What `seconds` afford, found by trying some of the cases, evenly spread.
-fn plan(seconds: Duration, accuracy: Option<Accuracy>, cases: &[(String, Case)]) -> Result<budget::Plan, budget::TooLittleTime> {
-    let some: Vec<&Case> = cases.iter().step_by(cases.len().div_ceil(SAMPLE).max(1)).map(|(_, case)| case).collect();
-    let share = cases.len() as f64 / some.len().max(1) as f64;
+/// What `seconds` afford, found by trying `some` of the cases, each for `share` of them.
+fn plan(
+    seconds: Duration,
+    accuracy: Option<Accuracy>,
+    (some, share): &(Vec<Case>, f64),
+) -> Result<budget::Plan, budget::TooLittleTime> {
     let sample = |accuracy: Accuracy| {
         let start = Instant::now();
         // A case that cannot be run is reported when all are.
@@ -93,75 +120,141 @@ impl Run for BatchArguments {
     }
 }
 
-/// The first line of a result file.
-fn heading(with_errors: bool) -> String {
-    if with_errors { format!("{RESULT_COLUMNS},{ERROR_COLUMNS}") } else { RESULT_COLUMNS.to_owned() }
+/// Refuses to write where no results of these cases may go.
+fn claim(arguments: &BatchArguments, cases: &CaseFile, columns: &[Column]) -> anyhow::Result<()> {
+    let BatchArguments { out, replace, .. } = arguments;
+    let input = if arguments.cases == Path::new("-") { Path::new("/dev/stdin") } else { &arguments.cases };
+    let mut compared = None;
+    let same = |there: BufReader<File>| {
+        let same = if cases.is_file() {
+            cases.again().and_then(|mut cases| are_of(there.into_inner(), is_parquet(out), columns, &mut cases))
+        } else {
+            let (out, cases) = (out.display(), cases.name());
+            Err(anyhow!(
+                "{out}: a file is there, and {cases} cannot be read twice to compare it with the cases; --overwrite replaces it, or give \
+                 another place for the new one"
+            ))
+        };
+        compared.insert(same).as_ref().is_ok_and(|same| *same)
+    };
+    let claimed = claim_file(out, &[input], replace.overwrite, same);
+    compared.transpose()?;
+    Ok(claimed?)
 }
 
-/// Whether `file` has results below this heading, of these cases by their ids.
-fn results_of(file: impl Read, heading: &str, cases: &[(String, Case)]) -> bool {
-    let mut reader = csv::Reader::from_reader(file);
-    let same = reader.headers().is_ok_and(|titles| titles.iter().eq(heading.split(',')));
-    same && reader.records().map(|row| row.ok()?.get(0).map(str::to_owned)).eq(cases.iter().map(|(id, _)| Some(id.clone())))
+/// What is the same for all cases.
+struct Work<'a> {
+    columns: Vec<Column>,
+    accuracy: Option<Accuracy>,
+    tolerance: f64,
+    parquet: bool,
+    pool: ThreadPool,
+    interrupt: &'a Interrupt,
+}
+
+impl Work<'_> {
+    /// Works out all `cases` into `sink`, a window at a time. An error of the sink is an [`io::Error`].
+    fn run(&self, cases: &mut Cases, mut sink: Sink<'_>) -> anyhow::Result<()> {
+        let mut window = vec![StringRecord::new(); WINDOW * self.pool.current_num_threads()];
+        let mut progress = cases.progress();
+        loop {
+            let (count, more) = cases.fill(&mut window);
+            let reader = &cases.reader;
+            let found: Vec<_> =
+                self.pool.install(|| window[..count].par_chunks(CHUNK).map(|rows| self.chunk(reader, rows)).collect());
+            let mut wrong = None;
+            let whole = |chunk: anyhow::Result<Chunk>| chunk.map_err(|error| wrong = Some(error)).ok();
+            let chunks: Vec<Chunk> = found.into_iter().map_while(whole).collect();
+            sink.take(&self.columns, &chunks)?;
+            wrong.map_or(Ok(()), Err)?;
+            progress.advance(cases, count);
+            if !more? {
+                return Ok(sink.finish()?);
+            }
+        }
+    }
+
+    fn chunk(&self, reader: &CaseReader, rows: &[StringRecord]) -> anyhow::Result<Chunk> {
+        if self.interrupt.is_set() {
+            return Err(Interrupted.into());
+        }
+        let method = f64::ideal(Method::Adaptive(self.tolerance));
+        let found = |row| {
+            let (id, case) = reader.case(row)?;
+            let found = match self.accuracy {
+                Some(accuracy) => case.answer(accuracy).map(|answer| (answer.result, Some(answer.error))),
+                None => case.run(&*method).map(|result| (result, None)),
+            };
+            Ok((id, found.map_err(|error| anyhow!("{}: case `{}`: {error}", reader.name(), shown(id)))?))
+        };
+        Chunk::of(rows.iter().map(found), &self.columns, !self.parquet)
+    }
+
+    /// Works out all `cases` into the file `out`.
+    fn write(&self, cases: &mut Cases, out: &mut (dyn Write + Send)) -> anyhow::Result<()> {
+        let sink = if self.parquet { Sink::parquet(&self.columns, out)? } else { Sink::csv(out) };
+        self.run(cases, sink)
+    }
 }
 
 fn run(arguments: &BatchArguments, context: &mut Context<'_>) -> anyhow::Result<()> {
-    let interrupt = context.interrupt;
-    let name = arguments.cases.display();
-    let path = &arguments.cases;
-    let file = std::fs::File::open(path).map_err(|error| anyhow!("{name}: {error}"))?;
-    if !file.metadata().is_ok_and(|data| data.len() <= LARGEST_FILE) {
-        anyhow::bail!("{name}: too large; case files of at most 1 GiB are read");
-    }
-    let reading = Progress::uncounted("reading cases");
-    let cases = read_cases(BufReader::new(file)).map_err(|error| anyhow!("{name}: {error}"))?;
-    reading.finish();
-    // Where the results go is tried before the work, not after it.
-    let heading = heading(arguments.accuracy.accuracy.is_some() || arguments.accuracy.is_chosen());
-    let same = |file| results_of(file, &heading, &cases);
-    claim_file(&arguments.out, &[path], arguments.replace.overwrite, same)?;
-    let pool = arguments.threads.pool()?;
+    let BatchArguments { out, threads, tolerance, .. } = arguments;
     let AccuracyArguments { mut accuracy, time_budget } = arguments.accuracy;
+    let parquet = is_parquet(out);
+    if parquet {
+        Part::PARQUET.allow(())?;
+    }
+    let cases = CaseFile::open(&arguments.cases)?;
+    // Where the results go is tried before the work, not after it.
+    let columns = columns(accuracy.is_some() || time_budget.is_some());
+    claim(arguments, &cases, &columns)?;
+    let pool = threads.pool()?;
     if let Some(seconds) = time_budget {
+        if !cases.is_file() {
+            bail!("--time-budget: {} cannot be read twice to try some of the cases; give a file, or --accuracy", cases.name());
+        }
         let _trying = Progress::uncounted(super::TRYING);
-        let plan = pool.install(|| plan(seconds, accuracy, &cases))?;
+        let sample = sample(&mut cases.again()?)?;
+        let plan = pool.install(|| plan(seconds, accuracy, &sample))?;
         context.note(plan);
         accuracy = Some(plan.accuracy);
     }
-    let progress = Progress::new("cases");
-    progress.begin(cases.len() as u64);
-    let answers: Vec<Result<Row, CaseError>> = pool.install(|| {
-        cases
-            .par_chunks(CHUNK)
-            .flat_map_iter(|chunk| {
-                let method = f64::ideal(Method::Adaptive(arguments.tolerance));
-                let row = |case: &Case| match accuracy {
-                    Some(accuracy) => case.answer(accuracy).map(|answer| (answer.result, Some(answer.error))),
-                    None => case.run(&*method).map(|result| (result, None)),
-                };
-                let stop = interrupt.is_set();
-                let answers: Vec<_> = if stop { Vec::new() } else { chunk.iter().map(|(_, case)| row(case)).collect() };
-                progress.advance(chunk.len() as u64);
-                answers
-            })
-            .collect()
-    });
-    progress.finish();
-    context.check_interrupt()?;
-    if let Some((id, error)) = cases.iter().zip(&answers).find_map(|((id, _), answer)| answer.as_ref().err().map(|e| (id, *e))) {
-        anyhow::bail!("{name}: case `{}`: {error}", shown(id));
+    let mut cases = cases.cases()?;
+    let work = Work { columns, accuracy, tolerance: *tolerance, parquet, pool, interrupt: context.interrupt };
+    if is_standard_output(out) {
+        return match work.run(&mut cases, Sink::csv(context.out)) {
+            // Reported where standard output ends.
+            Err(error) if error.is::<io::Error>() => Ok(()),
+            ended => ended,
+        };
     }
-    let _writing = Progress::uncounted("writing results");
+    let named = |error: anyhow::Error| match error.downcast::<io::Error>() {
+        Ok(error) => OutputError::new(out, &error).into(),
+        Err(error) => error,
+    };
+    if let Some(stream) = open_stream(out)? {
+        return match work.write(&mut cases, &mut BufWriter::new(stream)) {
+            // A reader that stops early has what it wanted.
+            Err(error) if error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == ErrorKind::BrokenPipe) => Ok(()),
+            ended => ended.map_err(named),
+        };
+    }
     let mut results = Results::default();
-    results.add(&arguments.out, |out| {
-        writeln!(out, "{heading}")?;
-        for ((id, _), answer) in cases.iter().zip(&answers) {
-            if let Ok((result, error)) = answer {
-                write_result(out, id, result, error.as_ref())?;
-            }
-        }
-        Ok(())
-    })?;
-    results.commit()?;
-    Ok(())
+    results.add_by(out, |file| work.write(&mut cases, file).map_err(named))?;
+    Ok(results.commit()?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sample_is_spread_evenly() {
+        let mut file = tempfile::NamedTempFile::new().unwrap();
+        writeln!(file, "{CASE_COLUMNS}").unwrap();
+        (0..5000).for_each(|index| writeln!(file, "{index},full,15,none,0,0.85,sine,2,2,{index}").unwrap());
+        let (some, share) = sample(&mut CaseFile::open(file.path()).unwrap().cases().unwrap()).unwrap();
+        assert!(some.iter().map(|case| case.free_time as usize).eq((0..5000).step_by(16)));
+        assert_eq!(share, 5000.0 / some.len() as f64);
+    }
 }

@@ -4,6 +4,8 @@
 pub mod accuracy;
 pub mod accuracy_arguments;
 pub mod batch;
+mod batch_cases;
+mod batch_results;
 #[cfg(feature = "effects")]
 pub mod board;
 #[cfg(feature = "effects")]

@@ -74,7 +74,11 @@ fn bad_cases_cost_one_line_that_names_the_place() {
     try_text(&format!("{header}1,full,15,none\n"), &["line 2", "4 fields"]);
     try_text(&format!("colour,{header}"), &["unknown column `colour`"]);
     fs::File::create(&cases).unwrap().set_len(2 << 30).unwrap();
-    refused(&["batch", cases.to_str().unwrap(), "--out", results.to_str().unwrap()], &out, &["too large"]);
+    refused(&["batch", cases.to_str().unwrap(), "--out", results.to_str().unwrap()], &out, &["line 1", "more than 1 MiB"]);
+    // A quote that nothing closes.
+    let open = format!("{header}{good}\"{}", good.repeat(40_000));
+    try_text(&open, &["line 3", "more than 1 MiB"]);
+    try_text(&format!("id,{header}"), &["column `id` is there twice"]);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod accuracy_options;
 mod bad_input;
+mod batch_streams;
 mod divided;
 mod formats;
 mod keys;

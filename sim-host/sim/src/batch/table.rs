@@ -1,14 +1,14 @@
-//! The CSV files of `sprag batch`: cases in, results out.
+//! The tables of `sprag batch`: rows of texts are cases, and the columns of their results.
 
-use std::io::{Read, Write};
+use std::fmt;
+use std::io::Read;
 
-use serde::Deserialize;
+use csv::StringRecord;
 use sprag_shared::structure::REST_SPEED;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
 
-use super::case::{Case, CaseResult, PulseShape};
-use crate::accuracy::ErrorEstimate;
+use super::case::{Case, PulseShape};
 
 /// The header of a case file.
 pub const CASE_COLUMNS: &str =
@@ -20,12 +20,36 @@ pub const RESULT_COLUMNS: &str = "id,outcome,peak_rotation,peak_acceleration,imp
 /// What follows [`RESULT_COLUMNS`] where errors are asked for: whether the outcome is beyond doubt, and absolute errors.
 pub const ERROR_COLUMNS: &str = "outcome_certain,peak_rotation_error,peak_acceleration_error,first_impact_time_error";
 
+/// Where a row stands in its file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// Line of a text, from 1.
+    Line(u64),
+    /// Row of a table without lines, from 1.
+    Row(u64),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::Line(line) => write!(out, "line {line}"),
+            Place::Row(row) => write!(out, "row {row}"),
+        }
+    }
+}
+
 /// A row that cannot be a case, or a file that cannot be a table of them.
 #[derive(Debug, thiserror::Error)]
 pub enum TableError {
     /// A column is missing from the header.
     #[error("column `{column}` is missing; the header must be {CASE_COLUMNS}")]
     MissingColumn {
+        /// Name of the column.
+        column: &'static str,
+    },
+    /// A column that stands there twice.
+    #[error("column `{column}` is there twice; the header must be {CASE_COLUMNS}")]
+    RepeatedColumn {
         /// Name of the column.
         column: &'static str,
     },
@@ -36,10 +60,10 @@ pub enum TableError {
         column: String,
     },
     /// A value that is not of the column's kind or not in its range.
-    #[error("line {line}: {column} is `{}`, but must be {range}", shown(.value))]
+    #[error("{place}: {column} is `{}`, but must be {range}", shown(.value))]
     Value {
-        /// Line in the file, from 1.
-        line: u64,
+        /// Where its row stands.
+        place: Place,
         /// Column.
         column: &'static str,
         /// Value as written.
@@ -72,155 +96,102 @@ pub fn shown(field: &str) -> String {
     shown
 }
 
-#[derive(Deserialize)]
-struct Row<'a> {
-    id: &'a str,
-    geometry: &'a str,
-    slenderness_deg: &'a str,
-    device: &'a str,
-    mass_ratio: &'a str,
-    restitution: &'a str,
-    pulse: &'a str,
-    frequency_ratio: &'a str,
-    amplitude_ratio: &'a str,
-    free_time: &'a str,
+impl From<csv::Error> for TableError {
+    fn from(error: csv::Error) -> TableError {
+        TableError::Malformed {
+            line: error.position().map_or(1, csv::Position::line),
+            message: match error.kind() {
+                csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
+                    format!("{len} fields, but the header has {expected_len}")
+                }
+                csv::ErrorKind::Utf8 { .. } => "not UTF-8 text".to_owned(),
+                _ => error.to_string(),
+            },
+        }
+    }
 }
 
-fn number(
-    line: u64,
-    column: &'static str,
-    value: &str,
-    allowed: impl Fn(f64) -> bool,
-    range: &'static str,
-) -> Result<f64, TableError> {
-    match value.trim().parse::<f64>() {
-        Ok(number) if number.is_finite() && allowed(number) => Ok(number),
-        _ => Err(TableError::Value { line, column, value: value.to_owned(), range }),
+/// Where the columns of cases stand in the rows of a file: in any order.
+#[derive(Clone, Debug)]
+pub struct CaseColumns([usize; 10]);
+
+impl CaseColumns {
+    /// The columns below these titles.
+    ///
+    /// # Errors
+    /// [`TableError::MissingColumn`], [`TableError::UnknownColumn`], [`TableError::RepeatedColumn`].
+    pub fn of(titles: &StringRecord) -> Result<CaseColumns, TableError> {
+        let mut columns = [0; 10];
+        for (at, column) in columns.iter_mut().zip(CASE_COLUMNS.split(',')) {
+            let mut places = titles.iter().enumerate().filter(|(_, title)| title.trim() == column);
+            *at = places.next().ok_or(TableError::MissingColumn { column })?.0;
+            if places.next().is_some() {
+                return Err(TableError::RepeatedColumn { column });
+            }
+        }
+        match titles.iter().enumerate().find(|(at, _)| !columns.contains(at)) {
+            Some((_, title)) => Err(TableError::UnknownColumn { column: title.trim().to_owned() }),
+            None => Ok(CaseColumns(columns)),
+        }
+    }
+
+    /// The id of `row`, and its case.
+    ///
+    /// # Errors
+    /// [`TableError::Value`] names the place, the column, the value and what it may be.
+    pub fn case<'a>(&self, row: &'a StringRecord, place: Place) -> Result<(&'a str, Case), TableError> {
+        let [id, geometry, slenderness_deg, device, mass_ratio, restitution, pulse, frequency_ratio, amplitude_ratio, free_time] =
+            self.0.map(|at| row.get(at).unwrap_or_default().trim());
+        let number = |column, value: &str, allowed: fn(f64) -> bool, range| match value.parse::<f64>() {
+            Ok(number) if number.is_finite() && allowed(number) => Ok(number),
+            _ => Err(TableError::Value { place, column, value: value.to_owned(), range }),
+        };
+        let geometries = [("full", Geometry::Full), ("slender", Geometry::Slender)];
+        let devices = [("none", DeviceKind::None), ("inerter", DeviceKind::Inerter), ("clutched-pair", DeviceKind::ClutchedPair)];
+        let pulses = [("sine", PulseShape::Sine), ("cosine", PulseShape::Cosine)];
+        let case = Case {
+            geometry: choice(place, "geometry", geometry, &geometries, "full or slender")?,
+            slenderness: number("slenderness_deg", slenderness_deg, |a| a > 0.0 && a < 90.0, "above 0 and below 90 degrees")?
+                .to_radians(),
+            device: choice(place, "device", device, &devices, "none, inerter or clutched-pair")?,
+            mass_ratio: number("mass_ratio", mass_ratio, |s| (0.0..=1e4).contains(&s), "from 0 to 10000")?,
+            restitution: number("restitution", restitution, |e| (0.0..=1.0).contains(&e), "from 0 to 1")?,
+            pulse: choice(place, "pulse", pulse, &pulses, "sine or cosine")?,
+            frequency_ratio: number("frequency_ratio", frequency_ratio, |w| (1e-3..=1e4).contains(&w), "from 0.001 to 10000")?,
+            amplitude_ratio: number("amplitude_ratio", amplitude_ratio, |a| a.abs() <= 1e6, "from -1e6 to 1e6")?,
+            free_time: number("free_time", free_time, |t| (0.0..=1e6).contains(&t), "from 0 to 1e6")?,
+            rest_speed: REST_SPEED,
+        };
+        Ok((id, case))
     }
 }
 
 fn choice<T: Copy>(
-    line: u64,
+    place: Place,
     column: &'static str,
     value: &str,
     names: &[(&str, T)],
     range: &'static str,
 ) -> Result<T, TableError> {
-    names.iter().find(|(name, _)| *name == value.trim()).map(|(_, choice)| *choice).ok_or_else(|| TableError::Value {
-        line,
-        column,
-        value: value.to_owned(),
-        range,
-    })
+    let found = names.iter().find(|(name, _)| *name == value).map(|(_, choice)| *choice);
+    found.ok_or_else(|| TableError::Value { place, column, value: value.to_owned(), range })
 }
 
-/// Reads cases with their ids, in order. Columns may stand in any order.
+/// Reads all cases of a CSV file with their ids, in order. Columns may stand in any order.
 ///
 /// # Errors
 /// [`TableError`] names the line, the column, the value and what it may be.
 pub fn read_cases(source: impl Read) -> Result<Vec<(String, Case)>, TableError> {
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(source);
-    let malformed = |error: csv::Error| TableError::Malformed {
-        line: error.position().map_or(1, csv::Position::line),
-        message: match error.kind() {
-            csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
-                format!("{len} fields, but the header has {expected_len}")
-            }
-            csv::ErrorKind::Utf8 { .. } => "not UTF-8 text".to_owned(),
-            _ => error.to_string(),
-        },
-    };
-    let header = reader.headers().map_err(malformed)?.clone();
-    for column in CASE_COLUMNS.split(',') {
-        if !header.iter().any(|name| name == column) {
-            return Err(TableError::MissingColumn { column });
-        }
-    }
-    if let Some(column) = header.iter().find(|name| !CASE_COLUMNS.split(',').any(|known| known == *name)) {
-        return Err(TableError::UnknownColumn { column: column.to_owned() });
-    }
+    let mut reader = csv::Reader::from_reader(source);
+    let columns = CaseColumns::of(reader.headers()?)?;
     let mut cases = Vec::new();
-    let mut record = csv::StringRecord::new();
-    while reader.read_record(&mut record).map_err(malformed)? {
-        let line = record.position().map_or(0, csv::Position::line);
-        let row: Row<'_> = record.deserialize(Some(&header)).map_err(malformed)?;
-        cases.push((row.id.to_owned(), row.case(line)?));
+    let mut row = StringRecord::new();
+    while reader.read_record(&mut row)? {
+        let line = row.position().map_or(0, csv::Position::line);
+        let (id, case) = columns.case(&row, Place::Line(line))?;
+        cases.push((id.to_owned(), case));
     }
     if cases.is_empty() { Err(TableError::Empty) } else { Ok(cases) }
-}
-
-impl Row<'_> {
-    fn case(&self, line: u64) -> Result<Case, TableError> {
-        let device = [("none", DeviceKind::None), ("inerter", DeviceKind::Inerter), ("clutched-pair", DeviceKind::ClutchedPair)];
-        Ok(Case {
-            geometry: choice(
-                line,
-                "geometry",
-                self.geometry,
-                &[("full", Geometry::Full), ("slender", Geometry::Slender)],
-                "full or slender",
-            )?,
-            slenderness: number(
-                line,
-                "slenderness_deg",
-                self.slenderness_deg,
-                |a| a > 0.0 && a < 90.0,
-                "above 0 and below 90 degrees",
-            )?
-            .to_radians(),
-            device: choice(line, "device", self.device, &device, "none, inerter or clutched-pair")?,
-            mass_ratio: number(line, "mass_ratio", self.mass_ratio, |s| (0.0..=1e4).contains(&s), "from 0 to 10000")?,
-            restitution: number(line, "restitution", self.restitution, |e| (0.0..=1.0).contains(&e), "from 0 to 1")?,
-            pulse: choice(
-                line,
-                "pulse",
-                self.pulse,
-                &[("sine", PulseShape::Sine), ("cosine", PulseShape::Cosine)],
-                "sine or cosine",
-            )?,
-            frequency_ratio: number(
-                line,
-                "frequency_ratio",
-                self.frequency_ratio,
-                |w| (1e-3..=1e4).contains(&w),
-                "from 0.001 to 10000",
-            )?,
-            amplitude_ratio: number(line, "amplitude_ratio", self.amplitude_ratio, |a| a.abs() <= 1e6, "from -1e6 to 1e6")?,
-            free_time: number(line, "free_time", self.free_time, |t| (0.0..=1e6).contains(&t), "from 0 to 1e6")?,
-            rest_speed: REST_SPEED,
-        })
-    }
-}
-
-/// Writes one result as a row of [`RESULT_COLUMNS`], with its error as in [`ERROR_COLUMNS`] if there is one. Numbers read back to the
-/// same f64; the peaks of an overturned block and the impact of one that had none are empty, and so are their errors.
-///
-/// # Errors
-/// The errors of `out`.
-pub fn write_result(out: &mut impl Write, id: &str, result: &CaseResult, error: Option<&ErrorEstimate>) -> std::io::Result<()> {
-    let mut row = csv::Writer::from_writer(Vec::new());
-    let number = |value: f64| format!("{value:?}");
-    let peak = |value: f64| if result.outcome.overturned() { String::new() } else { number(value) };
-    let impact = |value: f64| result.first_impact_time.map_or_else(String::new, |_| number(value));
-    let mut fields = vec![
-        id.to_owned(),
-        result.outcome.name().to_owned(),
-        peak(result.peak_rotation),
-        peak(result.peak_acceleration),
-        result.impacts.to_string(),
-        result.first_impact_time.map_or_else(String::new, number),
-        number(result.end_time),
-    ];
-    if let Some(error) = error {
-        fields.extend([
-            error.outcome_certain.to_string(),
-            peak(error.peak_rotation),
-            peak(error.peak_acceleration),
-            impact(error.first_impact_time),
-        ]);
-    }
-    row.write_record(fields).map_err(std::io::Error::other)?;
-    out.write_all(&row.into_inner().map_err(|error| error.into_error())?)
 }
 
 #[cfg(test)]

@@ -1,0 +1,190 @@
+//! The cases of `sprag batch`: rows of a file or of standard input, read one by one.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use anyhow::{anyhow, bail};
+use csv::{Position, StringRecord};
+use sprag_report::columns::{TableError as ReadError, TextRows};
+use sprag_report::progress::Progress;
+use sprag_sim::batch::case::Case;
+use sprag_sim::batch::table::{CaseColumns, Place, TableError};
+
+/// Whether the file at `path` is Parquet by its name; any other is CSV.
+pub fn is_parquet(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("parquet"))
+}
+
+/// A source of cases that is open.
+pub struct CaseFile {
+    path: PathBuf,
+    /// None for standard input.
+    file: Option<File>,
+    /// Bytes of a file that can be read again.
+    length: Option<u64>,
+}
+
+impl CaseFile {
+    /// Opens the file at `path`, or standard input for `-`.
+    ///
+    /// # Errors
+    /// A file that cannot be opened.
+    pub fn open(path: &Path) -> anyhow::Result<CaseFile> {
+        if path == Path::new("-") {
+            return Ok(CaseFile { path: path.to_owned(), file: None, length: None });
+        }
+        let failed = |error| anyhow!("{}: {error}", path.display());
+        let file = File::open(path).map_err(failed)?;
+        let data = file.metadata().map_err(failed)?;
+        let length = data.is_file().then_some(data.len());
+        if is_parquet(path) && length.is_none() {
+            bail!("{}: Parquet is read from files only", path.display());
+        }
+        Ok(CaseFile { path: path.to_owned(), file: Some(file), length })
+    }
+
+    /// What messages call it.
+    pub fn name(&self) -> String {
+        if self.file.is_some() { self.path.display().to_string() } else { "standard input".to_owned() }
+    }
+
+    /// Whether it can be read more than once.
+    pub fn is_file(&self) -> bool {
+        self.length.is_some()
+    }
+
+    /// Its cases, from the first, beside those that are read elsewhere.
+    ///
+    /// # Errors
+    /// Those of [`CaseFile::open`] and [`CaseFile::cases`].
+    pub fn again(&self) -> anyhow::Result<Cases> {
+        CaseFile::open(&self.path)?.cases()
+    }
+
+    /// Its cases.
+    ///
+    /// # Errors
+    /// A file that is no table of cases.
+    pub fn cases(self) -> anyhow::Result<Cases> {
+        let name = self.name();
+        let failed = |error| wrong(&name, error);
+        let mut rows = match self.file {
+            None => TextRows::of_csv(std::io::stdin()),
+            Some(file) if is_parquet(&self.path) => TextRows::of_parquet(file).map_err(failed)?,
+            Some(file) => TextRows::of_csv(file),
+        };
+        let titles = rows.titles().map_err(failed)?;
+        let columns = CaseColumns::of(&titles).map_err(|error| anyhow!("{name}: {error}"))?;
+        let (place, length): (fn(u64) -> Place, _) = match &rows {
+            TextRows::Csv(_) => (Place::Line, self.length.map(|bytes| (bytes, "bytes of cases"))),
+            TextRows::Parquet(rows) => (Place::Row, Some((rows.length, "cases"))),
+        };
+        Ok(Cases { rows, length, any: false, reader: CaseReader { name, columns, place } })
+    }
+}
+
+fn wrong(name: &str, error: ReadError) -> anyhow::Error {
+    match error {
+        ReadError::Csv(error) => anyhow!("{name}: {}", TableError::from(error)),
+        error => anyhow!("{name}: {error}"),
+    }
+}
+
+/// What makes cases of rows, on any thread.
+pub struct CaseReader {
+    name: String,
+    columns: CaseColumns,
+    place: fn(u64) -> Place,
+}
+
+impl CaseReader {
+    /// The id of `row`, and its case.
+    ///
+    /// # Errors
+    /// A row that cannot be a case.
+    pub fn case<'a>(&self, row: &'a StringRecord) -> anyhow::Result<(&'a str, Case)> {
+        let place = (self.place)(row.position().map_or(0, Position::line));
+        self.columns.case(row, place).map_err(|error| anyhow!("{}: {error}", self.name))
+    }
+
+    /// What messages call the file.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+}
+
+/// Cases that are being read.
+pub struct Cases {
+    rows: TextRows,
+    /// How far [`TextRows::done`] goes, and of what.
+    length: Option<(u64, &'static str)>,
+    /// Whether there was a case.
+    any: bool,
+    /// What makes cases of the rows.
+    pub reader: CaseReader,
+}
+
+impl Cases {
+    /// Reads as many rows into `window` as there are and as it has; also whether there may be more.
+    pub fn fill(&mut self, window: &mut [StringRecord]) -> (usize, anyhow::Result<bool>) {
+        let mut count = 0;
+        for row in window {
+            match self.rows.read(row) {
+                Ok(true) => count += 1,
+                Ok(false) if self.any || count > 0 => return (count, Ok(false)),
+                Ok(false) => return (0, Err(anyhow!("{}: {}", self.reader.name, TableError::Empty))),
+                Err(error) => return (count, Err(wrong(&self.reader.name, error))),
+            }
+        }
+        self.any = true;
+        (count, Ok(true))
+    }
+
+    /// Gives all cases with their ids to `take` as long as it wants more; whether it took all.
+    ///
+    /// # Errors
+    /// A row that cannot be a case, and a file without any.
+    pub fn each(&mut self, mut take: impl FnMut(&str, Case) -> bool) -> anyhow::Result<bool> {
+        let mut window = [StringRecord::new()];
+        loop {
+            let (count, more) = self.fill(&mut window);
+            if count > 0 {
+                let (id, case) = self.reader.case(&window[0])?;
+                if !take(id, case) {
+                    return Ok(false);
+                }
+            }
+            if !more? {
+                return Ok(true);
+            }
+        }
+    }
+
+    /// Shows how far they are worked out.
+    pub fn progress(&self) -> Shown {
+        let progress = match self.length {
+            Some((length, what)) => {
+                let progress = Progress::new(what);
+                progress.begin(length);
+                progress
+            }
+            None => Progress::of_unknown_length("cases"),
+        };
+        Shown { progress, done: 0 }
+    }
+}
+
+/// Progress through cases.
+pub struct Shown {
+    progress: Progress,
+    done: u64,
+}
+
+impl Shown {
+    /// All of `cases` that are read are done, the last `count` of them now.
+    pub fn advance(&mut self, cases: &Cases, count: usize) {
+        let done = if cases.length.is_some() { cases.rows.done() } else { self.done + count as u64 };
+        self.progress.advance(done.saturating_sub(self.done));
+        self.done = done;
+    }
+}
