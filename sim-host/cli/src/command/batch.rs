@@ -75,7 +75,7 @@ const SAMPLE: usize = 512;
 fn sample(cases: &mut Cases) -> anyhow::Result<(Vec<Case>, f64)> {
     let (mut some, mut step, mut count) = (Vec::new(), 1, 0_u64);
     cases.each(|_, case| {
-        // A full sample has every `step`-th case up to this one, and so has its half every other of them.
+        // A full sample has every `step`-th case so far, and every second of it is kept.
         if count.is_multiple_of(step) {
             if some.len() == SAMPLE {
                 some = some.drain(..).step_by(2).collect();

@@ -64,6 +64,12 @@ pub enum TableError {
         /// From 1, where it begins.
         line: u64,
     },
+    /// A Parquet file that is compressed in a way that is not known here.
+    #[error("it is compressed by {codec}; zstd and no compression can be read")]
+    Compression {
+        /// Its name in Parquet.
+        codec: String,
+    },
     /// A CSV file that cannot be written or read.
     #[error("{0}")]
     Csv(#[from] csv::Error),

@@ -3,6 +3,7 @@
 use std::fs::File;
 
 use csv::StringRecord;
+use parquet::basic::Compression;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use parquet::record::reader::RowIter;
@@ -51,6 +52,11 @@ pub struct ParquetTexts {
 impl ParquetTexts {
     pub(super) fn new(file: File) -> Result<ParquetTexts, TableError> {
         let reader = SerializedFileReader::new(file)?;
+        let mut chunks = reader.metadata().row_groups().iter().flat_map(|group| group.columns());
+        let known = |codec| matches!(codec, Compression::UNCOMPRESSED | Compression::ZSTD(_));
+        if let Some(codec) = chunks.find_map(|chunk| Some(chunk.compression()).filter(|codec| !known(*codec))) {
+            return Err(TableError::Compression { codec: codec.to_string() });
+        }
         let file = reader.metadata().file_metadata();
         let titles = file.schema().get_fields().iter().map(|field| field.name()).collect::<Vec<_>>().into();
         let length = u64::try_from(file.num_rows()).unwrap_or(0);

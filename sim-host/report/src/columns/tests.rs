@@ -217,3 +217,17 @@ fn a_row_without_an_end_is_refused() {
     assert!(matches!(rows.read(&mut row), Err(TableError::LongRow { line: 3 })));
     assert!(matches!(TextRows::of_csv(std::io::repeat(0)).titles(), Err(TableError::LongRow { line: 1 })));
 }
+
+#[test]
+fn a_compression_that_is_not_known_is_named() {
+    let bytes = parquet(&Samples(3));
+    // The name of a column and then its codec in Thrift: zstd is 6, Snappy 1, each doubled.
+    let named = b"device\x15\x0c";
+    let place = bytes.windows(named.len()).position(|bytes| bytes == named).unwrap() + named.len() - 1;
+    let mut snappy = bytes;
+    snappy[place] = 2;
+    let path = tempfile::NamedTempFile::new().unwrap();
+    std::fs::write(path.path(), snappy).unwrap();
+    let refused = TextRows::of_parquet(std::fs::File::open(path.path()).unwrap()).err().unwrap().to_string();
+    assert_eq!(refused, "it is compressed by SNAPPY; zstd and no compression can be read");
+}

@@ -29,7 +29,7 @@ impl TextRows {
     /// Those of the Parquet file `file`.
     ///
     /// # Errors
-    /// [`TableError::Parquet`] for a file that cannot be read.
+    /// [`TableError::Parquet`] for a file that cannot be read, [`TableError::Compression`].
     pub fn of_parquet(file: File) -> Result<TextRows, TableError> {
         Ok(TextRows::Parquet(Box::new(ParquetTexts::new(file)?)))
     }
