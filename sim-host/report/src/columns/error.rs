@@ -65,7 +65,7 @@ pub enum TableError {
         line: u64,
     },
     /// A Parquet file that is compressed in a way that is not known here.
-    #[error("it is compressed by {codec}; zstd and no compression can be read")]
+    #[error("it is compressed by {codec}; zstd, snappy and no compression can be read")]
     Compression {
         /// Its name in Parquet.
         codec: String,

@@ -53,7 +53,7 @@ impl ParquetTexts {
     pub(super) fn new(file: File) -> Result<ParquetTexts, TableError> {
         let reader = SerializedFileReader::new(file)?;
         let mut chunks = reader.metadata().row_groups().iter().flat_map(|group| group.columns());
-        let known = |codec| matches!(codec, Compression::UNCOMPRESSED | Compression::ZSTD(_));
+        let known = |codec| matches!(codec, Compression::UNCOMPRESSED | Compression::SNAPPY | Compression::ZSTD(_));
         if let Some(codec) = chunks.find_map(|chunk| Some(chunk.compression()).filter(|codec| !known(*codec))) {
             return Err(TableError::Compression { codec: codec.to_string() });
         }

@@ -1,7 +1,12 @@
 //! Tables in both formats against each other, to the bits.
 
+use parquet::basic::Compression;
+use parquet::data_type::DoubleType;
+use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::writer::SerializedFileWriter;
 use parquet::record::Field;
+use parquet::schema::parser::parse_message_type;
 
 use super::parquet_writer::GROUP;
 use super::*;
@@ -221,13 +226,35 @@ fn a_row_without_an_end_is_refused() {
 #[test]
 fn a_compression_that_is_not_known_is_named() {
     let bytes = parquet(&Samples(3));
-    // The name of a column and then its codec in Thrift: zstd is 6, Snappy 1, each doubled.
+    // The name of a column and then its codec in Thrift: zstd is 6, LZO 3, each doubled.
     let named = b"device\x15\x0c";
     let place = bytes.windows(named.len()).position(|bytes| bytes == named).unwrap() + named.len() - 1;
-    let mut snappy = bytes;
-    snappy[place] = 2;
+    let mut lzo = bytes;
+    lzo[place] = 6;
     let path = tempfile::NamedTempFile::new().unwrap();
-    std::fs::write(path.path(), snappy).unwrap();
+    std::fs::write(path.path(), lzo).unwrap();
     let refused = TextRows::of_parquet(std::fs::File::open(path.path()).unwrap()).err().unwrap().to_string();
-    assert_eq!(refused, "it is compressed by SNAPPY; zstd and no compression can be read");
+    assert_eq!(refused, "it is compressed by LZO; zstd, snappy and no compression can be read");
+}
+
+/// As pandas writes it unless it is asked for another compression.
+#[test]
+fn snappy_is_read() {
+    let schema = parse_message_type("message table { required double rotation; }").unwrap();
+    let properties = WriterProperties::builder().set_compression(Compression::SNAPPY).build();
+    let path = tempfile::NamedTempFile::new().unwrap();
+    let mut file = SerializedFileWriter::new(path.reopen().unwrap(), schema.into(), properties.into()).unwrap();
+    let mut group = file.next_row_group().unwrap();
+    let mut column = group.next_column().unwrap().unwrap();
+    column.typed::<DoubleType>().write_batch(&[0.1, 2.5], None, None).unwrap();
+    column.close().unwrap();
+    group.close().unwrap();
+    file.close().unwrap();
+    let mut rows = TextRows::of_parquet(path.reopen().unwrap()).unwrap();
+    let mut row = csv::StringRecord::new();
+    for number in ["0.1", "2.5"] {
+        assert!(rows.read(&mut row).unwrap());
+        assert_eq!(&row[0], number);
+    }
+    assert!(!rows.read(&mut row).unwrap());
 }
