@@ -104,8 +104,12 @@ LONG = "import sprag; sprag.map(sprag.Scene.read({scene!r}), x=sprag.Axis(key='b
 
 
 def test_ctrl_c_ends_a_long_call(scenes: Path) -> None:
+    # Of a process in the background a shell may have it ignored.
+    heeded = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
     long = LONG.format(scene=str(scenes / "near_fault.toml"))
-    with subprocess.Popen([sys.executable, "-c", f"print(flush=True); {long}"], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+    with subprocess.Popen(
+        [sys.executable, "-c", f"{heeded}; print(flush=True); {long}"], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
         assert process.stdout is not None
         process.stdout.readline()
         time.sleep(1.0)

@@ -81,6 +81,8 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     let fuzz_targets = Beside::start(&mut fuzz::check(root))?;
     steps.step("tests", || tests(root, &built, fuzz_seconds.is_some()))?;
     steps.step("rest of fuzz targets", || fuzz_targets.wait())?;
+    // Python, the site and the page keep one processor busy each.
+    let page = web::beside(root)?;
     steps.step("Slurm array", || cluster::run(root, &program(root)))?;
     match python {
         Ok(python) => {
@@ -89,7 +91,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
         }
         Err(stop) => println!("-- checks not run: the Python package, the site: {stop}"),
     }
-    web::run(root, &mut steps)?;
+    steps.step("rest of the page", || page.wait())?;
     match fuzz_seconds {
         Some(seconds) => {
             steps.step("installed program", || package::try_installed(root))?;

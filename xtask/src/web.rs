@@ -1,7 +1,7 @@
 //! The page: its core as WebAssembly, its files, and its tests in a browser.
 
 use crate::{
-    process::{cargo, cargo_in, output, run as done, target_folder},
+    process::{Beside, cargo, cargo_in, output, run as done, target_folder},
     scratch::empty,
     steps::Steps,
     stop::Stop,
@@ -54,6 +54,15 @@ pub fn run(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
         npm(&["run", "build"])
     })?;
     steps.step("tests, page", || npm(&["test"]))
+}
+
+/// Starts [`run`] as a process that runs beside other steps.
+///
+/// # Errors
+/// If it cannot be started.
+pub fn beside(root: &Path) -> Result<Beside, Stop> {
+    let own = std::env::current_exe().map_err(|error| Stop::failed(error.to_string()))?;
+    Beside::start(Command::new(own).current_dir(root).arg("web"))
 }
 
 /// Prints cells a second of the page's lanes on one core and their ratios to those of a program: with SIMD to the registers that every machine
