@@ -22,6 +22,8 @@ export async function filled(page) {
   const { map } = sections(page);
   await map.scrollIntoViewIfNeeded();
   await until("a whole map", () => map.getByText(/cells a device, in/).count());
+  // The last cells are drawn at the next frame.
+  await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
   assert.ok((await panels(page).count()) > 0);
 }
 

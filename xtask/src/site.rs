@@ -49,7 +49,8 @@ pub fn run(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
         done(build.args(["--doctree-dir", "target/site-pages", SOURCES, SITE]))
     })?;
     steps.step("site, Rust packages", || {
-        done(&mut cargo(root, &["doc", "--workspace", "--no-deps"]))?;
+        // As the check of the documentation has it, which is not made anew then.
+        done(cargo(root, &["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))?;
         done(Command::new("cp").arg("-R").arg(target_folder(root).join("doc")).arg(site.join("rust")))
     })?;
     steps.step("links of the site", || {
