@@ -1,7 +1,7 @@
 /** Which quantities the map is drawn over. */
 import type { Axis, Key } from "../engine";
 import { choice, el } from "../dom";
-import { numberBox, setChoices } from "../number_box";
+import { numberBox, setChoices, showNumber } from "../number_box";
 import { texts } from "../texts";
 import { MOST_CELLS, isAxis, suggested } from "./axis";
 import { keyName } from "./key_name";
@@ -98,7 +98,9 @@ class Fields {
       control.disabled = axis === null;
     }
     if (axis !== null) {
-      [this.from.value, this.to.value, this.cells.value] = [String(axis.from), String(axis.to), String(axis.cells)];
+      showNumber(this.from, axis.from);
+      showNumber(this.to, axis.to);
+      showNumber(this.cells, axis.cells);
       this.scale.value = axis.scale;
     }
   }
