@@ -3,8 +3,17 @@ import { el } from "./dom";
 
 let boxes = 0;
 
-/** Numbers that are being typed: what else comes in meanwhile does not replace them. */
+/** Numbers that are being typed. */
 const typed = new WeakSet<HTMLInputElement>();
+
+/** From here on, what is typed into `input` is not replaced by `showNumber` before it is done. */
+export function keepTyped(input: HTMLInputElement): void {
+  input.addEventListener("input", () => typed.add(input));
+  // Before what else listens to them, which shows what it makes of the number.
+  for (const done of ["blur", "change"]) {
+    input.addEventListener(done, () => typed.delete(input));
+  }
+}
 
 /** A labelled number; `given` is called when it is changed, but not with one that `allowed` excludes. */
 export function numberBox(label: string, allowed: { min?: number; max?: number; whole?: boolean }, given: (value: number) => void) {
@@ -15,10 +24,8 @@ export function numberBox(label: string, allowed: { min?: number; max?: number; 
     min: String(allowed.min ?? ""),
     max: String(allowed.max ?? ""),
   });
-  input.addEventListener("input", () => typed.add(input));
-  input.addEventListener("blur", () => typed.delete(input));
+  keepTyped(input);
   input.addEventListener("change", () => {
-    typed.delete(input);
     if (input.value !== "" && input.checkValidity()) {
       given(input.valueAsNumber);
     }
@@ -26,10 +33,10 @@ export function numberBox(label: string, allowed: { min?: number; max?: number; 
   return { root: el("div", { className: "field" }, el("label", { htmlFor: input.id, textContent: label }), input), input };
 }
 
-/** Shows `value`, unless another one is being typed. */
-export function showNumber(input: HTMLInputElement, value: number): void {
+/** Shows the number `text`, unless another one is being typed. */
+export function showNumber(input: HTMLInputElement, text: string): void {
   if (!typed.has(input)) {
-    input.value = String(value);
+    input.value = text;
   }
 }
 

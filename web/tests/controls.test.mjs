@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { downloaded, keep, open, texts, until } from "./browser.mjs";
-import { EXAMPLES, alert, anotherDigest, choose, shownDigest, thisDigest } from "./shell.mjs";
+import { EXAMPLES, alert, anotherDigest, choose, shownDigest, thisDigest, toml } from "./shell.mjs";
 
 const words = texts.page;
 
@@ -63,6 +63,30 @@ test("time goes where it is put, from event to event, and to the end", async (t)
   assert.ok(times[0] > 0 && times[1] >= times[0] && times[2] >= times[1], times.join());
   await page.getByRole("button", { name: previous, exact: true }).click();
   await until("the event before", async () => (await at()) <= times[2]);
+});
+
+test("a number that is typed stays while the change before it comes in", async (t) => {
+  const page = await open(t);
+  await choose(page, EXAMPLES.controller);
+  const box = (name) => page.getByRole("spinbutton", { name, exact: true });
+  const has = (setting) => until(setting, async () => (await toml(page).inputValue()).includes(setting));
+  const { size, slenderness } = words.controls;
+  const { latency, rate } = texts.views.loop;
+  await box(latency).scrollIntoViewIfNeeded();
+  for (const [before, changed, typed, kept] of [
+    [size, ["2.5", "size_m = 2.5"], slenderness, ["12", "slenderness_deg = 12"]],
+    [latency, ["2", "latency_s = 0.002"], rate, ["1000", "rate_hz = 1000"]],
+  ]) {
+    await box(before).fill(changed[0]);
+    await box(before).press("Tab");
+    await box(typed).fill(kept[0]);
+    await has(changed[1]);
+    // Longer than whoever shows the scene waits for the next change.
+    await page.waitForTimeout(600);
+    assert.equal(await box(typed).inputValue(), kept[0]);
+    await box(typed).press("Tab");
+    await has(kept[1]);
+  }
 });
 
 test("every button, list and number of the page can be used without harm", async (t) => {

@@ -1,5 +1,6 @@
 /** A number that is set by a slider or typed, with one label. */
 import { el } from "../dom";
+import { keepTyped, showNumber } from "../number_box";
 
 /** What a number may be. The slider has the usual range; what is typed may lie outside of it, and the core says where that is wrong. */
 export interface Range {
@@ -25,6 +26,7 @@ export function numberField({ label, from, to, step }: Range, changed: (value: n
   const typed = el("input", { type: "number", step: "any", id });
   const name = el("label", { htmlFor: id, textContent: label });
   slider.setAttribute("aria-label", label);
+  keepTyped(typed);
   slider.addEventListener("input", () => {
     typed.value = slider.value;
     changed(Number(slider.value));
@@ -40,7 +42,7 @@ export function numberField({ label, from, to, step }: Range, changed: (value: n
       return;
     }
     const text = value === null ? "" : String(Number(value.toPrecision(5)));
-    typed.value = text;
+    showNumber(typed, text);
     if (document.activeElement !== slider && value !== null) {
       slider.value = text;
     }

@@ -1,6 +1,6 @@
 /** Law, estimator, sensors, delay: the controller of a scene. */
 import { choice, el } from "../dom";
-import { numberBox } from "../number_box";
+import { numberBox, showNumber } from "../number_box";
 import { texts } from "../texts";
 
 const words = texts.views.loop;
@@ -50,9 +50,9 @@ export class ControllerForm {
     showChoice(this.suite, part(sensors, "suite"));
     const number = (value: unknown, scale: number): string =>
       typeof value === "number" ? String(Number((scale * value).toPrecision(12))) : "";
-    this.latency.value = number(part(controller, "latency_s"), 1000);
-    this.rate.value = number(part(controller, "rate_hz"), 1);
-    this.seed.value = number(part(sensors, "seed"), 1);
+    showNumber(this.latency, number(part(controller, "latency_s"), 1000));
+    showNumber(this.rate, number(part(controller, "rate_hz"), 1));
+    showNumber(this.seed, number(part(sensors, "seed"), 1));
   }
 }
 

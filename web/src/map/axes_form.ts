@@ -98,9 +98,9 @@ class Fields {
       control.disabled = axis === null;
     }
     if (axis !== null) {
-      showNumber(this.from, axis.from);
-      showNumber(this.to, axis.to);
-      showNumber(this.cells, axis.cells);
+      showNumber(this.from, String(axis.from));
+      showNumber(this.to, String(axis.to));
+      showNumber(this.cells, String(axis.cells));
       this.scale.value = axis.scale;
     }
   }
