@@ -88,11 +88,10 @@ pub fn run(
 ) -> Result<(Option<Closeness>, LoopReport), LoopFailure> {
     let task = desk.task(index, seed, interrupt);
     let (task, error, looped) = match law {
-        None => task.answered::<Vec<Tick>>()?,
-        Some(law) => task.answered_by::<Vec<Tick>, _>(|| law.clone())?,
+        None => task.answered()?,
+        Some(law) => task.answered_by(|| law.clone())?,
     };
-    let mut report = LoopReport::new(&task, looped.ending, &looped.extremes.peaks, task.ideal()?, looped.ticks);
-    report.summary.error = error;
+    let mut report = LoopReport::of_answer(&task, error, looped)?;
     if law.is_some() {
         "python".clone_into(&mut report.summary.law);
     }

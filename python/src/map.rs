@@ -3,7 +3,6 @@
 use numpy::{IntoPyArray as _, PyArrayMethods as _};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::map::grid::Grid;
 use sprag_studies::map::study::study_rows;
 
@@ -27,7 +26,7 @@ pub fn overturning_map<'py>(py: Python<'py>, scene: &Scene, threads: Option<usiz
         let [mut rotations, mut accelerations] = [Vec::with_capacity(rows), Vec::with_capacity(rows)];
         let made = pool.install(|| {
             study_rows(&grid, interrupt, |_, result| {
-                outcomes.push(code(result.outcome));
+                outcomes.push(result.outcome as u8);
                 rotations.push(result.peak_rotation);
                 accelerations.push(result.peak_acceleration);
             })
@@ -48,12 +47,4 @@ pub fn overturning_map<'py>(py: Python<'py>, scene: &Scene, threads: Option<usiz
     dict.set_item("peak_rotation", rotations.into_pyarray(py).reshape(shape)?)?;
     dict.set_item("peak_acceleration", accelerations.into_pyarray(py).reshape(shape)?)?;
     Ok(dict)
-}
-
-/// Outcomes by their codes.
-pub const OUTCOMES: [Outcome; 4] =
-    [Outcome::NoRocking, Outcome::Safe, Outcome::OverturnedWithoutImpact, Outcome::OverturnedAfterImpact];
-
-fn code(outcome: Outcome) -> u8 {
-    OUTCOMES.iter().position(|known| *known == outcome).unwrap_or_default() as u8
 }

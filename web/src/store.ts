@@ -4,6 +4,7 @@
  */
 import type { Engine, Run, Source } from "./engine";
 import { mayMoveByItself } from "./motion_preference";
+import { endS, overturns } from "./response";
 
 /**
  * What a subscriber hears of: `scene` (source or what is played), `run` (a new run), `working` (a run begins or ends), `time` (the cursor
@@ -14,11 +15,7 @@ export type Topic = "scene" | "run" | "working" | "time" | "playing" | "selected
 const FALL_S = 1.2;
 
 function endOf(run: Run): number {
-  const ends = run.responses.map(({ timeS, summary }) => {
-    const falls = String(summary["outcome"]).startsWith("overturned");
-    return (timeS.at(-1) ?? 0) + (falls ? FALL_S : 0);
-  });
-  return Math.max(0, ...ends);
+  return Math.max(0, ...run.responses.map((response) => endS(response) + (overturns(response) ? FALL_S : 0)));
 }
 
 /** The state of the page. */

@@ -12,7 +12,8 @@ const { Span, tickText } = await load("map/ticks");
 const { bandColour, bandLimits, bandOf, OUTCOME_COLOURS, LIGHT_TO_DARK } = await load("map/classes");
 const { isAxis, mapIdentity, mapSettings, suggestedPair } = await load("map/axis");
 const { mapCsv } = await load("map/table");
-const { resampled, stretches } = await load("loop/series");
+const { resampled } = await load("loop/series");
+const { stretches } = await load("stretches");
 const { errorWords } = await load("trust/error_words");
 
 /** Cells of one device with the outcome `of(cell)`. */

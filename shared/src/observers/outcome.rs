@@ -21,6 +21,10 @@ pub enum Outcome {
 }
 
 impl Outcome {
+    /// Each, in the order of their numbers.
+    pub const ALL: [Outcome; 4] =
+        [Outcome::NoRocking, Outcome::Safe, Outcome::OverturnedWithoutImpact, Outcome::OverturnedAfterImpact];
+
     /// The outcome of a motion that `rocked` or not, with an `impact`, however weak, or without, and `overturned` or not.
     pub fn new(rocked: bool, impact: bool, overturned: bool) -> Outcome {
         match (overturned, impact, rocked) {
@@ -48,9 +52,7 @@ impl Outcome {
 
     /// The outcome that is printed as `name`.
     pub fn from_name(name: &str) -> Option<Outcome> {
-        const ALL: [Outcome; 4] =
-            [Outcome::NoRocking, Outcome::Safe, Outcome::OverturnedWithoutImpact, Outcome::OverturnedAfterImpact];
-        ALL.into_iter().find(|outcome| outcome.name() == name)
+        Outcome::ALL.into_iter().find(|outcome| outcome.name() == name)
     }
 
     /// The block lies on the ground.

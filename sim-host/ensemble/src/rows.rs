@@ -14,12 +14,7 @@ pub const BLOCK: usize = 9;
 pub const RESULT: usize = 3;
 
 const GEOMETRIES: [Geometry; 2] = [Geometry::Full, Geometry::Slender];
-const DEVICES: [DeviceKind; 3] = [DeviceKind::None, DeviceKind::Inerter, DeviceKind::ClutchedPair];
 const PULSES: [PulseShape; 2] = [PulseShape::Sine, PulseShape::Cosine];
-
-/// Outcomes by their codes.
-pub const OUTCOMES: [Outcome; 4] =
-    [Outcome::NoRocking, Outcome::Safe, Outcome::OverturnedWithoutImpact, Outcome::OverturnedAfterImpact];
 
 /// Number of `value` in `all`.
 fn code<T: PartialEq>(all: &[T], value: &T) -> f64 {
@@ -37,7 +32,7 @@ impl PulsedBlock {
         let PlainBlock { geometry, device, slenderness, coupling, restitution, overturned_at_slenderness } = self.plain;
         [
             code(&GEOMETRIES, &geometry),
-            code(&DEVICES, &device),
+            code(&DeviceKind::ALL, &device),
             slenderness,
             coupling,
             restitution,
@@ -54,7 +49,7 @@ impl PulsedBlock {
             *row;
         let plain = PlainBlock {
             geometry: of_code(&GEOMETRIES, geometry)?,
-            device: of_code(&DEVICES, device)?,
+            device: of_code(&DeviceKind::ALL, device)?,
             slenderness,
             coupling,
             restitution,
@@ -67,13 +62,13 @@ impl PulsedBlock {
 impl PulseResult {
     /// As a row.
     pub fn row(&self) -> [f64; RESULT] {
-        [code(&OUTCOMES, &self.outcome), self.peak_rotation, self.peak_acceleration]
+        [code(&Outcome::ALL, &self.outcome), self.peak_rotation, self.peak_acceleration]
     }
 
     /// Of a row; none for a code that there is not.
     pub fn of_row(row: &[f64; RESULT]) -> Option<PulseResult> {
         let [outcome, peak_rotation, peak_acceleration] = *row;
-        Some(PulseResult { outcome: of_code(&OUTCOMES, outcome)?, peak_rotation, peak_acceleration })
+        Some(PulseResult { outcome: of_code(&Outcome::ALL, outcome)?, peak_rotation, peak_acceleration })
     }
 }
 
@@ -99,7 +94,7 @@ mod tests {
             let block = PulsedBlock { plain, pulse, frequency_ratio: 6.1, amplitude_ratio: -7.7 };
             assert_eq!(PulsedBlock::of_row(&block.row()), Some(block));
         }
-        for outcome in OUTCOMES {
+        for outcome in Outcome::ALL {
             let result = PulseResult { outcome, peak_rotation: 0.1 + 0.2, peak_acceleration: 1e-300 };
             assert_eq!(PulseResult::of_row(&result.row()), Some(result));
         }

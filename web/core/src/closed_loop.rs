@@ -90,10 +90,8 @@ pub fn report(scene: &Scene, faults: &[(String, f64)]) -> Result<LoopReport, Pag
     let mut run = || -> Result<LoopReport, LoopFailure> {
         let task = desk.task(desk.pairs[0], desk.controller.sensors.seed(), &interrupt);
         if several.0.is_empty() {
-            let (task, error, looped) = task.answered::<Vec<Tick>>()?;
-            let mut report = LoopReport::new(&task, looped.ending, &looped.extremes.peaks, task.ideal()?, looped.ticks);
-            report.summary.error = error;
-            return Ok(report);
+            let (task, error, looped) = task.answered()?;
+            return LoopReport::of_answer(&task, error, looped);
         }
         let (mut extremes, mut ticks) = (Extremes::default(), Vec::new());
         let ending = task.run_with(&mut *task.driver(task.controller.clutch_law())?, &mut several, &mut extremes, &mut ticks)?;

@@ -28,12 +28,12 @@ pub struct DigestCheck {
 /// # Errors
 /// [`PageError`] for a scene that cannot be run.
 pub fn digests() -> Result<Vec<DigestCheck>, PageError> {
-    let mut checks = Vec::new();
+    let (mut checks, files) = (Vec::new(), [near_fault()?]);
     for line in EXPECTED.lines().skip(1) {
         let [name, decisions, responses] = line.split(',').collect::<Vec<_>>()[..] else { continue };
         let text = EXAMPLES.iter().find(|example| example.name == name).map(|example| example.text);
         let text = text.ok_or_else(|| PageError::Failed(format!("no example {name}")))?;
-        let scene = PageScene::new(text, &[near_fault()?])?.scene;
+        let scene = PageScene::new(text, &files)?.scene;
         let ticks = closed_loop::report(&scene, &[])?.ticks;
         let of = |what: &str, computed: u64, expected: &str| DigestCheck {
             scene: format!("{name}, {what}"),

@@ -1,7 +1,7 @@
 //! Overturning maps, cell by cell, and their boundaries.
 
 use sprag_ensemble::pulsed::{PulseResult, PulsedBlock};
-use sprag_ensemble::rows::{OUTCOMES, RESULT};
+use sprag_ensemble::rows::RESULT;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::map::boundaries::refine;
@@ -25,10 +25,6 @@ fn results(grid: &Grid, device: usize, places: &[Values], lanes: Lanes<'_>) -> R
         let results: Option<Vec<PulseResult>> = found.as_chunks::<RESULT>().0.iter().map(PulseResult::of_row).collect();
         results.filter(|results| results.len() == pulsed.len()).ok_or_else(|| (0, "the lanes gave no results".to_owned()))
     })
-}
-
-fn code(outcome: Outcome) -> u8 {
-    OUTCOMES.iter().position(|known| *known == outcome).unwrap_or_default() as u8
 }
 
 /// Axes and devices of a map; the y of a cut is one value, NaN.
@@ -58,7 +54,7 @@ pub fn cells(grid: &Grid, device: usize, cells: &[u32], lanes: Lanes<'_>) -> Res
         cells.iter().map(|&cell| grid.values(cell as usize % grid.columns(), cell as usize / grid.columns())).collect();
     let results = results(grid, device, &places, lanes).map_err(PageError::failed)?;
     Ok(vec![
-        ("outcome", Column::Codes(results.iter().map(|result| code(result.outcome)).collect())),
+        ("outcome", Column::Codes(results.iter().map(|result| result.outcome as u8).collect())),
         ("peakRotation", Column::Numbers(results.iter().map(|result| result.peak_rotation).collect())),
         ("peakAcceleration", Column::Numbers(results.iter().map(|result| result.peak_acceleration).collect())),
     ])
@@ -70,7 +66,7 @@ pub fn cells(grid: &Grid, device: usize, cells: &[u32], lanes: Lanes<'_>) -> Res
 /// [`PageError`] for codes of outcomes that are not those of all cells, and what [`cells`] refuses.
 pub fn boundaries(grid: &Grid, device: usize, outcome: &[u8], lanes: Lanes<'_>) -> Result<Columns, PageError> {
     device_of(grid, device)?;
-    let outcomes: Vec<Outcome> = outcome.iter().filter_map(|&code| OUTCOMES.get(usize::from(code)).copied()).collect();
+    let outcomes: Vec<Outcome> = outcome.iter().filter_map(|&code| Outcome::ALL.get(usize::from(code)).copied()).collect();
     if outcomes.len() != grid.columns() * grid.rows() {
         return Err(PageError::Failed(format!("outcomes of {} cells are not those of the whole map", outcomes.len())));
     }
@@ -82,8 +78,8 @@ pub fn boundaries(grid: &Grid, device: usize, outcome: &[u8], lanes: Lanes<'_>) 
     let each = found.boundaries.iter().map(|boundary| {
         let vertices = boundary.vertices.iter().flat_map(|&(x, y)| [x, y.unwrap_or(f64::NAN)]);
         vec![
-            ("left", Column::Codes(vec![code(boundary.left)])),
-            ("right", Column::Codes(vec![code(boundary.right)])),
+            ("left", Column::Codes(vec![boundary.left as u8])),
+            ("right", Column::Codes(vec![boundary.right as u8])),
             ("vertices", Column::Numbers(vertices.collect())),
         ]
     });

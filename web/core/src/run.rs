@@ -1,12 +1,11 @@
 //! Responses of a scene's devices.
 
 use sprag_report::heading::title;
-use sprag_report::plot::{TimeAxis, history_figure};
+use sprag_report::plot::history_figure;
 use sprag_sim::digest::of_responses;
 use sprag_sim::history::{History, Sample, write_csv};
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
-use sprag_sim::scene::schema::TimeAxisName;
 use sprag_sim::simulation::{DeviceRun, simulate};
 
 use crate::columns::{Column, Columns};
@@ -23,11 +22,7 @@ pub fn run(scene: &Scene) -> Result<Columns, PageError> {
     let histories: Vec<History> = runs.into_iter().map(|run| run.history).collect();
     let mut csv = Vec::new();
     write_csv(&histories, &mut csv).map_err(PageError::failed)?;
-    let axis = match scene.file.output.time_axis {
-        TimeAxisName::Seconds => TimeAxis::Seconds,
-        TimeAxisName::FrequencyParameter => TimeAxis::TimesFrequencyParameter,
-    };
-    let svg = history_figure(title(scene), &histories, axis).map_err(PageError::failed)?;
+    let svg = history_figure(title(scene), &histories, scene.file.output.time_axis.into()).map_err(PageError::failed)?;
     Ok(vec![
         ("responses", Column::Each(each)),
         ("csv", Column::Text(String::from_utf8(csv).map_err(PageError::failed)?)),

@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 use std::path::Path;
 
 use sprag_sim::map::grid::Grid;
-use sprag_sim::record::{Component, ReadOptions, Record, RecordError};
+use sprag_sim::record::{Record, RecordError};
 use sprag_sim::scene::ground::GroundTable;
 use sprag_sim::scene::{Scene, SceneError, document, overrides};
 use toml::Table;
@@ -111,15 +111,9 @@ impl PageScene {
 /// The record that a motion names, if it names any.
 fn given(motion: &GroundTable, files: &[File]) -> Option<Result<Record, PageError>> {
     let name = motion.file.as_ref()?;
-    let options = ReadOptions {
-        units: motion.units.as_ref().and_then(|units| units.parse().ok()),
-        time_step_s: motion.time_step_s,
-        component: motion.component.as_deref().map(Component::from),
-        resample_to_s: motion.resample_to_s,
-    };
     let file = files.iter().find(|file| Path::new(&file.name) == name);
     Some(match file {
-        Some(file) => Record::parse(&file.name, &file.bytes, &options).map_err(PageError::from),
+        Some(file) => Record::parse(&file.name, &file.bytes, &motion.read_options()).map_err(PageError::from),
         None => Err(PageError::NoRecord(name.display().to_string())),
     })
 }

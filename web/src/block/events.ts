@@ -1,5 +1,6 @@
 /** Impacts and clutch switches of a device, in order of time: what one can step to. */
 import type { Response } from "../engine";
+import { stretches } from "../stretches";
 
 /** An event of a response. */
 export interface Event {
@@ -11,12 +12,8 @@ export interface Event {
 /** The events of a response. */
 export function eventsOf(response: Response): Event[] {
   const events: Event[] = Array.from(response.impactsS, (timeS) => ({ timeS, kind: "impact" as const }));
-  const { engaged, timeS } = response;
-  for (let i = 1; i < engaged.length; i++) {
-    const now = engaged[i] ?? 0;
-    if (now !== engaged[i - 1]) {
-      events.push({ timeS: timeS[i] ?? 0, kind: now === 1 ? 1 : now === 2 ? 2 : 0 });
-    }
+  for (const { from, value } of stretches(response.timeS, response.engaged).slice(1)) {
+    events.push({ timeS: from, kind: value === 1 ? 1 : value === 2 ? 2 : 0 });
   }
   return events.sort((a, b) => a.timeS - b.timeS);
 }

@@ -1,5 +1,6 @@
 /** What is drawn of a run at a time: worked out once a run, so that a frame only looks it up. */
 import type { Response, Run } from "../engine";
+import { longest, overturns } from "../response";
 import { shapesOf, travel, type Shape } from "./geometry";
 
 /** A device at an instant. */
@@ -39,18 +40,14 @@ const FALL_STEP_S = 1 / 120;
 /** The motion of a run. */
 export function motionOf(run: Run): Motion {
   const shapes = shapesOf(run.about);
-  const longest = run.responses.reduce<Response | null>((best, next) => (lasts(next) > (best ? lasts(best) : -1) ? next : best), null);
-  const groundS = longest?.timeS ?? new Float64Array(1);
-  const groundM = displacement(groundS, longest?.groundMS2 ?? new Float64Array(1));
+  const shaken = longest(run.responses);
+  const groundS = shaken?.timeS ?? new Float64Array(1);
+  const groundM = displacement(groundS, shaken?.groundMS2 ?? new Float64Array(1));
   const devices = run.responses.flatMap((response, index) => {
     const shape = shapes[index];
     return shape ? [deviceMotion(shape, response, run.about.frequencyParameter1S, run.about.slendernessRad)] : [];
   });
   return { groundS, groundM, groundPeakM: groundM.reduce((peak, x) => Math.max(peak, Math.abs(x)), 0), devices };
-}
-
-function lasts(response: Response): number {
-  return response.timeS.at(-1) ?? 0;
 }
 
 function deviceMotion(shape: Shape, response: Response, p: number, alpha: number): DeviceMotion {
@@ -74,7 +71,7 @@ function deviceMotion(shape: Shape, response: Response, p: number, alpha: number
     }
     before = now;
   }
-  const overturned = String(response.summary["outcome"] ?? "").startsWith("overturned");
+  const overturned = overturns(response);
   const last = timeS.length - 1;
   const fall = overturned ? fallFrom(rotationRad[last] ?? 0, response.velocityRadS[last] ?? 0, p, alpha) : new Float64Array();
   return { shape, response, overturned, firstRad, secondRad, fall };

@@ -1,4 +1,5 @@
 /** Samples of several responses over one axis of time, as uPlot wants them. */
+import { stretches } from "../stretches";
 
 /** A curve of its own times. */
 export interface Samples {
@@ -39,20 +40,5 @@ export function align(curves: Samples[]): [number[], ...(number | null)[][]] {
 
 /** Spans of time in which a flywheel is engaged. */
 export function spans(timeS: Float64Array, engaged: Uint8Array, flywheel: 1 | 2): [from: number, to: number][] {
-  const found: [number, number][] = [];
-  let from: number | null = null;
-  for (let i = 0; i < engaged.length; i++) {
-    const on = engaged[i] === flywheel;
-    const time = timeS[i] ?? 0;
-    if (on && from === null) {
-      from = time;
-    } else if (!on && from !== null) {
-      found.push([from, time]);
-      from = null;
-    }
-  }
-  if (from !== null) {
-    found.push([from, timeS.at(-1) ?? from]);
-  }
-  return found;
+  return stretches(timeS, engaged).flatMap(({ from, to, value }): [number, number][] => (value === flywheel ? [[from, to]] : []));
 }

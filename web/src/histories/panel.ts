@@ -3,6 +3,7 @@ import { drawSoon } from "../clock";
 import { deviceLook, flywheelTint, surface } from "../colours";
 import { el, say } from "../dom";
 import type { Response, Run } from "../engine";
+import { longest, overturns } from "../response";
 import type { Store } from "../store";
 import { texts } from "../texts";
 import { onTheme } from "../theme";
@@ -77,9 +78,9 @@ function showRun(charts: readonly [Chart, Chart, Chart, Chart], run: Run, select
       const count = shownSamples(response, alpha);
       return curve(response.timeS.subarray(0, count), values(response).subarray(0, count), index, index === selected);
     });
-  const longest = responses.reduce((best, next) => ((next.timeS.at(-1) ?? 0) > (best.timeS.at(-1) ?? 0) ? next : best), chosen);
+  const shaken = longest(responses) ?? chosen;
   const ground: Curve = {
-    ...samples(longest.timeS, scaled(longest.groundMS2, 1 / G)),
+    ...samples(shaken.timeS, scaled(shaken.groundMS2, 1 / G)),
     colour: surface().ground,
     dashes: [],
     strong: false,
@@ -101,8 +102,9 @@ function showRun(charts: readonly [Chart, Chart, Chart, Chart], run: Run, select
 }
 
 /** How many samples are drawn: the fall of a block that is lost would make everything else small. */
-function shownSamples({ rotationRad, summary }: Response, alpha: number): number {
-  if (!String(summary["outcome"]).startsWith("overturned")) {
+function shownSamples(response: Response, alpha: number): number {
+  const { rotationRad } = response;
+  if (!overturns(response)) {
     return rotationRad.length;
   }
   return Math.min(rotationRad.findLastIndex((rotation) => Math.abs(rotation) < LOST * alpha) + 2, rotationRad.length);

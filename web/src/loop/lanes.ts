@@ -1,16 +1,17 @@
 /** What the law wants of the true motion, the command, the clutches and the supervisor's state, as bars over time. */
 import type uPlot from "uplot";
+import { flywheelBar } from "../colours";
 import type { Loop } from "../engine";
 import { el } from "../dom";
 import { legendItem } from "../map/legend";
 import { texts } from "../texts";
-import { type Stretch, stretches } from "./series";
+import { type Stretch, stretches } from "../stretches";
 
 const words = texts.views.loop;
 
 const GROUND = "#777777";
 /** First and second flywheel, as in the pictures of `sprag loop`. */
-const WHEELS = ["#3e7cb1", "#e2a030"] as const;
+const WHEELS = [flywheelBar(1), flywheelBar(2)] as const;
 const FAULT = "#960050";
 /** Other states of the supervisor, in turn. */
 const STATES = ["#5a6b7a", "#7d8c99", "#94a3ae", "#4f7f6a"] as const;

@@ -1,7 +1,7 @@
 /** The controller in closed loop: the code of the firmware, its estimates beside the truth, its commands and its faults. */
 import "./loop.css";
 import type { About, Engine, Loop, Source } from "../engine";
-import { button, download, el, say } from "../dom";
+import { button, debounce, download, el, say } from "../dom";
 import type { Store } from "../store";
 import { texts } from "../texts";
 import { mountView } from "../view";
@@ -27,7 +27,7 @@ class LoopSection {
   private readonly tables = el("div", { className: "loop-tables" });
   private readonly downloads = el("div", { className: "buttons", hidden: true });
   private readonly charts: LoopCharts;
-  private timer = 0;
+  private readonly lookSoon = debounce(REST_MS, () => void this.look());
   private latest = 0;
   private wanted = false;
   private running = false;
@@ -72,8 +72,7 @@ class LoopSection {
 
   private soon(): void {
     this.wanted = true;
-    clearTimeout(this.timer);
-    this.timer = window.setTimeout(() => void this.look(), REST_MS);
+    this.lookSoon();
   }
 
   /** Shows the controller of what is played, or that there is none. */

@@ -1,13 +1,6 @@
 /** The curves and lanes of a closed loop, as they are drawn. */
 import type { About, Loop } from "../engine";
 
-/** A stretch of a lane with one value. */
-export interface Stretch {
-  from: number;
-  to: number;
-  value: number;
-}
-
 /** Curves over the ticks of a loop. */
 export interface Curves {
   time: Float64Array;
@@ -52,22 +45,6 @@ export function resampled(ownTimes: Float64Array, values: Float64Array, times: F
     }
     return low + ((time - before) / (after - before)) * (high - low);
   });
-}
-
-/** Where the values of a lane stay the same; each holds until the next tick. */
-export function stretches(time: Float64Array, values: Uint8Array): Stretch[] {
-  const found: Stretch[] = [];
-  time.forEach((from, index) => {
-    const value = values[index] ?? 0;
-    const last = found.at(-1);
-    if (last !== undefined) {
-      last.to = from;
-    }
-    if (last === undefined || last.value !== value) {
-      found.push({ from, to: from, value });
-    }
-  });
-  return found;
 }
 
 /** Largest |value| of those that are numbers. */

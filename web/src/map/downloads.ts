@@ -1,6 +1,6 @@
 /** A map as files: a table and pictures. */
 import { button, download, el } from "../dom";
-import { pngOf } from "../scene/png";
+import { downloadPng } from "../scene/png";
 import type { Store } from "../store";
 import { texts } from "../texts";
 import type { Filling } from "./filling";
@@ -27,17 +27,11 @@ export function mapDownloads(store: Store, shown: () => ShownMap | null): HTMLEl
       }
     });
   const svg = ({ title, sheet }: ShownMap): string => mapSvg(title, sheet.panels, sheet.legend);
-  const png = (map: ShownMap): void => {
-    pngOf(svg(map)).then(
-      (picture) => download(words.png, picture, "image/png"),
-      () => store.fail(texts.page.scene.pngFailed),
-    );
-  };
   return el(
     "span",
     { className: "buttons" },
     file(words.csv, ({ filling }) => download(words.csv, mapCsv(filling), "text/csv")),
     file(words.svg, (map) => download(words.svg, svg(map), "image/svg+xml")),
-    file(words.png, png),
+    file(words.png, (map) => downloadPng(store, words.png, svg(map))),
   );
 }

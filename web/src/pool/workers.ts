@@ -134,9 +134,7 @@ export class Workers {
   private assign(): void {
     for (const member of this.members) {
       if (member.isReady && !member.job) {
-        // One worker is kept free of cells, so that what a user does is answered at once.
-        const reserved = member === this.members[0] && this.members.length > 1 && this.waiting.now.length > 0;
-        const job = this.waiting.now.shift() ?? (reserved ? undefined : this.waiting.later.shift());
+        const job = this.waiting.now.shift() ?? this.waiting.later.shift();
         if (job) {
           member.job = job;
           this.send(member, { task: this.task(member, job) });

@@ -2,7 +2,7 @@
 import { button, debounce, download, el, say } from "../dom";
 import type { Store } from "../store";
 import { texts } from "../texts";
-import { pngOf } from "./png";
+import { downloadPng } from "./png";
 
 const TYPING_MS = 400;
 const COMMAND = "sprag simulate scene.toml";
@@ -74,15 +74,6 @@ function linkNote(store: Store): string {
 
 function downloads(store: Store): HTMLElement {
   const words = texts.page.scene;
-  const png = () => {
-    const { run } = store;
-    if (run) {
-      pngOf(run.svg).then(
-        (blob) => download(words.png, blob, "image/png"),
-        () => store.fail(words.pngFailed),
-      );
-    }
-  };
   return el(
     "div",
     { className: "group" },
@@ -93,7 +84,7 @@ function downloads(store: Store): HTMLElement {
       button(words.toml, () => download(words.toml, store.source.text, "application/toml")),
       button(words.csv, () => store.run && download(words.csv, store.run.csv, "text/csv")),
       button(words.svg, () => store.run && download(words.svg, store.run.svg, "image/svg+xml")),
-      button(words.png, png),
+      button(words.png, () => store.run && downloadPng(store, words.png, store.run.svg)),
     ),
   );
 }

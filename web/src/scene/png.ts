@@ -1,9 +1,12 @@
 /** A picture as PNG. */
+import { download } from "../dom";
+import type { Store } from "../store";
+import { texts } from "../texts";
 
 const SCALE = 2;
 
 /** Draws an SVG at twice its size. Rejects where the browser cannot. */
-export async function pngOf(svg: string): Promise<Blob> {
+async function pngOf(svg: string): Promise<Blob> {
   const address = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
   try {
     const image = new Image();
@@ -23,4 +26,12 @@ export async function pngOf(svg: string): Promise<Blob> {
   } finally {
     URL.revokeObjectURL(address);
   }
+}
+
+/** Gives an SVG to the user as a PNG called `name`, or says that it cannot. */
+export function downloadPng(store: Store, name: string, svg: string): void {
+  pngOf(svg).then(
+    (picture) => download(name, picture, "image/png"),
+    () => store.fail(texts.page.scene.pngFailed),
+  );
 }

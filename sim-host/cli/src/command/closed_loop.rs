@@ -14,10 +14,9 @@ use sprag_report::progress::Progress;
 use sprag_report::text_table::TextTable;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::accuracy::budget;
-use sprag_sim::closed_loop::answered::Looped;
 use sprag_sim::closed_loop::plant::Extremes;
 use sprag_sim::closed_loop::report::{LoopReport, LoopSummary, write_history};
-use sprag_sim::closed_loop::run::{Ending, Tick};
+use sprag_sim::closed_loop::run::Ending;
 use sprag_sim::closed_loop::{LoopFailure, LoopScene};
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::warning_lines;
@@ -143,11 +142,8 @@ fn looped(
     for &index in &desk.pairs {
         let failed = |failure| failed(&desk, index, failure);
         let task = desk.task(index, desk.controller.sensors.seed(), interrupt);
-        let (task, error, Looped { ending, extremes, ticks, .. }) = task.answered::<Vec<Tick>>().map_err(failed)?;
-        let ideal = task.ideal().map_err(failed)?;
-        let mut report = LoopReport::new(&task, ending, &extremes.peaks, ideal, ticks);
-        report.summary.error = error;
-        reports.push(report);
+        let (task, error, looped) = task.answered().map_err(failed)?;
+        reports.push(LoopReport::of_answer(&task, error, looped).map_err(failed)?);
     }
     Ok((desk, claim.subject, reports))
 }

@@ -3,14 +3,13 @@
 use clap::Args;
 use sprag_report::heading::title;
 use sprag_report::output::{ResultFolder, Subject};
-use sprag_report::plot::{TimeAxis, energy_figure, history_figure};
+use sprag_report::plot::{energy_figure, history_figure};
 use sprag_report::progress::Progress;
 use sprag_report::text_table::{TextTable, change, number};
 use sprag_sim::history::{History, write_csv};
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::{RecordSummary, warning_lines};
 use sprag_sim::scene::Scene;
-use sprag_sim::scene::schema::TimeAxisName;
 use sprag_sim::simulation::energy::write_energy;
 use sprag_sim::simulation::{DeviceRun, simulate};
 
@@ -55,15 +54,11 @@ impl Run for SimulateArguments {
             self.accuracy.run(context, |change| simulated(self, change, &mut folder, interrupt))?;
         warnings.extend(context.warned(warning_lines(&records)));
         let mut report = Report::new("simulate", &folder, &self.output)?;
-        let axis = match scene.file.output.time_axis {
-            TimeAxisName::Seconds => TimeAxis::Seconds,
-            TimeAxisName::FrequencyParameter => TimeAxis::TimesFrequencyParameter,
-        };
         let histories: Vec<History> = runs.iter_mut().map(|run| std::mem::take(&mut run.history)).collect();
         let input = SceneInput { scene: &scene.file };
         report.summary(input, &records, &warnings, &subject, Runs { runs: &runs })?;
         report.file("history.csv", |file| write_csv(&histories, file).map_err(std::io::Error::other))?;
-        let picture = report.picture("history", history_figure(title(&scene), &histories, axis))?;
+        let picture = report.picture("history", history_figure(title(&scene), &histories, scene.file.output.time_axis.into()))?;
         if scene.file.output.energy {
             report.file("energy.csv", |file| write_energy(&runs, file).map_err(std::io::Error::other))?;
             report.picture("energy", energy_figure(title(&scene), &runs))?;

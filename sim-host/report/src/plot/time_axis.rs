@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use sprag_sim::history::History;
+use sprag_sim::scene::schema::TimeAxisName;
 
 use super::PlotError;
 use super::ticks::drawable;
@@ -15,6 +16,15 @@ pub enum TimeAxis {
     Seconds,
     /// Time multiplied by the block's frequency parameter, p t (dimensionless).
     TimesFrequencyParameter,
+}
+
+impl From<TimeAxisName> for TimeAxis {
+    fn from(name: TimeAxisName) -> TimeAxis {
+        match name {
+            TimeAxisName::Seconds => TimeAxis::Seconds,
+            TimeAxisName::FrequencyParameter => TimeAxis::TimesFrequencyParameter,
+        }
+    }
 }
 
 impl TimeAxis {

@@ -7,9 +7,10 @@ use serde::Serialize;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::observers::peaks::Peaks;
 
-use super::LoopTask;
+use super::answered::Looped;
 use super::decisions::DecisionReport;
 use super::run::{Ending, Tick};
+use super::{LoopFailure, LoopTask};
 use crate::csv_field::quoted;
 use crate::simulation::{DeviceRun, ErrorReport};
 
@@ -90,6 +91,20 @@ pub struct LoopReport {
 }
 
 impl LoopReport {
+    /// Report of what [`LoopTask::answered`] gave, beside the ideal pair.
+    ///
+    /// # Errors
+    /// [`LoopFailure`] where the ideal pair cannot be followed.
+    pub fn of_answer(
+        task: &LoopTask<'_>,
+        error: Option<ErrorReport>,
+        looped: Looped<Vec<Tick>>,
+    ) -> Result<LoopReport, LoopFailure> {
+        let mut report = LoopReport::new(task, looped.ending, &looped.extremes.peaks, task.ideal()?, looped.ticks);
+        report.summary.error = error;
+        Ok(report)
+    }
+
     /// Report of a loop that has ended.
     pub fn new(task: &LoopTask<'_>, ending: Ending, peaks: &Peaks<f64>, ideal: DeviceRun, ticks: Vec<Tick>) -> LoopReport {
         let outcome = Outcome::of(&ending.motion, peaks);

@@ -254,6 +254,16 @@ impl GroundTable {
         self.file.as_ref().map(|file| if self.of_command_line { file.clone() } else { folder.join(file) })
     }
 
+    /// What it says of its record beside the file.
+    pub fn read_options(&self) -> ReadOptions {
+        ReadOptions {
+            units: self.units.as_ref().and_then(|units| units.parse().ok()),
+            time_step_s: self.time_step_s,
+            component: self.component.as_deref().map(RecordComponent::from),
+            resample_to_s: self.resample_to_s,
+        }
+    }
+
     /// The record of a motion of kind "record", before it is scaled.
     ///
     /// # Errors
@@ -265,15 +275,10 @@ impl GroundTable {
         };
         let given = |file: &PathBuf| scene.given.iter().find(|record| Path::new(&record.name) == file);
         let file = self.path(&scene.folder).ok_or_else(|| key("file").missing(needed))?;
-        let options = ReadOptions {
-            units: self.units.as_ref().and_then(|units| units.parse().ok()),
-            time_step_s: self.time_step_s,
-            component: self.component.as_deref().map(RecordComponent::from),
-            resample_to_s: self.resample_to_s,
-        };
         let record = match self.file.as_ref().and_then(given) {
             Some(record) => record.clone(),
-            None => Record::read(file, &options).map_err(|error| GroundError::Record { key: error.key().map(key), error })?,
+            None => Record::read(file, &self.read_options())
+                .map_err(|error| GroundError::Record { key: error.key().map(key), error })?,
         };
         Ok(if direction == Direction::Horizontal { record.as_horizontal() } else { record })
     }
