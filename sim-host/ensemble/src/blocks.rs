@@ -2,7 +2,8 @@
 //!
 //! Each block is looked at in the mirror that puts it on the positive side, so that an impact turns its ground motion about. A step
 //! ends at the first zero of θ̈, θ̇ or θ in it, found in this order as in [`sprag_shared::motion::ideal`]: between zeros of θ̈ the velocity
-//! is monotone, between zeros of θ̇ the rotation is, so no crossing is missed. Where the coefficients do not show how many zeros of θ̈
+//! is monotone, between zeros of θ̇ the rotation is, so no crossing is missed. Without a clutch a zero of θ̈ after which a growing velocity falls
+//! ends no step. Where the coefficients do not show how many zeros of θ̈
 //! a step has, it is halved; what is still not plain then makes a block [`Blocks::hard`], and it is not followed any further.
 
 use std::array::from_fn;
@@ -181,19 +182,22 @@ impl Blocks {
             // The sign of θ̈ does not depend on the mode.
             self.read_push(modes.released.switching(one, self.rotation, self.velocity, series.ground[0]));
         }
-        let equation =
-            if PAIR { E::switched(!(self.outward ^ self.pushed), &modes.engaged, &modes.released) } else { modes.engaged };
+        let along = !(self.outward ^ self.pushed);
+        let equation = if PAIR { E::switched(along, &modes.engaged, &modes.released) } else { modes.engaged };
         series.expand(&equation, self.rotation, self.velocity, self.at_zero);
         let push = self.pushed.sign();
 
         let reach = series.reach(bounds.tolerance * one.larger(self.rotation));
         let from_zero = self.at_zero;
         let (mut length, changed, plain) = self.plain_stretch(series, push, reach.smaller(longest));
+        // A velocity that grows before it falls has its zero, if any, after that of θ̈: without a clutch nothing happens at the latter.
+        let passed = if PAIR { Mask::NONE } else { changed & along };
+        let changed = changed & !passed;
         if changed.any() {
             let rates = series.acceleration_off_zero(from_zero);
             length = zero(&rates[..TERMS - 2], push, plain.end, length, changed);
         }
-        // θ̇ is monotone up to here.
+        // θ̇ is monotone up to here, or grows before it falls.
         let direction = self.outward.sign();
         let mut velocity = value(series.velocity(), length);
         let turned = nothing.exceeds(velocity * direction);
@@ -212,10 +216,10 @@ impl Blocks {
         }
         let uneventful = !(changed | turned | hit | from_zero).any();
         let over_step = if uneventful { plain } else { shape(series.acceleration(), length) };
-        self.widen(series, length, push, over_step);
+        self.widen(series, length, push, passed, over_step);
 
         let rate_zero = changed & !turned & !hit;
-        self.arrive(Arrival { rotation, velocity, hit, turned: turned & !hit, rate_zero, passed: Mask::NONE }, bounds);
+        self.arrive(Arrival { rotation, velocity, hit, turned: turned & !hit, rate_zero, passed }, bounds);
         length
     }
 
@@ -279,9 +283,17 @@ impl Blocks {
         }
     }
 
-    /// Takes into account the largest |θ̈| of a step of the given length, over which θ̈ has the sign of `push` and the shape `over_step`.
+    /// Takes into account the largest |θ̈| of a step of the given length, over which θ̈ has the shape `over_step` and the sign of `push`, or, where
+    /// `passed`, may lose it once.
     #[inline(always)]
-    fn widen<const TERMS: usize>(&mut self, series: &Series<TERMS>, length: Number, push: Number, over_step: Shape) {
+    fn widen<const TERMS: usize>(
+        &mut self,
+        series: &Series<TERMS>,
+        length: Number,
+        push: Number,
+        passed: Mask,
+        over_step: Shape,
+    ) {
         let nothing = number(0.0);
         let rates = series.acceleration();
         let Shape { end, sag, monotone, bent, twisted } = over_step;
@@ -293,19 +305,19 @@ impl Blocks {
         }
         let slope = value_and_slope(rates, length).1;
         let (first, last) = (rates[1] * push, slope * push);
+        let opposite = nothing.exceeds(first * last);
         let rises_then_falls = first.exceeds(nothing) & nothing.exceeds(last);
         // A slope that turns at most once and changes its sign has one zero. Where it only falls, θ̈ lies below the tangents of its ends.
         let start = rates[0] * push;
         let meet = (end * push - start - last * length) / (first - last);
-        let below = bent & !(start + first * meet).exceeds(self.peak_acceleration);
-        let crest = open & rises_then_falls & (bent | twisted) & !below;
+        let below = bent & !passed & !(start + first * meet).exceeds(self.peak_acceleration);
+        let crest = open & (rises_then_falls | (passed & opposite)) & (bent | twisted) & !below;
         if crest.any() {
             let highest = extreme(rates, (rates[1], slope), length, crest).abs();
             self.peak_acceleration = self.peak_acceleration.larger(crest.choose(highest, nothing));
         }
         // A slope that turns at most once and has one sign at both ends has two zeros or none: none where it sets out away from zero.
         let away = (rates[2] * rates[1]).exceeds(nothing);
-        let opposite = nothing.exceeds(first * last);
         let doubtful = open & !bent & !(twisted & (opposite | away));
         if doubtful.any() {
             for lane in (0..WIDTH).filter(|&lane| doubtful.at(lane)) {
