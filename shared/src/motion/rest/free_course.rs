@@ -112,10 +112,10 @@ impl<I: FirstIntegral> FreeCourse<'_, I> {
                 course.impacts = course.impacts.saturating_add(sum.impacts);
                 if sum.speed == 0.0 {
                     course.ended = Some(time + sum.duration);
-                } else if decay(velocity, horizon - time + margin).is_none_or(|longer| longer.speed != sum.speed) {
-                    return None;
+                    return Some(course);
                 }
-                return Some(course);
+                // There may be time for another swing.
+                (time, velocity, peaked) = (time + sum.duration, sum.speed.abs(), true);
             }
         }
         None
