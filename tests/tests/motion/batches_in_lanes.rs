@@ -86,7 +86,7 @@ fn what_stands_beside_a_case_does_not_show() {
 #[test]
 fn what_rounding_decides_is_the_cores() {
     let method = f64::ideal(Method::Adaptive(TIGHT));
-    let case = Case { frequency_ratio: 3.0, amplitude_ratio: 3.0, ..Case::default() };
+    let case = Case { frequency_ratio: 3.0, amplitude_ratio: 1.3, ..Case::default() };
     let whole = case.run(&*method).unwrap();
     let pulse = core::f64::consts::TAU / case.frequency_ratio;
     let until = |end: f64| Case { free_time: end - pulse, ..case };
@@ -96,7 +96,7 @@ fn what_rounding_decides_is_the_cores() {
     }
     // Between an amplitude that stands and one that overturns.
     let at = |amplitude_ratio: f64| Case { amplitude_ratio, ..case };
-    let (mut stands, mut falls) = (3.0, 100.0);
+    let (mut stands, mut falls) = (1.3, 2.0);
     while falls - stands > 1e-12 {
         let middle = 0.5 * (stands + falls);
         *if at(middle).run(&*method).unwrap().outcome.overturned() { &mut falls } else { &mut stands } = middle;
