@@ -20,7 +20,16 @@ pub trait FirstIntegral: Copy {
 
     /// |θ̈|/p² at q.
     fn acceleration(&self, q: f64) -> f64;
+
+    /// E(q), by which ω² is larger at q than at the tip, q = 0.
+    fn energy(&self, q: f64) -> f64;
+
+    /// Coefficients of f(E) = √E p²/|θ̈| in E: along a motion dt = dq/ω = f dE/(2√E ω).
+    fn pace(&self) -> [f64; PACE_TERMS];
 }
+
+/// Coefficients that [`FirstIntegral::pace`] has.
+pub const PACE_TERMS: usize = 24;
 
 /// First integral of the slender block: θ̈ = −q p²/(1 + κ k ℓ²) (Eq. 17-18).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +51,17 @@ impl FirstIntegral for SlenderIntegral {
 
     fn acceleration(&self, q: f64) -> f64 {
         q.abs() / self.inertia
+    }
+
+    #[inline]
+    fn energy(&self, q: f64) -> f64 {
+        q * q / self.inertia
+    }
+
+    fn pace(&self) -> [f64; PACE_TERMS] {
+        let mut pace = [0.0; PACE_TERMS];
+        pace[0] = math::square_root(self.inertia);
+        pace
     }
 }
 
@@ -86,6 +106,43 @@ impl FirstIntegral for FullIntegral {
     fn acceleration(&self, q: f64) -> f64 {
         let (sine, cosine) = math::sin_cos(q);
         sine.abs() / (1.0 + self.coupling * cosine * cosine)
+    }
+
+    #[inline]
+    fn energy(&self, q: f64) -> f64 {
+        let half_sine = math::sin(0.5 * q);
+        let fall = 2.0 * half_sine * half_sine;
+        if self.coupling == 0.0 {
+            return 2.0 * fall;
+        }
+        let root = math::square_root(self.coupling);
+        2.0 * math::atan(root * fall / (1.0 + self.coupling * (1.0 - fall))) / root
+    }
+
+    /// With Y = sin²(q/2) and g = 1 + κ k cos² q = 1 + κ k (1 − 2Y)², dY/dE = g/4, and f² = g² E/(4 Y (1 − Y)).
+    fn pace(&self) -> [f64; PACE_TERMS] {
+        /// Coefficient n of a product.
+        fn product(a: &[f64], b: &[f64], n: usize) -> f64 {
+            a.iter().zip(b[..=n].iter().rev()).fold(0.0, |sum, (a, b)| sum + a * b)
+        }
+        const N: usize = PACE_TERMS;
+        // 4Y/E, cos q, g, 1 − Y, √(4Y(1 − Y)/E) and f.
+        let (mut steep, mut cosine, mut inertia, mut rest) = ([0.0; N], [0.0; N], [0.0; N], [0.0; N]);
+        let (mut root, mut pace) = ([0.0; N], [0.0; N]);
+        (cosine[0], rest[0]) = (1.0, 1.0);
+        for n in 0..N {
+            if n > 0 {
+                let y = 0.25 * steep[n - 1];
+                (cosine[n], rest[n]) = (-2.0 * y, -y);
+            }
+            inertia[n] = f64::from(u8::from(n == 0)) + self.coupling * product(&cosine, &cosine, n);
+            steep[n] = inertia[n] * math::RECIPROCALS[n + 1];
+            let square = product(&steep, &rest, n);
+            // Of a root r with r² = Σ d_n Eⁿ, 2 r_0 r_n is what the other products leave of d_n.
+            root[n] = if n == 0 { math::square_root(square) } else { 0.5 * (square - product(&root, &root, n)) / root[0] };
+            pace[n] = (inertia[n] - product(&root, &pace, n)) / root[0];
+        }
+        pace
     }
 }
 
@@ -149,6 +206,27 @@ mod tests {
                 let most = -slender.squared_speed(from, 0.0, 0.0);
                 check(slender.turn(from, 0.4 * most), &|q| slender.squared_speed(q, 0.0, from), 0.4 * most);
                 assert_eq!(slender.turn(from, most * (1.0 + 1e-12)), None);
+            }
+        }
+    }
+
+    /// Of the bare block E = 4 sin²(q/2), so f = (1 − E/4)^(-1/2); of any, f is what the definition says.
+    #[test]
+    fn the_pace_is_that_of_the_motion() {
+        let sum = |pace: &[f64; PACE_TERMS], energy: f64| pace.iter().rev().fold(0.0, |sum, c| sum * energy + c);
+        let bare = FullIntegral { coupling: 0.0 };
+        assert!((sum(&bare.pace(), 0.7) * math::square_root(1.0 - 0.7 / 4.0) - 1.0).abs() < 1e-15);
+        let check = |integral: &dyn Fn(f64) -> (f64, f64), pace: &[f64; PACE_TERMS], q: f64| {
+            let (energy, acceleration) = integral(q);
+            assert!((sum(pace, energy) * acceleration / math::square_root(energy) - 1.0).abs() < 1e-13, "{q}");
+        };
+        for coupling in [0.0, 1e-9, 0.375, 2.0, 100.0] {
+            let full = FullIntegral { coupling };
+            let slender = SlenderIntegral { inertia: 1.0 + coupling };
+            for q in [1e-6, 0.1, 0.3] {
+                check(&|q| (full.energy(q), full.acceleration(q)), &full.pace(), q);
+                check(&|q| (slender.energy(q), slender.acceleration(q)), &slender.pace(), q);
+                assert!((full.energy(q) / full.squared_speed(0.0, 0.0, q) - 1.0).abs() < 1e-15);
             }
         }
     }

@@ -33,7 +33,7 @@ pub enum CaseError {
 
 impl PulsedBlock {
     /// The block in units of 1/p.
-    fn structure(&self) -> Result<Structure, CaseError> {
+    pub(crate) fn structure(&self) -> Result<Structure, CaseError> {
         Ok(Structure {
             block: Block::of_unit_frequency(self.plain.slenderness, RECTANGLE_INERTIA_RATIO)?,
             geometry: self.plain.geometry,

@@ -16,6 +16,7 @@ use crate::pulsed::{PulseResult, PulsedBlock};
 use crate::pulses;
 use crate::records;
 use crate::shaken::{Shaken, ShakenBlock};
+use crate::times::{PulseTimes, Timed};
 
 /// Width of the SIMD registers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -81,6 +82,7 @@ fn baseline<F: NullaryFnOnce>(work: F) -> F::Output {
 struct UnderPulses<'a> {
     pulsed: &'a [PulsedBlock],
     results: &'a mut [PulseResult],
+    timed: Option<Timed<'a>>,
 }
 
 impl Work for UnderPulses<'_> {
@@ -88,7 +90,7 @@ impl Work for UnderPulses<'_> {
 
     #[inline(always)]
     fn with<M: Model, const PAIR: bool>(self) -> Self::Output {
-        pulses::run::<M, PAIR>(self.pulsed, self.results)
+        pulses::run::<M, PAIR>(self.pulsed, self.results, self.timed)
     }
 }
 
@@ -112,16 +114,40 @@ impl Work for UnderRecords<'_, '_> {
 /// The first [`CaseError`], with the number of its block.
 pub fn run(pulsed: &[PulsedBlock], registers: Registers) -> Result<Vec<PulseResult>, (usize, CaseError)> {
     let mut results = vec![PulseResult::NO_ROCKING; pulsed.len()];
-    // Neighbours of one model and device go through the lanes together.
-    let kind = |block: &PulsedBlock| (block.plain.geometry, block.plain.device);
     let mut start = 0;
-    for group in pulsed.chunk_by(|a, b| kind(a) == kind(b)) {
+    for group in groups(pulsed) {
         let found = &mut results[start..start + group.len()];
-        let work = UnderPulses { pulsed: group, results: found };
+        let work = UnderPulses { pulsed: group, results: found, timed: None };
         resolve(kind(&group[0]), registers, work).map_err(|(index, error)| (start + index, error))?;
         start += group.len();
     }
     Ok(results)
+}
+
+/// Outcome, impacts and times of each of `pulsed`, in their order, which move freely for `free_times` (1/p) after their pulses, one for each; `None` for those that
+/// the core is to follow.
+pub fn run_timed(pulsed: &[PulsedBlock], free_times: &[f64], registers: Registers) -> Vec<Option<(PulseResult, PulseTimes)>> {
+    let mut results = vec![PulseResult::NO_ROCKING; pulsed.len()];
+    let mut times = vec![None; pulsed.len()];
+    let mut start = 0;
+    for group in groups(pulsed) {
+        let all = start..start + group.len();
+        let timed = Timed { free_times: &free_times[all.clone()], times: &mut times[all.clone()] };
+        let work = UnderPulses { pulsed: group, results: &mut results[all.clone()], timed: Some(timed) };
+        // What fails is left to the core, which says why.
+        _ = resolve(kind(&group[0]), registers, work);
+        start = all.end;
+    }
+    results.into_iter().zip(times).map(|(result, times)| times.map(|times| (result, times))).collect()
+}
+
+fn kind(block: &PulsedBlock) -> (Geometry, DeviceKind) {
+    (block.plain.geometry, block.plain.device)
+}
+
+/// Neighbours of one model and device, which go through the lanes together.
+fn groups(pulsed: &[PulsedBlock]) -> impl Iterator<Item = &[PulsedBlock]> {
+    pulsed.chunk_by(|a, b| kind(a) == kind(b))
 }
 
 /// Final state of each of `shaken`, in their order; `None` for those that the core takes.

@@ -66,6 +66,14 @@ impl PulsedBlock {
         PulseResult { outcome: Outcome::Safe, peak_rotation: rotation / alpha, peak_acceleration: acceleration / alpha }
     }
 
+    /// Its motion on quiet ground.
+    #[inline]
+    pub(crate) fn free_motion<M: Model, const PAIR: bool>(&self) -> FreeMotion<M::Integral> {
+        let (outward, inward) = self.plain.couplings::<PAIR>();
+        let PlainBlock { slenderness, restitution, .. } = self.plain;
+        FreeMotion { slenderness, restitution, outward: M::integral(outward), inward: M::integral(inward) }
+    }
+
     /// Outcome of a motion that the pulse leaves at |θ| = `rotation` with the outward `velocity` and these peaks.
     #[inline]
     pub(crate) fn settle<M: Model, const PAIR: bool>(
@@ -75,10 +83,7 @@ impl PulsedBlock {
         peaks: (f64, f64),
         impact: bool,
     ) -> PulseResult {
-        let (outward, inward) = self.plain.couplings::<PAIR>();
-        let PlainBlock { slenderness, restitution, .. } = self.plain;
-        let motion = FreeMotion { slenderness, restitution, outward: M::integral(outward), inward: M::integral(inward) };
-        let settled = motion.settle(rotation, velocity);
+        let settled = self.free_motion::<M, PAIR>().settle(rotation, velocity);
         if settled.overturned {
             return PulseResult::overturned(impact || settled.impact);
         }

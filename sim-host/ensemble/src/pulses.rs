@@ -13,6 +13,7 @@ use crate::model::Model;
 use crate::pulsed::{PulseResult, PulseShape, PulsedBlock};
 use crate::rest::{AfterWeakImpact, Sine};
 use crate::series::Series;
+use crate::times::{End, Timed, Watch};
 use crate::{Mask, Number, WIDTH, number};
 use sprag_shared::observers::outcome::Outcome;
 
@@ -45,6 +46,12 @@ pub trait Stepping: Default {
     /// The block in `lane` uplifts after so many whole half-cycles of its sine.
     fn uplift(&mut self, _lane: usize, _half_cycles: f64) {}
 
+    /// Blocks will be asked when they overturn.
+    fn watch(&mut self) {}
+
+    /// When, in (0, `length`] of the last step, the block in `lane` passes |θ| = `limit` (rad), at which it overturns.
+    fn passes(&self, lane: usize, length: f64, limit: f64) -> f64;
+
     /// The block in `lane` has come to its end and stands, as `results` have it under number `index`; its peak may be found later.
     fn stands(&mut self, _lane: usize, _index: usize, _results: &mut [PulseResult]) {}
 
@@ -70,6 +77,10 @@ impl<M> Default for BySeries<M> {
 }
 
 impl<M: Model> Stepping for BySeries<M> {
+    fn passes(&self, lane: usize, length: f64, limit: f64) -> f64 {
+        self.series.passes(lane, length, limit)
+    }
+
     #[inline(always)]
     fn step<const PAIR: bool>(&mut self, blocks: &mut Blocks, bounds: &Bounds, pulses: &Pulses) -> Number {
         pulses.series(blocks.side, &mut self.series.ground[..SERIES_TERMS - 2]);
@@ -108,7 +119,8 @@ impl Pulses {
     }
 }
 
-/// Runs all `pulsed` blocks, which have the model `M` and the clutch `C`, into `results`, one each.
+/// Runs all `pulsed` blocks, which have the model `M` and the clutch `C`, into `results`, one each. Where they are `timed`, what the lanes cannot settle is left
+/// there.
 ///
 /// # Errors
 /// The first [`CaseError`], with the number of its block; parameters are checked by the core when it is asked to follow a block.
@@ -116,12 +128,23 @@ impl Pulses {
 pub(crate) fn run<M: Model, const PAIR: bool>(
     pulsed: &[PulsedBlock],
     results: &mut [PulseResult],
+    timed: Option<Timed<'_>>,
 ) -> Result<(), (usize, CaseError)> {
     let zero = number(0.0);
     let one = number(1.0);
     let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
-    let follow = |index: usize| pulsed[index].follow::<M, PAIR>(&method).map_err(|error| (index, error));
+    let mut watch = timed.map(Watch::<M>::new);
+    let follow = |index: usize, watch: &mut Option<Watch<'_, M>>| match watch {
+        Some(watch) => {
+            watch.leave(index);
+            Ok(PulseResult::NO_ROCKING)
+        }
+        None => pulsed[index].follow::<M, PAIR>(&method).map_err(|error| (index, error)),
+    };
     let mut stepping = M::Stepping::default();
+    if watch.is_some() {
+        stepping.watch();
+    }
     let mut blocks = Blocks::default();
     let mut pulses = Pulses { amplitude: zero, frequency: one, phase: zero, time: zero, duration: one };
     let mut bounds = Bounds::harmless();
@@ -130,6 +153,7 @@ pub(crate) fn run<M: Model, const PAIR: bool>(
     let mut rests = Mask::NONE;
     let mut done = Mask::ALL;
     let mut next = 0;
+    let mut went = zero;
     // Neighbours are mostly of one slenderness.
     let mut threshold = (f64::NAN, f64::NAN);
     loop {
@@ -139,7 +163,7 @@ pub(crate) fn run<M: Model, const PAIR: bool>(
                     let block: &PulsedBlock = &pulsed[index];
                     let peaks = (blocks.peak_rotation.0[lane], blocks.peak_acceleration.0[lane]);
                     results[index] = if blocks.hard.at(lane) {
-                        follow(index)?
+                        follow(index, &mut watch)?
                     } else if blocks.overturned.at(lane) {
                         PulseResult::overturned(blocks.impact.at(lane))
                     } else if rests.at(lane) {
@@ -149,6 +173,20 @@ pub(crate) fn run<M: Model, const PAIR: bool>(
                     };
                     if !blocks.hard.at(lane) && results[index].outcome == Outcome::Safe {
                         stepping.stands(lane, index, results);
+                    }
+                    if let Some(watch) = &mut watch
+                        && !blocks.hard.at(lane)
+                    {
+                        let time = pulses.time.0[lane];
+                        let end = if blocks.overturned.at(lane) {
+                            let last = went.0[lane];
+                            End::Overturned(time - last + stepping.passes(lane, last, bounds.overturned.0[lane]))
+                        } else if rests.at(lane) {
+                            End::Rest
+                        } else {
+                            End::PulseOver(pulses.duration.0[lane])
+                        };
+                        watch.ends::<PAIR>((index, block), lane, end, &blocks);
                     }
                 }
                 at[lane] = None;
@@ -174,13 +212,19 @@ pub(crate) fn run<M: Model, const PAIR: bool>(
                         blocks.renew(lane);
                         blocks.uplift(lane, 1.0, sine);
                         stepping.renew(lane);
+                        if let Some(watch) = &mut watch {
+                            watch.renew(lane);
+                        }
                         stepping.uplift(lane, 0.0);
                         rests.set(lane, false);
                         steps[lane] = 0;
                     } else if uplifts == Some(false) {
                         results[next] = PulseResult::NO_ROCKING;
+                        if let Some(watch) = &mut watch {
+                            watch.stays(next, TAU / block.frequency_ratio);
+                        }
                     } else {
-                        results[next] = follow(next)?;
+                        results[next] = follow(next, &mut watch)?;
                     }
                     next += 1;
                 }
@@ -191,14 +235,17 @@ pub(crate) fn run<M: Model, const PAIR: bool>(
             }
             if at.iter().all(Option::is_none) {
                 for &index in stepping.finish(results) {
-                    results[index] = follow(index)?;
+                    results[index] = follow(index, &mut watch)?;
                 }
                 return Ok(());
             }
         }
         let left = pulses.left();
-        let went = stepping.step::<PAIR>(&mut blocks, &bounds, &pulses);
+        went = stepping.step::<PAIR>(&mut blocks, &bounds, &pulses);
         pulses.time = pulses.time + went;
+        if let Some(watch) = &mut watch {
+            watch.step(&blocks, pulses.time);
+        }
         for (lane, count) in steps.iter_mut().enumerate() {
             *count += 1;
             if *count > MOST_STEPS {
@@ -212,7 +259,11 @@ pub(crate) fn run<M: Model, const PAIR: bool>(
                 let sine = pulses.sine(lane, block);
                 let push = sine.amplitude * math::sin(sine.frequency * pulses.time.0[lane] + sine.phase) * -blocks.side.0[lane];
                 let speed = blocks.velocity.0[lane];
-                match sine.after_weak_impact::<M, PAIR>(pulses.time.0[lane], push, speed, &block.plain) {
+                let (next, (rested, impacts)) = sine.after_weak_impact::<M, PAIR>(pulses.time.0[lane], push, speed, &block.plain);
+                if let Some(watch) = &mut watch {
+                    watch.rests(lane, rested, impacts);
+                }
+                match next {
                     AfterWeakImpact::Rests => rests.set(lane, true),
                     AfterWeakImpact::Uplifts { time, half_cycles } => {
                         pulses.time.0[lane] = time;

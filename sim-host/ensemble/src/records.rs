@@ -5,7 +5,6 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use sprag_shared::math::root::bisection;
 use sprag_shared::math::scalar::Scalar;
 use sprag_shared::motion::state::Phase;
 use sprag_shared::observers::peaks::Peaks;
@@ -238,15 +237,6 @@ impl<'a, 'b> Lanes<'a, 'b> {
     }
 }
 
-/// When, in (0, `length`], the block in `lane` passes `limit`, at which it overturns.
-fn passes<const TERMS: usize>(series: &Series<TERMS>, lane: usize, length: f64, limit: f64) -> f64 {
-    let rotation = |time: f64| series.rotation().iter().rev().fold(0.0, |sum, c| sum * time + c.0[lane]);
-    if rotation(0.0) >= limit {
-        return 0.0;
-    }
-    bisection(0.0, length, length * f64::EPSILON, |time| rotation(time) >= limit)
-}
-
 /// Runs all `shaken` blocks, which have the model `M` and the clutch `C`, into `results`, one each; those left `None` are for the core.
 #[inline(always)]
 pub(crate) fn run<M: Model, const PAIR: bool>(shaken: &[ShakenBlock<'_>], results: &mut [Option<Shaken>]) {
@@ -288,7 +278,7 @@ pub(crate) fn run<M: Model, const PAIR: bool>(shaken: &[ShakenBlock<'_>], result
                 None
             } else if lanes.blocks.overturned.at(lane) {
                 let start = lanes.lines.time.0[lane] - went.0[lane];
-                let passed = passes(&series, lane, went.0[lane], lanes.bounds.overturned.0[lane]);
+                let passed = series.passes(lane, went.0[lane], lanes.bounds.overturned.0[lane]);
                 place.peaks.ended = Some(lanes.seconds(&place, start + passed));
                 Some(Phase::Overturned)
             } else if rest.at(lane) {

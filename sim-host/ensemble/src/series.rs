@@ -5,7 +5,9 @@ use std::cell::Cell;
 use sprag_shared::equation::Equation;
 use sprag_shared::math::RECIPROCALS;
 use sprag_shared::math::power_series::Tape;
+use sprag_shared::math::root::newton_bracketed;
 use sprag_shared::math::scalar::Scalar;
+use sprag_shared::math::sign::Sign;
 use sprag_shared::method::motion_series::MotionSeries;
 
 use crate::polynomial::deflated;
@@ -37,6 +39,17 @@ impl<const TERMS: usize> Series<TERMS> {
     #[inline(always)]
     pub fn rotation(&self) -> &[Number; TERMS] {
         &self.motion.rotation
+    }
+
+    /// When, in (0, `length`], the block in `lane` passes |θ| = `limit` (rad), at which it overturns.
+    pub fn passes(&self, lane: usize, length: f64, limit: f64) -> f64 {
+        let sum = |series: &[Number], time: f64| series.iter().rev().fold(0.0, |sum, c| sum * time + c.0[lane]);
+        if self.rotation()[0].0[lane] >= limit {
+            return 0.0;
+        }
+        newton_bracketed(0.0, length, Sign::Negative, length, |time| {
+            (sum(self.rotation(), time) - limit, sum(self.velocity(), time))
+        })
     }
 
     /// Coefficients of θ̇.

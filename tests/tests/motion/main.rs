@@ -2,6 +2,7 @@
 //! program (`tests/reference`).
 
 mod balanced_starts;
+mod batches_in_lanes;
 mod closed_forms;
 mod convergence;
 mod endings;

@@ -11,6 +11,8 @@
 //! with η times the speed of the last and the durations sum to geometric series; for a clutched pair the few dozen swings
 //! until rest are a map of one number.
 
+pub mod decay_sums;
+
 use core::cell::Cell;
 
 use crate::equation::Equation;

@@ -63,7 +63,10 @@ impl<I: FirstIntegral> FreeMotion<I> {
                 turned = false;
             }
             // Just before the impact and just after it.
-            settled.acceleration = settled.acceleration.max(inward.acceleration(alpha)).max(outward.acceleration(alpha));
+            settled.acceleration = settled.acceleration.max(inward.acceleration(alpha));
+            if self.restitution > 0.0 {
+                settled.acceleration = settled.acceleration.max(outward.acceleration(alpha));
+            }
             let after_another = settled.impact;
             settled.impact = true;
             if turned || after_another {

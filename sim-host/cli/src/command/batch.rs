@@ -10,20 +10,20 @@ use clap::Args;
 use csv::StringRecord;
 use rayon::ThreadPool;
 use rayon::prelude::*;
-use sprag_loops::{Method, Precision};
 use sprag_report::columns::Column;
 use sprag_report::output::{OutputError, Results, claim_file, is_standard_output, open_stream};
 use sprag_report::part::Part;
 use sprag_report::progress::Progress;
 use sprag_sim::accuracy::answer::Comparable;
 use sprag_sim::accuracy::{Accuracy, budget};
-use sprag_sim::batch::case::Case;
+use sprag_sim::batch::case::{Case, CaseError};
+use sprag_sim::batch::lanes::results;
 use sprag_sim::batch::table::{CASE_COLUMNS, ERROR_COLUMNS, RESULT_COLUMNS, shown};
 use sprag_sim::interrupt::Interrupt;
 
 use super::accuracy_arguments::AccuracyArguments;
 use super::batch_cases::{CaseFile, CaseReader, Cases, is_parquet};
-use super::batch_results::{Chunk, Sink, are_of, columns};
+use super::batch_results::{Chunk, Found, Sink, are_of, columns};
 use super::context::{Completion, Context, Interrupted, Run};
 use super::out_arguments::OverwriteArguments;
 use super::thread_arguments::ThreadArguments;
@@ -63,10 +63,10 @@ fn tolerance(text: &str) -> Result<f64, String> {
 }
 
 /// Cases that one task works on before it looks up.
-const CHUNK: usize = 64;
+const CHUNK: usize = 512;
 
 /// Cases a thread that are in memory at one time.
-const WINDOW: usize = 64 * CHUNK;
+const WINDOW: usize = 8 * CHUNK;
 
 /// Most cases that are tried to learn what a level of accuracy costs.
 const SAMPLE: usize = 512;
@@ -162,11 +162,11 @@ impl Work<'_> {
             let reader = &cases.reader;
             let found: Vec<_> =
                 self.pool.install(|| window[..count].par_chunks(CHUNK).map(|rows| self.chunk(reader, rows)).collect());
-            let mut wrong = None;
-            let whole = |chunk: anyhow::Result<Chunk>| chunk.map_err(|error| wrong = Some(error)).ok();
-            let chunks: Vec<Chunk> = found.into_iter().map_while(whole).collect();
-            sink.take(&self.columns, &chunks)?;
-            wrong.map_or(Ok(()), Err)?;
+            for (chunk, rest) in found {
+                sink.take(&self.columns, chunk?)?;
+                rest?;
+            }
+            sink.flush()?;
             progress.advance(cases, count);
             if !more? {
                 return Ok(sink.finish()?);
@@ -174,20 +174,26 @@ impl Work<'_> {
         }
     }
 
-    fn chunk(&self, reader: &CaseReader, rows: &[StringRecord]) -> anyhow::Result<Chunk> {
+    /// The results of `rows` up to the first that has none, and what is wrong with that.
+    fn chunk(&self, reader: &CaseReader, rows: &[StringRecord]) -> (anyhow::Result<Chunk>, anyhow::Result<()>) {
         if self.interrupt.is_set() {
-            return Err(Interrupted.into());
+            return (Err(Interrupted.into()), Ok(()));
         }
-        let method = f64::ideal(Method::Adaptive(self.tolerance));
-        let found = |row| {
-            let (id, case) = reader.case(row)?;
-            let found = match self.accuracy {
-                Some(accuracy) => case.answer(accuracy).map(|answer| (answer.result, Some(answer.error))),
-                None => case.run(&*method).map(|result| (result, None)),
-            };
-            Ok((id, found.map_err(|error| anyhow!("{}: case `{}`: {error}", reader.name(), shown(id)))?))
+        let mut wrong = Ok(());
+        let read = rows.iter().map_while(|row| reader.case(row).map_err(|error| wrong = Err(error)).ok());
+        let (ids, cases): (Vec<&str>, Vec<Case>) = read.unzip();
+        let results: Vec<Result<Found, CaseError>> = match self.accuracy {
+            Some(accuracy) => {
+                cases.iter().map(|case| case.answer(accuracy).map(|answer| (answer.result, Some(answer.error)))).collect()
+            }
+            None => results(&cases, self.tolerance).into_iter().map(|result| result.map(|result| (result, None))).collect(),
         };
-        Chunk::of(rows.iter().map(found), &self.columns, !self.parquet)
+        let named = |id, error| anyhow!("{}: case `{}`: {error}", reader.name(), shown(id));
+        let found = ids.into_iter().zip(results);
+        let rows: Vec<_> = found
+            .map_while(|(id, found)| found.map(|found| (id, found)).map_err(|error| wrong = Err(named(id, error))).ok())
+            .collect();
+        (Chunk::of(&rows, &self.columns, !self.parquet).map_err(Into::into), wrong)
     }
 
     /// Works out all `cases` into the file `out`.

@@ -63,20 +63,13 @@ impl Chunk {
     /// Of the results `rows`, for a file with these columns.
     ///
     /// # Errors
-    /// The first error of `rows`.
-    pub fn of<'a>(
-        rows: impl Iterator<Item = anyhow::Result<(&'a str, Found)>>,
-        columns: &[Column],
-        as_text: bool,
-    ) -> anyhow::Result<Chunk> {
+    /// Values that are not those of the columns.
+    pub fn of(rows: &[(&str, Found)], columns: &[Column], as_text: bool) -> Result<Chunk, TableError> {
         if !as_text {
-            return rows.map(|row| row.map(|(id, found)| (id.to_owned(), found))).collect::<Result<_, _>>().map(Chunk::Rows);
+            return Ok(Chunk::Rows(rows.iter().map(|(id, found)| ((*id).to_owned(), *found)).collect()));
         }
         let mut writer = CsvWriter::resumed(columns.to_vec(), Vec::new());
-        for row in rows {
-            let (id, found) = row?;
-            write(&mut writer, id, &found)?;
-        }
+        rows.iter().try_for_each(|(id, found)| write(&mut writer, id, found))?;
         Ok(Chunk::Text(writer.finish()?))
     }
 }
@@ -108,24 +101,28 @@ impl<'a> Sink<'a> {
     ///
     /// # Errors
     /// When the file does not take them.
-    pub fn take(&mut self, columns: &[Column], chunks: &[Chunk]) -> io::Result<()> {
-        if chunks.is_empty() {
-            return Ok(());
-        }
-        if let Sink::Csv(out, titled @ false) = self {
-            *titled = true;
-            out.write_all(&CsvWriter::new(columns.to_vec(), Vec::new())?.finish()?)?;
-        }
-        for chunk in chunks {
-            match (&mut *self, chunk) {
-                (Sink::Csv(out, _), Chunk::Text(text)) => out.write_all(text)?,
-                (Sink::Parquet(writer), Chunk::Rows(rows)) => {
-                    rows.iter().try_for_each(|(id, found)| write(&mut **writer, id, found))?;
+    pub fn take(&mut self, columns: &[Column], chunk: Chunk) -> io::Result<()> {
+        match (self, chunk) {
+            (Sink::Csv(out, titled), Chunk::Text(text)) if !text.is_empty() => {
+                if !*titled {
+                    *titled = true;
+                    out.write_all(&CsvWriter::new(columns.to_vec(), Vec::new())?.finish()?)?;
                 }
-                // Chunks are made for their sink.
-                _ => {}
+                out.write_all(&text)
             }
+            (Sink::Parquet(writer), Chunk::Rows(rows)) => {
+                Ok(rows.iter().try_for_each(|(id, found)| write(&mut **writer, id, found))?)
+            }
+            // Chunks are made for their sink.
+            _ => Ok(()),
         }
+    }
+
+    /// Hands on what is written, as far as the format lets it.
+    ///
+    /// # Errors
+    /// When the file does not take it.
+    pub fn flush(&mut self) -> io::Result<()> {
         if let Sink::Csv(out, _) = self { out.flush() } else { Ok(()) }
     }
 

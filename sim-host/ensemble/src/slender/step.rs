@@ -25,11 +25,15 @@ pub struct ClosedForm {
     /// Half-cycles of the sine that are over.
     half_cycles: Number,
     pending: Pending,
+    /// Whether it will be asked when blocks overturn.
+    watched: bool,
+    /// When in the last step they have.
+    passed: Number,
 }
 
 impl Default for ClosedForm {
     fn default() -> ClosedForm {
-        ClosedForm { half_cycles: number(0.0), pending: Pending::default() }
+        ClosedForm { half_cycles: number(0.0), pending: Pending::default(), watched: false, passed: number(0.0) }
     }
 }
 
@@ -90,6 +94,14 @@ impl Stepping for ClosedForm {
     #[inline(always)]
     fn uplift(&mut self, lane: usize, half_cycles: f64) {
         self.half_cycles.0[lane] = half_cycles;
+    }
+
+    fn watch(&mut self) {
+        self.watched = true;
+    }
+
+    fn passes(&self, lane: usize, _length: f64, _limit: f64) -> f64 {
+        self.passed.0[lane]
     }
 
     #[inline(always)]
@@ -163,6 +175,15 @@ impl Stepping for ClosedForm {
         let rotation = hit.choose(nothing, end.rotation);
         let velocity = turned.choose(nothing, motion.velocity(&end));
         blocks.arrive(Arrival { rotation, velocity, hit, turned, rate_zero, passed }, bounds);
+        if self.watched && blocks.overturned.any() {
+            // The limit as θ = 0.
+            let (mut motion, mut end) = (motion, end);
+            motion.start.rotation = motion.start.rotation - bounds.overturned;
+            end.rotation = end.rotation - bounds.overturned;
+            let rotation = blocks.overturned & nothing.exceeds(motion.start.rotation) & end.rotation.exceeds(nothing);
+            let wanted = Wanted { rotation, ..Wanted::NOTHING };
+            self.passed = rotation.choose(zero(&motion, &wanted, -one, (length, &end)).0, nothing);
+        }
         length
     }
 }

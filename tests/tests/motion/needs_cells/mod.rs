@@ -1,4 +1,5 @@
 //! Comparisons with the reference cells.
 
+mod batches;
 mod error_estimates;
 mod reference_cells;
