@@ -7,12 +7,45 @@ use super::transmission::{
     Account, AnyPoint, EventContext, PointOf, Transmission, acceleration, account, command, force_if_locked, locked_force,
 };
 use crate::equation::body::Body;
-use crate::math::scalar::Real;
+use crate::math::scalar::{Real, Scalar};
 use crate::math::sign::Sign;
 use crate::math::value::Value;
 
 /// Two flywheels, a friction clutch on each, that obey Eq. 10.
 pub struct FrictionPair;
+
+/// Force of the plates that slip, on the rack; 1/s².
+#[inline(always)]
+pub fn plate_force<S: Scalar, V: Value<S>, B: Body<S>>(at: &PointOf<'_, S, B, V, 2>) -> V {
+    let law = at.law;
+    at.clock.scale(law.slip_growth[0] + law.slip_growth[1]).offset(law.slip[0] + law.slip[1])
+}
+
+/// Rates of the flywheels' speeds, 1/s²: those that are not locked coast, and slipping plates drive them.
+#[inline(always)]
+pub fn spin_rates<S: Scalar, V: Value<S>, B: Body<S>>(at: &PointOf<'_, S, B, V, 2>) -> [V; 2] {
+    let law = at.law;
+    [0, 1].map(|i| {
+        let gain = law.moves[i] * at.parameters.mobility;
+        at.clock.scale(law.slip_growth[i] * gain).offset(law.slip[i] * gain - law.drag[i]) - at.unknowns[i].scale(law.decay[i])
+    })
+}
+
+/// [`Guard::Capacity`] of plates whose capacity and its growth are given (1/s², 1/s³), under the `force` of a locked flywheel.
+#[inline(always)]
+pub fn below_capacity<S: Scalar, V: Value<S>, B: Body<S>>(
+    at: &PointOf<'_, S, B, V, 2>,
+    force: V,
+    (capacity, growth): (S, S),
+) -> V {
+    at.clock.scale(growth).offset(capacity).square() - force.square()
+}
+
+/// [`Guard::Slip`] of the plates of `wheel`.
+#[inline(always)]
+pub fn slip<S: Scalar, V: Value<S>, B: Body<S>>(at: &PointOf<'_, S, B, V, 2>, sign: S, wheel: usize) -> V {
+    (at.body.to_terminal(&at.configuration, at.velocity) - at.unknowns[wheel & 1]).scale(sign)
+}
 
 impl<S: Real> EventContext<'_, S> {
     /// Stick or slip where the plates run at one speed.
@@ -64,27 +97,15 @@ impl<S: Real> Transmission<S, 2, 3> for FrictionPair {
 
     #[inline(always)]
     fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 2>) -> (V, [V; 2]) {
-        let law = at.law;
-        let plates = at.clock.scale(law.slip_growth[0] + law.slip_growth[1]).offset(law.slip[0] + law.slip[1]);
-        let rates = [0, 1].map(|i| {
-            let gain = law.moves[i] * at.parameters.mobility;
-            at.clock.scale(law.slip_growth[i] * gain).offset(law.slip[i] * gain - law.drag[i])
-                - at.unknowns[i].scale(law.decay[i])
-        });
-        (acceleration(at, true, Some(plates)), rates)
+        (acceleration(at, true, Some(plate_force(at))), spin_rates(at))
     }
 
     #[inline(always)]
     fn guard<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 2>, acceleration: V, watch: Guard<S>) -> V {
         match watch {
             Guard::Command(sign) => command(at, true, sign),
-            Guard::Capacity(capacity, growth) => {
-                let force = locked_force(at, acceleration);
-                at.clock.scale(growth).offset(capacity).square() - force.square()
-            }
-            Guard::Slip(sign, wheel) => {
-                (at.body.to_terminal(&at.configuration, at.velocity) - at.unknowns[wheel & 1]).scale(sign)
-            }
+            Guard::Capacity(capacity, growth) => below_capacity(at, locked_force(at, acceleration), (capacity, growth)),
+            Guard::Slip(sign, wheel) => slip(at, sign, wheel),
             _ => acceleration,
         }
     }

@@ -4,7 +4,7 @@ use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients, UNKNOW
 use super::scaled_parameters::ScaledParameters;
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
-use crate::math::scalar::Real;
+use crate::math::scalar::{Real, Scalar};
 use crate::math::sign::Sign;
 use crate::math::value::Value;
 
@@ -226,21 +226,38 @@ pub fn acceleration<S: Real, V: Value<S>, B: Body<S>, const X: usize>(
     friction: bool,
     resistance: Option<V>,
 ) -> V {
-    let mut moment = driving_moment(at, friction);
+    let moment = driving_moment(at, friction);
     if friction {
-        let own = at.body.to_terminal(&at.configuration, at.velocity).scale(at.law.viscous).offset(at.law.dry);
+        let own = rack_friction(at);
         let resistance = match resistance {
             Some(other) => own + other,
             None => own,
         };
-        moment = moment - at.body.to_terminal(&at.configuration, resistance);
+        return resisted_acceleration(at, moment, resistance);
     }
+    at.body.solve_acceleration(&at.configuration, moment, at.law.coupling, at.velocity)
+}
+
+/// Friction at the rack, of its guides and of the bearings of what is locked to it; 1/s².
+#[inline(always)]
+pub fn rack_friction<S: Scalar, V: Value<S>, B: Body<S>, const X: usize>(at: &PointOf<'_, S, B, V, X>) -> V {
+    at.body.to_terminal(&at.configuration, at.velocity).scale(at.law.viscous).offset(at.law.dry)
+}
+
+/// θ̈ under the moment D = `moment` (1/s²) against the force `resistance` at the rack.
+#[inline(always)]
+pub fn resisted_acceleration<S: Scalar, V: Value<S>, B: Body<S>, const X: usize>(
+    at: &PointOf<'_, S, B, V, X>,
+    moment: V,
+    resistance: V,
+) -> V {
+    let moment = moment - at.body.to_terminal(&at.configuration, resistance);
     at.body.solve_acceleration(&at.configuration, moment, at.law.coupling, at.velocity)
 }
 
 /// D, with the inertia force of the ground's acceleration on a guided rack.
 #[inline(always)]
-pub fn driving_moment<S: Real, V: Value<S>, B: Body<S>, const X: usize>(at: &PointOf<'_, S, B, V, X>, rack: bool) -> V {
+pub fn driving_moment<S: Scalar, V: Value<S>, B: Body<S>, const X: usize>(at: &PointOf<'_, S, B, V, X>, rack: bool) -> V {
     let moment = at.body.driving_moment(&at.configuration, at.ground);
     if rack { moment - at.body.to_terminal(&at.configuration, at.ground[0].scale(at.parameters.rack_push)) } else { moment }
 }
@@ -254,7 +271,7 @@ pub fn command<S: Real, V: Value<S>, B: Body<S>, const X: usize>(at: &PointOf<'_
 
 /// Force of a locked flywheel on the rack: its inertia and its bearing's friction, dry friction with the sign of the motion.
 #[inline(always)]
-pub fn locked_force<S: Real, V: Value<S>, B: Body<S>, const X: usize>(at: &PointOf<'_, S, B, V, X>, acceleration: V) -> V {
+pub fn locked_force<S: Scalar, V: Value<S>, B: Body<S>, const X: usize>(at: &PointOf<'_, S, B, V, X>, acceleration: V) -> V {
     let parameters = at.parameters;
     let inertia = at.body.terminal_acceleration(&at.configuration, at.velocity, acceleration);
     let bearing = at.body.to_terminal(&at.configuration, at.velocity).scale(parameters.bearing_rate);

@@ -13,6 +13,16 @@ pub enum AnyBody<S> {
     Full(FullBody<S>),
 }
 
+impl<S: Scalar> AnyBody<S> {
+    /// p², 1/s².
+    pub fn frequency_squared(&self) -> S {
+        match self {
+            AnyBody::Slender(body) => body.frequency_squared,
+            AnyBody::Full(body) => body.block.frequency_squared,
+        }
+    }
+}
+
 /// A configuration of either.
 #[derive(Clone, Copy, Debug)]
 pub enum AnyConfiguration<V> {

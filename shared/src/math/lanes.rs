@@ -71,6 +71,12 @@ macro_rules! lanes {
         operator!(LaneMask<$n>, BitOr, bitor, $($lane)+);
         operator!(LaneMask<$n>, BitXor, bitxor, $($lane)+);
 
+        impl Default for Lanes<f64, $n> {
+            fn default() -> Self {
+                Lanes([0.0; $n])
+            }
+        }
+
         impl Neg for Lanes<f64, $n> {
             type Output = Self;
 

@@ -11,11 +11,10 @@ use sprag_ensemble::machine::{Registers, shake};
 use sprag_ensemble::plain::PlainBlock;
 use sprag_ensemble::shaken::{Samples, Shaken, ShakenBlock};
 use sprag_loops::{Method, Precision};
-use sprag_shared::math;
 use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::added_mass::AddedMass;
-use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::mount::Mount;
 use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
@@ -23,10 +22,10 @@ use sprag_sim::batch::case::TIGHT;
 use sprag_sim::ground_motion::{Component, GroundMotion};
 use sprag_sim::simulation::drive::{Course, Overturning};
 
-const MOTIONS: u32 = 200;
-const STRUCTURES: u32 = 100;
-const SECONDS: f64 = 40.0;
-const STEP: f64 = 0.005;
+mod shakings;
+
+use shakings::{MOTIONS, SECONDS, STEP, STRUCTURES, block, motion};
+
 const FREE_TIME: f64 = 10.0;
 /// The core takes one run of so many.
 const SPARSE: usize = 100;
@@ -91,9 +90,8 @@ fn after(asked: &[ShakenBlock<'_>], structures: &[Structure], motions: usize) ->
 }
 
 fn structure(geometry: Geometry, kind: DeviceKind, index: u32) -> Option<Structure> {
-    let (row, column) = (f64::from(index / 10), f64::from(index % 10));
     Some(Structure {
-        block: Block::new(0.5 + 0.5 * row, (8.0 + 2.0 * column).to_radians(), RECTANGLE_INERTIA_RATIO).ok()?,
+        block: block(index)?,
         geometry,
         device: Device { kind, mass_ratio: 0.5, mount: Mount::CentreOfMass, kinematics: KinematicsKind::Paper },
         added_mass: AddedMass::NONE,
@@ -105,26 +103,6 @@ fn structure(geometry: Geometry, kind: DeviceKind, index: u32) -> Option<Structu
 fn shaken<'a>(structure: &Structure, samples: &'a Samples) -> Option<ShakenBlock<'a>> {
     let plain = PlainBlock::of_structure(structure)?;
     Some(ShakenBlock { plain, frequency_parameter: structure.block.frequency_parameter(), samples, factor: 1.0 })
-}
-
-/// ü_g/g.
-fn motion(seed: u32) -> Vec<f64> {
-    let mut state = u64::from(seed) + 1;
-    let mut noise = [0.0; 2];
-    let share = f64::from(seed) / f64::from(MOTIONS);
-    let (peak, frequency) = (0.2 + 0.8 * share, 2.0 + 8.0 * (7.0 * share).fract());
-    let value = |index: usize| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        let uniform = (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0;
-        // Two poles, as the ground filters what comes from below.
-        noise = [0.9 * noise[0] + 0.1 * uniform, 0.9 * noise[1] + 0.1 * noise[0]];
-        let time = index as f64 * STEP;
-        let envelope = (time / 5.0).min(1.0) * math::exp(-((time - 8.0).max(0.0)) / 8.0);
-        let from_pulse = (time - 7.0) * frequency / 4.0;
-        let pulse = math::exp(-from_pulse * from_pulse) * math::sin(frequency * (time - 7.0));
-        peak * (0.7 * pulse + 3.0 * envelope * noise[1])
-    };
-    (0..=(SECONDS / STEP) as usize).map(value).collect()
 }
 
 /// By the core, alone.

@@ -11,6 +11,7 @@
 pub mod after_record;
 pub mod alone;
 pub mod blocks;
+pub mod hybrid;
 pub mod machine;
 pub mod model;
 pub mod plain;

@@ -4,13 +4,19 @@
 //! they do the same IEEE operations in the same order on every lane (nothing is fused: Rust never contracts), so results are the same
 //! to the last bit; [`Registers::Baseline`] is there to show it.
 
+use std::marker::PhantomData;
+
 #[cfg(all(target_arch = "x86_64", not(test)))]
 use pulp::Arch;
 use pulp::NullaryFnOnce;
+use sprag_shared::equation::body::{FullBody, SlenderBody};
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
 
+use crate::Number;
 use crate::alone::CaseError;
+use crate::hybrid::body::LaneBody;
+use crate::hybrid::{self, HybridBlock, HybridMotion, Kind};
 use crate::model::{FullAlone, FullWithInerter, Model, Slender};
 use crate::pulsed::{PulseResult, PulsedBlock};
 use crate::pulses;
@@ -36,8 +42,25 @@ trait Work {
     fn with<M: Model, const PAIR: bool>(self) -> Self::Output;
 }
 
+/// Work on blocks with devices of one type of body.
+struct OnHybridBlocks<'a, 'b, B> {
+    blocks: &'a [HybridBlock<'b>],
+    results: &'a mut [Option<HybridMotion>],
+    kind: Kind,
+    body: PhantomData<B>,
+}
+
+impl<B: LaneBody> NullaryFnOnce for OnHybridBlocks<'_, '_, B> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        hybrid::lanes::run::<B>(self.kind, self.blocks, self.results);
+    }
+}
+
 /// Work for a model and a clutch.
-struct Resolved<W, M, const PAIR: bool>(W, std::marker::PhantomData<M>);
+struct Resolved<W, M, const PAIR: bool>(W, PhantomData<M>);
 
 impl<W: Work, M: Model, const PAIR: bool> NullaryFnOnce for Resolved<W, M, PAIR> {
     type Output = W::Output;
@@ -60,7 +83,11 @@ fn resolve<W: Work>((geometry, device): (Geometry, DeviceKind), registers: Regis
 }
 
 fn go<W: Work, M: Model, const PAIR: bool>(work: W, registers: Registers) -> W::Output {
-    let resolved = Resolved::<_, _, PAIR>(work, std::marker::PhantomData::<M>);
+    built_for(registers, Resolved::<_, _, PAIR>(work, PhantomData::<M>))
+}
+
+/// Does `resolved` as it is built for the registers.
+fn built_for<F: NullaryFnOnce>(registers: Registers, resolved: F) -> F::Output {
     match registers {
         // Not `Arch::dispatch`: its way without wide registers would be a second copy of the one below.
         // No unit test asks for registers (`tests/tests/motion/lanes_*.rs` do), and every kind takes as long to build.
@@ -158,6 +185,26 @@ pub fn shake(shaken: &[ShakenBlock<'_>], registers: Registers) -> Vec<Option<Sha
     for group in shaken.chunk_by(|a, b| kind(a) == kind(b)) {
         let found = &mut results[start..start + group.len()];
         resolve(kind(&group[0]), registers, UnderRecords { shaken: group, results: found });
+        start += group.len();
+    }
+    results
+}
+
+/// Motion of each of `blocks` up to the end of its record, in their order; `None` for those that the core takes.
+pub fn shake_hybrid(blocks: &[HybridBlock<'_>], registers: Registers) -> Vec<Option<HybridMotion>> {
+    let mut results = vec![None; blocks.len()];
+    let mut start = 0;
+    for group in blocks.chunk_by(|a, b| a.kind() == b.kind()) {
+        let results = &mut results[start..start + group.len()];
+        let kind = group[0].kind();
+        match kind.geometry {
+            Geometry::Full => {
+                built_for(registers, OnHybridBlocks::<FullBody<Number>> { blocks: group, results, kind, body: PhantomData });
+            }
+            Geometry::Slender => {
+                built_for(registers, OnHybridBlocks::<SlenderBody<Number>> { blocks: group, results, kind, body: PhantomData });
+            }
+        }
         start += group.len();
     }
     results

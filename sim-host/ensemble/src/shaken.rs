@@ -38,13 +38,18 @@ impl Samples {
         &self.values
     }
 
+    /// Interval between samples, s.
+    pub fn step(&self) -> f64 {
+        self.step
+    }
+
     /// Duration, s.
     pub fn duration(&self) -> f64 {
         self.step * self.values.len().saturating_sub(1) as f64
     }
 
     /// The first sample after `sample` beyond `threshold` (above 0).
-    fn beyond(&self, sample: usize, threshold: f64) -> Option<usize> {
+    pub(crate) fn beyond(&self, sample: usize, threshold: f64) -> Option<usize> {
         let exceeds = |value: &f64| value.abs() > threshold;
         let first = sample + 1;
         let bound = self.bounds.get(first)?;

@@ -9,10 +9,9 @@ use sprag_shared::method::closed_form::ClosedForm;
 use sprag_shared::method::dense_output::Integrator;
 use sprag_shared::method::fixed::{FixedStep, Scheme};
 use sprag_shared::method::taylor::{TERMS, Taylor};
-use sprag_shared::motion::hybrid::HybridState;
-use sprag_shared::motion::hybrid::HybridSystem;
 use sprag_shared::motion::hybrid::mode_output::{ModeIntegrator, Shaking};
 use sprag_shared::motion::hybrid::series::Series;
+use sprag_shared::motion::hybrid::{HybridState, HybridSystem, Progress};
 use sprag_shared::motion::ideal::IdealSystem;
 use sprag_shared::motion::observer::Observer;
 use sprag_shared::motion::state::{BlockState, Limits, Stopped};
@@ -66,9 +65,35 @@ pub trait HybridLoop<S: Real> {
         limits: &Limits<S>,
         observer: &mut dyn Observer<S>,
     ) -> Result<(), Stopped>;
+
+    /// [`HybridSystem::step`].
+    ///
+    /// # Errors
+    /// Why the motion cannot be followed further.
+    fn step(
+        &self,
+        system: &HybridSystem<S>,
+        state: &mut HybridState<S>,
+        segment: (Shaking<'_, S>, S),
+        progress: &mut Progress<S>,
+        limits: &Limits<S>,
+        observer: &mut dyn Observer<S>,
+    ) -> Result<(), Stopped>;
 }
 
 impl<S: Real, T: ModeIntegrator<S>> HybridLoop<S> for T {
+    fn step(
+        &self,
+        system: &HybridSystem<S>,
+        state: &mut HybridState<S>,
+        segment: (Shaking<'_, S>, S),
+        progress: &mut Progress<S>,
+        limits: &Limits<S>,
+        observer: &mut dyn Observer<S>,
+    ) -> Result<(), Stopped> {
+        system.step(self, state, segment, progress, limits, observer)
+    }
+
     fn advance(
         &self,
         system: &HybridSystem<S>,

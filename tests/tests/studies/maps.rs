@@ -62,7 +62,9 @@ fn a_cell_is_its_scene() {
     let sine = ("figure08.toml", ["map.x.cells=7", "map.y.cells=6", "run={free_time_ratio=60.0}"]);
     let x = "map={x={key=\"ground.0.scale\",from=1.0,to=6.0,cells=24}}";
     let record = ("near_fault.toml", [x, "block.size_m=4.0", "run={free_time_ratio=60.0}"]);
-    for (scene, changes) in [sine, record] {
+    let real = "device=[{kind=\"clutched-pair\",mass_ratio=0.5,engagement=\"rigid\",actuation={engagement_delay_s=0.02,release_delay_s=0.01}}]";
+    let real = ("near_fault.toml", [x, real, "run={free_time_ratio=60.0}"]);
+    for (scene, changes) in [sine, record, real] {
         let mut overturned = Vec::new();
         for at in ["map.overturned_at=\"no-return\"", "map.overturned_at=\"slenderness\""] {
             let fast = run(&grid(scene, &[&changes[..], &[at]].concat()));

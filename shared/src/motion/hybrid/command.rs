@@ -235,8 +235,8 @@ impl<S: Real> HybridSystem<S> {
         state.fresh[1..].fill(false);
     }
 
-    /// Time until something happens by the clock alone, s.
-    fn next_due(&self, state: &HybridState<S>) -> Option<S> {
+    /// Time until something happens by the clock alone, s; none if nothing is due.
+    pub fn next_due(&self, state: &HybridState<S>) -> Option<S> {
         if !self.transmission.traits().commanded {
             return None;
         }

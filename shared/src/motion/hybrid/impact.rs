@@ -96,8 +96,8 @@ impl<S: Real> HybridSystem<S> {
         }
     }
 
-    /// The ground may have jumped between two ground segments.
-    pub(super) fn ground_at_start(&self, state: &mut HybridState<S>, ground: [S; 2], observer: &mut dyn Observer<S>) {
+    /// A ground segment begins, with the acceleration `ground` (in g): it may have jumped between two of them.
+    pub fn ground_at_start(&self, state: &mut HybridState<S>, ground: [S; 2], observer: &mut dyn Observer<S>) {
         let jump = (ground[0] - state.ground[0]).abs().larger((ground[1] - state.ground[1]).abs());
         state.ground = ground;
         let size = ground[0].abs().larger(ground[1].abs()).larger(S::EPSILON);

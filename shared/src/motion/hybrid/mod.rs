@@ -20,6 +20,7 @@ pub mod series;
 mod standing;
 pub mod steps;
 mod threshold;
+mod uneventful;
 
 pub use command::Actuator;
 
@@ -80,6 +81,19 @@ pub struct HybridState<S> {
     jolted: bool,
 }
 
+/// Progress through a ground segment.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Progress<S> {
+    /// Local time in the segment, s.
+    pub time: S,
+    /// Fixed steps so far.
+    tick: u32,
+    /// Steps so far.
+    events: u32,
+    /// Steps without a gap in time before this one.
+    at_once: u32,
+}
+
 /// Event that ends a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum End {
@@ -124,63 +138,79 @@ impl<S: Real> HybridSystem<S> {
         limits: &Limits<S>,
         observer: &mut dyn Observer<S>,
     ) -> Result<(), Stopped> {
-        let mut time = S::ZERO;
-        let mut tick = 0_u32;
-        let mut events = 0_u32;
-        let mut at_once = 0_u32;
-        // 1/p.
-        let unit = self.slenderness / self.speed;
+        let mut progress = Progress::default();
         self.ground_at_start(state, shaking.at(S::ZERO), observer);
-        while time < duration && state.motion.phase != Phase::Overturned {
-            if events >= limits.events {
-                return Err(too_many(state, time));
-            }
-            events += 1;
-            if state.motion.phase == Phase::Rest {
-                let stop = self.stands_until(state, time, duration);
-                let uplift = self.uplift_time(state, shaking, time, stop);
-                let until = uplift.map_or(stop, |(at, _)| at);
-                self.stand(state, &|t| shaking.at(time + t), time, until, observer);
-                time = until;
-                if let Some((_, crossing)) = uplift {
-                    self.uplift(state, shaking.at(time), time, crossing, observer);
-                } else if time < duration {
-                    self.carry_out_at_rest(state, time, observer);
-                    continue;
-                } else {
-                    break;
-                }
-            }
-            let outward = state.motion.side == state.motion.direction
-                && state.motion.side.times(state.motion.rotation) >= limits.overturned;
-            if outward {
-                state.motion.phase = Phase::Overturned;
-                observer.event(Event::Overturned, time, &state.motion);
-                break;
-            }
-            let step = integrator.step().map_or(duration, |step| next_stop(&mut tick, step, time, duration));
-            let mut stop = self.until_due(state, time, step);
-            let before = time;
-            let grazes = at_once >= MOST_AT_ONCE;
-            if grazes {
-                stop = stop.smaller(time + (S::of(GRAZE) * unit).larger(S::of(4.0) * S::EPSILON * time));
-            }
-            if stop <= time {
-            } else if state.held && !self.has_springs(state) {
-                time = self.hold(state, shaking, time, stop, observer);
-            } else if state.held {
-                self.hold_springs(integrator, state, shaking, (&mut time, stop), (limits, !grazes), observer);
-            } else {
-                self.follow(integrator, state, shaking, (&mut time, stop), (limits, !grazes), observer);
-            }
-            at_once = if time - before > S::of(AT_ONCE) * unit { 0 } else { at_once + 1 };
-            self.ramps(state);
-            self.command(state, time, observer);
-            if !(state.motion.rotation.is_finite() && state.motion.velocity.is_finite()) {
-                return Err(Stopped::NotFinite { time: time.to_f64() });
-            }
+        while progress.time < duration && state.motion.phase != Phase::Overturned {
+            self.step(integrator, state, (shaking, duration), &mut progress, limits, observer)?;
         }
         state.ground = shaking.at(duration);
+        Ok(())
+    }
+
+    /// One step of [`HybridSystem::advance`]: at most up to the next event, or while the block stands, up to its uplift.
+    ///
+    /// # Errors
+    /// As of [`HybridSystem::advance`].
+    pub fn step<T: ModeIntegrator<S>>(
+        &self,
+        integrator: &T,
+        state: &mut HybridState<S>,
+        (shaking, duration): (Shaking<'_, S>, S),
+        progress: &mut Progress<S>,
+        limits: &Limits<S>,
+        observer: &mut dyn Observer<S>,
+    ) -> Result<(), Stopped> {
+        let Progress { time, tick, events, at_once } = progress;
+        // 1/p.
+        let unit = self.slenderness / self.speed;
+        if *events >= limits.events {
+            return Err(too_many(state, *time));
+        }
+        *events += 1;
+        if state.motion.phase == Phase::Rest {
+            let stop = self.stands_until(state, *time, duration);
+            let uplift = self.uplift_time(state, shaking, *time, stop);
+            let until = uplift.map_or(stop, |(at, _)| at);
+            let from = *time;
+            self.stand(state, &|t| shaking.at(from + t), from, until, observer);
+            *time = until;
+            if let Some((_, crossing)) = uplift {
+                self.uplift(state, shaking.at(until), until, crossing, observer);
+            } else {
+                if until < duration {
+                    self.carry_out_at_rest(state, until, observer);
+                }
+                return Ok(());
+            }
+        }
+        let outward =
+            state.motion.side == state.motion.direction && state.motion.side.times(state.motion.rotation) >= limits.overturned;
+        if outward {
+            state.motion.phase = Phase::Overturned;
+            observer.event(Event::Overturned, *time, &state.motion);
+            return Ok(());
+        }
+        let step = integrator.step().map_or(duration, |step| next_stop(tick, step, *time, duration));
+        let mut stop = self.until_due(state, *time, step);
+        let before = *time;
+        let grazes = *at_once >= MOST_AT_ONCE;
+        if grazes {
+            stop = stop.smaller(before + (S::of(GRAZE) * unit).larger(S::of(4.0) * S::EPSILON * before));
+        }
+        if stop <= before {
+        } else if state.held && !self.has_springs(state) {
+            *time = self.hold(state, shaking, before, stop, observer);
+        } else if state.held {
+            self.hold_springs(integrator, state, shaking, (time, stop), (limits, !grazes), observer);
+        } else {
+            self.follow(integrator, state, shaking, (time, stop), (limits, !grazes), observer);
+        }
+        *at_once = if *time - before > S::of(AT_ONCE) * unit { 0 } else { *at_once + 1 };
+        self.ramps(state);
+        self.command(state, *time, observer);
+        if !(state.motion.rotation.is_finite() && state.motion.velocity.is_finite()) {
+            return Err(Stopped::NotFinite { time: time.to_f64() });
+        }
         Ok(())
     }
 
@@ -198,8 +228,7 @@ impl<S: Real> HybridSystem<S> {
         // Without springs a held block needs no step.
         let traits = self.transmission.traits();
         let held = traits.springs && state.held;
-        let watched = if state.jolted { motion.terminal_acceleration_sign.opposite() } else { motion.terminal_acceleration_sign };
-        let mut law = self.transmission.law(motion.direction, watched, &state.device);
+        let mut law = self.watching_law(state);
         if held {
             self.hold_law(state, &mut law);
         }

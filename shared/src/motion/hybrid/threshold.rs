@@ -43,6 +43,11 @@ impl<S: Real> Threshold<S> {
         self.at(ground) > self.rounding(ground)
     }
 
+    /// |ü_g|/g below which it stays under zero while 1 + v̈_g/g is at least `lightest` (above 0).
+    pub(super) fn least_horizontal(&self, lightest: S) -> S {
+        (-(self.vertical * lightest + self.constant) / self.horizontal.abs()).larger(S::ZERO)
+    }
+
     /// The moment that holds where this one moves.
     pub(super) fn opposite(&self) -> Threshold<S> {
         let Threshold { horizontal, vertical, constant, growth } = *self;

@@ -75,6 +75,17 @@ impl<S: Real> Checks<S> {
         Checks { first: SUPPORT, ..self }
     }
 
+    /// Largest force of both flywheels together on their support so far, as a snapshot has it; |F|/(λmR), 1/s². None where the block never
+    /// rocked with one engaged.
+    pub fn largest_support_force(&self) -> Option<S> {
+        self.report.support.map(|largest| largest.value / self.toe.over_weight(S::ONE))
+    }
+
+    /// Travel of the terminals (m) at θ (rad) on `side`, from where they are at rest.
+    pub fn travel(&self, side: Sign, rotation: S) -> S {
+        self.toe.travel(side, rotation)
+    }
+
     /// As [`Checks::report`]; of a block that has overturned, what was found before its fall.
     pub fn before_fall(&self) -> Report<S> {
         self.up_to_slenderness.filter(|_| self.overturned).unwrap_or(self.report)

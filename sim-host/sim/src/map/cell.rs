@@ -2,7 +2,8 @@
 
 use std::fmt::Display;
 
-use sprag_ensemble::machine::{Registers, run, shake};
+use sprag_ensemble::hybrid::HybridBlock;
+use sprag_ensemble::machine::{Registers, run, shake, shake_hybrid};
 use sprag_ensemble::pulsed::{PulseResult, PulsedBlock};
 use sprag_ensemble::shaken::Shaken;
 
@@ -66,7 +67,7 @@ pub fn results_by<E: Display>(
 ) -> Result<Vec<PulseResult>, CellError> {
     let mut results = vec![PulseResult::NO_ROCKING; places.len()];
     let (mut pulsed, mut pulsed_places) = (Vec::with_capacity(places.len()), Vec::with_capacity(places.len()));
-    let (mut shaken, mut shaken_places) = (Vec::new(), Vec::new());
+    let (mut shaken, mut shaken_places, mut equipped) = (Vec::new(), Vec::new(), Vec::new());
     for (index, &values) in places.iter().enumerate() {
         let scene = match grid.subject(device, values)? {
             Subject::Pulsed(block) => {
@@ -76,12 +77,13 @@ pub fn results_by<E: Display>(
             }
             Subject::Scene(scene) => scene,
         };
-        match grid.shaken(&scene, device) {
-            Some(block) => {
-                shaken.push(block);
-                shaken_places.push((index, scene));
-            }
-            None => results[index] = simulated(&scene.only(device), || grid.place(values), interrupt)?,
+        if let Some(block) = grid.shaken(&scene, device) {
+            shaken.push(block);
+            shaken_places.push((index, scene));
+        } else if let Some(block) = grid.equipped(&scene, device) {
+            equipped.push((block, index, scene));
+        } else {
+            results[index] = simulated(&scene.only(device), || grid.place(values), interrupt)?;
         }
     }
     let name = &grid.scene.devices[device].name;
@@ -99,6 +101,14 @@ pub fn results_by<E: Display>(
         results[index] = match found.and_then(after) {
             Some(found) => PulseResult::of_shaken(&found, &only.block),
             None => simulated(&only, || grid.place(places[index]), interrupt)?,
+        };
+    }
+    let blocks: Vec<HybridBlock<'_>> = equipped.iter().map(|(block, ..)| block.in_lane()).collect();
+    for ((block, found), (_, index, scene)) in blocks.iter().zip(shake_hybrid(&blocks, Registers::Widest)).zip(&equipped) {
+        let only = scene.only(device);
+        results[*index] = match found.and_then(|found| found.after(block, only.free_time_s()).ok()) {
+            Some(found) => PulseResult::of_shaken(&found.into(), &only.block),
+            None => simulated(&only, || grid.place(places[*index]), interrupt)?,
         };
     }
     Ok(results)

@@ -1,7 +1,9 @@
 //! The cells of a map: which blocks they are.
 
+use sprag_ensemble::hybrid::HybridBlock;
 use sprag_ensemble::pulsed::PulsedBlock;
 use sprag_ensemble::shaken::{Samples, ShakenBlock};
+use sprag_shared::motion::hybrid::HybridSystem;
 use sprag_shared::structure::block::Block;
 use sprag_shared::structure::mount::Mount;
 use toml::Table;
@@ -23,8 +25,8 @@ pub struct Grid {
     text: Table,
     /// For every device, how a cell's block follows from the scene's own; none where cells are read anew as scenes.
     direct: Vec<Option<Direct>>,
-    /// The record that shakes every cell, if no axis changes more of it than its scale.
-    record: Option<Samples>,
+    /// The record that shakes every cell, and the one that moves the ground vertically, if no axis changes more of them than their scales.
+    record: Option<(Samples, Option<Samples>)>,
 }
 
 /// What the axes are set to: x, and y where there is one.
@@ -37,6 +39,24 @@ pub(super) enum Subject {
     Pulsed(PulsedBlock),
     /// Anything else.
     Scene(Box<Scene>),
+}
+
+/// A block with a real device under the record.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Equipped<'a> {
+    system: HybridSystem<f64>,
+    overturned_at_slenderness: bool,
+    samples: &'a Samples,
+    factor: f64,
+    vertical: Option<(&'a Samples, f64)>,
+}
+
+impl Equipped<'_> {
+    /// As lanes take it.
+    pub(super) fn in_lane(&self) -> HybridBlock<'_> {
+        let Equipped { ref system, overturned_at_slenderness, samples, factor, vertical } = *self;
+        HybridBlock { system, overturned_at_slenderness, samples, factor, vertical, checks: None }
+    }
 }
 
 /// A block under a pulse and the quantities of it that the axes set.
@@ -87,9 +107,11 @@ impl Grid {
         }
         grid.direct = (0..grid.scene.devices.len()).map(|device| grid.direct(device)).collect();
         let mut keys = std::iter::once(&grid.map.x).chain(&grid.map.y).map(|axis| axis.key.as_str());
-        if keys.all(|key| !key.starts_with("ground.") || key == "ground.0.scale") {
+        let fixed = |key: &str| !key.starts_with("ground.") && !key.starts_with("vertical.");
+        if keys.all(|key| fixed(key) || ["ground.0.scale", "vertical.0.scale"].contains(&key)) {
             // What cannot be read is reported by the first cell.
-            grid.record = grid.scene.only_record().ok().flatten().map(|record| Samples::from(&record));
+            let records = grid.scene.only_records().ok().flatten();
+            grid.record = records.map(|(level, up)| (Samples::from(&level), up.map(|up| Samples::from(&up))));
         }
         Ok(grid)
     }
@@ -114,7 +136,7 @@ impl Grid {
         match (&self.direct[device], pulsed(&self.scene, device), &self.record) {
             (Some(_), ..) => 2048,
             (None, Some(_), _) => 256,
-            (None, None, Some(_)) if self.scene.plain_block(device).is_some() => 64,
+            (None, None, Some(_)) if self.scene.plain_block(device).is_some() || self.scene.hybrid_system(device).is_some() => 64,
             (None, None, _) => 1,
         }
     }
@@ -147,8 +169,20 @@ impl Grid {
         Some(ShakenBlock {
             plain: scene.plain_block(device)?,
             frequency_parameter: scene.block.frequency_parameter(),
-            samples: self.record.as_ref()?,
+            samples: &self.record.as_ref()?.0,
             factor: scene.file.ground[0].scale,
+        })
+    }
+
+    /// As [`Grid::shaken`], of a block whose real device lanes know.
+    pub(super) fn equipped(&self, scene: &Scene, device: usize) -> Option<Equipped<'_>> {
+        let (samples, up) = self.record.as_ref()?;
+        Some(Equipped {
+            system: scene.hybrid_system(device)?,
+            overturned_at_slenderness: scene.overturned_at_slenderness(),
+            samples,
+            factor: scene.file.ground[0].scale,
+            vertical: up.as_ref().map(|up| (up, scene.file.vertical[0].scale)),
         })
     }
 

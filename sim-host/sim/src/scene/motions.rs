@@ -57,14 +57,21 @@ impl Scene {
         Ok(records)
     }
 
-    /// The only record that shakes the block, before it is scaled; none where anything else does.
+    /// The only record that shakes the block, and the only one that lifts it at the same time, if any does, before they are scaled; none where
+    /// anything else moves the ground.
     ///
     /// # Errors
     /// As of [`Scene::ground_motions`].
-    pub fn only_record(&self) -> Result<Option<Record>, GroundError> {
+    pub fn only_records(&self) -> Result<Option<(Record, Option<Record>)>, GroundError> {
+        let read = |table: &GroundTable, name: &str, direction| {
+            table.record(self, direction, &|key| self.key(&format!("{name}.0.{key}")))
+        };
+        let is_record = |table: &GroundTable| table.motion == Motion::Record;
         match (&self.file.ground[..], &self.file.vertical[..]) {
-            ([table], []) if table.motion == Motion::Record => {
-                table.record(self, Direction::Horizontal, &|key| self.key(&format!("ground.0.{key}"))).map(Some)
+            ([level], []) if is_record(level) => Ok(Some((read(level, "ground", Direction::Horizontal)?, None))),
+            ([level], [up]) if is_record(level) && is_record(up) && level.start_s == up.start_s => {
+                let level = read(level, "ground", Direction::Horizontal)?;
+                Ok(Some((level, Some(read(up, "vertical", Direction::Vertical)?))))
             }
             _ => Ok(None),
         }

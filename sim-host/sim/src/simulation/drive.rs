@@ -79,13 +79,9 @@ impl<'a> Course<'a> {
         1.0 + self.vertical.map_or(0.0, |vertical| vertical.lowest().0).min(0.0)
     }
 
-    /// As [`Course::angle`], for a device: a block that is `lightest` light falls under a weaker push, a guided rack is pushed too, and
-    /// friction may hold the block beyond.
+    /// As [`Course::angle`], for a device ([`HybridSystem::push_bound`]).
     pub fn machine_angle<S: Real>(&self, machine: &HybridSystem<S>, bound: f64, lightest: f64) -> S {
-        let p2 = self.block.frequency_parameter_squared();
-        let parameters = &machine.transmission.parameters;
-        let (held, pushed) = (parameters.rack_dry.to_f64() / p2, parameters.rack_push.to_f64() / p2);
-        self.angle((bound * (1.0 + pushed) + held) / lightest)
+        self.angle(machine.push_bound(bound, lightest))
     }
 
     fn limits<S: Real>(&self, bound: f64) -> Limits<S> {

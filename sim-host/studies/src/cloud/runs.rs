@@ -3,10 +3,12 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use sprag_ensemble::machine::{Registers, shake};
+use sprag_ensemble::hybrid::{HybridBlock, HybridMotion};
+use sprag_ensemble::machine::{Registers, shake, shake_hybrid};
 use sprag_ensemble::plain::PlainBlock;
 use sprag_ensemble::shaken::{Samples, Shaken, ShakenBlock};
 use sprag_report::long_run::in_order::in_order;
+use sprag_shared::motion::hybrid::HybridSystem;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::accuracy::{ErrorEstimate, Worst};
 use sprag_sim::interrupt::Interrupt;
@@ -237,8 +239,10 @@ struct Subject<'a> {
     structure: &'a StudyStructure,
     /// A scene for each device, so that the failure of one is not that of the others.
     scenes: Vec<Scene>,
-    /// Those of its devices that the lanes know.
+    /// Those of its devices that the lanes of ideal devices know.
     plain: Vec<Option<PlainBlock>>,
+    /// Those of the others that the lanes of real devices know.
+    equipped: Vec<Option<HybridSystem<f64>>>,
 }
 
 impl Subject<'_> {
@@ -246,7 +250,8 @@ impl Subject<'_> {
         let scene = &structure.scene;
         let devices = 0..scene.devices.len();
         let plain = devices.clone().map(|device| scene.plain_block(device)).collect();
-        Subject { structure, scenes: devices.map(|device| scene.only(device)).collect(), plain }
+        let equipped = devices.clone().map(|device| scene.hybrid_system(device)).collect();
+        Subject { structure, scenes: devices.map(|device| scene.only(device)).collect(), plain, equipped }
     }
 
     /// Each of `shakings` with every device; fewer once interrupted.
@@ -283,7 +288,10 @@ impl Subject<'_> {
         interrupt: &Interrupt,
     ) -> Vec<Option<Answer>> {
         let scene = &self.scenes[device];
-        let (Some(plain), false) = (self.plain[device], interrupt.is_set()) else { return vec![None; shakings.len()] };
+        if interrupt.is_set() {
+            return vec![None; shakings.len()];
+        }
+        let Some(plain) = self.plain[device] else { return self.in_lanes_of_real_devices(device, shakings, samples) };
         let block = |shaking: &Shaking<'_>| ShakenBlock {
             plain,
             frequency_parameter: scene.block.frequency_parameter(),
@@ -297,6 +305,26 @@ impl Subject<'_> {
             Some(Answer::shaken(&shaken, scene, block.samples.duration()))
         };
         blocks.iter().zip(shake(&blocks, Registers::Widest)).map(after).collect()
+    }
+
+    /// As [`Subject::in_lanes`], of a real device.
+    fn in_lanes_of_real_devices(&self, device: usize, shakings: &[Shaking<'_>], samples: &[Samples]) -> Vec<Option<Answer>> {
+        let scene = &self.scenes[device];
+        let Some(system) = &self.equipped[device] else { return vec![None; shakings.len()] };
+        let block = |shaking: &Shaking<'_>| HybridBlock {
+            system,
+            overturned_at_slenderness: scene.overturned_at_slenderness(),
+            samples: &samples[shaking.record],
+            factor: shaking.factor,
+            vertical: None,
+            checks: None,
+        };
+        let blocks: Vec<HybridBlock<'_>> = shakings.iter().map(block).collect();
+        let after = |(block, found): (&HybridBlock<'_>, Option<HybridMotion>)| {
+            let moved = found?.after(block, scene.free_time_s()).ok()?;
+            Some(Answer::shaken(&moved.into(), scene, block.samples.duration()))
+        };
+        blocks.iter().zip(shake_hybrid(&blocks, Registers::Widest)).map(after).collect()
     }
 
     /// The motion of the ground.

@@ -1,0 +1,70 @@
+//! Stretches of a motion without an event, for those who integrate many blocks side by side: they take the mode, follow its equations as far
+//! as no guard, nor θ, nor θ̇, reaches zero and nothing is due, and hand the state back.
+
+use super::{HybridState, HybridSystem};
+use crate::drivetrain::clutch_state::{Coupling, GUARDS, ModeCoefficients};
+use crate::equation::body::Body;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::motion::state::Phase;
+
+impl<S: Real> HybridSystem<S> {
+    /// Coefficients of the mode of `state`, with the command that is watched: its opposite while a jolt's sign holds.
+    pub(super) fn watching_law(&self, state: &HybridState<S>) -> ModeCoefficients<S> {
+        let sign = state.motion.terminal_acceleration_sign;
+        let watched = if state.jolted { sign.opposite() } else { sign };
+        self.transmission.law(state.motion.direction, watched, &state.device)
+    }
+
+    /// Mode in which a rocking block continues until a guard, θ or θ̇ reaches zero, or something is due ([`HybridSystem::next_due`]). None
+    /// where more is to be known: at rest, where friction holds it or has just set it free, and where springs stretch.
+    pub fn mode(&self, state: &HybridState<S>) -> Option<ModeCoefficients<S>> {
+        let plain = state.motion.phase == Phase::Rocking && !state.held && !state.free;
+        let firm = state
+            .device
+            .wheels
+            .iter()
+            .all(|wheel| matches!(wheel.coupling, Coupling::Open | Coupling::Locked | Coupling::Slipping(_)));
+        (plain && firm).then(|| self.watching_law(state))
+    }
+
+    /// The block has moved for `time` (s) without an event in its [`HybridSystem::mode`] to θ (`rotation`, rad) and θ̇ (`velocity`, rad/s), under
+    /// ground that accelerates by `ground` (in g) now. Open flywheels have coasted; those whose plates slip have the speeds `spins` (1/s).
+    pub fn has_moved(&self, state: &mut HybridState<S>, (rotation, velocity): (S, S), spins: [S; 2], time: S, ground: [S; 2]) {
+        (state.motion.rotation, state.motion.velocity) = (rotation, velocity);
+        (state.fresh, state.free, state.ground) = ([false; GUARDS], false, ground);
+        let configuration = self.body.configuration(state.motion.side.unit(), rotation);
+        let rack = self.body.to_terminal(&configuration, velocity);
+        for (wheel, spin) in state.device.wheels.iter_mut().zip(spins) {
+            match wheel.coupling {
+                Coupling::Locked => wheel.spin = rack,
+                Coupling::Slipping(_) => wheel.spin = spin,
+                _ => self.transmission.parameters.coast(wheel, time),
+            }
+        }
+        state.device.elapse(time);
+    }
+
+    /// The block has stood for `time` (s) under ground that accelerates by `ground` (in g) now; flywheels have coasted.
+    pub fn has_stood(&self, state: &mut HybridState<S>, time: S, ground: [S; 2]) {
+        self.idle(state, time);
+        state.ground = ground;
+    }
+
+    /// Smallest horizontal ground acceleration, to either side (in g), that lifts the standing block of `state` while 1 + v̈_g/g is at least
+    /// `lightest` (above 0).
+    pub fn least_uplift(&self, state: &HybridState<S>, lightest: S) -> S {
+        let least = |side| self.breakaway(state, side, side).least_horizontal(lightest);
+        least(Sign::Positive).smaller(least(Sign::Negative))
+    }
+
+    /// Bound of the push on the block, over its weight at its lightest, that decides where it can no longer return
+    /// ([`crate::structure::block::Geometry::point_of_no_return`]), under ground accelerations within ±`bound` (in g) and a 1 + v̈_g/g of at
+    /// least `lightest`: a light block falls under a weaker push, a guided rack is pushed too, and friction may hold the block beyond.
+    pub fn push_bound(&self, bound: f64, lightest: f64) -> f64 {
+        let parameters = &self.transmission.parameters;
+        let p2 = self.body.frequency_squared().to_f64();
+        let (held, pushed) = (parameters.rack_dry.to_f64() / p2, parameters.rack_push.to_f64() / p2);
+        (bound * (1.0 + pushed) + held) / lightest
+    }
+}

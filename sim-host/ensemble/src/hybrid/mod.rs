@@ -1,0 +1,208 @@
+//! Blocks with real devices (coasting flywheels, losses, delays, capacity, vertical ground motion) under records, side by side.
+//!
+//! Between events lanes follow the block's mode by its power series, eight at a time (`hybrid/stretch.rs`). On a step in which something may
+//! happen the series goes to the core (`hybrid/located.rs`): its own loop finds the first event in it, answers it, and hands the block back
+//! (`hybrid/seat.rs`). So every event is located and answered by the one source there is. Flywheels coast in closed form from one to the next.
+
+pub(crate) mod body;
+mod expansion;
+pub(crate) mod lanes;
+mod located;
+mod seat;
+mod stretch;
+mod watch;
+
+use std::f64::consts::FRAC_PI_2;
+
+use sprag_loops::{Method, hybrid};
+use sprag_shared::drivetrain::any_transmission::TransmissionKind;
+use sprag_shared::equation::any_body::AnyBody;
+use sprag_shared::ground::Harmonics;
+use sprag_shared::math::sign::Sign;
+use sprag_shared::motion::hybrid::mode_output::Shaking;
+use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
+use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
+use sprag_shared::observers::checks::Checks;
+use sprag_shared::observers::peaks::Peaks;
+use sprag_shared::structure::block::Geometry;
+
+use crate::alone::TIGHT;
+use crate::shaken::{Samples, Shaken};
+use expansion::{LEAST_TERMS, TERMS};
+use watch::Watch;
+
+/// Steps and events that the core may take between two samples, or after the record.
+const MOST_EVENTS: u32 = 2_000_000;
+
+/// A block with a device under a record, at rest at first.
+#[derive(Clone, Copy, Debug)]
+pub struct HybridBlock<'a> {
+    /// Equations, modes and guards.
+    pub system: &'a HybridSystem<f64>,
+    /// Counts as overturned when |θ| reaches α, even if the ground would bring it back.
+    pub overturned_at_slenderness: bool,
+    /// Horizontal motion.
+    pub samples: &'a Samples,
+    /// Factor on it.
+    pub factor: f64,
+    /// Vertical motion of as many samples, and the factor on it; the system has it too.
+    pub vertical: Option<(&'a Samples, f64)>,
+    /// Who looks at the force on the device's support; nobody where it is not asked for.
+    pub checks: Option<&'a Checks<f64>>,
+}
+
+/// Motion of a block with a device up to the end of its record, or until it overturned.
+#[derive(Clone, Copy, Debug)]
+pub struct HybridMotion {
+    /// State of block and device.
+    pub state: HybridState<f64>,
+    /// Largest values and times, in rad and s from the record's start.
+    pub peaks: Peaks<f64>,
+    /// Whoever looked at the force on the support ([`HybridMotion::support_force_ratio`]).
+    checks: Option<Checks<f64>>,
+    /// Steps that it took.
+    pub steps: Steps,
+}
+
+/// Numbers of the steps of a block that rocked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Steps {
+    /// Without an event, in lanes.
+    pub plain: u32,
+    /// In lanes, with an event that the core located and answered.
+    pub located: u32,
+    /// By the core alone.
+    pub by_core: u32,
+}
+
+impl HybridBlock<'_> {
+    /// Whether lanes know the equations of `system`: consistent kinematics, no guided rack, clutches that no controller commands.
+    pub fn knows(system: &HybridSystem<f64>) -> bool {
+        let consistent = match system.body {
+            AnyBody::Slender(_) => true,
+            AnyBody::Full(body) => body.consistent || system.transmission.kind == TransmissionKind::Alone,
+        };
+        consistent && system.transmission.parameters.rack_push == 0.0 && !system.actuator.controlled
+    }
+
+    /// Whether lanes may take it.
+    pub(crate) fn is_plain(&self) -> bool {
+        let HybridBlock { system, samples, factor, vertical, .. } = *self;
+        let matches = |(up, _): (&Samples, f64)| up.values.len() == samples.values.len() && up.step == samples.step;
+        HybridBlock::knows(system)
+            && (1e-9..1e3).contains(&samples.step)
+            && samples.values.len() > 1
+            && (1e-9..1e4).contains(&(samples.bounds[0] * factor.abs()))
+            && vertical.is_none_or(matches)
+            && self.lightest() > 0.1
+    }
+
+    fn geometry(&self) -> Geometry {
+        match self.system.body {
+            AnyBody::Slender(_) => Geometry::Slender,
+            AnyBody::Full(_) => Geometry::Full,
+        }
+    }
+
+    pub(crate) fn kind(&self) -> Kind {
+        Kind {
+            geometry: self.geometry(),
+            vertical: self.vertical.is_some(),
+            plates: self.system.transmission.kind == TransmissionKind::Friction,
+            forces: self.checks.is_some(),
+            terms: self.terms(),
+        }
+    }
+
+    /// Coefficients of θ that reach to the next sample.
+    fn terms(&self) -> usize {
+        /// The first term left out, over α, by the block's own rate: so far below rounding that it never shows, however strong the ground and
+        /// however the motion magnifies it.
+        const LEFT_OUT: f64 = 1e-21;
+        let step = self.samples.step * self.system.speed / self.system.slenderness;
+        let mut term = 1.0;
+        for order in 1..TERMS {
+            term *= step / order as f64;
+            if term < LEFT_OUT {
+                return order.max(LEAST_TERMS);
+            }
+        }
+        TERMS
+    }
+
+    /// Lower bound of 1 + v̈_g/g.
+    fn lightest(&self) -> f64 {
+        1.0 - self.vertical.map_or(0.0, |(up, factor)| up.bounds.first().map_or(0.0, |bound| bound * factor.abs()))
+    }
+
+    /// |θ| (rad) at which an outward motion counts as overturned, while the ground stays within ±`bound` (in g).
+    fn overturned(&self, bound: f64) -> f64 {
+        match self.geometry() {
+            _ if self.overturned_at_slenderness => self.system.slenderness,
+            // It lies on the ground.
+            Geometry::Full => FRAC_PI_2,
+            Geometry::Slender => {
+                Geometry::Slender.point_of_no_return(self.system.slenderness, self.system.push_bound(bound, self.lightest()))
+            }
+        }
+    }
+}
+
+/// What blocks in the lanes have in common.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Kind {
+    /// Slender or full.
+    pub(crate) geometry: Geometry,
+    /// The ground moves vertically too.
+    pub(crate) vertical: bool,
+    /// Clutches with plates.
+    pub(crate) plates: bool,
+    /// Forces are looked at.
+    pub(crate) forces: bool,
+    /// Coefficients of θ.
+    pub(crate) terms: usize,
+}
+
+impl HybridMotion {
+    /// `block` `free_time` (s) after its record.
+    ///
+    /// # Errors
+    /// The core's.
+    pub fn after(mut self, block: &HybridBlock<'_>, free_time: f64) -> Result<HybridMotion, Stopped> {
+        if self.state.motion.phase != Phase::Overturned {
+            let limits = Limits { overturned: block.overturned(0.0), events: MOST_EVENTS };
+            let quiet = Shaking { horizontal: &Harmonics::QUIET, vertical: None };
+            let (state, mut watch) = self.watched(block.samples.duration());
+            hybrid(Method::Adaptive(TIGHT)).advance(block.system, state, quiet, free_time, &limits, &mut watch)?;
+        }
+        Ok(self)
+    }
+
+    /// Largest |F₁ + F₂|/(mg) of both flywheels together on their support, of the block with what it carries; none where nobody looked.
+    pub fn support_force_ratio(&self) -> Option<f64> {
+        self.checks.map(|checks| checks.report.support.map_or(0.0, |largest| largest.value))
+    }
+
+    /// Farthest travel of the terminals to one side, m, the fall of a block that overturns included; none where nobody looked.
+    pub fn stroke(&self) -> Option<f64> {
+        self.checks.map(|checks| checks.travel(Sign::Positive, self.peaks.rotation).abs())
+    }
+
+    /// The state, and those who watch it from `origin` (s) on.
+    fn watched(&mut self, origin: f64) -> (&mut HybridState<f64>, Watch<'_>) {
+        let HybridMotion { state, peaks, checks, .. } = self;
+        peaks.origin = origin;
+        if let Some(checks) = checks {
+            checks.origin = origin;
+        }
+        (state, Watch { peaks, checks: checks.as_mut() })
+    }
+}
+
+impl From<HybridMotion> for Shaken {
+    /// Without its device.
+    fn from(HybridMotion { state, peaks, .. }: HybridMotion) -> Shaken {
+        let BlockState { phase, rotation, velocity, impacts, .. } = state.motion;
+        Shaken { phase, rotation, velocity, impacts, peaks }
+    }
+}

@@ -1,0 +1,29 @@
+//! Those who watch a block of the lanes while the core has it.
+
+use sprag_shared::motion::device_snapshot::DeviceOutput;
+use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
+use sprag_shared::motion::state::BlockState;
+use sprag_shared::observers::checks::Checks;
+use sprag_shared::observers::peaks::Peaks;
+
+/// Peaks, and the force on the support where that is asked for.
+pub(super) struct Watch<'a> {
+    pub(super) peaks: &'a mut Peaks<f64>,
+    pub(super) checks: Option<&'a mut Checks<f64>>,
+}
+
+impl Observer<f64> for Watch<'_> {
+    fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+        self.peaks.interval(output.motion(), interval);
+        if let Some(checks) = &mut self.checks {
+            checks.device_interval(output, interval);
+        }
+    }
+
+    fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
+        self.peaks.event(event, time, state);
+        if let Some(checks) = &mut self.checks {
+            checks.event(event, time, state);
+        }
+    }
+}
