@@ -24,3 +24,4 @@ pub mod scene;
 pub mod sensor;
 pub mod simulation;
 pub mod synthesis;
+pub mod under_records;

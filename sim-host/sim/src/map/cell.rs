@@ -2,16 +2,15 @@
 
 use std::fmt::Display;
 
-use sprag_ensemble::hybrid::HybridBlock;
-use sprag_ensemble::machine::{Registers, run, shake, shake_hybrid};
+use sprag_ensemble::machine::{Registers, run};
 use sprag_ensemble::pulsed::{PulseResult, PulsedBlock};
-use sprag_ensemble::shaken::Shaken;
 
 use super::grid::{Grid, Subject, Values};
 use crate::interrupt::Interrupt;
 use crate::scene::ground::GroundError;
 use crate::scene::{Scene, SceneError};
 use crate::simulation::{DeviceRun, RunError, simulate_for_study};
+use crate::under_records::{self, followed};
 
 /// Reasons why a block of a map could not be followed.
 #[derive(Debug, thiserror::Error)]
@@ -67,23 +66,17 @@ pub fn results_by<E: Display>(
 ) -> Result<Vec<PulseResult>, CellError> {
     let mut results = vec![PulseResult::NO_ROCKING; places.len()];
     let (mut pulsed, mut pulsed_places) = (Vec::with_capacity(places.len()), Vec::with_capacity(places.len()));
-    let (mut shaken, mut shaken_places, mut equipped) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut subjects, mut subject_places) = (Vec::new(), Vec::new());
     for (index, &values) in places.iter().enumerate() {
-        let scene = match grid.subject(device, values)? {
+        match grid.subject(device, values)? {
             Subject::Pulsed(block) => {
                 pulsed.push(block);
                 pulsed_places.push(index);
-                continue;
             }
-            Subject::Scene(scene) => scene,
-        };
-        if let Some(block) = grid.shaken(&scene, device) {
-            shaken.push(block);
-            shaken_places.push((index, scene));
-        } else if let Some(block) = grid.equipped(&scene, device) {
-            equipped.push((block, index, scene));
-        } else {
-            results[index] = simulated(&scene.only(device), || grid.place(values), interrupt)?;
+            Subject::Scene(scene) => {
+                subjects.push(under_records::Subject::new(scene.only(device)));
+                subject_places.push(index);
+            }
         }
     }
     let name = &grid.scene.devices[device].name;
@@ -94,21 +87,12 @@ pub fn results_by<E: Display>(
     for (result, index) in found.into_iter().zip(pulsed_places) {
         results[index] = result;
     }
-    for ((block, found), (index, scene)) in shaken.iter().zip(shake(&shaken, Registers::Widest)).zip(shaken_places) {
-        let only = scene.only(device);
-        let after =
-            |found: Shaken| found.after(&block.plain, &only.structure(0), block.samples.duration(), only.free_time_s()).ok();
-        results[index] = match found.and_then(after) {
-            Some(found) => PulseResult::of_shaken(&found, &only.block),
-            None => simulated(&only, || grid.place(places[index]), interrupt)?,
-        };
-    }
-    let blocks: Vec<HybridBlock<'_>> = equipped.iter().map(|(block, ..)| block.in_lane()).collect();
-    for ((block, found), (_, index, scene)) in blocks.iter().zip(shake_hybrid(&blocks, Registers::Widest)).zip(&equipped) {
-        let only = scene.only(device);
-        results[*index] = match found.and_then(|found| found.after(block, only.free_time_s()).ok()) {
-            Some(found) => PulseResult::of_shaken(&found.into(), &only.block),
-            None => simulated(&only, || grid.place(places[*index]), interrupt)?,
+    let runs = subjects.iter().filter_map(|subject| Some((subject, grid.shaking(&subject.scene)?)));
+    let mut shaken = followed(&runs.collect::<Vec<_>>()).into_iter();
+    for (subject, index) in subjects.iter().zip(subject_places) {
+        results[index] = match shaken.next().flatten() {
+            Some(found) => PulseResult::of_shaken(&found, &subject.scene.block),
+            None => simulated(&subject.scene, || grid.place(places[index]), interrupt)?,
         };
     }
     Ok(results)

@@ -1,9 +1,7 @@
 //! The cells of a map: which blocks they are.
 
-use sprag_ensemble::hybrid::HybridBlock;
 use sprag_ensemble::pulsed::PulsedBlock;
-use sprag_ensemble::shaken::{Samples, ShakenBlock};
-use sprag_shared::motion::hybrid::HybridSystem;
+use sprag_ensemble::shaken::Samples;
 use sprag_shared::structure::block::Block;
 use sprag_shared::structure::mount::Mount;
 use toml::Table;
@@ -14,6 +12,7 @@ use crate::scene::ground::Motion;
 use crate::scene::map::{AxisTable, MapTable};
 use crate::scene::schema::RestitutionValue;
 use crate::scene::{Scene, SceneError};
+use crate::under_records::{self, Shaking};
 
 /// A scene with the axes of its map.
 #[derive(Clone, Debug)]
@@ -39,24 +38,6 @@ pub(super) enum Subject {
     Pulsed(PulsedBlock),
     /// Anything else.
     Scene(Box<Scene>),
-}
-
-/// A block with a real device under the record.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Equipped<'a> {
-    system: HybridSystem<f64>,
-    overturned_at_slenderness: bool,
-    samples: &'a Samples,
-    factor: f64,
-    vertical: Option<(&'a Samples, f64)>,
-}
-
-impl Equipped<'_> {
-    /// As lanes take it.
-    pub(super) fn in_lane(&self) -> HybridBlock<'_> {
-        let Equipped { ref system, overturned_at_slenderness, samples, factor, vertical } = *self;
-        HybridBlock { system, overturned_at_slenderness, samples, factor, vertical, checks: None }
-    }
 }
 
 /// A block under a pulse and the quantities of it that the axes set.
@@ -136,7 +117,7 @@ impl Grid {
         match (&self.direct[device], pulsed(&self.scene, device), &self.record) {
             (Some(_), ..) => 2048,
             (None, Some(_), _) => 256,
-            (None, None, Some(_)) if self.scene.plain_block(device).is_some() || self.scene.hybrid_system(device).is_some() => 64,
+            (None, None, Some(_)) if under_records::Subject::new(self.scene.only(device)).is_known() => 64,
             (None, None, _) => 1,
         }
     }
@@ -164,26 +145,11 @@ impl Grid {
         Ok(pulsed(&scene, device).map_or_else(|| Subject::Scene(Box::new(scene)), Subject::Pulsed))
     }
 
-    /// The block of `scene`, at a place of the map, with device `device` under the record that shakes all of it, if there is one.
-    pub(super) fn shaken(&self, scene: &Scene, device: usize) -> Option<ShakenBlock<'_>> {
-        Some(ShakenBlock {
-            plain: scene.plain_block(device)?,
-            frequency_parameter: scene.block.frequency_parameter(),
-            samples: &self.record.as_ref()?.0,
-            factor: scene.file.ground[0].scale,
-        })
-    }
-
-    /// As [`Grid::shaken`], of a block whose real device lanes know.
-    pub(super) fn equipped(&self, scene: &Scene, device: usize) -> Option<Equipped<'_>> {
+    /// How the record that shakes all of the map shakes `scene`, at a place of it; none if there is no such record.
+    pub(super) fn shaking(&self, scene: &Scene) -> Option<Shaking<'_>> {
         let (samples, up) = self.record.as_ref()?;
-        Some(Equipped {
-            system: scene.hybrid_system(device)?,
-            overturned_at_slenderness: scene.overturned_at_slenderness(),
-            samples,
-            factor: scene.file.ground[0].scale,
-            vertical: up.as_ref().map(|up| (up, scene.file.vertical[0].scale)),
-        })
+        let vertical = up.as_ref().map(|up| (up, scene.file.vertical[0].scale));
+        Some(Shaking { level: (samples, scene.file.ground[0].scale), vertical })
     }
 
     /// The values of a cell.

@@ -3,18 +3,15 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use sprag_ensemble::hybrid::{HybridBlock, HybridMotion};
-use sprag_ensemble::machine::{Registers, shake, shake_hybrid};
-use sprag_ensemble::plain::PlainBlock;
-use sprag_ensemble::shaken::{Samples, Shaken, ShakenBlock};
+use sprag_ensemble::shaken::{Samples, Shaken};
 use sprag_report::long_run::in_order::in_order;
-use sprag_shared::motion::hybrid::HybridSystem;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::accuracy::{ErrorEstimate, Worst};
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
 use sprag_sim::scene::motions::GroundMotions;
 use sprag_sim::simulation::{RunError, simulate_for_study};
+use sprag_sim::under_records::{self, Subject, followed};
 
 use super::measure::Measure;
 use super::records::StudyRecord;
@@ -98,7 +95,7 @@ pub struct RunList<'a> {
     pub records: &'a [StudyRecord],
     shakings: Vec<Shaking<'a>>,
     left_out: Vec<String>,
-    subjects: Vec<Subject<'a>>,
+    targets: Vec<Target<'a>>,
     samples: Vec<Samples>,
 }
 
@@ -114,9 +111,9 @@ impl<'a> RunList<'a> {
                 }
             }
         }
-        let subjects = study.structures.iter().map(Subject::new).collect();
+        let targets = study.structures.iter().map(Target::new).collect();
         let samples = records.par_iter().map(|record| Samples::from(&record.motion.record)).collect();
-        RunList { study, records, shakings, left_out, subjects, samples }
+        RunList { study, records, shakings, left_out, targets, samples }
     }
 
     /// Runs of the same shaking, one a device: neighbouring rows.
@@ -144,7 +141,7 @@ impl<'a> RunList<'a> {
     fn runs(&self, rows: Range<usize>, interrupt: &Interrupt, done: &(dyn Fn() + Sync)) -> Option<Vec<Run>> {
         let shakings = &self.shakings[rows.start / self.together()..rows.end / self.together()];
         let of_one = shakings.chunk_by(|a, b| a.structure == b.structure);
-        let runs = of_one.flat_map(|part| self.subjects[part[0].structure].runs(part, &self.samples, interrupt, done)).collect();
+        let runs = of_one.flat_map(|part| self.targets[part[0].structure].runs(part, &self.samples, interrupt, done)).collect();
         (!interrupt.is_set()).then_some(runs)
     }
 
@@ -235,31 +232,23 @@ pub(crate) fn scales(
 }
 
 /// A structure, ready to be shaken.
-struct Subject<'a> {
+struct Target<'a> {
     structure: &'a StudyStructure,
-    /// A scene for each device, so that the failure of one is not that of the others.
-    scenes: Vec<Scene>,
-    /// Those of its devices that the lanes of ideal devices know.
-    plain: Vec<Option<PlainBlock>>,
-    /// Those of the others that the lanes of real devices know.
-    equipped: Vec<Option<HybridSystem<f64>>>,
+    /// One a device, so that the failure of one is not that of the others.
+    subjects: Vec<Subject>,
 }
 
-impl Subject<'_> {
-    fn new(structure: &StudyStructure) -> Subject<'_> {
+impl Target<'_> {
+    fn new(structure: &StudyStructure) -> Target<'_> {
         let scene = &structure.scene;
-        let devices = 0..scene.devices.len();
-        let plain = devices.clone().map(|device| scene.plain_block(device)).collect();
-        let equipped = devices.clone().map(|device| scene.hybrid_system(device)).collect();
-        Subject { structure, scenes: devices.map(|device| scene.only(device)).collect(), plain, equipped }
+        Target { structure, subjects: (0..scene.devices.len()).map(|device| Subject::new(scene.only(device))).collect() }
     }
 
     /// Each of `shakings` with every device; fewer once interrupted.
     fn runs(&self, shakings: &[Shaking<'_>], samples: &[Samples], interrupt: &Interrupt, done: &(dyn Fn() + Sync)) -> Vec<Run> {
-        let devices = 0..self.scenes.len();
-        let answers: Vec<Vec<Option<Answer>>> =
-            devices.map(|device| self.in_lanes(device, shakings, samples, interrupt)).collect();
-        let mut runs = Vec::with_capacity(shakings.len() * self.scenes.len());
+        let in_lanes = |subject| self.in_lanes(subject, shakings, samples, interrupt);
+        let answers: Vec<Vec<Option<Answer>>> = self.subjects.iter().map(in_lanes).collect();
+        let mut runs = Vec::with_capacity(shakings.len() * self.subjects.len());
         for (index, shaking) in shakings.iter().enumerate() {
             let Shaking { structure, record, factor, level, motion } = *shaking;
             let measures = Measure::ALL.map(|measure| measure.of(&motion.motion, factor, self.structure.scales));
@@ -279,52 +268,23 @@ impl Subject<'_> {
         runs
     }
 
-    /// What becomes of the block under each of `shakings` with device number `device`, where the lanes can know.
+    /// What becomes of `subject` under each of `shakings`, where the lanes can know; nothing once interrupted.
     fn in_lanes(
         &self,
-        device: usize,
+        subject: &Subject,
         shakings: &[Shaking<'_>],
         samples: &[Samples],
         interrupt: &Interrupt,
     ) -> Vec<Option<Answer>> {
-        let scene = &self.scenes[device];
         if interrupt.is_set() {
             return vec![None; shakings.len()];
         }
-        let Some(plain) = self.plain[device] else { return self.in_lanes_of_real_devices(device, shakings, samples) };
-        let block = |shaking: &Shaking<'_>| ShakenBlock {
-            plain,
-            frequency_parameter: scene.block.frequency_parameter(),
-            samples: &samples[shaking.record],
-            factor: shaking.factor,
-        };
-        let blocks: Vec<ShakenBlock<'_>> = shakings.iter().map(block).collect();
-        let structure = scene.structure(0);
-        let after = |(block, found): (&ShakenBlock<'_>, Option<Shaken>)| {
-            let shaken = found?.after(&plain, &structure, block.samples.duration(), scene.free_time_s()).ok()?;
-            Some(Answer::shaken(&shaken, scene, block.samples.duration()))
-        };
-        blocks.iter().zip(shake(&blocks, Registers::Widest)).map(after).collect()
-    }
-
-    /// As [`Subject::in_lanes`], of a real device.
-    fn in_lanes_of_real_devices(&self, device: usize, shakings: &[Shaking<'_>], samples: &[Samples]) -> Vec<Option<Answer>> {
-        let scene = &self.scenes[device];
-        let Some(system) = &self.equipped[device] else { return vec![None; shakings.len()] };
-        let block = |shaking: &Shaking<'_>| HybridBlock {
-            system,
-            overturned_at_slenderness: scene.overturned_at_slenderness(),
-            samples: &samples[shaking.record],
-            factor: shaking.factor,
-            vertical: None,
-            checks: None,
-        };
-        let blocks: Vec<HybridBlock<'_>> = shakings.iter().map(block).collect();
-        let after = |(block, found): (&HybridBlock<'_>, Option<HybridMotion>)| {
-            let moved = found?.after(block, scene.free_time_s()).ok()?;
-            Some(Answer::shaken(&moved.into(), scene, block.samples.duration()))
-        };
-        blocks.iter().zip(shake_hybrid(&blocks, Registers::Widest)).map(after).collect()
+        let level = |shaking: &Shaking<'_>| (&samples[shaking.record], shaking.factor);
+        let run = |shaking| (subject, under_records::Shaking { level: level(shaking), vertical: None });
+        let found = followed(&shakings.iter().map(run).collect::<Vec<_>>());
+        let answer =
+            |(shaking, found): (_, Option<Shaken>)| Some(Answer::shaken(&found?, &subject.scene, level(shaking).0.duration()));
+        shakings.iter().zip(found).map(answer).collect()
     }
 
     /// The motion of the ground.
@@ -334,7 +294,7 @@ impl Subject<'_> {
 
     /// The run of one device by itself.
     fn alone(&self, device: usize, ground: &GroundMotions, interrupt: &Interrupt) -> Result<Answer, String> {
-        let runs = simulate_for_study(&self.scenes[device], ground, interrupt).map_err(|error| error.to_string())?;
+        let runs = simulate_for_study(&self.subjects[device].scene, ground, interrupt).map_err(|error| error.to_string())?;
         runs.first().map(Answer::of).ok_or_else(|| "no device".to_owned())
     }
 }

@@ -2,10 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use sprag_ensemble::shaken::Samples;
 use sprag_sim::record::RecordSummary;
 use sprag_sim::scene::Scene;
 use sprag_sim::scene::ground::{GroundError, Motion};
 use sprag_sim::scene::motions::GroundMotions;
+use sprag_sim::under_records::Shaking;
 
 use super::variants::VERTICAL_RATIO;
 
@@ -22,6 +24,9 @@ pub struct StudyMotion {
     pub with_vertical: Result<GroundMotions, String>,
     /// The records that were read for both.
     pub records: Vec<RecordSummary>,
+    /// The same for lanes, where the motion is one record.
+    samples: Option<(Samples, f64)>,
+    vertical_samples: Option<(Samples, f64)>,
 }
 
 /// A record in the place of the scene's.
@@ -58,7 +63,14 @@ impl StudyMotion {
 
     fn of(scene: &Scene, name: String, own: bool, vertical: Option<&Path>) -> Result<StudyMotion, GroundError> {
         let ground = scene.ground_motions()?;
-        let with_vertical = match with_vertical(scene, vertical).ground_motions() {
+        let both = with_vertical(scene, vertical);
+        let mut samples = None;
+        let mut vertical_samples = None;
+        if let Some((level, up)) = both.only_records().ok().flatten() {
+            samples = scene.file.vertical.is_empty().then(|| (Samples::from(&level), scene.file.ground[0].scale));
+            vertical_samples = up.map(|up| (Samples::from(&up), both.file.vertical[0].scale));
+        }
+        let with_vertical = match both.ground_motions() {
             Ok(ground) => Ok(ground),
             Err(error @ GroundError::Record { .. }) => return Err(error),
             Err(GroundError::Scene(error)) => Err(error.to_string()),
@@ -67,7 +79,16 @@ impl StudyMotion {
         if let (Some(_), Ok(both)) = (vertical, &with_vertical) {
             records.clone_from(&both.records);
         }
-        Ok(StudyMotion { own, name, ground, with_vertical, records })
+        Ok(StudyMotion { own, name, ground, with_vertical, records, samples, vertical_samples })
+    }
+
+    /// As lanes take it, with the vertical motion or without; none where they do not.
+    pub fn shaking(&self, vertical: bool) -> Option<Shaking<'_>> {
+        fn of((samples, factor): &(Samples, f64)) -> (&Samples, f64) {
+            (samples, *factor)
+        }
+        let up = if vertical { Some(of(self.vertical_samples.as_ref()?)) } else { None };
+        Some(Shaking { level: of(self.samples.as_ref()?), vertical: up })
     }
 }
 

@@ -1,0 +1,84 @@
+//! Many blocks under records at once: side by side where lanes know the device; the rest is left to [`crate::simulation`].
+
+use sprag_ensemble::hybrid::HybridBlock;
+use sprag_ensemble::machine::{Registers, shake, shake_hybrid};
+use sprag_ensemble::plain::PlainBlock;
+use sprag_ensemble::shaken::{Samples, Shaken, ShakenBlock};
+use sprag_shared::motion::hybrid::HybridSystem;
+
+use crate::scene::Scene;
+
+/// A scene of one device, and which lanes know it.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// The scene.
+    pub scene: Scene,
+    known: Option<Known>,
+}
+
+/// The block of a scene as lanes take it.
+#[derive(Clone, Debug)]
+enum Known {
+    /// With an ideal device.
+    Ideal(PlainBlock),
+    /// With a real one.
+    Real(Box<HybridSystem<f64>>),
+}
+
+/// A record, and the vertical one of as many samples beside it, each with the factor on it.
+#[derive(Clone, Copy, Debug)]
+pub struct Shaking<'a> {
+    /// Horizontal motion.
+    pub level: (&'a Samples, f64),
+    /// Vertical motion; the scene has one too.
+    pub vertical: Option<(&'a Samples, f64)>,
+}
+
+impl Subject {
+    /// `scene`, of one device.
+    pub fn new(scene: Scene) -> Subject {
+        let real = || scene.hybrid_system(0).map(|system| Known::Real(Box::new(system)));
+        let known = scene.plain_block(0).map(Known::Ideal).or_else(real);
+        Subject { scene, known }
+    }
+
+    /// Whether lanes know it.
+    pub fn is_known(&self) -> bool {
+        self.known.is_some()
+    }
+}
+
+/// What becomes of each subject under its record and in the free time of its scene, in their order; `None` for those that the core is to follow.
+/// No result depends on the others.
+pub fn followed(runs: &[(&Subject, Shaking<'_>)]) -> Vec<Option<Shaken>> {
+    let (mut ideal, mut real) = (Vec::new(), Vec::new());
+    for (index, (subject, Shaking { level: (samples, factor), vertical })) in runs.iter().enumerate() {
+        let (samples, factor, vertical) = (*samples, *factor, *vertical);
+        let frequency_parameter = subject.scene.block.frequency_parameter();
+        match &subject.known {
+            Some(Known::Ideal(plain)) if vertical.is_none() => {
+                ideal.push((index, ShakenBlock { plain: *plain, frequency_parameter, samples, factor }));
+            }
+            Some(Known::Real(system)) => {
+                let overturned_at_slenderness = subject.scene.overturned_at_slenderness();
+                real.push((index, HybridBlock { system, overturned_at_slenderness, samples, factor, vertical, checks: None }));
+            }
+            _ => {}
+        }
+    }
+    let mut found = vec![None; runs.len()];
+    // Neighbours of one kind go through the lanes together.
+    ideal.sort_by_key(|(_, block)| (block.plain.geometry as u8, block.plain.device as u8));
+    let blocks: Vec<ShakenBlock<'_>> = ideal.iter().map(|(_, block)| *block).collect();
+    for ((index, block), shaken) in ideal.iter().zip(shake(&blocks, Registers::Widest)) {
+        let scene = &runs[*index].0.scene;
+        let (structure, duration) = (scene.structure(0), block.samples.duration());
+        found[*index] = shaken.and_then(|shaken| shaken.after(&block.plain, &structure, duration, scene.free_time_s()).ok());
+    }
+    let blocks: Vec<HybridBlock<'_>> = real.iter().map(|(_, block)| *block).collect();
+    for ((index, block), moved) in real.iter().zip(shake_hybrid(&blocks, Registers::Widest)) {
+        let free_time = runs[*index].0.scene.free_time_s();
+        found[*index] = moved.and_then(|moved| moved.after(block, free_time).ok()).map(Shaken::from);
+    }
+    found
+}
