@@ -56,6 +56,19 @@ impl Inertial {
     };
 }
 
+/// `f64::round`, inline: without SSE4.1 that is a call.
+#[inline]
+fn whole(value: f64) -> f64 {
+    // From 2⁵² on every number is whole; below, the cast is exact, and so is what it leaves.
+    if !(value.abs() < 4_503_599_627_370_496.0) {
+        return value;
+    }
+    let toward_zero = value as i64 as f64;
+    let left = (value - toward_zero).abs();
+    let away = if left >= 0.5 { toward_zero + 1.0_f64.copysign(value) } else { toward_zero };
+    away.copysign(value)
+}
+
 /// What one axis adds.
 #[derive(Clone, Debug)]
 struct Axis {
@@ -139,25 +152,34 @@ impl<const AXES: usize> InertialSensor<AXES> {
         sensor
     }
 
+    #[inline]
     fn mix(&self, truth: &[f64; AXES]) -> [f64; AXES] {
-        std::array::from_fn(|axis| self.mixing[axis].iter().zip(truth).map(|(factor, value)| factor * value).sum())
+        let mut mixed = [-0.0; AXES];
+        for (sum, factors) in mixed.iter_mut().zip(&self.mixing) {
+            for axis in 0..AXES {
+                *sum += factors[axis] * truth[axis];
+            }
+        }
+        mixed
     }
 
     /// A reading `span` (s) after the last one, of what the filter holds or else of `input`.
     fn read(&mut self, input: &[f64; AXES], span: f64) -> Readings<AXES> {
         self.number = self.number.wrapping_add(1);
         let filtered = self.low_pass.is_some();
-        let values = std::array::from_fn(|axis| {
+        let mut values = [0.0; AXES];
+        for axis in 0..AXES {
             let parts = &mut self.axes[axis];
             let signal = if filtered { self.filtered[axis].value } else { input[axis] };
             let output = signal + parts.bias + parts.drift.next(span) + parts.noise.next(span);
             let limited = output.clamp(-self.full_scale, self.full_scale);
             let steps = self.resolution;
-            (if steps > 0.0 { (limited / steps).round() * steps } else { limited }) as f32
-        });
+            values[axis] = (if steps > 0.0 { whole(limited / steps) * steps } else { limited }) as f32;
+        }
         Readings { values, number: self.number }
     }
 
+    #[inline]
     fn follow(&mut self, span: f64, from: &[f64; AXES], to: &[f64; AXES]) {
         if let Some(low_pass) = &mut self.low_pass {
             low_pass.follow(&mut self.filtered, span, from, to);
