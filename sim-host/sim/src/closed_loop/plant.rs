@@ -194,12 +194,13 @@ impl<'a> Plant<'a> {
     /// Where it is.
     pub fn whereabouts(&mut self) -> Whereabouts {
         self.posture.follow(&self.machine, &self.state.motion);
+        let wheels = &self.state.device.wheels;
         Whereabouts {
             time: self.time,
             motion: self.state.motion,
             push: self.push(),
             ground: self.state.ground,
-            engaged: self.state.device.wheels.map(|wheel| wheel.coupling.is_engaged()),
+            engaged: [wheels[0].coupling.is_engaged(), wheels[1].coupling.is_engaged()],
             spins: self.machine.spins_now(&self.state, &self.posture.configuration),
             missed: self.state.device.missed,
         }

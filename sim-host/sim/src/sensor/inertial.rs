@@ -60,7 +60,7 @@ impl Inertial {
 #[inline]
 fn whole(value: f64) -> f64 {
     // From 2⁵² on every number is whole; below, the cast is exact, and so is what it leaves.
-    if !(value.abs() < 4_503_599_627_370_496.0) {
+    if value.is_nan() || value.abs() >= 4_503_599_627_370_496.0 {
         return value;
     }
     let toward_zero = value as i64 as f64;
@@ -152,18 +152,20 @@ impl<const AXES: usize> InertialSensor<AXES> {
         sensor
     }
 
-    #[inline]
+    // Not by `zip` and `map`, which are calls where they land in another unit of code generation.
+    #[inline(always)]
     fn mix(&self, truth: &[f64; AXES]) -> [f64; AXES] {
         let mut mixed = [-0.0; AXES];
-        for (sum, factors) in mixed.iter_mut().zip(&self.mixing) {
-            for axis in 0..AXES {
-                *sum += factors[axis] * truth[axis];
+        for (axis, sum) in mixed.iter_mut().enumerate() {
+            for (other, value) in truth.iter().enumerate() {
+                *sum += self.mixing[axis][other] * value;
             }
         }
         mixed
     }
 
     /// A reading `span` (s) after the last one, of what the filter holds or else of `input`.
+    #[inline(always)]
     fn read(&mut self, input: &[f64; AXES], span: f64) -> Readings<AXES> {
         self.number = self.number.wrapping_add(1);
         let filtered = self.low_pass.is_some();
@@ -179,7 +181,7 @@ impl<const AXES: usize> InertialSensor<AXES> {
         Readings { values, number: self.number }
     }
 
-    #[inline]
+    #[inline(always)]
     fn follow(&mut self, span: f64, from: &[f64; AXES], to: &[f64; AXES]) {
         if let Some(low_pass) = &mut self.low_pass {
             low_pass.follow(&mut self.filtered, span, from, to);
@@ -209,7 +211,10 @@ impl<const AXES: usize> InertialSensor<AXES> {
         while next <= end + SAME_INSTANT {
             let instant = next.clamp(from, end);
             let part = if span > 0.0 { (instant - start) / span } else { 1.0 };
-            let at: [f64; AXES] = std::array::from_fn(|axis| before[axis] + part * (input[axis] - before[axis]));
+            let mut at = before;
+            for axis in 0..AXES {
+                at[axis] += part * (input[axis] - before[axis]);
+            }
             self.follow(instant - from, &held, &at);
             let Some(clock) = &mut self.clock else { break };
             let period = clock.period;
@@ -225,8 +230,13 @@ impl<const AXES: usize> InertialSensor<AXES> {
     }
 
     /// What can be read.
+    #[inline(always)]
     pub(super) fn readings(&self) -> [Reading; AXES] {
         let Readings { values, number } = self.delivery.readable();
-        values.map(|value| Reading { value, number })
+        let mut readings = [Reading { value: 0.0, number }; AXES];
+        for axis in 0..AXES {
+            readings[axis].value = values[axis];
+        }
+        readings
     }
 }

@@ -87,7 +87,7 @@ impl LowPass {
     }
 
     /// Takes `states` on by `span` (s, not negative) while their inputs go straight from `from` to `to`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn follow<const AXES: usize>(
         &mut self,
         states: &mut [State; AXES],
