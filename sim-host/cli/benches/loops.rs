@@ -2,7 +2,8 @@
 //!
 //! `cargo bench --bench loops` closes the loop of `scenes/controller.toml` (2 kHz, 4 substeps, ADIS16470) with a specimen of the sensors
 //! after the other, and prints for each part of a loop the ticks, times real time, nanoseconds a tick, and a tick's time over that of one
-//! Runge-Kutta step of a block alone ([`yardstick`]), measured in the same run: times are noise on a shared machine, these ratios are not.
+//! Runge-Kutta step of a block alone ([`yardstick`]), measured in the same run. Parts are timed by what the thread had of the processor, where
+//! the system tells it (Linux), for others may be at work; the last rows, by the clock on the wall.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -47,9 +48,17 @@ impl Part {
     }
 }
 
+/// Processor time of this thread so far; elsewhere than on Linux, since `start`.
+fn processor_time(start: Instant) -> Duration {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
+    let nanoseconds = text.split_whitespace().next().and_then(|first| first.parse().ok());
+    nanoseconds.map_or_else(|| start.elapsed(), Duration::from_nanos)
+}
+
 /// Notes when a block begins to rock or to stand, and nothing else: a look at the clock takes as long as a part of a tick.
 struct Stopwatch {
-    since: Instant,
+    start: Instant,
+    since: Duration,
     rocks: bool,
     ticks: u64,
     stillness: Duration,
@@ -60,17 +69,22 @@ struct Stopwatch {
 impl Stopwatch {
     fn start() -> Stopwatch {
         let (standing, rocking) = (Part::default(), Part::default());
-        Stopwatch { since: Instant::now(), rocks: false, ticks: 0, stillness: Duration::ZERO, standing, rocking }
+        let start = Instant::now();
+        Stopwatch { start, since: processor_time(start), rocks: false, ticks: 0, stillness: Duration::ZERO, standing, rocking }
+    }
+
+    fn lap(&mut self) -> Duration {
+        let now = processor_time(self.start);
+        now.saturating_sub(std::mem::replace(&mut self.since, now))
     }
 
     fn note(&mut self) {
-        let part = Part { ticks: std::mem::take(&mut self.ticks), time: self.since.elapsed() };
+        let part = Part { ticks: std::mem::take(&mut self.ticks), time: self.lap() };
         if self.rocks {
-            self.rocking.add(part)
+            self.rocking.add(part);
         } else {
-            self.standing.add(part)
+            self.standing.add(part);
         }
-        self.since = Instant::now();
     }
 }
 
@@ -78,8 +92,7 @@ impl TickObserver for Stopwatch {
     fn tick(&mut self, tick: &Tick) {
         let rocks = tick.plant.motion.phase == Phase::Rocking;
         if tick.plant.time == 0.0 {
-            self.stillness = self.since.elapsed();
-            self.since = Instant::now();
+            self.stillness = self.lap();
         } else if rocks != self.rocks {
             self.note();
         }
