@@ -8,6 +8,7 @@ mod endings;
 mod error_estimates_of_devices;
 mod fast_motions;
 mod figures;
+mod footing;
 mod hard_starts;
 mod lanes_under_pulses;
 mod lanes_under_records;
