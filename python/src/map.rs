@@ -35,7 +35,7 @@ pub fn overturning_map<'py>(py: Python<'py>, scene: &Scene, threads: Option<usiz
         PyResult::Ok((grid, outcomes, rotations, accelerations))
     })?;
     let (grid, outcomes, rotations, accelerations) = made?;
-    let shape = [grid.scene.devices.len(), grid.rows(), grid.columns()];
+    let shape = [grid.mapped().len(), grid.rows(), grid.columns()];
     let dict = PyDict::new(py);
     dict.set_item("x_key", &grid.map.x.key)?;
     dict.set_item("x", (0..grid.columns()).map(|cell| grid.map.x.value(cell)).collect::<Vec<f64>>().into_pyarray(py))?;

@@ -9,6 +9,7 @@ mod endings;
 mod error_estimates_of_devices;
 mod fast_motions;
 mod figures;
+mod footing;
 mod hard_starts;
 mod lanes_of_real_devices;
 mod lanes_under_pulses;

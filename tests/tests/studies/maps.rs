@@ -1,8 +1,10 @@
 //! Overturning maps: the counts of Figure 8, and what must not depend on threads.
 
 use sprag_report::progress::Progress;
+use sprag_sim::closed_loop::LoopScene;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::map::grid::Grid;
+use sprag_sim::scene::{Scene, document};
 use sprag_studies::map::study::study;
 use sprag_studies::map::table::Labels;
 use sprag_studies::map::tally::Counts;
@@ -53,6 +55,59 @@ fn maps_do_not_depend_on_threads() {
         let rows = grid.columns() * grid.rows() * grid.scene.devices.len();
         assert_eq!(String::from_utf8(bytes).expect("text").lines().count(), rows);
     }
+}
+
+/// Two laws beside the ideal pair: each of their cells is what `sprag loop` says of the same scene with that law, on any number of threads.
+#[test]
+fn cells_of_closed_loops_are_loops() {
+    let axes = ["map.x={key=\"controller.latency_s\",from=0.0,to=0.03,cells=3}", "map.y.cells=2"];
+    let grid = grid("laws.toml", &axes);
+    let maps = study(&grid, &Progress::new("cells"), &Interrupt::default()).expect("a map");
+    let names: Vec<&str> = maps.iter().map(|map| map.device.as_str()).collect();
+    assert_eq!(names, ["clutched pair", "clutched pair, resisting", "clutched pair, resisting-predicted"]);
+    assert_eq!(csv(&grid, 3), csv(&grid, 1));
+    let interrupt = Interrupt::default();
+    for (index, mapped) in grid.mapped().iter().enumerate() {
+        for (cell, result) in maps[index].shown.iter().enumerate() {
+            let Some(law) = mapped.law else { continue };
+            let scene = grid.scene_of(cell % grid.columns(), cell / grid.columns()).expect("a cell");
+            let mut desk = LoopScene::new(scene).expect("a pair");
+            desk.controller.law = law;
+            let task = desk.task(mapped.device, desk.controller.sensors.seed(), &interrupt);
+            let (.., alone) = task.answered::<()>().expect("a loop");
+            assert_eq!(result.outcome, alone.outcome(), "{} {cell}", mapped.name);
+            assert!(result.peak_acceleration.is_nan());
+            if !result.outcome.overturned() {
+                let peak = alone.extremes.peaks.rotation / desk.scene.block.slenderness();
+                assert_eq!(result.peak_rotation.to_bits(), peak.to_bits(), "{} {cell}", mapped.name);
+            }
+        }
+    }
+}
+
+/// A pulse the other way moves the same block the other way, and ideal sensors do not mind; a law needs clutches that take commands.
+#[test]
+fn maps_of_closed_loops_are_symmetric_and_need_a_pair() {
+    let counts = |scale: &str| {
+        let ideal = ["controller.sensors={suite=\"ideal\"}", "map.x.cells=2", "map.y.cells=4", "map.laws=[\"resisting\"]", scale];
+        let maps = study(&grid("laws.toml", &ideal), &Progress::new("cells"), &Interrupt::default()).expect("a map");
+        maps.iter().map(|map| map.counts).collect::<Vec<_>>()
+    };
+    assert_eq!(counts("ground.0.scale=1.0"), counts("ground.0.scale=-1.0"));
+    let text = "block = { size_m = 2.0, slenderness_deg = 10.0 }
+        device = [{ kind = 'inerter', mass_ratio = 0.5 }]
+        ground = [{ motion = 'sine', amplitude_ratio = 2.0, frequency_ratio = 3.0 }]
+        map = { laws = ['resisting'], x = { key = 'block.size_m', from = 1.0, to = 2.0, cells = 2 } }";
+    let refused = |change: &str| {
+        let mut table = document::table(text, "scene").expect("TOML");
+        sprag_sim::scene::overrides::apply(&mut table, change, "scene").expect("a key");
+        let scene = Scene::of_table(table.clone(), "scene", &[]);
+        scene.and_then(|scene| Grid::new(scene, table)).map(|grid| grid.mapped().len()).map_err(|error| error.to_string())
+    };
+    assert!(refused("title=a").unwrap_err().starts_with("scene: map.laws: a closed loop needs"));
+    assert_eq!(refused("device.0.kind=clutched-pair"), Ok(2));
+    let twice = refused("map.laws=[\"passive\", \"passive\"]").unwrap_err();
+    assert!(twice.starts_with("scene: map.laws.1: "), "{twice}");
 }
 
 /// A cell of a map is the scene of that cell, simulated: lanes and cells that are read one by one agree, whatever is called overturned.

@@ -31,7 +31,7 @@ fn results(grid: &Grid, device: usize, places: &[Values], lanes: Lanes<'_>) -> R
 pub fn about(grid: &Grid) -> Columns {
     let y = grid.map.y.as_ref();
     let mut about = vec![
-        ("devices", Column::Texts(grid.scene.devices.iter().map(|device| device.name.clone()).collect())),
+        ("devices", Column::Texts(grid.mapped().iter().map(|mapped| mapped.name.clone()).collect())),
         ("x", Column::Numbers((0..grid.columns()).map(|cell| grid.map.x.value(cell)).collect())),
         ("y", Column::Numbers(y.map_or(vec![f64::NAN], |y| (0..y.cells).map(|cell| y.value(cell)).collect()))),
         ("xKey", Column::Text(grid.map.x.key.clone())),
@@ -87,6 +87,6 @@ pub fn boundaries(grid: &Grid, device: usize, outcome: &[u8], lanes: Lanes<'_>) 
 }
 
 fn device_of(grid: &Grid, device: usize) -> Result<(), PageError> {
-    let all = grid.scene.devices.len();
+    let all = grid.mapped().len();
     if device < all { Ok(()) } else { Err(PageError::Unknown(device.to_string(), format!("the scene's {all} devices"))) }
 }

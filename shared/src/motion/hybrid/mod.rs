@@ -11,8 +11,10 @@
 mod command;
 mod crowding;
 pub mod exponential;
+pub mod footing;
 mod hold;
 mod impact;
+mod instant;
 pub mod mode_output;
 pub mod resolve;
 mod seen;
@@ -248,11 +250,16 @@ impl<S: Real> HybridSystem<S> {
         let length = output.length();
         let mut until = length;
         let mut end = End::Reached;
-        if !held && let Some(turn) = output.velocity_zero(until, motion.direction, motion.velocity == S::ZERO) {
+        let signs_change = !output.keeps_signs(motion.direction);
+        if signs_change
+            && !held
+            && let Some(turn) = output.velocity_zero(until, motion.direction, motion.velocity == S::ZERO)
+        {
             (until, end) = (turn, End::Turn);
         }
         for guard in 0..traits.guards {
             if guarded
+                && signs_change
                 && law.watch[guard] != Guard::Nothing
                 && let Some(zero) = output.guard_zero(guard, until, state.fresh[guard])
             {
@@ -296,8 +303,10 @@ impl<S: Real> HybridSystem<S> {
         *time = if end == End::Reached && length == stop - *time { stop } else { *time + until };
         let motion = &mut state.motion;
         (motion.rotation, motion.velocity) = (last.rotation, last.velocity);
-        let configuration = self.body.configuration(motion.side.unit(), motion.rotation);
-        state.device.store(&unknowns[..traits.unknowns], self.body.to_terminal(&configuration, motion.velocity));
+        if traits.unknowns > 0 {
+            let configuration = self.body.configuration(motion.side.unit(), motion.rotation);
+            state.device.store(&unknowns[..traits.unknowns], self.body.to_terminal(&configuration, motion.velocity));
+        }
         state.device.elapse(until);
         (state.fresh, state.free) = ([false; GUARDS], false);
         let ground = shaking.at(*time);

@@ -3,7 +3,7 @@
 use super::HybridSystem;
 use crate::drivetrain::any_transmission::each_transmission;
 use crate::drivetrain::clutch_state::{ModeCoefficients, UNKNOWNS};
-use crate::drivetrain::transmission::{EvaluationPoint, Transmission};
+use crate::drivetrain::transmission::{EvaluationPoint, PointOf, Transmission};
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
 use crate::ground::GroundSegment;
@@ -111,11 +111,11 @@ impl<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usi
         D::SPRINGS && self.start.held
     }
 
-    /// θ̈ and the rates of the device's unknowns.
-    #[inline(never)]
-    pub fn rates(&self, at: &Place<S, X>) -> (S, [S; X]) {
+    /// The evaluation point of `at`.
+    #[inline(always)]
+    pub fn point(&self, at: &Place<S, X>) -> PointOf<'_, S, B, S, X> {
         let ModeStart { law, side, system, .. } = *self.start;
-        let (acceleration, rates) = self.transmission.flow(&EvaluationPoint {
+        EvaluationPoint {
             body: self.body,
             parameters: &system.transmission.parameters,
             law,
@@ -124,7 +124,19 @@ impl<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usi
             unknowns: at.unknowns,
             ground: at.ground,
             clock: at.time,
-        });
+        }
+    }
+
+    /// θ̈ and the rates of the device's unknowns.
+    #[inline(never)]
+    pub fn rates(&self, at: &Place<S, X>) -> (S, [S; X]) {
+        self.flow(&self.point(at))
+    }
+
+    /// [`Self::rates`] at a point.
+    #[inline(always)]
+    pub fn flow(&self, at: &PointOf<'_, S, B, S, X>) -> (S, [S; X]) {
+        let (acceleration, rates) = self.transmission.flow(at);
         (if self.is_held() { S::ZERO } else { acceleration }, rates)
     }
 }
@@ -162,6 +174,11 @@ pub trait ModeOutput<S: Real>: DenseOutput<S> {
 
     /// Guard `index` at `time`.
     fn guard(&self, index: usize, time: S) -> S;
+
+    /// Known without a search: neither θ̇, which has the sign `direction` just after the start, nor a guard has a zero in the step.
+    fn keeps_signs(&self, _direction: Sign) -> bool {
+        false
+    }
 
     /// First zero of θ̇, which has the sign `sign` just after the start, and is zero there with `from_zero`.
     fn velocity_zero(&self, to: S, sign: Sign, _from_zero: bool) -> Option<S> {

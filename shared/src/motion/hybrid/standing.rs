@@ -103,12 +103,15 @@ impl<S: Real> HybridSystem<S> {
         end: S,
         observer: &mut dyn Observer<S>,
     ) {
-        let (mut now, mut shown) = (time, *state);
-        while now < end && shown.device.wheels.iter().any(|wheel| wheel.spin != S::ZERO) {
-            let length = self.until_stop(&shown, end - now);
-            self.show_still(&shown, &|t| ground(now - time + t), now, length, observer);
-            self.idle(&mut shown, length);
-            now = now + length;
+        let spins = |state: &HybridState<S>| state.device.wheels.iter().any(|wheel| wheel.spin != S::ZERO);
+        if spins(state) {
+            let (mut now, mut shown) = (time, *state);
+            while now < end && spins(&shown) {
+                let length = self.until_stop(&shown, end - now);
+                self.show_still(&shown, &|t| ground(now - time + t), now, length, observer);
+                self.idle(&mut shown, length);
+                now = now + length;
+            }
         }
         self.idle(state, end - time);
     }

@@ -2,11 +2,12 @@
 
 use super::exponential;
 use super::mode_output::{KnownModeStart, ModeIntegrator, ModeOutput, ModeStart, Place, WithModeStart};
-use crate::drivetrain::clutch_state::UNKNOWNS;
+use crate::drivetrain::clutch_state::{Guard, UNKNOWNS};
 use crate::drivetrain::transmission::{Transmission, first};
 use crate::equation::body::Body;
 use crate::equation::motion::Motion;
 use crate::math::scalar::Real;
+use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
 use crate::method::fixed::{FixedStep, Scheme};
 
@@ -76,6 +77,8 @@ pub struct FixedModeOutput<'a, S> {
     rates: Rates<S, UNKNOWNS>,
     /// The end, and θ̈ there.
     end: (Place<S, UNKNOWNS>, S),
+    /// No guard is negative at the end.
+    guarded: bool,
 }
 
 /// A step of length `time`; the `rates` at its start are taken where they are not known.
@@ -86,7 +89,7 @@ struct Step<'a, S> {
 }
 
 impl<S: Real> WithModeStart<S> for Step<'_, S> {
-    type Output = (Rates<S, UNKNOWNS>, (Place<S, UNKNOWNS>, S));
+    type Output = (Rates<S, UNKNOWNS>, (Place<S, UNKNOWNS>, S), bool);
 
     #[inline(always)]
     fn with<B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
@@ -100,16 +103,21 @@ impl<S: Real> WithModeStart<S> for Step<'_, S> {
         };
         let ground = known.start.ground_at(self.time);
         let end = advance(self.scheme, known, (&from, &rates), (self.time, ground));
-        let (acceleration, _) = known.rates(&end);
+        let point = known.point(&end);
+        let (acceleration, _) = known.flow(&point);
+        let negative =
+            |watch: Guard<S>| watch != Guard::Nothing && known.transmission.guard(&point, acceleration, watch) < S::ZERO;
+        // Of a held block θ̈ is not that of the equation.
+        let guarded = !known.is_held() && !known.start.law.watch.iter().take(G).any(|watch| negative(*watch));
         let all = |unknowns: &[S; X]| core::array::from_fn(|i| unknowns.get(i).copied().unwrap_or(S::ZERO));
-        ((rates.0, all(&rates.1)), (end.map(all), acceleration))
+        ((rates.0, all(&rates.1)), (end.map(all), acceleration), guarded)
     }
 }
 
 impl<'a, S: Real> FixedModeOutput<'a, S> {
     fn new(scheme: Scheme, start: &'a ModeStart<'a, S>) -> Self {
-        let (rates, end) = Self::step(scheme, start, None, start.length);
-        FixedModeOutput { scheme, start, rates, end }
+        let (rates, end, guarded) = Self::step(scheme, start, None, start.length);
+        FixedModeOutput { scheme, start, rates, end, guarded }
     }
 
     #[inline(never)]
@@ -118,7 +126,7 @@ impl<'a, S: Real> FixedModeOutput<'a, S> {
         start: &ModeStart<'_, S>,
         rates: Option<&Rates<S, UNKNOWNS>>,
         time: S,
-    ) -> (Rates<S, UNKNOWNS>, (Place<S, UNKNOWNS>, S)) {
+    ) -> (Rates<S, UNKNOWNS>, (Place<S, UNKNOWNS>, S), bool) {
         start.known(Step { scheme, rates, time })
     }
 
@@ -146,6 +154,12 @@ impl<S: Real> DenseOutput<S> for FixedModeOutput<'_, S> {
 }
 
 impl<S: Real> ModeOutput<S> for FixedModeOutput<'_, S> {
+    #[inline]
+    fn keeps_signs(&self, direction: Sign) -> bool {
+        // As the ends show, which is all that these methods know.
+        self.guarded && direction.times(self.end.0.velocity) >= S::ZERO
+    }
+
     #[inline]
     fn unknowns(&self, time: S) -> [S; UNKNOWNS] {
         self.place(time).0.unknowns

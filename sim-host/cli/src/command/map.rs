@@ -175,7 +175,11 @@ impl Divided for MapArguments {
         let (grid, file) = grid(self)?;
         let claim = claim_of_scene("map", &self.scene.scene, &grid.scene, &file, &NAMES, &[])?;
         // In lanes, or block by block.
-        let seconds_a_row = if grid.pulsed(0, 0, 0)?.is_some() { 2e-6 } else { 2e-3 };
+        let seconds_a_row = match (grid.map.laws.is_empty(), grid.pulsed(0, 0, 0)?) {
+            (true, Some(_)) => 2e-6,
+            (true, None) => 2e-3,
+            (false, _) => 2e-2,
+        };
         let origin = Origin::new(claim.subject, grid.table_rows());
         Ok(Divisible { origin, name: "map", columns: columns(&grid), seconds_a_row })
     }

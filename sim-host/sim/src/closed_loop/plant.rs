@@ -5,12 +5,13 @@ use sprag_shared::equation::body::Body;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::fixed::{FixedStep, Scheme};
 use sprag_shared::motion::device_snapshot::DeviceOutput;
+use sprag_shared::motion::hybrid::footing::Footing;
 use sprag_shared::motion::hybrid::mode_output::Shaking;
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
 
-use super::truth::{Places, Shocks};
+use super::truth::{Places, Posture, Shocks};
 use crate::ground_motion::{GroundMotion, Segment, SumSegment};
 use crate::scene::motions::GroundMotions;
 use crate::sensor::Truth;
@@ -72,6 +73,8 @@ pub struct Plant<'a> {
     surroundings: Surroundings<'a>,
     shocks: Shocks,
     places: Places,
+    footing: Footing<f64>,
+    posture: Posture,
     time: f64,
     index: usize,
     pieces: Option<(SumSegment<f64>, Option<SumSegment<f64>>)>,
@@ -97,12 +100,14 @@ impl<'a> Plant<'a> {
             FixedStep { scheme: Scheme::RungeKutta4, step }
         };
         Plant {
+            places: Places::new(&machine, block),
+            footing: machine.footing(),
+            posture: Posture::of(&machine, &state.motion),
             machine,
             method: hybrid(Method::Fixed(method)),
             state,
             surroundings,
             shocks: Shocks::new(surroundings.shock),
-            places: Places { size: block.size(), frequency_squared: block.frequency_parameter_squared() },
             time: 0.0,
             index: 0,
             pieces: None,
@@ -111,14 +116,14 @@ impl<'a> Plant<'a> {
         }
     }
 
+    /// [`Whereabouts::push`] in the present posture.
     fn push(&self) -> f64 {
         let motion = &self.state.motion;
         if motion.phase != Phase::Rocking {
             return 0.0;
         }
-        let body = &self.machine.body;
-        let configuration = body.configuration(motion.side.unit(), motion.rotation);
-        body.switching(&configuration, motion.velocity, body.driving_moment(&configuration, self.state.ground))
+        let (body, configuration) = (&self.machine.body, &self.posture.configuration);
+        body.switching(configuration, motion.velocity, body.driving_moment(configuration, self.state.ground))
     }
 
     fn segment(&self) -> Option<&'a Segment> {
@@ -174,10 +179,12 @@ impl<'a> Plant<'a> {
                 let offset = self.time - start;
                 let (horizontal, vertical) = (horizontal.after(offset), vertical.as_ref().map(|piece| piece.after(offset)));
                 let shaking = Shaking { horizontal: &horizontal, vertical: vertical.as_ref().map(|piece| piece as _) };
-                let mut both = Both(watcher, &mut self.shocks);
-                let ended =
-                    self.method.advance(&self.machine, &mut self.state, shaking, end - self.time, &self.limits, &mut both);
-                ended.map_err(|stopped| stopped.after(self.time))?;
+                let duration = end - self.time;
+                if !self.machine.stands_through(&self.footing, &mut self.state, shaking, duration) {
+                    let mut both = Both(watcher, &mut self.shocks);
+                    let ended = self.method.advance(&self.machine, &mut self.state, shaking, duration, &self.limits, &mut both);
+                    ended.map_err(|stopped| stopped.after(self.time))?;
+                }
             }
             self.time = end;
         }
@@ -185,23 +192,24 @@ impl<'a> Plant<'a> {
     }
 
     /// Where it is.
-    pub fn whereabouts(&self) -> Whereabouts {
-        let now = self.machine.now(&self.state);
+    pub fn whereabouts(&mut self) -> Whereabouts {
+        self.posture.follow(&self.machine, &self.state.motion);
+        let wheels = &self.state.device.wheels;
         Whereabouts {
             time: self.time,
             motion: self.state.motion,
             push: self.push(),
-            ground: now.ground,
-            engaged: self.state.device.wheels.map(|wheel| wheel.coupling.is_engaged()),
-            spins: now.device.spin,
+            ground: self.state.ground,
+            engaged: [wheels[0].coupling.is_engaged(), wheels[1].coupling.is_engaged()],
+            spins: self.machine.spins_now(&self.state, &self.posture.configuration),
             missed: self.state.device.missed,
         }
     }
 
     /// What perfect sensors would read.
-    pub fn truth(&self) -> Truth {
-        let now = self.machine.now(&self.state);
-        self.places.truth(&self.machine, &self.state, &now, self.shocks.at(self.time))
+    pub fn truth(&mut self) -> Truth {
+        self.posture.follow(&self.machine, &self.state.motion);
+        self.places.truth(&self.machine, &self.state, &self.posture, self.shocks.at(self.time))
     }
 }
 

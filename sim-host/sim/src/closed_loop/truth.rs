@@ -1,12 +1,14 @@
 //! What sensors on the block, on the ground and on the rack would read if they were perfect.
 
+use sprag_shared::equation::any_body::AnyConfiguration;
 use sprag_shared::equation::body::Body;
 use sprag_shared::math;
-use sprag_shared::motion::device_snapshot::{DeviceOutput, Snapshot};
+use sprag_shared::math::sign::Sign;
+use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::state::BlockState;
-use sprag_shared::structure::block::GRAVITY;
+use sprag_shared::structure::block::{Block, GRAVITY};
 
 use crate::sensor::Truth;
 
@@ -17,29 +19,68 @@ pub struct Places {
     pub size: f64,
     /// p² of the block, 1/s².
     pub frequency_squared: f64,
+    /// Travel of the rack over R at θ = 0 on the positive side and on the other one.
+    standing_travel: [f64; 2],
+}
+
+/// What θ alone decides, worked out once for all that need it.
+#[derive(Clone, Copy, Debug)]
+pub struct Posture {
+    side: Sign,
+    rotation: f64,
+    /// Of the body.
+    pub configuration: AnyConfiguration<f64>,
+    /// sin θ and cos θ.
+    tilt: (f64, f64),
+}
+
+impl Posture {
+    /// That of `motion`.
+    pub fn of(machine: &HybridSystem<f64>, motion: &BlockState<f64>) -> Posture {
+        let BlockState { side, rotation, .. } = *motion;
+        let configuration = machine.body.configuration(side.unit(), rotation);
+        Posture { side, rotation, configuration, tilt: math::sin_cos(rotation) }
+    }
+
+    /// Takes that of `motion`, if it is another one.
+    #[inline]
+    pub fn follow(&mut self, machine: &HybridSystem<f64>, motion: &BlockState<f64>) {
+        if self.rotation.to_bits() != motion.rotation.to_bits() || self.side != motion.side {
+            *self = Posture::of(machine, motion);
+        }
+    }
 }
 
 impl Places {
-    /// Truth of a plant in `state`, with the acceleration of a shock (`shock`, rad/s²) on top.
+    /// On `block`, whose equations `machine` has.
+    pub fn new(machine: &HybridSystem<f64>, block: &Block) -> Places {
+        let travel = |side: Sign| machine.body.travel(side.unit(), &machine.body.configuration(side.unit(), 0.0));
+        Places {
+            size: block.size(),
+            frequency_squared: block.frequency_parameter_squared(),
+            standing_travel: [travel(Sign::Positive), travel(Sign::Negative)],
+        }
+    }
+
+    /// Truth of a plant in `state`, and so in this `posture`, with the acceleration of a shock (`shock`, rad/s²) on top.
     ///
     /// With c = cos δ and s = sin δ (1 and δ for the slender block) the centre of mass has, relative to the ground, the acceleration
     /// R (c θ̈ + s θ̇², s θ̈ − c θ̇²); a specific force is that minus gravity, turned into the axes of the block.
-    pub fn truth(&self, machine: &HybridSystem<f64>, state: &HybridState<f64>, snapshot: &Snapshot<f64>, shock: f64) -> Truth {
-        let side = state.motion.side.unit();
-        let motion = snapshot.motion;
-        let configuration = machine.body.configuration(side, motion.rotation);
-        let travel =
-            machine.body.travel(side, &configuration) - machine.body.travel(side, &machine.body.configuration(side, 0.0));
-        let (across, along) = machine.body.factors(&configuration);
+    pub fn truth(&self, machine: &HybridSystem<f64>, state: &HybridState<f64>, posture: &Posture, shock: f64) -> Truth {
+        let BlockState { side, velocity, .. } = state.motion;
+        let configuration = &posture.configuration;
+        let standing = self.standing_travel[usize::from(side == Sign::Negative)];
+        let travel = machine.body.travel(side.unit(), configuration) - standing;
+        let (across, along) = machine.body.factors(configuration);
         let (c, s) = (-across / self.frequency_squared, -along / self.frequency_squared);
-        let acceleration = motion.acceleration + shock;
-        let square = motion.velocity * motion.velocity;
-        let ground = [snapshot.ground[0] * GRAVITY, GRAVITY * (1.0 + snapshot.ground[1])];
+        let acceleration = machine.acceleration_now(state, configuration) + shock;
+        let square = velocity * velocity;
+        let ground = [state.ground[0] * GRAVITY, GRAVITY * (1.0 + state.ground[1])];
         let horizontal = ground[0] + self.size * (c * acceleration + s * square);
         let vertical = ground[1] + self.size * (s * acceleration - c * square);
-        let (sine, cosine) = math::sin_cos(motion.rotation);
+        let (sine, cosine) = posture.tilt;
         Truth {
-            rate: motion.velocity,
+            rate: velocity,
             block: [horizontal * cosine - vertical * sine, horizontal * sine + vertical * cosine],
             ground,
             travel: travel * self.size,
@@ -69,10 +110,16 @@ impl Shocks {
     }
 
     /// rad/s² at `time` (s).
+    #[inline]
     pub fn at(&self, time: f64) -> f64 {
-        if self.duration <= 0.0 {
+        // The latest lasts longest.
+        if self.duration <= 0.0 || (time - self.recent[(self.next + 3) % 4].0) / self.duration >= 1.0 {
             return 0.0;
         }
+        self.sum_at(time)
+    }
+
+    fn sum_at(&self, time: f64) -> f64 {
         let part = |&(start, jump): &(f64, f64)| {
             let phase = (time - start) / self.duration;
             // ∫ π/2 sin(πφ) dφ over a contact is 1.

@@ -74,7 +74,7 @@ pub fn refine<E>(
         vertices: vertices.iter().map(values).collect(),
     };
     Ok(Boundaries {
-        device: grid.scene.devices[device].name.clone(),
+        device: grid.mapped()[device].name.clone(),
         boundaries: traced.polylines.iter().map(boundary).collect(),
         evaluations: traced.evaluations,
         unresolved: traced.unresolved.squares,

@@ -6,7 +6,12 @@ use sprag_ensemble::machine::{Registers, run};
 use sprag_ensemble::pulsed::{PulseResult, PulsedBlock};
 
 use super::grid::{Grid, Subject, Values};
+#[cfg(feature = "effects")]
+use crate::closed_loop::run::LoopError;
+#[cfg(feature = "effects")]
+use crate::closed_loop::{LoopFailure, LoopScene};
 use crate::interrupt::Interrupt;
+use crate::scene::controller::LawName;
 use crate::scene::ground::GroundError;
 use crate::scene::{Scene, SceneError};
 use crate::simulation::{DeviceRun, RunError, simulate_for_study};
@@ -44,7 +49,7 @@ pub enum CellError {
     Interrupted,
 }
 
-/// What becomes of the block with device `device` at `places`: of those that are blocks under a pulse or a record side by side, of the others
+/// What becomes of the block of map `device` at `places`: of those that are blocks under a pulse or a record side by side, of the others
 /// one by one.
 ///
 /// # Errors
@@ -64,6 +69,7 @@ pub fn results_by<E: Display>(
     interrupt: &Interrupt,
     pulses: impl FnOnce(&[PulsedBlock]) -> Result<Vec<PulseResult>, (usize, E)>,
 ) -> Result<Vec<PulseResult>, CellError> {
+    let of = &grid.mapped()[device];
     let mut results = vec![PulseResult::NO_ROCKING; places.len()];
     let (mut pulsed, mut pulsed_places) = (Vec::with_capacity(places.len()), Vec::with_capacity(places.len()));
     let (mut subjects, mut subject_places) = (Vec::new(), Vec::new());
@@ -74,12 +80,13 @@ pub fn results_by<E: Display>(
                 pulsed_places.push(index);
             }
             Subject::Scene(scene) => {
-                subjects.push(under_records::Subject::new(scene.only(device)));
+                subjects.push(under_records::Subject::new(scene.only(of.device)));
                 subject_places.push(index);
             }
+            Subject::Loop(scene, law) => results[index] = looped(&scene, law, || grid.place(values), interrupt)?,
         }
     }
-    let name = &grid.scene.devices[device].name;
+    let name = &of.name;
     let found = pulses(&pulsed).map_err(|(index, error)| {
         let place = grid.place(places[pulsed_places[index]]);
         CellError::Block { device: name.clone(), place, error: error.to_string() }
@@ -112,4 +119,30 @@ fn simulated(scene: &Scene, place: impl Fn() -> String, interrupt: &Interrupt) -
         peak_acceleration: found(run.peak_acceleration),
     };
     Ok(runs.first().map_or(PulseResult::NO_ROCKING, result))
+}
+
+/// A closed loop by `law` over a scene that has one device, as `sprag loop` closes it; nobody looks for the peak acceleration.
+#[cfg(feature = "effects")]
+fn looped(scene: &Scene, law: LawName, place: impl Fn() -> String, interrupt: &Interrupt) -> Result<PulseResult, CellError> {
+    let mut desk = LoopScene::new(scene.clone())?;
+    desk.controller.law = law;
+    let task = desk.task(0, desk.controller.sensors.seed(), interrupt);
+    let (.., looped) = task.answered::<()>().map_err(|failure| match failure {
+        LoopFailure::Loop(LoopError::Interrupted) => CellError::Interrupted,
+        failure => CellError::Block {
+            device: format!("{}, {}", scene.devices[0].name, law.name()),
+            place: place(),
+            error: failure.to_string(),
+        },
+    })?;
+    let outcome = looped.outcome();
+    let peak = looped.extremes.peaks.rotation / scene.block.slenderness();
+    let peak_rotation = if outcome.overturned() { f64::NAN } else { peak };
+    Ok(PulseResult { outcome, peak_rotation, peak_acceleration: f64::NAN })
+}
+
+/// Loops are effects, which this program does not have.
+#[cfg(not(feature = "effects"))]
+fn looped(_scene: &Scene, _law: LawName, place: impl Fn() -> String, _interrupt: &Interrupt) -> Result<PulseResult, CellError> {
+    Err(CellError::Run { place: place(), error: RunError::NoEffects })
 }

@@ -3,15 +3,18 @@
 use sprag_ensemble::pulsed::PulsedBlock;
 use sprag_ensemble::shaken::Samples;
 use sprag_shared::structure::block::Block;
+use sprag_shared::structure::device::DeviceKind;
+use sprag_shared::structure::drivetrain::Engagement;
 use sprag_shared::structure::mount::Mount;
 use toml::Table;
 
 use super::pulse::Pulse;
 use crate::batch::case::PulseShape;
+use crate::scene::controller::LawName;
 use crate::scene::ground::Motion;
 use crate::scene::map::{AxisTable, MapTable};
 use crate::scene::schema::RestitutionValue;
-use crate::scene::{Scene, SceneError};
+use crate::scene::{Scene, SceneDevice, SceneError};
 use crate::under_records::{self, Shaking};
 
 /// A scene with the axes of its map.
@@ -21,11 +24,24 @@ pub struct Grid {
     pub scene: Scene,
     /// Axes of the grid.
     pub map: MapTable,
+    /// What is mapped, one map each.
+    mapped: Vec<Mapped>,
     text: Table,
-    /// For every device, how a cell's block follows from the scene's own; none where cells are read anew as scenes.
+    /// For every map, how a cell's block follows from the scene's own; none where cells are read anew as scenes.
     direct: Vec<Option<Direct>>,
     /// The record that shakes every cell, and the one that moves the ground vertically, if no axis changes more of them than their scales.
     record: Option<(Samples, Option<Samples>)>,
+}
+
+/// What one of the maps is of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mapped {
+    /// Name of the map.
+    pub name: String,
+    /// Index of the device in the scene.
+    pub device: usize,
+    /// Law that drives its clutches in closed loop; without one the device is as it is.
+    pub law: Option<LawName>,
 }
 
 /// What the axes are set to: x, and y where there is one.
@@ -38,6 +54,8 @@ pub(super) enum Subject {
     Pulsed(PulsedBlock),
     /// Anything else.
     Scene(Box<Scene>),
+    /// A scene with one device, whose clutches a law drives in closed loop.
+    Loop(Box<Scene>, LawName),
 }
 
 /// A block under a pulse and the quantities of it that the axes set.
@@ -78,7 +96,8 @@ impl Grid {
             return Err(key("map.x").missing("a [map] table with an axis x, or --x KEY=FROM:TO:CELLS"));
         };
         scene.overturned_at = map.overturned_at;
-        let mut grid = Grid { direct: Vec::new(), record: None, scene, map, text };
+        let mapped = mapped(&scene, &map)?;
+        let mut grid = Grid { mapped, direct: Vec::new(), record: None, scene, map, text };
         // Keys that the scene does not know are refused here, as in a file. Ranges are intervals: what holds at the corners holds
         // between them.
         for row in [0, grid.rows() - 1] {
@@ -86,7 +105,7 @@ impl Grid {
                 grid.scene_of(column, row)?;
             }
         }
-        grid.direct = (0..grid.scene.devices.len()).map(|device| grid.direct(device)).collect();
+        grid.direct = grid.mapped.iter().map(|mapped| grid.direct(mapped)).collect();
         let mut keys = std::iter::once(&grid.map.x).chain(&grid.map.y).map(|axis| axis.key.as_str());
         let fixed = |key: &str| !key.starts_with("ground.") && !key.starts_with("vertical.");
         if keys.all(|key| fixed(key) || ["ground.0.scale", "vertical.0.scale"].contains(&key)) {
@@ -107,14 +126,23 @@ impl Grid {
         self.map.y.as_ref().map_or(1, |y| y.cells)
     }
 
-    /// Rows of the map's table: a cell of a device each.
-    pub fn table_rows(&self) -> usize {
-        self.columns() * self.rows() * self.scene.devices.len()
+    /// What is mapped: every device, and every clutched pair by every law of `map.laws`.
+    pub fn mapped(&self) -> &[Mapped] {
+        &self.mapped
     }
 
-    /// Cells of device `device` that one task works on: so many that their lanes are full, or one where each is a simulation.
-    pub fn task(&self, device: usize) -> usize {
-        match (&self.direct[device], pulsed(&self.scene, device), &self.record) {
+    /// Rows of the map's table: a cell of a map each.
+    pub fn table_rows(&self) -> usize {
+        self.columns() * self.rows() * self.mapped.len()
+    }
+
+    /// Cells of map `index` that one task works on: so many that their lanes are full, or one where each is a simulation.
+    pub fn task(&self, index: usize) -> usize {
+        let Mapped { device, law, .. } = self.mapped[index];
+        if law.is_some() {
+            return 1;
+        }
+        match (&self.direct[index], pulsed(&self.scene, device), &self.record) {
             (Some(_), ..) => 2048,
             (None, Some(_), _) => 256,
             (None, None, Some(_)) if under_records::Subject::new(self.scene.only(device)).is_known() => 64,
@@ -122,26 +150,30 @@ impl Grid {
         }
     }
 
-    /// The block with device `device` in a cell, if its scene is a dimensionless block under a one-cycle pulse.
+    /// The block of map `device` in a cell, if its scene is a dimensionless block under a one-cycle pulse.
     ///
     /// # Errors
     /// [`SceneError`] for a cell's value outside its range.
     pub fn pulsed(&self, device: usize, column: usize, row: usize) -> Result<Option<PulsedBlock>, SceneError> {
         Ok(match self.subject(device, self.values(column, row))? {
             Subject::Pulsed(block) => Some(block),
-            Subject::Scene(_) => None,
+            Subject::Scene(_) | Subject::Loop(..) => None,
         })
     }
 
-    /// The block with device `device` where the axes have `values`.
+    /// The block of map `index` where the axes have `values`.
     ///
     /// # Errors
     /// [`SceneError`] for a value outside its range.
-    pub(super) fn subject(&self, device: usize, values: Values) -> Result<Subject, SceneError> {
-        if let Some(block) = self.direct[device].and_then(|direct| direct.at(device, values)) {
+    pub(super) fn subject(&self, index: usize, values: Values) -> Result<Subject, SceneError> {
+        let Mapped { device, law, .. } = self.mapped[index];
+        if let Some(block) = self.direct[index].and_then(|direct| direct.at(device, values)) {
             return Ok(Subject::Pulsed(block));
         }
         let scene = self.scene_at(values)?;
+        if let Some(law) = law {
+            return Ok(Subject::Loop(Box::new(scene.only(device)), law));
+        }
         Ok(pulsed(&scene, device).map_or_else(|| Subject::Scene(Box::new(scene)), Subject::Pulsed))
     }
 
@@ -195,8 +227,9 @@ impl Grid {
         Ok(scene)
     }
 
-    fn direct(&self, device: usize) -> Option<Direct> {
-        let base = pulsed(&self.scene, device)?;
+    fn direct(&self, mapped: &Mapped) -> Option<Direct> {
+        let device = mapped.device;
+        let base = pulsed(&self.scene, device).filter(|_| mapped.law.is_none())?;
         let file = &self.scene.file;
         let pulse = Pulse::of(&file.ground[0])?;
         // Whatever else depends on the block or its device is read anew.
@@ -219,6 +252,23 @@ impl Grid {
         };
         Some(Direct { base, block: self.scene.block, pulse, x: quantity(&self.map.x)?, y })
     }
+}
+
+/// The maps of `scene`: its devices, then its clutched pairs by the laws of `map`.
+fn mapped(scene: &Scene, map: &MapTable) -> Result<Vec<Mapped>, SceneError> {
+    let alone = |(device, of): (usize, &SceneDevice)| Mapped { name: of.name.clone(), device, law: None };
+    let mut mapped: Vec<Mapped> = scene.devices.iter().enumerate().map(alone).collect();
+    let commanded =
+        |of: &SceneDevice| of.device.kind == DeviceKind::ClutchedPair && of.drivetrain.engagement != Engagement::Overrunning;
+    for (device, of) in scene.devices.iter().enumerate().filter(|(_, of)| commanded(of)) {
+        let by = |&law: &LawName| Mapped { name: format!("{}, {}", of.name, law.name()), device, law: Some(law) };
+        mapped.extend(map.laws.iter().map(by));
+    }
+    if mapped.len() == scene.devices.len() && !map.laws.is_empty() {
+        let reason = "a closed loop needs a [[device]] of kind \"clutched-pair\" whose clutches take commands";
+        return Err(scene.key("map.laws").conflict(reason));
+    }
+    Ok(mapped)
 }
 
 impl Direct {
@@ -336,7 +386,7 @@ mod tests {
                 let values = grid.values(column, 0);
                 let found = match grid.subject(1, values).unwrap() {
                     Subject::Pulsed(block) => Some(block),
-                    Subject::Scene(_) => None,
+                    Subject::Scene(_) | Subject::Loop(..) => None,
                 };
                 assert_eq!(found, pulsed(&grid.scene_at(values).unwrap(), 1), "{scene}");
             }

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sprag_shared::math;
 
+use super::controller::LawName;
 use super::error::SceneError;
 use super::schema::KeyOf;
 
@@ -23,6 +24,9 @@ pub struct MapTable {
     #[serde(default, skip_serializing_if = "is_no_return")]
     #[schemars(extend("default" = OverturnedAt::NoReturn))]
     pub overturned_at: OverturnedAt,
+    /// Laws of the controller, each of which gets a map of its own with the clutches of every clutched pair in closed loop.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub laws: Vec<LawName>,
 }
 
 /// Rotation |θ| at which a block counts as overturned.
@@ -82,6 +86,9 @@ impl MapTable {
             if y.key == self.x.key {
                 return Err(key("map.y.key").conflict("the two axes need different keys"));
             }
+        }
+        if let Some(twice) = (1..self.laws.len()).find(|&index| self.laws[..index].contains(&self.laws[index])) {
+            return Err(key(&format!("map.laws.{twice}")).conflict("this law is there already"));
         }
         Ok(())
     }

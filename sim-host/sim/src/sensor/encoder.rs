@@ -77,8 +77,12 @@ impl EncoderSensor {
         sensor
     }
 
+    #[inline(always)]
     fn place(&self, travel: f64) -> i64 {
-        (travel / self.resolution + self.phase).floor() as i64
+        // As `floor`, which without SSE4.1 is a call; beyond the range of an i64 both end there.
+        let place = travel / self.resolution + self.phase;
+        let toward_zero = place as i64;
+        toward_zero.saturating_sub(i64::from((toward_zero as f64) > place))
     }
 
     /// Counts up to and with the next one missed: geometric, ⌊ln(1 − u)/ln(1 − p)⌋ + 1.

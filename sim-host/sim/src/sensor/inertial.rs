@@ -56,6 +56,19 @@ impl Inertial {
     };
 }
 
+/// `f64::round`, inline: without SSE4.1 that is a call.
+#[inline]
+fn whole(value: f64) -> f64 {
+    // From 2⁵² on every number is whole; below, the cast is exact, and so is what it leaves.
+    if value.is_nan() || value.abs() >= 4_503_599_627_370_496.0 {
+        return value;
+    }
+    let toward_zero = value as i64 as f64;
+    let left = (value - toward_zero).abs();
+    let away = if left >= 0.5 { toward_zero + 1.0_f64.copysign(value) } else { toward_zero };
+    away.copysign(value)
+}
+
 /// What one axis adds.
 #[derive(Clone, Debug)]
 struct Axis {
@@ -139,25 +152,36 @@ impl<const AXES: usize> InertialSensor<AXES> {
         sensor
     }
 
+    // Not by `zip` and `map`, which are calls where they land in another unit of code generation.
+    #[inline(always)]
     fn mix(&self, truth: &[f64; AXES]) -> [f64; AXES] {
-        std::array::from_fn(|axis| self.mixing[axis].iter().zip(truth).map(|(factor, value)| factor * value).sum())
+        let mut mixed = [-0.0; AXES];
+        for (axis, sum) in mixed.iter_mut().enumerate() {
+            for (other, value) in truth.iter().enumerate() {
+                *sum += self.mixing[axis][other] * value;
+            }
+        }
+        mixed
     }
 
     /// A reading `span` (s) after the last one, of what the filter holds or else of `input`.
+    #[inline(always)]
     fn read(&mut self, input: &[f64; AXES], span: f64) -> Readings<AXES> {
         self.number = self.number.wrapping_add(1);
         let filtered = self.low_pass.is_some();
-        let values = std::array::from_fn(|axis| {
+        let mut values = [0.0; AXES];
+        for axis in 0..AXES {
             let parts = &mut self.axes[axis];
             let signal = if filtered { self.filtered[axis].value } else { input[axis] };
             let output = signal + parts.bias + parts.drift.next(span) + parts.noise.next(span);
             let limited = output.clamp(-self.full_scale, self.full_scale);
             let steps = self.resolution;
-            (if steps > 0.0 { (limited / steps).round() * steps } else { limited }) as f32
-        });
+            values[axis] = (if steps > 0.0 { whole(limited / steps) * steps } else { limited }) as f32;
+        }
         Readings { values, number: self.number }
     }
 
+    #[inline(always)]
     fn follow(&mut self, span: f64, from: &[f64; AXES], to: &[f64; AXES]) {
         if let Some(low_pass) = &mut self.low_pass {
             low_pass.follow(&mut self.filtered, span, from, to);
@@ -187,7 +211,10 @@ impl<const AXES: usize> InertialSensor<AXES> {
         while next <= end + SAME_INSTANT {
             let instant = next.clamp(from, end);
             let part = if span > 0.0 { (instant - start) / span } else { 1.0 };
-            let at: [f64; AXES] = std::array::from_fn(|axis| before[axis] + part * (input[axis] - before[axis]));
+            let mut at = before;
+            for axis in 0..AXES {
+                at[axis] += part * (input[axis] - before[axis]);
+            }
             self.follow(instant - from, &held, &at);
             let Some(clock) = &mut self.clock else { break };
             let period = clock.period;
@@ -203,8 +230,13 @@ impl<const AXES: usize> InertialSensor<AXES> {
     }
 
     /// What can be read.
+    #[inline(always)]
     pub(super) fn readings(&self) -> [Reading; AXES] {
         let Readings { values, number } = self.delivery.readable();
-        values.map(|value| Reading { value, number })
+        let mut readings = [Reading { value: 0.0, number }; AXES];
+        for axis in 0..AXES {
+            readings[axis].value = values[axis];
+        }
+        readings
     }
 }

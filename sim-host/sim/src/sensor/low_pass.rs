@@ -52,11 +52,16 @@ impl LowPass {
         LowPass { decay: 2.0 * PI * FRAC_1_SQRT_2 * bandwidth, remembered: [at_once; REMEMBERED], oldest: 0 }
     }
 
-    #[inline]
+    #[inline(always)]
     fn left(&mut self, span: f64) -> Left {
-        let Some(place) = self.remembered.iter().position(|left| (left.span - span).abs() <= SAME_SPAN * span) else {
-            return self.work_out(span);
-        };
+        let same = SAME_SPAN * span;
+        let mut place = 0;
+        while (self.remembered[place].span - span).abs() > same {
+            place += 1;
+            if place == REMEMBERED {
+                return self.work_out(span);
+            }
+        }
         // One that is in use is not the next to go, or irregular calls would drive out the sampling period.
         if place == self.oldest {
             self.oldest = (self.oldest + 1) % REMEMBERED;
@@ -75,13 +80,14 @@ impl LowPass {
     }
 
     /// The factors of a free motion over `span` (s): by rows, of value and slope on value and slope.
+    #[inline(always)]
     pub(super) fn transition(&mut self, span: f64) -> [[f64; 2]; 2] {
         let Left { cosine, sine, .. } = self.left(span);
         [[cosine + sine, sine], [-2.0 * sine, cosine - sine]]
     }
 
     /// Takes `states` on by `span` (s, not negative) while their inputs go straight from `from` to `to`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn follow<const AXES: usize>(
         &mut self,
         states: &mut [State; AXES],

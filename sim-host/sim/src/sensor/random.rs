@@ -43,11 +43,19 @@ impl Random {
     }
 
     /// Normally distributed with mean 0 and variance 1.
+    #[inline(always)]
     pub(super) fn normal(&mut self) -> f64 {
+        let word = self.words.next_u64();
+        let (layer, part) = layer_of(word);
+        let value = part * self.ziggurat.edge[layer];
+        if value.abs() < self.ziggurat.edge[layer + 1] { value } else { self.normal_from(word) }
+    }
+
+    /// [`Random::normal`] of which the first `word` is drawn.
+    #[inline(never)]
+    fn normal_from(&mut self, mut word: u64) -> f64 {
         loop {
-            // The layer comes from bits that the value does not use: Leong et al. (2005), J. Stat. Softw. 12(7).
-            let word = self.words.next_u64();
-            let (layer, part) = ((word & 127) as usize, 2.0 * unit(word) - 1.0);
+            let (layer, part) = layer_of(word);
             let (edge, inner) = (self.ziggurat.edge[layer], self.ziggurat.edge[layer + 1]);
             let value = part * edge;
             if value.abs() < inner {
@@ -61,6 +69,7 @@ impl Random {
             if low + self.uniform() * (high - low) < 1.0 {
                 return value;
             }
+            word = self.words.next_u64();
         }
     }
 
@@ -76,6 +85,14 @@ impl Random {
     }
 }
 
+/// Layer of the ziggurat, and place in it from −1 to 1. The layer comes from bits that the place does not use: Leong et al. (2005), J. Stat.
+/// Softw. 12(7).
+#[inline(always)]
+fn layer_of(word: u64) -> (usize, f64) {
+    ((word & 127) as usize, 2.0 * unit(word) - 1.0)
+}
+
+#[inline(always)]
 fn unit(word: u64) -> f64 {
     (word >> 11) as f64 / (1_u64 << 53) as f64
 }

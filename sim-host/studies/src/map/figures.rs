@@ -37,7 +37,9 @@ pub fn figures(grid: &Grid, tally: &Tally) -> Result<Vec<(&'static str, String)>
         ("rotation", ROTATION, |result| result.peak_rotation),
         ("acceleration", ACCELERATION, |result| result.peak_acceleration),
     ];
-    for (file, name, peak) in spectra {
+    // Nobody looks for the acceleration of closed loops.
+    let shown = if grid.map.laws.is_empty() { spectra.len() } else { 1 };
+    for (file, name, peak) in spectra.into_iter().take(shown) {
         let safe = tally.maps.iter().flat_map(|map| &map.shown).filter(|result| !result.outcome.overturned()).map(peak);
         let limits = limits(safe.fold(0.0, f64::max));
         let classes = Class::bands(&limits);
@@ -132,8 +134,10 @@ fn cut(grid: &Grid, tally: &Tally) -> Result<String, PlotError> {
         }
         lines
     };
+    let shown = if grid.map.laws.is_empty() { peaks.len() } else { 1 };
     let panels = peaks
         .into_iter()
+        .take(shown)
         .map(|(y_title, peak)| ChartPanel { y_title: y_title.to_owned(), lines: lines(peak), ..ChartPanel::default() })
         .collect();
     chart_figure(&Chart {

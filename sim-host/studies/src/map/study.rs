@@ -88,7 +88,7 @@ fn run_rows(
     mut keep: impl FnMut(&Part) -> Result<(), MapError>,
 ) -> Result<bool, MapError> {
     let cells = grid.columns() * grid.rows();
-    for device in 0..grid.scene.devices.len() {
+    for device in 0..grid.mapped().len() {
         let first = device * cells;
         let own = rows.start.max(first)..rows.end.min(first + cells);
         if own.is_empty() {

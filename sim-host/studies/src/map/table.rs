@@ -8,8 +8,8 @@ use sprag_sim::csv_field::quoted;
 
 use sprag_sim::map::grid::Grid;
 
-/// `device`, the keys of the axes, `outcome`, `peak_rotation` and `peak_acceleration`: peaks max|θ|/α and max|θ̈|/(p²α), empty when overturned;
-/// numbers read back to the same f64. Devices one after another, of each cells row by row from the lowest, each from the left.
+/// `device`, the keys of the axes, `outcome`, `peak_rotation` and `peak_acceleration`: peaks max|θ|/α and max|θ̈|/(p²α), empty when overturned,
+/// the latter of closed loops too; numbers read back to the same f64. Devices one after another, of each cells row by row from the lowest, each from the left.
 pub fn columns(grid: &Grid) -> Vec<Column> {
     let mut columns = vec![Column::text("device"), Column::number(&grid.map.x.key)];
     columns.extend(grid.map.y.iter().map(|y| Column::number(&y.key)));
@@ -24,6 +24,8 @@ pub struct Labels {
     devices: Vec<String>,
     /// Their fields in a CSV file.
     quoted: Vec<String>,
+    /// Whether they are in closed loop, where nobody looks for the peak acceleration.
+    by_law: Vec<bool>,
     x: Vec<String>,
     /// Empty in a cut.
     y: Vec<String>,
@@ -35,10 +37,11 @@ impl Labels {
     /// # Errors
     /// When a name cannot be written.
     pub fn new(grid: &Grid) -> Result<Labels, TableError> {
-        let devices: Vec<String> = grid.scene.devices.iter().map(|device| device.name.clone()).collect();
+        let devices: Vec<String> = grid.mapped().iter().map(|mapped| mapped.name.clone()).collect();
         Ok(Labels {
             quoted: devices.iter().map(|name| quoted(name)).collect::<Result<_, _>>()?,
             devices,
+            by_law: grid.mapped().iter().map(|mapped| mapped.law.is_some()).collect(),
             x: (0..grid.columns()).map(|column| format!("{:?}", grid.map.x.value(column))).collect(),
             y: grid.map.y.iter().flat_map(|y| (0..y.cells).map(|row| format!("{:?}", y.value(row)))).collect(),
         })
@@ -61,6 +64,8 @@ impl Labels {
         }
         let peaks = if result.outcome.overturned() {
             ",,\n".to_owned()
+        } else if result.peak_acceleration.is_nan() {
+            format!(",{:?},\n", result.peak_rotation)
         } else {
             format!(",{:?},{:?}\n", result.peak_rotation, result.peak_acceleration)
         };
@@ -83,10 +88,10 @@ impl Labels {
         }
         let name = next();
         let outcome = Outcome::from_name(name).ok_or_else(|| format!("`{name}` is no outcome"))?;
-        let mut peak = || match next() {
-            "" if outcome.overturned() => Ok(f64::NAN),
+        let mut peak = |nothing: bool| match next() {
+            "" if nothing || outcome.overturned() => Ok(f64::NAN),
             text => text.parse().map_err(|_| format!("`{text}` is no peak of a block with the outcome {outcome}")),
         };
-        Ok(PulseResult { outcome, peak_rotation: peak()?, peak_acceleration: peak()? })
+        Ok(PulseResult { outcome, peak_rotation: peak(false)?, peak_acceleration: peak(self.by_law[device])? })
     }
 }

@@ -45,7 +45,7 @@ impl Counts {
     }
 }
 
-/// The map of one device.
+/// The map of one device, as it is or by one law.
 #[derive(Clone, Debug)]
 pub struct DeviceMap {
     /// Name of the device.
@@ -114,7 +114,7 @@ impl Tally {
             worked_out: 0,
             seconds: 0.0,
         };
-        let maps = grid.scene.devices.iter().map(|device| map(&device.name)).collect();
+        let maps = grid.mapped().iter().map(|mapped| map(&mapped.name)).collect();
         Tally { columns, rows, maps, of_device: grid.columns() * grid.rows() }
     }
 

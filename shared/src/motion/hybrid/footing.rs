@@ -1,0 +1,62 @@
+//! A standing block that nothing can lift over a piece of ground motion, and whose device waits.
+
+use super::mode_output::Shaking;
+use super::{HybridState, HybridSystem};
+use crate::drivetrain::clutch_state::Coupling;
+use crate::equation::body::Body;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::motion::state::Phase;
+
+/// Share of the threshold below which a push certainly stays below it, whatever the rounding.
+const CERTAIN: f64 = 0.999;
+
+/// What the ground must exceed to lift a block from its base: with friction it must exceed more.
+#[derive(Clone, Copy, Debug)]
+pub struct Footing<S> {
+    /// Factor of |ü_g/g|, 1/s²; the larger of both sides.
+    push: S,
+    /// Factor of 1 + v̈_g/g, 1/s²; the smaller of both sides.
+    weight: S,
+}
+
+impl<S: Real> HybridSystem<S> {
+    /// Footing of the block.
+    pub fn footing(&self) -> Footing<S> {
+        let [(push, weight), (other, light)] = [Sign::Positive, Sign::Negative].map(|side| {
+            let configuration = self.body.configuration(side.unit(), S::ZERO);
+            let (horizontal, vertical) = self.body.factors(&configuration);
+            let arm = self.body.arm(&configuration);
+            ((horizontal - arm * self.transmission.parameters.rack_push).abs(), -side.times(vertical))
+        });
+        Footing { push: push.larger(other), weight: weight.smaller(light) }
+    }
+
+    /// Lets a block stand through `duration` (s) of a ground segment where that is all that can happen: to the same bits as
+    /// [`HybridSystem::advance`], which is to be called where it answers `false`.
+    #[inline]
+    pub fn stands_through(&self, footing: &Footing<S>, state: &mut HybridState<S>, shaking: Shaking<'_, S>, duration: S) -> bool {
+        let waits = state.device.wheels.iter().all(|wheel| {
+            wheel.spin == S::ZERO
+                && matches!(wheel.coupling, Coupling::Open | Coupling::Locked)
+                && (wheel.pending < S::ZERO || wheel.pending > duration)
+        });
+        if state.motion.phase != Phase::Rest || !waits || self.transmission.parameters.rise_time > S::ZERO || duration <= S::ZERO
+        {
+            return false;
+        }
+        let (first, last) = (shaking.at(S::ZERO), shaking.at(duration));
+        let bow = |curvature: S| curvature * duration * duration * S::of(0.125);
+        let push = first[0].abs().larger(last[0].abs()) + bow(shaking.horizontal.curvature_bound());
+        let lift = match shaking.vertical {
+            Some(vertical) => first[1].smaller(last[1]) - bow(vertical.curvature_bound()),
+            None => S::ZERO,
+        };
+        if footing.push * push > S::of(CERTAIN) * footing.weight * (S::ONE + lift) {
+            return false;
+        }
+        state.device.elapse(duration);
+        state.ground = last;
+        true
+    }
+}
