@@ -14,6 +14,7 @@ use sprag_studies::cloud::records::StudyRecords;
 use sprag_studies::cloud::structures::StudyStructure;
 use sprag_studies::cloud::study::Study;
 use sprag_studies::cloud::study_file::{RecordEntry, RecordTable, StripesTable};
+use sprag_studies::optimise::choice_page::{choice_page, choice_picture};
 use sprag_studies::optimise::curve::Curve;
 use sprag_studies::optimise::figure::trade_off_picture;
 use sprag_studies::optimise::findings::Findings;
@@ -38,7 +39,8 @@ use crate::command::long_run_arguments::ResumeArguments;
     sprag optimise study.toml --records near_fault/*.AT2 --set block.size_m=3 --out out/pier\n\n\
     Tries devices on a grid of mass ratios, for every law and mount of the study's [optimise] table, under every record, scaled \
     as the study says; then more where a limit is reached and around the best. Writes the tables designs and motions as .csv and \
-    .parquet, the picture trade_off as .svg and .png, optimise.md and summary.json. Runs go to the disk as they are made, and Ctrl-C leaves \
+    .parquet, the pictures trade_off and choice as .svg and .png, choice.md (the choice, how sure it is, what it costs), optimise.md and \
+    summary.json. Runs go to the disk as they are made, and Ctrl-C leaves \
     them there for --resume. The exit code is 1 when no device respects the limits, and when a record cannot be read or \
     a run fails; results are written all the same.")]
 pub struct OptimiseArguments {
@@ -179,7 +181,7 @@ fn answered<'a>(
         .with("study", &Resolved::of(&study, choices))?
         .with("structure", choices.structure)?;
     let inputs = arguments.input.files(&study, records);
-    let names = &["designs", "motions", "optimise", "trade_off"];
+    let names = &["designs", "motions", "optimise", "choice", "trade_off"];
     folder.open(&Claim { subject: subject.clone(), page: "summary.json", names, inputs })?;
     let (begin, done) = (|runs| progress.begin(runs), || progress.step());
     let (solution, tried) = if arguments.accuracy.is_chosen() {
@@ -223,9 +225,21 @@ fn fill(
     report.table("motions", &motion_table(problem, solution, findings.best.as_ref()))?;
     report.page("optimise.md", &page(problem, findings)?)?;
     report.picture("trade_off", trade_off_picture(problem, findings))?;
+    // Those of an earlier search that found one.
+    let (choice, compared) = (choice_page(problem, findings), choice_picture(problem, findings).transpose());
+    match choice {
+        Some(text) => report.page("choice.md", &text)?,
+        None => report.remove("choice.md"),
+    }
+    match compared {
+        Some(svg) => _ = report.picture("choice", svg)?,
+        None => ["choice.svg", "choice.png"].into_iter().for_each(|name| report.remove(name)),
+    }
     let Findings { motions, designs, runs, notes, .. } = findings;
     report.print(format_args!("{}: {motions} motions, {}", heading(choices), limits(choices)));
     report.print(format_args!("{designs} devices tried in {runs} runs\n\n{}\n", choice_table(findings)?.for_terminal()));
+    let rivals = findings.ranking.iter().flat_map(|ranking| &ranking.rivals);
+    rivals.for_each(|rival| report.print(rival.verdict(findings.level)));
     notes.iter().for_each(|note| report.print(note));
     report.left_out(left_out);
     report.accuracy(solution.worst);

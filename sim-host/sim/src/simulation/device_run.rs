@@ -14,6 +14,7 @@ use super::watchers::Watchers;
 use crate::accuracy::answer::Comparable;
 use crate::accuracy::{Answer, Compared, ErrorEstimate};
 use crate::history::{History, Sample};
+use crate::scene::checks::ChecksTable;
 
 /// One device's run. The fields that serialize are the objects in `runs` of `summary.json`; times in s.
 #[derive(Clone, Debug, Serialize)]
@@ -126,6 +127,8 @@ impl Found {
     /// By those who watched.
     pub fn watched<S: Real>(task: &Task<'_>, watchers: Watchers<'_, S>) -> Found {
         let Watchers { recorder, checks, asked, .. } = watchers;
+        let demand = |(checks, table): (_, &ChecksTable)| Demand::of(task, table, &checks, asked.coils());
+        let demand = checks.zip(task.scene.file.checks.as_ref()).map(demand);
         Found {
             samples: recorder.samples,
             impacts_s: recorder.impacts,
@@ -133,8 +136,8 @@ impl Found {
             missed_engagements: 0,
             peak_force_ratio: checks.map(|checks| support_force_ratio(task, &checks.report).unwrap_or(0.0)),
             impulses: checks.map(|checks| Impulses::of(&checks.before_fall())).unwrap_or_default(),
-            checks: checks.zip(task.scene.file.checks.as_ref()).map(|(checks, table)| Demand::of(task, table, &checks)),
-            energy: asked.results(),
+            checks: demand,
+            energy: asked.energy(),
         }
     }
 }

@@ -88,7 +88,7 @@ fn all_measures() -> Vec<Measure> {
 
 /// An entry of `records`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged, expecting = "a record is a path, or { file = \"…\" } with units, time_step_s or component")]
+#[serde(untagged, expecting = "a record is a path, or { file = \"…\" } with units, time_step_s, component or event")]
 pub enum RecordEntry {
     /// A file or a folder.
     Path(PathBuf),
@@ -112,6 +112,10 @@ pub struct DescribedRecord {
     /// Component of files with several.
     #[schemars(example = &"NS")]
     pub component: Option<String>,
+    /// Earthquake of the file, or of all files of the folder, by any name: motions of one earthquake are not independent. The day in the
+    /// title of a file without the key.
+    #[schemars(example = &"Northridge")]
+    pub event: Option<String>,
 }
 
 /// `[record]`: as the options of `sprag record`.

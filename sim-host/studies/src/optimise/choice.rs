@@ -51,7 +51,7 @@ mod tests {
         Score { motions: 87, overturned, median_rotation, force_ratio, ..Score::default() }
     }
 
-    const LIMITS: Limits = Limits { force: Some(0.3), stroke: None, quantile: 1.0, force_of_overturned: true };
+    const LIMITS: Limits = Limits { force: Some(0.3), ..Limits::NONE };
 
     #[test]
     fn ties_are_broken_by_rotation_then_force_then_order() {

@@ -37,10 +37,12 @@ impl Curve {
     }
 }
 
-/// `scene` with `device` alone, nothing to write down, and checks that look for its largest force and travel.
+/// `scene` with `device` alone, nothing to write down, and checks that look for its largest force and travel, and what its gears and coils
+/// bear.
 pub(super) fn watched(scene: &Scene, device: DeviceTable) -> Result<Scene, SceneError> {
+    let ChecksTable { gear, coil, .. } = scene.file.checks.clone().unwrap_or_default();
     let mut scene = scene.with_device(device)?.only(0);
-    scene.file.checks = Some(ChecksTable::default());
+    scene.file.checks = Some(ChecksTable { gear, coil, ..ChecksTable::default() });
     Ok(scene)
 }
 

@@ -54,6 +54,10 @@ pub struct Score {
     pub force_ratio: f64,
     /// Quantile of the stroke over the motions in which the block stands, m; `None` where it never does.
     pub stroke_m: Option<f64>,
+    /// Quantile of the bending stress of gear teeth over the motions whose force counts, MPa; `None` where the scene has no gear.
+    pub tooth_stress_mpa: Option<f64>,
+    /// Quantile of the energy of the coils over the motions whose force counts, J; `None` where the device has none.
+    pub coil_energy_j: Option<f64>,
     /// Median of max |θ|/α over the motions that rock the bare block, where overturning counts as infinite.
     pub median_rotation: f64,
 }
@@ -70,6 +74,7 @@ impl Score {
     pub fn of(responses: &Responses, bare: &Responses, limits: &Limits) -> Score {
         let mut score = Score::default();
         let (mut forces, mut strokes, mut rotations) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut stresses, mut energies) = (Vec::new(), Vec::new());
         for (response, bare) in responses.iter().zip(bare) {
             let Ok(response) = response else {
                 score.failed += 1;
@@ -80,6 +85,8 @@ impl Score {
             score.overturned += usize::from(overturned);
             if !overturned || limits.force_of_overturned {
                 forces.push(response.force_ratio);
+                stresses.extend(response.tooth_stress_mpa);
+                energies.extend(response.coil_energy_j);
             }
             if !overturned {
                 strokes.push(response.stroke_m);
@@ -93,15 +100,19 @@ impl Score {
         }
         score.force_ratio = quantile(&forces, limits.quantile).unwrap_or(0.0);
         score.stroke_m = quantile(&strokes, limits.quantile);
+        score.tooth_stress_mpa = quantile(&stresses, limits.quantile);
+        score.coil_energy_j = quantile(&energies, limits.quantile);
         score.median_rotation = quantile(&rotations, 0.5).unwrap_or(0.0);
         score
     }
 
-    /// What it asks for of `quantity`; nothing of a stroke where the block never stands.
+    /// What it asks for of `quantity`; nothing of a stroke where the block never stands, and of what the scene or the device does not have.
     pub fn asks(&self, quantity: Quantity) -> f64 {
         match quantity {
             Quantity::Force => self.force_ratio,
             Quantity::Stroke => self.stroke_m.unwrap_or(0.0),
+            Quantity::ToothStress => self.tooth_stress_mpa.unwrap_or(0.0),
+            Quantity::CoilEnergy => self.coil_energy_j.unwrap_or(0.0),
         }
     }
 }
@@ -110,16 +121,32 @@ impl Score {
 mod tests {
     use super::*;
 
-    const LIMITS: Limits = Limits { force: None, stroke: None, quantile: 1.0, force_of_overturned: true };
+    const LIMITS: Limits = Limits::NONE;
 
     fn stands(peak: f64, force_ratio: f64, stroke_m: f64) -> Result<Response, String> {
         let outcome = if peak > 0.0 { Outcome::Safe } else { Outcome::NoRocking };
-        Ok(Response { outcome, peak_rotation: Some(peak), force_ratio, stroke_m, error: None })
+        Ok(Response {
+            outcome,
+            peak_rotation: Some(peak),
+            force_ratio,
+            stroke_m,
+            tooth_stress_mpa: Some(100.0 * force_ratio),
+            coil_energy_j: None,
+            error: None,
+        })
     }
 
     fn falls(force_ratio: f64, stroke_m: f64) -> Result<Response, String> {
         let outcome = Outcome::OverturnedAfterImpact;
-        Ok(Response { outcome, peak_rotation: None, force_ratio, stroke_m, error: None })
+        Ok(Response {
+            outcome,
+            peak_rotation: None,
+            force_ratio,
+            stroke_m,
+            tooth_stress_mpa: Some(100.0 * force_ratio),
+            coil_energy_j: None,
+            error: None,
+        })
     }
 
     fn bare() -> Responses {
@@ -132,8 +159,9 @@ mod tests {
             vec![stands(0.0, 0.0, 0.0), falls(0.5, 1.9), stands(0.8, 0.2, 0.3), falls(0.6, 1.9), stands(0.2, 0.1, 0.1)];
         let score = Score::of(&responses, &bare(), &LIMITS);
         assert_eq!((score.motions, score.overturned, score.saved, score.newly_overturned), (5, 2, 1, 1));
-        // The force on a falling block counts, its travel does not.
+        // The force on a falling block counts, and the stress that it means; its travel does not.
         assert_eq!((score.force_ratio, score.stroke_m), (0.6, Some(0.3)));
+        assert_eq!((score.tooth_stress_mpa, score.coil_energy_j, score.asks(Quantity::CoilEnergy)), (Some(60.0), None, 0.0));
         let standing = Score::of(&responses, &bare(), &Limits { force_of_overturned: false, ..LIMITS });
         assert_eq!((standing.force_ratio, standing.stroke_m), (0.2, Some(0.3)));
         // The median of 0.2, 0.8 and twice infinite.

@@ -4,10 +4,11 @@
 //! - [`motion`], [`response`], [`problem`]: what each does under each motion.
 //! - [`design`], [`search`]: devices and what they come to, on a grid of mass ratios and where it matters in between; [`tried`]: those of an
 //!   interrupted search.
-//! - [`choice`], [`findings`]: which is best, and at what price.
-//! - [`typed_tables`], [`page`], [`figure`]: tables and pictures of it.
+//! - [`choice`], [`findings`]: which is best, and at what price; [`ranking`]: how sure that is.
+//! - [`typed_tables`], [`page`], [`choice_page`], [`figure`]: tables and pictures of it.
 
 pub mod choice;
+pub mod choice_page;
 pub mod curve;
 pub mod design;
 pub mod figure;
@@ -19,11 +20,13 @@ pub mod mount;
 mod notes;
 pub mod page;
 pub mod problem;
+pub mod ranking;
 pub mod response;
 pub mod search;
 pub mod table;
 pub mod tried;
 pub mod typed_tables;
+mod verdict;
 
 #[cfg(test)]
 mod tests;

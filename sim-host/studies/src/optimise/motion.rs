@@ -25,6 +25,11 @@ impl Motion<'_> {
         self.record.ground(self.factor, self.start_s)
     }
 
+    /// What it shares its luck with: motions of one earthquake, and one record at several scales, are not independent.
+    pub fn group(&self) -> &str {
+        self.record.event.as_deref().unwrap_or(&self.record.name)
+    }
+
     /// In messages.
     pub fn name(&self) -> String {
         format!("{} times {}", self.record.name, self.factor)

@@ -5,7 +5,7 @@ use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::accuracy::EventTreatment;
 use sprag_sim::scene::error::KeyPath;
-use sprag_sim::scene::schema::{DeviceTable, Kind};
+use sprag_sim::scene::schema::{DeviceTable, KeyOf, Kind};
 use sprag_sim::scene::{Scene, SceneError};
 use sprag_sim::simulation::{RunError, simulate_for_study};
 
@@ -51,10 +51,7 @@ impl<'a> Choices<'a> {
         let mut table = study.file.optimise.clone().unwrap_or_default();
         table.check(&key)?;
         let structure = structure(study, &table, key("structure"))?;
-        if let Some(checks) = &structure.scene.file.checks {
-            table.largest_force_ratio = table.largest_force_ratio.or(checks.largest_force_ratio);
-            table.largest_stroke_m = table.largest_stroke_m.or(checks.largest_stroke_m);
-        }
+        limits_of_scene(&mut table, &structure.scene, &key)?;
         if structure.scene.file.accuracy.events == EventTreatment::StepEnd {
             let of_scene = KeyPath { origin: structure.scene.origin.clone(), key: "accuracy.events".to_owned() };
             return Err(of_scene.conflict("largest forces lie between steps: an optimisation needs \"located\""));
@@ -64,11 +61,36 @@ impl<'a> Choices<'a> {
         let limits = Limits {
             force: table.largest_force_ratio,
             stroke: table.largest_stroke_m,
+            tooth_stress: table.largest_tooth_stress_mpa,
+            coil_energy: table.largest_coil_energy_j,
             quantile: table.limit_quantile,
             force_of_overturned: table.force_of_overturned,
         };
         Ok(Choices { study, structure, table, curves, limits, left_out })
     }
+}
+
+/// Fills in the limits of `scene` where `table` has none.
+///
+/// # Errors
+/// [`SceneError`] for a limit on what the scene does not have.
+fn limits_of_scene(table: &mut OptimiseTable, scene: &Scene, key: &KeyOf<'_>) -> Result<(), SceneError> {
+    let checks = scene.file.checks.clone().unwrap_or_default();
+    for (name, limit, part, there) in [
+        ("largest_tooth_stress_mpa", table.largest_tooth_stress_mpa, "checks.gear", checks.gear.is_some()),
+        ("largest_coil_energy_j", table.largest_coil_energy_j, "checks.coil", checks.coil.is_some()),
+    ] {
+        if limit.is_some() && !there {
+            return Err(key(name).conflict(&format!("it needs {part} of the scene")));
+        }
+    }
+    table.largest_force_ratio = table.largest_force_ratio.or(checks.largest_force_ratio);
+    table.largest_stroke_m = table.largest_stroke_m.or(checks.largest_stroke_m);
+    let (of_gear, of_coil) =
+        (checks.gear.map(|gear| gear.allowable_stress_mpa), checks.coil.and_then(|coil| coil.largest_energy_j));
+    table.largest_tooth_stress_mpa = table.largest_tooth_stress_mpa.or(of_gear);
+    table.largest_coil_energy_j = table.largest_coil_energy_j.or(of_coil);
+    Ok(())
 }
 
 /// The structure of `study` that gets the device.

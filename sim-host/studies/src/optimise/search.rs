@@ -131,7 +131,7 @@ mod tests {
     const GRID: [f64; 6] = [0.1, 0.3, 0.9, 2.7, 8.1, 24.3];
 
     fn limits(force: Option<f64>) -> Limits {
-        Limits { force, stroke: None, quantile: 1.0, force_of_overturned: true }
+        Limits { force, ..Limits::NONE }
     }
 
     fn found(force: Option<f64>) -> (Vec<Design>, usize) {

@@ -47,10 +47,16 @@ pub struct OptimiseTable {
     /// key.
     #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e4))]
     pub largest_stroke_m: Option<f64>,
+    /// Largest bending stress at the root of a gear tooth; that of the scene's `checks.gear` without the key, which it needs.
+    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e5))]
+    pub largest_tooth_stress_mpa: Option<f64>,
+    /// Largest energy of the coils of both clutches over a motion; that of the scene's `checks.coil` without the key, which it needs.
+    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e9))]
+    pub largest_coil_energy_j: Option<f64>,
     /// Share of the motions that must respect a limit.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub limit_quantile: f64,
-    /// Whether the force counts under motions that overturn the block, until it lies down.
+    /// Whether force, tooth stress and coil energy count under motions that overturn the block, until it lies down.
     pub force_of_overturned: bool,
 }
 
@@ -89,6 +95,8 @@ impl Default for OptimiseTable {
             mounts: Vec::new(),
             largest_force_ratio: None,
             largest_stroke_m: None,
+            largest_tooth_stress_mpa: None,
+            largest_coil_energy_j: None,
             limit_quantile: 1.0,
             force_of_overturned: true,
         }

@@ -18,7 +18,7 @@ use super::response::Response;
 /// More rows than any search makes: how many there will be is not known beforehand.
 pub const MOST_ROWS: usize = 1 << 40;
 
-const COLUMNS: [&str; 12] = [
+const COLUMNS: [&str; 14] = [
     "curve",
     "mass_ratio",
     "motion",
@@ -26,6 +26,8 @@ const COLUMNS: [&str; 12] = [
     "peak_rotation",
     "peak_force_ratio",
     "stroke_m",
+    "tooth_stress_mpa",
+    "coil_energy_j",
     "failure",
     "outcome_certain",
     "peak_rotation_error",
@@ -154,18 +156,20 @@ impl Memory for Tried {
 }
 
 /// The fields of a response; numbers read back to the same bits.
-fn texts(response: &Result<Response, String>) -> [String; 9] {
+fn texts(response: &Result<Response, String>) -> [String; 11] {
     let number = |value: f64| format!("{value:?}");
     let maybe = |value: Option<f64>| value.map_or_else(String::new, number);
     match response {
-        Err(reason) => [FAILED, "", "", "", reason, "", "", "", ""].map(str::to_owned),
-        Ok(Response { outcome, peak_rotation, force_ratio, stroke_m, error }) => {
+        Err(reason) => [FAILED, "", "", "", "", "", reason, "", "", "", ""].map(str::to_owned),
+        Ok(Response { outcome, peak_rotation, force_ratio, stroke_m, tooth_stress_mpa, coil_energy_j, error }) => {
             let error = |value: fn(&ErrorEstimate) -> String| error.as_ref().map_or_else(String::new, value);
             [
                 outcome.name().to_owned(),
                 maybe(*peak_rotation),
                 number(*force_ratio),
                 number(*stroke_m),
+                maybe(*tooth_stress_mpa),
+                maybe(*coil_energy_j),
                 String::new(),
                 error(|error| error.outcome_certain.to_string()),
                 error(|error| format!("{:?}", error.peak_rotation)),
@@ -179,13 +183,14 @@ fn texts(response: &Result<Response, String>) -> [String; 9] {
 /// What [`texts`] has written.
 fn response(fields: &mut RowFields<'_>) -> Result<Result<Response, String>, String> {
     let Some(outcome) = fields.outcome()? else {
-        fields.skip(3);
+        fields.skip(5);
         return Ok(Err(fields.text().to_owned()));
     };
     let (peak_rotation, force_ratio, stroke_m) = (fields.maybe()?, fields.number()?, fields.number()?);
+    let (tooth_stress_mpa, coil_energy_j) = (fields.maybe()?, fields.maybe()?);
     fields.skip(1);
     let error = fields.error_estimate()?;
-    Ok(Ok(Response { outcome, peak_rotation, force_ratio, stroke_m, error }))
+    Ok(Ok(Response { outcome, peak_rotation, force_ratio, stroke_m, tooth_stress_mpa, coil_energy_j, error }))
 }
 
 #[cfg(test)]
@@ -213,6 +218,8 @@ mod tests {
             peak_rotation: Some(0.1 + 0.2),
             force_ratio: 1.0 / 3.0,
             stroke_m: 5e-324,
+            tooth_stress_mpa: Some(1.0 / 7.0),
+            coil_energy_j: None,
             error: Some(error),
         };
         let falls = Response { outcome: Outcome::OverturnedAfterImpact, peak_rotation: None, error: None, ..stands };
@@ -229,7 +236,7 @@ mod tests {
         let path = folder.path().join("tried.csv.unfinished");
         let mut text = std::fs::read(&path).unwrap();
         // A design of which the second motion is missing, and half of a row.
-        text.extend(b"2,0.2,0,safe,0.1,0.2,0.3,,,,,\n2,0.2,1,sa");
+        text.extend(b"2,0.2,0,safe,0.1,0.2,0.3,,,,,,,\n2,0.2,1,sa");
         std::fs::write(&path, &text).unwrap();
 
         assert!(matches!(Tried::begin(folder.path(), origin(1), Start::New, 2), Err(LongRunError::Unfinished { .. })));

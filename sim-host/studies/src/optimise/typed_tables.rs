@@ -22,7 +22,8 @@ struct NamedRow<'s> {
 /// `designs`: the bare block, then every device that was tried, by law, mount and mass ratio.
 pub fn design_table(findings: &Findings) -> impl Table {
     let rows = std::iter::once(&findings.reference).chain(&findings.rows).map(|design| NamedRow { name: "", design });
-    FieldTable { rows: rows.collect(), fields: design_fields(Fields::default()) }
+    let rows: Vec<NamedRow<'_>> = rows.collect();
+    FieldTable { fields: design_fields(Fields::default(), &rows), rows }
 }
 
 /// Designs for people, each below its name where any has one.
@@ -32,13 +33,13 @@ pub(super) fn named_table<'s>(rows: Vec<(&'s str, &'s Row)>) -> impl Table + 's 
     if rows.iter().any(|row| !row.name.is_empty()) {
         first = first.with(Column::text("name").shown("", Shown::Digits(0)), |row| row.name.into());
     }
-    FieldTable { fields: design_fields(first), rows }
+    FieldTable { fields: design_fields(first, &rows), rows }
 }
 
-/// The columns of designs, after those of `first`.
-fn design_fields<'s>(first: Fields<NamedRow<'s>>) -> Fields<NamedRow<'s>> {
+/// The columns of designs, after those of `first`. What none of `rows` has gets no column.
+fn design_fields<'s>(first: Fields<NamedRow<'s>>, rows: &[NamedRow<'s>]) -> Fields<NamedRow<'s>> {
     let (number, digits) = (|name: &str| Column::number(name).or_nothing(), Shown::Digits);
-    first
+    let mut fields = first
         .with(Column::text("law").shown("law", digits(0)), |row| (&row.design.law).into())
         .with(Column::text("mount").or_nothing().shown("mount", digits(0)), |row| row.design.mount.as_ref().into())
         .with(number("mass_ratio").shown("σ", digits(4)), |row| row.design.mass_ratio.into())
@@ -55,7 +56,15 @@ fn design_fields<'s>(first: Fields<NamedRow<'s>>) -> Fields<NamedRow<'s>> {
         .with(number("median_peak_rotation").shown("median θ/α", digits(3)), |row| row.design.median_peak_rotation.into())
         .with(Column::text("feasible"), |row| yes_or_no(row.design.feasible).into())
         .with(Column::text("on_force_front"), |row| yes_or_no(row.design.on_force_front).into())
-        .with(Column::text("on_stroke_front"), |row| yes_or_no(row.design.on_stroke_front).into())
+        .with(Column::text("on_stroke_front"), |row| yes_or_no(row.design.on_stroke_front).into());
+    if rows.iter().any(|row| row.design.tooth_stress_mpa.is_some()) {
+        fields =
+            fields.with(number("tooth_stress_mpa").shown("teeth (MPa)", digits(1)), |row| row.design.tooth_stress_mpa.into());
+    }
+    if rows.iter().any(|row| row.design.coil_energy_j.is_some()) {
+        fields = fields.with(number("coil_energy_j").shown("coils (J)", digits(1)), |row| row.design.coil_energy_j.into());
+    }
+    fields
 }
 
 /// A motion under a design.
