@@ -295,7 +295,7 @@ fn an_interrupted_search_resumes() {
     let origin = || Origin::new(Subject::new("optimise", BTreeMap::new()), MOST_ROWS);
     let mut made = 0;
     let mut part = |start: Start, most: usize| {
-        let mut tried = Tried::begin(folder.path(), origin(), start, problem.motions.len()).unwrap();
+        let mut tried = Tried::begin(folder.path(), origin(), start, problem.trials()).unwrap();
         let (interrupt, runs) = (Interrupt::default(), AtomicUsize::new(0));
         let solution = problem.solve(&mut tried, &interrupt, &|_| (), &|| {
             if runs.fetch_add(1, Ordering::Relaxed) + 1 == most {
@@ -312,7 +312,7 @@ fn an_interrupted_search_resumes() {
     let solution = solution.unwrap();
     assert_eq!((solution.bare, solution.designs), (whole.bare, whole.designs));
     // What an interrupt costs: the designs that were under way.
-    assert!(made < whole.runs + 2 * 9 * problem.motions.len() && whole.runs > 200, "{made} of {}", whole.runs);
+    assert!(made < whole.runs + 2 * 17 * problem.motions.len() && whole.runs > 200, "{made} of {}", whole.runs);
     tried.discard().unwrap();
 }
 
@@ -338,14 +338,13 @@ pub fn simulated_again(study: &Study, path_of: impl Fn(&str) -> PathBuf) {
     answered(study, |problem, solution, findings| {
         let best = findings.best.as_ref().unwrap();
         let design = solution.designs.iter().find(|design| design.candidate == best.candidate).unwrap();
-        let runs: Vec<DeviceRun> =
-            problem.motions.iter().map(|motion| simulated(best, &path_of(&motion.record.name), 1.0)).collect();
+        let runs: Vec<DeviceRun> = problem.motions.iter().map(|motion| simulated(best, &path_of(&motion.name), 1.0)).collect();
         for ((motion, response), run) in problem.motions.iter().zip(&design.responses).zip(&runs) {
             let response = response.as_ref().unwrap();
-            assert_eq!((response.outcome, response.peak_rotation), (run.outcome, run.peak_rotation), "{}", motion.name());
+            assert_eq!((response.outcome, response.peak_rotation), (run.outcome, run.peak_rotation), "{}", motion.scaled_name());
             let checks = run.checks.as_ref().unwrap();
-            assert_eq!(Some(response.force_ratio), run.peak_force_ratio, "{}", motion.name());
-            assert_eq!(response.stroke_m, checks.stroke_with_fall_m.unwrap_or(0.0), "{}", motion.name());
+            assert_eq!(Some(response.force_ratio), run.peak_force_ratio, "{}", motion.scaled_name());
+            assert_eq!(response.stroke_m, checks.stroke_with_fall_m.unwrap_or(0.0), "{}", motion.scaled_name());
             // What a history samples is never above the largest, and not far below.
             let sampled = run.history.peak_force_ratio();
             assert!(sampled <= response.force_ratio * (1.0 + 1e-9) && sampled >= 0.9 * response.force_ratio);

@@ -29,6 +29,11 @@ impl<S: Real> Asked<S> {
         Ok(Asked { energy: task.scene.file.output.energy.then(energy), coils: coils.then(CoilUse::default) })
     }
 
+    /// What a controller has commanded, in the place of what the clutches did.
+    pub(crate) fn commanded(&mut self, commanded: CoilUse) {
+        self.coils = self.coils.map(|_| commanded);
+    }
+
     /// What the coils took; none where nobody looked, and without a clutch that has one.
     pub(super) fn coils(&self) -> Option<CoilUse> {
         self.coils

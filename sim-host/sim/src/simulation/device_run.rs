@@ -112,7 +112,7 @@ fn is_zero(count: &u32) -> bool {
 
 /// What a run found beside its state and peaks.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Found {
+pub(crate) struct Found {
     pub samples: Vec<Sample>,
     pub impacts_s: Vec<f64>,
     pub clutch_switches: u32,
@@ -156,7 +156,7 @@ impl<S> From<Trace<S>> for Found {
 
 impl DeviceRun {
     /// Of a motion that ended in `state` with `peaks`. Results stay relative to the bare block.
-    pub(super) fn of<S: Real>(task: &Task<'_>, state: &BlockState<S>, peaks: &Peaks<S>, found: Found) -> DeviceRun {
+    pub(crate) fn of<S: Real>(task: &Task<'_>, state: &BlockState<S>, peaks: &Peaks<S>, found: Found) -> DeviceRun {
         let device = task.device().name.clone();
         let (alpha, p) = (task.scene.block.slenderness(), task.scene.block.frequency_parameter());
         let outcome = Outcome::of(state, peaks);

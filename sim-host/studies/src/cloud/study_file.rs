@@ -26,7 +26,7 @@ fn example_changes() -> BTreeMap<&'static str, f64> {
 }
 
 /// Has the elements of a list above 0.
-fn each_above_zero(schema: &mut schemars::Schema) {
+pub(crate) fn each_above_zero(schema: &mut schemars::Schema) {
     if let Some(items) = schema.get_mut("items").and_then(serde_json::Value::as_object_mut) {
         items.insert("exclusiveMinimum".to_owned(), 0.0.into());
     }
@@ -73,6 +73,13 @@ pub struct StudyFile {
     pub bootstrap: BootstrapTable,
     /// Choice of a device, for `sprag optimise`.
     pub optimise: Option<OptimiseTable>,
+}
+
+impl StudyFile {
+    /// Whether `sprag optimise` has motions without a record.
+    pub fn has_pulses(&self) -> bool {
+        self.optimise.as_ref().is_some_and(|optimise| !optimise.pulse.is_empty())
+    }
 }
 
 impl Described for StudyFile {

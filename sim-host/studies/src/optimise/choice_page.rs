@@ -1,12 +1,13 @@
 //! `choice.md` and `choice.svg`: the choice as a designer hands it on: what, why, how sure, at what cost, and what was not looked at.
 
 use sprag_report::heading::of_blocks;
-use sprag_report::plot::{FigureTitle, Interval, PlotError, interval_figure};
+use sprag_report::plot::{Chart, ChartPanel, FigureTitle, Interval, Line, PlotError, chart_figure, interval_figure};
 use sprag_report::text_table::TextTable;
 use sprag_shared::structure::block::GRAVITY;
 use sprag_sim::scene::drivetrain::EngagementName;
 use sprag_sim::scene::schema::{DeviceTable, Kind};
 
+use super::delay::{Late, is_commanded};
 use super::findings::{Findings, Row};
 use super::limit::Quantity;
 use super::notes::{device, share, short};
@@ -15,6 +16,7 @@ use super::problem::{Choices, Problem};
 use super::ranking::Ranking;
 use super::verdict::{points, rival_name, rotation_ratio};
 use crate::cloud::pages::percent;
+use crate::statistics::Paired;
 
 /// `choice.md`; none where no device respects the limits.
 pub fn choice_page(problem: &Problem<'_>, findings: &Findings) -> Option<String> {
@@ -24,6 +26,7 @@ pub fn choice_page(problem: &Problem<'_>, findings: &Findings) -> Option<String>
     page += &why(choices, findings, best);
     page += &how_sure(findings, ranking);
     page += &costs(choices, best);
+    page += &delays(findings);
     page += &what_limits(findings, best);
     page += "\n## What was not looked at\n\n";
     not_looked_at(choices, best).iter().for_each(|line| page += &format!("- {line}\n"));
@@ -72,6 +75,15 @@ fn why(choices: &Choices<'_>, findings: &Findings, best: &Row) -> String {
         findings.designs,
         limits(choices)
     );
+    if let (Some(robust), count) = (choices.table.robust, findings.specimens.len()) {
+        let of = robust.quantile.map_or_else(|| "mean".to_owned(), |share| format!("{} quantile", percent(share)));
+        let scatter = format!(
+            "\nEvery motion shakes {count} specimens, the same for every design, and counts once for each: the restitution is {} of the scene's,\n\
+             uniformly. What is made small is the {of} over the specimens.\n",
+            plus_minus(robust.restitution)
+        );
+        text = text.replacen("## Why\n", &format!("## Why\n{scatter}"), 1);
+    }
     text += match best.median_peak_rotation {
         Some(_) if reference.overturned == 0 => ", and none has a smaller median rotation.\n",
         _ => ".\n",
@@ -105,10 +117,13 @@ fn how_sure(findings: &Findings, ranking: &Ranking) -> String {
             rotation_ratio(rival),
         ]);
     }
-    let known = match ranking.records_without_event {
+    let mut known = match ranking.records_without_event {
         0 => String::new(),
         count => format!(", of which {count} are records whose earthquake is not known"),
     };
+    if ranking.pulses > 0 {
+        known += &format!(", and {} pulses, which are no sample of anything", ranking.pulses);
+    }
     text += &format!(
         "\n{}\nFewer by, from, to: share of the motions that overturn the rival less that of the choice, and its {} band, by {} resamples of the\n\
          {} independent groups of motions (earthquakes{known}). Better in, worse in: groups; chance: probability of such counts between equals\n\
@@ -137,6 +152,11 @@ fn how_sure(findings: &Findings, ranking: &Ranking) -> String {
         );
     }
     text
+}
+
+/// "100 % ± 5 %".
+fn plus_minus(width: f64) -> String {
+    format!("100 % ± {}", percent(width))
 }
 
 fn percent_of(share: f64) -> String {
@@ -186,6 +206,68 @@ fn costs(choices: &Choices<'_>, best: &Row) -> String {
     text
 }
 
+fn delays(findings: &Findings) -> String {
+    let Some(budget) = &findings.delay_budget else { return String::new() };
+    let mut table = TextTable::new(0, ["later by (s)", "overturned", "fewer by", "from", "to", "better", "within limits"]);
+    let yes = |yes: bool| if yes { "yes" } else { "no" }.to_owned();
+    for late in &budget.late {
+        let Paired { difference, band, .. } = late.overturning;
+        let shares = [late.probability, difference, band.low, band.high].map(points);
+        table.row([vec![late.delay_s.to_string()], shares.to_vec(), vec![yes(late.better), yes(late.feasible)]].concat());
+    }
+    format!(
+        "\n## How late its clutches may be\n\n{}.\n\n{}\nLater by: added to the time from command to engagement and to that from command to release. Fewer by: beside {}.\n",
+        capital(&budget.words()),
+        table.markdown(),
+        rival_name(&budget.rival)
+    )
+}
+
+/// `delay.svg`: overturning against the delay; none without a delay budget.
+///
+/// # Errors
+/// The errors of [`chart_figure`].
+pub fn delay_picture(problem: &Problem<'_>, findings: &Findings) -> Result<Option<String>, PlotError> {
+    let (Some(budget), Some(best)) = (&findings.delay_budget, &findings.best) else { return Ok(None) };
+    let late = |of: fn(&Late) -> f64| budget.late.iter().map(move |late| (late.delay_s, 100.0 * of(late))).collect();
+    let last = budget.late.last().map_or(0.0, |late| late.delay_s);
+    let level = |name: String, probability: f64| Line {
+        name,
+        points: vec![(0.0, 100.0 * probability), (last, 100.0 * probability)],
+        guide: true,
+        ..Line::default()
+    };
+    let choice = Line { name: device(best), points: late(|late| late.probability), marks: true, ..Line::default() };
+    let rival = level(rival_name(&budget.rival), budget.rival.probability);
+    let fewer = Line {
+        name: "fewer than the rival".to_owned(),
+        points: late(|late| late.overturning.difference),
+        marks: true,
+        ..Line::default()
+    };
+    let ends =
+        |name: &str, of: fn(&Late) -> f64| Line { name: name.to_owned(), points: late(of), guide: true, ..Line::default() };
+    let band = format!("ends of its {} band", percent(findings.level.value()));
+    let panel = |y_title: &str, lines| ChartPanel { y_title: y_title.to_owned(), lines, ..ChartPanel::default() };
+    chart_figure(&Chart {
+        title: FigureTitle {
+            text: format!("{}: delay budget", heading(&problem.choices)),
+            conditions: of_blocks(&[&problem.choices.structure.scene]),
+        },
+        x_title: "clutches later by (s)".to_owned(),
+        panels: vec![
+            panel("motions that overturn (%)", vec![choice, rival]),
+            panel(
+                "fewer by (% of the motions)",
+                vec![fewer, ends(&band, |late| late.overturning.band.low), ends(&band, |late| late.overturning.band.high)],
+            ),
+        ],
+        columns: 1,
+        ..Chart::default()
+    })
+    .map(Some)
+}
+
 fn what_limits(findings: &Findings, best: &Row) -> String {
     let mut text = "\n## What limits it\n\n".to_owned();
     let reached: Vec<String> = findings
@@ -214,9 +296,16 @@ fn not_looked_at(choices: &Choices<'_>, best: &Row) -> Vec<String> {
     if !unlimited.is_empty() {
         lines.push(format!("No limit is set on: {}.", unlimited.join(", ")));
     }
-    lines.push("Block and device are as the scene says: no scatter of restitution, size or slenderness.".to_owned());
+    lines.push(match choices.table.robust {
+        None => "Block and device are as the scene says: no scatter of restitution, size or slenderness.".to_owned(),
+        Some(_) => "Size, slenderness and mass ratio are as the scene says: none of them scatters.".to_owned(),
+    });
     if let Some(device) = best.candidate.map(|at| &choices.curves[at.curve].device) {
         lines.extend(left_out_of(device));
+    }
+    let commanded = best.candidate.is_some_and(|at| is_commanded(choices, at.curve));
+    if commanded && choices.table.delays_s.is_empty() {
+        lines.push("How late the clutches may be: optimise.delays_s asks for it.".to_owned());
     }
     lines.push("Records are horizontal: no vertical ground motion.".to_owned());
     lines.push("The block rocks in its plane: it does not slide, twist, or move its foundation.".to_owned());

@@ -3,11 +3,13 @@
 use serde::Serialize;
 
 use super::choice::{best, complete, nearest};
+use super::delay::DelayBudget;
 use super::design::{Candidate, Design, Score};
 use super::limit::{Limits, Quantity};
 use super::problem::{Choices, Problem, Solution};
 use super::ranking::Ranking;
 use super::search::{BEST_FACTOR, Crossing, crossings};
+use super::specimen::Specimen;
 use crate::statistics::front::undominated;
 use crate::statistics::proportion::wilson;
 use crate::statistics::{Band, Level};
@@ -21,13 +23,13 @@ pub struct Row {
     pub mount: Option<String>,
     /// σ.
     pub mass_ratio: Option<f64>,
-    /// Motions with a response.
+    /// Motions with a response; each counts once a specimen.
     pub motions: usize,
-    /// Number of motions that overturn the block.
+    /// Number of motions that overturn the block, counted likewise.
     pub overturned: usize,
     /// Motions without a response.
     pub failed: usize,
-    /// Share of the motions that overturn the block.
+    /// Share of the motions that overturn the block: the mean over the specimens, or their quantile.
     pub probability: f64,
     /// Wilson's band of the probability behind that share.
     pub probability_band: Band,
@@ -99,6 +101,9 @@ pub struct Fronts {
 pub struct Findings {
     /// Motions under which every design is tried.
     pub motions: usize,
+    /// Specimens that each of them shakes; left out where the study is not robust.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub specimens: Vec<Specimen>,
     /// Devices tried.
     pub designs: usize,
     /// Runs of one of them, or of the bare block, under one motion.
@@ -115,6 +120,9 @@ pub struct Findings {
     pub best_without_limits: Option<Row>,
     /// The best of each law and mount that respects the limits.
     pub best_of_each: Vec<Row>,
+    /// How late the clutches of the best may be; left out where the study names no delays, or nobody commands the clutches.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub delay_budget: Option<DelayBudget>,
     /// How sure the choice is; null where none respects the limits.
     pub ranking: Option<Ranking>,
     /// The best design, and beside it the next smaller and larger mass ratio of the first grid that are another size.
@@ -147,7 +155,7 @@ impl Findings {
         let on = |front: &[bool]| {
             let all = std::iter::once(&solution.bare).chain(designs);
             let mut rows: Vec<Row> = all.zip(front).filter(|(_, on)| **on).map(|(design, _)| row(design)).collect();
-            rows.sort_by_key(|row| std::cmp::Reverse(row.overturned));
+            rows.sort_by(|a, b| b.probability.total_cmp(&a.probability));
             rows
         };
         let of_curve = |curve: usize| designs.iter().filter(move |design| design.candidate.is_some_and(|at| at.curve == curve));
@@ -169,6 +177,7 @@ impl Findings {
         let nearest = nearest(designs, limits).filter(|_| best_design.is_none());
         let mut findings = Findings {
             motions: problem.motions.len(),
+            specimens: if table.robust.is_some() { problem.specimens.clone() } else { Vec::new() },
             designs: designs.len(),
             runs: solution.runs,
             level,
@@ -177,6 +186,7 @@ impl Findings {
             nearest: nearest.map(|design| Nearest { demand_over_limit: limits.demand(&design.score), design: row(design) }),
             best_without_limits: best(designs, &without).map(row),
             best_of_each: each.into_iter().map(row).collect(),
+            delay_budget: DelayBudget::of(problem, solution, row),
             ranking,
             neighbours,
             limits_reached: crossings(designs, limits).into_iter().map(|crossing| reached(&problem.choices, crossing)).collect(),
@@ -196,7 +206,7 @@ fn front(solution: &Solution, limits: &Limits, quantity: Quantity) -> Vec<bool> 
     let counts = |design: &Design| complete(design) && (bare(design) || limits.others_respected(quantity, &design.score));
     let point = |design: &Design| {
         let asks = if bare(design) { 0.0 } else { design.score.asks(quantity) };
-        (asks, design.score.overturned as f64)
+        (asks, design.score.objective)
     };
     // What does not count is worse than all that does.
     let place = |design: &Design| if counts(design) { point(design) } else { (f64::INFINITY, f64::INFINITY) };
@@ -207,8 +217,11 @@ fn front(solution: &Solution, limits: &Limits, quantity: Quantity) -> Vec<bool> 
 
 fn row(problem: &Problem<'_>, design: &Design, level: Level) -> Row {
     let score = &design.score;
-    let row = Row { candidate: design.candidate, ..Row::of_score(score) };
-    let band = wilson(score.overturned, score.motions, level);
+    let specimens = problem.specimens.len();
+    // A motion counts once, whatever the number of specimens that it shakes.
+    let motions = (score.motions as f64 / specimens as f64).max(1.0);
+    let band = wilson(score.objective.round() as usize, score.motions / specimens, level);
+    let row = Row { candidate: design.candidate, probability: score.objective / motions, ..Row::of_score(score) };
     let row = Row { probability_band: band.unwrap_or(row.probability_band), ..row };
     let Some(at) = design.candidate else {
         return Row { stroke_m: None, tooth_stress_mpa: None, feasible: complete(design), ..row };

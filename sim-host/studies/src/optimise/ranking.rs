@@ -9,6 +9,7 @@ use super::choice::complete;
 use super::design::Design;
 use super::findings::Row;
 use super::limit::Limits;
+use super::motion::{Motion, Shaking};
 use super::problem::{Problem, Solution};
 use super::response::Response;
 use crate::statistics::{Bootstrap, Groups, Paired, quantile};
@@ -22,6 +23,9 @@ pub struct Ranking {
     pub groups: usize,
     /// The latter.
     pub records_without_event: usize,
+    /// Pulses, each a group: no sample of anything, so that a band says how much the choice depends on which of them there are.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub pulses: usize,
     /// The bare block, and the best of every other law and mount that respects the limits.
     pub rivals: Vec<Rival>,
     /// Laws and mounts by how often they are chosen when as many groups are drawn with replacement.
@@ -60,21 +64,19 @@ impl Ranking {
     /// Of `best`, the choice among the designs of `solution`, beside `rivals`, each with its row.
     pub(super) fn of(problem: &Problem<'_>, solution: &Solution, best: &Design, rivals: Vec<(&Design, Row)>) -> Ranking {
         let bootstrap = problem.choices.study.bootstrap;
-        let names: Vec<&str> = problem.motions.iter().map(|motion| motion.group()).collect();
-        let groups = Groups::of(&names);
+        let groups = problem.groups();
         let rival = |(design, row): (&Design, Row)| {
-            let compared = |of: fn(&Response, &Response) -> Option<f64>| {
-                groups.paired(&differences(best, design, names.len(), of), bootstrap)
-            };
-            let overturning = compared(|best, other| Some(overturned(other) - overturned(best)))?;
+            let overturning = overturning(problem, best, design)?;
             let sure = overturning.is_sure(bootstrap.level);
-            Some(Rival { row, overturning, log_rotation: compared(log_rotation), sure })
+            let rotations = differences(best, design, problem.motions.len(), log_rotation);
+            Some(Rival { row, overturning, log_rotation: groups.paired(&rotations, bootstrap), sure })
         };
         let (chosen_again, probability_left_out) = again(problem, solution, &groups, bootstrap);
         Ranking {
             bootstrap,
             groups: groups.number(),
             records_without_event: without_event(problem),
+            pulses: problem.choices.pulses.len(),
             rivals: rivals.into_iter().filter_map(rival).collect(),
             chosen_again,
             probability_left_out,
@@ -82,11 +84,22 @@ impl Ranking {
     }
 }
 
+fn is_zero(count: &usize) -> bool {
+    *count == 0
+}
+
 fn without_event(problem: &Problem<'_>) -> usize {
-    let mut names: Vec<&str> =
-        problem.motions.iter().filter(|motion| motion.record.event.is_none()).map(|motion| motion.group()).collect();
+    let unknown = |motion: &&Motion<'_>| matches!(motion.shaking, Shaking::Record(record, _) if record.event.is_none());
+    let mut names: Vec<&str> = problem.motions.iter().filter(unknown).map(Motion::group).collect();
     names.dedup();
     names.len()
+}
+
+/// Share of the motions that overturn `other` less that of `best`.
+pub(super) fn overturning(problem: &Problem<'_>, best: &Design, other: &Design) -> Option<Paired> {
+    let shares = |best: &Response, other: &Response| Some(overturned(other) - overturned(best));
+    let found = differences(best, other, problem.motions.len(), shares);
+    problem.groups().paired(&found, problem.choices.study.bootstrap)
 }
 
 fn overturned(response: &Response) -> f64 {
@@ -112,19 +125,20 @@ fn differences(best: &Design, other: &Design, motions: usize, of: fn(&Response, 
 /// A design that may be chosen, group by group.
 struct Contender<'a> {
     design: &'a Design,
-    /// Motions that overturn it.
-    overturned: Vec<u32>,
+    /// Motions that overturn it, specimen by specimen.
+    overturned: Vec<Vec<u32>>,
     /// Rotations that its median is of, infinite where it overturns.
     rotations: Vec<Vec<f64>>,
 }
 
 impl<'a> Contender<'a> {
     fn new(design: &'a Design, bare: &Design, groups: &Groups) -> Contender<'a> {
-        let (mut overturned, mut rotations) = (vec![0; groups.number()], vec![Vec::new(); groups.number()]);
-        let pairs = design.responses.iter().zip(&bare.responses).zip(groups.of_pairs().iter().cycle());
-        for ((response, bare), &group) in pairs {
-            let Ok(response) = response else { continue };
-            overturned[group] += u32::from(response.outcome.overturned());
+        let motions = groups.of_pairs().len();
+        let specimens = design.responses.len() / motions.max(1);
+        let (mut overturned, mut rotations) = (vec![vec![0; groups.number()]; specimens], vec![Vec::new(); groups.number()]);
+        for (index, (response, bare)) in design.responses.iter().zip(&bare.responses).enumerate() {
+            let (Ok(response), group) = (response, groups.of_pairs()[index % motions]) else { continue };
+            overturned[index / motions][group] += u32::from(response.outcome.overturned());
             if bare.as_ref().is_ok_and(|bare| bare.outcome != Outcome::NoRocking) {
                 rotations[group].push(response.peak_rotation.unwrap_or(f64::INFINITY));
             }
@@ -132,8 +146,10 @@ impl<'a> Contender<'a> {
         Contender { design, overturned, rotations }
     }
 
-    fn count(&self, weights: &[u32]) -> u64 {
-        weights.iter().zip(&self.overturned).map(|(weight, count)| u64::from(weight * count)).sum()
+    /// Motions that overturn each specimen, where every group counts by its weight.
+    fn counts(&self, weights: &[u32]) -> Vec<u64> {
+        let of = |counts: &Vec<u32>| weights.iter().zip(counts).map(|(weight, count)| u64::from(weight * count)).sum();
+        self.overturned.iter().map(of).collect()
     }
 
     fn median(&self, weights: &[u32]) -> f64 {
@@ -145,25 +161,23 @@ impl<'a> Contender<'a> {
 /// What is chosen when groups are drawn anew, among the designs that respect the limits under all motions: a limit is a demand, and no
 /// statistic. Beside it the share of the motions left out that overturn what is chosen without them.
 fn again(problem: &Problem<'_>, solution: &Solution, groups: &Groups, bootstrap: Bootstrap) -> (Vec<ChosenAgain>, Option<f64>) {
-    let choices = &problem.choices;
+    let (choices, objective) = (&problem.choices, problem.objective());
     let limits: &Limits = &choices.limits;
     let allowed = solution.designs.iter().filter(|design| complete(design) && limits.allow(&design.score));
     let contenders: Vec<Contender<'_>> = allowed.map(|design| Contender::new(design, &solution.bare, groups)).collect();
     let mut sizes = vec![0_u64; groups.number()];
-    let specimens = (solution.bare.responses.len() / problem.motions.len().max(1)) as u64;
-    groups.of_pairs().iter().for_each(|&group| sizes[group] += specimens);
+    groups.of_pairs().iter().for_each(|&group| sizes[group] += problem.specimens.len() as u64);
     let choose = |index: u32| {
         let weights = groups.weights(bootstrap.seed, index);
-        let counts: Vec<u64> = contenders.iter().map(|contender| contender.count(&weights)).collect();
-        let least = *counts.iter().min()?;
-        let tied = contenders.iter().zip(&counts).filter(|(_, count)| **count == least).map(|(contender, _)| contender);
+        let values: Vec<f64> = contenders.iter().map(|contender| objective.of(&contender.counts(&weights))).collect();
+        let least = values.iter().copied().min_by(f64::total_cmp)?;
+        let tied = contenders.iter().zip(&values).filter(|(_, value)| **value == least).map(|(contender, _)| contender);
         let merit = |contender: &&Contender<'_>| (contender.median(&weights), contender.design.score.force_ratio);
         let ranked = tied.map(|contender| (merit(&contender), contender));
         let (_, chosen) = ranked.min_by(|(a, _), (b, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)))?;
-        let out = |values: &mut dyn Iterator<Item = u64>| -> u64 {
-            weights.iter().zip(values).filter(|(weight, _)| **weight == 0).map(|(_, value)| value).sum()
-        };
-        let left_out = (out(&mut chosen.overturned.iter().map(|count| u64::from(*count))), out(&mut sizes.iter().copied()));
+        let unseen: Vec<u32> = weights.iter().map(|weight| u32::from(*weight == 0)).collect();
+        let motions: u64 = unseen.iter().zip(&sizes).map(|(unseen, size)| u64::from(*unseen) * size).sum();
+        let left_out = (chosen.counts(&unseen).into_iter().sum::<u64>(), motions);
         Some((chosen.design.candidate?.curve, left_out))
     };
     let chosen: Vec<(usize, (u64, u64))> = (0..bootstrap.resamples).into_par_iter().filter_map(choose).collect();

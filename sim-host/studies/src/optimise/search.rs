@@ -37,7 +37,7 @@ pub fn search<E>(
     limits: &Limits,
     mut evaluate: impl FnMut(&[Candidate]) -> Result<Vec<Design>, E>,
 ) -> Result<Vec<Design>, E> {
-    let first = (0..curves).flat_map(|curve| grid.iter().map(move |&mass_ratio| Candidate { curve, mass_ratio }));
+    let first = (0..curves).flat_map(|curve| grid.iter().map(move |&mass_ratio| Candidate { curve, mass_ratio, delay_s: 0.0 }));
     let mut batch: Vec<Candidate> = first.collect();
     let mut designs: Vec<Design> = Vec::new();
     while !batch.is_empty() {
@@ -121,6 +121,7 @@ mod tests {
         let score = Score {
             motions: 50,
             overturned: 10 + steps as usize,
+            objective: 10.0 + steps,
             force_ratio,
             median_rotation: (at.mass_ratio - 3.3).abs(),
             ..Score::default()

@@ -18,9 +18,10 @@ use super::response::Response;
 /// More rows than any search makes: how many there will be is not known beforehand.
 pub const MOST_ROWS: usize = 1 << 40;
 
-const COLUMNS: [&str; 14] = [
+const COLUMNS: [&str; 15] = [
     "curve",
     "mass_ratio",
+    "delay_s",
     "motion",
     "outcome",
     "peak_rotation",
@@ -70,11 +71,11 @@ pub struct Tried {
     known: HashMap<Place, Responses>,
 }
 
-/// Law, mount and the bits of σ; `None` for the bare block.
-type Place = Option<(usize, u64)>;
+/// Law and mount, and the bits of σ and of the delay; `None` for the bare block.
+type Place = Option<(usize, u64, u64)>;
 
 fn place(of: Option<Candidate>) -> Place {
-    of.map(|Candidate { curve, mass_ratio }| (curve, mass_ratio.to_bits()))
+    of.map(|Candidate { curve, mass_ratio, delay_s }| (curve, mass_ratio.to_bits(), delay_s.to_bits()))
 }
 
 /// A search that ended early.
@@ -108,9 +109,9 @@ impl Tried {
         let rows = Rows::begin(&plan, start, |row, record| {
             let mut fields = RowFields::new(&names, record);
             let place = match fields.text().parse() {
-                Ok(curve) => Some((curve, fields.number::<f64>()?.to_bits())),
+                Ok(curve) => Some((curve, fields.number::<f64>()?.to_bits(), fields.number::<f64>()?.to_bits())),
                 Err(_) => {
-                    fields.skip(1);
+                    fields.skip(2);
                     None
                 }
             };
@@ -143,13 +144,14 @@ impl Memory for Tried {
     }
 
     fn keep(&mut self, of: Option<Candidate>, responses: &Responses) -> Result<(), TriedError> {
-        let [curve, mass_ratio] = match of {
-            None => [String::new(), String::new()],
-            Some(Candidate { curve, mass_ratio }) => [curve.to_string(), format!("{mass_ratio:?}")],
+        let design = match of {
+            None => [const { String::new() }; 3],
+            Some(Candidate { curve, mass_ratio, delay_s }) => {
+                [curve.to_string(), format!("{mass_ratio:?}"), format!("{delay_s:?}")]
+            }
         };
         let row = |(motion, response): (usize, &Result<Response, String>)| {
-            let place = [curve.clone(), mass_ratio.clone(), motion.to_string()];
-            place.into_iter().chain(texts(response)).collect()
+            design.iter().cloned().chain([motion.to_string()]).chain(texts(response)).collect()
         };
         Ok(self.rows.append_fields(&responses.iter().enumerate().map(row).collect::<Vec<_>>())?)
     }
@@ -225,7 +227,7 @@ mod tests {
         let falls = Response { outcome: Outcome::OverturnedAfterImpact, peak_rotation: None, error: None, ..stands };
         let designs = [
             (None, vec![Ok(stands), Ok(falls)]),
-            (Some(Candidate { curve: 2, mass_ratio: 0.1 }), vec![Err("one, \"two\"".to_owned()), Ok(stands)]),
+            (Some(Candidate { curve: 2, mass_ratio: 0.1, delay_s: 0.005 }), vec![Err("one, \"two\"".to_owned()), Ok(stands)]),
         ];
         let mut tried = Tried::begin(folder.path(), origin(1), Start::New, 2).unwrap();
         for (candidate, responses) in &designs {
@@ -236,7 +238,7 @@ mod tests {
         let path = folder.path().join("tried.csv.unfinished");
         let mut text = std::fs::read(&path).unwrap();
         // A design of which the second motion is missing, and half of a row.
-        text.extend(b"2,0.2,0,safe,0.1,0.2,0.3,,,,,,,\n2,0.2,1,sa");
+        text.extend(b"2,0.2,0.0,0,safe,0.1,0.2,0.3,,,,,,,\n2,0.2,0.0,1,sa");
         std::fs::write(&path, &text).unwrap();
 
         assert!(matches!(Tried::begin(folder.path(), origin(1), Start::New, 2), Err(LongRunError::Unfinished { .. })));
@@ -246,7 +248,7 @@ mod tests {
         for (candidate, responses) in &designs {
             assert_eq!(tried.recall(*candidate).as_ref(), Some(responses));
         }
-        assert_eq!(tried.recall(Some(Candidate { curve: 2, mass_ratio: 0.2 })), None);
+        assert_eq!(tried.recall(Some(Candidate { curve: 2, mass_ratio: 0.2, delay_s: 0.0 })), None);
         tried.discard().unwrap();
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }

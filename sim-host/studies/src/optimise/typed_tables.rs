@@ -72,6 +72,9 @@ struct MotionRow<'s> {
     motion: &'s Motion<'s>,
     design: &'s Design,
     response: &'s Result<Response, String>,
+    /// Number of the specimen, and the factor on its restitution.
+    specimen: usize,
+    restitution_factor: f64,
 }
 
 impl MotionRow<'_> {
@@ -86,18 +89,23 @@ pub fn motion_table<'s>(problem: &'s Problem<'s>, solution: &'s Solution, chosen
     let of_chosen = |design: &&Design| chosen.is_some_and(|row| row.candidate == design.candidate);
     let chosen = solution.designs.iter().find(of_chosen);
     let designs: Vec<&Design> = std::iter::once(&solution.bare).chain(chosen).collect();
-    let row = |motion, design: &'s Design, index: usize| MotionRow { motion, design, response: &design.responses[index] };
+    let (motions, several) = (problem.motions.len(), problem.specimens.len() > 1);
     let mut rows = Vec::new();
-    for (index, motion) in problem.motions.iter().enumerate() {
-        rows.extend(designs.iter().map(|design| row(motion, design, index)));
+    for index in 0..problem.trials() {
+        let (motion, specimen) = (&problem.motions[index % motions], index / motions);
+        let restitution_factor = problem.specimens[specimen].restitution;
+        let row =
+            |design: &&'s Design| MotionRow { motion, design, response: &design.responses[index], specimen, restitution_factor };
+        rows.extend(designs.iter().map(row));
     }
-    FieldTable { fields: motion_fields(), rows }
+    FieldTable { fields: motion_fields(several), rows }
 }
 
-fn motion_fields<'s>() -> Fields<MotionRow<'s>> {
+/// The columns of motions, with those of `several` specimens.
+fn motion_fields<'s>(several: bool) -> Fields<MotionRow<'s>> {
     let number = |name: &str| Column::number(name).or_nothing();
-    Fields::<MotionRow<'s>>::default()
-        .with(Column::text("record"), |row| (&row.motion.record.name).into())
+    let fields = Fields::<MotionRow<'s>>::default()
+        .with(Column::text("record"), |row| (&row.motion.name).into())
         .with(Column::number("scale"), |row| row.motion.factor.into())
         .with(number("level"), |row| row.motion.level.into())
         .with(Column::text("device"), |row| if row.design.candidate.is_none() { "none" } else { "chosen" }.into())
@@ -107,5 +115,11 @@ fn motion_fields<'s>() -> Fields<MotionRow<'s>> {
         .with(number("stroke_m"), |row| {
             row.answer().filter(|_| row.design.candidate.is_some()).map(|response| response.stroke_m).into()
         })
-        .with(Column::text("failure").or_nothing(), |row| row.response.as_ref().err().into())
+        .with(Column::text("failure").or_nothing(), |row| row.response.as_ref().err().into());
+    if !several {
+        return fields;
+    }
+    fields
+        .with(Column::count("specimen"), |row| row.specimen.into())
+        .with(Column::number("restitution_factor"), |row| row.restitution_factor.into())
 }
