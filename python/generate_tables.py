@@ -167,7 +167,8 @@ def sources() -> dict[str, str]:
         table("Duration", scene["run"], "run"),
         table("Accuracy", scene["accuracy"], "accuracy"),
         table("Gear", scene["checks"]["properties"]["gear"], "checks.gear"),
-        table("Checks", scene["checks"], "checks", tables={"gear": "Gear"}),
+        table("Coil", scene["checks"]["properties"]["coil"], "checks.coil"),
+        table("Checks", scene["checks"], "checks", tables={"gear": "Gear", "coil": "Coil"}),
         table("Output", scene["output"], "output", summary="What is kept of a run.", keys=["interval_s", "energy"]),
     ]
     own = [("gyroscope", "Gyroscope"), ("block_accelerometer", "Accelerometer"), ("encoder", "Encoder")]

@@ -51,7 +51,7 @@ impl Study {
         let given = records.map(|records| {
             let named = |(name, record): (String, Py<Record>)| {
                 let record = sprag_sim::record::Record { name: name.clone(), ..record.bind(py).get().record.clone() };
-                StudyRecord { name, motion: record.into() }
+                StudyRecord::of(name, record, None)
             };
             records.into_iter().map(named).collect::<Vec<_>>()
         });

@@ -104,6 +104,33 @@ class Gear(Table):
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
+class Coil(Table):
+    """Coil of each clutch of a clutched pair: the energy that both take is reported.
+
+    Attributes
+    ----------
+    holding_power_w
+        Power of a coil while its clutch is engaged; from 0 to 100000.
+    closing_energy_j
+        Energy that it takes to engage a clutch once, beside the power that holds it; from 0 to 100000; 0.0 by
+        default.
+    largest_energy_j
+        Largest energy of both coils over a motion; a warning above; above 0, to 1e+09.
+
+    Raises
+    ------
+    InputError
+        For a value outside its range.
+    """
+
+    _path: ClassVar[str] = "checks.coil"
+
+    holding_power_w: float
+    closing_energy_j: float | None = None
+    largest_energy_j: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Checks(Table):
     """Checks of what a device demands of its support and gears; the table turns them on.
 
@@ -114,6 +141,8 @@ class Checks(Table):
         reported; above 0, to 10.
     gear
         Mesh of rack and first pinion; needs block.mass_kg.
+    coil
+        Coil of each clutch of a clutched pair: the energy that both take is reported.
     largest_force_ratio
         Force of both flywheels on their support over the block's weight; a warning above; above 0, to 1e+06.
     largest_stroke_m
@@ -129,6 +158,7 @@ class Checks(Table):
 
     friction_coefficient: float | None = None
     gear: Gear | None = None
+    coil: Coil | None = None
     largest_force_ratio: float | None = None
     largest_stroke_m: float | None = None
 

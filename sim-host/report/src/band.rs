@@ -10,3 +10,10 @@ pub struct Band {
     /// Upper end.
     pub high: f64,
 }
+
+impl Band {
+    /// Both ends times `factor`, 0 or more.
+    pub fn times(self, factor: f64) -> Band {
+        Band { low: factor * self.low, high: factor * self.high }
+    }
+}

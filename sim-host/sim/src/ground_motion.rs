@@ -74,9 +74,10 @@ impl GroundMotion {
     fn cut(components: &[Component], times: &[f64]) -> GroundMotion {
         let mut at = vec![0_usize; components.len()];
         let mut segments = Vec::with_capacity(times.len());
+        let mut parts = Vec::new();
         for pair in times.windows(2) {
             let (start, end) = (pair[0], pair[1]);
-            let mut parts = Vec::new();
+            parts.clear();
             for (component, index) in components.iter().zip(&mut at) {
                 while component.pieces.get(*index).is_some_and(|(end, _)| component.start + end <= start) {
                     *index += 1;
@@ -88,7 +89,7 @@ impl GroundMotion {
                     parts.push((start - (component.start + piece_start), *segment));
                 }
             }
-            segments.push(Segment { start, duration: end - start, shape: SumSegment::of(parts), bound: 0.0 });
+            segments.push(Segment { start, duration: end - start, shape: SumSegment::of(&parts), bound: 0.0 });
         }
         let mut bound = 0.0_f64;
         for segment in segments.iter_mut().rev() {

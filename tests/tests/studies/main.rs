@@ -7,6 +7,7 @@ mod maps;
 mod needs_cells;
 mod needs_records;
 mod optimise;
+mod optimise_scatter;
 mod other_programs;
 mod refine;
 mod similarity;

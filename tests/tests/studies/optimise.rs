@@ -13,6 +13,7 @@ use sprag_sim::interrupt::Interrupt;
 use sprag_sim::simulation::{DeviceRun, RunError};
 use sprag_studies::cloud::records::StudyRecords;
 use sprag_studies::cloud::study::Study;
+use sprag_studies::optimise::choice_page::{choice_page, choice_picture};
 use sprag_studies::optimise::figure::trade_off_picture;
 use sprag_studies::optimise::findings::{Findings, Row};
 use sprag_studies::optimise::page::{choice_table, page};
@@ -132,6 +133,43 @@ fn is(table: &Designs, row: &[String], this: &Row) -> bool {
 }
 
 #[test]
+fn rivals_are_compared_motion_by_motion() {
+    let folder = pulses();
+    answered(&study("largest_force_ratio = 0.3", folder.path()), |problem, solution, findings| {
+        let (best, ranking) = (findings.best.as_ref().unwrap(), findings.ranking.as_ref().unwrap());
+        // Every pulse is a record without an earthquake; the rivals are the bare block and the best of the other laws and mounts.
+        assert_eq!((ranking.groups, ranking.records_without_event, ranking.rivals.len()), (12, 12, findings.best_of_each.len()));
+        let responses = |row: &Row| {
+            let all = || std::iter::once(&solution.bare).chain(&solution.designs);
+            &all().find(|design| design.candidate == row.candidate).unwrap().responses
+        };
+        let overturned = |row: &Row| -> Vec<bool> {
+            responses(row).iter().map(|response| response.as_ref().unwrap().outcome.overturned()).collect()
+        };
+        let page = choice_page(problem, findings).unwrap();
+        for rival in &ranking.rivals {
+            let pairs: Vec<(bool, bool)> = overturned(best).into_iter().zip(overturned(&rival.row)).collect();
+            let [saved, lost] = [(false, true), (true, false)].map(|kind| pairs.iter().filter(|pair| **pair == kind).count());
+            let paired = rival.overturning;
+            assert_eq!((paired.pairs, paired.groups_above, paired.groups_below), (12, saved, lost));
+            assert!((paired.difference - (saved as f64 - lost as f64) / 12.0).abs() < 1e-12);
+            assert!(paired.band.low <= paired.difference && paired.difference <= paired.band.high);
+            assert!(!rival.sure || paired.chance <= 0.05 && paired.band.low > 0.0);
+            let rotation = rival.log_rotation.unwrap();
+            assert!(rotation.pairs <= pairs.iter().filter(|pair| **pair == (false, false)).count());
+        }
+        assert_eq!(
+            (ranking.rivals[0].overturning.groups_above, ranking.rivals[0].overturning.groups_below),
+            (best.saved, best.newly_overturned)
+        );
+        assert!(page.contains(" no device") && page.contains("## What was not looked at"), "{page}");
+        let shares: f64 = ranking.chosen_again.iter().map(|again| again.share).sum();
+        assert!((shares - 1.0).abs() < 1e-12 && ranking.probability_left_out.is_some());
+        assert!(choice_picture(problem, findings).unwrap().unwrap().contains("no device"));
+    });
+}
+
+#[test]
 fn nothing_tried_betters_a_member_of_a_front() {
     let folder = pulses();
     answered(&study("largest_stroke_m = 0.15", folder.path()), |problem, _, findings| {
@@ -193,6 +231,8 @@ fn results_have_the_same_bytes_for_every_number_of_threads() {
                 let chosen = findings.best.as_ref();
                 write_csv(&motion_table(problem, solution, chosen), &mut bytes).unwrap();
                 bytes.extend(page(problem, findings).unwrap().into_bytes());
+                bytes.extend(choice_page(problem, findings).unwrap().into_bytes());
+                bytes.extend(choice_picture(problem, findings).unwrap().unwrap().into_bytes());
                 bytes.extend(choice_table(findings).unwrap().markdown().into_bytes());
                 bytes.extend(trade_off_picture(problem, findings).unwrap().into_bytes());
                 bytes
@@ -213,6 +253,7 @@ fn no_design_within_the_limits_is_said_with_the_nearest() {
         assert_eq!(nearest.design.peak_force_ratio, least);
         assert!((nearest.demand_over_limit - least / 0.001).abs() < 1e-9 && nearest.demand_over_limit > 1.0);
         assert!(page(problem, findings).unwrap().contains("No device respects the limits."));
+        assert!(choice_page(problem, findings).is_none() && choice_picture(problem, findings).unwrap().is_none());
         trade_off_picture(problem, findings).unwrap();
     });
 }
@@ -254,7 +295,7 @@ fn an_interrupted_search_resumes() {
     let origin = || Origin::new(Subject::new("optimise", BTreeMap::new()), MOST_ROWS);
     let mut made = 0;
     let mut part = |start: Start, most: usize| {
-        let mut tried = Tried::begin(folder.path(), origin(), start, problem.motions.len()).unwrap();
+        let mut tried = Tried::begin(folder.path(), origin(), start, problem.trials()).unwrap();
         let (interrupt, runs) = (Interrupt::default(), AtomicUsize::new(0));
         let solution = problem.solve(&mut tried, &interrupt, &|_| (), &|| {
             if runs.fetch_add(1, Ordering::Relaxed) + 1 == most {
@@ -271,7 +312,7 @@ fn an_interrupted_search_resumes() {
     let solution = solution.unwrap();
     assert_eq!((solution.bare, solution.designs), (whole.bare, whole.designs));
     // What an interrupt costs: the designs that were under way.
-    assert!(made < whole.runs + 2 * 9 * problem.motions.len() && whole.runs > 200, "{made} of {}", whole.runs);
+    assert!(made < whole.runs + 2 * 17 * problem.motions.len() && whole.runs > 200, "{made} of {}", whole.runs);
     tried.discard().unwrap();
 }
 
@@ -297,14 +338,13 @@ pub fn simulated_again(study: &Study, path_of: impl Fn(&str) -> PathBuf) {
     answered(study, |problem, solution, findings| {
         let best = findings.best.as_ref().unwrap();
         let design = solution.designs.iter().find(|design| design.candidate == best.candidate).unwrap();
-        let runs: Vec<DeviceRun> =
-            problem.motions.iter().map(|motion| simulated(best, &path_of(&motion.record.name), 1.0)).collect();
+        let runs: Vec<DeviceRun> = problem.motions.iter().map(|motion| simulated(best, &path_of(&motion.name), 1.0)).collect();
         for ((motion, response), run) in problem.motions.iter().zip(&design.responses).zip(&runs) {
             let response = response.as_ref().unwrap();
-            assert_eq!((response.outcome, response.peak_rotation), (run.outcome, run.peak_rotation), "{}", motion.name());
+            assert_eq!((response.outcome, response.peak_rotation), (run.outcome, run.peak_rotation), "{}", motion.scaled_name());
             let checks = run.checks.as_ref().unwrap();
-            assert_eq!(Some(response.force_ratio), run.peak_force_ratio, "{}", motion.name());
-            assert_eq!(response.stroke_m, checks.stroke_with_fall_m.unwrap_or(0.0), "{}", motion.name());
+            assert_eq!(Some(response.force_ratio), run.peak_force_ratio, "{}", motion.scaled_name());
+            assert_eq!(response.stroke_m, checks.stroke_with_fall_m.unwrap_or(0.0), "{}", motion.scaled_name());
             // What a history samples is never above the largest, and not far below.
             let sampled = run.history.peak_force_ratio();
             assert!(sampled <= response.force_ratio * (1.0 + 1e-9) && sampled >= 0.9 * response.force_ratio);

@@ -46,6 +46,8 @@ pub struct Checks<S> {
     impulses: Impulses<S>,
     /// The first quantity that is looked at.
     first: usize,
+    /// The travel of the terminals is looked at.
+    travels: bool,
     /// What was found up to where |θ| last passed α; none below it.
     up_to_slenderness: Option<Report<S>>,
     overturned: bool,
@@ -65,6 +67,7 @@ impl<S: Real> Checks<S> {
             toe: Toe::new(block, geometry, mount, account)?,
             impulses: Impulses::new(S::of(COUNTED_SPEED * speed)),
             first: 0,
+            travels: true,
             up_to_slenderness: None,
             overturned: false,
         })
@@ -72,6 +75,11 @@ impl<S: Real> Checks<S> {
 
     /// Looks at the force on the support and at impulses only: what every history is reported with.
     pub fn brief(self) -> Checks<S> {
+        Checks { travels: false, ..self.of_device() }
+    }
+
+    /// Looks at the force on the support, the travel and impulses only: what a device asks for.
+    pub fn of_device(self) -> Checks<S> {
         Checks { first: SUPPORT, ..self }
     }
 
@@ -116,7 +124,7 @@ impl<S: Real> Checks<S> {
         }
         let passes = illinois(interval.from, interval.to, Sign::Negative, |t| beyond(output.snapshot(t).motion.rotation));
         let mut up_to_it = *self;
-        up_to_it.watch(output, &MonotoneInterval { to: passes, last: output.snapshot(passes).motion, ..*interval });
+        up_to_it.look(output, &MonotoneInterval { to: passes, last: output.snapshot(passes).motion, ..*interval });
         up_to_it.report
     }
 
@@ -139,6 +147,25 @@ impl<S: Real> Checks<S> {
         let missed = (force(S::of(0.25)) - parabola).abs();
         let rounding = S::ONE + S::EPSILON * S::of(64.0);
         seen + curvature + S::of(8.0) * missed > record.value * rounding
+    }
+
+    fn look(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        if self.first < SUPPORT || self.may_press_harder(output, interval) {
+            self.watch(output, interval);
+        }
+        if self.travels {
+            self.follow_terminals(interval);
+        }
+    }
+
+    /// θ is monotone along an interval, and so is the travel wherever ℓ keeps its sign.
+    fn follow_terminals(&mut self, interval: &MonotoneInterval<S>) {
+        let start = self.origin + interval.start;
+        for (motion, time) in [(&interval.first, interval.from), (&interval.last, interval.to)] {
+            let travel = self.toe.travel(interval.side, motion.rotation);
+            let way = usize::from(travel < S::ZERO);
+            Extreme::raise(&mut self.report.travel[way], travel.abs(), start + time);
+        }
     }
 
     fn watch(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
@@ -171,12 +198,6 @@ impl<S: Real> Checks<S> {
             };
             self.report.contact_lost = Some(start + time);
         }
-        // θ is monotone along an interval, and so is the travel wherever ℓ keeps its sign.
-        for (motion, time) in [(&interval.first, interval.from), (&interval.last, interval.to)] {
-            let travel = self.toe.travel(side, motion.rotation);
-            let way = usize::from(travel < S::ZERO);
-            Extreme::raise(&mut self.report.travel[way], travel.abs(), start + time);
-        }
     }
 }
 
@@ -184,9 +205,7 @@ impl<S: Real> Observer<S> for Checks<S> {
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         let is_beyond = self.beyond(interval.side, interval.last.rotation) > S::ZERO;
         let before = is_beyond.then(|| self.before(output, interval));
-        if self.first < SUPPORT || self.may_press_harder(output, interval) {
-            self.watch(output, interval);
-        }
+        self.look(output, interval);
         self.up_to_slenderness = before;
         let engaged = if interval.engaged { output.snapshot(interval.to).device.engaged } else { [false; 2] };
         self.impulses.velocity = Some(interval.last.velocity);

@@ -254,7 +254,7 @@ fn the_extremes_are_those_of_a_dense_history() {
     });
 }
 
-/// A brief look finds the same force and impulses, and nothing else.
+/// A brief look finds the same force and impulses, one at the device the same travel too, and nothing else.
 #[test]
 fn a_brief_look_finds_what_a_full_one_does() {
     each_full(|structure| {
@@ -264,6 +264,8 @@ fn a_brief_look_finds_what_a_full_one_does() {
         let Report { impact_friction, support, .. } = full;
         let support = support.filter(|_| structure.device.kind != DeviceKind::None);
         assert_eq!(seen.report, Report { impact_friction, support, ..Report::default() });
+        let (_, seen) = Run { structure, ground: &ground, from: None, observer: checks(structure).of_device() }.go();
+        assert_eq!(seen.report, Report { impact_friction, support, travel: full.travel, ..Report::default() });
     });
 }
 

@@ -107,7 +107,7 @@ impl Run for CloudArguments {
         let study = self.input.load(None)?;
         let pool = self.threads.pool()?;
         // Records do not depend on how accurately they are followed.
-        let (records, warnings) = self.input.read(&study, &pool, context)?;
+        let (records, warnings) = self.input.read(&study, false, &pool, context)?;
         let interrupt = context.interrupt;
         let once = |change| pool.install(|| studied(self, change, &records, &mut folder, interrupt));
         let studied = self.accuracy.run(context, once)?;
@@ -182,7 +182,7 @@ impl Divided for CloudArguments {
     fn divisible(&self, context: &mut Context<'_>) -> anyhow::Result<Divisible> {
         self.accuracy.keeps_rows(Some("a plan"))?;
         let study = self.input.load(None)?;
-        let (records, _) = self.input.read(&study, &self.threads.pool()?, context)?;
+        let (records, _) = self.input.read(&study, false, &self.threads.pool()?, context)?;
         let list = RunList::new(&study, &records.records);
         let origin = Origin::new(subject(&study, &records)?, list.rows());
         Ok(Divisible { origin, name: "runs", columns: list.columns(), seconds_a_row: 2e-3 })

@@ -14,6 +14,7 @@ use sprag_studies::cloud::records::StudyRecords;
 use sprag_studies::cloud::structures::StudyStructure;
 use sprag_studies::cloud::study::Study;
 use sprag_studies::cloud::study_file::{RecordEntry, RecordTable, StripesTable};
+use sprag_studies::optimise::choice_page::{choice_page, choice_picture, delay_picture};
 use sprag_studies::optimise::curve::Curve;
 use sprag_studies::optimise::figure::trade_off_picture;
 use sprag_studies::optimise::findings::Findings;
@@ -38,7 +39,8 @@ use crate::command::long_run_arguments::ResumeArguments;
     sprag optimise study.toml --records near_fault/*.AT2 --set block.size_m=3 --out out/pier\n\n\
     Tries devices on a grid of mass ratios, for every law and mount of the study's [optimise] table, under every record, scaled \
     as the study says; then more where a limit is reached and around the best. Writes the tables designs and motions as .csv and \
-    .parquet, the picture trade_off as .svg and .png, optimise.md and summary.json. Runs go to the disk as they are made, and Ctrl-C leaves \
+    .parquet, the pictures trade_off and choice as .svg and .png, choice.md (the choice, how sure it is, what it costs), delay where the study names delays, optimise.md and \
+    summary.json. Runs go to the disk as they are made, and Ctrl-C leaves \
     them there for --resume. The exit code is 1 when no device respects the limits, and when a record cannot be read or \
     a run fails; results are written all the same.")]
 pub struct OptimiseArguments {
@@ -132,7 +134,7 @@ impl Run for OptimiseArguments {
         let pool = self.threads.pool()?;
         Choices::of(&study)?;
         // Records do not depend on how accurately they are followed.
-        let (records, warnings) = self.input.read(&study, &pool, context)?;
+        let (records, warnings) = self.input.read(&study, study.file.has_pulses(), &pool, context)?;
         let interrupt = context.interrupt;
         let once = |change| pool.install(|| answered(self, change, &records, &mut folder, interrupt));
         let answered = self.accuracy.run(context, once)?;
@@ -179,14 +181,14 @@ fn answered<'a>(
         .with("study", &Resolved::of(&study, choices))?
         .with("structure", choices.structure)?;
     let inputs = arguments.input.files(&study, records);
-    let names = &["designs", "motions", "optimise", "trade_off"];
+    let names = &["designs", "motions", "optimise", "choice", "delay", "trade_off"];
     folder.open(&Claim { subject: subject.clone(), page: "summary.json", names, inputs })?;
     let (begin, done) = (|runs| progress.begin(runs), || progress.step());
     let (solution, tried) = if arguments.accuracy.is_chosen() {
         (problem.solve(&mut (), interrupt, &begin, &done)?, None)
     } else {
         let origin = Origin::new(subject.clone(), MOST_ROWS);
-        let mut tried = Tried::begin(folder, origin, arguments.rows.start(), problem.motions.len())?;
+        let mut tried = Tried::begin(folder, origin, arguments.rows.start(), problem.trials())?;
         interrupt.keep(resumable("finished rows", folder));
         match problem.solve(&mut tried, interrupt, &begin, &done) {
             Err(TriedError::Run(RunError::Interrupted)) => {
@@ -223,9 +225,24 @@ fn fill(
     report.table("motions", &motion_table(problem, solution, findings.best.as_ref()))?;
     report.page("optimise.md", &page(problem, findings)?)?;
     report.picture("trade_off", trade_off_picture(problem, findings))?;
+    // Those of an earlier search that found one.
+    let (choice, compared) = (choice_page(problem, findings), choice_picture(problem, findings).transpose());
+    match choice {
+        Some(text) => report.page("choice.md", &text)?,
+        None => report.remove("choice.md"),
+    }
+    for (name, picture) in [("choice", compared), ("delay", delay_picture(problem, findings).transpose())] {
+        match picture {
+            Some(svg) => _ = report.picture(name, svg)?,
+            None => ["svg", "png"].into_iter().for_each(|ending| report.remove(&format!("{name}.{ending}"))),
+        }
+    }
     let Findings { motions, designs, runs, notes, .. } = findings;
     report.print(format_args!("{}: {motions} motions, {}", heading(choices), limits(choices)));
     report.print(format_args!("{designs} devices tried in {runs} runs\n\n{}\n", choice_table(findings)?.for_terminal()));
+    let rivals = findings.ranking.iter().flat_map(|ranking| &ranking.rivals);
+    rivals.for_each(|rival| report.print(rival.verdict(findings.level)));
+    findings.delay_budget.iter().for_each(|budget| report.print(budget.words()));
     notes.iter().for_each(|note| report.print(note));
     report.left_out(left_out);
     report.accuracy(solution.worst);

@@ -44,20 +44,21 @@ impl StudyArguments {
         Ok(study)
     }
 
-    /// The records of `study`, one at least, and the warnings of both, which are reported with what cannot be read.
+    /// The records of `study`, one at least unless it needs `none`, and the warnings of both, which are reported with what cannot be read.
     ///
     /// # Errors
     /// What the study says of its records and cannot be, and where none can be read.
     pub(super) fn read(
         &self,
         study: &Study,
+        none: bool,
         pool: &ThreadPool,
         context: &mut Context<'_>,
     ) -> anyhow::Result<(StudyRecords, Vec<String>)> {
         let reading = Progress::uncounted("reading records");
         let records = pool.install(|| StudyRecords::read(study))?;
         reading.finish();
-        if records.records.is_empty() {
+        if records.records.is_empty() && !none {
             let first = records.unreadable.first().map_or_else(String::new, |line| format!("; {line}"));
             anyhow::bail!("{}: no record could be read{first}", self.study.display());
         }

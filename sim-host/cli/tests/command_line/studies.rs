@@ -94,8 +94,9 @@ fn optimise_writes_its_files_and_does_not_depend_on_the_number_of_threads() {
     });
     let mut files: Vec<_> = fs::read_dir(&outs[0]).unwrap().map(|file| file.unwrap().file_name()).collect();
     files.sort();
+    let choice = ["choice.md", "choice.png", "choice.svg"];
     let tables = ["designs.csv", "designs.parquet", "motions.csv", "motions.parquet"];
-    assert_eq!(files, [&tables[..], &["optimise.md", "summary.json", "trade_off.png", "trade_off.svg"]].concat());
+    assert_eq!(files, [&choice[..], &tables, &["optimise.md", "summary.json", "trade_off.png", "trade_off.svg"]].concat());
     for name in &files {
         let [one, other] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
         assert!(one == other && !one.is_empty(), "{name:?}");

@@ -91,7 +91,7 @@ const QUANTITIES: [Quantity; 65] = [
 ];
 
 /// Units by the ends of keys, longer ones before those that they end in.
-const UNITS: [(&str, &str); 24] = [
+const UNITS: [(&str, &str); 26] = [
     ("_deg_s_rthz", "°/s/√Hz"),
     ("_deg_s_rts", "°/s/√s"),
     ("_ug_rthz", "µg/√Hz"),
@@ -113,6 +113,8 @@ const UNITS: [(&str, &str); 24] = [
     ("_us", "µs"),
     ("_ns", "ns"),
     ("_n", "N"),
+    ("_w", "W"),
+    ("_j", "J"),
     ("_m", "m"),
     ("_s", "s"),
     ("_g", "g"),
@@ -245,7 +247,7 @@ mod tests {
                 .fold(title.clone(), |title, known| title.replace(known, ""));
             assert!(!markup.contains('_') && !markup.is_empty(), "{key}: {title}");
             let known = QUANTITIES.iter().any(|quantity| is_key(quantity.key, &key.split('.').collect::<Vec<_>>()));
-            let by_words = ["controller", "checks.gear"].iter().any(|section| key.starts_with(section));
+            let by_words = ["controller", "checks.gear", "checks.coil"].iter().any(|section| key.starts_with(section));
             assert!(known || by_words, "{key} goes by its words: {title}");
         }
     }

@@ -1,4 +1,4 @@
-//! Figures as SVG text: responses, energies, sensitivities, closed loops, recordings of devices, maps of outcomes, clouds of runs, trade-offs, charts of lines.
+//! Figures as SVG text: responses, energies, sensitivities, closed loops, recordings of devices, maps of outcomes, clouds of runs, trade-offs, comparisons, charts of lines.
 //!
 //! Figures are SVG, written element by element (`layer`). [`png()`] makes dots of it.
 
@@ -19,6 +19,7 @@ mod figure_title;
 mod formula;
 mod ground;
 mod history_figure;
+mod interval_figure;
 mod lane;
 mod layer;
 mod legend;
@@ -53,6 +54,7 @@ pub use energy_figure::energy_figure;
 pub use figure_title::FigureTitle;
 pub use formula::literal;
 pub use history_figure::history_figure;
+pub use interval_figure::{Interval, interval_figure};
 pub use loop_figure::{LoopTrace, loop_figure};
 pub use map_curve::MapCurve;
 pub use png::{Png, PngError, png};

@@ -92,7 +92,7 @@ impl ControllerTable {
 }
 
 impl<'a> LoopTask<'a> {
-    fn task(&self) -> Task<'a> {
+    pub(super) fn task(&self) -> Task<'a> {
         let LoopTask { scene, ground, index, interrupt, .. } = *self;
         Task { scene, ground, index, interval: f64::INFINITY, reports: false, interrupt }
     }

@@ -10,6 +10,7 @@ pub mod failing;
 pub mod feedback;
 mod gains;
 pub mod loop_scene;
+mod measured;
 pub mod plant;
 pub mod report;
 pub mod run;

@@ -18,13 +18,13 @@ impl<S: Real> SumSegment<S> {
     pub const QUIET: Self = SumSegment::Single(AnySegment::Quiet);
 
     /// The sum of `parts`, each with its local time (s) at which the sum starts.
-    pub fn of(parts: Vec<(S, AnySegment<S>)>) -> Self {
-        let lines: Option<Vec<Linear<S>>> = parts.iter().map(|(offset, part)| line(*offset, part)).collect();
-        let Some(lines) = lines else { return SumSegment::Several(parts) };
-        SumSegment::Single(AnySegment::Linear(lines.iter().fold(Linear::constant(S::ZERO), |sum, line| Linear {
-            start: sum.start + line.start,
-            slope: sum.slope + line.slope,
-        })))
+    pub fn of(parts: &[(S, AnySegment<S>)]) -> Self {
+        let mut sum = Linear::constant(S::ZERO);
+        for (offset, part) in parts {
+            let Some(line) = line(*offset, part) else { return SumSegment::Several(parts.to_vec()) };
+            sum = Linear { start: sum.start + line.start, slope: sum.slope + line.slope };
+        }
+        SumSegment::Single(AnySegment::Linear(sum))
     }
 
     /// The same sum from `delay` (s) on, in a time of its own.

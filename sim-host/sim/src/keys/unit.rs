@@ -1,7 +1,7 @@
 //! Units of keys.
 
 /// Endings of keys, of two that end alike the longer one first, and their units.
-const UNITS: [(&str, &str); 20] = [
+const UNITS: [(&str, &str); 22] = [
     ("_deg_s_rthz", "°/s/√Hz"),
     ("_deg_s_rts", "°/s/√s"),
     ("_deg_s", "°/s"),
@@ -19,6 +19,8 @@ const UNITS: [(&str, &str); 20] = [
     ("_kg", "kg"),
     ("_1_s", "1/s"),
     ("_hz", "Hz"),
+    ("_w", "W"),
+    ("_j", "J"),
     ("_s", "s"),
     ("_m", "m"),
     ("_g", "g"),

@@ -9,6 +9,7 @@ pub mod checks;
 mod contents;
 mod decimal_comma;
 mod error;
+mod event_date;
 pub mod intensity;
 mod number;
 mod resample;
@@ -29,6 +30,7 @@ use std::path::Path;
 
 pub use contents::{Format, Header, StatedStep};
 pub use error::RecordError;
+pub use event_date::EventDate;
 pub use intensity::Intensity;
 pub use summary::{RecordSummary, warning_lines};
 pub use units::{STANDARD_GRAVITY_M_S2, Units};

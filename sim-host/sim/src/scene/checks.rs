@@ -17,6 +17,8 @@ pub struct ChecksTable {
     pub friction_coefficient: Option<f64>,
     /// Mesh of rack and first pinion; needs `block.mass_kg`.
     pub gear: Option<GearTable>,
+    /// Coil of each clutch of a clutched pair: the energy that both take is reported.
+    pub coil: Option<CoilTable>,
     /// Force of both flywheels on their support over the block's weight; a warning above.
     #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e6))]
     pub largest_force_ratio: Option<f64>,
@@ -41,6 +43,23 @@ pub struct GearTable {
     /// Allowable bending stress at the root of a tooth; a warning above.
     #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e5))]
     pub allowable_stress_mpa: f64,
+}
+
+/// The coil of a clutch that a current engages.
+#[skip_serializing_none]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CoilTable {
+    /// Power of a coil while its clutch is engaged.
+    #[schemars(range(min = 0.0, max = 1e5))]
+    pub holding_power_w: f64,
+    /// Energy that it takes to engage a clutch once, beside the power that holds it.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e5))]
+    pub closing_energy_j: f64,
+    /// Largest energy of both coils over a motion; a warning above.
+    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e9))]
+    pub largest_energy_j: Option<f64>,
 }
 
 impl ChecksTable {

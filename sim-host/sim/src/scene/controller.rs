@@ -57,6 +57,17 @@ pub enum LawName {
 }
 
 impl LawName {
+    /// All of them.
+    pub const ALL: [LawName; 7] = [
+        LawName::Passive,
+        LawName::AlwaysEngaged,
+        LawName::Resisting,
+        LawName::ResistingPredicted,
+        LawName::SignTable,
+        LawName::GatedTable,
+        LawName::LookAhead,
+    ];
+
     /// As scenes spell it.
     pub fn name(self) -> &'static str {
         match self {

@@ -6,7 +6,7 @@ use serde_with::skip_serializing_none;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::Block;
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
-use sprag_shared::structure::drivetrain::Drivetrain;
+use sprag_shared::structure::drivetrain::{Drivetrain, Engagement};
 use sprag_shared::structure::inertance::{Flywheel, inertance_of_train};
 use sprag_shared::structure::mount::Mount;
 
@@ -59,6 +59,11 @@ impl SceneDevice {
         drivetrain.check().map_err(|error| key(&table.key_of(error.parameter)).range(error.value, error.range))?;
         let name = table.name.clone().unwrap_or_else(|| default_name(table, all));
         Ok(SceneDevice { name, device, drivetrain, added_mass })
+    }
+
+    /// Whether it has clutches that take commands, and coils with them: those of a pair, unless they are one-way.
+    pub fn takes_commands(&self) -> bool {
+        self.device.kind == DeviceKind::ClutchedPair && self.drivetrain.engagement != Engagement::Overrunning
     }
 
     /// Whether it is the ideal device of the paper, however mounted and whatever it weighs.

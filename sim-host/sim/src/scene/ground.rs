@@ -133,9 +133,34 @@ pub enum GroundError {
 const RICKER_REACH: f64 = 6.0;
 
 impl GroundTable {
+    /// A motion of this kind, without its numbers yet.
+    pub fn of(motion: Motion) -> GroundTable {
+        GroundTable {
+            motion,
+            amplitude_ratio: None,
+            amplitude_g: None,
+            amplitude_m_s2: None,
+            velocity_amplitude_m_s: None,
+            frequency_ratio: None,
+            frequency_hz: None,
+            duration_s: None,
+            duration_ratio: None,
+            oscillations: None,
+            phase_deg: None,
+            file: None,
+            of_command_line: false,
+            units: None,
+            time_step_s: None,
+            component: None,
+            resample_to_s: None,
+            scale: one(),
+            start_s: 0.0,
+        }
+    }
+
     /// # Errors
     /// [`SceneError`] for a key that the motion does not have, one that it needs, or a value outside its range.
-    pub(super) fn check(&self, direction: Direction, key: &KeyOf<'_>) -> Result<(), SceneError> {
+    pub fn check(&self, direction: Direction, key: &KeyOf<'_>) -> Result<(), SceneError> {
         if direction == Direction::Vertical && self.amplitude_ratio.is_some() {
             let reason = "a vertical motion has no uplift threshold to be a ratio of: give amplitude_g or amplitude_m_s2";
             return Err(key("amplitude_ratio").conflict(reason));

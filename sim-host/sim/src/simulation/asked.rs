@@ -1,4 +1,4 @@
-//! What a scene asks for beyond history, peaks and checks: the energy ledger.
+//! What a scene asks for beyond history, peaks and forces: the energy ledger, and what coils take.
 
 use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::device_snapshot::DeviceOutput;
@@ -7,15 +7,17 @@ use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::ledger::{Entries, Ledger};
 use sprag_shared::structure::Structure;
 
+use super::coil_use::CoilUse;
 use super::drive::Segmented;
 use super::energy::EnergyReport;
 use super::run::{Failure, Task};
 use crate::ground_motion::Segment;
 
-/// The ledger, where the scene asks for it.
+/// Each where the scene asks for it.
 #[derive(Debug)]
 pub struct Asked<S> {
     energy: Option<EnergyHistory<S>>,
+    coils: Option<CoilUse>,
 }
 
 impl<S: Real> Asked<S> {
@@ -23,11 +25,22 @@ impl<S: Real> Asked<S> {
     pub(super) fn of(task: &Task<'_>, loaded: &Structure) -> Result<Asked<S>, Failure> {
         let energy =
             || EnergyHistory::new(Ledger::new(&loaded.block, task.scene.geometry(), &task.account(loaded)), task.interval);
-        Ok(Asked { energy: task.scene.file.output.energy.then(energy) })
+        let coils = task.scene.file.checks.as_ref().is_some_and(|checks| checks.coil.is_some()) && task.device().takes_commands();
+        Ok(Asked { energy: task.scene.file.output.energy.then(energy), coils: coils.then(CoilUse::default) })
     }
 
-    /// What it found.
-    pub(super) fn results(self) -> Option<EnergyReport> {
+    /// What a controller has commanded, in the place of what the clutches did.
+    pub(crate) fn commanded(&mut self, commanded: CoilUse) {
+        self.coils = self.coils.map(|_| commanded);
+    }
+
+    /// What the coils took; none where nobody looked, and without a clutch that has one.
+    pub(super) fn coils(&self) -> Option<CoilUse> {
+        self.coils
+    }
+
+    /// What the ledger found.
+    pub(super) fn energy(self) -> Option<EnergyReport> {
         self.energy.map(|energy| {
             let barrier = energy.ledger.barrier.to_f64();
             let last = energy.ledger.entries.each(Real::to_f64);
@@ -45,6 +58,9 @@ impl<S: Real> Observer<S> for Asked<S> {
         if let Some(energy) = &mut self.energy {
             energy.device_interval(output, interval);
         }
+        if let Some(coils) = &mut self.coils {
+            coils.device_interval(output, interval);
+        }
     }
 
     fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
@@ -56,6 +72,9 @@ impl<S: Real> Observer<S> for Asked<S> {
     fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         if let Some(energy) = &mut self.energy {
             energy.event(event, time, state);
+        }
+        if let Some(coils) = &mut self.coils {
+            coils.event(event, time, state);
         }
     }
 }

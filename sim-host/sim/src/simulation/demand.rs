@@ -7,6 +7,7 @@ use sprag_shared::structure::block::GRAVITY;
 use sprag_shared::structure::gear_teeth::{Gear, tooth_load_ratios};
 use sprag_shared::structure::inertance::Flywheel;
 
+use super::coil_use::CoilUse;
 use super::run::Task;
 use crate::scene::checks::ChecksTable;
 use crate::scene::device::FlywheelTable;
@@ -29,11 +30,17 @@ pub struct Demand {
     /// Largest bending stress at the root of a tooth, each mesh from the rack on, MPa.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub tooth_stress_mpa: Vec<f64>,
+    /// Energy that the coils of both clutches take until the end of the run or overturning, J; none without clutches that have coils.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coil_energy_j: Option<f64>,
     /// The assumptions that fail, in words.
     pub warnings: Vec<String>,
     /// As `stroke_m`, with the fall of a block that overturns, up to where it lies on the ground.
     #[serde(skip)]
     pub stroke_with_fall_m: Option<f64>,
+    /// The largest of `tooth_stress_mpa`, with the fall of a block that overturns.
+    #[serde(skip)]
+    pub tooth_stress_with_fall_mpa: Option<f64>,
 }
 
 /// What impacts and jolts ask of the toe, the fall of a block that overturns left out; each none where there is none.
@@ -87,9 +94,31 @@ pub(super) fn support_force_ratio<S: Real>(task: &Task<'_>, report: &Report<S>) 
     number(&report.support).map(|force| force * heavier(task))
 }
 
+/// Bending stress of the teeth at each mesh of the device of `task`, MPa, under the largest forces of `report`; none without gears.
+fn tooth_stresses<S: Real>(task: &Task<'_>, table: &ChecksTable, report: &Report<S>) -> Vec<f64> {
+    // The teeth of the rack mesh with the drive of one flywheel each.
+    let drive = report.force.iter().filter_map(number).reduce(f64::max).map(|force| force * heavier(task));
+    let (Some(gear), Some(mass), Some(force)) = (&table.gear, task.scene.file.block.mass_kg, drive) else {
+        return Vec::new();
+    };
+    let tooth = Gear {
+        module_m: gear.module_mm * 1e-3,
+        face_width_m: gear.face_width_mm * 1e-3,
+        teeth: gear.teeth,
+        allowable_stress_pa: gear.allowable_stress_mpa * 1e6,
+    };
+    let load = force * mass * GRAVITY;
+    let train: Vec<Flywheel> = task.scene.file.device[task.index].flywheels.iter().flatten().map(FlywheelTable::wheel).collect();
+    let ratios: Vec<f64> = match tooth_load_ratios(&train) {
+        Ok(ratios) => ratios.collect(),
+        Err(_) => vec![1.0],
+    };
+    ratios.iter().map(|ratio| tooth.bending_stress(load * ratio) * 1e-6).collect()
+}
+
 impl Demand {
     /// Of what `checks` found about the device of `task`.
-    pub(super) fn of<S: Real>(task: &Task<'_>, table: &ChecksTable, checks: &Checks<S>) -> Demand {
+    pub(super) fn of<S: Real>(task: &Task<'_>, table: &ChecksTable, checks: &Checks<S>, coils: Option<CoilUse>) -> Demand {
         let (report, whole) = (checks.before_fall(), checks.report);
         let farthest = |report: &Report<S>| report.stroke().map(|extreme| extreme.value.to_f64());
         let mut demand = Demand {
@@ -99,45 +128,22 @@ impl Demand {
             contact_lost_time_s: report.contact_lost.map(Real::to_f64),
             force_ratio: support_force_ratio(task, &report),
             stroke_m: farthest(&report),
-            tooth_stress_mpa: Vec::new(),
+            tooth_stress_mpa: tooth_stresses(task, table, &report),
+            coil_energy_j: table.coil.as_ref().zip(coils).map(|(coil, used)| used.energy_j(coil)),
             warnings: Vec::new(),
             stroke_with_fall_m: farthest(&whole),
+            tooth_stress_with_fall_mpa: tooth_stresses(task, table, &whole).into_iter().reduce(f64::max),
         };
-        // The teeth of the rack mesh with the drive of one flywheel each.
-        let drive = report.force.iter().filter_map(number).reduce(f64::max);
-        demand.teeth(task, table, drive.map(|force| force * heavier(task)));
         demand.warn(table, &Impulses::of(&report));
         demand
     }
 
-    /// Stresses under the force `drive`, |F|/(mg) of a flywheel's drive at the rack.
-    fn teeth(&mut self, task: &Task<'_>, table: &ChecksTable, drive: Option<f64>) {
-        let (Some(gear), Some(mass), Some(force)) = (&table.gear, task.scene.file.block.mass_kg, drive) else {
-            return;
-        };
-        let tooth = Gear {
-            module_m: gear.module_mm * 1e-3,
-            face_width_m: gear.face_width_mm * 1e-3,
-            teeth: gear.teeth,
-            allowable_stress_pa: gear.allowable_stress_mpa * 1e6,
-        };
-        let load = force * mass * GRAVITY;
-        let train: Vec<Flywheel> =
-            task.scene.file.device[task.index].flywheels.iter().flatten().map(FlywheelTable::wheel).collect();
-        let ratios: Vec<f64> = match tooth_load_ratios(&train) {
-            Ok(ratios) => ratios.collect(),
-            Err(_) => vec![1.0],
-        };
-        self.tooth_stress_mpa = ratios.iter().map(|ratio| tooth.bending_stress(load * ratio) * 1e-6).collect();
-        for (mesh, stress) in self.tooth_stress_mpa.iter().enumerate() {
-            if *stress > gear.allowable_stress_mpa {
-                let allowed = gear.allowable_stress_mpa;
+    fn warn(&mut self, table: &ChecksTable, impulses: &Impulses) {
+        if let Some(allowed) = table.gear.map(|gear| gear.allowable_stress_mpa) {
+            for (mesh, stress) in self.tooth_stress_mpa.iter().enumerate().filter(|(_, stress)| **stress > allowed) {
                 self.warnings.push(format!("teeth of mesh {} are overloaded: {stress:.1} MPa, {allowed} MPa allowed", mesh + 1));
             }
         }
-    }
-
-    fn warn(&mut self, table: &ChecksTable, impulses: &Impulses) {
         let mut warn = |message: String| self.warnings.push(message);
         if let Some(time) = self.contact_lost_time_s {
             warn(format!("the toe would leave the ground at {time:.4} s: from there on the model does not hold"));
@@ -157,6 +163,11 @@ impl Demand {
             && stroke > limit
         {
             warn(format!("the terminals travel {stroke:.4} m; the limit is {limit} m"));
+        }
+        if let (Some(limit), Some(energy)) = (table.coil.and_then(|coil| coil.largest_energy_j), self.coil_energy_j)
+            && energy > limit
+        {
+            warn(format!("the coils take {energy:.1} J; the limit is {limit} J"));
         }
     }
 }

@@ -41,6 +41,31 @@ fn a_limit_of_the_force_is_one_on_the_support() {
     assert!(checks.warnings.iter().any(|warning| warning.contains("0.0400") && warning.contains("limit is 0.03")), "{checks:?}");
 }
 
+/// Holding power times the time for which histories show a clutch engaged, and an energy for each time that one closes.
+#[test]
+fn coils_take_power_while_they_hold_and_energy_to_close() {
+    let rigid = "kind = 'clutched-pair'\nengagement = 'rigid'\nflywheel = { viscous_rate_1_s = 0.1 }";
+    let of = |device: &str, coil: &str| {
+        runs(5.0, device, &format!("[output]\ninterval_s = 0.0005\n[checks]\ncoil = {{ {coil} }}")).remove(0)
+    };
+    let energy = |coil: &str| of(rigid, coil).checks.unwrap().coil_energy_j.unwrap();
+    let (held, closed) = (energy("holding_power_w = 24"), energy("holding_power_w = 0, closing_energy_j = 5"));
+    assert!((energy("holding_power_w = 24, closing_energy_j = 5") - held - closed).abs() < 1e-9);
+    let run = of(rigid, "holding_power_w = 24, largest_energy_j = 1");
+    assert!(
+        run.checks.unwrap().warnings.iter().any(|warning| warning.contains("the coils take") && warning.contains("limit is 1 J"))
+    );
+    let samples = &run.history.samples;
+    let engaged: f64 = samples.windows(2).filter(|pair| pair[0].engaged != 0).map(|pair| pair[1].time_s - pair[0].time_s).sum();
+    let closings = samples.windows(2).filter(|pair| pair[1].engaged != 0 && pair[1].engaged != pair[0].engaged).count();
+    assert!((held / 24.0 / engaged - 1.0).abs() < 0.01 && engaged > 0.1, "{} {engaged}", held / 24.0);
+    assert!(closings > 1 && (closed / 5.0 - closings as f64).abs() < 1e-9, "{closed} {closings}");
+    // What no coil holds takes nothing.
+    for device in ["kind = 'inerter'", "kind = 'clutched-pair'\nengagement = 'overrunning'"] {
+        assert_eq!(of(device, "holding_power_w = 24").checks.unwrap().coil_energy_j, None);
+    }
+}
+
 /// (1 − η)/(1 + η) (1 + σ)/tan α with what is locked through the impact, without a table of checks.
 #[test]
 fn every_run_says_what_friction_an_impact_needs() {

@@ -14,6 +14,7 @@ use super::watchers::Watchers;
 use crate::accuracy::answer::Comparable;
 use crate::accuracy::{Answer, Compared, ErrorEstimate};
 use crate::history::{History, Sample};
+use crate::scene::checks::ChecksTable;
 
 /// One device's run. The fields that serialize are the objects in `runs` of `summary.json`; times in s.
 #[derive(Clone, Debug, Serialize)]
@@ -111,7 +112,7 @@ fn is_zero(count: &u32) -> bool {
 
 /// What a run found beside its state and peaks.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Found {
+pub(crate) struct Found {
     pub samples: Vec<Sample>,
     pub impacts_s: Vec<f64>,
     pub clutch_switches: u32,
@@ -126,6 +127,8 @@ impl Found {
     /// By those who watched.
     pub fn watched<S: Real>(task: &Task<'_>, watchers: Watchers<'_, S>) -> Found {
         let Watchers { recorder, checks, asked, .. } = watchers;
+        let demand = |(checks, table): (_, &ChecksTable)| Demand::of(task, table, &checks, asked.coils());
+        let demand = checks.zip(task.scene.file.checks.as_ref()).map(demand);
         Found {
             samples: recorder.samples,
             impacts_s: recorder.impacts,
@@ -133,8 +136,8 @@ impl Found {
             missed_engagements: 0,
             peak_force_ratio: checks.map(|checks| support_force_ratio(task, &checks.report).unwrap_or(0.0)),
             impulses: checks.map(|checks| Impulses::of(&checks.before_fall())).unwrap_or_default(),
-            checks: checks.zip(task.scene.file.checks.as_ref()).map(|(checks, table)| Demand::of(task, table, &checks)),
-            energy: asked.results(),
+            checks: demand,
+            energy: asked.energy(),
         }
     }
 }
@@ -153,7 +156,7 @@ impl<S> From<Trace<S>> for Found {
 
 impl DeviceRun {
     /// Of a motion that ended in `state` with `peaks`. Results stay relative to the bare block.
-    pub(super) fn of<S: Real>(task: &Task<'_>, state: &BlockState<S>, peaks: &Peaks<S>, found: Found) -> DeviceRun {
+    pub(crate) fn of<S: Real>(task: &Task<'_>, state: &BlockState<S>, peaks: &Peaks<S>, found: Found) -> DeviceRun {
         let device = task.device().name.clone();
         let (alpha, p) = (task.scene.block.slenderness(), task.scene.block.frequency_parameter());
         let outcome = Outcome::of(state, peaks);

@@ -86,7 +86,8 @@ pub fn simulate(scene: &Scene, ground: &GroundMotions, interrupt: &Interrupt) ->
     runs(scene, ground, true, interrupt)
 }
 
-/// As [`simulate`], for studies, which report no forces and impulses: they are looked at where the scene has `[checks]` only.
+/// As [`simulate`], for studies, which report no forces and impulses: they are looked at where the scene has `[checks]` only, and there the
+/// toe is left out unless the table asks for friction or gears.
 ///
 /// # Errors
 /// The errors of [`simulate`].
@@ -261,7 +262,11 @@ impl<'a> Task<'a> {
         Ok(Watchers {
             recorder: Recorder::new(self.force_scale(loaded), stays_engaged, self.interval, segments),
             peaks: Peaks { rocked: self.released().is_some(), ..Peaks::default() },
-            checks: if all { checks } else { checks.map(Checks::brief) },
+            checks: checks.map(|checks| match &self.scene.file.checks {
+                Some(table) if self.reports || table.gear.is_some() || table.friction_coefficient.is_some() => checks,
+                Some(_) => checks.of_device(),
+                None => checks.brief(),
+            }),
             asked: Asked::of(self, loaded)?,
         })
     }

@@ -6,6 +6,7 @@ use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::observer::Observer;
 use sprag_shared::structure::Structure;
 
+use super::coil_use::CoilUse;
 use super::drive::Segmented;
 use super::energy::EnergyReport;
 use super::run::{Failure, Task};
@@ -23,7 +24,12 @@ impl<S: Real> Asked<S> {
     }
 
     /// Nothing.
-    pub(super) fn results(self) -> Option<EnergyReport> {
+    pub(super) fn coils(&self) -> Option<CoilUse> {
+        None
+    }
+
+    /// Nothing.
+    pub(super) fn energy(self) -> Option<EnergyReport> {
         None
     }
 }

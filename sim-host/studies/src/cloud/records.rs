@@ -23,9 +23,17 @@ pub struct StudyRecord {
     pub name: String,
     /// The record and its measures.
     pub motion: MeasuredRecord,
+    /// Its earthquake: by the name that the study gives, else by the day in its title; none where both are silent.
+    pub event: Option<String>,
 }
 
 impl StudyRecord {
+    /// The motion of `record`, which tables print as `name`, of the earthquake `event`, or of the one that its title names.
+    pub fn of(name: String, record: Record, event: Option<String>) -> StudyRecord {
+        let event = event.or_else(|| record.event_date().map(|date| date.to_string()));
+        StudyRecord { name, motion: record.into(), event }
+    }
+
     /// The record times `factor` as a ground motion that starts at `start_s`.
     pub fn ground(&self, factor: f64, start_s: f64) -> GroundMotions {
         let Record { acceleration_m_s2, time_step_s, .. } = &self.motion.record;
@@ -51,6 +59,7 @@ struct Source {
     name: String,
     path: PathBuf,
     options: ReadOptions,
+    event: Option<String>,
 }
 
 impl StudyRecords {
@@ -68,9 +77,9 @@ impl StudyRecords {
         let named = |source: &Source| if same(&source.name) { folder::shown(&source.path) } else { source.name.clone() };
         let names: Vec<String> = sources.iter().map(named).collect();
         let read: Vec<_> = sources.par_iter().map(|source| Record::read(&source.path, &source.options)).collect();
-        for (name, record) in names.into_iter().zip(read) {
+        for ((name, source), record) in names.into_iter().zip(&sources).zip(read) {
             match record {
-                Ok(record) => found.records.push(StudyRecord { name, motion: record.as_horizontal().into() }),
+                Ok(record) => found.records.push(StudyRecord::of(name, record.as_horizontal(), source.event.clone())),
                 Err(error) => found.unreadable.push(match error.key() {
                     Some(key) => format!("{error}, or record.{key} in {}", study.origin),
                     None => error.to_string(),
@@ -115,9 +124,11 @@ fn sources(study: &Study, found: &mut StudyRecords) -> Result<Vec<Source>, Scene
     let mut sources = Vec::new();
     for (index, entry) in study.file.records.iter().enumerate() {
         let mut options = study.reading.clone();
+        let mut event = None;
         let path = match entry {
             RecordEntry::Path(path) => path,
-            RecordEntry::Described(DescribedRecord { file, units, time_step_s, component }) => {
+            RecordEntry::Described(DescribedRecord { file, units, time_step_s, component, event: named }) => {
+                event.clone_from(named);
                 let key = |key: &str| KeyPath { origin: study.origin.clone(), key: key.to_owned() };
                 check_units(units.as_deref(), &format!("records.{index}"), &key)?;
                 options.units = units.as_ref().and_then(|units| units.parse().ok()).or(options.units);
@@ -129,7 +140,7 @@ fn sources(study: &Study, found: &mut StudyRecords) -> Result<Vec<Source>, Scene
         let path = study.folder.join(path);
         if !path.is_dir() {
             let name = path.file_name().map_or_else(|| folder::shown(&path), |name| name.to_string_lossy().into_owned());
-            sources.push(Source { name, path, options });
+            sources.push(Source { name, path, options, event });
             continue;
         }
         let inside = folder::search(&path);
@@ -140,7 +151,7 @@ fn sources(study: &Study, found: &mut StudyRecords) -> Result<Vec<Source>, Scene
         found.unreadable.extend(inside.unreadable);
         for file in inside.files {
             let name = folder::shown(file.strip_prefix(&path).unwrap_or(&file));
-            sources.push(Source { name, path: file, options: options.clone() });
+            sources.push(Source { name, path: file, options: options.clone(), event: event.clone() });
         }
     }
     Ok(sources)

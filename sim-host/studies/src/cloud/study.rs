@@ -92,7 +92,7 @@ impl Study {
             file.records = records.iter().cloned().map(RecordEntry::Path).collect();
             folder_of_records = PathBuf::new();
         }
-        if file.records.is_empty() {
+        if file.records.is_empty() && !file.has_pulses() {
             return Err(key("records").missing("a list of record files and folders here, or --records PATH…").into());
         }
         let structures = structures(&file, origin, folder, overrides)?;

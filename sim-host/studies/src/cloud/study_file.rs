@@ -26,7 +26,7 @@ fn example_changes() -> BTreeMap<&'static str, f64> {
 }
 
 /// Has the elements of a list above 0.
-fn each_above_zero(schema: &mut schemars::Schema) {
+pub(crate) fn each_above_zero(schema: &mut schemars::Schema) {
     if let Some(items) = schema.get_mut("items").and_then(serde_json::Value::as_object_mut) {
         items.insert("exclusiveMinimum".to_owned(), 0.0.into());
     }
@@ -75,6 +75,13 @@ pub struct StudyFile {
     pub optimise: Option<OptimiseTable>,
 }
 
+impl StudyFile {
+    /// Whether `sprag optimise` has motions without a record.
+    pub fn has_pulses(&self) -> bool {
+        self.optimise.as_ref().is_some_and(|optimise| !optimise.pulse.is_empty())
+    }
+}
+
 impl Described for StudyFile {
     fn schema() -> &'static serde_json::Value {
         static SCHEMA: LazyLock<serde_json::Value> = LazyLock::new(schema_of::<StudyFile>);
@@ -88,7 +95,7 @@ fn all_measures() -> Vec<Measure> {
 
 /// An entry of `records`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged, expecting = "a record is a path, or { file = \"…\" } with units, time_step_s or component")]
+#[serde(untagged, expecting = "a record is a path, or { file = \"…\" } with units, time_step_s, component or event")]
 pub enum RecordEntry {
     /// A file or a folder.
     Path(PathBuf),
@@ -112,6 +119,10 @@ pub struct DescribedRecord {
     /// Component of files with several.
     #[schemars(example = &"NS")]
     pub component: Option<String>,
+    /// Earthquake of the file, or of all files of the folder, by any name: motions of one earthquake are not independent. The day in the
+    /// title of a file without the key.
+    #[schemars(example = &"Northridge")]
+    pub event: Option<String>,
 }
 
 /// `[record]`: as the options of `sprag record`.

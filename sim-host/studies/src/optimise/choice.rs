@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use super::design::Design;
 use super::limit::Limits;
 
-/// `one` before `other` if it overturns under fewer motions; if equally many, by the smaller median rotation, then by the smaller
+/// `one` before `other` if it overturns under fewer motions, in the mean over the specimens or in their quantile; if equally many, by the smaller median rotation, then by the smaller
 /// force, and else by the order of laws, mounts and mass ratios.
 ///
 /// With as many motions that overturn the block, as many of the rotations are infinite for both.
@@ -13,8 +13,8 @@ pub fn preference(one: &Design, other: &Design) -> Ordering {
     let place = |design: &Design| design.candidate.map_or((0, 0.0), |candidate| (candidate.curve + 1, candidate.mass_ratio));
     let ((curve, mass_ratio), (other_curve, other_mass_ratio)) = (place(one), place(other));
     let (a, b) = (&one.score, &other.score);
-    a.overturned
-        .cmp(&b.overturned)
+    a.objective
+        .total_cmp(&b.objective)
         .then(a.median_rotation.total_cmp(&b.median_rotation))
         .then(a.force_ratio.total_cmp(&b.force_ratio))
         .then(curve.cmp(&other_curve))
@@ -44,14 +44,14 @@ mod tests {
     use crate::optimise::design::{Candidate, Score};
 
     fn design(curve: usize, mass_ratio: f64, score: Score) -> Design {
-        Design { candidate: Some(Candidate { curve, mass_ratio }), responses: Vec::new(), score }
+        Design { candidate: Some(Candidate { curve, mass_ratio, delay_s: 0.0 }), responses: Vec::new(), score }
     }
 
     fn scored(overturned: usize, median_rotation: f64, force_ratio: f64) -> Score {
-        Score { motions: 87, overturned, median_rotation, force_ratio, ..Score::default() }
+        Score { motions: 87, overturned, objective: overturned as f64, median_rotation, force_ratio, ..Score::default() }
     }
 
-    const LIMITS: Limits = Limits { force: Some(0.3), stroke: None, quantile: 1.0, force_of_overturned: true };
+    const LIMITS: Limits = Limits { force: Some(0.3), ..Limits::NONE };
 
     #[test]
     fn ties_are_broken_by_rotation_then_force_then_order() {

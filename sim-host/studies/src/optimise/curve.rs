@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use sprag_sim::scene::checks::ChecksTable;
+use sprag_sim::scene::controller::ControllerTable;
 use sprag_sim::scene::device::DeviceTable;
 use sprag_sim::scene::error::KeyPath;
 use sprag_sim::scene::schema::KeyOf;
@@ -9,6 +10,7 @@ use sprag_sim::scene::{Scene, SceneError};
 
 use super::law::{Law, laws};
 use super::mount::DescribedMount;
+use super::setting::with_settings;
 use super::table::OptimiseTable;
 
 /// A law on a mount.
@@ -20,6 +22,9 @@ pub struct Curve {
     pub mount: String,
     /// In the keys of a `[[device]]`, without its mass ratio.
     pub device: DeviceTable,
+    /// Its controller, where it has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub controller: Option<ControllerTable>,
 }
 
 impl Curve {
@@ -28,19 +33,30 @@ impl Curve {
         format!("{}, {}", self.law, self.mount)
     }
 
-    /// `scene` with the device of `mass_ratio` σ alone, and checks that look for its largest force and travel.
+    /// `scene` with the device of `mass_ratio` σ alone, whose clutches are later than its law says by `delay_s`, and checks that look for its
+    /// largest force and travel.
     ///
     /// # Errors
     /// [`SceneError`] where the scene does not take it.
-    pub fn scene(&self, scene: &Scene, mass_ratio: f64) -> Result<Scene, SceneError> {
-        watched(scene, DeviceTable { mass_ratio: Some(mass_ratio), ..self.device.clone() })
+    pub fn scene(&self, scene: &Scene, mass_ratio: f64, delay_s: f64) -> Result<Scene, SceneError> {
+        let mut device = DeviceTable { mass_ratio: Some(mass_ratio), ..self.device.clone() };
+        if delay_s > 0.0 {
+            let actuation = device.actuation.get_or_insert_default();
+            actuation.engagement_delay_s += delay_s;
+            actuation.release_delay_s += delay_s;
+        }
+        let mut scene = watched(scene, device)?;
+        scene.file.controller.clone_from(&self.controller);
+        Ok(scene)
     }
 }
 
-/// `scene` with `device` alone, nothing to write down, and checks that look for its largest force and travel.
+/// `scene` with `device` alone, nothing to write down, and checks that look for its largest force and travel, and what its gears and coils
+/// bear.
 pub(super) fn watched(scene: &Scene, device: DeviceTable) -> Result<Scene, SceneError> {
+    let ChecksTable { gear, coil, .. } = scene.file.checks.clone().unwrap_or_default();
     let mut scene = scene.with_device(device)?.only(0);
-    scene.file.checks = Some(ChecksTable::default());
+    scene.file.checks = Some(ChecksTable { gear, coil, ..ChecksTable::default() });
     Ok(scene)
 }
 
@@ -65,14 +81,15 @@ pub(super) fn curves(
     }
     let mut curves = Vec::new();
     let mut reasons = Vec::new();
-    for Law { name, device } in laws(&table.laws, scene, &key("laws"))? {
+    let settled = with_settings(laws(&table.laws, scene, &key("laws"))?, &table.setting, scene, table.mass_ratio.from, key)?;
+    for Law { name, device, controller } in settled {
         let of_law = if mounts.is_empty() { vec![DescribedMount::of(&device)] } else { mounts.clone() };
         for mount in of_law {
             let mut device = device.clone();
             mount.attach(&mut device);
-            let curve = Curve { law: name.clone(), mount: mount.name(), device };
+            let curve = Curve { law: name.clone(), mount: mount.name(), device, controller: controller.clone() };
             let ends = [table.mass_ratio.from, table.mass_ratio.to];
-            match ends.into_iter().try_for_each(|mass_ratio| curve.scene(scene, mass_ratio).map(|_| ())) {
+            match ends.into_iter().try_for_each(|mass_ratio| curve.scene(scene, mass_ratio, 0.0).map(|_| ())) {
                 Ok(()) => curves.push(curve),
                 // The device is none of the scene's, so that its key would name another one.
                 Err(error) => {

@@ -4,6 +4,7 @@ use sprag_shared::math;
 use sprag_shared::observers::outcome::Outcome;
 
 use super::limit::{Limits, Quantity};
+use super::objective::Objective;
 use super::response::Response;
 use crate::statistics::quantile;
 
@@ -14,6 +15,8 @@ pub struct Candidate {
     pub curve: usize,
     /// σ.
     pub mass_ratio: f64,
+    /// By how much its clutches are later than its law says, s.
+    pub delay_s: f64,
 }
 
 impl Candidate {
@@ -42,8 +45,10 @@ pub struct Design {
 pub struct Score {
     /// Motions with a response.
     pub motions: usize,
-    /// Number of motions that overturn the block.
+    /// Number of motions that overturn the block; each counts once a specimen.
     pub overturned: usize,
+    /// What is made small: the mean of that over the specimens, or a quantile.
+    pub objective: f64,
     /// Motions without a response.
     pub failed: usize,
     /// Those that overturn the bare block, and not this one.
@@ -54,6 +59,10 @@ pub struct Score {
     pub force_ratio: f64,
     /// Quantile of the stroke over the motions in which the block stands, m; `None` where it never does.
     pub stroke_m: Option<f64>,
+    /// Quantile of the bending stress of gear teeth over the motions whose force counts, MPa; `None` where the scene has no gear.
+    pub tooth_stress_mpa: Option<f64>,
+    /// Quantile of the energy of the coils over the motions whose force counts, J; `None` where the device has none.
+    pub coil_energy_j: Option<f64>,
     /// Median of max |θ|/α over the motions that rock the bare block, where overturning counts as infinite.
     pub median_rotation: f64,
 }
@@ -67,9 +76,15 @@ impl Score {
     ///
     /// Rotations are compared over the same motions for every design. Leaving out those that overturn the block would compare each
     /// design over motions of its own, and reward the one that overturns under the strong ones.
-    pub fn of(responses: &Responses, bare: &Responses, limits: &Limits) -> Score {
+    pub fn of(responses: &Responses, bare: &Responses, limits: &Limits, objective: Objective) -> Score {
         let mut score = Score::default();
         let (mut forces, mut strokes, mut rotations) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut stresses, mut energies) = (Vec::new(), Vec::new());
+        let each = (responses.len() / objective.specimens.max(1)).max(1);
+        let overturned =
+            |response: &&Result<Response, String>| response.as_ref().is_ok_and(|response| response.outcome.overturned());
+        let counts = responses.chunks(each).map(|specimen| specimen.iter().filter(overturned).count() as u64);
+        score.objective = objective.of(&counts.collect::<Vec<u64>>());
         for (response, bare) in responses.iter().zip(bare) {
             let Ok(response) = response else {
                 score.failed += 1;
@@ -80,6 +95,8 @@ impl Score {
             score.overturned += usize::from(overturned);
             if !overturned || limits.force_of_overturned {
                 forces.push(response.force_ratio);
+                stresses.extend(response.tooth_stress_mpa);
+                energies.extend(response.coil_energy_j);
             }
             if !overturned {
                 strokes.push(response.stroke_m);
@@ -93,15 +110,19 @@ impl Score {
         }
         score.force_ratio = quantile(&forces, limits.quantile).unwrap_or(0.0);
         score.stroke_m = quantile(&strokes, limits.quantile);
+        score.tooth_stress_mpa = quantile(&stresses, limits.quantile);
+        score.coil_energy_j = quantile(&energies, limits.quantile);
         score.median_rotation = quantile(&rotations, 0.5).unwrap_or(0.0);
         score
     }
 
-    /// What it asks for of `quantity`; nothing of a stroke where the block never stands.
+    /// What it asks for of `quantity`; nothing of a stroke where the block never stands, and of what the scene or the device does not have.
     pub fn asks(&self, quantity: Quantity) -> f64 {
         match quantity {
             Quantity::Force => self.force_ratio,
             Quantity::Stroke => self.stroke_m.unwrap_or(0.0),
+            Quantity::ToothStress => self.tooth_stress_mpa.unwrap_or(0.0),
+            Quantity::CoilEnergy => self.coil_energy_j.unwrap_or(0.0),
         }
     }
 }
@@ -110,16 +131,32 @@ impl Score {
 mod tests {
     use super::*;
 
-    const LIMITS: Limits = Limits { force: None, stroke: None, quantile: 1.0, force_of_overturned: true };
+    const LIMITS: Limits = Limits::NONE;
 
     fn stands(peak: f64, force_ratio: f64, stroke_m: f64) -> Result<Response, String> {
         let outcome = if peak > 0.0 { Outcome::Safe } else { Outcome::NoRocking };
-        Ok(Response { outcome, peak_rotation: Some(peak), force_ratio, stroke_m, error: None })
+        Ok(Response {
+            outcome,
+            peak_rotation: Some(peak),
+            force_ratio,
+            stroke_m,
+            tooth_stress_mpa: Some(100.0 * force_ratio),
+            coil_energy_j: None,
+            error: None,
+        })
     }
 
     fn falls(force_ratio: f64, stroke_m: f64) -> Result<Response, String> {
         let outcome = Outcome::OverturnedAfterImpact;
-        Ok(Response { outcome, peak_rotation: None, force_ratio, stroke_m, error: None })
+        Ok(Response {
+            outcome,
+            peak_rotation: None,
+            force_ratio,
+            stroke_m,
+            tooth_stress_mpa: Some(100.0 * force_ratio),
+            coil_energy_j: None,
+            error: None,
+        })
     }
 
     fn bare() -> Responses {
@@ -130,11 +167,12 @@ mod tests {
     fn motions_are_counted_beside_the_bare_block() {
         let responses =
             vec![stands(0.0, 0.0, 0.0), falls(0.5, 1.9), stands(0.8, 0.2, 0.3), falls(0.6, 1.9), stands(0.2, 0.1, 0.1)];
-        let score = Score::of(&responses, &bare(), &LIMITS);
+        let score = Score::of(&responses, &bare(), &LIMITS, Objective::NOMINAL);
         assert_eq!((score.motions, score.overturned, score.saved, score.newly_overturned), (5, 2, 1, 1));
-        // The force on a falling block counts, its travel does not.
+        // The force on a falling block counts, and the stress that it means; its travel does not.
         assert_eq!((score.force_ratio, score.stroke_m), (0.6, Some(0.3)));
-        let standing = Score::of(&responses, &bare(), &Limits { force_of_overturned: false, ..LIMITS });
+        assert_eq!((score.tooth_stress_mpa, score.coil_energy_j, score.asks(Quantity::CoilEnergy)), (Some(60.0), None, 0.0));
+        let standing = Score::of(&responses, &bare(), &Limits { force_of_overturned: false, ..LIMITS }, Objective::NOMINAL);
         assert_eq!((standing.force_ratio, standing.stroke_m), (0.2, Some(0.3)));
         // The median of 0.2, 0.8 and twice infinite.
         assert_eq!(score.median_rotation, f64::INFINITY);
@@ -144,7 +182,7 @@ mod tests {
     fn quantiles_relax_a_limit() {
         let responses: Responses = (0..=10).map(|k| stands(0.1, 0.1 * f64::from(k), f64::from(k))).collect();
         let bare = responses.clone();
-        let of = |quantile: f64| Score::of(&responses, &bare, &Limits { quantile, ..LIMITS });
+        let of = |quantile: f64| Score::of(&responses, &bare, &Limits { quantile, ..LIMITS }, Objective::NOMINAL);
         assert_eq!((of(1.0).force_ratio, of(1.0).stroke_m), (1.0, Some(10.0)));
         assert!((of(0.9).force_ratio - 0.9).abs() < 1e-15 && (of(0.5).stroke_m.unwrap() - 5.0).abs() < 1e-15);
     }
@@ -153,15 +191,29 @@ mod tests {
     fn motions_that_do_not_rock_the_bare_block_do_not_hide_the_others() {
         let quiet = || stands(0.0, 0.0, 0.0);
         let [bare, design] = [0.8, 0.3].map(|peak| -> Responses { vec![quiet(), quiet(), quiet(), stands(peak, 0.1, 0.1)] });
-        assert_eq!(Score::of(&design, &bare, &LIMITS).median_rotation, 0.3);
-        assert_eq!(Score::of(&bare, &bare, &LIMITS).median_rotation, 0.8);
+        assert_eq!(Score::of(&design, &bare, &LIMITS, Objective::NOMINAL).median_rotation, 0.3);
+        assert_eq!(Score::of(&bare, &bare, &LIMITS, Objective::NOMINAL).median_rotation, 0.8);
+    }
+
+    #[test]
+    fn specimens_are_averaged_or_the_worst_of_them_counts() {
+        let one = [falls(0.1, 1.0), stands(0.3, 0.1, 0.1), stands(0.3, 0.1, 0.1)];
+        let other = [falls(0.1, 1.0), falls(0.1, 1.0), falls(0.1, 1.0)];
+        let responses: Responses = one.into_iter().chain(other).collect();
+        let of = |quantile| Score::of(&responses, &responses, &LIMITS, Objective { specimens: 2, quantile }).objective;
+        assert_eq!([of(None), of(Some(0.0)), of(Some(0.5)), of(Some(1.0))], [2.0, 1.0, 2.0, 3.0]);
+        // The same specimen twice is the specimen.
+        let twice: Responses = responses[..3].iter().chain(&responses[..3]).cloned().collect();
+        let nominal = Score::of(&responses[..3].to_vec(), &responses[..3].to_vec(), &LIMITS, Objective::NOMINAL);
+        let doubled = Score::of(&twice, &twice, &LIMITS, Objective { specimens: 2, quantile: None });
+        assert_eq!((doubled.objective, doubled.median_rotation), (nominal.objective, nominal.median_rotation));
     }
 
     #[test]
     fn a_run_that_failed_is_no_motion() {
         let mut responses = bare();
         responses[2] = Err("stopped".to_owned());
-        let score = Score::of(&responses, &bare(), &LIMITS);
+        let score = Score::of(&responses, &bare(), &LIMITS, Objective::NOMINAL);
         assert_eq!((score.motions, score.failed, score.overturned, score.saved), (4, 1, 1, 0));
     }
 }

@@ -16,7 +16,8 @@ use crate::cloud::pages::percent;
 /// The errors of [`trade_off_figure`].
 pub fn trade_off_picture(problem: &Problem<'_>, findings: &Findings) -> Result<String, PlotError> {
     let choices = &problem.choices;
-    let quantities = Quantity::ALL.into_iter().filter(|quantity| *quantity == Quantity::Force || choices.limits.stroke.is_some());
+    let quantities =
+        Quantity::TRADED.into_iter().filter(|quantity| *quantity == Quantity::Force || choices.limits.stroke.is_some());
     trade_off_figure(&TradeOffFigure {
         title: FigureTitle { text: heading(choices).to_owned(), conditions: of_blocks(&[&choices.structure.scene]) },
         series: choices.curves.iter().map(Curve::name).collect(),

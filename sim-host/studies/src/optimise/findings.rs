@@ -3,10 +3,13 @@
 use serde::Serialize;
 
 use super::choice::{best, complete, nearest};
+use super::delay::DelayBudget;
 use super::design::{Candidate, Design, Score};
 use super::limit::{Limits, Quantity};
 use super::problem::{Choices, Problem, Solution};
+use super::ranking::Ranking;
 use super::search::{BEST_FACTOR, Crossing, crossings};
+use super::specimen::Specimen;
 use crate::statistics::front::undominated;
 use crate::statistics::proportion::wilson;
 use crate::statistics::{Band, Level};
@@ -20,13 +23,13 @@ pub struct Row {
     pub mount: Option<String>,
     /// σ.
     pub mass_ratio: Option<f64>,
-    /// Motions with a response.
+    /// Motions with a response; each counts once a specimen.
     pub motions: usize,
-    /// Number of motions that overturn the block.
+    /// Number of motions that overturn the block, counted likewise.
     pub overturned: usize,
     /// Motions without a response.
     pub failed: usize,
-    /// Share of the motions that overturn the block.
+    /// Share of the motions that overturn the block: the mean over the specimens, or their quantile.
     pub probability: f64,
     /// Wilson's band of the probability behind that share.
     pub probability_band: Band,
@@ -38,6 +41,12 @@ pub struct Row {
     pub peak_force_ratio: f64,
     /// Quantile of the stroke over the motions in which the block stands, m; null without a device, and where it never stands.
     pub stroke_m: Option<f64>,
+    /// Quantile of the bending stress of gear teeth over the motions whose force counts, MPa; left out where the scene has no gear.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tooth_stress_mpa: Option<f64>,
+    /// Quantile of the energy of the coils over the motions whose force counts, J; left out where the device has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coil_energy_j: Option<f64>,
     /// Median of max |θ|/α over the motions that rock the bare block; null where half of them or more overturn it.
     pub median_peak_rotation: Option<f64>,
     /// Whether it respects the limits.
@@ -92,6 +101,9 @@ pub struct Fronts {
 pub struct Findings {
     /// Motions under which every design is tried.
     pub motions: usize,
+    /// Specimens that each of them shakes; left out where the study is not robust.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub specimens: Vec<Specimen>,
     /// Devices tried.
     pub designs: usize,
     /// Runs of one of them, or of the bare block, under one motion.
@@ -108,6 +120,11 @@ pub struct Findings {
     pub best_without_limits: Option<Row>,
     /// The best of each law and mount that respects the limits.
     pub best_of_each: Vec<Row>,
+    /// How late the clutches of the best may be; left out where the study names no delays, or nobody commands the clutches.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub delay_budget: Option<DelayBudget>,
+    /// How sure the choice is; null where none respects the limits.
+    pub ranking: Option<Ranking>,
     /// The best design, and beside it the next smaller and larger mass ratio of the first grid that are another size.
     pub neighbours: Vec<Row>,
     /// Where limits are reached.
@@ -127,22 +144,27 @@ impl Findings {
         let Choices { limits, table, study, .. } = &problem.choices;
         let level = study.bootstrap.level;
         let designs = &solution.designs;
-        let [force, stroke] = Quantity::ALL.map(|quantity| front(solution, limits, quantity));
+        let [force, stroke] = Quantity::TRADED.map(|quantity| front(solution, limits, quantity));
         let row = |design: &Design| {
             // The bare block is the first of a front.
             let place = designs.iter().position(|other| other.candidate == design.candidate).map_or(0, |index| index + 1);
             Row { on_force_front: force[place], on_stroke_front: stroke[place], ..row(problem, design, level) }
         };
         let best_design = best(designs, limits);
-        let without = Limits { force: None, stroke: None, ..*limits };
+        let without = limits.lifted();
         let on = |front: &[bool]| {
             let all = std::iter::once(&solution.bare).chain(designs);
             let mut rows: Vec<Row> = all.zip(front).filter(|(_, on)| **on).map(|(design, _)| row(design)).collect();
-            rows.sort_by_key(|row| std::cmp::Reverse(row.overturned));
+            rows.sort_by(|a, b| b.probability.total_cmp(&a.probability));
             rows
         };
         let of_curve = |curve: usize| designs.iter().filter(move |design| design.candidate.is_some_and(|at| at.curve == curve));
-        let each = (0..problem.choices.curves.len()).filter_map(|curve| best(of_curve(curve), limits)).map(row).collect();
+        let each: Vec<&Design> = (0..problem.choices.curves.len()).filter_map(|curve| best(of_curve(curve), limits)).collect();
+        let ranking = best_design.map(|best| {
+            let others = each.iter().copied().filter(|design| design.candidate != best.candidate);
+            let rivals = std::iter::once(&solution.bare).chain(others).map(|design| (design, row(design)));
+            Ranking::of(problem, solution, best, rivals.collect())
+        });
         let grid = table.mass_ratio.grid();
         let neighbours = best_design.and_then(|design| design.candidate).map_or_else(Vec::new, |at| {
             let below = grid.iter().rev().find(|&&mass_ratio| BEST_FACTOR * mass_ratio < at.mass_ratio);
@@ -155,6 +177,7 @@ impl Findings {
         let nearest = nearest(designs, limits).filter(|_| best_design.is_none());
         let mut findings = Findings {
             motions: problem.motions.len(),
+            specimens: if table.robust.is_some() { problem.specimens.clone() } else { Vec::new() },
             designs: designs.len(),
             runs: solution.runs,
             level,
@@ -162,7 +185,9 @@ impl Findings {
             best: best_design.map(row),
             nearest: nearest.map(|design| Nearest { demand_over_limit: limits.demand(&design.score), design: row(design) }),
             best_without_limits: best(designs, &without).map(row),
-            best_of_each: each,
+            best_of_each: each.into_iter().map(row).collect(),
+            delay_budget: DelayBudget::of(problem, solution, row),
+            ranking,
             neighbours,
             limits_reached: crossings(designs, limits).into_iter().map(|crossing| reached(&problem.choices, crossing)).collect(),
             fronts: Fronts { force: on(&force), stroke: on(&stroke) },
@@ -181,7 +206,7 @@ fn front(solution: &Solution, limits: &Limits, quantity: Quantity) -> Vec<bool> 
     let counts = |design: &Design| complete(design) && (bare(design) || limits.others_respected(quantity, &design.score));
     let point = |design: &Design| {
         let asks = if bare(design) { 0.0 } else { design.score.asks(quantity) };
-        (asks, design.score.overturned as f64)
+        (asks, design.score.objective)
     };
     // What does not count is worse than all that does.
     let place = |design: &Design| if counts(design) { point(design) } else { (f64::INFINITY, f64::INFINITY) };
@@ -192,28 +217,51 @@ fn front(solution: &Solution, limits: &Limits, quantity: Quantity) -> Vec<bool> 
 
 fn row(problem: &Problem<'_>, design: &Design, level: Level) -> Row {
     let score = &design.score;
-    let curve = design.candidate.map(|at| &problem.choices.curves[at.curve]);
-    let band = wilson(score.overturned, score.motions, level);
+    let specimens = problem.specimens.len();
+    // A motion counts once, whatever the number of specimens that it shakes.
+    let motions = (score.motions as f64 / specimens as f64).max(1.0);
+    let band = wilson(score.objective.round() as usize, score.motions / specimens, level);
+    let row = Row { candidate: design.candidate, probability: score.objective / motions, ..Row::of_score(score) };
+    let row = Row { probability_band: band.unwrap_or(row.probability_band), ..row };
+    let Some(at) = design.candidate else {
+        return Row { stroke_m: None, tooth_stress_mpa: None, feasible: complete(design), ..row };
+    };
+    let curve = &problem.choices.curves[at.curve];
     Row {
-        law: curve.map_or_else(|| "none".to_owned(), |curve| curve.law.clone()),
-        mount: curve.map(|curve| curve.mount.clone()),
-        mass_ratio: design.candidate.map(|at| at.mass_ratio),
-        motions: score.motions,
-        overturned: score.overturned,
-        failed: score.failed,
-        probability: score.overturned as f64 / (score.motions as f64).max(1.0),
-        // Of nothing nothing is known.
-        probability_band: band.unwrap_or(Band { low: 0.0, high: 1.0 }),
-        saved: score.saved,
-        newly_overturned: score.newly_overturned,
-        peak_force_ratio: score.force_ratio,
-        stroke_m: score.stroke_m.filter(|_| design.candidate.is_some()),
-        median_peak_rotation: Some(score.median_rotation).filter(|rotation| rotation.is_finite()),
-        feasible: complete(design) && (design.candidate.is_none() || problem.choices.limits.allow(score)),
-        on_force_front: false,
-        on_stroke_front: false,
-        candidate: design.candidate,
-        score: *score,
+        law: curve.law.clone(),
+        mount: Some(curve.mount.clone()),
+        mass_ratio: Some(at.mass_ratio),
+        feasible: complete(design) && problem.choices.limits.allow(score),
+        ..row
+    }
+}
+
+impl Row {
+    /// The bare block's, of its `score`.
+    pub(super) fn of_score(score: &Score) -> Row {
+        Row {
+            law: "none".to_owned(),
+            mount: None,
+            mass_ratio: None,
+            motions: score.motions,
+            overturned: score.overturned,
+            failed: score.failed,
+            probability: score.overturned as f64 / (score.motions as f64).max(1.0),
+            // Of nothing nothing is known.
+            probability_band: Band { low: 0.0, high: 1.0 },
+            saved: score.saved,
+            newly_overturned: score.newly_overturned,
+            peak_force_ratio: score.force_ratio,
+            stroke_m: score.stroke_m,
+            tooth_stress_mpa: score.tooth_stress_mpa,
+            coil_energy_j: score.coil_energy_j,
+            median_peak_rotation: Some(score.median_rotation).filter(|rotation| rotation.is_finite()),
+            feasible: true,
+            on_force_front: false,
+            on_stroke_front: false,
+            candidate: None,
+            score: *score,
+        }
     }
 }
 

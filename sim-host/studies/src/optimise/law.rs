@@ -1,5 +1,6 @@
 //! Clutch laws: what an inerter may be, but for its size and its place.
 
+use sprag_sim::scene::controller::{ControllerTable, LawName};
 use sprag_sim::scene::device::{DeviceTable, Kind};
 use sprag_sim::scene::drivetrain::EngagementName;
 use sprag_sim::scene::error::KeyPath;
@@ -12,7 +13,12 @@ pub struct Law {
     pub name: String,
     /// The device; its mass ratio is left out.
     pub device: DeviceTable,
+    /// The controller that drives its clutches; Eq. 10 does without one.
+    pub controller: Option<ControllerTable>,
 }
+
+/// Before the name of a controller's law.
+pub const CONTROLLER: &str = "controller:";
 
 /// Names of laws that need no device of the scene.
 pub const IDEAL_LAWS: [&str; 4] = ["inerter", "clutched-pair", "rigid", "overrunning"];
@@ -39,11 +45,16 @@ pub(super) fn laws(names: &[String], scene: &Scene, key: &KeyPath) -> Result<Vec
         if laws.iter().any(|law| law.name == *name) {
             return Err(key().conflict(&format!("\"{name}\" is there twice")));
         }
+        if let Some(word) = name.strip_prefix(CONTROLLER) {
+            laws.push(controlled(name, word, scene, &key())?);
+            continue;
+        }
         let of_scene = devices().find(|(of_device, _)| of_device == name).map(|(_, table)| table.clone());
         let device = of_scene.or_else(|| ideal(name)).ok_or_else(|| {
             let known = devices().filter(|(_, table)| table.kind != Kind::None).map(|(name, _)| format!("\"{name}\""));
             let ideal = IDEAL_LAWS.iter().map(|name| format!("\"{name}\""));
-            let mut all: Vec<String> = ideal.collect();
+            let controlled = LawName::ALL.iter().map(|law| format!("\"{CONTROLLER}{}\"", law.name()));
+            let mut all: Vec<String> = ideal.chain(controlled).collect();
             all.extend(known.filter(|name| !all.contains(name)).collect::<Vec<_>>());
             key().outside(format!("{name:?}"), &format!("among {}", all.join(", ")))
         })?;
@@ -55,9 +66,28 @@ pub(super) fn laws(names: &[String], scene: &Scene, key: &KeyPath) -> Result<Vec
     Ok(laws)
 }
 
+/// The controller of `scene` by its law `word`, which drives the first pair of the scene that takes commands, or a rigid one.
+fn controlled(name: &str, word: &str, scene: &Scene, key: &KeyPath) -> Result<Law, SceneError> {
+    let Some(found) = LawName::ALL.into_iter().find(|law| law.name() == word) else {
+        let names: Vec<String> = LawName::ALL.iter().map(|law| format!("\"{CONTROLLER}{}\"", law.name())).collect();
+        return Err(key.clone().outside(format!("{name:?}"), &format!("among {}", names.join(", "))));
+    };
+    let block = &scene.file.block;
+    if block.initial_rotation_ratio != 0.0 || block.initial_velocity_ratio != 0.0 {
+        return Err(key.clone().conflict("a controller calibrates itself at rest: the scene begins in motion"));
+    }
+    let commanded = scene.devices.iter().zip(&scene.file.device).find(|(device, _)| device.takes_commands());
+    let rigid = || DeviceTable { engagement: Some(EngagementName::Rigid), ..DeviceTable::of(Kind::ClutchedPair) };
+    let device = commanded.map_or_else(rigid, |(_, table)| table.clone());
+    let own = scene.file.controller.clone().unwrap_or_default();
+    let controller = ControllerTable { law: found, sign_table: own.sign_table.filter(|_| found == LawName::SignTable), ..own };
+    Ok(Law { controller: Some(controller), ..law(name, device) })
+}
+
 /// A law of `device`, whose size is left open.
 fn law(name: &str, device: DeviceTable) -> Law {
     Law {
+        controller: None,
         name: name.to_owned(),
         device: DeviceTable { name: Some(name.to_owned()), mass_ratio: None, inertance_kg: None, flywheels: None, ..device },
     }

@@ -1,48 +1,85 @@
-//! The motions of a study under which every design is tried: all records, each as often as it is scaled.
+//! The motions of a study under which every design is tried: all records, each as often as it is scaled, and all pulses.
+
+use std::borrow::Cow;
 
 use sprag_sim::scene::motions::GroundMotions;
 
+use super::pulse::Pulse;
 use crate::cloud::records::StudyRecord;
 use crate::cloud::runs::scales;
 use crate::cloud::structures::StudyStructure;
 use crate::cloud::study::Study;
 
-/// A scaled record.
-#[derive(Clone, Copy, Debug)]
+/// A motion of the ground.
+#[derive(Clone, Debug)]
 pub struct Motion<'a> {
-    /// The record.
-    pub record: &'a StudyRecord,
+    /// As tables print it.
+    pub name: String,
+    /// What it is.
+    pub shaking: Shaking<'a>,
     /// Factor on it.
     pub factor: f64,
     /// Level that it was scaled to, in a study of stripes.
     pub level: Option<f64>,
-    start_s: f64,
+}
+
+/// What shakes the block.
+#[derive(Clone, Debug)]
+pub enum Shaking<'a> {
+    /// A record, and when it starts, s.
+    Record(&'a StudyRecord, f64),
+    /// A pulse.
+    Pulse(GroundMotions),
 }
 
 impl Motion<'_> {
     /// As a ground motion.
-    pub fn ground(&self) -> GroundMotions {
-        self.record.ground(self.factor, self.start_s)
+    pub fn ground(&self) -> Cow<'_, GroundMotions> {
+        match &self.shaking {
+            Shaking::Record(record, start_s) => Cow::Owned(record.ground(self.factor, *start_s)),
+            Shaking::Pulse(ground) => Cow::Borrowed(ground),
+        }
+    }
+
+    /// The earthquake that it is of, where it is known.
+    pub fn event(&self) -> Option<&str> {
+        match &self.shaking {
+            Shaking::Record(record, _) => record.event.as_deref(),
+            Shaking::Pulse(_) => None,
+        }
+    }
+
+    /// What it shares its luck with: motions of one earthquake, and one record at several scales, are not independent.
+    pub fn group(&self) -> &str {
+        self.event().unwrap_or(&self.name)
     }
 
     /// In messages.
-    pub fn name(&self) -> String {
-        format!("{} times {}", self.record.name, self.factor)
+    pub fn scaled_name(&self) -> String {
+        match self.shaking {
+            Shaking::Record(..) => format!("{} times {}", self.name, self.factor),
+            Shaking::Pulse(_) => self.name.clone(),
+        }
     }
 }
 
-/// Those of `study` for `structure`, by record and scale. Levels that no factor gives go to `left_out`.
+/// Those of `study` for `structure`: by record and scale, then `pulses`. Levels that no factor gives go to `left_out`.
 pub fn motions<'a>(
     study: &Study,
     structure: &StudyStructure,
     records: &'a [StudyRecord],
+    pulses: Vec<Pulse>,
     left_out: &mut Vec<String>,
 ) -> Vec<Motion<'a>> {
     let start_s = structure.scene.file.ground[0].start_s;
     let mut motions = Vec::new();
     for record in records {
         let of_record = scales(study, structure, record, left_out);
-        motions.extend(of_record.into_iter().map(|(factor, level)| Motion { record, factor, level, start_s }));
+        let scaled =
+            |(factor, level)| Motion { name: record.name.clone(), shaking: Shaking::Record(record, start_s), factor, level };
+        motions.extend(of_record.into_iter().map(scaled));
     }
+    let of_pulse = |Pulse { name, ground }| Motion { name, shaking: Shaking::Pulse(ground), factor: 1.0, level: None };
+    motions.extend(pulses.into_iter().map(of_pulse));
     motions
 }

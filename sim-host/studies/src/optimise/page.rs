@@ -32,7 +32,9 @@ pub fn limits(choices: &Choices<'_>) -> String {
     let limits = choices.limits;
     let force = limits.force.map(|limit| format!("max |F|/(mg) ≤ {limit}"));
     let stroke = limits.stroke.map(|limit| format!("stroke ≤ {limit} m"));
-    let all: Vec<String> = force.into_iter().chain(stroke).collect();
+    let stress = limits.tooth_stress.map(|limit| format!("tooth stress ≤ {limit} MPa"));
+    let energy = limits.coil_energy.map(|limit| format!("coil energy ≤ {limit} J"));
+    let all: Vec<String> = [force, stroke, stress, energy].into_iter().flatten().collect();
     if all.is_empty() { "no limit".to_owned() } else { format!("{} {}", all.join(" and "), motions_held(limits.quantile)) }
 }
 
@@ -109,19 +111,18 @@ fn price(choices: &Choices<'_>, findings: &Findings) -> Result<String, TableErro
     if !findings.limits_reached.is_empty() {
         let mut table = TextTable::new(2, ["limit", "law, mount", "within at σ", "beyond at σ"]);
         for found in &findings.limits_reached {
-            let name = if found.limit == Quantity::Force { "force" } else { "stroke" };
             let [within, beyond] = [found.mass_ratio_within, found.mass_ratio_beyond].map(short);
-            table.row(vec![name.to_owned(), format!("{}, {}", found.law, found.mount), within, beyond]);
+            table.row(vec![found.limit.name().to_owned(), format!("{}, {}", found.law, found.mount), within, beyond]);
         }
         page += &format!("\n{}", table.markdown());
     }
     let stroke = choices.limits.stroke.map(|_| ("stroke", &findings.fronts.stroke));
     for (name, front) in std::iter::once(("force", &findings.fronts.force)).chain(stroke) {
         page += &format!("\n## Overturning against {name}\n\nNo device tried overturns under fewer motions for the same {name}");
-        page += if choices.limits.force.is_some() && choices.limits.stroke.is_some() {
-            " within the other limit.\n\n"
-        } else {
-            ".\n\n"
+        page += match Quantity::ALL.into_iter().filter(|quantity| choices.limits.of(*quantity).is_some()).count() {
+            0 | 1 => ".\n\n",
+            2 => " within the other limit.\n\n",
+            _ => " within the other limits.\n\n",
         };
         let rows = front.iter().map(|row| (if row.feasible { "" } else { "beyond the limit" }, row)).collect();
         page += &TextTable::of(&named_table(rows))?.markdown();

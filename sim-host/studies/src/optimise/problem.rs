@@ -5,24 +5,30 @@ use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::accuracy::EventTreatment;
 use sprag_sim::scene::error::KeyPath;
-use sprag_sim::scene::schema::{DeviceTable, Kind};
+use sprag_sim::scene::schema::{DeviceTable, KeyOf, Kind};
 use sprag_sim::scene::{Scene, SceneError};
-use sprag_sim::simulation::{RunError, simulate_for_study};
+use sprag_sim::simulation::RunError;
 
 use super::curve::{Curve, curves, watched};
+use super::delay::try_late;
 use super::design::{Candidate, Design, Responses, Score};
 use super::limit::Limits;
 use super::motion::{Motion, motions};
+use super::objective::Objective;
+use super::pulse::{Pulse, pulses};
 use super::response::Response;
 use super::search::search;
+use super::specimen::{Specimen, specimens};
+use super::subject::Subject;
 use super::table::OptimiseTable;
 use super::tried::Memory;
 use crate::cloud::records::StudyRecord;
 use crate::cloud::structures::StudyStructure;
 use crate::cloud::study::Study;
+use crate::statistics::Groups;
 
 /// Designs that are tried at a time: enough for many threads, and no more than an interrupt may cost.
-const TOGETHER: usize = 8;
+const TOGETHER: usize = 16;
 
 /// Which devices a study has to choose from, every value within its range.
 #[derive(Clone, Debug)]
@@ -35,6 +41,8 @@ pub struct Choices<'a> {
     pub table: OptimiseTable,
     /// Laws and mounts.
     pub curves: Vec<Curve>,
+    /// Pulses among the motions.
+    pub pulses: Vec<Pulse>,
     /// What devices may ask for.
     pub limits: Limits,
     /// Laws that cannot be on a mount, in a line each.
@@ -51,10 +59,7 @@ impl<'a> Choices<'a> {
         let mut table = study.file.optimise.clone().unwrap_or_default();
         table.check(&key)?;
         let structure = structure(study, &table, key("structure"))?;
-        if let Some(checks) = &structure.scene.file.checks {
-            table.largest_force_ratio = table.largest_force_ratio.or(checks.largest_force_ratio);
-            table.largest_stroke_m = table.largest_stroke_m.or(checks.largest_stroke_m);
-        }
+        limits_of_scene(&mut table, &structure.scene, &key)?;
         if structure.scene.file.accuracy.events == EventTreatment::StepEnd {
             let of_scene = KeyPath { origin: structure.scene.origin.clone(), key: "accuracy.events".to_owned() };
             return Err(of_scene.conflict("largest forces lie between steps: an optimisation needs \"located\""));
@@ -64,11 +69,37 @@ impl<'a> Choices<'a> {
         let limits = Limits {
             force: table.largest_force_ratio,
             stroke: table.largest_stroke_m,
+            tooth_stress: table.largest_tooth_stress_mpa,
+            coil_energy: table.largest_coil_energy_j,
             quantile: table.limit_quantile,
             force_of_overturned: table.force_of_overturned,
         };
-        Ok(Choices { study, structure, table, curves, limits, left_out })
+        let pulses = pulses(&table.pulse, &structure.scene, &key)?;
+        Ok(Choices { study, structure, table, curves, pulses, limits, left_out })
     }
+}
+
+/// Fills in the limits of `scene` where `table` has none.
+///
+/// # Errors
+/// [`SceneError`] for a limit on what the scene does not have.
+fn limits_of_scene(table: &mut OptimiseTable, scene: &Scene, key: &KeyOf<'_>) -> Result<(), SceneError> {
+    let checks = scene.file.checks.clone().unwrap_or_default();
+    for (name, limit, part, there) in [
+        ("largest_tooth_stress_mpa", table.largest_tooth_stress_mpa, "checks.gear", checks.gear.is_some()),
+        ("largest_coil_energy_j", table.largest_coil_energy_j, "checks.coil", checks.coil.is_some()),
+    ] {
+        if limit.is_some() && !there {
+            return Err(key(name).conflict(&format!("it needs {part} of the scene")));
+        }
+    }
+    table.largest_force_ratio = table.largest_force_ratio.or(checks.largest_force_ratio);
+    table.largest_stroke_m = table.largest_stroke_m.or(checks.largest_stroke_m);
+    let (of_gear, of_coil) =
+        (checks.gear.map(|gear| gear.allowable_stress_mpa), checks.coil.and_then(|coil| coil.largest_energy_j));
+    table.largest_tooth_stress_mpa = table.largest_tooth_stress_mpa.or(of_gear);
+    table.largest_coil_energy_j = table.largest_coil_energy_j.or(of_coil);
+    Ok(())
 }
 
 /// The structure of `study` that gets the device.
@@ -91,6 +122,8 @@ pub struct Problem<'a> {
     pub choices: Choices<'a>,
     /// The motions.
     pub motions: Vec<Motion<'a>>,
+    /// The specimens that each of them shakes. Responses come by specimen, then by motion.
+    pub specimens: Vec<Specimen>,
     /// Levels that no factor gives, in a line each.
     pub left_out: Vec<String>,
 }
@@ -102,6 +135,8 @@ pub struct Solution {
     pub bare: Design,
     /// Devices, by law and mount and by mass ratio.
     pub designs: Vec<Design>,
+    /// The best of them with later clutches, by delay.
+    pub late: Vec<Design>,
     /// Runs of one design under one motion, that of the bare block included.
     pub runs: usize,
     /// Runs that failed, in a line each.
@@ -114,8 +149,25 @@ impl<'a> Problem<'a> {
     /// `choices` under `records`, scaled as their study says.
     pub fn new(choices: Choices<'a>, records: &'a [StudyRecord]) -> Problem<'a> {
         let mut left_out = Vec::new();
-        let motions = motions(choices.study, choices.structure, records, &mut left_out);
-        Problem { choices, motions, left_out }
+        let motions = motions(choices.study, choices.structure, records, choices.pulses.clone(), &mut left_out);
+        let specimens = specimens(choices.table.robust.as_ref());
+        Problem { choices, motions, specimens, left_out }
+    }
+
+    /// Which motions depend on each other.
+    pub fn groups(&self) -> Groups {
+        Groups::of(&self.motions.iter().map(Motion::group).collect::<Vec<_>>())
+    }
+
+    /// Runs of one design.
+    pub fn trials(&self) -> usize {
+        self.motions.len() * self.specimens.len()
+    }
+
+    /// What is made small.
+    pub fn objective(&self) -> Objective {
+        let quantile = self.choices.table.robust.and_then(|robust| robust.quantile);
+        Objective { specimens: self.specimens.len(), quantile }
     }
 
     /// Tries designs on rayon's threads until the best is found, but for those that `memory` has of an earlier search. `begin` is given
@@ -132,19 +184,22 @@ impl<'a> Problem<'a> {
         done: &(dyn Fn() + Sync),
     ) -> Result<Solution, M::Error> {
         let Choices { table, curves, limits, .. } = &self.choices;
+        let objective = self.objective();
         let mut respond = |batch: &[Option<Candidate>]| self.respond_to(batch, memory, interrupt, (begin, done));
         let bare = respond(&[None])?.pop().unwrap_or_default();
-        let designs = search(curves.len(), &table.mass_ratio.grid(), limits, |batch: &[Candidate]| {
+        let mut evaluate = |batch: &[Candidate]| {
             let found = respond(&batch.iter().copied().map(Some).collect::<Vec<_>>())?;
             let design = |(at, responses): (&Candidate, Responses)| {
-                let score = Score::of(&responses, &bare, limits);
+                let score = Score::of(&responses, &bare, limits, objective);
                 Design { candidate: Some(*at), responses, score }
             };
             Ok::<_, M::Error>(batch.iter().zip(found).map(design).collect())
-        })?;
-        let score = Score::of(&bare, &bare, limits);
-        let bare = Design { candidate: None, responses: bare, score };
-        Ok(self.solution(bare, designs))
+        };
+        let designs = search(curves.len(), &table.mass_ratio.grid(), limits, &mut evaluate)?;
+        let score = Score::of(&bare, &bare, limits, objective);
+        let of_bare = Design { candidate: None, responses: bare.clone(), score };
+        let late = try_late(self, &of_bare, &designs, &mut evaluate)?;
+        Ok(self.solution(of_bare, designs, late))
     }
 
     /// The responses of the designs of a `batch`, remembered or new, a few designs at a time.
@@ -157,10 +212,10 @@ impl<'a> Problem<'a> {
     ) -> Result<Vec<Responses>, M::Error> {
         let mut found: Vec<Option<Responses>> = batch.iter().map(|of| memory.recall(*of)).collect();
         let new: Vec<usize> = (0..batch.len()).filter(|&index| found[index].is_none()).collect();
-        begin((new.len() * self.motions.len()) as u64);
+        begin((new.len() * self.trials()) as u64);
         for together in new.chunks(TOGETHER) {
-            let scenes: Vec<_> = together.iter().map(|&index| self.scene(batch[index])).collect();
-            for (&index, responses) in together.iter().zip(self.respond(&scenes, interrupt, done)?) {
+            let subjects: Vec<_> = together.iter().map(|&index| self.subjects(batch[index])).collect();
+            for (&index, responses) in together.iter().zip(self.respond(&subjects, interrupt, done)?) {
                 memory.keep(batch[index], &responses)?;
                 found[index] = Some(responses);
             }
@@ -168,52 +223,61 @@ impl<'a> Problem<'a> {
         Ok(found.into_iter().flatten().collect())
     }
 
-    /// The block with a device, or bare.
+    /// Every specimen of the block with a device, or bare.
+    fn subjects(&self, of: Option<Candidate>) -> Result<Vec<Subject>, String> {
+        let scene = self.scene(of)?;
+        let driven = of.is_some_and(|at| self.choices.curves[at.curve].controller.is_some());
+        self.specimens.iter().map(|specimen| Subject::new(scene.clone(), driven, specimen)).collect()
+    }
+
     fn scene(&self, of: Option<Candidate>) -> Result<Scene, String> {
         let base = &self.choices.structure.scene;
         let scene = match of {
-            Some(Candidate { curve, mass_ratio }) => self.choices.curves[curve].scene(base, mass_ratio),
+            Some(Candidate { curve, mass_ratio, delay_s }) => self.choices.curves[curve].scene(base, mass_ratio, delay_s),
             None => watched(base, DeviceTable::of(Kind::None)),
         };
         scene.map_err(|error| error.to_string())
     }
 
-    /// Responses of every scene to every motion, by scene.
+    /// Responses of the specimens of every design to every motion, by design.
     fn respond(
         &self,
-        scenes: &[Result<Scene, String>],
+        designs: &[Result<Vec<Subject>, String>],
         interrupt: &Interrupt,
         done: &(dyn Fn() + Sync),
     ) -> Result<Vec<Responses>, RunError> {
-        let of_motion = |motion: &Motion<'_>| -> Responses {
-            let ground = motion.ground();
-            let run = |scene: &Result<Scene, String>| {
-                let scene = scene.as_ref().map_err(Clone::clone)?;
+        let of_motion = |motion: &Motion<'_>| -> Vec<Responses> {
+            let ground = &*motion.ground();
+            let run = |subject: &Subject| {
                 if interrupt.is_set() {
                     return Err(RunError::Interrupted.to_string());
                 }
-                let runs = simulate_for_study(scene, &ground, interrupt).map_err(|error| error.to_string())?;
+                let response = subject.respond(ground, interrupt);
                 done();
-                runs.first().map(Response::of).ok_or_else(|| "no device".to_owned())
+                response
             };
-            scenes.par_iter().map(run).collect()
+            let of_design = |subjects: &Result<Vec<Subject>, String>| match subjects {
+                Ok(subjects) => subjects.par_iter().map(run).collect(),
+                Err(reason) => vec![Err(reason.clone()); self.specimens.len()],
+            };
+            designs.par_iter().map(of_design).collect()
         };
-        let by_motion: Vec<Responses> = self.motions.par_iter().map(of_motion).collect();
+        let by_motion: Vec<Vec<Responses>> = self.motions.par_iter().map(of_motion).collect();
         if interrupt.is_set() {
             return Err(RunError::Interrupted);
         }
-        let mut by_scene: Vec<Responses> = scenes.iter().map(|_| Vec::with_capacity(by_motion.len())).collect();
-        for responses in by_motion {
-            by_scene.iter_mut().zip(responses).for_each(|(of_scene, response)| of_scene.push(response));
-        }
-        Ok(by_scene)
+        let of_design = |design: usize| -> Responses {
+            let specimens = 0..self.specimens.len();
+            specimens.flat_map(|specimen| by_motion.iter().map(move |found| found[design][specimen].clone())).collect()
+        };
+        Ok((0..designs.len()).map(of_design).collect())
     }
 
-    fn solution(&self, bare: Design, designs: Vec<Design>) -> Solution {
-        let mut solution = Solution { runs: 0, failures: Vec::new(), worst: None, bare, designs };
-        for design in std::iter::once(&solution.bare).chain(&solution.designs) {
+    fn solution(&self, bare: Design, designs: Vec<Design>, late: Vec<Design>) -> Solution {
+        let mut solution = Solution { runs: 0, failures: Vec::new(), worst: None, bare, designs, late };
+        for design in std::iter::once(&solution.bare).chain(&solution.designs).chain(&solution.late) {
             solution.runs += design.responses.len();
-            for (motion, response) in self.motions.iter().zip(&design.responses) {
+            for (motion, response) in self.motions.iter().cycle().zip(&design.responses) {
                 match response {
                     Ok(Response { error: Some(error), peak_rotation, .. }) => {
                         solution.worst.get_or_insert_default().note(error, *peak_rotation);
@@ -221,7 +285,7 @@ impl<'a> Problem<'a> {
                     Ok(_) => {}
                     Err(reason) => {
                         let name = self.choices.name(design.candidate);
-                        solution.failures.push(format!("{name}, {}: {reason}", motion.name()));
+                        solution.failures.push(format!("{name}, {}: {reason}", motion.scaled_name()));
                     }
                 }
             }
@@ -234,7 +298,10 @@ impl Choices<'_> {
     /// A device in one string.
     pub fn name(&self, candidate: Option<Candidate>) -> String {
         match candidate {
-            Some(Candidate { curve, mass_ratio }) => format!("{}, σ = {mass_ratio}", self.curves[curve].name()),
+            Some(Candidate { curve, mass_ratio, delay_s }) => {
+                let late = if delay_s > 0.0 { format!(", {delay_s} s later") } else { String::new() };
+                format!("{}, σ = {mass_ratio}{late}", self.curves[curve].name())
+            }
             None => "bare block".to_owned(),
         }
     }

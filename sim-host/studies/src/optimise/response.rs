@@ -15,6 +15,10 @@ pub struct Response {
     pub force_ratio: f64,
     /// Farthest travel of the terminals to one side until then, m.
     pub stroke_m: f64,
+    /// Largest bending stress of gear teeth until then, MPa; `None` where the scene has no gear.
+    pub tooth_stress_mpa: Option<f64>,
+    /// Energy of the coils until then, J; `None` where the scene has no coil, or the device no clutch that one holds.
+    pub coil_energy_j: Option<f64>,
     /// How accurate that is, where it was asked for.
     pub error: Option<ErrorEstimate>,
 }
@@ -22,11 +26,14 @@ pub struct Response {
 impl Response {
     /// Response of a run with checks.
     pub fn of(run: &DeviceRun) -> Response {
+        let checks = run.checks.as_ref();
         Response {
             outcome: run.outcome,
             peak_rotation: run.peak_rotation,
             force_ratio: run.peak_force_ratio.unwrap_or(0.0),
-            stroke_m: run.checks.as_ref().and_then(|checks| checks.stroke_with_fall_m).unwrap_or(0.0),
+            stroke_m: checks.and_then(|checks| checks.stroke_with_fall_m).unwrap_or(0.0),
+            tooth_stress_mpa: checks.and_then(|checks| checks.tooth_stress_with_fall_mpa),
+            coil_energy_j: checks.and_then(|checks| checks.coil_energy_j),
             error: run.error.map(|report| report.estimate),
         }
     }

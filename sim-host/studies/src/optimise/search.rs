@@ -37,7 +37,7 @@ pub fn search<E>(
     limits: &Limits,
     mut evaluate: impl FnMut(&[Candidate]) -> Result<Vec<Design>, E>,
 ) -> Result<Vec<Design>, E> {
-    let first = (0..curves).flat_map(|curve| grid.iter().map(move |&mass_ratio| Candidate { curve, mass_ratio }));
+    let first = (0..curves).flat_map(|curve| grid.iter().map(move |&mass_ratio| Candidate { curve, mass_ratio, delay_s: 0.0 }));
     let mut batch: Vec<Candidate> = first.collect();
     let mut designs: Vec<Design> = Vec::new();
     while !batch.is_empty() {
@@ -121,6 +121,7 @@ mod tests {
         let score = Score {
             motions: 50,
             overturned: 10 + steps as usize,
+            objective: 10.0 + steps,
             force_ratio,
             median_rotation: (at.mass_ratio - 3.3).abs(),
             ..Score::default()
@@ -131,7 +132,7 @@ mod tests {
     const GRID: [f64; 6] = [0.1, 0.3, 0.9, 2.7, 8.1, 24.3];
 
     fn limits(force: Option<f64>) -> Limits {
-        Limits { force, stroke: None, quantile: 1.0, force_of_overturned: true }
+        Limits { force, ..Limits::NONE }
     }
 
     fn found(force: Option<f64>) -> (Vec<Design>, usize) {

@@ -8,6 +8,8 @@ use sprag_sim::scene::map::{AxisTable, ScaleName};
 use sprag_sim::scene::schema::KeyOf;
 
 use super::mount::MountEntry;
+use super::pulse::PulseTable;
+use super::setting::SettingTable;
 
 /// Most mass ratios of the first grid.
 pub const MOST_CELLS: usize = 1000;
@@ -15,11 +17,17 @@ pub const MOST_CELLS: usize = 1000;
 /// Most laws, and most mounts.
 pub const MOST_CHOICES: usize = 32;
 
+/// Most specimens of a robust study.
+pub const MOST_SPECIMENS: u32 = 1000;
+
 /// Largest mass ratio, as for any device.
 pub const LARGEST_MASS_RATIO: f64 = 10_000.0;
 
 /// Two laws without a device of the scene.
 const EXAMPLE_LAWS: [&str; 2] = ["inerter", "clutched-pair"];
+
+/// Two delays, s.
+const EXAMPLE_DELAYS: [f64; 2] = [0.01, 0.02];
 
 /// `[optimise]`.
 #[skip_serializing_none]
@@ -31,8 +39,8 @@ pub struct OptimiseTable {
     pub structure: Option<String>,
     /// Mass ratios to choose from, in equal factors.
     pub mass_ratio: MassRatioTable,
-    /// Clutch laws: devices of the scene by name, or "inerter", "clutched-pair", "rigid", "overrunning"; all devices of the scene with an
-    /// inerter without the key.
+    /// Clutch laws: devices of the scene by name, or "inerter", "clutched-pair", "rigid", "overrunning", and "controller:" with the law
+    /// of a controller; all devices of the scene with an inerter without the key.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = MOST_CHOICES), example = EXAMPLE_LAWS)]
     pub laws: Vec<String>,
@@ -40,6 +48,16 @@ pub struct OptimiseTable {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = MOST_CHOICES))]
     pub mounts: Vec<MountEntry>,
+    /// Settings of clutches and controllers to choose from.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub setting: Vec<SettingTable>,
+    /// Delays by which the clutches of the chosen device are made later, rising: what is left of its advantage is the delay budget.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(inner(range(max = 10.0)), transform = crate::cloud::study_file::each_above_zero, length(max = 100), example = EXAMPLE_DELAYS)]
+    pub delays_s: Vec<f64>,
+    /// Pulses, beside or in the place of records: the keys of a `[[ground]]`, each with a list of values.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pulse: Vec<PulseTable>,
     /// Largest |F|/(mg) of the device on its support; that of the scene's `[checks]` without the key.
     #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e6))]
     pub largest_force_ratio: Option<f64>,
@@ -47,10 +65,18 @@ pub struct OptimiseTable {
     /// key.
     #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e4))]
     pub largest_stroke_m: Option<f64>,
+    /// Largest bending stress at the root of a gear tooth; that of the scene's `checks.gear` without the key, which it needs.
+    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e5))]
+    pub largest_tooth_stress_mpa: Option<f64>,
+    /// Largest energy of the coils of both clutches over a motion; that of the scene's `checks.coil` without the key, which it needs.
+    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1e9))]
+    pub largest_coil_energy_j: Option<f64>,
     /// Share of the motions that must respect a limit.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub limit_quantile: f64,
-    /// Whether the force counts under motions that overturn the block, until it lies down.
+    /// Tries every design under a scatter of block and controller; the table turns it on.
+    pub robust: Option<RobustTable>,
+    /// Whether force, tooth stress and coil energy count under motions that overturn the block, until it lies down.
     pub force_of_overturned: bool,
 }
 
@@ -70,6 +96,51 @@ pub struct MassRatioTable {
     pub cells: usize,
 }
 
+/// `[optimise.robust]`. Widths are relative: factors are uniform between 1 − width and 1 + width.
+#[skip_serializing_none]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct RobustTable {
+    /// Specimens of block and controller, the same for every design; each meets every motion.
+    #[schemars(range(min = 1, max = MOST_SPECIMENS))]
+    pub samples: u32,
+    /// Seed of the specimens.
+    pub seed: u64,
+    /// Quantile over the specimens of the number of motions that overturn, which is made small; the mean without the key.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub quantile: Option<f64>,
+    /// Half-width of the scatter of the restitution η, relative.
+    #[schemars(range(min = 0.0, max = 0.5))]
+    pub restitution: f64,
+    /// Half-width of the scatter of the slenderness α that a controller believes in, relative.
+    #[schemars(range(min = 0.0, max = 0.5))]
+    pub slenderness_belief: f64,
+    /// Half-width of the scatter of the size R that a controller believes in, relative.
+    #[schemars(range(min = 0.0, max = 0.5))]
+    pub size_belief: f64,
+    /// Half-width of the scatter of the mass ratio σ that a controller believes in, relative.
+    #[schemars(range(min = 0.0, max = 0.5))]
+    pub mass_ratio_belief: f64,
+    /// Half-width of the scatter of the restitution η that a controller believes in, relative.
+    #[schemars(range(min = 0.0, max = 0.5))]
+    pub restitution_belief: f64,
+}
+
+impl Default for RobustTable {
+    fn default() -> Self {
+        RobustTable {
+            samples: 8,
+            seed: 1,
+            quantile: None,
+            restitution: 0.05,
+            slenderness_belief: 0.0,
+            size_belief: 0.0,
+            mass_ratio_belief: 0.0,
+            restitution_belief: 0.0,
+        }
+    }
+}
+
 fn cells() -> usize {
     12
 }
@@ -87,9 +158,15 @@ impl Default for OptimiseTable {
             mass_ratio: MassRatioTable::default(),
             laws: Vec::new(),
             mounts: Vec::new(),
+            setting: Vec::new(),
+            delays_s: Vec::new(),
+            pulse: Vec::new(),
             largest_force_ratio: None,
             largest_stroke_m: None,
+            largest_tooth_stress_mpa: None,
+            largest_coil_energy_j: None,
             limit_quantile: 1.0,
+            robust: None,
             force_of_overturned: true,
         }
     }
@@ -104,6 +181,9 @@ impl OptimiseTable {
     pub(super) fn check(&self, key: &KeyOf<'_>) -> Result<(), SceneError> {
         let MassRatioTable { from, to, .. } = self.mass_ratio;
         key("mass_ratio.to").require(to, to > from, "above `from`, to 10000")?;
+        if let Some(index) = (1..self.delays_s.len()).find(|&index| self.delays_s[index] <= self.delays_s[index - 1]) {
+            return Err(key(&format!("delays_s.{index}")).range(self.delays_s[index], "above the delay before it"));
+        }
         for (name, count) in [("laws", self.laws.len()), ("mounts", self.mounts.len())] {
             if count > MOST_CHOICES {
                 return Err(key(name).range(count as f64, "a list of at most 32"));

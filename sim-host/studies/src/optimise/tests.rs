@@ -62,7 +62,7 @@ fn laws_are_devices_of_the_scene_or_ideal_ones() {
     assert_eq!(slipping.device.clutch.as_ref().and_then(|clutch| clutch.capacity_ratio), Some(0.1));
     assert_eq!((overrunning.device.kind, overrunning.device.engagement), (Kind::ClutchedPair, Some(EngagementName::Overrunning)));
     assert_eq!((slipping.device.mount, slipping.device.mass_ratio), (Some(MountName::TyingPoint), None));
-    let scene = slipping.scene(&choices.structure.scene, 0.7).unwrap();
+    let scene = slipping.scene(&choices.structure.scene, 0.7, 0.0).unwrap();
     assert_eq!((scene.devices.len(), scene.devices[0].device.mass_ratio), (1, 0.7));
     assert!(scene.file.checks.is_some());
 }
@@ -77,6 +77,15 @@ fn limits_of_the_scene_stand_where_the_study_sets_none() {
     };
     assert_eq!(limits(""), (Some(0.4), Some(0.3)));
     assert_eq!(limits("[optimise]\nlargest_force_ratio = 0.1"), (Some(0.1), Some(0.3)));
+    let parts = "[[structure]]\nname = 'a'\nset = { 'block.mass_kg' = 1e4, 'checks.gear' = { module_mm = 4, face_width_mm = 40, teeth = 20, \
+                 allowable_stress_mpa = 200 }, 'checks.coil' = { holding_power_w = 24, largest_energy_j = 90 } }\n";
+    let limits = |optimise: &str| {
+        let study = study(&format!("{parts}{optimise}"));
+        let limits = Choices::of(&study).unwrap().limits;
+        (limits.tooth_stress, limits.coil_energy)
+    };
+    assert_eq!(limits(""), (Some(200.0), Some(90.0)));
+    assert_eq!(limits("[optimise]\nlargest_tooth_stress_mpa = 150\nlargest_coil_energy_j = 20"), (Some(150.0), Some(20.0)));
 }
 
 #[test]
@@ -96,6 +105,34 @@ fn what_is_wrong_is_named_with_its_key_its_value_and_its_range() {
         ("mass_ratio = { from = 1, to = 2, cells = 1 }", "optimise.mass_ratio.cells is 1, but must be from 2 to 1000"),
         ("largest_force_ratio = 0", "optimise.largest_force_ratio is 0, but must be above 0, to 1e6"),
         ("largest_stroke_m = -1", "optimise.largest_stroke_m is -1, but must be above 0, to 10000 m"),
+        ("largest_tooth_stress_mpa = 0", "optimise.largest_tooth_stress_mpa is 0, but must be above 0, to 100000 MPa"),
+        ("largest_tooth_stress_mpa = 200", "optimise.largest_tooth_stress_mpa: it needs checks.gear of the scene"),
+        ("largest_coil_energy_j = -1", "optimise.largest_coil_energy_j is -1, but must be above 0, to 1e9 J"),
+        ("largest_coil_energy_j = 100", "optimise.largest_coil_energy_j: it needs checks.coil of the scene"),
+        ("laws = ['controller:magic']", "optimise.laws.0 is \"controller:magic\", but must be among \"controller:passive\""),
+        ("setting = [{ key = 'clutch.magic', values = [1] }]", "optimise.setting.0.values: "),
+        (
+            "setting = [{ key = 'clutch.capacity_ratio', values = [-1] }]",
+            "optimise.setting.0.values: clutch.capacity_ratio is -1",
+        ),
+        ("setting = [{ key = 'controller.hysteresis', values = [1] }]", "optimise.setting.0.key: no law has a controller"),
+        ("setting = [{ key = 'mount_height_m', values = [1], laws = ['magic'] }]", "optimise.setting.0.laws is \"magic\""),
+        ("delays_s = [0.1, 0.1]", "optimise.delays_s.1 is 0.1, but must be above the delay before it"),
+        ("delays_s = [0]", "optimise.delays_s.0 is 0, but must be above 0, to 10 s"),
+        ("pulse = [{ motion = 'record' }]", "optimise.pulse.0.motion: records are `records` of the study"),
+        ("pulse = [{ motion = 'sine', amplitude_g = [0.3] }]", "optimise.pulse.0.frequency_ratio is missing"),
+        (
+            "pulse = [{ motion = 'sine', frequency_hz = [0] }]",
+            "optimise.pulse.0.frequency_hz.0 is 0, but must be from 0.001 to 1000",
+        ),
+        (
+            "pulse = [{ motion = 'sine', duration_s = [1] }]",
+            "optimise.pulse.0.duration_s: a motion of kind \"sine\" has no such key",
+        ),
+        ("robust = { samples = 0 }", "optimise.robust.samples is 0, but must be from 1 to 1000"),
+        ("robust = { restitution = 0.6 }", "optimise.robust.restitution is 0.6, but must be from 0 to 0.5"),
+        ("robust = { size_belief = -0.1 }", "optimise.robust.size_belief is -0.1, but must be from 0 to 0.5"),
+        ("robust = { quantile = 2 }", "optimise.robust.quantile is 2, but must be from 0 to 1"),
         ("limit_quantile = 1.5", "optimise.limit_quantile is 1.5, but must be from 0 to 1"),
         ("structure = 'tall'", "optimise.structure is \"tall\", but must be among the structures"),
         ("laws = ['magic']", "optimise.laws.0 is \"magic\", but must be among \"inerter\", \"clutched-pair\", \"rigid\""),

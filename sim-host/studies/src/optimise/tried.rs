@@ -18,14 +18,17 @@ use super::response::Response;
 /// More rows than any search makes: how many there will be is not known beforehand.
 pub const MOST_ROWS: usize = 1 << 40;
 
-const COLUMNS: [&str; 12] = [
+const COLUMNS: [&str; 15] = [
     "curve",
     "mass_ratio",
+    "delay_s",
     "motion",
     "outcome",
     "peak_rotation",
     "peak_force_ratio",
     "stroke_m",
+    "tooth_stress_mpa",
+    "coil_energy_j",
     "failure",
     "outcome_certain",
     "peak_rotation_error",
@@ -68,11 +71,11 @@ pub struct Tried {
     known: HashMap<Place, Responses>,
 }
 
-/// Law, mount and the bits of σ; `None` for the bare block.
-type Place = Option<(usize, u64)>;
+/// Law and mount, and the bits of σ and of the delay; `None` for the bare block.
+type Place = Option<(usize, u64, u64)>;
 
 fn place(of: Option<Candidate>) -> Place {
-    of.map(|Candidate { curve, mass_ratio }| (curve, mass_ratio.to_bits()))
+    of.map(|Candidate { curve, mass_ratio, delay_s }| (curve, mass_ratio.to_bits(), delay_s.to_bits()))
 }
 
 /// A search that ended early.
@@ -106,9 +109,9 @@ impl Tried {
         let rows = Rows::begin(&plan, start, |row, record| {
             let mut fields = RowFields::new(&names, record);
             let place = match fields.text().parse() {
-                Ok(curve) => Some((curve, fields.number::<f64>()?.to_bits())),
+                Ok(curve) => Some((curve, fields.number::<f64>()?.to_bits(), fields.number::<f64>()?.to_bits())),
                 Err(_) => {
-                    fields.skip(1);
+                    fields.skip(2);
                     None
                 }
             };
@@ -141,31 +144,34 @@ impl Memory for Tried {
     }
 
     fn keep(&mut self, of: Option<Candidate>, responses: &Responses) -> Result<(), TriedError> {
-        let [curve, mass_ratio] = match of {
-            None => [String::new(), String::new()],
-            Some(Candidate { curve, mass_ratio }) => [curve.to_string(), format!("{mass_ratio:?}")],
+        let design = match of {
+            None => [const { String::new() }; 3],
+            Some(Candidate { curve, mass_ratio, delay_s }) => {
+                [curve.to_string(), format!("{mass_ratio:?}"), format!("{delay_s:?}")]
+            }
         };
         let row = |(motion, response): (usize, &Result<Response, String>)| {
-            let place = [curve.clone(), mass_ratio.clone(), motion.to_string()];
-            place.into_iter().chain(texts(response)).collect()
+            design.iter().cloned().chain([motion.to_string()]).chain(texts(response)).collect()
         };
         Ok(self.rows.append_fields(&responses.iter().enumerate().map(row).collect::<Vec<_>>())?)
     }
 }
 
 /// The fields of a response; numbers read back to the same bits.
-fn texts(response: &Result<Response, String>) -> [String; 9] {
+fn texts(response: &Result<Response, String>) -> [String; 11] {
     let number = |value: f64| format!("{value:?}");
     let maybe = |value: Option<f64>| value.map_or_else(String::new, number);
     match response {
-        Err(reason) => [FAILED, "", "", "", reason, "", "", "", ""].map(str::to_owned),
-        Ok(Response { outcome, peak_rotation, force_ratio, stroke_m, error }) => {
+        Err(reason) => [FAILED, "", "", "", "", "", reason, "", "", "", ""].map(str::to_owned),
+        Ok(Response { outcome, peak_rotation, force_ratio, stroke_m, tooth_stress_mpa, coil_energy_j, error }) => {
             let error = |value: fn(&ErrorEstimate) -> String| error.as_ref().map_or_else(String::new, value);
             [
                 outcome.name().to_owned(),
                 maybe(*peak_rotation),
                 number(*force_ratio),
                 number(*stroke_m),
+                maybe(*tooth_stress_mpa),
+                maybe(*coil_energy_j),
                 String::new(),
                 error(|error| error.outcome_certain.to_string()),
                 error(|error| format!("{:?}", error.peak_rotation)),
@@ -179,13 +185,14 @@ fn texts(response: &Result<Response, String>) -> [String; 9] {
 /// What [`texts`] has written.
 fn response(fields: &mut RowFields<'_>) -> Result<Result<Response, String>, String> {
     let Some(outcome) = fields.outcome()? else {
-        fields.skip(3);
+        fields.skip(5);
         return Ok(Err(fields.text().to_owned()));
     };
     let (peak_rotation, force_ratio, stroke_m) = (fields.maybe()?, fields.number()?, fields.number()?);
+    let (tooth_stress_mpa, coil_energy_j) = (fields.maybe()?, fields.maybe()?);
     fields.skip(1);
     let error = fields.error_estimate()?;
-    Ok(Ok(Response { outcome, peak_rotation, force_ratio, stroke_m, error }))
+    Ok(Ok(Response { outcome, peak_rotation, force_ratio, stroke_m, tooth_stress_mpa, coil_energy_j, error }))
 }
 
 #[cfg(test)]
@@ -213,12 +220,14 @@ mod tests {
             peak_rotation: Some(0.1 + 0.2),
             force_ratio: 1.0 / 3.0,
             stroke_m: 5e-324,
+            tooth_stress_mpa: Some(1.0 / 7.0),
+            coil_energy_j: None,
             error: Some(error),
         };
         let falls = Response { outcome: Outcome::OverturnedAfterImpact, peak_rotation: None, error: None, ..stands };
         let designs = [
             (None, vec![Ok(stands), Ok(falls)]),
-            (Some(Candidate { curve: 2, mass_ratio: 0.1 }), vec![Err("one, \"two\"".to_owned()), Ok(stands)]),
+            (Some(Candidate { curve: 2, mass_ratio: 0.1, delay_s: 0.005 }), vec![Err("one, \"two\"".to_owned()), Ok(stands)]),
         ];
         let mut tried = Tried::begin(folder.path(), origin(1), Start::New, 2).unwrap();
         for (candidate, responses) in &designs {
@@ -229,7 +238,7 @@ mod tests {
         let path = folder.path().join("tried.csv.unfinished");
         let mut text = std::fs::read(&path).unwrap();
         // A design of which the second motion is missing, and half of a row.
-        text.extend(b"2,0.2,0,safe,0.1,0.2,0.3,,,,,\n2,0.2,1,sa");
+        text.extend(b"2,0.2,0.0,0,safe,0.1,0.2,0.3,,,,,,,\n2,0.2,0.0,1,sa");
         std::fs::write(&path, &text).unwrap();
 
         assert!(matches!(Tried::begin(folder.path(), origin(1), Start::New, 2), Err(LongRunError::Unfinished { .. })));
@@ -239,7 +248,7 @@ mod tests {
         for (candidate, responses) in &designs {
             assert_eq!(tried.recall(*candidate).as_ref(), Some(responses));
         }
-        assert_eq!(tried.recall(Some(Candidate { curve: 2, mass_ratio: 0.2 })), None);
+        assert_eq!(tried.recall(Some(Candidate { curve: 2, mass_ratio: 0.2, delay_s: 0.0 })), None);
         tried.discard().unwrap();
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }

@@ -22,7 +22,8 @@ struct NamedRow<'s> {
 /// `designs`: the bare block, then every device that was tried, by law, mount and mass ratio.
 pub fn design_table(findings: &Findings) -> impl Table {
     let rows = std::iter::once(&findings.reference).chain(&findings.rows).map(|design| NamedRow { name: "", design });
-    FieldTable { rows: rows.collect(), fields: design_fields(Fields::default()) }
+    let rows: Vec<NamedRow<'_>> = rows.collect();
+    FieldTable { fields: design_fields(Fields::default(), &rows), rows }
 }
 
 /// Designs for people, each below its name where any has one.
@@ -32,13 +33,13 @@ pub(super) fn named_table<'s>(rows: Vec<(&'s str, &'s Row)>) -> impl Table + 's 
     if rows.iter().any(|row| !row.name.is_empty()) {
         first = first.with(Column::text("name").shown("", Shown::Digits(0)), |row| row.name.into());
     }
-    FieldTable { fields: design_fields(first), rows }
+    FieldTable { fields: design_fields(first, &rows), rows }
 }
 
-/// The columns of designs, after those of `first`.
-fn design_fields<'s>(first: Fields<NamedRow<'s>>) -> Fields<NamedRow<'s>> {
+/// The columns of designs, after those of `first`. What none of `rows` has gets no column.
+fn design_fields<'s>(first: Fields<NamedRow<'s>>, rows: &[NamedRow<'s>]) -> Fields<NamedRow<'s>> {
     let (number, digits) = (|name: &str| Column::number(name).or_nothing(), Shown::Digits);
-    first
+    let mut fields = first
         .with(Column::text("law").shown("law", digits(0)), |row| (&row.design.law).into())
         .with(Column::text("mount").or_nothing().shown("mount", digits(0)), |row| row.design.mount.as_ref().into())
         .with(number("mass_ratio").shown("σ", digits(4)), |row| row.design.mass_ratio.into())
@@ -55,7 +56,15 @@ fn design_fields<'s>(first: Fields<NamedRow<'s>>) -> Fields<NamedRow<'s>> {
         .with(number("median_peak_rotation").shown("median θ/α", digits(3)), |row| row.design.median_peak_rotation.into())
         .with(Column::text("feasible"), |row| yes_or_no(row.design.feasible).into())
         .with(Column::text("on_force_front"), |row| yes_or_no(row.design.on_force_front).into())
-        .with(Column::text("on_stroke_front"), |row| yes_or_no(row.design.on_stroke_front).into())
+        .with(Column::text("on_stroke_front"), |row| yes_or_no(row.design.on_stroke_front).into());
+    if rows.iter().any(|row| row.design.tooth_stress_mpa.is_some()) {
+        fields =
+            fields.with(number("tooth_stress_mpa").shown("teeth (MPa)", digits(1)), |row| row.design.tooth_stress_mpa.into());
+    }
+    if rows.iter().any(|row| row.design.coil_energy_j.is_some()) {
+        fields = fields.with(number("coil_energy_j").shown("coils (J)", digits(1)), |row| row.design.coil_energy_j.into());
+    }
+    fields
 }
 
 /// A motion under a design.
@@ -63,6 +72,9 @@ struct MotionRow<'s> {
     motion: &'s Motion<'s>,
     design: &'s Design,
     response: &'s Result<Response, String>,
+    /// Number of the specimen, and the factor on its restitution.
+    specimen: usize,
+    restitution_factor: f64,
 }
 
 impl MotionRow<'_> {
@@ -77,18 +89,23 @@ pub fn motion_table<'s>(problem: &'s Problem<'s>, solution: &'s Solution, chosen
     let of_chosen = |design: &&Design| chosen.is_some_and(|row| row.candidate == design.candidate);
     let chosen = solution.designs.iter().find(of_chosen);
     let designs: Vec<&Design> = std::iter::once(&solution.bare).chain(chosen).collect();
-    let row = |motion, design: &'s Design, index: usize| MotionRow { motion, design, response: &design.responses[index] };
+    let (motions, several) = (problem.motions.len(), problem.specimens.len() > 1);
     let mut rows = Vec::new();
-    for (index, motion) in problem.motions.iter().enumerate() {
-        rows.extend(designs.iter().map(|design| row(motion, design, index)));
+    for index in 0..problem.trials() {
+        let (motion, specimen) = (&problem.motions[index % motions], index / motions);
+        let restitution_factor = problem.specimens[specimen].restitution;
+        let row =
+            |design: &&'s Design| MotionRow { motion, design, response: &design.responses[index], specimen, restitution_factor };
+        rows.extend(designs.iter().map(row));
     }
-    FieldTable { fields: motion_fields(), rows }
+    FieldTable { fields: motion_fields(several), rows }
 }
 
-fn motion_fields<'s>() -> Fields<MotionRow<'s>> {
+/// The columns of motions, with those of `several` specimens.
+fn motion_fields<'s>(several: bool) -> Fields<MotionRow<'s>> {
     let number = |name: &str| Column::number(name).or_nothing();
-    Fields::<MotionRow<'s>>::default()
-        .with(Column::text("record"), |row| (&row.motion.record.name).into())
+    let fields = Fields::<MotionRow<'s>>::default()
+        .with(Column::text("record"), |row| (&row.motion.name).into())
         .with(Column::number("scale"), |row| row.motion.factor.into())
         .with(number("level"), |row| row.motion.level.into())
         .with(Column::text("device"), |row| if row.design.candidate.is_none() { "none" } else { "chosen" }.into())
@@ -98,5 +115,11 @@ fn motion_fields<'s>() -> Fields<MotionRow<'s>> {
         .with(number("stroke_m"), |row| {
             row.answer().filter(|_| row.design.candidate.is_some()).map(|response| response.stroke_m).into()
         })
-        .with(Column::text("failure").or_nothing(), |row| row.response.as_ref().err().into())
+        .with(Column::text("failure").or_nothing(), |row| row.response.as_ref().err().into());
+    if !several {
+        return fields;
+    }
+    fields
+        .with(Column::count("specimen"), |row| row.specimen.into())
+        .with(Column::number("restitution_factor"), |row| row.restitution_factor.into())
 }

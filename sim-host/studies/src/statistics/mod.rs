@@ -6,6 +6,7 @@
 //! - [`mod@fragility`]: the lognormal probability of overturning by maximum likelihood; [`fragility_curve`]: what it says at an
 //!   intensity; [`observation`]: the runs that it is fitted to.
 //! - [`bootstrap`]: its bands by resampling.
+//! - [`paired`]: how much two designs differ under the same motions; [`mod@sign_test`]: whether pairs differ one way.
 //! - [`proportion`]: what a share of a sample says of a probability.
 //! - [`level`], [`mod@quantile`]: confidence levels and bands, quantiles of a sample.
 //! - [`front`]: which points no other one betters.
@@ -21,11 +22,13 @@ pub mod front;
 pub mod level;
 pub mod normal;
 pub mod observation;
+pub mod paired;
 pub mod power_law;
 mod probit;
 pub mod proportion;
 pub mod quantile;
 mod resample;
+pub mod sign_test;
 pub mod student;
 #[cfg(test)]
 mod tests;
@@ -36,6 +39,8 @@ pub use fragility::{Fragility, FragilityError, fragility};
 pub use fragility_curve::FragilityCurve;
 pub use level::{Level, LevelError};
 pub use observation::{Observation, ObservationError};
+pub use paired::{Groups, Paired};
 pub use power_law::{DemandPoint, PowerLaw, PowerLawError};
 pub use quantile::{quantile, quantiles};
+pub use sign_test::sign_test;
 pub use sprag_report::band::Band;

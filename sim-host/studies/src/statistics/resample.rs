@@ -1,4 +1,4 @@
-//! Runs drawn with replacement from all that there are.
+//! Drawn with replacement from all that there are.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -7,6 +7,14 @@ use super::observation::{Stripe, Stripes};
 
 /// Number of the first stream. Lower ones of the same seed belong to ground motions and sensors.
 const FIRST_STREAM: u64 = 1 << 48;
+
+/// Numbers below `number`, each as likely as any other, by the stream of resample `index` of `seed`.
+pub(super) fn draws(seed: u64, index: u32, number: u64) -> impl Iterator<Item = u64> {
+    let mut words = ChaCha8Rng::seed_from_u64(seed);
+    words.set_stream(FIRST_STREAM + u64::from(index));
+    // The high word of the product is even to within number/2⁶⁴.
+    std::iter::repeat_with(move || ((u128::from(words.next_u64()) * u128::from(number)) >> 64) as u64)
+}
 
 /// Single runs to draw from.
 pub(super) struct Cases {
@@ -31,14 +39,10 @@ impl Cases {
 
     /// As many runs as there are, drawn with replacement by the stream of resample `index`.
     pub fn resample(&self, seed: u64, index: u32) -> Stripes {
-        let mut words = ChaCha8Rng::seed_from_u64(seed);
-        words.set_stream(FIRST_STREAM + u64::from(index));
         let number = self.stripes.number();
         let mut drawn: Vec<Stripe> =
             self.stripes.all.iter().map(|stripe| Stripe { overturned: 0, stood: 0, ..*stripe }).collect();
-        for _ in 0..number {
-            // The high word of the product is even to within number/2⁶⁴.
-            let case = ((u128::from(words.next_u64()) * u128::from(number)) >> 64) as u64;
+        for case in draws(seed, index, number).take(number as usize) {
             let place = self.ends.partition_point(|end| *end <= case);
             let stripe = &mut drawn[place / 2];
             let count = if place % 2 == 0 { &mut stripe.overturned } else { &mut stripe.stood };

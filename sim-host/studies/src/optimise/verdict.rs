@@ -1,0 +1,118 @@
+//! What the comparison with a rival comes to, in words.
+
+use sprag_shared::math::exp;
+
+use super::findings::Row;
+use super::notes::device;
+use super::ranking::Rival;
+use crate::statistics::{Band, Level};
+
+/// The name of a rival in a sentence.
+pub(super) fn rival_name(row: &Row) -> String {
+    if row.mount.is_none() { "no device".to_owned() } else { device(row) }
+}
+
+impl Rival {
+    /// In a line: "better than no device: 13.8 % fewer of the motions overturn it [5.7 %, 21.8 %]".
+    pub fn verdict(&self, level: Level) -> String {
+        let name = rival_name(&self.row);
+        let by = amount(self);
+        let rotations = self.log_rotation.filter(|rotation| rotation.is_sure(level)).map(|rotation| {
+            format!("where both rock and stand, its peak rotations are {}", change(rotation.difference, rotation.band))
+        });
+        match (self.sure, self.overturning.difference > 0.0, rotations) {
+            (true, true, _) => format!("better than {name}: {by}"),
+            (true, false, _) => format!("worse than {name}: {by}"),
+            (false, _, None) => format!("not distinguishable from {name}: {by}"),
+            (false, _, Some(rotations)) => format!("not distinguishable from {name} by overturning: {by}; {rotations}"),
+        }
+    }
+
+    /// In a word or two.
+    pub(super) fn short_verdict(&self) -> &'static str {
+        match (self.sure, self.overturning.difference > 0.0) {
+            (true, true) => "better",
+            (true, false) => "worse",
+            (false, _) => "not distinguishable",
+        }
+    }
+}
+
+fn amount(rival: &Rival) -> String {
+    let (difference, band) = (rival.overturning.difference, rival.overturning.band);
+    if (difference, band.low, band.high) == (0.0, 0.0, 0.0) {
+        return "under every motion both overturn or both stand".to_owned();
+    }
+    let (size, [low, high], word) = if difference < 0.0 {
+        (-difference, [-band.high, -band.low], "more")
+    } else {
+        (difference, [band.low, band.high], "fewer")
+    };
+    format!("{} {word} of the motions overturn it [{}, {}]", points(size), points(low), points(high))
+}
+
+/// A share of the motions in percent, with a decimal.
+pub(super) fn points(share: f64) -> String {
+    // −0.0 would read as less than nothing.
+    format!("{:.1} %", 100.0 * share + 0.0).replace("-0.0 %", "0.0 %")
+}
+
+/// Rotations of the chosen device beside those of a rival, whose logarithms differ by `log`.
+fn change(log: f64, band: Band) -> String {
+    let relative = |log: f64| 100.0 * (1.0 - exp(-log));
+    let [size, low, high] = [log, band.low, band.high].map(relative);
+    if log > 0.0 {
+        format!("{size:.0} % smaller [{low:.0} %, {high:.0} %]")
+    } else {
+        format!("{:.0} % larger [{:.0} %, {:.0} %]", -size, -high, -low)
+    }
+}
+
+/// "0.62", the other device's rotations over the chosen one's turned round: what the chosen makes of them.
+pub(super) fn rotation_ratio(rival: &Rival) -> String {
+    rival.log_rotation.map_or_else(|| "-".to_owned(), |rotation| format!("{:.3}", exp(-rotation.difference)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::optimise::design::Score;
+    use crate::statistics::Paired;
+
+    fn rival(difference: f64, half: f64, sure: bool, log: Option<f64>) -> Rival {
+        let paired = |difference: f64, half: f64| Paired {
+            pairs: 87,
+            difference,
+            band: Band { low: difference - half, high: difference + half },
+            groups_above: 12,
+            groups_below: 1,
+            chance: 0.004,
+        };
+        Rival {
+            row: Row::of_score(&Score::default()),
+            overturning: paired(difference, half),
+            log_rotation: log.map(|log| paired(log, 0.1)),
+            sure,
+        }
+    }
+
+    #[test]
+    fn verdicts_say_how_much_and_how_sure() {
+        let of = |rival: Rival| rival.verdict(Level::COMMON);
+        assert_eq!(
+            of(rival(0.138, 0.08, true, None)),
+            "better than no device: 13.8 % fewer of the motions overturn it [5.8 %, 21.8 %]"
+        );
+        assert_eq!(
+            of(rival(-0.1, 0.02, true, None)),
+            "worse than no device: 10.0 % more of the motions overturn it [8.0 %, 12.0 %]"
+        );
+        assert_eq!(
+            of(rival(0.01, 0.02, false, Some(0.5))),
+            "not distinguishable from no device by overturning: 1.0 % fewer of the motions overturn it [-1.0 %, 3.0 %]; where both rock \
+             and stand, its peak rotations are 39 % smaller [33 %, 45 %]"
+        );
+        let same = rival(0.0, 0.0, false, Some(0.01)).verdict(Level::COMMON);
+        assert_eq!(same, "not distinguishable from no device: under every motion both overturn or both stand");
+    }
+}
