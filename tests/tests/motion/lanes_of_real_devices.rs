@@ -234,7 +234,8 @@ fn bits_depend_neither_on_registers_nor_on_neighbours() {
     };
     let mut asked: Vec<HybridBlock<'_>> =
         systems.iter().flat_map(|system| motions.iter().map(move |samples| (system, samples))).map(block).collect();
-    let bits = |results: &[Option<HybridMotion>]| -> Vec<Option<(Phase, [u64; 6], u32, Steps)>> {
+    type Bits = (Phase, [u64; 6], u32, Steps);
+    let bits = |results: &[Option<HybridMotion>]| -> Vec<Option<Bits>> {
         let of = |found: &HybridMotion| {
             let Shaken { phase, rotation, velocity, impacts, peaks } = (*found).into();
             let spins = found.state.device.wheels.map(|wheel| wheel.spin);
