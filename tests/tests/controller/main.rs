@@ -5,6 +5,7 @@ mod closed_loop;
 mod controller_hard_cases;
 mod digests;
 mod feedback;
+mod friction_plates;
 mod ladder;
 mod let_go;
 mod own_law;

@@ -18,10 +18,13 @@ impl<S: Real> HybridSystem<S> {
     pub(super) fn standing(&self, state: &HybridState<S>, time: S, observer: &mut dyn Observer<S>) -> HybridState<S> {
         let mut standing = HybridState { motion: state.motion.rested(state.motion.impacts), held: false, ..*state };
         self.part_at_rest(&mut standing, time, observer);
-        // A flywheel that a resting block has left with less than rounding stands, or its sign would decide what the next clutch does.
         for wheel in &mut standing.device.wheels {
-            if wheel.spin.abs() <= self.rest_speed * S::EPSILON {
+            // Plates that slip as slowly as impacts that accumulate stick with them. Any other flywheel that a resting block has left with
+            // less than rounding stands, or its sign would decide what the next clutch does.
+            let slips = matches!(wheel.coupling, Coupling::Slipping(_));
+            if wheel.spin.abs() <= if slips { self.rest_speed } else { self.rest_speed * S::EPSILON } {
                 wheel.spin = S::ZERO;
+                wheel.coupling = if slips { Coupling::Locked } else { wheel.coupling };
             }
         }
         standing

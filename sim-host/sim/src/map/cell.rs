@@ -143,6 +143,6 @@ fn looped(scene: &Scene, law: LawName, place: impl Fn() -> String, interrupt: &I
 
 /// Loops are effects, which this program does not have.
 #[cfg(not(feature = "effects"))]
-fn looped(_scene: &Scene, _law: LawName, place: impl Fn() -> String, _interrupt: &Interrupt) -> Result<PulseResult, CellError> {
-    Err(CellError::Run { place: place(), error: RunError::NoEffects })
+fn looped(scene: &Scene, _law: LawName, place: impl Fn() -> String, _interrupt: &Interrupt) -> Result<PulseResult, CellError> {
+    Err(CellError::Run { place: place(), error: RunError::NoEffects { device: scene.devices[0].name.clone() } })
 }
