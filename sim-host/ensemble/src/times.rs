@@ -36,7 +36,7 @@ pub struct Timed<'a> {
 /// How a block has come to its end in the lanes.
 #[derive(Clone, Copy, Debug)]
 pub enum End {
-    /// At rest until the pulse is over, since the last time that [`Watch::rests`] has.
+    /// At rest until the pulse is over, since the last time of the watch.
     Rest,
     /// Overturned at this time.
     Overturned(f64),
