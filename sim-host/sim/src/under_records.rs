@@ -1,7 +1,7 @@
 //! Many blocks under records at once: side by side where lanes know the device; the rest is left to [`crate::simulation`].
 
-use sprag_ensemble::hybrid::HybridBlock;
-use sprag_ensemble::machine::{Registers, shake, shake_hybrid};
+use sprag_ensemble::hybrid::{HybridBlock, HybridMotion};
+use sprag_ensemble::machine::{Registers, shake};
 use sprag_ensemble::plain::PlainBlock;
 use sprag_ensemble::shaken::{Samples, Shaken, ShakenBlock};
 use sprag_shared::motion::hybrid::HybridSystem;
@@ -76,9 +76,21 @@ pub fn followed(runs: &[(&Subject, Shaking<'_>)]) -> Vec<Option<Shaken>> {
         found[*index] = shaken.and_then(|shaken| shaken.after(&block.plain, &structure, duration, scene.free_time_s()).ok());
     }
     let blocks: Vec<HybridBlock<'_>> = real.iter().map(|(_, block)| *block).collect();
-    for ((index, block), moved) in real.iter().zip(shake_hybrid(&blocks, Registers::Widest)) {
+    for ((index, block), moved) in real.iter().zip(moved(&blocks)) {
         let free_time = runs[*index].0.scene.free_time_s();
         found[*index] = moved.and_then(|moved| moved.after(block, free_time).ok()).map(Shaken::from);
     }
     found
+}
+
+/// Motions of real devices in lanes.
+#[cfg(not(target_arch = "wasm32"))]
+fn moved(blocks: &[HybridBlock<'_>]) -> Vec<Option<HybridMotion>> {
+    sprag_ensemble::machine::shake_hybrid(blocks, Registers::Widest)
+}
+
+/// A page has no lanes for real devices, which would be much of its size.
+#[cfg(target_arch = "wasm32")]
+fn moved(blocks: &[HybridBlock<'_>]) -> Vec<Option<HybridMotion>> {
+    vec![None; blocks.len()]
 }

@@ -153,29 +153,24 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// Works out all `cases` into `sink`, a window at a time, while the next one is read. An error of the sink is an [`io::Error`].
+    /// Works out all `cases` into `sink`, a window at a time. An error of the sink is an [`io::Error`].
     fn run(&self, cases: &mut Cases, mut sink: Sink<'_>) -> anyhow::Result<()> {
         let mut window = vec![StringRecord::new(); WINDOW * self.pool.current_num_threads()];
-        let mut following = window.clone();
         let mut progress = cases.progress();
-        let reader = cases.reader.clone();
-        let mut read = cases.fill(&mut window);
         loop {
-            let (count, more) = read;
-            let goes_on = matches!(more, Ok(true));
-            let work = || window[..count].par_chunks(CHUNK).map(|rows| self.chunk(&reader, rows)).collect::<Vec<_>>();
-            let done = cases.done();
-            let (found, next) = self.pool.install(|| rayon::join(work, || goes_on.then(|| cases.fill(&mut following))));
+            let (count, more) = cases.fill(&mut window);
+            let reader = &cases.reader;
+            let found: Vec<_> =
+                self.pool.install(|| window[..count].par_chunks(CHUNK).map(|rows| self.chunk(reader, rows)).collect());
             for (chunk, rest) in found {
                 sink.take(&self.columns, chunk?)?;
                 rest?;
             }
             sink.flush()?;
-            progress.advance(done, count);
-            more?;
-            let Some(next) = next else { return Ok(sink.finish()?) };
-            read = next;
-            std::mem::swap(&mut window, &mut following);
+            progress.advance(cases, count);
+            if !more? {
+                return Ok(sink.finish()?);
+            }
         }
     }
 

@@ -91,7 +91,6 @@ fn wrong(name: &str, error: ReadError) -> anyhow::Error {
 }
 
 /// What makes cases of rows, on any thread.
-#[derive(Clone)]
 pub struct CaseReader {
     name: String,
     columns: CaseColumns,
@@ -161,11 +160,6 @@ impl Cases {
         }
     }
 
-    /// How much of their file is read; none where nobody knows how much there is.
-    pub fn done(&self) -> Option<u64> {
-        self.length.map(|_| self.rows.done())
-    }
-
     /// Shows how far they are worked out.
     pub fn progress(&self) -> Shown {
         let progress = match self.length {
@@ -187,9 +181,9 @@ pub struct Shown {
 }
 
 impl Shown {
-    /// `count` cases more are done, by which the file is done up to `done` ([`Cases::done`]).
-    pub fn advance(&mut self, done: Option<u64>, count: usize) {
-        let done = done.unwrap_or(self.done + count as u64);
+    /// All of `cases` that are read are done, the last `count` of them now.
+    pub fn advance(&mut self, cases: &Cases, count: usize) {
+        let done = if cases.length.is_some() { cases.rows.done() } else { self.done + count as u64 };
         self.progress.advance(done.saturating_sub(self.done));
         self.done = done;
     }
