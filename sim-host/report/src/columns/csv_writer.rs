@@ -51,16 +51,6 @@ impl<W: Write> CsvWriter<W> {
     }
 }
 
-/// Writes `number` into `text` as `{:?}` does: as short as it reads back to the same f64.
-pub(super) fn write_number(text: &mut String, number: f64) -> std::fmt::Result {
-    // Where `{:?}` has no exponent.
-    if (1e-4..1e16).contains(&number.abs()) {
-        text.write_str(zmij::Buffer::new().format_finite(number))
-    } else {
-        write!(text, "{number:?}")
-    }
-}
-
 impl<W: Write> RowWriter for CsvWriter<W> {
     fn row(&mut self, values: &[Value<'_>]) -> Result<(), TableError> {
         self.rows += 1;
@@ -71,7 +61,7 @@ impl<W: Write> RowWriter for CsvWriter<W> {
             self.field.clear();
             // Writing into a string does not fail.
             let _ = match column.taken(*value, self.rows)? {
-                Value::Number(number) => write_number(&mut self.field, number),
+                Value::Number(number) => write!(self.field, "{number:?}"),
                 Value::Count(count) => write!(self.field, "{count}"),
                 Value::Text(text) => self.field.write_str(text),
                 Value::Nothing => Ok(()),
@@ -80,29 +70,5 @@ impl<W: Write> RowWriter for CsvWriter<W> {
         }
         // Ends the row.
         Ok(self.table.write_record(None::<&[u8]>)?)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_the_texts_of_the_standard_library() {
-        let mut state = 1_u64;
-        let mut random = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            state
-        };
-        let edges = [0.0, -0.0, 1.0, 1e-4, 1e16, 1e15, 0.1 + 0.2, f64::MIN_POSITIVE, f64::MAX, f64::NAN, f64::INFINITY, 5e-324];
-        let near = edges.iter().flat_map(|edge| [edge.next_down(), *edge, edge.next_up(), -*edge]);
-        let any: Vec<f64> = (0..200_000).map(|_| f64::from_bits(random())).collect();
-        let usual: Vec<f64> = (0..200_000).map(|_| (random() >> 11) as f64 / (1_u64 << (random() % 60)) as f64).collect();
-        let mut text = String::new();
-        for number in near.chain(any).chain(usual) {
-            text.clear();
-            write_number(&mut text, number).unwrap();
-            assert_eq!(text, format!("{number:?}"));
-        }
     }
 }

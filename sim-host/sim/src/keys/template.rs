@@ -53,13 +53,19 @@ fn entry(key: &Key, name: &str, given: &[(&str, &str)], all: &[Key]) -> String {
     let (mark, value) = match (given, shown) {
         (Some(value), _) => ("", value),
         (None, Some(value)) => ("#", text_of(value)),
+        (None, None) if key.is_table => return format!("# {name}: {}\n{}", key.meaning, elements(key, all)),
         (None, None) => return String::new(),
     };
     let default =
         if mark.is_empty() || key.default.as_ref().is_some_and(|value| says_something(&value)) { "" } else { " No default." };
+    format!("# {}{range}{default}\n{}{mark}{name} = {value}\n", key.meaning, elements(key, all))
+}
+
+/// The keys of the tables in the list `key`, a comment each.
+fn elements(key: &Key, all: &[Key]) -> String {
     let below = format!("{}.N.", key.path);
     let elements = all.iter().filter_map(|element| {
         Some(format!("#   {}: {} {}.\n", element.path.strip_prefix(&below)?, element.meaning, element.range))
     });
-    format!("# {}{range}{default}\n{}{mark}{name} = {value}\n", key.meaning, elements.collect::<String>())
+    elements.collect()
 }
