@@ -9,6 +9,7 @@
 //! ([`crate::motion::rest::free_motion`]). Differences of cosines and arc tangents are written so that nothing cancels.
 
 use crate::math;
+use crate::math::power_series::product_coefficient as product;
 
 /// First integral of one mode of the clutch: ω² as a function of q along a free motion; q in rad, below π/2, ω in p rad.
 pub trait FirstIntegral: Copy {
@@ -121,10 +122,6 @@ impl FirstIntegral for FullIntegral {
 
     /// With Y = sin²(q/2) and g = 1 + κ k cos² q = 1 + κ k (1 − 2Y)², dY/dE = g/4, and f² = g² E/(4 Y (1 − Y)).
     fn pace(&self) -> [f64; PACE_TERMS] {
-        /// Coefficient n of a product.
-        fn product(a: &[f64], b: &[f64], n: usize) -> f64 {
-            a.iter().zip(b[..=n].iter().rev()).fold(0.0, |sum, (a, b)| sum + a * b)
-        }
         const N: usize = PACE_TERMS;
         // 4Y/E, cos q, g, 1 − Y, √(4Y(1 − Y)/E) and f.
         let (mut steep, mut cosine, mut inertia, mut rest) = ([0.0; N], [0.0; N], [0.0; N], [0.0; N]);

@@ -151,6 +151,11 @@ fn convolve_both<S: Scalar, const SLOTS: usize>(a: Run<'_, S, SLOTS>, b: Run<'_,
     (first, second)
 }
 
+/// Coefficient `n`, below the length of both, of the product of two power series.
+pub fn product_coefficient(a: &[f64], b: &[f64], n: usize) -> f64 {
+    a.iter().zip(b[..=n].iter().rev()).fold(0.0, |sum, (a, b)| sum + a * b)
+}
+
 macro_rules! termwise {
     ($operator:ident, $method:ident) => {
         impl<S: Scalar, const N: usize, const SLOTS: usize> $operator for Node<'_, S, N, SLOTS> {

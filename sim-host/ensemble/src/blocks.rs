@@ -6,15 +6,12 @@
 //! ends no step. Where the coefficients do not show how many zeros of θ̈
 //! a step has, it is halved; what is still not plain then makes a block [`Blocks::hard`], and it is not followed any further.
 
-use std::array::from_fn;
-
 use sprag_shared::equation::switched::Switched;
-use sprag_shared::math::polynomial as core_polynomial;
 use sprag_shared::math::scalar::Scalar;
 use sprag_shared::structure::COUNTED_SPEED;
 
 use crate::plain::PlainBlock;
-use crate::polynomial::{Shape, extreme, shape, value, value_and_slope, zero};
+use crate::polynomial::{Shape, extreme, largest_in_lane, shape, value, value_and_slope, zero};
 use crate::rest::WEAK_IMPACT;
 use crate::series::Series;
 use crate::{Mask, Number, WIDTH, number};
@@ -321,18 +318,9 @@ impl Blocks {
         let doubtful = open & !bent & !(twisted & (opposite | away));
         if doubtful.any() {
             for lane in (0..WIDTH).filter(|&lane| doubtful.at(lane)) {
-                self.look_inside(series, lane, (length.0[lane], end.0[lane]));
+                let peak = &mut self.peak_acceleration.0[lane];
+                *peak = largest_in_lane::<TERMS>(rates, lane, (length.0[lane], end.0[lane]), *peak);
             }
         }
-    }
-
-    /// The largest |θ̈| of one block's step, up to `end` (time, θ̈), by the core's search.
-    #[inline(never)]
-    fn look_inside<const TERMS: usize>(&mut self, series: &Series<TERMS>, lane: usize, end: (f64, f64)) {
-        let rates = series.acceleration();
-        let rates: [f64; TERMS] = from_fn(|k| rates.get(k).map_or(0.0, |rate| rate.0[lane]));
-        let curvature = core_polynomial::curvature_bound(&rates, end.0);
-        let peak = &mut self.peak_acceleration.0[lane];
-        *peak = core_polynomial::largest_magnitude(&rates, curvature, (0.0, rates[0]), end, *peak);
     }
 }

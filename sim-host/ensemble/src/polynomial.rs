@@ -3,6 +3,9 @@
 //! As [`sprag_shared::math::polynomial`], but where that one halves an interval until its zeros are isolated, these lanes use what the
 //! coefficients show ([`shape`]); the rest is done by shorter steps or by the core.
 
+use std::array::from_fn;
+
+use sprag_shared::math::polynomial::{curvature_bound, largest_magnitude};
 pub use sprag_shared::math::polynomial::{value, value_and_slope};
 use sprag_shared::math::scalar::Scalar;
 
@@ -137,6 +140,14 @@ pub fn extreme(coefficients: &[Number], slopes: (Number, Number), end: Number, w
         }
     }
     found
+}
+
+/// The larger of `known` and the largest magnitude of one lane's polynomial, of at most `N` coefficients, up to `end` (time, value), by the core's
+/// search.
+#[inline(never)]
+pub fn largest_in_lane<const N: usize>(coefficients: &[Number], lane: usize, end: (f64, f64), known: f64) -> f64 {
+    let own: [f64; N] = from_fn(|k| coefficients.get(k).map_or(0.0, |c| c.0[lane]));
+    largest_magnitude(&own, curvature_bound(&own, end.0), (0.0, own[0]), end, known)
 }
 
 /// The same polynomials without their constant term, divided by t, where `shifted`.

@@ -9,7 +9,7 @@ use crate::math::scalar::Real;
 use crate::motion::state::Phase;
 
 impl<S: Real> HybridSystem<S> {
-    /// θ̈ (rad/s²) of [`HybridSystem::now`], where the configuration of the block is known.
+    /// θ̈ (rad/s²) of a block in its `configuration`, under the ground's acceleration at the end of the last ground segment.
     #[inline]
     pub fn acceleration_now(&self, state: &HybridState<S>, configuration: &AnyConfiguration<S>) -> S {
         if state.motion.phase != Phase::Rocking || state.held {
@@ -28,7 +28,7 @@ impl<S: Real> HybridSystem<S> {
         })
     }
 
-    /// Speeds of the flywheels of [`HybridSystem::now`] as that of a rack moving with them, over R; 1/s.
+    /// Speeds of the flywheels as that of a rack moving with them, over R; 1/s.
     #[inline]
     pub fn spins_now(&self, state: &HybridState<S>, configuration: &AnyConfiguration<S>) -> [S; 2] {
         let own: [S; UNKNOWNS] = state.device.unknowns();

@@ -411,17 +411,6 @@ impl<S: Real> HybridSystem<S> {
         self.with_instant(state, time, observer, |transmission, at| transmission.settle(at));
     }
 
-    /// Block and device as they are, under the ground's acceleration at the end of the last ground segment.
-    pub fn now(&self, state: &HybridState<S>) -> Snapshot<S> {
-        let (law, place) = (self.law(state), self.place(state));
-        let acceleration = if state.motion.phase == Phase::Rocking && !state.held {
-            self.transmission.acceleration(&self.point(&law, state.motion.side, &place))
-        } else {
-            S::ZERO
-        };
-        self.snapshot(&law, state, &place, acceleration)
-    }
-
     /// Coefficients of the mode of `state`.
     fn law(&self, state: &HybridState<S>) -> ModeCoefficients<S> {
         self.transmission.law(state.motion.direction, state.motion.terminal_acceleration_sign, &state.device)

@@ -1,6 +1,5 @@
 //! One step of several blocks in their modes, from one sample to the next, of those on which nothing can happen in between.
 
-use std::array::from_fn;
 use std::cell::Cell;
 
 use sprag_shared::drivetrain::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients};
@@ -8,7 +7,6 @@ use sprag_shared::drivetrain::friction::{below_capacity, plate_force, slip, spin
 use sprag_shared::drivetrain::scaled_parameters::ScaledParameters;
 use sprag_shared::drivetrain::transmission::{PointOf, driving_moment, locked_force, rack_friction, resisted_acceleration};
 use sprag_shared::math::RECIPROCALS;
-use sprag_shared::math::polynomial as core_polynomial;
 use sprag_shared::math::scalar::Scalar;
 use sprag_shared::math::sign::Sign;
 use sprag_shared::method::motion_series::MotionSeries;
@@ -18,7 +16,7 @@ use super::body::LaneBody;
 use super::expansion::{Expansion, RATES, TERMS, bend_of};
 use super::seat::Seat;
 use super::{HybridMotion, Kind};
-use crate::polynomial::value;
+use crate::polynomial::{largest_in_lane, value};
 use crate::{Mask, Number, WIDTH, number};
 
 /// Largest of the last terms of θ and of the one before, over α: from one to the next they fall by p times the step, or more, so that the
@@ -232,7 +230,8 @@ impl<B: LaneBody> Stretch<B> {
         self.peak_acceleration = clean.choose(self.peak_acceleration.larger(ends), self.peak_acceleration);
         if open.any() {
             for lane in (0..WIDTH).filter(|&lane| open.at(lane)) {
-                self.look_inside(series, lane, end.2.0[lane]);
+                let peak = &mut self.peak_acceleration.0[lane];
+                *peak = largest_in_lane::<RATES>(rates, lane, (time.0[lane], end.2.0[lane]), *peak);
             }
         }
         self.peak_rotation = clean.choose(self.peak_rotation.larger(end.0.abs()), self.peak_rotation);
@@ -333,15 +332,5 @@ impl<B: LaneBody> Stretch<B> {
         let before = (number(LAST_BUT_ONE) * size).exceeds(series.rotation[last - 1].abs() * power);
         power = power * time;
         before & (number(LAST) * size).exceeds(series.rotation[last].abs() * power)
-    }
-
-    /// The largest |θ̈| of one block's step, at whose end it is `end`, by the core's search.
-    #[inline(never)]
-    fn look_inside(&mut self, series: &MotionSeries<Number, TERMS>, lane: usize, end: f64) {
-        let rates: [f64; RATES] = from_fn(|k| series.acceleration[k].0[lane]);
-        let time = self.length.0[lane];
-        let curvature = core_polynomial::curvature_bound(&rates, time);
-        let peak = &mut self.peak_acceleration.0[lane];
-        *peak = core_polynomial::largest_magnitude(&rates, curvature, (0.0, rates[0]), (time, end), *peak);
     }
 }

@@ -12,6 +12,12 @@ pub struct Closeness {
     pub tolerance: f64,
 }
 
+impl From<Accuracy> for Closeness {
+    fn from(accuracy: Accuracy) -> Closeness {
+        Closeness { tolerance: accuracy.tolerance() }
+    }
+}
+
 impl Closeness {
     /// Steps of a fourth-order method to a control tick that follow a plant so closely; one at the tolerance of [`Accuracy::Fast`].
     pub fn steps_per_tick(self) -> u32 {

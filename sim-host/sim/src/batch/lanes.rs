@@ -1,7 +1,5 @@
 //! Many cases at once: in lanes where they fit, and by the core for the rest.
 
-use std::cmp::Ordering;
-
 use sprag_ensemble::alone::CaseError;
 use sprag_ensemble::machine::{Registers, run_timed};
 use sprag_ensemble::pulsed::{PulseResult, PulsedBlock};
@@ -29,12 +27,14 @@ pub fn results(cases: &[Case], tolerance: f64) -> Vec<Result<CaseResult, CaseErr
 pub fn in_lanes(cases: &[Case]) -> Vec<Option<CaseResult>> {
     // Blocks of one kind go together, and those of one slenderness, coupling and restitution share their series.
     let mut order: Vec<usize> = (0..cases.len()).filter(|&index| cases[index].rest_speed == REST_SPEED).collect();
+    let kind = |case: &Case| (case.geometry == Geometry::Full, case.device as u8);
     order.sort_by(|&a, &b| {
-        let key = |case: &Case| (case.geometry == Geometry::Full, case.device as u8);
         let (a, b) = (&cases[a], &cases[b]);
-        let numbers = |case: &Case| [case.slenderness, case.mass_ratio, case.restitution];
-        let by_numbers = || numbers(a).into_iter().zip(numbers(b)).map(|(a, b)| a.total_cmp(&b)).find(|order| order.is_ne());
-        key(a).cmp(&key(b)).then_with(|| by_numbers().unwrap_or(Ordering::Equal))
+        kind(a)
+            .cmp(&kind(b))
+            .then(a.slenderness.total_cmp(&b.slenderness))
+            .then(a.mass_ratio.total_cmp(&b.mass_ratio))
+            .then(a.restitution.total_cmp(&b.restitution))
     });
     let pulsed: Vec<PulsedBlock> = order.iter().map(|&index| PulsedBlock::from(&cases[index])).collect();
     let free_times: Vec<f64> = order.iter().map(|&index| cases[index].free_time).collect();

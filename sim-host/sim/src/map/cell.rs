@@ -72,7 +72,7 @@ pub fn results_by<E: Display>(
     let of = &grid.mapped()[device];
     let mut results = vec![PulseResult::NO_ROCKING; places.len()];
     let (mut pulsed, mut pulsed_places) = (Vec::with_capacity(places.len()), Vec::with_capacity(places.len()));
-    let (mut subjects, mut subject_places) = (Vec::new(), Vec::new());
+    let mut shaken = Vec::new();
     for (index, &values) in places.iter().enumerate() {
         match grid.subject(device, values)? {
             Subject::Pulsed(block) => {
@@ -80,8 +80,11 @@ pub fn results_by<E: Display>(
                 pulsed_places.push(index);
             }
             Subject::Scene(scene) => {
-                subjects.push(under_records::Subject::new(scene.only(of.device)));
-                subject_places.push(index);
+                let scene = scene.only(of.device);
+                match grid.shaking(&scene) {
+                    Some(shaking) => shaken.push((under_records::Subject::new(scene), shaking, index)),
+                    None => results[index] = simulated(&scene, || grid.place(values), interrupt)?,
+                }
             }
             Subject::Loop(scene, law) => results[index] = looped(&scene, law, || grid.place(values), interrupt)?,
         }
@@ -94,12 +97,11 @@ pub fn results_by<E: Display>(
     for (result, index) in found.into_iter().zip(pulsed_places) {
         results[index] = result;
     }
-    let runs = subjects.iter().filter_map(|subject| Some((subject, grid.shaking(&subject.scene)?)));
-    let mut shaken = followed(&runs.collect::<Vec<_>>()).into_iter();
-    for (subject, index) in subjects.iter().zip(subject_places) {
-        results[index] = match shaken.next().flatten() {
+    let runs: Vec<_> = shaken.iter().map(|(subject, shaking, _)| (subject, *shaking)).collect();
+    for (found, (subject, _, index)) in followed(&runs).into_iter().zip(&shaken) {
+        results[*index] = match found {
             Some(found) => PulseResult::of_shaken(&found, &subject.scene.block),
-            None => simulated(&subject.scene, || grid.place(places[index]), interrupt)?,
+            None => simulated(&subject.scene, || grid.place(places[*index]), interrupt)?,
         };
     }
     Ok(results)

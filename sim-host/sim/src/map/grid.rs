@@ -3,8 +3,6 @@
 use sprag_ensemble::pulsed::PulsedBlock;
 use sprag_ensemble::shaken::Samples;
 use sprag_shared::structure::block::Block;
-use sprag_shared::structure::device::DeviceKind;
-use sprag_shared::structure::drivetrain::Engagement;
 use sprag_shared::structure::mount::Mount;
 use toml::Table;
 
@@ -258,9 +256,7 @@ impl Grid {
 fn mapped(scene: &Scene, map: &MapTable) -> Result<Vec<Mapped>, SceneError> {
     let alone = |(device, of): (usize, &SceneDevice)| Mapped { name: of.name.clone(), device, law: None };
     let mut mapped: Vec<Mapped> = scene.devices.iter().enumerate().map(alone).collect();
-    let commanded =
-        |of: &SceneDevice| of.device.kind == DeviceKind::ClutchedPair && of.drivetrain.engagement != Engagement::Overrunning;
-    for (device, of) in scene.devices.iter().enumerate().filter(|(_, of)| commanded(of)) {
+    for (device, of) in scene.devices.iter().enumerate().filter(|(_, of)| of.takes_commands()) {
         let by = |&law: &LawName| Mapped { name: format!("{}, {}", of.name, law.name()), device, law: Some(law) };
         mapped.extend(map.laws.iter().map(by));
     }

@@ -183,7 +183,7 @@ pub fn with_loop<R>(
         controller: &controller,
         suite: &suite,
         seed: variant.seed,
-        closeness: conditions.accuracy.map(|accuracy| Closeness { tolerance: accuracy.tolerance() }),
+        closeness: conditions.accuracy.map(Closeness::from),
         interrupt: conditions.interrupt,
     };
     work(&task).map_err(|failure| match failure {

@@ -53,8 +53,7 @@ pub(super) fn laws(names: &[String], scene: &Scene, key: &KeyPath) -> Result<Vec
         let device = of_scene.or_else(|| ideal(name)).ok_or_else(|| {
             let known = devices().filter(|(_, table)| table.kind != Kind::None).map(|(name, _)| format!("\"{name}\""));
             let ideal = IDEAL_LAWS.iter().map(|name| format!("\"{name}\""));
-            let controlled = LawName::ALL.iter().map(|law| format!("\"{CONTROLLER}{}\"", law.name()));
-            let mut all: Vec<String> = ideal.chain(controlled).collect();
+            let mut all: Vec<String> = ideal.chain(controlled_names()).collect();
             all.extend(known.filter(|name| !all.contains(name)).collect::<Vec<_>>());
             key().outside(format!("{name:?}"), &format!("among {}", all.join(", ")))
         })?;
@@ -66,11 +65,16 @@ pub(super) fn laws(names: &[String], scene: &Scene, key: &KeyPath) -> Result<Vec
     Ok(laws)
 }
 
+/// Names of the laws of a controller, as messages show them.
+fn controlled_names() -> impl Iterator<Item = String> {
+    LawName::ALL.iter().map(|law| format!("\"{CONTROLLER}{}\"", law.name()))
+}
+
 /// The controller of `scene` by its law `word`, which drives the first pair of the scene that takes commands, or a rigid one.
 fn controlled(name: &str, word: &str, scene: &Scene, key: &KeyPath) -> Result<Law, SceneError> {
     let Some(found) = LawName::ALL.into_iter().find(|law| law.name() == word) else {
-        let names: Vec<String> = LawName::ALL.iter().map(|law| format!("\"{CONTROLLER}{}\"", law.name())).collect();
-        return Err(key.clone().outside(format!("{name:?}"), &format!("among {}", names.join(", "))));
+        let names = controlled_names().collect::<Vec<_>>().join(", ");
+        return Err(key.clone().outside(format!("{name:?}"), &format!("among {names}")));
     };
     let block = &scene.file.block;
     if block.initial_rotation_ratio != 0.0 || block.initial_velocity_ratio != 0.0 {

@@ -10,6 +10,7 @@ use sprag_sim::scene::controller::BeliefTable;
 use sprag_sim::scene::schema::RestitutionValue;
 
 use super::table::RobustTable;
+use crate::statistics::resample::below;
 
 /// Number of the first stream. Lower ones of the same seed belong to ground motions, sensors and resamples.
 const FIRST_STREAM: u64 = 1 << 56;
@@ -54,7 +55,7 @@ pub fn specimens(table: Option<&RobustTable>) -> Vec<Specimen> {
         .map(|(quantity, width)| {
             let mut words = ChaCha8Rng::seed_from_u64(table.seed);
             words.set_stream(FIRST_STREAM + quantity as u64);
-            let mut below = |most: u64| ((u128::from(words.next_u64()) * u128::from(most)) >> 64) as usize;
+            let mut below = |most: u64| below(words.next_u64(), most) as usize;
             let mut strata: Vec<usize> = (0..number).collect();
             (1..number).rev().for_each(|last| strata.swap(last, below(last as u64 + 1)));
             let steps = 1 << 20;

@@ -60,8 +60,6 @@ impl Subject {
     pub fn respond(&self, ground: &GroundMotions, interrupt: &Interrupt) -> Result<Response, String> {
         #[cfg(feature = "effects")]
         if let Some(Controlled { controller, suite, seed }) = &self.controlled {
-            let level = self.scene.file.accuracy.level;
-            let closeness = level.map(|level| sprag_sim::accuracy::Closeness { tolerance: level.tolerance() });
             let task = sprag_sim::closed_loop::LoopTask {
                 scene: &self.scene,
                 ground,
@@ -69,7 +67,7 @@ impl Subject {
                 controller,
                 suite,
                 seed: *seed,
-                closeness,
+                closeness: self.scene.file.accuracy.level.map(sprag_sim::accuracy::Closeness::from),
                 interrupt,
             };
             return task.measured().map(|run| Response::of(&run)).map_err(|error| error.to_string());

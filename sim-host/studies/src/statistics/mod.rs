@@ -27,7 +27,7 @@ pub mod power_law;
 mod probit;
 pub mod proportion;
 pub mod quantile;
-mod resample;
+pub(crate) mod resample;
 pub mod sign_test;
 pub mod student;
 #[cfg(test)]

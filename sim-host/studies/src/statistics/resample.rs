@@ -12,8 +12,12 @@ const FIRST_STREAM: u64 = 1 << 48;
 pub(super) fn draws(seed: u64, index: u32, number: u64) -> impl Iterator<Item = u64> {
     let mut words = ChaCha8Rng::seed_from_u64(seed);
     words.set_stream(FIRST_STREAM + u64::from(index));
-    // The high word of the product is even to within number/2⁶⁴.
-    std::iter::repeat_with(move || ((u128::from(words.next_u64()) * u128::from(number)) >> 64) as u64)
+    std::iter::repeat_with(move || below(words.next_u64(), number))
+}
+
+/// The number below `number` that a random `word` gives: each as likely as any other to within number/2⁶⁴.
+pub(crate) fn below(word: u64, number: u64) -> u64 {
+    ((u128::from(word) * u128::from(number)) >> 64) as u64
 }
 
 /// Single runs to draw from.

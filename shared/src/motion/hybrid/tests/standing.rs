@@ -3,6 +3,7 @@
 use std::vec::Vec;
 
 use super::{Shake, pair, shake, sine, structure, tight};
+use crate::equation::body::Body;
 use crate::ground::{AnySegment, Linear};
 use crate::math;
 use crate::method::fixed::{FixedStep, Scheme};
@@ -170,7 +171,10 @@ fn an_overrunning_clutch_that_has_just_gripped_does_not_push() {
     let drivetrain = Drivetrain { engagement: Engagement::Overrunning, ..Drivetrain::default() };
     let machine: HybridSystem<f64> = drivetrain.resolve(&structure, false).unwrap();
     // Outward, against the weight.
-    let now = machine.now(&machine.released_at(0.0, 0.1, [0.0; 2]));
+    let state = machine.released_at(0.0, 0.1, [0.0; 2]);
+    let configuration = machine.body.configuration(state.motion.side.unit(), state.motion.rotation);
+    let acceleration = machine.acceleration_now(&state, &configuration);
+    let now = machine.snapshot(&machine.law(&state), &state, &machine.place(&state), acceleration);
     let (velocity, force) = (now.motion.velocity, now.device.force[0]);
     // 1 + kℓ² times as much is shaken off with the flywheel at rest before.
     let lever = math::cos(10.0_f64.to_radians());

@@ -11,6 +11,7 @@ use core::array::from_fn;
 
 use super::{Decay, HalfCycles, MOST_SWINGS, TERMS};
 use crate::math;
+use crate::math::power_series::product_coefficient as product;
 
 /// Largest ρ: beyond it swings are too many to sum.
 const LARGEST_RATIO: f64 = 0.999;
@@ -103,11 +104,6 @@ impl DecaySums {
             (swings_left - f64::from(count)).abs() < NEAR_COUNT || (swings_left - f64::from(count) - 1.0).abs() < NEAR_COUNT;
         (!doubtful).then_some(Decay { duration, impacts: count, rotation, acceleration, speed: 0.0 })
     }
-}
-
-/// Coefficient `n` of a product.
-fn product(a: &[f64; TERMS], b: &[f64; TERMS], n: usize) -> f64 {
-    a.iter().zip(b[..=n].iter().rev()).fold(0.0, |sum, (a, b)| sum + a * b)
 }
 
 #[cfg(test)]
