@@ -1,7 +1,7 @@
 """The tables of a scene."""
 
 from .control import Accelerometer, Belief, Controller, Encoder, Gyroscope, Sensors
-from .following import Accuracy, Checks, Duration, Gear, Output
+from .following import Accuracy, Checks, Coil, Duration, Gear, Output
 from .motion import Cosine, HalfSine, MavroeidisPapageorgiou, Motion, Rectangular, Ricker, Sine
 from .structure import (
     Actuation,
@@ -26,6 +26,7 @@ __all__ = [
     "Checks",
     "Clutch",
     "ClutchedPair",
+    "Coil",
     "Controller",
     "Cosine",
     "Device",
