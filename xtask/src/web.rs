@@ -46,6 +46,11 @@ pub fn run(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
         empty(&folder.join("src/core"))?;
         MODULES.iter().try_for_each(|module| build(root, module))
     })?;
+    // What the host's lints do not see.
+    steps.step("lints, core of the page", || {
+        let packages = ["--package", "sprag-page", "--package", "sprag-page-lanes", "--", "-D", "warnings"];
+        done(cargo(root, &["clippy", "--profile", PROFILE, "--target", TARGET]).args(packages))
+    })?;
     let npm = |words: &[&str]| done(Command::new("npm").current_dir(&folder).env("PATH", &path).args(words));
     steps.step("page", || {
         npm(&["ci", "--no-audit", "--no-fund"])?;

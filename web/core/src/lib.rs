@@ -3,7 +3,7 @@
 //! - [`scene`], [`about`]: a scene with its records, and what it says before it is run.
 //! - [`run`], [`map`], [`closed_loop`]: responses, overturning maps, the controller in closed loop.
 //! - [`examples`], [`digests`]: the shipped scenes, and the bits that they come to everywhere.
-//! - [`columns`], [`page`]: how results reach JavaScript.
+//! - [`columns`], and in WebAssembly `object` and `page`: how results reach JavaScript.
 
 pub mod about;
 pub mod closed_loop;
@@ -11,6 +11,9 @@ pub mod columns;
 pub mod digests;
 pub mod examples;
 pub mod map;
+#[cfg(target_family = "wasm")]
+pub mod object;
+#[cfg(target_family = "wasm")]
 pub mod page;
 pub mod run;
 pub mod scene;

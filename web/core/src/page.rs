@@ -7,8 +7,8 @@ use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use crate::about::{self, About};
-use crate::columns::object;
 use crate::examples::{EXAMPLES, near_fault};
+use crate::object::object;
 use crate::scene::{File, PageScene};
 use crate::{closed_loop, digests, map, run};
 
