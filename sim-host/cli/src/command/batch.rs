@@ -154,23 +154,25 @@ struct Work<'a> {
 
 impl Work<'_> {
     /// Works out all `cases` into `sink`, a window at a time. An error of the sink is an [`io::Error`].
-    fn run(&self, cases: &mut Cases, mut sink: Sink<'_>) -> anyhow::Result<()> {
-        let mut window = vec![StringRecord::new(); WINDOW * self.pool.current_num_threads()];
-        let mut progress = cases.progress();
+    fn run(&self, cases: Cases, mut sink: Sink<'_>) -> anyhow::Result<()> {
+        let threads = self.pool.current_num_threads();
+        let (progress, reader) = (cases.progress(), cases.reader.clone());
+        let mut windows = cases.windows(WINDOW * threads, threads > 1);
+        let mut used = None;
         loop {
-            let (count, more) = cases.fill(&mut window);
-            let reader = &cases.reader;
-            let found: Vec<_> =
-                self.pool.install(|| window[..count].par_chunks(CHUNK).map(|rows| self.chunk(reader, rows)).collect());
+            let (window, more) = windows(used);
+            let chunks = window.rows().par_chunks(CHUNK);
+            let found: Vec<_> = self.pool.install(|| chunks.map(|rows| self.chunk(&reader, rows)).collect());
             for (chunk, rest) in found {
                 sink.take(&self.columns, chunk?)?;
                 rest?;
             }
             sink.flush()?;
-            progress.advance(cases, count);
+            progress.advance(window.advance);
             if !more? {
                 return Ok(sink.finish()?);
             }
+            used = Some(window);
         }
     }
 
@@ -197,7 +199,7 @@ impl Work<'_> {
     }
 
     /// Works out all `cases` into the file `out`.
-    fn write(&self, cases: &mut Cases, out: &mut (dyn Write + Send)) -> anyhow::Result<()> {
+    fn write(&self, cases: Cases, out: &mut (dyn Write + Send)) -> anyhow::Result<()> {
         let sink = if self.parquet { Sink::parquet(&self.columns, out)? } else { Sink::csv(out) };
         self.run(cases, sink)
     }
@@ -225,10 +227,10 @@ fn run(arguments: &BatchArguments, context: &mut Context<'_>) -> anyhow::Result<
         context.note(plan);
         accuracy = Some(plan.accuracy);
     }
-    let mut cases = cases.cases()?;
+    let cases = cases.cases()?;
     let work = Work { columns, accuracy, tolerance: *tolerance, parquet, pool, interrupt: context.interrupt };
     if is_standard_output(out) {
-        return match work.run(&mut cases, Sink::csv(context.out)) {
+        return match work.run(cases, Sink::csv(context.out)) {
             // Reported where standard output ends.
             Err(error) if error.is::<io::Error>() => Ok(()),
             ended => ended,
@@ -239,14 +241,14 @@ fn run(arguments: &BatchArguments, context: &mut Context<'_>) -> anyhow::Result<
         Err(error) => error,
     };
     if let Some(stream) = open_stream(out)? {
-        return match work.write(&mut cases, &mut BufWriter::new(stream)) {
+        return match work.write(cases, &mut BufWriter::new(stream)) {
             // A reader that stops early has what it wanted.
             Err(error) if error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == ErrorKind::BrokenPipe) => Ok(()),
             ended => ended.map_err(named),
         };
     }
     let mut results = Results::default();
-    results.add_by(out, |file| work.write(&mut cases, file).map_err(named))?;
+    results.add_by(out, |file| work.write(cases, file).map_err(named))?;
     Ok(results.commit()?)
 }
 

@@ -2,6 +2,8 @@
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
+use std::sync::mpsc::channel;
+use std::thread::spawn;
 
 use anyhow::{anyhow, bail};
 use csv::{Position, StringRecord};
@@ -79,7 +81,7 @@ impl CaseFile {
             TextRows::Csv(_) => (Place::Line, self.length.map(|bytes| (bytes, "bytes of cases"))),
             TextRows::Parquet(rows) => (Place::Row, Some((rows.length, "cases"))),
         };
-        Ok(Cases { rows, length, any: false, reader: CaseReader { name, columns, place } })
+        Ok(Cases { rows, length, done: 0, any: false, reader: CaseReader { name, columns, place } })
     }
 }
 
@@ -91,6 +93,7 @@ fn wrong(name: &str, error: ReadError) -> anyhow::Error {
 }
 
 /// What makes cases of rows, on any thread.
+#[derive(Clone)]
 pub struct CaseReader {
     name: String,
     columns: CaseColumns,
@@ -118,26 +121,80 @@ pub struct Cases {
     rows: TextRows,
     /// How far [`TextRows::done`] goes, and of what.
     length: Option<(u64, &'static str)>,
+    /// How far that was when a window was last full.
+    done: u64,
     /// Whether there was a case.
     any: bool,
     /// What makes cases of the rows.
     pub reader: CaseReader,
 }
 
+/// A window of rows, and whether there may be more.
+pub type Filled = (Window, anyhow::Result<bool>);
+
+/// Some rows that are read.
+#[derive(Default)]
+pub struct Window {
+    /// Rows, and room for more.
+    rows: Vec<StringRecord>,
+    count: usize,
+    /// What they are of what [`Cases::progress`] counts.
+    pub advance: u64,
+}
+
+impl Window {
+    /// The rows.
+    pub fn rows(&self) -> &[StringRecord] {
+        &self.rows[..self.count]
+    }
+}
+
 impl Cases {
-    /// Reads as many rows into `window` as there are and as it has; also whether there may be more.
-    pub fn fill(&mut self, window: &mut [StringRecord]) -> (usize, anyhow::Result<bool>) {
+    /// Reads as many rows as there are and as `rows` has room for.
+    fn fill(&mut self, mut rows: Vec<StringRecord>) -> Filled {
         let mut count = 0;
-        for row in window {
+        let more = loop {
+            let Some(row) = rows.get_mut(count) else { break Ok(true) };
             match self.rows.read(row) {
                 Ok(true) => count += 1,
-                Ok(false) if self.any || count > 0 => return (count, Ok(false)),
-                Ok(false) => return (0, Err(anyhow!("{}: {}", self.reader.name, TableError::Empty))),
-                Err(error) => return (count, Err(wrong(&self.reader.name, error))),
+                Ok(false) if self.any || count > 0 => break Ok(false),
+                Ok(false) => break Err(anyhow!("{}: {}", self.reader.name, TableError::Empty)),
+                Err(error) => break Err(wrong(&self.reader.name, error)),
             }
+        };
+        self.any |= count > 0;
+        let done = if self.length.is_some() { self.rows.done() } else { self.done + count as u64 };
+        let advance = done.saturating_sub(std::mem::replace(&mut self.done, done));
+        (Window { rows, count, advance }, more)
+    }
+
+    /// Gives one window of `size` rows after the other, made of one that is no longer needed; with `ahead` another thread reads the next
+    /// meanwhile.
+    pub fn windows(mut self, size: usize, ahead: bool) -> Box<dyn FnMut(Option<Window>) -> Filled> {
+        let mut fill = move |used: Option<Window>| {
+            let rows = used.map_or_else(|| vec![StringRecord::new(); size], |window| window.rows);
+            self.fill(rows)
+        };
+        if !ahead {
+            return Box::new(fill);
         }
-        self.any = true;
-        (count, Ok(true))
+        let (used, empty) = channel();
+        let (full, filled) = channel();
+        // Nobody waits for its end: it may wait for input that never comes.
+        spawn(move || {
+            for used in empty {
+                let filled = fill(used);
+                let last = !matches!(filled.1, Ok(true));
+                if full.send(filled).is_err() || last {
+                    break;
+                }
+            }
+        });
+        let _ = used.send(None);
+        Box::new(move |window| {
+            let _ = used.send(window);
+            filled.recv().unwrap_or_else(|_| (Window::default(), Err(anyhow!("the cases are no longer read"))))
+        })
     }
 
     /// Gives all cases with their ids to `take` as long as it wants more; whether it took all.
@@ -145,11 +202,11 @@ impl Cases {
     /// # Errors
     /// A row that cannot be a case, and a file without any.
     pub fn each(&mut self, mut take: impl FnMut(&str, Case) -> bool) -> anyhow::Result<bool> {
-        let mut window = [StringRecord::new()];
+        let mut rows = vec![StringRecord::new()];
         loop {
-            let (count, more) = self.fill(&mut window);
-            if count > 0 {
-                let (id, case) = self.reader.case(&window[0])?;
+            let (window, more) = self.fill(rows);
+            for row in window.rows() {
+                let (id, case) = self.reader.case(row)?;
                 if !take(id, case) {
                     return Ok(false);
                 }
@@ -157,34 +214,15 @@ impl Cases {
             if !more? {
                 return Ok(true);
             }
+            rows = window.rows;
         }
     }
 
     /// Shows how far they are worked out.
-    pub fn progress(&self) -> Shown {
-        let progress = match self.length {
-            Some((length, what)) => {
-                let progress = Progress::new(what);
-                progress.begin(length);
-                progress
-            }
-            None => Progress::of_unknown_length("cases"),
-        };
-        Shown { progress, done: 0 }
-    }
-}
-
-/// Progress through cases.
-pub struct Shown {
-    progress: Progress,
-    done: u64,
-}
-
-impl Shown {
-    /// All of `cases` that are read are done, the last `count` of them now.
-    pub fn advance(&mut self, cases: &Cases, count: usize) {
-        let done = if cases.length.is_some() { cases.rows.done() } else { self.done + count as u64 };
-        self.progress.advance(done.saturating_sub(self.done));
-        self.done = done;
+    pub fn progress(&self) -> Progress {
+        let Some((length, what)) = self.length else { return Progress::of_unknown_length("cases") };
+        let progress = Progress::new(what);
+        progress.begin(length);
+        progress
     }
 }

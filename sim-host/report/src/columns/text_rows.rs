@@ -14,15 +14,15 @@ const LONGEST_ROW: u64 = 1 << 20;
 /// Rows of a CSV or Parquet file, read one by one, each value as the text that CSV has for it. Memory is that of a row, or of pages of Parquet.
 pub enum TextRows {
     /// Of CSV.
-    Csv(Box<csv::Reader<Take<Box<dyn Read>>>>),
+    Csv(Box<csv::Reader<Take<Box<dyn Read + Send>>>>),
     /// Of Parquet.
     Parquet(Box<ParquetTexts>),
 }
 
 impl TextRows {
     /// Those of the CSV file `csv`.
-    pub fn of_csv(csv: impl Read + 'static) -> TextRows {
-        let source: Box<dyn Read> = Box::new(csv);
+    pub fn of_csv(csv: impl Read + Send + 'static) -> TextRows {
+        let source: Box<dyn Read + Send> = Box::new(csv);
         TextRows::Csv(Box::new(csv::ReaderBuilder::new().buffer_capacity(1 << 16).from_reader(source.take(LONGEST_ROW))))
     }
 
@@ -84,6 +84,6 @@ impl TextRows {
     }
 }
 
-fn whole(reader: &csv::Reader<Take<Box<dyn Read>>>, line: u64) -> Result<(), TableError> {
+fn whole(reader: &csv::Reader<Take<Box<dyn Read + Send>>>, line: u64) -> Result<(), TableError> {
     if reader.get_ref().limit() == 0 { Err(TableError::LongRow { line }) } else { Ok(()) }
 }
