@@ -5,8 +5,10 @@ use sprag_ensemble::machine::{Registers, shake};
 use sprag_ensemble::plain::PlainBlock;
 use sprag_ensemble::shaken::{Samples, Shaken, ShakenBlock};
 use sprag_shared::motion::hybrid::HybridSystem;
+use sprag_shared::observers::checks::Checks;
 
 use crate::scene::Scene;
+use crate::scene::checks::ChecksTable;
 
 /// A scene of one device, and which lanes know it.
 #[derive(Clone, Debug)]
@@ -14,6 +16,26 @@ pub struct Subject {
     /// The scene.
     pub scene: Scene,
     known: Option<Known>,
+    /// Who looks at what the device asks for.
+    checks: Option<Checks<f64>>,
+}
+
+/// What became of a subject.
+#[derive(Clone, Copy, Debug)]
+pub struct Followed {
+    /// Its motion.
+    pub motion: Shaken,
+    /// What its device asked for, of a [`Subject::watched`].
+    pub demand: Option<DeviceDemand>,
+}
+
+/// What a device asks for until the end of a run, the fall of a block that overturns included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeviceDemand {
+    /// max |F|/(mg) of the device on its support.
+    pub force_ratio: f64,
+    /// Farthest travel of the terminals to one side, m.
+    pub stroke_m: f64,
 }
 
 /// The block of a scene as lanes take it.
@@ -39,7 +61,14 @@ impl Subject {
     pub fn new(scene: Scene) -> Subject {
         let real = || scene.hybrid_system(0).map(|system| Known::Real(Box::new(system)));
         let known = scene.plain_block(0).map(Known::Ideal).or_else(real);
-        Subject { scene, known }
+        Subject { scene, known, checks: None }
+    }
+
+    /// `scene`, of one device whose force and stroke are asked for too. Lanes know those of real devices.
+    pub fn watched(scene: Scene) -> Subject {
+        let checks = checks(&scene);
+        let system = scene.hybrid_system(0).filter(|_| checks.is_some());
+        Subject { known: system.map(|system| Known::Real(Box::new(system))), scene, checks }
     }
 
     /// Whether lanes know it.
@@ -48,9 +77,18 @@ impl Subject {
     }
 }
 
+/// Who looks at force and stroke of the device of `scene`; nobody where its `[checks]` ask for more, and where it is ideal.
+fn checks(scene: &Scene) -> Option<Checks<f64>> {
+    let asks_for_more = scene.file.checks.as_ref().is_some_and(|checks| *checks != ChecksTable::default());
+    let device = scene.devices.first().filter(|device| !device.is_ideal() && !asks_for_more)?;
+    let loaded = scene.structure(0).loaded().ok()?;
+    let checks = Checks::new(&loaded.block, scene.geometry(), &loaded.device.mount, &device.account(&loaded));
+    checks.ok().map(Checks::brief)
+}
+
 /// What becomes of each subject under its record and in the free time of its scene, in their order; `None` for those that the core is to follow.
 /// No result depends on the others.
-pub fn followed(runs: &[(&Subject, Shaking<'_>)]) -> Vec<Option<Shaken>> {
+pub fn followed(runs: &[(&Subject, Shaking<'_>)]) -> Vec<Option<Followed>> {
     let (mut ideal, mut real) = (Vec::new(), Vec::new());
     for (index, (subject, Shaking { level: (samples, factor), vertical })) in runs.iter().enumerate() {
         let (samples, factor, vertical) = (*samples, *factor, *vertical);
@@ -61,7 +99,8 @@ pub fn followed(runs: &[(&Subject, Shaking<'_>)]) -> Vec<Option<Shaken>> {
             }
             Some(Known::Real(system)) => {
                 let overturned_at_slenderness = subject.scene.overturned_at_slenderness();
-                real.push((index, HybridBlock { system, overturned_at_slenderness, samples, factor, vertical, checks: None }));
+                let checks = subject.checks.as_ref();
+                real.push((index, HybridBlock { system, overturned_at_slenderness, samples, factor, vertical, checks }));
             }
             _ => {}
         }
@@ -73,12 +112,19 @@ pub fn followed(runs: &[(&Subject, Shaking<'_>)]) -> Vec<Option<Shaken>> {
     for ((index, block), shaken) in ideal.iter().zip(shake(&blocks, Registers::Widest)) {
         let scene = &runs[*index].0.scene;
         let (structure, duration) = (scene.structure(0), block.samples.duration());
-        found[*index] = shaken.and_then(|shaken| shaken.after(&block.plain, &structure, duration, scene.free_time_s()).ok());
+        let after = |shaken: Shaken| shaken.after(&block.plain, &structure, duration, scene.free_time_s()).ok();
+        found[*index] = shaken.and_then(after).map(|motion| Followed { motion, demand: None });
     }
     let blocks: Vec<HybridBlock<'_>> = real.iter().map(|(_, block)| *block).collect();
     for ((index, block), moved) in real.iter().zip(moved(&blocks)) {
-        let free_time = runs[*index].0.scene.free_time_s();
-        found[*index] = moved.and_then(|moved| moved.after(block, free_time).ok()).map(Shaken::from);
+        let scene = &runs[*index].0.scene;
+        let heavier = 1.0 + scene.devices[0].added_mass.mass_ratio;
+        let demand = |moved: &HybridMotion| {
+            let (force, stroke_m) = moved.support_force_ratio().zip(moved.stroke())?;
+            Some(DeviceDemand { force_ratio: force * heavier, stroke_m })
+        };
+        let ended = moved.and_then(|moved| moved.after(block, scene.free_time_s()).ok());
+        found[*index] = ended.map(|moved| Followed { motion: Shaken::from(moved), demand: demand(&moved) });
     }
     found
 }

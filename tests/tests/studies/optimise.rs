@@ -10,14 +10,18 @@ use sprag_report::long_run::start::Start;
 use sprag_report::output::Subject;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::interrupt::Interrupt;
-use sprag_sim::simulation::{DeviceRun, RunError};
+use sprag_sim::simulation::{DeviceRun, RunError, simulate_for_study};
 use sprag_studies::cloud::records::StudyRecords;
 use sprag_studies::cloud::study::Study;
 use sprag_studies::optimise::choice_page::{choice_page, choice_picture};
+use sprag_studies::optimise::design::Candidate;
 use sprag_studies::optimise::figure::trade_off_picture;
 use sprag_studies::optimise::findings::{Findings, Row};
 use sprag_studies::optimise::page::{choice_table, page};
 use sprag_studies::optimise::problem::{Choices, Problem, Solution};
+use sprag_studies::optimise::response::Response;
+use sprag_studies::optimise::specimen::NOMINAL;
+use sprag_studies::optimise::subject::Subject as OneDesign;
 use sprag_studies::optimise::tried::{MOST_ROWS, Tried, TriedError};
 use sprag_studies::optimise::typed_tables::{design_table, motion_table};
 use sprag_studies::statistics::quantile;
@@ -364,4 +368,41 @@ pub fn simulated_again(study: &Study, path_of: impl Fn(&str) -> PathBuf) {
 fn the_best_device_does_the_same_in_a_scene_of_its_own() {
     let folder = pulses();
     simulated_again(&study("largest_force_ratio = 0.2", folder.path()), |name| folder.path().join(name));
+}
+
+#[test]
+fn real_devices_do_in_lanes_what_they_do_alone() {
+    let folder = pulses();
+    let text = "scene = 'scene.toml'\n[[structure]]\nname = 'small'\nset = { 'block.size_m' = 1.0 }\n[optimise]\nmass_ratio = { from = 0.1, to = 1.5, cells = 3 }\n";
+    let scene = "[block]\nsize_m = 1.0\nslenderness_deg = 10.0\nrestitution = 0.85\n\
+                 [[device]]\nname = 'coasting'\nkind = 'clutched-pair'\nmass_ratio = 0.5\nengagement = 'rigid'\n\
+                 flywheel = { dry_deceleration_m_s2 = 0.05 }\nactuation = { engagement_delay_s = 0.02, release_delay_s = 0.01 }\n\
+                 [[device]]\nname = 'with capacity'\nkind = 'clutched-pair'\nmass_ratio = 0.5\nclutch = { capacity_ratio = 0.1 }\n\
+                 weight = { flywheels_ratio = 0.05, flywheels_on = 'block' }\n\
+                 [[ground]]\nmotion = 'record'\n[run]\nfree_time_s = 5.0\n";
+    std::fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    let study = Study::parse(text, "study.toml", folder.path(), &[], &[folder.path().to_owned()]).unwrap();
+    answered(&study, |problem, solution, _| {
+        let mut safe = 0;
+        for design in &solution.designs {
+            let Candidate { curve, mass_ratio, delay_s } = design.candidate.unwrap();
+            let curve = &problem.choices.curves[curve];
+            let scene = curve.scene(&problem.choices.structure.scene, mass_ratio, delay_s).unwrap();
+            let in_lanes = OneDesign::new(scene.clone(), false, &NOMINAL).unwrap().in_lanes(&problem.motions);
+            for ((motion, response), in_lanes) in problem.motions.iter().zip(&design.responses).zip(in_lanes) {
+                let run = simulate_for_study(&scene, &motion.ground(), &Interrupt::default()).unwrap().remove(0);
+                let (found, alone) = (in_lanes.unwrap(), Response::of(&run));
+                assert_eq!(response, &Ok(found));
+                let what = format!("{}, {mass_ratio}, {}", curve.name(), motion.scaled_name());
+                assert_eq!(found.outcome, alone.outcome, "{what}");
+                let near = |one: f64, other: f64| (one - other).abs() <= 1e-8 * other.abs().max(1e-3);
+                assert!(near(found.force_ratio, alone.force_ratio), "{what}: {} {}", found.force_ratio, alone.force_ratio);
+                assert!(near(found.stroke_m, alone.stroke_m), "{what}: {} {}", found.stroke_m, alone.stroke_m);
+                safe += usize::from(alone.outcome == Outcome::Safe);
+                let peaks = found.peak_rotation.zip(alone.peak_rotation);
+                assert!(peaks.map_or(found.peak_rotation == alone.peak_rotation, |(one, other)| near(one, other)), "{what}");
+            }
+        }
+        assert!(safe > 20);
+    });
 }

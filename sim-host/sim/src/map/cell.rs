@@ -100,7 +100,7 @@ pub fn results_by<E: Display>(
     let runs: Vec<_> = shaken.iter().map(|(subject, shaking, _)| (subject, *shaking)).collect();
     for (found, (subject, _, index)) in followed(&runs).into_iter().zip(&shaken) {
         results[*index] = match found {
-            Some(found) => PulseResult::of_shaken(&found, &subject.scene.block),
+            Some(found) => PulseResult::of_shaken(&found.motion, &subject.scene.block),
             None => simulated(&subject.scene, || grid.place(places[*index]), interrupt)?,
         };
     }

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_with::skip_serializing_none;
+use sprag_shared::observers::ledger::{Account, Clutching};
+use sprag_shared::structure::Structure;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::Block;
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -69,6 +71,20 @@ impl SceneDevice {
     /// Whether it is the ideal device of the paper, however mounted and whatever it weighs.
     pub fn is_ideal(&self) -> bool {
         self.drivetrain == Drivetrain::default()
+    }
+
+    /// What a ledger and checks have to know of it on a `loaded` block.
+    pub fn account(&self, loaded: &Structure) -> Account {
+        Account {
+            clutching: match (self.device.kind, self.drivetrain.engagement) {
+                (DeviceKind::ClutchedPair, Engagement::Ideal) => Clutching::Ideal,
+                (DeviceKind::ClutchedPair, Engagement::Rigid) => Clutching::Rigid,
+                (DeviceKind::ClutchedPair, _) => Clutching::Real,
+                _ => Clutching::Permanent,
+            },
+            mass_ratio: loaded.device.mass_ratio,
+            rack_mass_ratio: self.drivetrain.rack.guided_mass_ratio / (1.0 + self.added_mass.mass_ratio),
+        }
     }
 }
 

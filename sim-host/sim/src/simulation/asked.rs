@@ -23,8 +23,9 @@ pub struct Asked<S> {
 impl<S: Real> Asked<S> {
     /// Of `task`, whose block with what it carries is `loaded`.
     pub(super) fn of(task: &Task<'_>, loaded: &Structure) -> Result<Asked<S>, Failure> {
-        let energy =
-            || EnergyHistory::new(Ledger::new(&loaded.block, task.scene.geometry(), &task.account(loaded)), task.interval);
+        let energy = || {
+            EnergyHistory::new(Ledger::new(&loaded.block, task.scene.geometry(), &task.device().account(loaded)), task.interval)
+        };
         let coils = task.scene.file.checks.as_ref().is_some_and(|checks| checks.coil.is_some()) && task.device().takes_commands();
         Ok(Asked { energy: task.scene.file.output.energy.then(energy), coils: coils.then(CoilUse::default) })
     }

@@ -4,7 +4,6 @@ use sprag_shared::ground::GroundSegment;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::state::Stopped;
 use sprag_shared::observers::checks::Checks;
-use sprag_shared::observers::ledger::{Account, Clutching};
 use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::Block;
@@ -237,27 +236,12 @@ impl<'a> Task<'a> {
         (1.0 + self.device().added_mass.mass_ratio) / loaded.block.frequency_parameter_squared()
     }
 
-    /// What a ledger and checks have to know of the device.
-    pub fn account(&self, loaded: &Structure) -> Account {
-        let device = self.device();
-        Account {
-            clutching: match (device.device.kind, device.drivetrain.engagement) {
-                (DeviceKind::ClutchedPair, Engagement::Ideal) => Clutching::Ideal,
-                (DeviceKind::ClutchedPair, Engagement::Rigid) => Clutching::Rigid,
-                (DeviceKind::ClutchedPair, _) => Clutching::Real,
-                _ => Clutching::Permanent,
-            },
-            mass_ratio: loaded.device.mass_ratio,
-            rack_mass_ratio: device.drivetrain.rack.guided_mass_ratio / (1.0 + device.added_mass.mass_ratio),
-        }
-    }
-
     /// Those who watch.
     pub fn watchers<S: Real>(&self, loaded: &Structure) -> Result<Watchers<'a, S>, Failure> {
         let stays_engaged = self.device().device.kind == DeviceKind::Inerter;
         let segments = self.ground.horizontal.segments();
         let all = self.scene.file.checks.is_some();
-        let checks = || Checks::new(&loaded.block, self.scene.geometry(), &loaded.device.mount, &self.account(loaded));
+        let checks = || Checks::new(&loaded.block, self.scene.geometry(), &loaded.device.mount, &self.device().account(loaded));
         let checks = if all || self.reports { Some(checks()?) } else { None };
         Ok(Watchers {
             recorder: Recorder::new(self.force_scale(loaded), stays_engaged, self.interval, segments),

@@ -11,7 +11,7 @@ use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
 use sprag_sim::scene::motions::GroundMotions;
 use sprag_sim::simulation::{RunError, simulate_for_study};
-use sprag_sim::under_records::{self, Subject, followed};
+use sprag_sim::under_records::{self, Followed, Subject, followed};
 
 use super::measure::Measure;
 use super::records::StudyRecord;
@@ -282,8 +282,9 @@ impl Target<'_> {
         let level = |shaking: &Shaking<'_>| (&samples[shaking.record], shaking.factor);
         let run = |shaking| (subject, under_records::Shaking { level: level(shaking), vertical: None });
         let found = followed(&shakings.iter().map(run).collect::<Vec<_>>());
-        let answer =
-            |(shaking, found): (_, Option<Shaken>)| Some(Answer::shaken(&found?, &subject.scene, level(shaking).0.duration()));
+        let answer = |(shaking, found): (_, Option<Followed>)| {
+            Some(Answer::shaken(&found?.motion, &subject.scene, level(shaking).0.duration()))
+        };
         shakings.iter().zip(found).map(answer).collect()
     }
 

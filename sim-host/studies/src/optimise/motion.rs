@@ -1,8 +1,11 @@
 //! The motions of a study under which every design is tried: all records, each as often as it is scaled, and all pulses.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
+use sprag_ensemble::shaken::Samples;
 use sprag_sim::scene::motions::GroundMotions;
+use sprag_sim::under_records;
 
 use super::pulse::Pulse;
 use crate::cloud::records::StudyRecord;
@@ -26,8 +29,15 @@ pub struct Motion<'a> {
 /// What shakes the block.
 #[derive(Clone, Debug)]
 pub enum Shaking<'a> {
-    /// A record, and when it starts, s.
-    Record(&'a StudyRecord, f64),
+    /// A record.
+    Record {
+        /// The record.
+        record: &'a StudyRecord,
+        /// As lanes take it.
+        samples: Arc<Samples>,
+        /// When it starts, s.
+        start_s: f64,
+    },
     /// A pulse.
     Pulse(GroundMotions),
 }
@@ -36,15 +46,23 @@ impl Motion<'_> {
     /// As a ground motion.
     pub fn ground(&self) -> Cow<'_, GroundMotions> {
         match &self.shaking {
-            Shaking::Record(record, start_s) => Cow::Owned(record.ground(self.factor, *start_s)),
+            Shaking::Record { record, start_s, .. } => Cow::Owned(record.ground(self.factor, *start_s)),
             Shaking::Pulse(ground) => Cow::Borrowed(ground),
+        }
+    }
+
+    /// As lanes take it, if they do.
+    pub fn in_lanes(&self) -> Option<under_records::Shaking<'_>> {
+        match &self.shaking {
+            Shaking::Record { samples, .. } => Some(under_records::Shaking { level: (samples, self.factor), vertical: None }),
+            Shaking::Pulse(_) => None,
         }
     }
 
     /// The earthquake that it is of, where it is known.
     pub fn event(&self) -> Option<&str> {
         match &self.shaking {
-            Shaking::Record(record, _) => record.event.as_deref(),
+            Shaking::Record { record, .. } => record.event.as_deref(),
             Shaking::Pulse(_) => None,
         }
     }
@@ -57,7 +75,7 @@ impl Motion<'_> {
     /// In messages.
     pub fn scaled_name(&self) -> String {
         match self.shaking {
-            Shaking::Record(..) => format!("{} times {}", self.name, self.factor),
+            Shaking::Record { .. } => format!("{} times {}", self.name, self.factor),
             Shaking::Pulse(_) => self.name.clone(),
         }
     }
@@ -75,8 +93,11 @@ pub fn motions<'a>(
     let mut motions = Vec::new();
     for record in records {
         let of_record = scales(study, structure, record, left_out);
-        let scaled =
-            |(factor, level)| Motion { name: record.name.clone(), shaking: Shaking::Record(record, start_s), factor, level };
+        let samples = Arc::new(Samples::from(&record.motion.record));
+        let scaled = |(factor, level)| {
+            let shaking = Shaking::Record { record, samples: samples.clone(), start_s };
+            Motion { name: record.name.clone(), shaking, factor, level }
+        };
         motions.extend(of_record.into_iter().map(scaled));
     }
     let of_pulse = |Pulse { name, ground }| Motion { name, shaking: Shaking::Pulse(ground), factor: 1.0, level: None };

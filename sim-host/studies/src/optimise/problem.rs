@@ -1,5 +1,7 @@
 //! A study's question for a device, and the runs that answer it.
 
+use std::sync::OnceLock;
+
 use rayon::prelude::*;
 use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
@@ -29,6 +31,9 @@ use crate::statistics::Groups;
 
 /// Designs that are tried at a time: enough for many threads, and no more than an interrupt may cost.
 const TOGETHER: usize = 16;
+
+/// Motions that go through the lanes at a time.
+const IN_LANES: usize = 64;
 
 /// Which devices a study has to choose from, every value within its range.
 #[derive(Clone, Debug)]
@@ -239,38 +244,52 @@ impl<'a> Problem<'a> {
         scene.map_err(|error| error.to_string())
     }
 
-    /// Responses of the specimens of every design to every motion, by design.
+    /// Responses of the specimens of every design to every motion, by design, then by specimen.
     fn respond(
         &self,
         designs: &[Result<Vec<Subject>, String>],
         interrupt: &Interrupt,
         done: &(dyn Fn() + Sync),
     ) -> Result<Vec<Responses>, RunError> {
-        let of_motion = |motion: &Motion<'_>| -> Vec<Responses> {
-            let ground = &*motion.ground();
-            let run = |subject: &Subject| {
+        let subjects: Vec<Result<&Subject, &String>> = designs
+            .iter()
+            .flat_map(|design| match design {
+                Ok(subjects) => subjects.iter().map(Ok).collect(),
+                Err(reason) => vec![Err(reason); self.specimens.len()],
+            })
+            .collect();
+        let in_lanes = |subject: &Result<&Subject, &String>| match subject {
+            Ok(subject) if !interrupt.is_set() => {
+                let found: Vec<_> = self.motions.par_chunks(IN_LANES).flat_map_iter(|some| subject.in_lanes(some)).collect();
+                found.iter().flatten().for_each(|_| done());
+                found
+            }
+            _ => vec![None; self.motions.len()],
+        };
+        let in_lanes: Vec<Vec<Option<Response>>> = subjects.par_iter().map(in_lanes).collect();
+        // One motion of the ground serves all that the core follows.
+        let of_motion = |(index, motion): (usize, &Motion<'_>)| -> Responses {
+            let ground = OnceLock::new();
+            let run = |(subject, known): (&Result<&Subject, &String>, &Vec<Option<Response>>)| {
+                if let Some(response) = known[index] {
+                    return Ok(response);
+                }
                 if interrupt.is_set() {
                     return Err(RunError::Interrupted.to_string());
                 }
-                let response = subject.respond(ground, interrupt);
+                let response = (*subject).map_err(String::clone)?.respond(ground.get_or_init(|| motion.ground()), interrupt);
                 done();
                 response
             };
-            let of_design = |subjects: &Result<Vec<Subject>, String>| match subjects {
-                Ok(subjects) => subjects.par_iter().map(run).collect(),
-                Err(reason) => vec![Err(reason.clone()); self.specimens.len()],
-            };
-            designs.par_iter().map(of_design).collect()
+            subjects.par_iter().zip(&in_lanes).map(run).collect()
         };
-        let by_motion: Vec<Vec<Responses>> = self.motions.par_iter().map(of_motion).collect();
+        let by_motion: Vec<Responses> = self.motions.par_iter().enumerate().map(of_motion).collect();
         if interrupt.is_set() {
             return Err(RunError::Interrupted);
         }
-        let of_design = |design: usize| -> Responses {
-            let specimens = 0..self.specimens.len();
-            specimens.flat_map(|specimen| by_motion.iter().map(move |found| found[design][specimen].clone())).collect()
-        };
-        Ok((0..designs.len()).map(of_design).collect())
+        let of_subject = |subject: usize| by_motion.iter().map(move |found| found[subject].clone());
+        let numbers: Vec<usize> = (0..subjects.len()).collect();
+        Ok(numbers.chunks(self.specimens.len()).map(|some| some.iter().flat_map(|&one| of_subject(one)).collect()).collect())
     }
 
     fn solution(&self, bare: Design, designs: Vec<Design>, late: Vec<Design>) -> Solution {

@@ -89,7 +89,7 @@ fn is_zero(count: &usize) -> bool {
 }
 
 fn without_event(problem: &Problem<'_>) -> usize {
-    let unknown = |motion: &&Motion<'_>| matches!(motion.shaking, Shaking::Record(record, _) if record.event.is_none());
+    let unknown = |motion: &&Motion<'_>| matches!(motion.shaking, Shaking::Record { record, .. } if record.event.is_none());
     let mut names: Vec<&str> = problem.motions.iter().filter(unknown).map(Motion::group).collect();
     names.dedup();
     names.len()

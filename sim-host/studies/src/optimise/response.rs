@@ -1,8 +1,10 @@
 //! What a block with one device does under one motion.
 
 use sprag_shared::observers::outcome::Outcome;
+use sprag_shared::structure::block::Block;
 use sprag_sim::accuracy::ErrorEstimate;
 use sprag_sim::simulation::DeviceRun;
+use sprag_sim::under_records::{DeviceDemand, Followed};
 
 /// A response.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,5 +38,19 @@ impl Response {
             coil_energy_j: checks.and_then(|checks| checks.coil_energy_j),
             error: run.error.map(|report| report.estimate),
         }
+    }
+
+    /// Response of `block` that lanes have followed and watched, without gear and coil.
+    pub fn of_followed(followed: &Followed, block: &Block) -> Option<Response> {
+        let DeviceDemand { force_ratio, stroke_m } = followed.demand?;
+        Some(Response {
+            outcome: followed.motion.outcome(),
+            peak_rotation: followed.motion.relative_peaks(block).map(|(rotation, _)| rotation),
+            force_ratio,
+            stroke_m,
+            tooth_stress_mpa: None,
+            coil_energy_j: None,
+            error: None,
+        })
     }
 }

@@ -4,7 +4,9 @@ use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
 use sprag_sim::scene::motions::GroundMotions;
 use sprag_sim::simulation::simulate_for_study;
+use sprag_sim::under_records::{self, followed};
 
+use super::motion::Motion;
 use super::response::Response;
 use super::specimen::Specimen;
 
@@ -12,7 +14,7 @@ use super::specimen::Specimen;
 #[derive(Clone, Debug)]
 pub struct Subject {
     /// The block with the device alone.
-    scene: Scene,
+    block: under_records::Subject,
     #[cfg(feature = "effects")]
     controlled: Option<Controlled>,
 }
@@ -47,13 +49,29 @@ impl Subject {
             None => None,
         };
         Ok(Subject {
-            scene,
+            block: under_records::Subject::watched(scene),
             #[cfg(feature = "effects")]
             controlled,
         })
     }
 
-    /// What it does under `ground`.
+    /// What it does under each of `motions` where lanes can know.
+    pub fn in_lanes(&self, motions: &[Motion<'_>]) -> Vec<Option<Response>> {
+        let mut found = vec![None; motions.len()];
+        #[cfg(feature = "effects")]
+        if self.controlled.is_some() {
+            return found;
+        }
+        let indexed = motions.iter().enumerate();
+        let shaken: Vec<_> = indexed.filter_map(|(index, motion)| Some((index, motion.in_lanes()?))).collect();
+        let runs: Vec<_> = shaken.iter().map(|(_, shaking)| (&self.block, *shaking)).collect();
+        for ((index, _), followed) in shaken.iter().zip(followed(&runs)) {
+            found[*index] = followed.and_then(|followed| Response::of_followed(&followed, &self.block.scene.block));
+        }
+        found
+    }
+
+    /// What it does under `ground`, by the core.
     ///
     /// # Errors
     /// In words why nobody knows.
@@ -61,18 +79,18 @@ impl Subject {
         #[cfg(feature = "effects")]
         if let Some(Controlled { controller, suite, seed }) = &self.controlled {
             let task = sprag_sim::closed_loop::LoopTask {
-                scene: &self.scene,
+                scene: &self.block.scene,
                 ground,
                 index: 0,
                 controller,
                 suite,
                 seed: *seed,
-                closeness: self.scene.file.accuracy.level.map(sprag_sim::accuracy::Closeness::from),
+                closeness: self.block.scene.file.accuracy.level.map(sprag_sim::accuracy::Closeness::from),
                 interrupt,
             };
             return task.measured().map(|run| Response::of(&run)).map_err(|error| error.to_string());
         }
-        let runs = simulate_for_study(&self.scene, ground, interrupt).map_err(|error| error.to_string())?;
+        let runs = simulate_for_study(&self.block.scene, ground, interrupt).map_err(|error| error.to_string())?;
         runs.first().map(Response::of).ok_or_else(|| "no device".to_owned())
     }
 }

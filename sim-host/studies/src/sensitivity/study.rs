@@ -201,9 +201,8 @@ impl Setup {
             let runs: Vec<_> = known.iter().flatten().map(|shaking| (&self.subject, *shaking)).collect();
             let mut found = followed(&runs).into_iter();
             let answer = |(motion, known): (&StudyMotion, &Option<Shaking<'_>>)| {
-                let shaken = known.and_then(|_| found.next().flatten());
-                let answer = match shaken {
-                    Some(shaken) => Ok(Answer::of_shaken(&shaken, &self.subject.scene.block)),
+                let answer = match known.and_then(|_| found.next().flatten()) {
+                    Some(followed) => Ok(Answer::of_shaken(&followed.motion, &self.subject.scene.block)),
                     None => self.answer(motion, vertical, interrupt),
                 };
                 done();
