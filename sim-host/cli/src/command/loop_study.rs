@@ -8,6 +8,7 @@ use sprag_report::output::{Claim, SCHEMA_VERSION, Subject, VERSION};
 use sprag_report::progress::Progress;
 use sprag_sim::record::{RecordSummary, warning_lines};
 use sprag_studies::loop_study::bench::{Conditions, records_of};
+use sprag_studies::loop_study::bound::bound;
 use sprag_studies::loop_study::decisions::decisions;
 use sprag_studies::loop_study::faults::faults;
 use sprag_studies::loop_study::ideal_limit::ideal_limit;
@@ -33,6 +34,8 @@ pub enum Study {
     Practice,
     /// What each clutch law overturns, in the ideal model and in real ones.
     Laws,
+    /// What a law that knew the ground motion would do, and how much of it each law does.
+    Bound,
     /// How often and how late clutches are wrong: estimators by sensors by delays.
     Decisions,
     /// Delay, noise, rate and wrong beliefs.
@@ -104,6 +107,7 @@ impl Run for LoopStudyArguments {
                 Study::IdealLimit => ideal_limit(&progress, &conditions),
                 Study::Practice => practice(&records, &progress, &conditions),
                 Study::Laws => laws(&records, &progress, &conditions),
+                Study::Bound => bound(&records, &progress, &conditions),
                 Study::Decisions => decisions(&records, &progress, &conditions),
                 Study::Robustness => robustness(&records, &progress, &conditions),
                 Study::Faults => faults(&progress, &conditions),

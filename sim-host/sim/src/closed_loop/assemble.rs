@@ -8,6 +8,7 @@ use sprag_shared::control::law::minimum_dwell::Gate;
 use sprag_shared::control::law::{GatedTable, Law, SignTable};
 use sprag_shared::control::model::Model;
 use sprag_shared::control::supervisor::{Parameters, Supervisor};
+use sprag_shared::motion::hybrid::HybridSystem;
 use sprag_shared::settings::kind::{Description, Kind};
 use sprag_shared::settings::{SettingError, Settings};
 use sprag_shared::structure::Structure;
@@ -211,6 +212,11 @@ impl<'a> LoopTask<'a> {
         Ok(Box::new(Shared::new(self.controller(law)?)))
     }
 
+    /// Block and device.
+    pub(crate) fn machine(&self) -> Result<HybridSystem<f64>, ParameterError> {
+        self.drivetrain().resolve(&self.scene.structure(self.index), self.ground.vertical.is_some())
+    }
+
     /// Clock of the loop.
     pub fn clock(&self) -> Clock {
         let task = self.task();
@@ -268,8 +274,7 @@ impl<'a> LoopTask<'a> {
             slenderness,
             interrupt: self.interrupt,
         };
-        let machine = self.drivetrain().resolve(&self.scene.structure(self.index), self.ground.vertical.is_some())?;
-        Ok(closed.run(&mut Plant::new(machine, surroundings), driver, watcher, observer)?)
+        Ok(closed.run(&mut Plant::new(self.machine()?, surroundings), driver, watcher, observer)?)
     }
 
     /// The same device as the paper has it, without a controller: ideal engagement, nothing lost, nothing late.

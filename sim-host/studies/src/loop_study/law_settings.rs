@@ -8,6 +8,9 @@ pub const SLENDERNESS_DEG: f64 = 20.0;
 /// What makes a closed loop the ideal model: ideal sensors, no delay, no hysteresis.
 pub const IDEAL: [&str; 3] = ["controller.rate_hz=1000.0", "controller.shock_s=0.0", "controller.hysteresis=0.0"];
 
+/// Key of the brake.
+const BRAKE: &str = "device.0.flywheel.brake_deceleration_m_s2";
+
 /// A block with its device, and what a law works with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {
@@ -53,7 +56,7 @@ impl Setting {
             ["engagement_delay_s", "release_delay_s"]
                 .map(|key| format!("device.0.actuation.{key}={:?}", 1e-3 * (delay_ms - 1.0))),
         );
-        overrides.extend(braked.then(|| "device.0.flywheel.brake_deceleration_m_s2=2.0".to_owned()));
+        overrides.extend(braked.then(|| format!("{BRAKE}=2.0")));
         let name = format!("{delay_ms} ms, released wheels {}", if braked { "braked" } else { "coast" });
         Setting { name, overrides, ..Setting::base() }
     }
@@ -61,6 +64,11 @@ impl Setting {
     /// Clutches as they are: fast ones, and those that docs/effects.md calls typical.
     pub fn clutches() -> Vec<Setting> {
         [(3.0, true), (20.0, true), (50.0, true), (3.0, false)].map(|(delay, braked)| Setting::clutch(delay, braked)).to_vec()
+    }
+
+    /// Released flywheels are braked.
+    pub(super) fn braked(&self) -> bool {
+        self.overrides.iter().any(|text| text.starts_with(BRAKE))
     }
 
     /// Which of [`Setting::clutches`] are the typical ones.

@@ -3,17 +3,18 @@
 use sprag_report::plot::{Cell, CellMap, CellMaps, Class, Scale, cell_map_figure};
 use sprag_report::progress::Progress;
 use sprag_report::text_table::TextTable;
+use sprag_shared::control::law::Law;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::scene::controller::LawName;
 
-use super::bench::{Conditions, StudyError, all, run_ideal, run_loop};
+use super::bench::{Conditions, StudyError, Variant, all, run_ideal, run_loop, with_loop};
 use super::law_settings::{IDEAL, SLENDERNESS_DEG, Setting};
 use super::motion::{Family, Motion, Records, and_records};
 use super::report::Report;
 use super::tally::{Pairs, Tally, fewest};
 
 /// Laws in the order of the tables: without decisions, Eq. 10, and beyond.
-const LAWS: [LawName; 6] = [
+pub(super) const LAWS: [LawName; 6] = [
     LawName::Passive,
     LawName::AlwaysEngaged,
     LawName::ResistingPredicted,
@@ -22,13 +23,13 @@ const LAWS: [LawName; 6] = [
     LawName::LookAhead,
 ];
 /// Of these, the plain choices.
-const PLAIN: usize = 3;
+pub(super) const PLAIN: usize = 3;
 /// ω/p.
-const FREQUENCIES: (f64, f64) = (0.2, 8.0);
+pub(super) const FREQUENCIES: (f64, f64) = (0.2, 8.0);
 /// a/(g tan α).
-const AMPLITUDES: (f64, f64) = (1.0, 10.0);
+pub(super) const AMPLITUDES: (f64, f64) = (1.0, 10.0);
 /// Peaks of records over g tan α.
-const THRESHOLDS: [f64; 3] = [2.0, 3.0, 4.5];
+pub(super) const THRESHOLDS: [f64; 3] = [2.0, 3.0, 4.5];
 /// Cells along each axis, of the base …
 const CELLS: usize = 16;
 /// … and of other blocks and devices.
@@ -42,14 +43,14 @@ const PULSES: usize = 4;
 const DEFAULT: usize = PLAIN - 1;
 
 /// Motions of one kind.
-struct Kind {
-    name: String,
-    motions: Vec<Motion>,
+pub(super) struct Kind {
+    pub(super) name: String,
+    pub(super) motions: Vec<Motion>,
     /// Of how many the others are the same at another scale: motion i is one of motion i mod this number.
-    different: usize,
+    pub(super) different: usize,
 }
 
-fn families(motions: impl Fn(Family) -> Vec<Motion>) -> Vec<Kind> {
+pub(super) fn families(motions: impl Fn(Family) -> Vec<Motion>) -> Vec<Kind> {
     let of = |&family: &Family| {
         let motions = motions(family);
         Kind { name: family.name(), different: motions.len(), motions }
@@ -58,18 +59,27 @@ fn families(motions: impl Fn(Family) -> Vec<Motion>) -> Vec<Kind> {
 }
 
 /// Under what the runs of a setting are made.
-struct Bench<'a> {
-    setting: &'a Setting,
+pub(super) struct Bench<'a> {
+    pub(super) setting: &'a Setting,
     /// The ideal model: what no law decides needs no loop.
-    ideal: bool,
-    specimens: usize,
-    progress: &'a Progress,
-    conditions: &'a Conditions<'a>,
+    pub(super) ideal: bool,
+    pub(super) specimens: usize,
+    pub(super) progress: &'a Progress,
+    pub(super) conditions: &'a Conditions<'a>,
 }
 
 impl Bench<'_> {
-    fn outcome(&self, law: LawName, motion: &Motion, specimen: usize) -> Result<Outcome, StudyError> {
-        let variant = self.setting.variant();
+    /// Block, device and, in the ideal model, what makes it that.
+    pub(super) fn variant(&self) -> Variant {
+        let mut variant = self.setting.variant();
+        if self.ideal {
+            variant.overrides.extend(IDEAL.map(str::to_owned));
+        }
+        variant
+    }
+
+    /// Outcome and peak |θ|/α of one run.
+    pub(super) fn result(&self, law: LawName, motion: &Motion, specimen: usize) -> Result<(Outcome, f64), StudyError> {
         let kind = match law {
             LawName::Passive => Some("none"),
             LawName::AlwaysEngaged => Some("inerter"),
@@ -78,14 +88,23 @@ impl Bench<'_> {
         };
         if let Some(kind) = kind.filter(|_| self.ideal) {
             let none = if kind == "none" { "device.0={kind=\"none\"}".to_owned() } else { format!("device.0.kind=\"{kind}\"") };
-            return Ok(run_ideal(motion, &variant.with(&none), self.conditions)?.0);
+            return run_ideal(motion, &self.setting.variant().with(&none), self.conditions);
         }
-        let mut variant = variant.with(&format!("controller.law=\"{}\"", law.name()));
-        if self.ideal {
-            variant.overrides.extend(IDEAL.map(str::to_owned));
-        }
+        let mut variant = self.variant().with(&format!("controller.law=\"{}\"", law.name()));
         variant.seed = 1 + specimen as u64;
-        Ok(run_loop(motion, &variant, self.conditions)?.outcome)
+        let result = run_loop(motion, &variant, self.conditions)?;
+        Ok((result.outcome, result.peak))
+    }
+
+    /// Peak |θ|/α by a law that no scene can name; infinite of a block that overturns.
+    pub(super) fn peak_by<L: Law + Copy + 'static>(&self, law: L, motion: &Motion, specimen: usize) -> Result<f64, StudyError> {
+        let mut variant = self.variant();
+        variant.seed = 1 + specimen as u64;
+        with_loop(motion, &variant, self.conditions, |task| {
+            let (_, _, looped) = task.answered_by::<(), L>(|| law)?;
+            let peak = looped.extremes.peaks.rotation / task.scene.block.slenderness();
+            Ok(if looped.outcome().overturned() { f64::INFINITY } else { peak })
+        })
     }
 
     /// Outcomes by kind, law and motion; motion i is shaken by specimen i mod their number.
@@ -95,7 +114,7 @@ impl Bench<'_> {
             .flat_map(|kind| LAWS.iter().map(move |&law| (law, kind)))
             .flat_map(|(law, kind)| kind.motions.iter().enumerate().map(move |(index, motion)| (law, motion, index)))
             .collect();
-        let work = |&(law, motion, index): &(LawName, &Motion, usize)| self.outcome(law, motion, index % self.specimens);
+        let work = |&(law, motion, index): &(LawName, &Motion, usize)| Ok(self.result(law, motion, index % self.specimens)?.0);
         let mut outcomes = all(&jobs, self.progress, work)?.into_iter();
         let mut of = |kind: &Kind| outcomes.by_ref().take(kind.motions.len()).collect::<Vec<Outcome>>();
         Ok(kinds.iter().map(|kind| LAWS.iter().map(|_| of(kind)).collect()).collect())

@@ -1,6 +1,8 @@
 //! Studies of the controller: what it is worth against the ideal pair, and where it breaks.
 
 pub mod bench;
+pub mod bound;
+pub mod costate;
 pub mod decisions;
 pub mod faults;
 pub mod ideal_limit;
