@@ -249,6 +249,7 @@ impl<'a> Task<'a> {
             },
             mass_ratio: loaded.device.mass_ratio,
             rack_mass_ratio: device.drivetrain.rack.guided_mass_ratio / (1.0 + device.added_mass.mass_ratio),
+            support: device.device.mount.support_ratio().unwrap_or(0.0) * (device.drivetrain.support.amplification - 1.0),
         }
     }
 
